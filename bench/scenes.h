@@ -1,0 +1,26 @@
+/// Meshes by name: generated ones that need no file, `bunny` and `dragon` from their packages, or any file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/triangle_mesh.h"
+
+namespace touchmark::bench {
+
+struct SceneInfo {
+  std::string name;         ///< as written on the command line, with its parameters' form: "icosphere:N"
+  std::string description;  ///< one line
+  std::string example;    ///< a small instance that tests can run: "icosphere:3"; empty when it needs a file
+  bool available = true;  ///< false when its file is not installed
+};
+
+std::vector<SceneInfo> scenes();
+
+/// `name` is a scene's name or a path, with optional modifiers: "bunny@scale=1e-6@offset=1e6@normalize"
+/// (scale about the origin, then shift along (1,1,1), in the order written). Throws std::invalid_argument for
+/// an unknown name or parameter, MeshError for a file that cannot be used; both name the offender in one
+/// line.
+TriangleMesh load_scene(const std::string& name);
+
+}  // namespace touchmark::bench

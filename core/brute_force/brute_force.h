@@ -1,0 +1,34 @@
+/// Every triangle, every time: what both papers call "without grouping" and "without clustering", and the
+/// reference that every other detector here must equal bit for bit.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/detector.h"
+#include "core/geometry/point_triangle.h"
+
+namespace touchmark {
+
+class BruteForce {
+ public:
+  struct Options {};
+  struct Session {
+    Work work;
+  };
+
+  static BruteForce build(const TriangleMesh& mesh, const Options& options = {});
+
+  bool touches(const Probe& probe, Session& session) const noexcept;
+  std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept;
+
+  std::size_t bytes() const noexcept;
+  Accuracy accuracy() const noexcept { return {Guarantee::exact, kernel_relative_error, 0}; }
+
+ private:
+  std::vector<PreparedTriangle> triangles_;
+  std::vector<TriangleId> ids_;
+};
+
+}  // namespace touchmark

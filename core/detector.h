@@ -1,0 +1,92 @@
+/// What a detector is: a value, immutable once built, that answers some of three queries. A detector that
+/// cannot answer a query does not declare it.
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "core/probe.h"
+#include "core/triangle_mesh.h"
+
+namespace touchmark {
+
+/// exact: within the bound below. conservative: never misses a contact, may report one that is not there.
+/// approximate: may err either way.
+enum class Guarantee { exact, conservative, approximate };
+
+/// How far a reported distance may be from the true one of the stored doubles:
+/// relative * M + absolute, with M the largest coordinate difference between the probe's centre and the
+/// nearest triangle's vertices. Approximate detectors state what they know: infinity where they know nothing.
+struct Accuracy {
+  Guarantee guarantee = Guarantee::exact;
+  double relative = 0;
+  double absolute = 0;
+};
+
+/// Sixteen roundings of the largest coordinate difference: what the kernel of core/geometry/point_triangle.h
+/// keeps.
+inline constexpr double kernel_relative_error = 16 * (std::numeric_limits<double>::epsilon() / 2);
+
+/// What a query looked at, counted up over the life of a session. The same probes in the same order give the
+/// same counts on every machine.
+struct Work {
+  std::uint64_t cells = 0;      ///< grid cells or groups tested
+  std::uint64_t spheres = 0;    ///< bounding spheres tested
+  std::uint64_t boxes = 0;      ///< bounding boxes tested
+  std::uint64_t triangles = 0;  ///< triangles tested, by the full kernel or by a filter before it
+
+  std::uint64_t total() const noexcept { return cells + spheres + boxes + triangles; }
+  Work& operator+=(const Work& other) noexcept {
+    cells += other.cells;
+    spheres += other.spheres;
+    boxes += other.boxes;
+    triangles += other.triangles;
+    return *this;
+  }
+};
+
+/// `D::build(mesh, options)` throws std::invalid_argument on options that make no sense, naming the offender.
+/// `D::Session` is what one haptic point remembers between ticks; it is default-constructed and carries the
+/// `work` counters. Forgetting a session changes the cost of the next answer, never the answer. Queries are
+/// const and noexcept, allocate nothing, and may run from many threads with a session each.
+template <class D>
+concept Detector = std::movable<D> && requires(const TriangleMesh& mesh, const typename D::Options& options,
+                                               const D& detector, typename D::Session& session) {
+  requires std::default_initializable<typename D::Session>;
+  { D::build(mesh, options) } -> std::same_as<D>;
+  { session.work } -> std::same_as<Work&>;
+  { detector.bytes() }
+  noexcept->std::same_as<std::size_t>;  // of the built structure, mesh copy included
+  { detector.accuracy() }
+  noexcept->std::same_as<Accuracy>;
+};
+
+/// Is the distance at most probe.radius?
+template <class D>
+concept AnswersTouches = Detector<D> &&
+    requires(const D& detector, const Probe& probe, typename D::Session& session) {
+  { detector.touches(probe, session) }
+  noexcept->std::same_as<bool>;
+};
+
+/// The contact of the nearest triangle, or nothing when the distance exceeds `reach` (which may be infinite).
+/// probe.radius plays no part: it is `touches` that compares with it.
+template <class D>
+concept AnswersNearest = Detector<D> &&
+    requires(const D& detector, const Probe& probe, double reach, typename D::Session& session) {
+  { detector.nearest(probe, reach, session) }
+  noexcept->std::same_as<std::optional<Contact>>;
+};
+
+/// The first touch of a probe that moves along a straight line, or nothing.
+template <class D>
+concept AnswersSweep = Detector<D> &&
+    requires(const D& detector, const Sweep& sweep, typename D::Session& session) {
+  { detector.first_hit(sweep, session) }
+  noexcept->std::same_as<std::optional<Impact>>;
+};
+
+}  // namespace touchmark

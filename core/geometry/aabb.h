@@ -1,0 +1,37 @@
+/// An axis-aligned box; empty until something is put in.
+#pragma once
+
+#include <limits>
+
+#include "core/probe.h"
+
+namespace touchmark {
+
+struct Aabb {
+  Vec3 min = Vec3::Constant(std::numeric_limits<double>::infinity());
+  Vec3 max = Vec3::Constant(-std::numeric_limits<double>::infinity());
+
+  bool empty() const noexcept { return !(min.x() <= max.x()); }
+  void extend(const Vec3& point) noexcept {
+    min = min.cwiseMin(point);
+    max = max.cwiseMax(point);
+  }
+  void extend(const Aabb& other) noexcept {
+    min = min.cwiseMin(other.min);
+    max = max.cwiseMax(other.max);
+  }
+  Aabb padded(double by) const noexcept { return {min - Vec3::Constant(by), max + Vec3::Constant(by)}; }
+  Vec3 extent() const noexcept { return max - min; }
+  Vec3 center() const noexcept { return min + 0.5 * (max - min); }
+  double diagonal() const noexcept { return extent().norm(); }
+  bool contains(const Vec3& point) const noexcept {
+    return (point.array() >= min.array()).all() && (point.array() <= max.array()).all();
+  }
+  /// The vector from the box to the point, zero inside.
+  Vec3 excess(const Vec3& point) const noexcept {
+    return (min - point).cwiseMax(point - max).cwiseMax(Vec3::Zero());
+  }
+  double squared_distance(const Vec3& point) const noexcept { return excess(point).squaredNorm(); }
+};
+
+}  // namespace touchmark

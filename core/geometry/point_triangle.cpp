@@ -1,0 +1,152 @@
+#include "core/geometry/point_triangle.h"
+
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "core/geometry/double_double.h"
+
+namespace touchmark {
+namespace {
+
+constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
+
+/// A vector from a point of the triangle to the query point, and its squared length.
+struct Offset {
+  Vec3 vector;
+  double squared;
+};
+
+/// Which of two ends to measure a segment from must not depend on the order in which a triangle names them.
+bool precedes(const Vec3& a, const Vec3& b) noexcept {
+  if (a.x() != b.x()) return a.x() < b.x();
+  if (a.y() != b.y()) return a.y() < b.y();
+  return a.z() < b.z();
+}
+
+/// From the segment between corners p and q, evaluated from the end nearer to the point; `to_p` and `to_q`
+/// run from the ends to the point, `pp` and `qq` are their squared lengths.
+Offset from_segment(const Vec3& p, const Vec3& q, const Vec3& to_p, const Vec3& to_q, double pp,
+                    double qq) noexcept {
+  const bool p_first = pp < qq || (pp == qq && precedes(p, q));
+  const Vec3& near = p_first ? to_p : to_q;
+  const double near_squared = p_first ? pp : qq;
+  const Vec3 edge = p_first ? Vec3(q - p) : Vec3(p - q);
+  const double along = near.dot(edge);
+  if (!(along > 0)) return {near, near_squared};
+  const Vec3 across = near - (along / edge.squaredNorm()) * edge;
+  const double squared = across.squaredNorm();
+  if (squared < near_squared) return {across, squared};
+  return {near, near_squared};
+}
+
+/// Inside the prism over the triangle by more than the rounding of the three tests?
+bool surely_over_face(const PreparedTriangle& t, const std::array<Vec3, 3>& to,
+                      const std::array<double, 3>& squared) noexcept {
+  // (edge x to) . normal is the distance to the edge's line times |edge|. Its rounding: one unit for each of
+  // the three inputs, two for the cross product, three for the dot product.
+  constexpr double roundings = 8 * unit_roundoff;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = i == 2 ? 0 : i + 1;
+    const Vec3 edge = t.corner[j] - t.corner[i];
+    const bool from_i = squared[i] < squared[j];
+    const double inside = edge.cross(from_i ? to[i] : to[j]).dot(t.normal);
+    const double from_squared = from_i ? squared[i] : squared[j];
+    if (!(inside > 0) || !(inside * inside > roundings * roundings * from_squared * edge.squaredNorm()))
+      return false;
+  }
+  return true;
+}
+
+Offset offset_from(const PreparedTriangle& t, const Vec3& point) noexcept {
+  const std::array<Vec3, 3> to = {point - t.corner[0], point - t.corner[1], point - t.corner[2]};
+  const std::array<double, 3> squared = {to[0].squaredNorm(), to[1].squaredNorm(), to[2].squaredNorm()};
+  if (surely_over_face(t, to, squared)) {
+    std::size_t near = squared[1] < squared[0] ? 1 : 0;
+    if (squared[2] < squared[near]) near = 2;
+    const double height = to[near].dot(t.normal);
+    return {height * t.normal, height * height};
+  }
+  Offset best = from_segment(t.corner[0], t.corner[1], to[0], to[1], squared[0], squared[1]);
+  for (std::size_t i = 1; i < 3; ++i) {
+    const std::size_t j = i == 2 ? 0 : i + 1;
+    const Offset other = from_segment(t.corner[i], t.corner[j], to[i], to[j], squared[i], squared[j]);
+    if (other.squared < best.squared) best = other;
+  }
+  return best;
+}
+
+/// p x q for vectors given as double-doubles, one component.
+DoubleDouble minor(DoubleDouble a, DoubleDouble b, DoubleDouble c, DoubleDouble d) noexcept {
+  return a * d - b * c;
+}
+
+Vec3 unit_normal(const std::array<Vec3, 3>& v) noexcept {
+  // Edges from the corner opposite the longest edge: the best conditioned pair.
+  const std::array<double, 3> opposite = {(v[2] - v[1]).squaredNorm(), (v[0] - v[2]).squaredNorm(),
+                                          (v[1] - v[0]).squaredNorm()};
+  std::size_t o = opposite[1] > opposite[0] ? 1 : 0;
+  if (opposite[2] > opposite[o]) o = 2;
+  const double longest = std::sqrt(opposite[o]);
+  if (!(longest > 0)) return Vec3::Zero();
+  // A power of two, so that nothing rounds and no product overflows or vanishes.
+  const double scale = std::ldexp(1.0, -std::ilogb(longest));
+  const Vec3 a = scale * v[o], b = scale * v[(o + 1) % 3], c = scale * v[(o + 2) % 3];
+  std::array<DoubleDouble, 3> e, f;
+  for (int k = 0; k < 3; ++k) {
+    e[static_cast<std::size_t>(k)] = two_sum(b[k], -a[k]);
+    f[static_cast<std::size_t>(k)] = two_sum(c[k], -a[k]);
+  }
+  const Vec3 n(minor(e[1], e[2], f[1], f[2]).rounded(), minor(e[2], e[0], f[2], f[0]).rounded(),
+               minor(e[0], e[1], f[0], f[1]).rounded());
+  const double length = n.norm();
+  // Thinner than a rounding of its length: whatever is over the face is as near to an edge. (length ~ 2
+  // area.)
+  if (!(length > unit_roundoff)) return Vec3::Zero();
+  return n / length;
+}
+
+/// A unit vector for the normal where the point lies on the triangle: the face's, or any across a collinear
+/// one.
+Vec3 face_normal(const PreparedTriangle& t) noexcept {
+  if (!t.normal.isZero(0)) return t.normal;
+  Vec3 along = t.corner[1] - t.corner[0];
+  for (const Vec3& other : {Vec3(t.corner[2] - t.corner[1]), Vec3(t.corner[0] - t.corner[2])})
+    if (other.cwiseAbs().maxCoeff() > along.cwiseAbs().maxCoeff()) along = other;
+  if (along.isZero(0)) return Vec3::UnitZ();
+  return (along / along.cwiseAbs().maxCoeff()).unitOrthogonal();
+}
+
+}  // namespace
+
+PreparedTriangle prepare(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t index) noexcept {
+  PreparedTriangle triangle{{a, b, c}, Vec3::Zero(), index};
+  triangle.normal = unit_normal(triangle.corner);
+  return triangle;
+}
+
+PreparedTriangle prepare(const TriangleMesh& mesh, std::uint32_t triangle) noexcept {
+  return prepare(mesh.corner(triangle, 0), mesh.corner(triangle, 1), mesh.corner(triangle, 2), triangle);
+}
+
+std::vector<PreparedTriangle> prepare(const TriangleMesh& mesh) {
+  std::vector<PreparedTriangle> prepared;
+  prepared.reserve(mesh.size());
+  for (std::uint32_t i = 0; i < mesh.size(); ++i) prepared.push_back(prepare(mesh, i));
+  return prepared;
+}
+
+double squared_distance(const PreparedTriangle& triangle, const Vec3& point) noexcept {
+  return offset_from(triangle, point).squared;
+}
+
+Contact contact_on(const PreparedTriangle& triangle, const Vec3& point, TriangleId id) noexcept {
+  const Offset offset = offset_from(triangle, point);
+  const double distance = std::sqrt(offset.squared);
+  // Below a rounding of the coordinates the offset's direction is noise.
+  const bool coincident = !(distance > 0);
+  return {point - offset.vector, coincident ? face_normal(triangle) : Vec3(offset.vector / distance),
+          distance, id};
+}
+
+}  // namespace touchmark

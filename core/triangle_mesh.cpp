@@ -1,0 +1,69 @@
+#include "core/triangle_mesh.h"
+
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace touchmark {
+namespace {
+
+constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max();
+
+std::string coordinates(const Vec3& v) {
+  return "(" + std::to_string(v.x()) + ", " + std::to_string(v.y()) + ", " + std::to_string(v.z()) + ")";
+}
+
+}  // namespace
+
+TriangleMesh::TriangleMesh(std::vector<Vec3> vertices, std::vector<Corners> triangles,
+                           std::vector<TriangleId> ids)
+    : vertices_(std::move(vertices)), triangles_(std::move(triangles)), ids_(std::move(ids)) {
+  if (triangles_.empty()) throw MeshError("the mesh has no triangle");
+  if (triangles_.size() > most) {
+    throw MeshError("the mesh has " + std::to_string(triangles_.size()) + " triangles, more than " +
+                    std::to_string(most));
+  }
+  if (vertices_.size() > most) {
+    throw MeshError("the mesh has " + std::to_string(vertices_.size()) + " vertices, more than " +
+                    std::to_string(most));
+  }
+  if (!ids_.empty() && ids_.size() != triangles_.size()) {
+    throw MeshError(std::to_string(ids_.size()) + " ids for " + std::to_string(triangles_.size()) +
+                    " triangles");
+  }
+  for (std::size_t i = 0; i < vertices_.size(); ++i) {
+    if (!vertices_[i].allFinite()) {
+      throw MeshError("vertex " + std::to_string(i) + " is not finite: " + coordinates(vertices_[i]));
+    }
+  }
+  for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    for (const std::uint32_t vertex : triangles_[i]) {
+      if (vertex >= vertices_.size()) {
+        throw MeshError("triangle " + std::to_string(i) + " names vertex " + std::to_string(vertex) + " of " +
+                        std::to_string(vertices_.size()));
+      }
+      bounds_.extend(vertices_[vertex]);
+    }
+  }
+  for (std::size_t i = 1; i < ids_.size(); ++i) {
+    if (ids_[i] < ids_[i - 1]) {
+      throw MeshError("triangle " + std::to_string(i) + " has id " + std::to_string(ids_[i]) + " after id " +
+                      std::to_string(ids_[i - 1]) + ": ids must not decrease");
+    }
+  }
+}
+
+TriangleMesh TriangleMesh::transformed(double scale, const Vec3& shift) const {
+  std::vector<Vec3> vertices;
+  vertices.reserve(vertices_.size());
+  for (const Vec3& v : vertices_) vertices.push_back(scale * (v + shift));
+  return {std::move(vertices), triangles_, ids_};
+}
+
+TriangleMesh TriangleMesh::normalized() const {
+  const double size = diagonal();
+  if (!(size > 0)) throw MeshError("the mesh cannot be normalised: all its vertices coincide");
+  return transformed(1 / size, -bounds_.center());
+}
+
+}  // namespace touchmark
