@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/sphere_triangle_sweep.h"
+
 namespace touchmark {
 
 BruteForce BruteForce::build(const TriangleMesh& mesh, const Options&) {
@@ -32,7 +34,23 @@ std::optional<Contact> BruteForce::nearest(const Probe& probe, double reach,
   session.work.triangles += triangles_.size();
   const bool found = best.index < triangles_.size();  // not so for a probe that is not a number
   if (!found || !(std::sqrt(best.squared_distance) <= reach)) return std::nullopt;
-  return contact_on(triangles_[best.index], probe.center, ids_.empty() ? best.index : ids_[best.index]);
+  return contact_on(triangles_[best.index], probe.center, id(best.index));
+}
+
+std::optional<Impact> BruteForce::first_hit(const Sweep& sweep, Session& session) const noexcept {
+  HitCandidate first;
+  for (const PreparedTriangle& triangle : triangles_) {
+    const std::optional<double> fraction = sweep_hit(triangle, sweep, std::min(first.fraction, 1.0));
+    if (fraction) first = std::min(first, HitCandidate{*fraction, triangle.index});
+  }
+  session.work.triangles += triangles_.size();
+  if (first.index >= triangles_.size()) return std::nullopt;
+  if (first.fraction > 0) {
+    return Impact{first.fraction,
+                  contact_on(triangles_[first.index], position_at(sweep, first.fraction), id(first.index))};
+  }
+  // Touching at the start: of all the triangles touched there the nearest one counts.
+  return Impact{0, *nearest({sweep.from, sweep.radius}, sweep.radius, session)};
 }
 
 std::size_t BruteForce::bytes() const noexcept {

@@ -22,11 +22,14 @@ class BruteForce {
 
   bool touches(const Probe& probe, Session& session) const noexcept;
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept;
+  std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept;
 
   std::size_t bytes() const noexcept;
   Accuracy accuracy() const noexcept { return {Guarantee::exact, kernel_relative_error, 0}; }
 
  private:
+  TriangleId id(std::uint32_t index) const noexcept { return ids_.empty() ? index : ids_[index]; }
+
   std::vector<PreparedTriangle> triangles_;
   std::vector<TriangleId> ids_;
 };

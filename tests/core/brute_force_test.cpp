@@ -8,7 +8,7 @@
 namespace touchmark {
 namespace {
 
-static_assert(AnswersTouches<BruteForce> && AnswersNearest<BruteForce>);
+static_assert(AnswersTouches<BruteForce> && AnswersNearest<BruteForce> && AnswersSweep<BruteForce>);
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -67,6 +67,28 @@ TEST(BruteForce, AProbeThatIsNotANumberTouchesNothing) {
   const Vec3 nan = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
   EXPECT_FALSE(detector.nearest({nan, 1}, infinity, session));
   EXPECT_FALSE(detector.touches({nan, 1}, session));
+}
+
+TEST(BruteForce, ASweepStopsAtTheFirstOfTwoLayers) {
+  const BruteForce detector = BruteForce::build(TriangleMesh(
+      {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 1}, {4, 0, 1}, {0, 4, 1}}, {{0, 1, 2}, {3, 4, 5}}));
+  BruteForce::Session session;
+  const auto impact = detector.first_hit({{1, 1, 5}, {1, 1, -3}, 0.5}, session);
+  ASSERT_TRUE(impact);
+  EXPECT_EQ(impact->contact.triangle, 1u);
+  EXPECT_NEAR(impact->fraction, 3.5 / 8, 1e-14);
+  EXPECT_NEAR(impact->contact.distance, 0.5, 1e-14);
+}
+
+TEST(BruteForce, ASweepThatStartsTouchingGivesTheNearestTriangleThere) {
+  const BruteForce detector = BruteForce::build(TriangleMesh(
+      {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 1}, {4, 0, 1}, {0, 4, 1}}, {{0, 1, 2}, {3, 4, 5}}));
+  BruteForce::Session session;
+  const auto impact = detector.first_hit({{1, 1, 0.75}, {1, 1, -3}, 2}, session);
+  ASSERT_TRUE(impact);
+  EXPECT_EQ(impact->fraction, 0);
+  EXPECT_EQ(impact->contact.triangle, 1u);
+  EXPECT_EQ(impact->contact.distance, 0.25);
 }
 
 }  // namespace

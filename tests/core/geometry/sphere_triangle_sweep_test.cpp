@@ -1,0 +1,118 @@
+#include "core/geometry/sphere_triangle_sweep.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "core/detector.h"
+
+namespace touchmark {
+namespace {
+
+const PreparedTriangle triangle = prepare({0, 0, 0}, {4, 0, 0}, {0, 4, 0}, 0);
+
+TEST(SphereTriangleSweep, HitsTheFaceOneRadiusAboveIt) {
+  const auto hit = sweep_hit(triangle, {{1, 1, 5}, {1, 1, -3}, 1}, 1);
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(*hit, 0.5, 1e-15);
+}
+
+TEST(SphereTriangleSweep, ABarePointHitsTheFaceItself) {
+  const auto hit = sweep_hit(triangle, {{1, 1, 1}, {1, 1, -3}, 0}, 1);
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(*hit, 0.25, 1e-15);
+}
+
+TEST(SphereTriangleSweep, HitsAnEdgeFromTheSide) {
+  // Along y towards the edge on the x axis, 0.6 above the plane: touches at y = -0.8.
+  const auto hit = sweep_hit(triangle, {{2, -4.8, 0.6}, {2, 3.2, 0.6}, 1}, 1);
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(*hit, 0.5, 1e-15);
+}
+
+TEST(SphereTriangleSweep, HitsACornerHeadOn) {
+  const auto hit = sweep_hit(triangle, {{-5, 0, 0}, {3, 0, 0}, 1}, 1);
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(*hit, 0.5, 1e-15);
+}
+
+TEST(SphereTriangleSweep, TouchingAtTheStartIsFractionZero) {
+  EXPECT_EQ(sweep_hit(triangle, {{1, 1, 1}, {1, 1, 9}, 1}, 1), 0.0);
+}
+
+TEST(SphereTriangleSweep, TouchingAtTheVeryEndIsAHit) {
+  const auto hit = sweep_hit(triangle, {{1, 1, 3}, {1, 1, 1}, 1}, 1);
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(*hit, 1, 1e-15);
+}
+
+TEST(SphereTriangleSweep, StoppingShortIsNoHit) {
+  EXPECT_FALSE(sweep_hit(triangle, {{1, 1, 3}, {1, 1, 1.0000001}, 1}, 1));
+}
+
+TEST(SphereTriangleSweep, MovingAwayIsNoHit) {
+  EXPECT_FALSE(sweep_hit(triangle, {{1, 1, 3}, {1, 1, 9}, 1}, 1));
+}
+
+TEST(SphereTriangleSweep, PassingAlongsideIsNoHit) {
+  EXPECT_FALSE(sweep_hit(triangle, {{-5, -2, 0}, {9, -2, 0}, 1.9}, 1));
+}
+
+TEST(SphereTriangleSweep, StandingStillHitsOnlyWhenTouching) {
+  EXPECT_TRUE(sweep_hit(triangle, {{1, 1, 1}, {1, 1, 1}, 1}, 1));
+  EXPECT_FALSE(sweep_hit(triangle, {{1, 1, 2}, {1, 1, 2}, 1}, 1));
+}
+
+TEST(SphereTriangleSweep, AHitBeyondTheLimitIsNone) {
+  EXPECT_FALSE(sweep_hit(triangle, {{1, 1, 5}, {1, 1, -3}, 1}, 0.49));
+}
+
+TEST(SphereTriangleSweep, ASliverThinnerThanTheStepIsNotMissed) {
+  const PreparedTriangle needle = prepare({0, 0, 0}, {1e-9, 0, 0}, {0, 1, 0}, 0);
+  const auto hit = sweep_hit(needle, {{-100, 0.5, 0}, {100, 0.5, 0}, 0}, 1);
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(*hit, 0.5, 1e-14);
+}
+
+TEST(SphereTriangleSweep, NotANumberHitsNothing) {
+  const double nan = std::nan("");
+  EXPECT_FALSE(sweep_hit(triangle, {{nan, 0, 0}, {1, 1, 1}, 1}, 1));
+  EXPECT_FALSE(sweep_hit(triangle, {{5, 5, 5}, {1, nan, 1}, 1}, 1));
+}
+
+/// Random sweeps against dense sampling of the distance, which is convex along the way.
+TEST(SphereTriangleSweep, StopsAtTheRadiusAndNeverTouchesBefore) {
+  std::mt19937_64 random(7);
+  const auto coordinate = [&] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1; };
+  const auto point = [&] { return Vec3(coordinate(), coordinate(), coordinate()); };
+  int hits = 0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    const PreparedTriangle t = prepare(point(), point(), point(), 0);
+    const Sweep sweep{2 * point(), 2 * point(), trial % 3 == 0 ? 0.0 : 0.3 * std::abs(coordinate())};
+    const auto distance_at = [&](double fraction) {
+      return std::sqrt(squared_distance(t, position_at(sweep, fraction)));
+    };
+    constexpr double tolerance = 4 * 40 * kernel_relative_error;
+    const auto hit = sweep_hit(t, sweep, 1);
+    const double last = hit.value_or(1);
+    if (hit) {
+      ++hits;
+      if (*hit > 0) {
+        EXPECT_NEAR(distance_at(*hit), sweep.radius, tolerance) << trial;
+      }
+    }
+    double lo = 0, hi = last;  // ternary search for the least distance before the hit
+    for (int i = 0; i < 100; ++i) {
+      const double a = lo + (hi - lo) / 3, b = hi - (hi - lo) / 3;
+      (distance_at(a) < distance_at(b) ? hi : lo) = distance_at(a) < distance_at(b) ? b : a;
+    }
+    if (!hit || *hit > 0) {
+      EXPECT_GE(distance_at(lo), sweep.radius - tolerance) << trial;
+    }
+  }
+  EXPECT_GT(hits, 1000);
+}
+
+}  // namespace
+}  // namespace touchmark
