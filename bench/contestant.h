@@ -1,0 +1,171 @@
+/// A detector as the program sees it. The type is erased once for a window of steps, never for a probe: the
+/// loops below are templates, so the compiler sees the detector's query inside them.
+#pragma once
+
+#include <cassert>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "bench/answer.h"
+#include "bench/tick_clock.h"
+#include "core/detector.h"
+
+namespace touchmark::bench {
+
+/// One servo tick's question. A sweep goes from the previous step's centre to this one's; the first step's
+/// stands still.
+struct Step {
+  Probe probe;
+  double reach = 0;  ///< of `nearest`
+};
+
+/// The steps [begin, end) of a path.
+struct Window {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+  std::size_t size() const noexcept { return end - begin; }
+};
+
+/// A whole trajectory with what is asked along it.
+struct Path {
+  Query query = Query::nearest;
+  std::span<const Step> steps;
+};
+
+/// One built detector with one session. answer, replay and replay_clocked need answers(path.query).
+class Contestant {
+ public:
+  Contestant() = default;
+  Contestant(const Contestant&) = delete;
+  Contestant& operator=(const Contestant&) = delete;
+  virtual ~Contestant() = default;
+
+  virtual bool answers(Query query) const noexcept = 0;
+  virtual Accuracy accuracy() const noexcept = 0;
+  virtual std::size_t bytes() const noexcept = 0;
+  /// A fresh session, its work counters at zero.
+  virtual void forget() = 0;
+  virtual Work work() const noexcept = 0;
+
+  /// The answer to each step of the window and the total work it took; both spans have the window's size.
+  virtual void answer(const Path& path, Window window, std::span<Answer> answers,
+                      std::span<std::uint64_t> work) noexcept = 0;
+  /// The same answers folded into the checksum, and nothing else: the loop that is timed from outside.
+  virtual void replay(const Path& path, Window window, Checksum& checksum) noexcept = 0;
+  /// The same, with the clock read once a step: the ticks each step took, one clock reading included.
+  virtual void replay_clocked(const Path& path, Window window, Checksum& checksum,
+                              std::span<std::uint64_t> ticks) noexcept = 0;
+};
+
+/// What a type of detector declares.
+template <Detector D>
+std::vector<Query> queries_of() {
+  std::vector<Query> queries;
+  if constexpr (AnswersTouches<D>) queries.push_back(Query::touches);
+  if constexpr (AnswersNearest<D>) queries.push_back(Query::nearest);
+  if constexpr (AnswersSweep<D>) queries.push_back(Query::sweep);
+  return queries;
+}
+
+template <Detector D>
+class ContestantOf final : public Contestant {
+ public:
+  explicit ContestantOf(D detector) : detector_(std::move(detector)) { session_.emplace(); }
+
+  bool answers(Query query) const noexcept override {
+    switch (query) {
+      case Query::touches:
+        return AnswersTouches<D>;
+      case Query::nearest:
+        return AnswersNearest<D>;
+      case Query::sweep:
+        return AnswersSweep<D>;
+    }
+    return false;
+  }
+  Accuracy accuracy() const noexcept override { return detector_.accuracy(); }
+  std::size_t bytes() const noexcept override { return detector_.bytes(); }
+  void forget() override { session_.emplace(); }
+  Work work() const noexcept override { return session_->work; }
+
+  void answer(const Path& path, Window window, std::span<Answer> answers,
+              std::span<std::uint64_t> work) noexcept override {
+    assert(answers.size() == window.size() && work.size() == window.size());
+    with_query(path.query, [&](auto ask) {
+      for (std::size_t i = 0; i < window.size(); ++i) {
+        const std::uint64_t before = session_->work.total();
+        answers[i] = ask(path.steps, window.begin + i);
+        work[i] = session_->work.total() - before;
+      }
+    });
+  }
+
+  void replay(const Path& path, Window window, Checksum& checksum) noexcept override {
+    with_query(path.query, [&](auto ask) {
+      Checksum sum = checksum;
+      for (std::size_t i = window.begin; i < window.end; ++i) sum.add(ask(path.steps, i));
+      checksum = sum;
+    });
+  }
+
+  void replay_clocked(const Path& path, Window window, Checksum& checksum,
+                      std::span<std::uint64_t> ticks) noexcept override {
+    assert(ticks.size() == window.size());
+    with_query(path.query, [&](auto ask) {
+      Checksum sum = checksum;
+      std::uint64_t before = TickClock::now();
+      for (std::size_t i = 0; i < window.size(); ++i) {
+        sum.add(ask(path.steps, window.begin + i));
+        const std::uint64_t after = TickClock::now();
+        ticks[i] = after - before;
+        before = after;
+      }
+      checksum = sum;
+    });
+  }
+
+ private:
+  /// Calls visit(ask) with the ask(steps, i) -> Answer of this query.
+  template <class Visitor>
+  void with_query(Query query, Visitor&& visit) noexcept {
+    using Steps = std::span<const Step>;
+    if constexpr (AnswersTouches<D>) {
+      if (query == Query::touches) {
+        return visit([this](Steps steps, std::size_t i) noexcept {
+          Answer answer;
+          answer.found = detector_.touches(steps[i].probe, *session_) ? 1 : 0;
+          return answer;
+        });
+      }
+    }
+    if constexpr (AnswersNearest<D>) {
+      if (query == Query::nearest) {
+        return visit([this](Steps steps, std::size_t i) noexcept {
+          const std::optional<Contact> contact = detector_.nearest(steps[i].probe, steps[i].reach, *session_);
+          return contact ? Answer::of(*contact) : Answer{};
+        });
+      }
+    }
+    if constexpr (AnswersSweep<D>) {
+      if (query == Query::sweep) {
+        return visit([this](Steps steps, std::size_t i) noexcept {
+          const Probe& now = steps[i].probe;
+          const Sweep sweep{steps[i > 0 ? i - 1 : 0].probe.center, now.center, now.radius};
+          const std::optional<Impact> impact = detector_.first_hit(sweep, *session_);
+          return impact ? Answer::of(impact->contact, impact->fraction) : Answer{};
+        });
+      }
+    }
+    assert(!"the query must be one that answers(query) affirms");
+  }
+
+  D detector_;
+  std::optional<typename D::Session> session_;  // engaged always; optional so that any session can be renewed
+};
+
+}  // namespace touchmark::bench

@@ -1,0 +1,126 @@
+#include "bench/contestant_info.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "bench/near_names.h"
+#include "bench/numbers.h"
+
+namespace touchmark::bench {
+namespace {
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (;;) {
+    const std::size_t end = text.find(separator);
+    parts.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
+const OptionInfo& find_option(const ContestantInfo& contestant, std::string_view key) {
+  const auto found = std::find_if(contestant.options.begin(), contestant.options.end(),
+                                  [&](const OptionInfo& option) { return option.key == key; });
+  if (found != contestant.options.end()) return *found;
+  if (contestant.options.empty()) {
+    throw std::invalid_argument(fmt::format("{} has no option \"{}\": it takes none", contestant.name, key));
+  }
+  std::vector<std::string> keys;
+  for (const OptionInfo& option : contestant.options) keys.push_back(option.key);
+  throw std::invalid_argument(
+      fmt::format("{} has no option \"{}\"; its options: {}", contestant.name, key, fmt::join(keys, ", ")));
+}
+
+void check_value(const ContestantInfo& contestant, const OptionInfo& option, std::string_view value) {
+  if (option.choices.empty()) {
+    const std::optional<double> number = parse_number(value);
+    if (number && *number >= 0) return;
+    throw std::invalid_argument(
+        fmt::format("{}: {}=\"{}\" is not a number of 0 or more", contestant.name, option.key, value));
+  }
+  if (std::find(option.choices.begin(), option.choices.end(), value) != option.choices.end()) return;
+  throw std::invalid_argument(fmt::format("{}: {}=\"{}\" is none of {}", contestant.name, option.key, value,
+                                          fmt::join(option.choices, ", ")));
+}
+
+/// The pairs as written, checked. Throws for what is not key=value, an unknown or repeated key, a bad value.
+std::map<std::string, std::string> parse_options(const ContestantInfo& contestant, std::string_view text) {
+  std::map<std::string, std::string> written;
+  for (const std::string_view pair : split(text, ',')) {
+    const std::size_t equals = pair.find('=');
+    if (equals == std::string_view::npos) {
+      throw std::invalid_argument(fmt::format("{}: \"{}\" is not key=value", contestant.name, pair));
+    }
+    const OptionInfo& option = find_option(contestant, pair.substr(0, equals));
+    const std::string_view value = pair.substr(equals + 1);
+    check_value(contestant, option, value);
+    if (!written.emplace(option.key, value).second) {
+      throw std::invalid_argument(fmt::format("{}: {} is given twice", contestant.name, option.key));
+    }
+  }
+  return written;
+}
+
+}  // namespace
+
+double OptionValues::number(const std::string& key) const { return parse_number(text(key)).value(); }
+
+bool ContestantInfo::answers(Query query) const noexcept {
+  return std::find(queries.begin(), queries.end(), query) != queries.end();
+}
+
+Roster::Roster(std::vector<ContestantInfo> contestants, std::vector<std::string> default_set)
+    : contestants_(std::move(contestants)), default_set_(std::move(default_set)) {}
+
+const ContestantInfo& Roster::find(const std::string& name) const {
+  const auto found = std::find_if(contestants_.begin(), contestants_.end(),
+                                  [&](const ContestantInfo& info) { return info.name == name; });
+  if (found != contestants_.end()) return *found;
+  std::vector<std::string> names;
+  for (const ContestantInfo& info : contestants_) names.push_back(info.name);
+  throw std::invalid_argument(
+      fmt::format("unknown contestant \"{}\"; the nearest names: {}", name, near_names(name, names)));
+}
+
+ContestantSpec Roster::parse(const std::string& text) const {
+  const std::size_t colon = text.find(':');
+  const ContestantInfo& contestant = find(text.substr(0, colon));
+  std::map<std::string, std::string> written;
+  if (colon != std::string::npos) written = parse_options(contestant, text.substr(colon + 1));
+
+  std::vector<std::string> in_order;
+  std::map<std::string, std::string> values;
+  for (const OptionInfo& option : contestant.options) {
+    const auto given = written.find(option.key);
+    if (given != written.end()) in_order.push_back(option.key + "=" + given->second);
+    values.emplace(option.key, given != written.end() ? given->second : option.default_value);
+  }
+  return {contestant.name, fmt::format("{}", fmt::join(in_order, ",")), OptionValues(std::move(values))};
+}
+
+std::vector<ContestantSpec> Roster::default_set() const {
+  std::vector<ContestantSpec> specs;
+  for (const std::string& text : default_set_) {
+    const std::string name = text.substr(0, text.find(':'));
+    const bool built = std::any_of(contestants_.begin(), contestants_.end(), [&](const ContestantInfo& info) {
+      return info.name == name && info.built();
+    });
+    if (built) specs.push_back(parse(text));
+  }
+  return specs;
+}
+
+std::unique_ptr<Contestant> Roster::build(const ContestantSpec& spec, const TriangleMesh& mesh) const {
+  const ContestantInfo& contestant = find(spec.name);
+  if (!contestant.built()) throw std::invalid_argument(contestant.name + " is not built into this program");
+  return contestant.build(mesh, spec.values);
+}
+
+}  // namespace touchmark::bench

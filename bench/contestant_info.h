@@ -1,0 +1,87 @@
+/// What can be chosen on the command line: contestants, their options, and `NAME[:key=value,...]`.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/contestant.h"
+#include "core/triangle_mesh.h"
+
+namespace touchmark::bench {
+
+struct OptionInfo {
+  std::string key;
+  std::vector<std::string> choices;  ///< empty: a number >= 0
+  std::string default_value;
+  std::string summary;  ///< one line
+};
+
+/// Every option of a contestant with its value, checked against its OptionInfo.
+class OptionValues {
+ public:
+  explicit OptionValues(std::map<std::string, std::string> values) : values_(std::move(values)) {}
+
+  const std::string& text(const std::string& key) const { return values_.at(key); }
+  double number(const std::string& key) const;
+  bool flag(const std::string& key) const { return text(key) == "true"; }
+  const std::map<std::string, std::string>& all() const noexcept { return values_; }
+
+ private:
+  std::map<std::string, std::string> values_;
+};
+
+using BuildContestant = std::function<std::unique_ptr<Contestant>(const TriangleMesh&, const OptionValues&)>;
+
+/// The program beside this one that most contestants run in.
+inline constexpr const char* default_worker_program = "touchmark-worker";
+
+struct ContestantInfo {
+  std::string name;
+  std::string summary;   ///< one line
+  std::string accuracy;  ///< "exact", or what it depends on
+  std::vector<Query> queries;
+  std::vector<OptionInfo> options;
+  /// Throws std::invalid_argument or MeshError for options or a mesh it refuses. Empty: not built in.
+  BuildContestant build;
+  /// Which program beside this one runs it.
+  std::function<std::string(const OptionValues&)> worker_program = [](const OptionValues&) {
+    return std::string(default_worker_program);
+  };
+
+  bool built() const noexcept { return static_cast<bool>(build); }
+  bool answers(Query query) const noexcept;
+};
+
+/// A contestant as chosen: the name and the options that were written out.
+struct ContestantSpec {
+  std::string name;
+  std::string options;  ///< "key=value,key=value" in the contestant's own order; empty: all defaults
+  OptionValues values;
+
+  std::string text() const { return options.empty() ? name : name + ":" + options; }
+};
+
+/// All contestants, and those that are compared when none is named.
+class Roster {
+ public:
+  Roster(std::vector<ContestantInfo> contestants, std::vector<std::string> default_set);
+
+  const std::vector<ContestantInfo>& contestants() const noexcept { return contestants_; }
+  /// Throws std::invalid_argument; an unknown name's message lists the nearest ones.
+  const ContestantInfo& find(const std::string& name) const;
+  /// `NAME[:key=value,...]`. Throws std::invalid_argument naming the name, key or value that is wrong.
+  ContestantSpec parse(const std::string& text) const;
+  /// The default set, without those that are not built in.
+  std::vector<ContestantSpec> default_set() const;
+  /// Throws what the contestant's build throws, or std::invalid_argument when it is not built in.
+  std::unique_ptr<Contestant> build(const ContestantSpec& spec, const TriangleMesh& mesh) const;
+
+ private:
+  std::vector<ContestantInfo> contestants_;
+  std::vector<std::string> default_set_;
+};
+
+}  // namespace touchmark::bench

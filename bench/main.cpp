@@ -1,0 +1,6 @@
+#include "bench/program.h"
+#include "bench/roster.h"
+
+int main(int argc, char** argv) {
+  return touchmark::bench::run_program(argc, argv, touchmark::bench::roster());
+}

@@ -1,0 +1,38 @@
+/// The clock of the latency pass: the processor's time stamp counter where it can be used, else steady_clock.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+
+#if defined(__x86_64__)
+#include <x86intrin.h>
+#endif
+
+namespace touchmark::bench {
+
+struct TickClock {
+#if defined(__x86_64__)
+  static constexpr const char* name = "rdtscp";
+  /// rdtscp waits for the instructions before it, so a step's own work is inside its ticks.
+  static std::uint64_t now() noexcept {
+    unsigned core = 0;
+    return __rdtscp(&core);
+  }
+#else
+  static constexpr const char* name = "steady_clock";
+  static std::uint64_t now() noexcept {
+    return static_cast<std::uint64_t>(std::chrono::steady_clock::now().time_since_epoch().count());
+  }
+#endif
+};
+
+/// Measured, not assumed, when a worker starts.
+struct ClockCalibration {
+  double ns_per_tick = 1;
+  double cost_ns = 0;  ///< the median of two readings in a row: what every clocked step includes
+};
+
+/// Takes about 20 ms.
+ClockCalibration calibrate_clock();
+
+}  // namespace touchmark::bench
