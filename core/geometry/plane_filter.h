@@ -1,0 +1,140 @@
+/// A single-precision lower bound of the distance to a triangle, four triangles at a time: what is farther
+/// than the best distance known need not meet the exact kernel.
+///
+/// A triangle is four planes: its face, and through each side the plane perpendicular to the face. The height
+/// over the face and the greatest excess beyond a side are orthogonal, so the sum of their squares is at most
+/// the squared distance; it is equal over the face and beside a side, and falls short only beyond a corner.
+/// The pad `tau` taken off both makes that true of what single precision computes.
+///
+/// How to use it:
+///   const FilterFrame frame = FilterFrame::around(mesh.bounds());
+///   std::vector<TrianglePlanes> planes;              // one of planes_of(prepared[i], frame) a triangle
+///   const FilterPoint point = frame.point(center);   // a finite one
+///   const float limit = frame.limit(best_squared);   // mesh units squared; infinity passes everything
+///   Lanes bounds = lower_bounds(planes[a], planes[b], planes[c], planes[d], point);
+///   for (unsigned left = at_most(bounds, limit); left != 0; left &= left - 1)
+///     ... lane std::countr_zero(left) needs squared_distance(prepared, center)
+/// Whatever is left out has squared_distance() > best_squared, so no tie is lost either. Frame and filter
+/// work for every finite mesh whose box FilterFrame::fits; beyond that, do without.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+#include "core/geometry/aabb.h"
+#include "core/geometry/point_triangle.h"
+#include "core/probe.h"
+
+namespace touchmark {
+
+/// Four floats that the compiler keeps in one register, on every machine (GCC and clang vector extension).
+using Lanes [[gnu::vector_size(16)]] = float;
+using LaneBits [[gnu::vector_size(16)]] = int;
+
+/// Lane 0 is the face, lanes 1 to 3 the sides, outwards; in the filter's frame. One cache line.
+struct alignas(64) TrianglePlanes {
+  Lanes x, y, z, offset;
+};
+static_assert(sizeof(TrianglePlanes) == 64);
+
+/// The query point in the filter's frame, and what rounding may do to a plane's value there.
+struct FilterPoint {
+  float x, y, z;
+  float tau;
+};
+
+/// Puts the middle of the mesh at 0 and its extent near 1, by a power of two, so that nothing overflows and
+/// scaling rounds nothing.
+class FilterFrame {
+ public:
+  FilterFrame() = default;
+  /// `bounds` must fit.
+  static FilterFrame around(const Aabb& bounds) noexcept;
+  /// Is the box's extent far enough from the ends of the range of double that squares of differences neither
+  /// overflow nor vanish? A box of zero extent does not fit.
+  static bool fits(const Aabb& bounds) noexcept;
+
+  /// Is the point close enough for single precision (2^20 extents)? A NaN is not.
+  bool covers(const Vec3& center) const noexcept {
+    const Vec3 p = scale_ * (center - origin_);
+    return std::abs(p.x()) < 0x1p20 && std::abs(p.y()) < 0x1p20 && std::abs(p.z()) < 0x1p20;
+  }
+  FilterPoint point(const Vec3& center) const noexcept {
+    const Vec3 p = scale_ * (center - origin_);
+    const double reach = std::abs(p.x()) + std::abs(p.y()) + std::abs(p.z()) + radius_;
+    return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()),
+            static_cast<float>(reach * tau_per_unit)};
+  }
+  /// A squared distance of the mesh's frame as a limit on lower bounds, rounded up.
+  float limit(double squared_distance) const noexcept {
+    const double limit = squared_distance * squared_scale_ * (1 + 0x1p-20) + 0x1p-120;
+    return limit < most ? static_cast<float>(limit) : most;
+  }
+  /// A lower bound as a squared distance of the mesh's frame, rounded down.
+  double squared(float lower_bound) const noexcept {
+    return static_cast<double>(lower_bound) * (1 - 0x1p-20) / squared_scale_;
+  }
+  const Vec3& origin() const noexcept { return origin_; }
+  double scale() const noexcept { return scale_; }
+
+  /// u = 2^-24. The point, the normal and the offset are rounded once each, the three products once, the
+  /// three sums once: at most 6u(|x||n| + |offset|). Two more u, the kernel's own slack (2^-47) included.
+  static constexpr double tau_per_unit = 8 * 0x1p-24;
+
+ private:
+  static constexpr float most = std::numeric_limits<float>::max();
+
+  Vec3 origin_ = Vec3::Zero();
+  double scale_ = 1;
+  double squared_scale_ = 1;
+  double radius_ = 1;  ///< bound on |offset|: the farthest vertex from the origin, in the frame
+};
+
+/// A triangle without a normal (collinear corners) gets planes that bound nothing: it always meets the
+/// kernel.
+TrianglePlanes planes_of(const PreparedTriangle& triangle, const FilterFrame& frame) noexcept;
+
+inline Lanes greater_of(Lanes a, Lanes b) noexcept { return a > b ? a : b; }
+
+/// Values of one triangle's planes.
+inline Lanes plane_values(const TrianglePlanes& planes, const FilterPoint& p) noexcept {
+  return ((planes.x * p.x + planes.y * p.y) + planes.z * p.z) + planes.offset;
+}
+
+/// Lower bounds of the squared distances to four triangles, in the frame.
+inline Lanes lower_bounds(const TrianglePlanes& a, const TrianglePlanes& b, const TrianglePlanes& c,
+                          const TrianglePlanes& d, const FilterPoint& p) noexcept {
+  const Lanes va = plane_values(a, p), vb = plane_values(b, p), vc = plane_values(c, p),
+              vd = plane_values(d, p);
+  // Transpose: from four planes of one triangle to one plane of four triangles.
+  const Lanes ab_low = __builtin_shuffle(va, vb, LaneBits{0, 4, 1, 5});
+  const Lanes ab_high = __builtin_shuffle(va, vb, LaneBits{2, 6, 3, 7});
+  const Lanes cd_low = __builtin_shuffle(vc, vd, LaneBits{0, 4, 1, 5});
+  const Lanes cd_high = __builtin_shuffle(vc, vd, LaneBits{2, 6, 3, 7});
+  const Lanes face = __builtin_shuffle(ab_low, cd_low, LaneBits{0, 1, 4, 5});
+  const Lanes side1 = __builtin_shuffle(ab_low, cd_low, LaneBits{2, 3, 6, 7});
+  const Lanes side2 = __builtin_shuffle(ab_high, cd_high, LaneBits{0, 1, 4, 5});
+  const Lanes side3 = __builtin_shuffle(ab_high, cd_high, LaneBits{2, 3, 6, 7});
+
+  const Lanes zero = {0, 0, 0, 0};
+  const Lanes height = greater_of(greater_of(face, -face) - p.tau, zero);
+  const Lanes excess = greater_of(greater_of(side1, greater_of(side2, side3)) - p.tau, zero);
+  return height * height + excess * excess;
+}
+
+/// Bit i is set when lane i is at most the limit.
+inline unsigned at_most(Lanes values, float limit) noexcept {
+  const LaneBits below = values <= limit;
+#ifdef __SSE2__
+  return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(below)));
+#else
+  return static_cast<unsigned>((below[0] & 1) | (below[1] & 2) | (below[2] & 4) | (below[3] & 8));
+#endif
+}
+
+}  // namespace touchmark

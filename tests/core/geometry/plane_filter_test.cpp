@@ -1,0 +1,127 @@
+#include "core/geometry/plane_filter.h"
+
+#include <bit>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace touchmark {
+namespace {
+
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+  /// Uniform in [-size, size).
+  double number(double size) { return size * (static_cast<double>(engine_() >> 11) * 0x1p-52 - 1); }
+  Vec3 point(double size) {
+    const double x = number(size), y = number(size), z = number(size);
+    return {x, y, z};
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+double bound_of(const PreparedTriangle& triangle, const FilterFrame& frame, const Vec3& center) {
+  const TrianglePlanes planes = planes_of(triangle, frame);
+  return frame.squared(lower_bounds(planes, planes, planes, planes, frame.point(center))[0]);
+}
+
+Aabb box_of(const PreparedTriangle& triangle) {
+  Aabb box;
+  for (const Vec3& corner : triangle.corner) box.extend(corner);
+  return box;
+}
+
+TEST(PlaneFilter, BoundsTheDistanceFromBelowWhateverTheTriangleAndTheScale) {
+  Random random(1);
+  for (const double scale : {1e-80, 1e-6, 1.0, 1e6, 1e80}) {
+    for (const double thickness : {1.0, 1e-3, 1e-6, 1e-9, 0.0}) {
+      for (int round = 0; round < 400; ++round) {
+        const Vec3 shift = random.point(round % 2 == 0 ? 0 : 1e3 * scale);
+        const Vec3 a = random.point(scale), along = random.point(scale),
+                   aside = thickness * random.point(scale);
+        const PreparedTriangle triangle =
+            prepare(a + shift, a + along + shift, a + 0.7 * along + aside + shift, 0);
+        const FilterFrame frame = FilterFrame::around(box_of(triangle));
+        for (const double away : {1e-3, 1.0, 1e4}) {
+          const Vec3 center = a + shift + random.point(away * scale);
+          const double squared = squared_distance(triangle, center);
+          ASSERT_LE(bound_of(triangle, frame, center), squared) << scale << ' ' << thickness << ' ' << round;
+        }
+      }
+    }
+  }
+}
+
+TEST(PlaneFilter, IsTheDistanceOverTheFaceAndBesideASide) {
+  const PreparedTriangle triangle = prepare({0, 0, 0}, {4, 0, 0}, {0, 4, 0}, 0);
+  const FilterFrame frame = FilterFrame::around(box_of(triangle));
+  EXPECT_NEAR(bound_of(triangle, frame, {1, 1, 3}), 9, 1e-3);
+  EXPECT_NEAR(bound_of(triangle, frame, {2, -3, 4}), 25, 1e-3);
+  EXPECT_NEAR(bound_of(triangle, frame, {4, 4, -1}), 9, 1e-3);
+}
+
+TEST(PlaneFilter, KeepsEachTriangleInItsLane) {
+  const FilterFrame frame = FilterFrame::around({{0, 0, 0}, {8, 8, 8}});
+  std::vector<TrianglePlanes> planes;
+  for (int i = 0; i < 4; ++i)
+    planes.push_back(planes_of(prepare({0, 0, 2.0 * i}, {8, 0, 2.0 * i}, {0, 8, 2.0 * i}, 0), frame));
+  const Lanes bounds = lower_bounds(planes[0], planes[1], planes[2], planes[3], frame.point({1, 1, 3}));
+  EXPECT_NEAR(frame.squared(bounds[0]), 9, 1e-3);
+  EXPECT_NEAR(frame.squared(bounds[1]), 1, 1e-3);
+  EXPECT_NEAR(frame.squared(bounds[2]), 1, 1e-3);
+  EXPECT_NEAR(frame.squared(bounds[3]), 9, 1e-3);
+  EXPECT_EQ(at_most(bounds, frame.limit(2)), 0b0110u);
+}
+
+TEST(PlaneFilter, LetsATiePassAtItsOwnDistance) {
+  Random random(2);
+  for (int round = 0; round < 2000; ++round) {
+    const PreparedTriangle triangle = prepare(random.point(1), random.point(1), random.point(1), 0);
+    const FilterFrame frame = FilterFrame::around(box_of(triangle));
+    const Vec3 center = random.point(2);
+    const TrianglePlanes planes = planes_of(triangle, frame);
+    const Lanes bounds = lower_bounds(planes, planes, planes, planes, frame.point(center));
+    ASSERT_EQ(at_most(bounds, frame.limit(squared_distance(triangle, center))), 0b1111u);
+  }
+}
+
+TEST(PlaneFilter, NeverHoldsBackATriangleWithoutANormal) {
+  const PreparedTriangle needle = prepare({0, 0, 0}, {1, 0, 0}, {2, 0, 0}, 0);
+  const FilterFrame frame = FilterFrame::around(box_of(needle));
+  EXPECT_EQ(bound_of(needle, frame, {5, 6, 7}), 0);
+}
+
+TEST(PlaneFilter, AnInfiniteLimitPassesEverything) {
+  const FilterFrame frame = FilterFrame::around({{0, 0, 0}, {1, 1, 1}});
+  const TrianglePlanes planes = planes_of(prepare({0, 0, 0}, {1, 0, 0}, {0, 1, 1}, 0), frame);
+  const Vec3 far(0x1p19, 0x1p19, 0x1p19);
+  ASSERT_TRUE(frame.covers(far));
+  const Lanes bounds = lower_bounds(planes, planes, planes, planes, frame.point(far));
+  EXPECT_EQ(at_most(bounds, frame.limit(std::numeric_limits<double>::infinity())), 0b1111u);
+}
+
+TEST(PlaneFilter, CoversNeitherInfinityNorNaN) {
+  const FilterFrame frame = FilterFrame::around({{0, 0, 0}, {1, 1, 1}});
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k) {
+    Vec3 center = Vec3::Zero();
+    for (const double bad : {infinity, -infinity, std::nan(""), 1e9, 1e308}) {
+      center[k] = bad;
+      EXPECT_FALSE(frame.covers(center)) << bad;
+    }
+  }
+}
+
+TEST(PlaneFilter, FitsNoBoxWhoseSquaresOverflowOrVanish) {
+  EXPECT_TRUE(FilterFrame::fits({{0, 0, 0}, {1, 0, 0}}));
+  EXPECT_FALSE(FilterFrame::fits({{2, 2, 2}, {2, 2, 2}}));
+  EXPECT_FALSE(FilterFrame::fits({{0, 0, 0}, {1e200, 1, 1}}));
+  EXPECT_FALSE(FilterFrame::fits({{0, 0, 0}, {1e-200, 0, 0}}));
+}
+
+}  // namespace
+}  // namespace touchmark
