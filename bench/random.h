@@ -1,0 +1,38 @@
+/// Random numbers that are the same on every machine: the standard fixes mt19937_64's output, but leaves its
+/// distributions to each library, so the arithmetic from bits to numbers is ours.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <random>
+
+#include "core/probe.h"
+
+namespace touchmark::bench {
+
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : bits_(seed) {}
+
+  /// Uniform in [0, 1), a multiple of 2^-53.
+  double unit() { return static_cast<double>(bits_() >> 11) * 0x1p-53; }
+  double between(double low, double high) { return low + unit() * (high - low); }
+  /// Uniform in 0..count-1; the bias of the remainder is below count / 2^64.
+  std::size_t below(std::size_t count) { return static_cast<std::size_t>(bits_() % count); }
+
+  /// Uniform on the unit sphere, by rejection: no sine that libraries round differently.
+  Vec3 direction() {
+    for (;;) {
+      const double x = between(-1, 1), y = between(-1, 1), z = between(-1, 1);
+      const Vec3 v(x, y, z);
+      const double squared = v.squaredNorm();
+      if (squared <= 1 && squared > 0x1p-20) return v / std::sqrt(squared);
+    }
+  }
+
+ private:
+  std::mt19937_64 bits_;
+};
+
+}  // namespace touchmark::bench
