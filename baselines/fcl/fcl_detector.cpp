@@ -1,0 +1,466 @@
+#include "baselines/fcl/fcl_detector.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/shape/sphere.h>
+#include <fcl/narrowphase/collision.h>
+#include <fcl/narrowphase/detail/gjk_solver_libccd.h>
+#include <fcl/narrowphase/detail/traversal/collision/mesh_shape_collision_traversal_node.h>
+#include <fcl/narrowphase/detail/traversal/collision_node.h>
+#include <fcl/narrowphase/detail/traversal/distance/mesh_shape_distance_traversal_node.h>
+#include <fcl/narrowphase/distance.h>
+
+#include "baselines/reach.h"
+#include "core/geometry/point_triangle.h"
+
+namespace touchmark::baselines {
+namespace {
+
+using Solver = fcl::detail::GJKSolver_libccd<double>;
+using Sphere = fcl::Sphered;
+namespace nodes = fcl::detail;
+
+fcl::Transform3d at(const Vec3& center) {
+  fcl::Transform3d pose = fcl::Transform3d::Identity();
+  pose.translation() = center;
+  return pose;
+}
+
+/// FCL's traversals for each volume, and the ball as that volume. FCL itself fits kIOS and RSS to the twelve
+/// corners of an icosahedron about the sphere, every query; the ball itself is one of either, and tighter.
+template <class Volume>
+struct Traversal;
+
+template <>
+struct Traversal<fcl::AABBd> {
+  using Collide = nodes::MeshShapeCollisionTraversalNode<fcl::AABBd, Sphere, Solver>;
+  using Distance = nodes::MeshShapeDistanceTraversalNode<fcl::AABBd, Sphere, Solver>;
+  static void set_ball(fcl::AABBd& box, const Vec3& center, double radius) {
+    box.min_ = center - Vec3::Constant(radius);
+    box.max_ = center + Vec3::Constant(radius);
+  }
+};
+
+template <>
+struct Traversal<fcl::OBBd> {
+  using Collide = nodes::MeshShapeCollisionTraversalNodeOBB<Sphere, Solver>;
+  using Distance = void;  // FCL has no distance between OBBs
+  static void set_ball(fcl::OBBd& box, const Vec3& center, double radius) {
+    box.axis.setIdentity();
+    box.To = center;
+    box.extent.setConstant(radius);
+  }
+};
+
+template <>
+struct Traversal<fcl::RSSd> {
+  using Collide = nodes::MeshShapeCollisionTraversalNodeRSS<Sphere, Solver>;
+  using Distance = nodes::MeshShapeDistanceTraversalNodeRSS<Sphere, Solver>;
+  static void set_ball(fcl::RSSd& volume, const Vec3& center, double radius) {
+    volume.axis.setIdentity();
+    volume.To = center;
+    volume.l[0] = volume.l[1] = 0;
+    volume.r = radius;
+  }
+};
+
+template <>
+struct Traversal<fcl::OBBRSSd> {
+  using Collide = nodes::MeshShapeCollisionTraversalNodeOBBRSS<Sphere, Solver>;
+  using Distance = nodes::MeshShapeDistanceTraversalNodeOBBRSS<Sphere, Solver>;
+  static void set_ball(fcl::OBBRSSd& volume, const Vec3& center, double radius) {
+    Traversal<fcl::OBBd>::set_ball(volume.obb, center, radius);
+    Traversal<fcl::RSSd>::set_ball(volume.rss, center, radius);
+  }
+};
+
+template <>
+struct Traversal<fcl::kIOSd> {
+  using Collide = nodes::MeshShapeCollisionTraversalNodekIOS<Sphere, Solver>;
+  using Distance = nodes::MeshShapeDistanceTraversalNodekIOS<Sphere, Solver>;
+  static void set_ball(fcl::kIOSd& volume, const Vec3& center, double radius) {
+    volume.num_spheres = 1;
+    volume.spheres[0].o = center;
+    volume.spheres[0].r = radius;
+    Traversal<fcl::OBBd>::set_ball(volume.obb, center, radius);
+  }
+};
+
+/// FCL's collision traversal with our kernel at the leaves: the nearest of the triangles whose volumes meet
+/// the ball's, or for a touching test the first that touches.
+template <class Base>
+class ExactCollide : public Base {
+ public:
+  enum class Stop { at_first_touch, never };
+
+  ExactCollide(const std::vector<PreparedTriangle>& triangles, const Probe& probe, Stop stop)
+      : triangles_(triangles), probe_(probe), stop_(stop) {}
+
+  void leafTesting(int leaf, int) const override {
+    ++this->num_leaf_tests;
+    const auto triangle = static_cast<std::uint32_t>(this->model1->getBV(leaf).primitiveId());
+    best_ = std::min(best_, Candidate{squared_distance(triangles_[triangle], probe_.center), triangle});
+  }
+  bool canStop() const override { return stop_ == Stop::at_first_touch && touching(); }
+  bool touching() const { return std::sqrt(best_.squared_distance) <= probe_.radius; }
+  const Candidate& best() const { return best_; }
+
+ private:
+  const std::vector<PreparedTriangle>& triangles_;
+  const Probe& probe_;
+  Stop stop_;
+  mutable Candidate best_;
+};
+
+/// FCL's best-first descent with our kernel at the leaves. Volumes as near as the best so far are entered, so
+/// that of several nearest triangles the lowest wins whatever the order; `first` is where to start.
+template <class Base>
+class ExactNearest : public Base {
+ public:
+  ExactNearest(const std::vector<PreparedTriangle>& triangles, const Vec3& center, double reach, double slack,
+               std::uint32_t first)
+      : triangles_(triangles), center_(center), bound_(reach), slack_(slack), first_(first) {}
+
+  void preprocess() override { consider(first_); }
+  void postprocess() override {}
+  void leafTesting(int leaf, int) const override {
+    ++this->num_leaf_tests;
+    consider(static_cast<std::uint32_t>(this->model1->getBV(leaf).primitiveId()));
+  }
+  bool canStop(double volume_distance) const override { return volume_distance - slack_ > bound_; }
+  const Candidate& best() const { return best_; }
+
+ private:
+  void consider(std::uint32_t triangle) const {
+    best_ = std::min(best_, Candidate{squared_distance(triangles_[triangle], center_), triangle});
+    bound_ = std::min(bound_, std::sqrt(best_.squared_distance));
+  }
+
+  const std::vector<PreparedTriangle>& triangles_;
+  const Vec3& center_;
+  mutable Candidate best_;
+  mutable double bound_;
+  double slack_;
+  std::uint32_t first_;
+};
+
+/// FCL's distance traversal as it stands, but for one fault: where the point lies on a triangle FCL's leaf
+/// test leaves the distance unset and compares it all the same. Here it is zero.
+template <class Base>
+class FclNearest : public Base {
+ public:
+  void leafTesting(int leaf, int) const override {
+    ++this->num_leaf_tests;
+    consider(this->model1->getBV(leaf).primitiveId());
+  }
+  void preprocess() override {}
+  void postprocess() override {}
+
+ private:
+  void consider(int triangle) const {
+    const fcl::Triangle& corner = this->tri_indices[triangle];
+    const Vec3 center = this->tf2.translation();
+    double distance = 0;
+    Vec3 on_mesh = center, on_ball = center;
+    const bool apart = this->nsolver->shapeTriangleDistance(
+        *this->model2, this->tf2, this->vertices[corner[0]], this->vertices[corner[1]],
+        this->vertices[corner[2]], this->tf1, &distance, &on_ball, &on_mesh);
+    if (!apart) {
+      distance = 0;
+      on_mesh = center;
+    }
+    this->result->update(distance, this->model1, this->model2, triangle, fcl::DistanceResultd::NONE, on_mesh,
+                         on_ball);
+  }
+};
+
+/// How far FCL's fitted volumes may fall short of what they hold. FCL computes them in absolute coordinates
+/// with a few dozen roundings (covariance, eigenvectors, projections); 2^12 of them is a generous allowance,
+/// not a proof.
+double fitting_slack(double largest_coordinate, const Vec3& center) {
+  return 0x1p-40 * std::max(largest_coordinate, center.cwiseAbs().maxCoeff());
+}
+
+}  // namespace
+
+struct FclDetector::Session::State {
+  fcl::CollisionResultd contacts;
+  Solver solver;
+  std::uint32_t last = 0;  ///< the nearest triangle of the last query
+};
+
+FclDetector::Session::Session() noexcept = default;
+FclDetector::Session::Session(Session&&) noexcept = default;
+FclDetector::Session& FclDetector::Session::operator=(Session&&) noexcept = default;
+FclDetector::Session::~Session() = default;
+FclDetector::Session::State& FclDetector::Session::state() {
+  if (!state_) state_ = std::make_unique<State>();
+  return *state_;
+}
+
+struct FclDetector::Model {
+  Options options;
+  Aabb bounds;
+  double largest_coordinate = 0;
+  std::vector<TriangleId> ids;
+  std::vector<PreparedTriangle> triangles;  ///< narrow exact only
+
+  Model(const TriangleMesh& mesh, const Options& chosen)
+      : options(chosen),
+        bounds(mesh.bounds()),
+        largest_coordinate(bounds.min.cwiseAbs().cwiseMax(bounds.max.cwiseAbs()).maxCoeff()),
+        ids(mesh.ids().begin(), mesh.ids().end()) {
+    if (options.narrow == Narrow::exact) triangles = prepare(mesh);
+  }
+  virtual ~Model() = default;
+  virtual bool touches(const Probe& probe, Session& session) const = 0;
+  virtual std::optional<Contact> nearest(const Vec3& center, double reach, Session& session) const = 0;
+  virtual std::size_t hierarchy_bytes() const = 0;
+
+  TriangleId id(std::size_t triangle) const {
+    return ids.empty() ? static_cast<TriangleId>(triangle) : ids[triangle];
+  }
+  /// The contact as FCL gave it: its point, and the distance that goes with it.
+  Contact contact_at(const Vec3& point, const Vec3& normal, double distance, std::size_t triangle) const {
+    return {point, normal, distance, id(triangle)};
+  }
+};
+
+template <class Volume>
+struct FclDetector::ModelOf : FclDetector::Model {
+  using Collide = typename Traversal<Volume>::Collide;
+  using Distance = typename Traversal<Volume>::Distance;
+  using Gather = ExactCollide<Collide>;
+  static constexpr bool has_distance = !std::is_void_v<Distance>;
+
+  ModelOf(const TriangleMesh& mesh, const Options& chosen) : Model(mesh, chosen) {
+    if (!has_distance && options.method == Method::distance)
+      throw std::invalid_argument("fcl: method=distance does not work with bv=obb");
+    std::vector<fcl::Triangle> triangles_of_fcl;
+    triangles_of_fcl.reserve(mesh.size());
+    for (const TriangleMesh::Corners& corners : mesh.triangles())
+      triangles_of_fcl.emplace_back(corners[0], corners[1], corners[2]);
+    const std::vector<Vec3> vertices(mesh.vertices().begin(), mesh.vertices().end());
+    const int begun = hierarchy.beginModel(static_cast<int>(mesh.size()), static_cast<int>(vertices.size()));
+    const int added = hierarchy.addSubModel(vertices, triangles_of_fcl);
+    const int ended = hierarchy.endModel();
+    for (const int status : {begun, added, ended}) {
+      if (status != fcl::BVH_OK)
+        throw MeshError("FCL refuses the mesh with status " + std::to_string(status));
+    }
+    hierarchy.computeLocalAABB();
+  }
+
+  bool touches(const Probe& probe, Session& session) const override {
+    if (options.narrow == Narrow::exact) {
+      const Candidate best = collided(probe, Gather::Stop::at_first_touch, session);
+      return std::sqrt(best.squared_distance) <= probe.radius;
+    }
+    const Sphere ball(probe.radius);
+    fcl::CollisionRequestd request(1, false);
+    return collide(ball, probe.center, request, session) > 0;
+  }
+
+  std::optional<Contact> nearest(const Vec3& center, double reach, Session& session) const override {
+    if (options.method != Method::distance) {
+      return options.narrow == Narrow::exact
+                 ? exact_contact(collided({center, reach}, Gather::Stop::never, session), center, reach)
+                 : deepest_contact(center, reach, session);
+    }
+    if constexpr (has_distance) {
+      return options.narrow == Narrow::exact ? exact_nearest(center, reach, session)
+                                             : bounded_distance(center, reach, session);
+    }
+    return std::nullopt;
+  }
+
+  /// FCL's own collision, with the public function or by the same traversal without its dispatcher.
+  std::size_t collide(const Sphere& ball, const Vec3& center, const fcl::CollisionRequestd& request,
+                      Session& session) const {
+    Session::State& state = session.state();
+    state.contacts.clear();
+    if (options.method == Method::collide) {
+      fcl::collide(&hierarchy, fcl::Transform3d::Identity(), &ball, at(center), request, state.contacts);
+      session.work.triangles += state.contacts.numContacts();
+    } else {
+      Collide node;
+      set_up(node, ball, center, session);
+      node.request = request;
+      node.result = &state.contacts;
+      nodes::collide(&node, nullptr);
+      count(node, session);
+    }
+    return state.contacts.numContacts();
+  }
+
+  std::optional<Contact> deepest_contact(const Vec3& center, double reach, Session& session) const {
+    const Sphere ball(reach);
+    const fcl::CollisionRequestd request(std::numeric_limits<std::size_t>::max(), true);
+    const std::size_t found = collide(ball, center, request, session);
+    const fcl::CollisionResultd& contacts = session.state().contacts;
+    const auto key = [](const fcl::Contactd& contact) {
+      return std::pair(contact.penetration_depth, contact.b1);  // the depth comes negative
+    };
+    const fcl::Contactd* deepest = nullptr;
+    for (std::size_t i = 0; i < found; ++i) {
+      const fcl::Contactd& contact = contacts.getContact(i);
+      if (!deepest || key(contact) < key(*deepest)) deepest = &contact;
+    }
+    if (!deepest) return std::nullopt;
+    const double distance = std::max(0.0, reach + deepest->penetration_depth);
+    return contact_at(deepest->pos, deepest->normal, distance, static_cast<std::size_t>(deepest->b1));
+  }
+
+  Candidate collided(const Probe& probe, typename Gather::Stop stop, Session& session) const {
+    Gather node(triangles, probe, stop);
+    const Sphere ball(probe.radius);
+    set_up(node, ball, probe.center, session);
+    Traversal<Volume>::set_ball(node.model2_bv, probe.center,
+                                probe.radius + fitting_slack(largest_coordinate, probe.center));
+    nodes::collide(&node, nullptr);
+    count(node, session);
+    return node.best();
+  }
+
+  std::optional<Contact> bounded_distance(const Vec3& center, double reach, Session& session) const {
+    FclNearest<Distance> node;
+    const Sphere point(0);
+    set_up(node, point, center, session);
+    Traversal<Volume>::set_ball(node.model2_bv, center, 0);
+    // Only what is nearer than the bound counts for FCL; contact here is closed.
+    fcl::DistanceResultd result(std::nextafter(reach, std::numeric_limits<double>::infinity()));
+    node.result = &result;
+    nodes::distance(&node, nullptr, 2);
+    count(node, session);
+    if (result.b1 == fcl::DistanceResultd::NONE) return std::nullopt;
+    const Vec3 offset = center - result.nearest_points[0];
+    const double length = offset.norm();
+    const Vec3 normal = length > 0 ? Vec3(offset / length) : face_normal(static_cast<int>(result.b1));
+    return contact_at(result.nearest_points[0], normal, result.min_distance,
+                      static_cast<std::size_t>(result.b1));
+  }
+
+  std::optional<Contact> exact_nearest(const Vec3& center, double reach, Session& session) const {
+    Session::State& state = session.state();
+    ExactNearest<Distance> node(triangles, center, reach, fitting_slack(largest_coordinate, center),
+                                state.last < triangles.size() ? state.last : 0);
+    const Sphere point(0);
+    set_up(node, point, center, session);
+    Traversal<Volume>::set_ball(node.model2_bv, center, 0);
+    nodes::distance(&node, nullptr, 2);
+    count(node, session);
+    if (node.best().index < triangles.size()) state.last = node.best().index;
+    return exact_contact(node.best(), center, reach);
+  }
+
+  std::optional<Contact> exact_contact(const Candidate& best, const Vec3& center, double reach) const {
+    if (best.index >= triangles.size() || !(std::sqrt(best.squared_distance) <= reach)) return std::nullopt;
+    return contact_on(triangles[best.index], center, id(best.index));
+  }
+
+  Vec3 face_normal(int triangle) const {
+    const fcl::Triangle& corner = hierarchy.tri_indices[triangle];
+    const Vec3& a = hierarchy.vertices[corner[0]];
+    return (hierarchy.vertices[corner[1]] - a).cross(hierarchy.vertices[corner[2]] - a).normalized();
+  }
+
+  template <class Node>
+  void set_up(Node& node, const Sphere& ball, const Vec3& center, Session& session) const {
+    node.model1 = &hierarchy;
+    node.tf1 = fcl::Transform3d::Identity();
+    node.model2 = &ball;
+    node.tf2 = at(center);
+    node.nsolver = &session.state().solver;
+    node.vertices = hierarchy.vertices;
+    node.tri_indices = hierarchy.tri_indices;
+    node.enable_statistics = true;
+    fcl::computeBV(ball, node.tf2, node.model2_bv);
+  }
+
+  template <class Node>
+  static void count(const Node& node, Session& session) {
+    session.work.boxes += static_cast<std::uint64_t>(node.num_bv_tests);
+    session.work.triangles += static_cast<std::uint64_t>(node.num_leaf_tests);
+  }
+
+  std::size_t hierarchy_bytes() const override {
+    return sizeof(fcl::BVNode<Volume>) * static_cast<std::size_t>(hierarchy.getNumBVs()) +
+           (sizeof(fcl::Triangle) + sizeof(unsigned)) * static_cast<std::size_t>(hierarchy.num_tris) +
+           sizeof(Vec3) * static_cast<std::size_t>(hierarchy.num_vertices);
+  }
+
+  fcl::BVHModel<Volume> hierarchy;
+};
+
+FclDetector::FclDetector(std::unique_ptr<const Model> model) noexcept : model_(std::move(model)) {}
+FclDetector::FclDetector(FclDetector&&) noexcept = default;
+FclDetector& FclDetector::operator=(FclDetector&&) noexcept = default;
+FclDetector::~FclDetector() = default;
+
+FclDetector FclDetector::build(const TriangleMesh& mesh, const Options& options) {
+  constexpr auto most = static_cast<std::size_t>(std::numeric_limits<int>::max());
+  if (mesh.size() > most || mesh.vertices().size() > most) {
+    throw MeshError("FCL counts in int: " + std::to_string(std::max(mesh.size(), mesh.vertices().size())) +
+                    " triangles or vertices are more than " + std::to_string(most));
+  }
+  if (options.method == Method::collide && options.narrow == Narrow::exact)
+    throw std::invalid_argument("fcl: narrow=exact needs method=traverse or method=distance");
+  switch (options.bv) {
+    case Volume::kios:
+      return FclDetector(std::make_unique<ModelOf<fcl::kIOSd>>(mesh, options));
+    case Volume::obbrss:
+      return FclDetector(std::make_unique<ModelOf<fcl::OBBRSSd>>(mesh, options));
+    case Volume::obb:
+      return FclDetector(std::make_unique<ModelOf<fcl::OBBd>>(mesh, options));
+    case Volume::rss:
+      return FclDetector(std::make_unique<ModelOf<fcl::RSSd>>(mesh, options));
+    case Volume::aabb:
+      return FclDetector(std::make_unique<ModelOf<fcl::AABBd>>(mesh, options));
+  }
+  throw std::invalid_argument("fcl: no such bv");
+}
+
+bool FclDetector::touches(const Probe& probe, Session& session) const noexcept {
+  const double radius = finite_reach(model_->bounds, probe.center, probe.radius);
+  if (!answerable(probe.center, radius)) return false;
+  try {
+    return model_->touches({probe.center, radius}, session);
+  } catch (...) {  // out of memory or FCL's own: it has found no contact
+    return false;
+  }
+}
+
+std::optional<Contact> FclDetector::nearest(const Probe& probe, double reach,
+                                            Session& session) const noexcept {
+  const double finite = finite_reach(model_->bounds, probe.center, reach);
+  if (!answerable(probe.center, finite)) return std::nullopt;
+  try {
+    return model_->nearest(probe.center, finite, session);
+  } catch (...) {
+    return std::nullopt;
+  }
+}
+
+std::size_t FclDetector::bytes() const noexcept {
+  return model_->hierarchy_bytes() + model_->ids.capacity() * sizeof(TriangleId) +
+         model_->triangles.capacity() * sizeof(PreparedTriangle);
+}
+
+Accuracy FclDetector::accuracy() const noexcept {
+  // A box of doubles is its triangles' own minima and maxima, so only there nothing can get lost.
+  const Guarantee guarantee = model_->options.bv == Volume::aabb ? Guarantee::exact : Guarantee::approximate;
+  if (model_->options.narrow == Narrow::exact) return {guarantee, kernel_relative_error, 0};
+  // What its arithmetic would give if it did what it is meant to: a few dozen roundings, and the epsilon that
+  // FCL adds to every radius.
+  return {Guarantee::approximate, 0x1p-44, std::numeric_limits<double>::epsilon()};
+}
+
+}  // namespace touchmark::baselines

@@ -1,0 +1,297 @@
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "baselines/fcl/fcl_detector.h"
+#include "core/brute_force/brute_force.h"
+#include "tests/baselines/meshes.h"
+
+namespace touchmark::baselines {
+namespace {
+
+using Volume = FclDetector::Volume;
+using Method = FclDetector::Method;
+using Narrow = FclDetector::Narrow;
+
+static_assert(AnswersTouches<FclDetector> && AnswersNearest<FclDetector>);
+static_assert(!AnswersSweep<FclDetector>, "FCL's continuous collision does not work; see README.md");
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+constexpr Volume all_volumes[] = {Volume::kios, Volume::obbrss, Volume::obb, Volume::rss, Volume::aabb};
+
+/// Every configuration that FCL can do.
+std::vector<FclDetector::Options> configurations() {
+  std::vector<FclDetector::Options> all;
+  for (const Volume volume : all_volumes) {
+    all.push_back({volume, Method::collide, Narrow::fcl});
+    for (const Narrow narrow : {Narrow::fcl, Narrow::exact}) {
+      all.push_back({volume, Method::traverse, narrow});
+      if (volume != Volume::obb) all.push_back({volume, Method::distance, narrow});
+    }
+  }
+  return all;
+}
+
+std::string name(const FclDetector::Options& options) {
+  constexpr const char* volumes[] = {"kios", "obbrss", "obb", "rss", "aabb"};
+  constexpr const char* methods[] = {"collide", "traverse", "distance"};
+  return std::string("bv=") + volumes[static_cast<int>(options.bv)] +
+         " method=" + methods[static_cast<int>(options.method)] +
+         (options.narrow == Narrow::exact ? " narrow=exact" : " narrow=fcl");
+}
+
+class EveryFcl : public testing::TestWithParam<FclDetector::Options> {
+ protected:
+  FclDetector build(const TriangleMesh& mesh) const { return FclDetector::build(mesh, GetParam()); }
+  FclDetector::Session session;
+};
+
+INSTANTIATE_TEST_SUITE_P(Fcl, EveryFcl, testing::ValuesIn(configurations()), [](const auto& parameter) {
+  std::string text = name(parameter.param);
+  for (char& c : text)
+    if (c == ' ' || c == '=') c = '_';
+  return text;
+});
+
+TEST_P(EveryFcl, FindsTheTriangleBelowTheProbe) {
+  const auto contact = build(square()).nearest({{0.75, 0.75, 2}, 0}, 3, session);
+  ASSERT_TRUE(contact);
+  EXPECT_EQ(contact->triangle, 1u);
+  EXPECT_NEAR(contact->distance, 2, 1e-14);
+  EXPECT_LT((contact->point - Vec3(0.75, 0.75, 0)).norm(), 1e-14);
+  EXPECT_LT((contact->normal - Vec3(0, 0, 1)).norm(), 1e-14);
+}
+
+TEST_P(EveryFcl, AnswersAtInfiniteReach) {
+  const auto contact = build(square()).nearest({{0.75, 0.75, -200}, 0}, infinity, session);
+  ASSERT_TRUE(contact);
+  EXPECT_NEAR(contact->distance, 200, 1e-12);
+  EXPECT_LT((contact->normal - Vec3(0, 0, -1)).norm(), 1e-12);
+}
+
+TEST_P(EveryFcl, FindsNothingBeyondTheReach) {
+  const FclDetector detector = build(square());
+  EXPECT_TRUE(detector.nearest({{0.25, 0.25, 0.5}, 0}, 0.5, session));
+  EXPECT_FALSE(detector.nearest({{0.25, 0.25, 0.5}, 0}, 0.499, session));
+  EXPECT_FALSE(detector.nearest({{0.25, 0.25, 0.5}, 0}, -1, session));
+}
+
+TEST_P(EveryFcl, TouchesUpToTheRadius) {
+  const FclDetector detector = build(square());
+  EXPECT_TRUE(detector.touches({{0.25, 0.25, 0.5}, 0.5}, session));
+  EXPECT_FALSE(detector.touches({{0.25, 0.25, 0.5}, 0.499}, session));
+  EXPECT_TRUE(detector.touches({{0.25, 0.25, 0.5}, infinity}, session));
+}
+
+TEST_P(EveryFcl, ABarePointOnTheMeshTouchesIt) {
+  const FclDetector detector = build(square());
+  EXPECT_TRUE(detector.touches({{0.75, 0.75, 0}, 0}, session));
+  const auto contact = detector.nearest({{0.75, 0.75, 0}, 0}, 0.1, session);
+  ASSERT_TRUE(contact);
+  EXPECT_EQ(contact->triangle, 1u);
+  EXPECT_EQ(contact->distance, 0);
+  EXPECT_NEAR(std::abs(contact->normal.z()), 1, 1e-14);
+}
+
+TEST_P(EveryFcl, AProbeThatIsNotANumberTouchesNothing) {
+  const FclDetector detector = build(square());
+  const Vec3 nan = Vec3::Constant(std::nan(""));
+  EXPECT_FALSE(detector.nearest({nan, 1}, infinity, session));
+  EXPECT_FALSE(detector.touches({nan, 1}, session));
+  EXPECT_FALSE(detector.touches({Vec3::Constant(infinity), 1}, session));
+}
+
+TEST_P(EveryFcl, GivesTheIdsOfTheFile) {
+  const TriangleMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 9}, {1, 0, 9}, {0, 1, 9}},
+                          {{0, 1, 2}, {1, 3, 2}, {4, 5, 6}}, {7, 7, 9});
+  const FclDetector detector = build(mesh);
+  EXPECT_EQ(detector.nearest({{0.75, 0.75, 2}, 0}, 3, session)->triangle, 7u);
+  EXPECT_EQ(detector.nearest({{0.25, 0.25, 8}, 0}, 3, session)->triangle, 9u);
+}
+
+TEST_P(EveryFcl, AMeshOfOneTriangleIsEnough) {
+  const FclDetector detector =
+      build(TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {TriangleMesh::Corners{0, 1, 2}}));
+  EXPECT_NEAR(detector.nearest({{0.25, 0.25, 0.5}, 0}, 1, session)->distance, 0.5, 1e-15);
+}
+
+TEST_P(EveryFcl, FindsExactlyTheTouchingProbesOfBruteForce) {
+  const TriangleMesh mesh = bumps(12);
+  const FclDetector detector = build(mesh);
+  const BruteForce reference = BruteForce::build(mesh);
+  BruteForce::Session reference_session;
+  Random random(3);
+  int touching = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const Probe probe{random.point(), 0.3 * random.fraction()};
+    const bool expected = reference.touches(probe, reference_session);
+    EXPECT_EQ(detector.touches(probe, session), expected) << trial;
+    EXPECT_EQ(detector.nearest(probe, probe.radius, session).has_value(), expected) << trial;
+    touching += expected;
+  }
+  EXPECT_GT(touching, 30);
+}
+
+TEST_P(EveryFcl, AUsedSessionAndAFreshOneGiveTheSameBits) {
+  const FclDetector detector = build(bumps(12));
+  Random random(4);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Vec3 center = random.point();
+    FclDetector::Session fresh;
+    const auto used = detector.nearest({center, 0}, 0.3, session);
+    const auto first = detector.nearest({center, 0}, 0.3, fresh);
+    ASSERT_EQ(used.has_value(), first.has_value()) << trial;
+    if (!used) continue;
+    EXPECT_EQ(used->distance, first->distance) << trial;
+    EXPECT_EQ(used->triangle, first->triangle) << trial;
+    EXPECT_EQ(used->point, first->point) << trial;
+    EXPECT_EQ(used->normal, first->normal) << trial;
+  }
+}
+
+TEST_P(EveryFcl, CountsItsBytes) {
+  const TriangleMesh mesh = bumps(12);
+  // At least the vertices and three corners a triangle are there, and no more than 3 kB a triangle.
+  EXPECT_GT(build(mesh).bytes(), mesh.size() * 12 + mesh.vertices().size() * sizeof(Vec3));
+  EXPECT_LT(build(mesh).bytes(), mesh.size() * 3000);
+}
+
+/// Only those with our kernel: they must equal BruteForce bit for bit, slivers and ties included.
+class ExactFcl : public EveryFcl {};
+INSTANTIATE_TEST_SUITE_P(Fcl, ExactFcl, testing::ValuesIn([] {
+                           std::vector<FclDetector::Options> exact;
+                           for (const auto& options : configurations())
+                             if (options.narrow == Narrow::exact) exact.push_back(options);
+                           return exact;
+                         }()));
+
+void expect_equal_to_brute_force(const TriangleMesh& mesh, const FclDetector& detector, double size,
+                                 const Vec3& middle) {
+  const BruteForce reference = BruteForce::build(mesh);
+  BruteForce::Session reference_session;
+  FclDetector::Session session;
+  Random random(5);
+  int found = 0;
+  for (std::size_t trial = 0; trial < 400; ++trial) {
+    const double reach = trial % 9 == 0 ? infinity : 0.3 * size * random.fraction();
+    const bool on_corner = trial % 11 == 0;
+    const Vec3 center =
+        on_corner ? mesh.corner(trial % mesh.size(), 1) : Vec3(size * random.point() + middle);
+    const auto expected = reference.nearest({center, 0}, reach, reference_session);
+    const auto actual = detector.nearest({center, 0}, reach, session);
+    ASSERT_EQ(actual.has_value(), expected.has_value()) << trial;
+    EXPECT_EQ(detector.touches({center, reach}, session), expected.has_value()) << trial;
+    if (!expected) continue;
+    ++found;
+    EXPECT_EQ(actual->distance, expected->distance) << trial;
+    EXPECT_EQ(actual->triangle, expected->triangle) << trial;
+    EXPECT_EQ(actual->point, expected->point) << trial;
+    EXPECT_EQ(actual->normal, expected->normal) << trial;
+  }
+  EXPECT_GT(found, 100);
+}
+
+TEST_P(ExactFcl, EqualsBruteForceOnASurface) {
+  const TriangleMesh mesh = bumps(12);
+  expect_equal_to_brute_force(mesh, build(mesh), 1, Vec3::Zero());
+}
+
+TEST_P(ExactFcl, EqualsBruteForceOnSlivers) {
+  const TriangleMesh mesh = soup(300, 6);
+  expect_equal_to_brute_force(mesh, build(mesh), 1, Vec3::Zero());
+}
+
+TEST_P(ExactFcl, EqualsBruteForceFarFromTheOrigin) {
+  const Vec3 far(1e6, -1e6, 1e6);
+  const TriangleMesh mesh = soup(300, 7).transformed(1, far);
+  expect_equal_to_brute_force(mesh, build(mesh), 1, far);
+}
+
+TEST_P(ExactFcl, EqualsBruteForceOnAMeshOfMicrons) {
+  const TriangleMesh mesh = bumps(12).transformed(1e-6, Vec3::Zero());
+  expect_equal_to_brute_force(mesh, build(mesh), 1e-6, Vec3::Zero());
+}
+
+TEST_P(ExactFcl, EqualsBruteForceOnTrianglesWithoutArea) {
+  Random random(8);
+  std::vector<Vec3> vertices;
+  std::vector<TriangleMesh::Corners> corners;
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    const Vec3 place = random.point(), along = 0.3 * random.point();
+    for (const double t : {0.0, i % 3 == 0 ? 0.0 : 0.5, i % 2 == 0 ? 0.0 : 1.0})
+      vertices.push_back(place + t * along);
+    corners.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  const TriangleMesh mesh(vertices, corners);
+  expect_equal_to_brute_force(mesh, build(mesh), 1, Vec3::Zero());
+}
+
+TEST(Fcl, DistanceMethodIsAsAccurateAsDoublesOnAWellShapedMesh) {
+  const TriangleMesh mesh = bumps(12);
+  const FclDetector detector = FclDetector::build(mesh, {Volume::rss, Method::distance, Narrow::fcl});
+  const BruteForce reference = BruteForce::build(mesh);
+  FclDetector::Session session;
+  BruteForce::Session reference_session;
+  Random random(9);
+  for (int trial = 0; trial < 300; ++trial) {
+    const Vec3 center = random.point();
+    const auto contact = detector.nearest({center, 0}, infinity, session);
+    ASSERT_TRUE(contact);
+    EXPECT_NEAR(contact->distance, reference.nearest({center, 0}, infinity, reference_session)->distance,
+                2 * detector.accuracy().relative);
+  }
+}
+
+TEST(Fcl, OnlyTheExactFormOverBoxesIsProvablyExact) {
+  EXPECT_EQ(FclDetector::build(square()).accuracy().guarantee, Guarantee::approximate);
+  EXPECT_EQ(
+      FclDetector::build(square(), {Volume::kios, Method::distance, Narrow::exact}).accuracy().guarantee,
+      Guarantee::approximate);
+  EXPECT_EQ(
+      FclDetector::build(square(), {Volume::aabb, Method::distance, Narrow::exact}).accuracy().guarantee,
+      Guarantee::exact);
+}
+
+TEST(Fcl, RefusesWhatItCannotDo) {
+  EXPECT_THROW(FclDetector::build(square(), {Volume::obb, Method::distance, Narrow::fcl}),
+               std::invalid_argument);
+  EXPECT_THROW(FclDetector::build(square(), {Volume::kios, Method::collide, Narrow::exact}),
+               std::invalid_argument);
+}
+
+TEST(Fcl, CountsTheVolumesItLooksAt) {
+  const FclDetector detector = FclDetector::build(bumps(12), {Volume::kios, Method::distance, Narrow::fcl});
+  FclDetector::Session session;
+  detector.nearest({{0, 0, 0.2}, 0}, 0.3, session);
+  EXPECT_GT(session.work.boxes, 0u);
+  EXPECT_GT(session.work.triangles, 0u);
+}
+
+TEST(Fcl, ThreadsWithASessionEachGiveTheSameBits) {
+  const FclDetector detector = FclDetector::build(bumps(12));
+  const auto distances = [&] {
+    FclDetector::Session session;
+    Random random(10);
+    std::vector<double> all;
+    for (int trial = 0; trial < 200; ++trial) {
+      const auto contact = detector.nearest({random.point(), 0}, 0.3, session);
+      all.push_back(contact ? contact->distance : -1);
+    }
+    return all;
+  };
+  const std::vector<double> expected = distances();
+  std::vector<std::vector<double>> got(4);
+  std::vector<std::thread> threads;
+  for (auto& mine : got) threads.emplace_back([&mine, &distances] { mine = distances(); });
+  for (std::thread& thread : threads) thread.join();
+  for (const auto& mine : got) EXPECT_EQ(mine, expected);
+}
+
+}  // namespace
+}  // namespace touchmark::baselines
