@@ -1,5 +1,6 @@
 #include "core/geometry/point_triangle.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -34,7 +35,8 @@ Offset from_segment(const Vec3& p, const Vec3& q, const Vec3& to_p, const Vec3& 
   const Vec3 edge = p_first ? Vec3(q - p) : Vec3(p - q);
   const double along = near.dot(edge);
   if (!(along > 0)) return {near, near_squared};
-  const Vec3 across = near - (along / edge.squaredNorm()) * edge;
+  // At most half way but for rounding; the ends of an edge that is short for its distance are equally near.
+  const Vec3 across = near - std::min(along / edge.squaredNorm(), 1.0) * edge;
   const double squared = across.squaredNorm();
   if (squared < near_squared) return {across, squared};
   return {near, near_squared};

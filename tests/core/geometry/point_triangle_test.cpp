@@ -51,6 +51,14 @@ TEST(PointTriangle, TheOrderOfTheCornersDoesNotChangeTheEdgesDistance) {
   EXPECT_EQ(forward, squared_distance(prepare(q, p, Vec3(2, 6, -1), 1), point));
 }
 
+TEST(PointTriangle, AnEdgeTooShortForItsDistanceIsNotContinuedTowardsThePoint) {
+  const Vec3 p(-0.25132986622926817, -0.18260183637346161, -0.95611562806773853);
+  const Vec3 q(-1.1647083184890926e-16, -3.7843667304341438e-17, -1);
+  const Vec3 r(-9.9076007261709184e-17, -7.1982932780599651e-17, -1);
+  const Vec3 point(30, -80, 50);
+  EXPECT_NEAR(distance(p, q, r, point), (point - p).norm(), 1e-13);
+}
+
 TEST(PointTriangle, TheNormalOfAContactOnTheFaceIsTheFaces) {
   const Contact contact = contact_on(prepare(a, b, c, 0), {1, 1, 0}, 0);
   EXPECT_EQ(contact.distance, 0);
