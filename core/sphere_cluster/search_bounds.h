@@ -1,0 +1,39 @@
+/// The roundings that culling by spheres must leave room for, so that no triangle is lost by an ulp.
+#pragma once
+
+#include <limits>
+
+#include "core/geometry/point_triangle.h"
+#include "core/probe.h"
+#include "core/sphere_cluster/sphere_radius.h"
+
+namespace touchmark {
+
+/// Below this, squares of lengths underflow and the kernel's distances stop being relative.
+inline constexpr double smallest_length = 1e-150;
+
+/// A sphere can hold a triangle whose computed distance is at most `reach` only if the square of the distance
+/// to its centre is at most the square of this. The kernel may fall short of the true distance by
+/// culling_slack(|p - c| + R), with room for the few roundings of the test itself: 4 times that, relatively.
+inline double grown_radius(double radius, double reach) noexcept {
+  constexpr double roundings = 1 + 256 * (std::numeric_limits<double>::epsilon() / 2);
+  return (radius + reach) * roundings + smallest_length;
+}
+
+/// What a touch found by sweep_hit may be farther away than the probe's radius: the rounding of a position on
+/// the way, which is relative to the coordinates themselves.
+inline double sweep_slack(const Sweep& sweep) noexcept {
+  return 32 * std::numeric_limits<double>::epsilon() *
+         (sweep.from.lpNorm<Eigen::Infinity>() + sweep.to.lpNorm<Eigen::Infinity>());
+}
+
+/// The square of the distance from a point to the part [0, limit] of the way.
+inline double squared_distance_to_way(const Sweep& sweep, double limit, const Vec3& point) noexcept {
+  const Vec3 way = limit * (sweep.to - sweep.from);
+  const Vec3 to = point - sweep.from;
+  const double along = to.dot(way), squared = way.squaredNorm();
+  if (!(along > 0)) return to.squaredNorm();
+  return (to - (along < squared ? along / squared : 1.0) * way).squaredNorm();
+}
+
+}  // namespace touchmark

@@ -1,0 +1,58 @@
+#include "core/sphere_cluster/sphere_cluster.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace touchmark {
+
+SphereCluster SphereCluster::build(const TriangleMesh& mesh, const Options& options) {
+  if (!(options.clustering >= 0) || std::isinf(options.clustering)) {
+    throw std::invalid_argument("sphere-cluster: clustering is " + std::to_string(options.clustering) +
+                                ", not a finite distance of at least 0");
+  }
+  SphereCluster detector;
+  detector.options_ = options;
+  detector.clusters_ = cluster_spheres(mesh, options.clustering, options.order);
+  detector.tightness_ = average_tightness(mesh, detector.clusters_);
+  if (!options.precise) {
+    detector.fast_ = FastLevel(mesh, detector.clusters_);
+  } else if (options.lookup == Lookup::scan) {
+    detector.scan_ = SphereScan(mesh, detector.clusters_);
+  } else {
+    detector.tree_ = SphereTree(mesh, detector.clusters_);
+  }
+  return detector;
+}
+
+bool SphereCluster::touches(const Probe& probe, Session& session) const noexcept {
+  if (!options_.precise) return fast_.touches(probe, session.work);
+  if (options_.lookup == Lookup::scan) return scan_.touches(probe, session.work);
+  return tree_.touches(probe, session.memory, session.work);
+}
+
+std::optional<Contact> SphereCluster::nearest(const Probe& probe, double reach,
+                                              Session& session) const noexcept {
+  if (!options_.precise) return fast_.nearest(probe.center, reach, session.work);
+  if (options_.lookup == Lookup::scan) return scan_.nearest(probe.center, reach, session.work);
+  return tree_.nearest(probe.center, reach, session.memory, session.work);
+}
+
+std::optional<Impact> SphereCluster::first_hit(const Sweep& sweep, Session& session) const noexcept {
+  if (!options_.precise) return fast_.first_hit(sweep, session.work);
+  if (options_.lookup == Lookup::scan) return scan_.first_hit(sweep, session.work);
+  return tree_.first_hit(sweep, session.memory, session.work);
+}
+
+Accuracy SphereCluster::accuracy() const noexcept {
+  if (options_.precise) return {Guarantee::exact, kernel_relative_error, 0};
+  return {Guarantee::conservative, kernel_relative_error, fast_.error_bound()};
+}
+
+std::size_t SphereCluster::bytes() const noexcept {
+  return clusters_.spheres.capacity() * sizeof(Sphere) +
+         (clusters_.first.capacity() + clusters_.members.capacity()) * sizeof(std::uint32_t) + scan_.bytes() +
+         tree_.bytes() + fast_.bytes();
+}
+
+}  // namespace touchmark

@@ -1,0 +1,61 @@
+/// The sphere-cluster detector, after A. R. Choi and M. Y. Sung, "Performance improvement of haptic collision
+/// detection using subdivision surface and sphere clustering", PLoS ONE 12(9), 2017: bounding spheres of
+/// triangles, clustered by distance, tested before the triangles are.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "core/detector.h"
+#include "core/sphere_cluster/clustering.h"
+#include "core/sphere_cluster/fast_level.h"
+#include "core/sphere_cluster/sphere_scan.h"
+#include "core/sphere_cluster/sphere_tree.h"
+
+namespace touchmark {
+
+class SphereCluster {
+ public:
+  enum class Lookup {
+    scan,  ///< as published: every sphere, then the triangles of those that the probe meets
+    tree   ///< a hierarchy over them, nearest first
+  };
+  struct Options {
+    double clustering = 0;  ///< distance between centroids that share a sphere, mesh units; 0: a sphere each
+    Lookup lookup = Lookup::tree;
+    bool precise = true;  ///< false: the fast level alone; spheres answer in place of their triangles
+    VisitOrder order = VisitOrder::breadth_first;  ///< in which triangles are clustered
+  };
+  struct Session {
+    Work work;
+    SphereTree::Memory memory;
+  };
+
+  /// Throws std::invalid_argument for a clustering distance that is negative, infinite or not a number.
+  static SphereCluster build(const TriangleMesh& mesh, const Options& options);
+  static SphereCluster build(const TriangleMesh& mesh) { return build(mesh, Options()); }
+
+  bool touches(const Probe& probe, Session& session) const noexcept;
+  std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept;
+  std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept;
+
+  std::size_t bytes() const noexcept;
+  /// precise: exact. Else conservative: contacts come early, by at most `absolute`.
+  Accuracy accuracy() const noexcept;
+
+  /// The clustered spheres, for drawing and for the paper's tables.
+  const SphereClusters& clusters() const noexcept { return clusters_; }
+  /// The paper's measure of how closely they fit; see average_tightness.
+  double tightness() const noexcept { return tightness_; }
+
+ private:
+  Options options_;
+  SphereClusters clusters_;
+  double tightness_ = 0;
+  // Only the one that the options ask for is filled.
+  SphereScan scan_;
+  SphereTree tree_;
+  FastLevel fast_;
+};
+
+}  // namespace touchmark

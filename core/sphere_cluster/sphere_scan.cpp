@@ -1,0 +1,126 @@
+#include "core/sphere_cluster/sphere_scan.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include "core/geometry/sphere_triangle_sweep.h"
+#include "core/sphere_cluster/search_bounds.h"
+
+namespace touchmark {
+namespace {
+
+/// Calls `found(i)` for every i < count with outside(i) false, in order, until it returns true. `outside` is
+/// evaluated in blocks without a branch, so that it vectorises.
+template <class Outside, class Found>
+bool for_each_held(std::size_t count, const Outside& outside, const Found& found) noexcept {
+  constexpr std::size_t block = 32;
+  std::array<std::uint8_t, block> out;
+  for (std::size_t begin = 0; begin < count; begin += block) {
+    const std::size_t size = std::min(block, count - begin);
+    std::uint8_t all_out = 1;
+    for (std::size_t i = 0; i < size; ++i) {
+      out[i] = outside(begin + i);
+      all_out &= out[i];
+    }
+    if (all_out != 0) continue;
+    for (std::size_t i = 0; i < size; ++i)
+      if (out[i] == 0 && found(begin + i)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+SphereScan::SphereScan(const TriangleMesh& mesh, const SphereClusters& clusters)
+    : first_(clusters.first), ids_(mesh.ids().begin(), mesh.ids().end()) {
+  for (const Sphere& sphere : clusters.spheres) {
+    x_.push_back(sphere.center.x());
+    y_.push_back(sphere.center.y());
+    z_.push_back(sphere.center.z());
+    radius_.push_back(sphere.radius);
+  }
+  triangles_.reserve(mesh.size());
+  for (const std::uint32_t triangle : clusters.members) triangles_.push_back(prepare(mesh, triangle));
+}
+
+void SphereScan::search(std::size_t sphere, const Vec3& center, Best& best, Work& work) const noexcept {
+  for (std::size_t i = first_[sphere]; i < first_[sphere + 1]; ++i) {
+    const Candidate candidate{squared_distance(triangles_[i], center), triangles_[i].index};
+    if (candidate < best.candidate) best = {candidate, i};
+  }
+  work.triangles += first_[sphere + 1] - first_[sphere];
+}
+
+bool SphereScan::touches(const Probe& probe, Work& work) const noexcept {
+  if (!(probe.radius >= 0)) return false;
+  const double px = probe.center.x(), py = probe.center.y(), pz = probe.center.z();
+  const auto outside = [&](std::size_t i) noexcept {
+    const double dx = x_[i] - px, dy = y_[i] - py, dz = z_[i] - pz;
+    const double grown = grown_radius(radius_[i], probe.radius);
+    return static_cast<std::uint8_t>(dx * dx + dy * dy + dz * dz > grown * grown);
+  };
+  std::size_t tested = 0;
+  const bool touching = for_each_held(x_.size(), outside, [&](std::size_t sphere) noexcept {
+    tested = sphere;
+    Best best;
+    search(sphere, probe.center, best, work);
+    return std::sqrt(best.candidate.squared_distance) <= probe.radius &&
+           best.candidate.index < triangles_.size();
+  });
+  work.spheres += touching ? tested + 1 : x_.size();
+  return touching;
+}
+
+std::optional<Contact> SphereScan::nearest(const Vec3& center, double reach, Work& work) const noexcept {
+  if (!(reach >= 0)) return std::nullopt;
+  const double px = center.x(), py = center.y(), pz = center.z();
+  const auto outside = [&](std::size_t i) noexcept {
+    const double dx = x_[i] - px, dy = y_[i] - py, dz = z_[i] - pz;
+    const double grown = grown_radius(radius_[i], reach);
+    return static_cast<std::uint8_t>(dx * dx + dy * dy + dz * dz > grown * grown);
+  };
+  Best best;
+  for_each_held(x_.size(), outside, [&](std::size_t sphere) noexcept {
+    search(sphere, center, best, work);
+    return false;
+  });
+  work.spheres += x_.size();
+  const bool found = best.candidate.index < triangles_.size();  // not so for a probe that is not a number
+  if (!found || !(std::sqrt(best.candidate.squared_distance) <= reach)) return std::nullopt;
+  return contact_on(triangles_[best.kept_at], center, id(best.candidate.index));
+}
+
+std::optional<Impact> SphereScan::first_hit(const Sweep& sweep, Work& work) const noexcept {
+  if (const std::optional<Contact> start = nearest(sweep.from, sweep.radius, work)) return Impact{0, *start};
+  const double reach = sweep.radius + sweep_slack(sweep);
+  const auto outside = [&](std::size_t i) noexcept {
+    const double grown = grown_radius(radius_[i], reach);
+    const double squared = squared_distance_to_way(sweep, 1, {x_[i], y_[i], z_[i]});
+    return static_cast<std::uint8_t>(squared > grown * grown);
+  };
+  HitCandidate first;
+  std::size_t kept_at = 0;
+  for_each_held(x_.size(), outside, [&](std::size_t sphere) noexcept {
+    for (std::size_t i = first_[sphere]; i < first_[sphere + 1]; ++i) {
+      const auto fraction = sweep_hit(triangles_[i], sweep, std::min(first.fraction, 1.0));
+      if (!fraction || !(HitCandidate{*fraction, triangles_[i].index} < first)) continue;
+      first = {*fraction, triangles_[i].index};
+      kept_at = i;
+    }
+    work.triangles += first_[sphere + 1] - first_[sphere];
+    return false;
+  });
+  work.spheres += x_.size();
+  if (first.index >= triangles_.size()) return std::nullopt;
+  return Impact{first.fraction,
+                contact_on(triangles_[kept_at], position_at(sweep, first.fraction), id(first.index))};
+}
+
+std::size_t SphereScan::bytes() const noexcept {
+  return 4 * x_.capacity() * sizeof(double) + first_.capacity() * sizeof(std::uint32_t) +
+         triangles_.capacity() * sizeof(PreparedTriangle) + ids_.capacity() * sizeof(TriangleId);
+}
+
+}  // namespace touchmark

@@ -1,0 +1,274 @@
+#include "core/sphere_cluster/sphere_cluster.h"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/brute_force/brute_force.h"
+#include "tests/core/sphere_cluster/test_meshes.h"
+
+namespace touchmark {
+namespace {
+
+using Lookup = SphereCluster::Lookup;
+
+static_assert(AnswersTouches<SphereCluster> && AnswersNearest<SphereCluster> && AnswersSweep<SphereCluster>);
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<SphereCluster::Options> exact_forms(double size) {
+  return {{0, Lookup::scan, true},
+          {0.1 * size, Lookup::scan, true},
+          {0, Lookup::tree, true},
+          {0.1 * size, Lookup::tree, true}};
+}
+
+/// Bit for bit; NaN equals NaN (a contact at infinite distance has no point).
+bool same_bits(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
+void expect_same(const Contact& a, const Contact& b) {
+  EXPECT_EQ(a.triangle, b.triangle);
+  EXPECT_TRUE(same_bits(a.distance, b.distance)) << a.distance << " against " << b.distance;
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_TRUE(same_bits(a.point[k], b.point[k]));
+    EXPECT_TRUE(same_bits(a.normal[k], b.normal[k]));
+  }
+}
+
+void expect_same(const std::optional<Contact>& a, const std::optional<Contact>& b) {
+  ASSERT_EQ(a.has_value(), b.has_value());
+  if (a) expect_same(*a, *b);
+}
+
+void expect_same(const std::optional<Impact>& a, const std::optional<Impact>& b) {
+  ASSERT_EQ(a.has_value(), b.has_value());
+  if (!a) return;
+  EXPECT_EQ(a->fraction, b->fraction);
+  expect_same(a->contact, b->contact);
+}
+
+std::string label(const test::NamedMesh& scene, const SphereCluster::Options& options) {
+  return scene.name + (options.lookup == Lookup::scan ? ", scan" : ", tree") + ", clustering " +
+         std::to_string(options.clustering);
+}
+
+TEST(SphereCluster, FindsTheNearestOfTwoTriangles) {
+  const TriangleMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}}, {3, 9});
+  for (const auto& options : exact_forms(1)) {
+    const SphereCluster detector = SphereCluster::build(mesh, options);
+    SphereCluster::Session session;
+    const auto contact = detector.nearest({{0.75, 0.75, 2}, 0}, infinity, session);
+    ASSERT_TRUE(contact);
+    EXPECT_EQ(contact->triangle, 9u);
+    EXPECT_EQ(contact->distance, 2);
+    EXPECT_EQ(contact->normal, Vec3(0, 0, 1));
+    EXPECT_EQ(contact->point, Vec3(0.75, 0.75, 0));
+    EXPECT_FALSE(detector.nearest({{0.75, 0.75, 2}, 0}, std::nextafter(2.0, 0.0), session));
+  }
+}
+
+TEST(SphereCluster, ContactIsClosed) {
+  const TriangleMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  for (const auto& options : exact_forms(1)) {
+    const SphereCluster detector = SphereCluster::build(mesh, options);
+    SphereCluster::Session session;
+    EXPECT_TRUE(detector.touches({{0.25, 0.25, 0.5}, 0.5}, session));
+    EXPECT_FALSE(detector.touches({{0.25, 0.25, 0.5}, std::nextafter(0.5, 0)}, session));
+  }
+}
+
+TEST(SphereCluster, EqualsBruteForceBitForBitOnEveryMesh) {
+  for (const auto& scene : test::test_meshes()) {
+    const BruteForce oracle = BruteForce::build(scene.mesh);
+    for (const auto& options : exact_forms(scene.size)) {
+      SCOPED_TRACE(label(scene, options));
+      const SphereCluster detector = SphereCluster::build(scene.mesh, options);
+      SphereCluster::Session used;
+      BruteForce::Session oracle_session;
+      test::Random random(17);
+      for (int step = 0; step < 100; ++step) {
+        const Vec3 center = test::random_point(scene, random);
+        const double radius = scene.size * random.between(0, 0.1);
+        const double exact = oracle.nearest({center, 0}, infinity, oracle_session)->distance;
+        for (const double reach : {radius, exact, std::nextafter(exact, 0.0), 0.0, infinity}) {
+          const auto expected = oracle.nearest({center, 0}, reach, oracle_session);
+          SphereCluster::Session fresh;
+          expect_same(detector.nearest({center, 0}, reach, used), expected);
+          expect_same(detector.nearest({center, 0}, reach, fresh), expected);
+          EXPECT_EQ(detector.touches({center, reach}, used), expected.has_value());
+          EXPECT_EQ(detector.touches({center, reach}, fresh), expected.has_value());
+        }
+        if (HasFailure()) return;
+      }
+    }
+  }
+}
+
+TEST(SphereCluster, EqualsBruteForceOnACoherentWay) {
+  for (const auto& scene : test::test_meshes()) {
+    const BruteForce oracle = BruteForce::build(scene.mesh);
+    for (const auto& options : exact_forms(scene.size)) {
+      SCOPED_TRACE(label(scene, options));
+      const SphereCluster detector = SphereCluster::build(scene.mesh, options);
+      SphereCluster::Session used;
+      BruteForce::Session oracle_session;
+      test::Random random(19);
+      Vec3 center = test::random_point(scene, random);
+      for (int step = 0; step < 600; ++step) {
+        if (step % 200 == 199) center = test::random_point(scene, random);
+        center += random.vector(0.01 * scene.size);
+        const double reach = step % 3 == 0 ? infinity : 0.05 * scene.size;
+        expect_same(detector.nearest({center, 0}, reach, used),
+                    oracle.nearest({center, 0}, reach, oracle_session));
+        const Probe probe{center, 0.1 * scene.size};
+        EXPECT_EQ(detector.touches(probe, used), oracle.touches(probe, oracle_session));
+        if (HasFailure()) return;
+      }
+    }
+  }
+}
+
+TEST(SphereCluster, SweepsAsBruteForceDoes) {
+  for (const auto& scene : test::test_meshes()) {
+    if (scene.name == "vanishing" || scene.name == "overflowing") continue;  // sweeps need squares
+    const BruteForce oracle = BruteForce::build(scene.mesh);
+    for (const auto& options : exact_forms(scene.size)) {
+      SCOPED_TRACE(label(scene, options));
+      const SphereCluster detector = SphereCluster::build(scene.mesh, options);
+      SphereCluster::Session session;
+      BruteForce::Session oracle_session;
+      test::Random random(23);
+      for (int step = 0; step < 150; ++step) {
+        const Vec3 from = test::random_point(scene, random);
+        const Vec3 to =
+            step % 2 == 0 ? test::random_point(scene, random) : Vec3(from + random.vector(0.02 * scene.size));
+        const Sweep sweep{from, to, step % 5 == 0 ? 0 : scene.size * random.between(0, 0.05)};
+        expect_same(detector.first_hit(sweep, session), oracle.first_hit(sweep, oracle_session));
+        if (HasFailure()) return;
+      }
+    }
+  }
+}
+
+TEST(SphereCluster, ProbesThatAreNotFiniteTouchNothing) {
+  const auto scenes = test::test_meshes();
+  for (const auto& options : exact_forms(1)) {
+    const SphereCluster detector = SphereCluster::build(scenes[0].mesh, options);
+    SphereCluster::Session session;
+    for (const double bad : {nan, infinity, -infinity}) {
+      EXPECT_FALSE(detector.nearest({{0, bad, 0}, 1}, 1, session));
+      EXPECT_FALSE(detector.touches({{0, bad, 0}, 1}, session));
+      EXPECT_FALSE(detector.first_hit({{0, bad, 0}, {0, bad, 0}, 1}, session));
+    }
+    EXPECT_FALSE(detector.nearest({{nan, 0, 0}, 1}, infinity, session));
+    EXPECT_FALSE(detector.nearest({{0, 0, 0}, 1}, nan, session));
+    EXPECT_FALSE(detector.nearest({{0, 0, 1}, 1}, -1, session));
+    EXPECT_FALSE(detector.touches({{0, 0, 1}, nan}, session));
+    EXPECT_TRUE(detector.touches({{0, 0, 1}, infinity}, session));
+  }
+}
+
+TEST(SphereCluster, FarProbesGetTheAnswerOfBruteForce) {
+  const TriangleMesh mesh = test::bumpy_sphere(10, 0.05, 29);
+  const BruteForce oracle = BruteForce::build(mesh);
+  for (const auto& options : exact_forms(1)) {
+    const SphereCluster detector = SphereCluster::build(mesh, options);
+    SphereCluster::Session session;
+    BruteForce::Session oracle_session;
+    for (const double far : {1e2, 1e4, 1e7, 1e10, 1e20, 1e100, 1e160, 1e300}) {
+      const Vec3 center = far * Vec3(0.3, -0.8, 0.5);
+      expect_same(detector.nearest({center, 0}, infinity, session),
+                  oracle.nearest({center, 0}, infinity, oracle_session));
+      EXPECT_FALSE(detector.nearest({center, 0}, 1, session));
+    }
+  }
+}
+
+TEST(SphereCluster, TheFastLevelNeverMissesAndKeepsItsBound) {
+  for (const auto& scene : test::test_meshes()) {
+    if (scene.name == "vanishing" || scene.name == "overflowing") continue;
+    const BruteForce oracle = BruteForce::build(scene.mesh);
+    for (const double clustering : {0.0, 0.1 * scene.size})
+      for (const Lookup lookup : {Lookup::scan, Lookup::tree}) {
+        const SphereCluster detector = SphereCluster::build(scene.mesh, {clustering, lookup, false});
+        SCOPED_TRACE(scene.name);
+        EXPECT_EQ(detector.accuracy().guarantee, Guarantee::conservative);
+        SphereCluster::Session session;
+        BruteForce::Session oracle_session;
+        test::Random random(31);
+        for (int step = 0; step < 300; ++step) {
+          const Vec3 center = test::random_point(scene, random);
+          const double radius = scene.size * random.between(0, 0.1);
+          const double exact = oracle.nearest({center, 0}, infinity, oracle_session)->distance;
+          const auto fast = detector.nearest({center, 0}, infinity, session);
+          ASSERT_TRUE(fast);
+          const double rounding = 1e-14 * (scene.size + scene.mesh.diagonal());
+          EXPECT_LE(fast->distance, exact + rounding);
+          EXPECT_GE(fast->distance, exact - detector.accuracy().absolute - rounding);
+          if (exact <= radius * (1 - 1e-14)) {
+            EXPECT_TRUE(detector.touches({center, radius}, session));
+            EXPECT_TRUE(detector.nearest({center, 0}, radius, session));
+          }
+        }
+      }
+  }
+}
+
+TEST(SphereCluster, TheFastLevelMeetsTheSphereWhereTheTriangleIsStillAway) {
+  const TriangleMesh mesh({{0, 0, 0}, {3, 0, 0}, {0, 3, 0}}, {{0, 1, 2}});  // centre (1, 1), radius sqrt 5
+  const SphereCluster detector = SphereCluster::build(mesh, {0, Lookup::scan, false});
+  SphereCluster::Session session;
+  const double radius = std::sqrt(5.0);
+  const auto contact = detector.nearest({{1, 1, 4}, 0}, 4, session);
+  ASSERT_TRUE(contact);
+  EXPECT_NEAR(contact->distance, 4 - radius, 1e-14);
+  EXPECT_NEAR((contact->point - Vec3(1, 1, radius)).norm(), 0, 1e-14);
+  EXPECT_EQ(contact->normal, Vec3(0, 0, 1));
+  EXPECT_EQ(detector.nearest({{1, 1, 1}, 0}, 0, session)->distance, 0);
+  const auto impact = detector.first_hit({{1, 1, 4}, {1, 1, -4}, 1}, session);
+  ASSERT_TRUE(impact);
+  EXPECT_NEAR(impact->fraction, (3 - radius) / 8, 1e-13);
+}
+
+TEST(SphereCluster, RefusesClusteringThatMakesNoSense) {
+  const TriangleMesh mesh = test::plate(2);
+  for (const double bad : {-1.0, nan, infinity}) {
+    try {
+      SphereCluster::build(mesh, {bad, Lookup::tree, true});
+      ADD_FAILURE() << "took a clustering distance of " << bad;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find("clustering"), std::string::npos);
+    }
+  }
+}
+
+TEST(SphereCluster, CountsWhatItLooksAt) {
+  const TriangleMesh mesh = test::plate(16);
+  SphereCluster::Session session;
+  const SphereCluster scan = SphereCluster::build(mesh, {0, Lookup::scan, true});
+  scan.nearest({{0.01, 0.02, 5}, 0}, 0.1, session);
+  EXPECT_EQ(session.work.spheres, mesh.size());  // the fast level tests them all
+  EXPECT_EQ(session.work.triangles, 0u);         // and none is met
+  const SphereCluster tree = SphereCluster::build(mesh, {0, Lookup::tree, true});
+  SphereCluster::Session tree_session;
+  tree.nearest({{0.01, 0.02, 0.01}, 0}, 0.1, tree_session);
+  EXPECT_GT(tree_session.work.triangles, 0u);
+  EXPECT_LT(tree_session.work.total(), mesh.size());
+}
+
+TEST(SphereCluster, AccountsForItsMemory) {
+  for (const auto& options : exact_forms(1)) {
+    const std::size_t small = SphereCluster::build(test::plate(8), options).bytes();
+    const std::size_t large = SphereCluster::build(test::plate(32), options).bytes();
+    // Sixteen times the triangles, each kept with its corners.
+    EXPECT_GT(small, 128 * sizeof(PreparedTriangle));
+    EXPECT_GT(large, 2048 * sizeof(PreparedTriangle));
+    EXPECT_LT(large, 2048 * 400u);
+  }
+}
+
+}  // namespace
+}  // namespace touchmark
