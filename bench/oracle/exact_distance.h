@@ -1,0 +1,36 @@
+/// Distances between the numbers as they are stored, decided in integers: every double is an integer times a
+/// power of two, and a squared distance to a triangle is a ratio of two polynomials in them. No rounding
+/// takes part in a decision; results are rounded once, at the end. Microseconds a call, no range limits:
+/// finite coordinates never overflow or underflow.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <span>
+
+#include "bench/oracle/triangle.h"
+
+namespace touchmark::bench {
+
+/// The distance to the nearest of some triangles.
+struct ExactNearest {
+  std::size_t which = 0;      ///< its place in the list; of several at exactly the same distance the first
+  double high = 0;            ///< the distance, as a sum of two doubles: high is it rounded to nearest
+  double low = 0;             ///< and high + low is off by less than 2^-100 of it
+  Vec3 point = Vec3::Zero();  ///< the nearest point of that triangle, each coordinate within one ulp
+  Vec3 direction = Vec3::Zero();  ///< unit, from the nearest point to the query point, to a few ulp; zero
+                                  ///< where the distance is exactly zero
+};
+
+/// `point` and all corners finite, at least one triangle.
+ExactNearest nearest_exactly(const Vec3& point, std::span<const Triangle> triangles);
+
+/// How the distance from a point to a triangle compares with `radius` >= 0, which may be infinite.
+std::strong_ordering compare_distance(const Vec3& point, const Triangle& triangle, double radius);
+
+/// How the distance from the segment `from`-`to` to a triangle compares with `radius` >= 0, which may be
+/// infinite. Zero where they cross.
+std::strong_ordering compare_segment_distance(const Vec3& from, const Vec3& to, const Triangle& triangle,
+                                              double radius);
+
+}  // namespace touchmark::bench

@@ -1,0 +1,212 @@
+#include "bench/oracle/oracle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include "bench/oracle/exact_distance.h"
+#include "bench/oracle/interval_distance.h"
+#include "bench/oracle/parallel.h"
+#include "bench/oracle/triangle_tree.h"
+
+namespace touchmark::bench {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
+
+struct Candidate {
+  std::uint32_t triangle;
+  double lo;
+};
+
+double largest_difference(const Vec3& point, const Triangle& triangle) noexcept {
+  double largest = 0;
+  for (const Vec3& v : triangle) largest = std::max(largest, (v - point).cwiseAbs().maxCoeff());
+  return largest;
+}
+
+/// Is every point x of the triangle surely farther from `point` than `witness` q is? So it is when
+/// (p - q).(x - q) < 0, as |p - x|^2 = |p - q|^2 - 2 (p - q).(x - q) + |x - q|^2. From far away this tells
+/// triangles apart by their own size's rounding, where the distances themselves drown in theirs.
+bool surely_farther(const Triangle& triangle, const Vec3& witness, const Vec3& point) noexcept {
+  constexpr double roundings = 8 * unit_roundoff;  // two differences, three products and sums, two lengths
+  const Vec3 to_point = point - witness;
+  return std::all_of(triangle.begin(), triangle.end(), [&](const Vec3& v) {
+    const Vec3 to_corner = v - witness;
+    return to_point.dot(to_corner) < -roundings * to_point.norm() * to_corner.norm();
+  });
+}
+
+/// The corner nearest to the point, as far as double can tell.
+Vec3 nearest_corner(std::span<const Triangle> triangles, const Vec3& point) noexcept {
+  Vec3 nearest = triangles.front().front();
+  for (const Triangle& triangle : triangles)
+    for (const Vec3& v : triangle)
+      if ((v - point).squaredNorm() < (nearest - point).squaredNorm()) nearest = v;
+  return nearest;
+}
+
+Truth truth_of(const Vec3& center, std::uint32_t index, const Triangle& triangle,
+               const ExactNearest& nearest) {
+  return {true,
+          index,
+          nearest.high,
+          nearest.low,
+          nearest.point,
+          nearest.direction,
+          largest_difference(center, triangle)};
+}
+
+}  // namespace
+
+struct Oracle::Structure {
+  const TriangleMesh* mesh;
+  unsigned threads;
+  TriangleTree tree;
+
+  Truth nearest(const Vec3& center, std::optional<std::uint32_t> hint) const;
+  std::vector<Candidate> candidates(const Vec3& center, std::optional<std::uint32_t> hint) const;
+};
+
+/// Every triangle that the intervals leave in doubt, ascending; a nearest one is surely among them. `hint` is
+/// a triangle that may be near.
+std::vector<Candidate> Oracle::Structure::candidates(const Vec3& center,
+                                                     std::optional<std::uint32_t> hint) const {
+  double limit = infinity;
+  if (hint) limit = distance_interval(center, triangle_of(*mesh, *hint)).hi;
+  std::vector<Candidate> found;
+  tree.visit([&](const Box& box) { return distance_below(box, center); }, limit,
+             [&](std::uint32_t triangle) {
+               const Interval distance = distance_interval(center, triangle_of(*mesh, triangle));
+               if (distance.lo > limit) return;
+               limit = std::min(limit, distance.hi);
+               found.push_back({triangle, distance.lo});
+             });
+  std::erase_if(found, [&](const Candidate& candidate) { return candidate.lo > limit; });
+  std::sort(found.begin(), found.end(),
+            [](const Candidate& a, const Candidate& b) { return a.triangle < b.triangle; });
+  return found;
+}
+
+Truth Oracle::Structure::nearest(const Vec3& center, std::optional<std::uint32_t> hint) const {
+  if (!center.allFinite()) return {};
+  std::vector<std::uint32_t> indices;
+  std::vector<Triangle> triangles;
+  for (const Candidate& candidate : candidates(center, hint)) {
+    indices.push_back(candidate.triangle);
+    triangles.push_back(triangle_of(*mesh, candidate.triangle));
+  }
+  if (triangles.size() > 2) {
+    const Vec3 witness = nearest_corner(triangles, center);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      if (surely_farther(triangles[i], witness, center)) continue;
+      indices[kept] = indices[i];
+      triangles[kept++] = triangles[i];
+    }
+    triangles.resize(kept);
+  }
+  const ExactNearest exact = nearest_exactly(center, triangles);
+  return truth_of(center, indices[exact.which], triangles[exact.which], exact);
+}
+
+Oracle::Oracle(const TriangleMesh& mesh, unsigned threads)
+    : structure_(new Structure{&mesh,
+                               threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency()),
+                               TriangleTree(mesh)}) {}
+Oracle::~Oracle() = default;
+Oracle::Oracle(Oracle&&) noexcept = default;
+Oracle& Oracle::operator=(Oracle&&) noexcept = default;
+
+const TriangleMesh& Oracle::mesh() const noexcept { return *structure_->mesh; }
+unsigned Oracle::threads() const noexcept { return structure_->threads; }
+
+std::vector<Truth> Oracle::solve(std::span<const Probe> probes) const {
+  std::vector<Truth> truths(probes.size());
+  in_parallel(probes.size(), threads(), [&](std::size_t begin, std::size_t end) {
+    std::optional<std::uint32_t> hint;
+    for (std::size_t i = begin; i < end; ++i) {
+      truths[i] = structure_->nearest(probes[i].center, hint);
+      if (truths[i].defined) hint = truths[i].triangle;
+    }
+  });
+  return truths;
+}
+
+std::vector<SweepTruth> Oracle::solve(std::span<const Sweep> sweeps) const {
+  std::vector<SweepTruth> truths(sweeps.size());
+  in_parallel(sweeps.size(), threads(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) truths[i] = solve(sweeps[i]);
+  });
+  return truths;
+}
+
+Truth Oracle::solve(const Vec3& center) const { return structure_->nearest(center, std::nullopt); }
+
+Truth Oracle::solve(const Vec3& center, std::uint32_t triangle) const {
+  if (!center.allFinite()) return {};
+  const Triangle corners = triangle_of(mesh(), triangle);
+  return truth_of(center, triangle, corners, nearest_exactly(center, {&corners, 1}));
+}
+
+SweepTruth Oracle::solve(const Sweep& sweep) const {
+  if (!sweep.from.allFinite() || !sweep.to.allFinite()) return {};
+  const bool touching = segment_within(sweep.from, sweep.from, sweep.radius);
+  return {true, touching || segment_within(sweep.from, sweep.to, sweep.radius), touching};
+}
+
+bool Oracle::within(const Truth& truth, const Vec3& center, double radius) const {
+  if (!truth.defined || !(radius >= 0)) return false;
+  // Rounding to nearest is monotone, so only equality leaves a doubt, and then `low` tells; unless it is
+  // itself below what it is accurate to, or the result too small for either to be.
+  const bool normal = truth.high > 0x1p-900;
+  if (normal && truth.high != radius) return truth.high < radius;
+  if (normal && std::abs(truth.low) > 0x1p-90 * truth.high) return truth.low < 0;
+  return compare_distance(center, triangle_of(mesh(), truth.triangle), radius) <= 0;
+}
+
+bool Oracle::within(std::uint32_t triangle, const Vec3& center, double radius) const {
+  if (!center.allFinite() || !(radius >= 0)) return false;
+  const Triangle corners = triangle_of(mesh(), triangle);
+  const Interval distance = distance_interval(center, corners);
+  if (distance.hi <= radius) return true;
+  if (distance.lo > radius) return false;
+  return compare_distance(center, corners, radius) <= 0;
+}
+
+bool Oracle::segment_within(const Vec3& from, const Vec3& to, double radius) const {
+  if (!from.allFinite() || !to.allFinite() || !(radius >= 0)) return false;
+  bool surely = false;
+  double limit = radius;
+  std::vector<std::uint32_t> doubtful;
+  structure_->tree.visit([&](const Box& box) { return distance_below(box, from, to); }, limit,
+                         [&](std::uint32_t triangle) {
+                           if (surely) return;
+                           const Interval distance =
+                               segment_distance_interval(from, to, triangle_of(mesh(), triangle));
+                           if (distance.hi <= radius) {
+                             surely = true;
+                             limit = -1;  // nothing more to visit
+                           } else if (distance.lo <= radius) {
+                             doubtful.push_back(triangle);
+                           }
+                         });
+  return surely || std::any_of(doubtful.begin(), doubtful.end(), [&](std::uint32_t triangle) {
+           return compare_segment_distance(from, to, triangle_of(mesh(), triangle), radius) <= 0;
+         });
+}
+
+std::vector<std::uint32_t> Oracle::all_within(const Vec3& center, double radius) const {
+  std::vector<std::uint32_t> found;
+  if (!center.allFinite() || !(radius >= 0)) return found;
+  structure_->tree.visit([&](const Box& box) { return distance_below(box, center); }, radius,
+                         [&](std::uint32_t triangle) {
+                           if (within(triangle, center, radius)) found.push_back(triangle);
+                         });
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+}  // namespace touchmark::bench

@@ -1,0 +1,73 @@
+/// What the right answers are: brute force in spirit, exact in every decision, and independent of
+/// core/geometry. Intervals in double settle most of it, integers the rest, and a box tree keeps triangles
+/// away that cannot matter.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "bench/oracle/triangle.h"
+#include "core/probe.h"
+#include "core/triangle_mesh.h"
+
+namespace touchmark::bench {
+
+/// The truth about one position. It does not depend on radius or reach, so one serves every query there.
+struct Truth {
+  bool defined = false;           ///< false when a coordinate of the centre is not finite: it touches nothing
+  std::uint32_t triangle = 0;     ///< position in the mesh of a nearest triangle; of exact ties the lowest
+  double high = 0;                ///< the distance rounded to nearest; infinite if beyond all doubles
+  double low = 0;                 ///< high + low is the distance to 2^-100 of it
+  Vec3 point = Vec3::Zero();      ///< the nearest point of `triangle`, rounded
+  Vec3 direction = Vec3::Zero();  ///< unit, from `point` to the centre; zero where the distance is exactly 0
+  double largest_difference = 0;  ///< of the coordinates of the centre and of the corners of `triangle`
+};
+
+/// The truth about one sweep.
+struct SweepTruth {
+  bool defined = false;            ///< false when a coordinate is not finite: it hits nothing
+  bool hit = false;                ///< the way comes within the radius of the mesh, exactly
+  bool touching_at_start = false;  ///< it already is there at the start, exactly
+};
+
+/// Answers exactly. Constant after construction, and safe to use from many threads. The mesh must outlive it.
+class Oracle {
+ public:
+  /// `threads` is how many solve() uses; 0: as many as the machine has.
+  explicit Oracle(const TriangleMesh& mesh, unsigned threads = 0);
+  ~Oracle();
+  Oracle(Oracle&&) noexcept;
+  Oracle& operator=(Oracle&&) noexcept;
+
+  /// One truth a probe, in order. To be computed once a trajectory and used for every contestant.
+  std::vector<Truth> solve(std::span<const Probe> probes) const;
+  std::vector<SweepTruth> solve(std::span<const Sweep> sweeps) const;
+
+  Truth solve(const Vec3& center) const;
+  SweepTruth solve(const Sweep& sweep) const;
+
+  /// Is the distance at most `radius`? `truth` must be of `center`. Exact; false for a radius below 0 or NaN.
+  bool within(const Truth& truth, const Vec3& center, double radius) const;
+  /// Is the distance from `center` to this one triangle at most `radius`? Exact likewise.
+  bool within(std::uint32_t triangle, const Vec3& center, double radius) const;
+  /// Does the segment come within `radius` of the mesh? Exact likewise; false when a coordinate is not
+  /// finite.
+  bool segment_within(const Vec3& from, const Vec3& to, double radius) const;
+
+  /// The truth about `center` and this one triangle.
+  Truth solve(const Vec3& center, std::uint32_t triangle) const;
+  /// Every triangle whose distance to `center` is at most `radius`, ascending. Exact.
+  std::vector<std::uint32_t> all_within(const Vec3& center, double radius) const;
+
+  const TriangleMesh& mesh() const noexcept;
+  unsigned threads() const noexcept;
+
+ private:
+  struct Structure;
+  std::unique_ptr<const Structure> structure_;
+};
+
+}  // namespace touchmark::bench

@@ -1,0 +1,19 @@
+/// The oracle's own triangle, so that nothing of core/geometry is between the mesh and the truth.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/probe.h"
+#include "core/triangle_mesh.h"
+
+namespace touchmark::bench {
+
+/// Three corners as stored, any of which may coincide or be collinear.
+using Triangle = std::array<Vec3, 3>;
+
+inline Triangle triangle_of(const TriangleMesh& mesh, std::uint32_t index) {
+  return {mesh.corner(index, 0), mesh.corner(index, 1), mesh.corner(index, 2)};
+}
+
+}  // namespace touchmark::bench

@@ -1,0 +1,314 @@
+#include "bench/verify.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <mutex>
+#include <numbers>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "bench/oracle/interval_distance.h"
+#include "bench/oracle/parallel.h"
+
+namespace touchmark::bench {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
+
+double ulp(double x) noexcept { return std::nextafter(x, infinity) - x; }
+double raised(double x) noexcept { return std::nextafter(x, infinity); }
+double lowered(double x) noexcept { return std::nextafter(x, -infinity); }
+
+Vec3 vector(const double (&xyz)[3]) noexcept { return {xyz[0], xyz[1], xyz[2]}; }
+
+bool well_formed(const Answer& answer, const Reported& reported) noexcept {
+  const bool distance = std::isfinite(answer.distance) && answer.distance >= 0;
+  return (!reported.distance || distance) && (!reported.point || vector(answer.point).allFinite()) &&
+         (!reported.normal || vector(answer.normal).allFinite());
+}
+
+double angle(const Vec3& a, const Vec3& b) noexcept { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+
+enum class Verdict { right, unresolved, wrong };
+
+/// Charges answers about one oracle's mesh by one contestant's word.
+class Judge {
+ public:
+  Judge(const Oracle& oracle, const Accuracy& accuracy, const Reported& reported)
+      : oracle_(oracle),
+        accuracy_(accuracy),
+        reported_(reported),
+        known_(std::isfinite(accuracy.relative) && std::isfinite(accuracy.absolute)) {
+    const TriangleMesh& mesh = oracle.mesh();
+    low_ = high_ = mesh.corner(0, 0);
+    for (std::uint32_t i = 0; i < mesh.size(); ++i) {
+      for (const Vec3& v : triangle_of(mesh, i)) {
+        low_ = low_.cwiseMin(v);
+        high_ = high_.cwiseMax(v);
+      }
+    }
+    diagonal_ = (high_ - low_).norm();
+  }
+
+  void position(const Truth& truth, Query query, const Probe& probe, double reach, const Answer& answer,
+                Tally& tally) const;
+  void sweep(const SweepTruth& truth, const Sweep& sweep, const Answer& answer, Tally& tally) const;
+
+ private:
+  /// What a contestant may be off by; if it does not say, what double arithmetic cannot avoid.
+  double allowed(double largest_difference) const noexcept {
+    return known_ ? accuracy_.relative * largest_difference + accuracy_.absolute
+                  : kernel_relative_error * largest_difference;
+  }
+  Verdict threshold(const Truth& truth, const Vec3& center, double limit, bool found) const;
+  void contact(const Truth& truth, const Vec3& center, const Answer& answer, double slack,
+               Tally& tally) const;
+  std::vector<Truth> with_id(const Truth& truth, const Vec3& center, TriangleId id, double slack) const;
+  std::vector<Truth> tied(const Truth& truth, const Vec3& center, double slack) const;
+  void note_distance_error(double error, Tally& tally) const;
+
+  const Oracle& oracle_;
+  const Accuracy& accuracy_;
+  const Reported& reported_;
+  bool known_;
+  Vec3 low_, high_;
+  double diagonal_ = 0;
+};
+
+Verdict Judge::threshold(const Truth& truth, const Vec3& center, double limit, bool found) const {
+  if (found == oracle_.within(truth, center, limit)) return Verdict::right;
+  if (!known_ || !truth.defined) return Verdict::wrong;
+  const double bound = allowed(truth.largest_difference);
+  const bool excused = found ? oracle_.within(truth, center, raised(limit + bound))
+                             : !oracle_.within(truth, center, lowered(limit - bound));
+  return excused ? Verdict::unresolved : Verdict::wrong;
+}
+
+/// The triangles that carry the id and are nearest within the accuracy.
+std::vector<Truth> Judge::with_id(const Truth& truth, const Vec3& center, TriangleId id, double slack) const {
+  const TriangleMesh& mesh = oracle_.mesh();
+  const auto ids = mesh.ids();
+  std::size_t begin = id, end = std::size_t{id} + 1;
+  if (!ids.empty()) {
+    const auto range = std::equal_range(ids.begin(), ids.end(), id);
+    begin = static_cast<std::size_t>(range.first - ids.begin());
+    end = static_cast<std::size_t>(range.second - ids.begin());
+  }
+  std::vector<Truth> found;
+  for (std::size_t i = begin; i < std::min(end, mesh.size()); ++i) {
+    const auto triangle = static_cast<std::uint32_t>(i);
+    if (triangle == truth.triangle) {
+      found.push_back(truth);
+      continue;
+    }
+    double largest = truth.largest_difference;
+    for (const Vec3& v : triangle_of(mesh, triangle))
+      largest = std::max(largest, (v - center).cwiseAbs().maxCoeff());
+    if (oracle_.within(triangle, center, raised(truth.high + allowed(largest) + slack)))
+      found.push_back(oracle_.solve(center, triangle));
+  }
+  return found;
+}
+
+/// All triangles that are nearest within the accuracy.
+std::vector<Truth> Judge::tied(const Truth& truth, const Vec3& center, double slack) const {
+  std::vector<Truth> found;
+  const double limit = raised(truth.high + allowed(truth.largest_difference) + slack);
+  for (const std::uint32_t triangle : oracle_.all_within(center, limit))
+    found.push_back(oracle_.solve(center, triangle));
+  return found;
+}
+
+void Judge::note_distance_error(double error, Tally& tally) const {
+  tally.max_distance_error = std::max(tally.max_distance_error, error);
+  const double of_diagonal = diagonal_ > 0 ? error / diagonal_ : 0;
+  tally.max_distance_error_of_diagonal = std::max(tally.max_distance_error_of_diagonal, of_diagonal);
+}
+
+/// The fields of an answer that rightly reports a contact. `slack` is what the position itself may be off by.
+void Judge::contact(const Truth& truth, const Vec3& center, const Answer& answer, double slack,
+                    Tally& tally) const {
+  if (!std::isfinite(truth.high)) return;  // beyond all doubles: any answer is
+  std::vector<Truth> nearest;
+  if (reported_.triangle && answer.triangle != no_triangle) {
+    nearest = with_id(truth, center, answer.triangle, slack);
+    if (nearest.empty()) ++tally.wrong_triangle;
+  } else {
+    nearest = tied(truth, center, slack);
+  }
+  if (nearest.empty()) nearest.push_back(truth);
+  double largest = truth.largest_difference;
+  for (const Truth& one : nearest) largest = std::max(largest, one.largest_difference);
+  const double bound = allowed(largest) + slack + ulp(truth.high);
+
+  if (reported_.distance) {
+    const double error = std::abs((answer.distance - truth.high) - truth.low);
+    note_distance_error(error, tally);
+    if (truth.high > kernel_relative_error * largest + slack)
+      tally.max_distance_error_ulp = std::max(tally.max_distance_error_ulp, error / ulp(truth.high));
+    if (error > bound) ++tally.beyond_bound;
+  }
+  if (reported_.point) {
+    const Vec3 point = vector(answer.point);
+    // A difference of coordinates, rounded to them.
+    const double rounding =
+        4 * unit_roundoff * std::max(point.cwiseAbs().maxCoeff(), center.cwiseAbs().maxCoeff());
+    double off = infinity;
+    for (const Truth& one : nearest)
+      off = std::min(off, distance_interval(point, triangle_of(oracle_.mesh(), one.triangle)).lo);
+    tally.max_point_error = std::max(tally.max_point_error, off);
+    const double nearness = std::abs((center - point).norm() - truth.high);
+    if (off > bound + rounding || nearness > bound + rounding) ++tally.wrong_point;
+  }
+  if (reported_.normal) {
+    const Vec3 normal = vector(answer.normal);
+    constexpr double single_precision = 1e-5;  // of a unit vector computed in it, generously
+    bool wrong = !(std::abs(normal.norm() - 1) <= single_precision);
+    // Nearer than this the direction of even the best answer in double is noise of up to 0.06 degrees.
+    if (truth.high > 1024 * (kernel_relative_error * largest + slack)) {
+      double least = infinity;
+      for (const Truth& one : nearest) least = std::min(least, angle(normal, one.direction));
+      tally.max_normal_angle_deg = std::max(tally.max_normal_angle_deg, least * 180 / std::numbers::pi);
+      // A point x of a convex set, |x| <= d + 2 bound, is within sqrt(4 d bound + 4 bound^2) of the nearest;
+      // one that is only `bound` away from the set, that much farther.
+      const double shift = bound + 2 * std::sqrt(bound * (truth.high + bound));
+      wrong = wrong || least > 2 * shift / truth.high + 16 * unit_roundoff + single_precision;
+    }
+    if (wrong) ++tally.wrong_normal;
+  }
+}
+
+void Judge::position(const Truth& truth, Query query, const Probe& probe, double reach, const Answer& answer,
+                     Tally& tally) const {
+  ++tally.judged;
+  const bool found = answer.found != 0;
+  const bool has_fields = found && query == Query::nearest;
+  const bool beyond_doubles = truth.defined && std::isinf(truth.high);
+  if (has_fields && !beyond_doubles && !well_formed(answer, reported_)) {
+    ++tally.malformed;
+    return;
+  }
+  const double limit = query == Query::touches ? probe.radius : reach;
+  switch (threshold(truth, probe.center, limit, found)) {
+    case Verdict::wrong:
+      ++(found ? tally.false_contacts : tally.missed);
+      return;
+    case Verdict::unresolved:
+      ++tally.unresolved;
+      break;
+    case Verdict::right:
+      break;
+  }
+  if (has_fields) contact(truth, probe.center, answer, 0, tally);
+}
+
+void Judge::sweep(const SweepTruth& truth, const Sweep& sweep, const Answer& answer, Tally& tally) const {
+  ++tally.judged;
+  const bool found = answer.found != 0;
+  if (found && (!well_formed(answer, reported_) || !(answer.fraction >= 0 && answer.fraction <= 1))) {
+    ++tally.malformed;
+    return;
+  }
+  if (!truth.defined) {
+    if (found) ++tally.false_contacts;
+    return;
+  }
+  const auto largest_difference = [&](const Vec3& p) {
+    return (p - low_).cwiseAbs().cwiseMax((p - high_).cwiseAbs()).maxCoeff();
+  };
+  const Vec3 way = sweep.to - sweep.from;
+  // from + fraction * way rounds thrice, there and here; the fraction is rounded too.
+  const double slack =
+      12 * unit_roundoff *
+      (way.cwiseAbs().maxCoeff() + sweep.from.cwiseAbs().maxCoeff() + sweep.to.cwiseAbs().maxCoeff());
+  const double tolerance =
+      allowed(std::max(largest_difference(sweep.from), largest_difference(sweep.to))) + slack;
+  if (found != truth.hit) {
+    const bool excused =
+        known_ && (found ? oracle_.segment_within(sweep.from, sweep.to, raised(sweep.radius + tolerance))
+                         : !oracle_.segment_within(sweep.from, sweep.to, lowered(sweep.radius - tolerance)));
+    ++(excused ? tally.unresolved : found ? tally.false_contacts : tally.missed);
+    if (!excused) return;
+  }
+  if (!found) return;
+  const Vec3 position = answer.fraction <= 0   ? sweep.from
+                        : answer.fraction >= 1 ? sweep.to
+                                               : Vec3(sweep.from + answer.fraction * way);
+  const Truth there = oracle_.solve(position);
+  if (answer.fraction > 0) note_distance_error(std::abs(there.high - sweep.radius), tally);
+  if (!oracle_.within(there, position, raised(sweep.radius + tolerance))) {
+    ++tally.false_contacts;
+  } else if (answer.fraction > 0 &&
+             oracle_.segment_within(sweep.from, position, lowered(sweep.radius - tolerance))) {
+    ++tally.missed;
+  } else {
+    contact(there, position, answer, slack, tally);
+  }
+}
+
+/// Adds up judge_one(i, tally) for i < size.
+template <class JudgeOne>
+Tally total(std::size_t size, unsigned threads, const JudgeOne& judge_one) {
+  Tally sum;
+  std::mutex mutex;
+  in_parallel(size, threads, [&](std::size_t begin, std::size_t end) {
+    Tally piece;
+    for (std::size_t i = begin; i < end; ++i) judge_one(i, piece);
+    const std::lock_guard lock(mutex);
+    sum += piece;
+  });
+  return sum;
+}
+
+}  // namespace
+
+Tally& Tally::operator+=(const Tally& other) noexcept {
+  judged += other.judged;
+  missed += other.missed;
+  false_contacts += other.false_contacts;
+  wrong_triangle += other.wrong_triangle;
+  beyond_bound += other.beyond_bound;
+  wrong_point += other.wrong_point;
+  wrong_normal += other.wrong_normal;
+  malformed += other.malformed;
+  unresolved += other.unresolved;
+  max_distance_error = std::max(max_distance_error, other.max_distance_error);
+  max_distance_error_of_diagonal =
+      std::max(max_distance_error_of_diagonal, other.max_distance_error_of_diagonal);
+  max_distance_error_ulp = std::max(max_distance_error_ulp, other.max_distance_error_ulp);
+  max_normal_angle_deg = std::max(max_normal_angle_deg, other.max_normal_angle_deg);
+  max_point_error = std::max(max_point_error, other.max_point_error);
+  return *this;
+}
+
+bool keeps_its_word(const Tally& tally, const Accuracy& accuracy) noexcept {
+  if (tally.malformed > 0) return false;
+  if (accuracy.guarantee == Guarantee::approximate) return true;
+  if (tally.missed > 0) return false;
+  if (accuracy.guarantee == Guarantee::conservative) return true;
+  return tally.false_contacts + tally.wrong_triangle + tally.beyond_bound + tally.wrong_point +
+             tally.wrong_normal ==
+         0;
+}
+
+Tally judge(const Oracle& oracle, std::span<const Truth> truths, Query query, std::span<const Probe> probes,
+            double reach, std::span<const Answer> answers, const Accuracy& accuracy,
+            const Reported& reported) {
+  const Judge judge(oracle, accuracy, reported);
+  return total(std::min({truths.size(), probes.size(), answers.size()}), oracle.threads(),
+               [&](std::size_t i, Tally& tally) {
+                 judge.position(truths[i], query, probes[i], reach, answers[i], tally);
+               });
+}
+
+Tally judge(const Oracle& oracle, std::span<const SweepTruth> truths, std::span<const Sweep> sweeps,
+            std::span<const Answer> answers, const Accuracy& accuracy, const Reported& reported) {
+  const Judge judge(oracle, accuracy, reported);
+  return total(std::min({truths.size(), sweeps.size(), answers.size()}), oracle.threads(),
+               [&](std::size_t i, Tally& tally) { judge.sweep(truths[i], sweeps[i], answers[i], tally); });
+}
+
+}  // namespace touchmark::bench

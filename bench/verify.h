@@ -1,0 +1,74 @@
+/// The judge: each of a contestant's answers against the truth, errors counted by kind.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "bench/answer.h"
+#include "bench/oracle/oracle.h"
+#include "core/detector.h"
+
+namespace touchmark::bench {
+
+/// What a contestant that cannot tell the triangle reports; it is not charged for it. No mesh has this id
+/// unless its file gave it.
+inline constexpr TriangleId no_triangle = std::numeric_limits<TriangleId>::max();
+
+/// Which fields of an answer a contestant fills in. Those it does not are not judged.
+struct Reported {
+  bool triangle = true;
+  bool distance = true;
+  bool point = true;
+  bool normal = true;
+};
+
+/// An answer is charged under the first heading that fits: an undecided threshold is `unresolved` and never
+/// missed or false; the fields of a missed, false or malformed answer are not judged further.
+struct Tally {
+  std::uint64_t judged = 0;          ///< answers looked at
+  std::uint64_t missed = 0;          ///< contact not reported, or (sweep) reported after it had been made
+  std::uint64_t false_contacts = 0;  ///< contact reported where there is none (sweep: not yet)
+  std::uint64_t wrong_triangle =
+      0;                           ///< not one of the nearest within the accuracy, or no triangle of the mesh
+  std::uint64_t beyond_bound = 0;  ///< distance off by more than the accuracy allows
+  std::uint64_t wrong_point = 0;   ///< point off its triangle, or not the one nearest to the centre, likewise
+  std::uint64_t wrong_normal = 0;  ///< normal not unit, or turned by more than the accuracy can explain
+  std::uint64_t malformed =
+      0;  ///< NaN or infinity in a field, a negative distance, a fraction outside [0, 1]
+  std::uint64_t unresolved = 0;  ///< differs from the truth, but within the accuracy of the threshold
+
+  double max_distance_error = 0;              ///< mesh units
+  double max_distance_error_of_diagonal = 0;  ///< the same over the diagonal of the mesh's box
+  double max_distance_error_ulp = 0;  ///< in ulp of the true distance, where that exceeds its own rounding
+  double max_normal_angle_deg = 0;    ///< where the distance is so large that the direction has a meaning
+  double max_point_error = 0;  ///< mesh units, from the reported point to the triangle it should lie on
+
+  Tally& operator+=(const Tally& other) noexcept;
+  bool operator==(const Tally&) const = default;
+};
+
+/// Does the tally agree with what the contestant claims? exact: no error of any kind. conservative: nothing
+/// missed or malformed. approximate: nothing malformed.
+bool keeps_its_word(const Tally& tally, const Accuracy& accuracy) noexcept;
+
+/// Judges `touches` (against each probe's radius) or `nearest` (against `reach`; infinite is allowed). Step i
+/// of each list belongs together; the shorter of `probes` and `answers` decides how many are judged.
+///
+/// The accuracy allowed at a step is relative * M + absolute, M the largest coordinate difference between the
+/// centre and the corners of the nearest (and of the reported, if tied) triangle, plus the rounding of the
+/// result itself. Where it is infinite or NaN nothing is excused: thresholds are judged exactly, and fields
+/// by `kernel_relative_error`, since nothing computed in double can do better.
+///
+/// An id stands for every triangle that carries it (a polygon's pieces).
+Tally judge(const Oracle& oracle, std::span<const Truth> truths, Query query, std::span<const Probe> probes,
+            double reach, std::span<const Answer> answers, const Accuracy& accuracy,
+            const Reported& reported = {});
+
+/// Judges `sweep`. A hit is right when the sweep hits, the centre at the reported fraction is the radius away
+/// from the mesh (at fraction 0: at most that), and was not nearer before; all within the accuracy plus the
+/// rounding of a position on the way. The contact is judged as `nearest` there.
+Tally judge(const Oracle& oracle, std::span<const SweepTruth> truths, std::span<const Sweep> sweeps,
+            std::span<const Answer> answers, const Accuracy& accuracy, const Reported& reported = {});
+
+}  // namespace touchmark::bench
