@@ -1,0 +1,107 @@
+/// A mesh file in memory, and the parts that every reader of one needs: errors that name the place, a
+/// polygon's triangles, and the mesh they end up in.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/triangle_mesh.h"
+
+namespace touchmark::mesh_io {
+
+/// The bytes of a file. Throws MeshError when it cannot be read, is a directory or is empty.
+std::string read_file(const std::filesystem::path& path);
+
+/// Where a reader stands in a text: whitespace-separated words, counted by line. Handles LF, CR LF and CR.
+class TextCursor {
+ public:
+  /// `comment` starts a comment that runs to the end of its line; 0 for none.
+  explicit TextCursor(std::string_view text, char comment = 0, std::size_t first_line = 1)
+      : rest_(text), line_(first_line), comment_(comment) {}
+
+  /// The next word anywhere; empty at the end.
+  std::string_view word();
+  /// The next word of this line; empty at its end.
+  std::string_view word_on_line();
+  /// Goes to the start of the next line.
+  void skip_line();
+  bool at_end();
+  std::size_t line() const noexcept { return line_; }
+  std::string_view rest() const noexcept { return rest_; }
+
+  /// The next word as a finite double, bit for bit what the file says; `what` names it in the error.
+  double number(std::string_view what);
+  double number_on_line(std::string_view what);
+  /// The next word as an integer.
+  std::int64_t integer(std::string_view what);
+
+  /// Throws MeshError("line N: message").
+  [[noreturn]] void fail(const std::string& message) const;
+
+ private:
+  void skip_spaces(bool across_lines);
+  std::string_view take_word();
+
+  std::string_view rest_;
+  std::size_t line_;
+  char comment_;
+};
+
+/// For messages: the word in quotes, cut to a sane length, with nothing that upsets a terminal.
+std::string quoted(std::string_view word);
+
+/// A word as a number; throws through `cursor`. Overflow, trailing letters, NaN and infinity are refused.
+double parse_double(std::string_view word, std::string_view what, const TextCursor& cursor);
+std::int64_t parse_integer(std::string_view word, std::string_view what, const TextCursor& cursor);
+
+/// Collects vertices and faces; a face's id is its number in the file, from 0. `place` is where the reader
+/// stands: its fail(message) throws MeshError with the line or the byte.
+class MeshBuilder {
+ public:
+  static constexpr std::size_t most_corners =
+      1024;  ///< of one polygon; cutting takes the cube of it at worst
+
+  void reserve(std::size_t vertices, std::size_t faces);
+  void add_vertex(const Vec3& position) { vertices_.push_back(position); }
+
+  /// A vertex read so far, as a face names it.
+  template <class Place>
+  std::uint32_t checked_corner(std::int64_t vertex, const Place& place) const {
+    if (vertex < 0 || static_cast<std::uint64_t>(vertex) >= vertices_.size()) {
+      place.fail("face " + std::to_string(faces_) + " names vertex " + std::to_string(vertex) + " of " +
+                 std::to_string(vertices_.size()));
+    }
+    return static_cast<std::uint32_t>(vertex);
+  }
+
+  /// A polygon becomes triangles that share its id: ears are clipped in the plane that the polygon faces, so
+  /// a flat polygon that is not convex keeps its shape.
+  template <class Place>
+  void add_face(const std::vector<std::uint32_t>& corners, const Place& place) {
+    if (corners.size() < 3 || corners.size() > most_corners) {
+      place.fail("face " + std::to_string(faces_) + " has " + std::to_string(corners.size()) +
+                 " corners; 3 to " + std::to_string(most_corners) + " make a face");
+    }
+    if (corners.size() == 3) return add_triangle(corners[0], corners[1], corners[2]);
+    add_polygon(corners);
+  }
+  void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
+
+  std::size_t vertex_count() const noexcept { return vertices_.size(); }
+  std::size_t face_count() const noexcept { return faces_; }
+  /// Throws MeshError as TriangleMesh does.
+  TriangleMesh build() &&;
+
+ private:
+  void add_polygon(const std::vector<std::uint32_t>& corners);
+
+  std::vector<Vec3> vertices_;
+  std::vector<TriangleMesh::Corners> triangles_;
+  std::vector<TriangleId> ids_;  // filled from the first polygon on; until then ids are positions
+  std::uint32_t faces_ = 0;
+};
+
+}  // namespace touchmark::mesh_io

@@ -1,0 +1,224 @@
+#include "core/mesh_io/readers.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace touchmark::mesh_io {
+namespace {
+
+using Reader = TriangleMesh (*)(std::string_view);
+
+std::string refusal(Reader read, const std::string& text) {
+  try {
+    read(text);
+  } catch (const MeshError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+double area(const TriangleMesh& mesh) {
+  double sum = 0;
+  for (std::size_t i = 0; i < mesh.size(); ++i) {
+    const Vec3 u = mesh.corner(i, 1) - mesh.corner(i, 0), v = mesh.corner(i, 2) - mesh.corner(i, 0);
+    sum += 0.5 *
+           Vec3(u.y() * v.z() - u.z() * v.y(), u.z() * v.x() - u.x() * v.z(), u.x() * v.y() - u.y() * v.x())
+               .norm();
+  }
+  return sum;
+}
+
+const std::string square_obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+
+TEST(ReadObj, KeepsEveryDouble) {
+  const TriangleMesh mesh = read_obj("v 1000000.0000000001 0.1 -1e-300\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(mesh.vertices()[0], Vec3(1000000.0000000001, 0.1, -1e-300));
+}
+
+TEST(ReadObj, CountsFacesInTheFilesOrderAndPolygonsOnce) {
+  const TriangleMesh mesh =
+      read_obj(square_obj + "g one\nf 1 2 3\nusemtl red\nf 1 2 3 4\nl 1 2\nf 1/1 3//2 4/1/1\n");
+  ASSERT_EQ(mesh.size(), 4u);
+  EXPECT_EQ(mesh.id(0), 0u);
+  EXPECT_EQ(mesh.id(1), 1u);
+  EXPECT_EQ(mesh.id(2), 1u);
+  EXPECT_EQ(mesh.id(3), 2u);
+}
+
+TEST(ReadObj, CountsBackwardsFromNegativeIndices) {
+  const TriangleMesh mesh = read_obj("v 9 9 9\n" + square_obj + "f -4 -3 -1\n");
+  EXPECT_EQ(mesh.triangles()[0], (TriangleMesh::Corners{1, 2, 4}));
+}
+
+TEST(ReadObj, TakesWindowsLinesCommentsAndContinuations) {
+  const TriangleMesh mesh = read_obj("# a\r\nv 0 0 0 # origin\r\nv 1 0 \\\r\n 0\r\nv 0 1 0\r\nf 1 2 3");
+  EXPECT_EQ(mesh.size(), 1u);
+  EXPECT_EQ(mesh.vertices()[1], Vec3(1, 0, 0));
+}
+
+TEST(ReadObj, APolygonThatIsNotConvexKeepsItsArea) {
+  // An arrowhead; a fan from its first corner would cover more. Its area by the shoelace formula:
+  const TriangleMesh mesh = read_obj("v 2 0 0\nv 1 0.5 0\nv 2 2 0\nv 0 0.5 0\nf 1 2 3 4\n");
+  const double x[] = {2, 1, 2, 0}, y[] = {0, 0.5, 2, 0.5};
+  double expected = 0;
+  for (int i = 0; i < 4; ++i) expected += 0.5 * (x[i] * y[(i + 1) % 4] - x[(i + 1) % 4] * y[i]);
+  EXPECT_NEAR(area(mesh), expected, 1e-15);
+}
+
+TEST(ReadObj, NamesTheLineOfWhatItRefuses) {
+  EXPECT_EQ(refusal(read_obj, "v 0 0 0\nv 1 0 x\n"), "line 2: z 'x' is not a number");
+  EXPECT_EQ(refusal(read_obj, "v 0 0\n"), "line 1: z is missing");
+  EXPECT_EQ(refusal(read_obj, "v 0 nan 0\n"), "line 1: y 'nan' is not finite");
+  EXPECT_EQ(refusal(read_obj, "v 0 1e400 0\n"), "line 1: y '1e400' does not fit a double");
+  EXPECT_EQ(refusal(read_obj, square_obj + "f 1 2 7\n"),
+            "line 5: face 0 names vertex 7 of the 4 read so far");
+  EXPECT_EQ(refusal(read_obj, square_obj + "f 1 2 0\n"),
+            "line 5: face 0 names vertex 0 of the 4 read so far");
+  EXPECT_EQ(refusal(read_obj, square_obj + "f 1 2 -5\n"),
+            "line 5: face 0 names vertex -5 of the 4 read so far");
+  EXPECT_EQ(refusal(read_obj, square_obj + "f 1 2\n"), "line 5: face 0 has 2 corners; 3 to 1024 make a face");
+  EXPECT_EQ(refusal(read_obj, "hello\n"), "line 1: unknown statement 'hello'");
+  EXPECT_EQ(refusal(read_obj, square_obj), "the mesh has no triangle");
+}
+
+const std::string ply_header =
+    "ply\nformat ascii 1.0\ncomment x\nelement vertex 3\nproperty double x\nproperty double y\nproperty "
+    "float z\n"
+    "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+
+TEST(ReadPly, ReadsAscii) {
+  const TriangleMesh mesh = read_ply(ply_header + "0 0 0\n1000000.0000000001 0 0\n0 1 0\n3 0 1 2\n");
+  EXPECT_EQ(mesh.size(), 1u);
+  EXPECT_EQ(mesh.vertices()[1].x(), 1000000.0000000001);
+}
+
+TEST(ReadPly, SkipsElementsAndPropertiesThatItDoesNotNeed) {
+  const TriangleMesh mesh = read_ply(
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty uchar red\nproperty float x\nproperty float "
+      "y\nproperty float z\n"
+      "property list uchar float extra\nelement material 2\nproperty int a\nelement face 1\nproperty uchar "
+      "flag\n"
+      "property list uchar int vertex_index\nend_header\n"
+      "9 0 0 0 2 5 5\n9 1 0 0 0\n9 0 1 0 1 5\n7\n8\n4 3 2 1 0\n");
+  EXPECT_EQ(mesh.triangles()[0], (TriangleMesh::Corners{2, 1, 0}));
+}
+
+TEST(ReadPly, NamesTheLineOfWhatItRefuses) {
+  EXPECT_EQ(refusal(read_ply, ply_header + "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"),
+            "line 14: face 0 names vertex 3 of 3");
+  EXPECT_EQ(refusal(read_ply, ply_header + "0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n"),
+            "line 14: face 0 names vertex -1 of 3");
+  EXPECT_EQ(refusal(read_ply, ply_header + "0 0 0\n1 0 0\n"), "line 13: ends after 2 of 3 vertices");
+  EXPECT_EQ(refusal(read_ply, ply_header + "0 0 0\n1 0 0\n0 1 0\n"), "line 14: ends after 0 of 1 faces");
+  EXPECT_EQ(refusal(read_ply, ply_header + "0 0 0\n1 0 inf\n"), "line 12: z 'inf' is not finite");
+  EXPECT_EQ(refusal(read_ply, ply_header + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\nmore"),
+            "line 15: goes on after its last element");
+  EXPECT_EQ(refusal(read_ply, "plx\n"), "line 1: does not start with 'ply'");
+  EXPECT_EQ(refusal(read_ply, "ply\nformat ascii 1.0\nelement vertex 3\n"),
+            "line 4: the header has no end_header");
+}
+
+TEST(ReadPly, HoldsDeclaredCountsAgainstTheFilesSize) {
+  const std::string huge =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\n"
+      "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  EXPECT_NE(refusal(read_ply, huge).find("declares 4000000000 of element vertex"), std::string::npos);
+}
+
+template <class T>
+void append(std::string& bytes, T value, bool swapped) {
+  char raw[sizeof(T)];
+  std::memcpy(raw, &value, sizeof raw);
+  if (swapped) std::reverse(raw, raw + sizeof raw);
+  bytes.append(raw, sizeof raw);
+}
+
+std::string binary_ply(bool big) {
+  std::string bytes =
+      std::string("ply\nformat binary_") + (big ? "big" : "little") +
+      "_endian 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const double x : {0.0, 0.0, 0.0, 0.1, 0.0, 0.0, 0.0, 0.3, 0.0}) append(bytes, x, big);
+  bytes.push_back(3);
+  for (const std::int32_t i : {0, 1, 2}) append(bytes, i, big);
+  return bytes;
+}
+
+TEST(ReadPly, ReadsBinaryOfEitherByteOrder) {
+  for (const bool big : {false, true}) {
+    const TriangleMesh mesh = read_ply(binary_ply(big));
+    EXPECT_EQ(mesh.vertices()[1], Vec3(0.1, 0, 0));
+    EXPECT_EQ(mesh.triangles()[0], (TriangleMesh::Corners{0, 1, 2}));
+  }
+}
+
+TEST(ReadPly, EveryTruncationOfABinaryFileIsRefused) {
+  const std::string whole = binary_ply(false);
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    EXPECT_NE(refusal(read_ply, whole.substr(0, length)), "accepted") << length;
+  }
+}
+
+const std::string off = "OFF # comment\n3 1 0\n0 0 0\n1 0 0 255 0 0\n0 1 0\n3 0 1 2 1 0 0\n";
+
+TEST(ReadOff, ReadsVerticesAndFacesAndLeavesColours) {
+  EXPECT_EQ(read_off(off).size(), 1u);
+  EXPECT_EQ(read_off("COFF 3 1 0\n0 0 0 1 1 1 1\n1 0 0 1 1 1 1\n0 1 0 1 1 1 1\n3 0 1 2\n").size(), 1u);
+}
+
+TEST(ReadOff, NamesTheLineOfWhatItRefuses) {
+  EXPECT_EQ(refusal(read_off, "3 1 0\n"), "line 1: starts with '3' instead of OFF");
+  EXPECT_EQ(refusal(read_off, "OFF\n3 1 0\n0 0 0\n"), "line 4: ends after 1 of 3 vertices");
+  EXPECT_EQ(refusal(read_off, "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 5\n"),
+            "line 6: face 0 names vertex 5 of 3");
+  EXPECT_EQ(refusal(read_off, "OFF\n999999 1 0\n0 0 0\n"),
+            "line 2: the number of vertices 999999 in a file of 21 bytes");
+  EXPECT_EQ(refusal(read_off, off + "3 0 1 2\n"), "line 7: goes on after its 1 faces");
+}
+
+std::string ascii_facet(const std::string& last) {
+  return "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex " + last +
+         "\nendloop\nendfacet\n";
+}
+
+TEST(ReadStl, ReadsAsciiAndJoinsEqualCorners) {
+  const TriangleMesh mesh =
+      read_stl("solid a b\n" + ascii_facet("0 1 0") + ascii_facet("0 0 -1.5e-7") + "endsolid a b\n");
+  EXPECT_EQ(mesh.size(), 2u);
+  EXPECT_EQ(mesh.vertices().size(), 4u);
+  EXPECT_EQ(mesh.corner(1, 2).z(), -1.5e-7);
+}
+
+TEST(ReadStl, NamesTheLineOfWhatItRefuses) {
+  EXPECT_EQ(refusal(read_stl, "solid a\n" + ascii_facet("0 1 0")),
+            "line 9: the end stands where 'facet' or 'endsolid' should");
+  EXPECT_EQ(refusal(read_stl, "solid a\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n"),
+            "line 6: 'endloop' stands where 'vertex' should");
+}
+
+std::string binary_stl(const std::string& title, std::uint32_t declared, float last) {
+  std::string bytes = title;
+  bytes.resize(80, ' ');
+  append(bytes, declared, false);
+  for (const float x : {0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, last}) append(bytes, x, false);
+  bytes.append(2, '\0');
+  return bytes;
+}
+
+TEST(ReadStl, ReadsBinaryEvenWhenItsTitleSaysSolid) {
+  EXPECT_EQ(read_stl(binary_stl("solid", 1, 0.5f)).corner(0, 2), Vec3(0, 1, 0.5));
+}
+
+TEST(ReadStl, RefusesBinaryOfTheWrongSizeAndNotANumber) {
+  EXPECT_EQ(refusal(read_stl, binary_stl("x", 2, 0)), "byte 80: 2 facets need 184 bytes, the file has 134");
+  EXPECT_EQ(refusal(read_stl, binary_stl("x", 1, std::numeric_limits<float>::quiet_NaN())),
+            "byte 120: corner 2 of facet 0 is not finite");
+}
+
+}  // namespace
+}  // namespace touchmark::mesh_io
