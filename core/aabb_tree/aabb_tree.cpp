@@ -1,0 +1,271 @@
+#include "core/aabb_tree/aabb_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "core/geometry/sphere_triangle_sweep.h"
+#include "core/geometry/sweep_box.h"
+
+namespace touchmark {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double half_area(const Aabb& box) noexcept {
+  if (box.empty()) return 0;
+  const Vec3 e = box.extent();
+  return e.x() * e.y() + e.y() * e.z() + e.z() * e.x();
+}
+
+/// A box or subtree that waits, with the bound it was left for.
+struct Waiting {
+  double bound;
+  std::uint32_t node;
+};
+
+}  // namespace
+
+/// Splits top down where the sum of area times triangles is least over sixteen planes an axis (MacDonald &
+/// Booth, "Heuristics for ray tracing using space subdivision", 1990).
+class AabbTree::Builder {
+ public:
+  Builder(AabbTree& tree, std::size_t leaf_size) : tree_(tree), leaf_size_(leaf_size) {
+    for (const PreparedTriangle& triangle : tree.triangles_) {
+      Item item;
+      for (const Vec3& corner : triangle.corner) item.box.extend(corner);
+      item.center = item.box.center();
+      item.triangle = triangle.index;
+      items_.push_back(item);
+    }
+  }
+
+  void build() {
+    tree_.nodes_.reserve(items_.size());
+    tree_.nodes_.emplace_back();
+    split(0, 0, items_.size(), 0);
+    tree_.nodes_.shrink_to_fit();
+    std::vector<PreparedTriangle> ordered;
+    ordered.reserve(items_.size());
+    for (const Item& item : items_) ordered.push_back(tree_.triangles_[item.triangle]);
+    tree_.triangles_ = std::move(ordered);
+  }
+
+ private:
+  struct Item {
+    Aabb box;
+    Vec3 center;
+    std::uint32_t triangle;
+  };
+  static constexpr std::size_t bins = 16;
+
+  void split(std::uint32_t node, std::size_t begin, std::size_t end, std::size_t level) {
+    Aabb box, centers;
+    for (std::size_t i = begin; i < end; ++i) {
+      box.extend(items_[i].box);
+      centers.extend(items_[i].center);
+    }
+    tree_.nodes_[node].box = box;
+    if (end - begin <= leaf_size_) {
+      tree_.nodes_[node].first = static_cast<std::uint32_t>(begin);
+      tree_.nodes_[node].count = static_cast<std::uint32_t>(end - begin);
+      return;
+    }
+    std::size_t middle = level < halving_level ? partition_by_area(begin, end, centers) : begin;
+    if (middle == begin || middle == end) middle = halve(begin, end, centers);
+    const auto child = static_cast<std::uint32_t>(tree_.nodes_.size());
+    tree_.nodes_[node].first = child;
+    tree_.nodes_.resize(child + 2);
+    split(child, begin, middle, level + 1);
+    split(child + 1, middle, end, level + 1);
+  }
+
+  std::size_t partition_by_area(std::size_t begin, std::size_t end, const Aabb& centers) {
+    double least = infinity;
+    int best_axis = 0;
+    std::size_t best_plane = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      std::array<Aabb, bins> box;
+      std::array<std::size_t, bins> count{};
+      for (std::size_t i = begin; i < end; ++i) {
+        const std::size_t bin = bin_of(items_[i], axis, centers);
+        box[bin].extend(items_[i].box);
+        ++count[bin];
+      }
+      std::array<double, bins> right_cost{};
+      Aabb right;
+      std::size_t right_count = 0;
+      for (std::size_t plane = bins - 1; plane > 0; --plane) {
+        right.extend(box[plane]);
+        right_count += count[plane];
+        right_cost[plane] = half_area(right) * static_cast<double>(right_count);
+      }
+      Aabb left;
+      std::size_t left_count = 0;
+      for (std::size_t plane = 1; plane < bins; ++plane) {
+        left.extend(box[plane - 1]);
+        left_count += count[plane - 1];
+        const double cost = half_area(left) * static_cast<double>(left_count) + right_cost[plane];
+        if (left_count == 0 || left_count == end - begin || !(cost < least)) continue;
+        least = cost;
+        best_axis = axis;
+        best_plane = plane;
+      }
+    }
+    const auto middle =
+        std::partition(items_.begin() + static_cast<std::ptrdiff_t>(begin),
+                       items_.begin() + static_cast<std::ptrdiff_t>(end),
+                       [&](const Item& item) { return bin_of(item, best_axis, centers) < best_plane; });
+    return static_cast<std::size_t>(middle - items_.begin());
+  }
+
+  std::size_t halve(std::size_t begin, std::size_t end, const Aabb& centers) {
+    int axis = 0;
+    centers.extent().maxCoeff(&axis);
+    const std::size_t middle = begin + (end - begin) / 2;
+    std::nth_element(items_.begin() + static_cast<std::ptrdiff_t>(begin),
+                     items_.begin() + static_cast<std::ptrdiff_t>(middle),
+                     items_.begin() + static_cast<std::ptrdiff_t>(end), [axis](const Item& a, const Item& b) {
+                       return a.center[axis] < b.center[axis] ||
+                              (a.center[axis] == b.center[axis] && a.triangle < b.triangle);
+                     });
+    return middle;
+  }
+
+  static std::size_t bin_of(const Item& item, int axis, const Aabb& centers) noexcept {
+    const double extent = centers.max[axis] - centers.min[axis];
+    const double where = (item.center[axis] - centers.min[axis]) / extent * static_cast<double>(bins);
+    return where >= 0 ? std::min(static_cast<std::size_t>(where), bins - 1) : 0;  // no extent: all in one
+  }
+
+  AabbTree& tree_;
+  std::size_t leaf_size_;
+  std::vector<Item> items_;
+};
+
+AabbTree AabbTree::build(const TriangleMesh& mesh, const Options& options) {
+  if (options.leaf_size < 1 || options.leaf_size > 255) {
+    throw std::invalid_argument("the leaf size must be 1 to 255, not " + std::to_string(options.leaf_size));
+  }
+  AabbTree tree;
+  tree.triangles_ = prepare(mesh);
+  tree.ids_.assign(mesh.ids().begin(), mesh.ids().end());
+  Builder(tree, options.leaf_size).build();
+  return tree;
+}
+
+double AabbTree::largest_difference(const Vec3& center) const noexcept {
+  const Aabb& box = nodes_.front().box;
+  return (center - box.min).cwiseAbs().cwiseMax((center - box.max).cwiseAbs()).maxCoeff();
+}
+
+double AabbTree::lower_bound(const Aabb& box, const Vec3& center, double slack) noexcept {
+  return std::sqrt(box.squared_distance(center)) - slack;
+}
+
+bool AabbTree::touches(const Probe& probe, Session& session) const noexcept {
+  const double slack = culling_slack(largest_difference(probe.center));
+  std::array<Waiting, most_levels> waiting;
+  std::size_t count = 0;
+  waiting[count++] = {lower_bound(nodes_[0].box, probe.center, slack), 0};
+  while (count > 0) {
+    const Waiting next = waiting[--count];
+    if (!(next.bound <= probe.radius)) continue;
+    const Node& node = nodes_[next.node];
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      ++session.work.triangles;
+      if (std::sqrt(squared_distance(triangles_[i], probe.center)) <= probe.radius) return true;
+    }
+    if (node.count > 0) continue;
+    session.work.boxes += 2;
+    Waiting near{lower_bound(nodes_[node.first].box, probe.center, slack), node.first};
+    Waiting far{lower_bound(nodes_[node.first + 1].box, probe.center, slack), node.first + 1};
+    if (far.bound < near.bound) std::swap(near, far);
+    waiting[count++] = far;
+    waiting[count++] = near;
+  }
+  return false;
+}
+
+std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Session& session) const noexcept {
+  const Vec3& center = probe.center;
+  const double slack = culling_slack(largest_difference(center));
+  Candidate best;
+  std::uint32_t kept_at = 0;
+  const auto consider = [&](std::uint32_t i) {
+    ++session.work.triangles;
+    const Candidate candidate{squared_distance(triangles_[i], center), triangles_[i].index};
+    if (!(candidate < best)) return;
+    best = candidate;
+    kept_at = i;
+  };
+  if (session.last < triangles_.size()) consider(session.last);
+  double limit = std::min(reach, std::sqrt(best.squared_distance));
+  std::array<Waiting, most_levels> waiting;
+  std::size_t count = 0;
+  waiting[count++] = {lower_bound(nodes_[0].box, center, slack), 0};
+  while (count > 0) {
+    const Waiting next = waiting[--count];
+    if (!(next.bound <= limit)) continue;
+    const Node& node = nodes_[next.node];
+    if (node.count > 0) {
+      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) consider(i);
+      limit = std::min(limit, std::sqrt(best.squared_distance));
+      continue;
+    }
+    session.work.boxes += 2;
+    Waiting near{lower_bound(nodes_[node.first].box, center, slack), node.first};
+    Waiting far{lower_bound(nodes_[node.first + 1].box, center, slack), node.first + 1};
+    if (far.bound < near.bound) std::swap(near, far);
+    waiting[count++] = far;
+    waiting[count++] = near;
+  }
+  const bool found = best.index < triangles_.size();  // not so for a probe that is not a number
+  if (!found || !(std::sqrt(best.squared_distance) <= reach)) return std::nullopt;
+  session.last = kept_at;
+  return contact_on(triangles_[kept_at], center, id(best.index));
+}
+
+std::optional<Impact> AabbTree::first_hit(const Sweep& sweep, Session& session) const noexcept {
+  const double widening =
+      sweep_widening(sweep, std::max(largest_difference(sweep.from), largest_difference(sweep.to)));
+  HitCandidate first;
+  std::uint32_t kept_at = 0;
+  std::array<std::uint32_t, most_levels> waiting;
+  std::size_t count = 0;
+  waiting[count++] = 0;
+  while (count > 0) {
+    const Node& node = nodes_[waiting[--count]];
+    ++session.work.boxes;
+    const double limit = std::min(first.fraction, 1.0);
+    if (!(enters(node.box, sweep, widening, limit) <= limit)) continue;
+    if (node.count == 0) {
+      waiting[count++] = node.first + 1;
+      waiting[count++] = node.first;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      ++session.work.triangles;
+      const std::optional<double> fraction = sweep_hit(triangles_[i], sweep, std::min(first.fraction, 1.0));
+      const HitCandidate candidate{fraction.value_or(infinity), triangles_[i].index};
+      if (!fraction || !(candidate < first)) continue;
+      first = candidate;
+      kept_at = i;
+    }
+  }
+  if (first.index >= triangles_.size()) return std::nullopt;
+  if (first.fraction > 0) {
+    return Impact{first.fraction,
+                  contact_on(triangles_[kept_at], position_at(sweep, first.fraction), id(first.index))};
+  }
+  // Touching at the start: of all the triangles touched there the nearest one counts.
+  return Impact{0, *nearest({sweep.from, sweep.radius}, sweep.radius, session)};
+}
+
+std::size_t AabbTree::bytes() const noexcept {
+  return nodes_.capacity() * sizeof(Node) + triangles_.capacity() * sizeof(PreparedTriangle) +
+         ids_.capacity() * sizeof(TriangleId);
+}
+
+}  // namespace touchmark

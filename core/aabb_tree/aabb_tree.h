@@ -1,0 +1,83 @@
+/// A plain binary tree of axis-aligned boxes in double precision, nearest box first: what every collision
+/// library has at its heart, without anything special. The reference that cleverer detectors are measured
+/// against.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "core/detector.h"
+#include "core/geometry/aabb.h"
+#include "core/geometry/point_triangle.h"
+
+namespace touchmark {
+
+class AabbTree {
+ public:
+  struct Options {
+    std::size_t leaf_size = 4;  ///< triangles a leaf holds at most, 1 to 255
+  };
+  struct Session {
+    Work work;
+    std::uint32_t last = 0;  ///< where the last nearest triangle is kept: its distance bounds the next search
+  };
+
+  /// Throws std::invalid_argument for a leaf size out of range.
+  static AabbTree build(const TriangleMesh& mesh, const Options& options);
+  static AabbTree build(const TriangleMesh& mesh) { return build(mesh, Options()); }
+
+  bool touches(const Probe& probe, Session& session) const noexcept;
+  std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept;
+  std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept;
+
+  std::size_t bytes() const noexcept;
+  Accuracy accuracy() const noexcept { return {Guarantee::exact, kernel_relative_error, 0}; }
+
+  /// Calls visit(triangle) for every triangle in a leaf whose box is within `reach` of the centre: a broad
+  /// phase for libraries that have none. Misses no triangle whose computed distance is at most the reach.
+  template <class Visit>
+  void for_each_near(const Vec3& center, double reach, Work& work, const Visit& visit) const noexcept {
+    const double slack = culling_slack(largest_difference(center));
+    std::array<std::uint32_t, most_levels> waiting;
+    std::size_t count = 0;
+    waiting[count++] = 0;
+    while (count > 0) {
+      const Node& node = nodes_[waiting[--count]];
+      ++work.boxes;
+      if (lower_bound(node.box, center, slack) > reach) continue;
+      if (node.count == 0) {
+        waiting[count++] = node.first + 1;
+        waiting[count++] = node.first;
+        continue;
+      }
+      work.triangles += node.count;
+      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) visit(triangles_[i]);
+    }
+  }
+
+ private:
+  struct Node {
+    Aabb box;
+    std::uint32_t first =
+        0;  ///< a leaf's first triangle, or the first of two children that follow one another
+    std::uint32_t count = 0;  ///< a leaf's triangles; 0 in an inner node
+  };
+  /// Splits halve from `halving_level` on, so 32 more levels reach a single triangle of 2^32.
+  static constexpr std::size_t halving_level = 48, most_levels = halving_level + 34;
+
+  class Builder;
+
+  /// What the distance of a triangle in the box cannot fall below, as the kernel computes it.
+  static double lower_bound(const Aabb& box, const Vec3& center, double slack) noexcept;
+  double largest_difference(const Vec3& center) const noexcept;
+  TriangleId id(std::uint32_t index) const noexcept { return ids_.empty() ? index : ids_[index]; }
+
+  std::vector<Node> nodes_;
+  std::vector<PreparedTriangle> triangles_;  ///< in the order of the leaves
+  std::vector<TriangleId> ids_;              ///< by mesh index; empty when they are the same
+};
+
+}  // namespace touchmark

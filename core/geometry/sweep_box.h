@@ -1,0 +1,43 @@
+/// Where a moving ball first comes near a box: the culling test of every first_hit.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "core/geometry/aabb.h"
+#include "core/geometry/point_triangle.h"
+#include "core/probe.h"
+
+namespace touchmark {
+
+/// By how much a box must be widened so that no triangle in it that sweep_hit calls touched is missed: the
+/// radius, the kernel's slack, and the rounding of the position on the way, which goes with the coordinates
+/// themselves. `largest_difference` bounds the coordinate differences between the way and the mesh.
+inline double sweep_widening(const Sweep& sweep, double largest_difference) noexcept {
+  const double coordinates = std::max(sweep.from.cwiseAbs().maxCoeff(), sweep.to.cwiseAbs().maxCoeff());
+  return sweep.radius + culling_slack(largest_difference) +
+         4 * std::numeric_limits<double>::epsilon() * coordinates;
+}
+
+/// The fraction at which the centre enters the box widened on every side, or infinity when it does not before
+/// `limit`. The corners of the widened box are farther than the ball reaches: a bound, not a touch. A NaN
+/// passes.
+inline double enters(const Aabb& box, const Sweep& sweep, double widening, double limit) noexcept {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  double enter = 0, leave = limit;
+  for (int k = 0; k < 3; ++k) {
+    const double way = sweep.to[k] - sweep.from[k];
+    const double low = (box.min[k] - sweep.from[k]) - widening,
+                 high = (box.max[k] - sweep.from[k]) + widening;
+    if (low > high) return never;  // an empty box
+    if (way == 0) {
+      if (low > 0 || high < 0) return never;
+      continue;
+    }
+    enter = std::max(enter, std::min(low / way, high / way));
+    leave = std::min(leave, std::max(low / way, high / way));
+  }
+  return enter > leave ? never : enter;
+}
+
+}  // namespace touchmark
