@@ -18,9 +18,10 @@ struct SceneInfo {
 std::vector<SceneInfo> scenes();
 
 /// `name` is a scene's name or a path, with optional modifiers: "bunny@scale=1e-6@offset=1e6@normalize"
-/// (scale about the origin, then shift along (1,1,1), in the order written). Throws std::invalid_argument for
-/// an unknown name or parameter, MeshError for a file that cannot be used; both name the offender in one
-/// line.
+/// (scale about the origin, then shift along (1,1,1), in the order written). A scene's name goes before a
+/// file's: "./cube" is the file. Throws std::invalid_argument for an unknown name or parameter, MeshError for
+/// a file that cannot be used, ResourceError for a mesh that would not fit in memory; each names the offender
+/// in one line.
 TriangleMesh load_scene(const std::string& name);
 
 }  // namespace touchmark::bench
