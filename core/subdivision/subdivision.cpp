@@ -1,0 +1,190 @@
+#include "core/subdivision/subdivision.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/subdivision/butterfly.h"
+#include "core/subdivision/catmull_clark.h"
+#include "core/subdivision/edge_map.h"
+#include "core/subdivision/edge_split.h"
+#include "core/subdivision/indexed_faces.h"
+#include "core/subdivision/loop.h"
+#include "core/subdivision/ls3.h"
+#include "core/subdivision/oriented_surface.h"
+
+namespace touchmark {
+namespace {
+
+struct Named {
+  SubdivisionMethod method;
+  std::string_view name;
+};
+constexpr std::array<Named, 6> names = {{{SubdivisionMethod::butterfly, "butterfly"},
+                                         {SubdivisionMethod::catmull_clark, "catmull-clark"},
+                                         {SubdivisionMethod::catmull_clark_linear, "catmull-clark-linear"},
+                                         {SubdivisionMethod::mid_point, "mid-point"},
+                                         {SubdivisionMethod::loop, "loop"},
+                                         {SubdivisionMethod::ls3, "ls3"}}};
+
+void check(const SubdivisionOptions& options) {
+  if (options.levels < 0)
+    throw std::invalid_argument("levels is " + std::to_string(options.levels) + ", must be 0 or more");
+  if (!(options.threshold >= 0))
+    throw std::invalid_argument("threshold is " + std::to_string(options.threshold) + ", must be 0 or more");
+}
+
+/// The method that the form makes of the one asked for.
+SubdivisionMethod in_form(const SubdivisionOptions& options) noexcept {
+  const bool smoothless = options.form == SubdivisionForm::meshlab;
+  if (smoothless && options.method == SubdivisionMethod::catmull_clark)
+    return SubdivisionMethod::catmull_clark_linear;
+  return options.method;
+}
+
+bool needs_surface(SubdivisionMethod method) noexcept {
+  return method != SubdivisionMethod::mid_point && method != SubdivisionMethod::catmull_clark_linear;
+}
+
+void require_room(std::size_t triangles, int level, const SubdivisionOptions& options) {
+  if (triangles <= options.max_triangles) return;
+  throw MeshError("level " + std::to_string(level) + " of " + std::string(name_of(options.method)) +
+                  " would have " + std::to_string(triangles) + " triangles, more than " +
+                  std::to_string(options.max_triangles));
+}
+
+/// The tool keeps single-precision positions between levels.
+void store(std::vector<Vec3>& positions, SubdivisionForm form) {
+  if (form == SubdivisionForm::published) return;
+  for (Vec3& p : positions) {
+    if (!(p.cwiseAbs().maxCoeff() <= std::numeric_limits<float>::max()))
+      throw MeshError("a coordinate of " + std::to_string(p.cwiseAbs().maxCoeff()) + " does not fit a float");
+    p = p.cast<float>().cast<double>();
+  }
+}
+
+std::vector<Vec3> with_middles(std::vector<Vec3> positions, const EdgeMap<3>& edges, const EdgeSplit& split) {
+  positions.reserve(positions.size() + split.edges.size());
+  for (const std::uint32_t e : split.edges) {
+    const auto [a, b] = edges.ends(e);
+    positions.push_back((positions[a] + positions[b]) / 2);
+  }
+  return positions;
+}
+
+std::vector<Vec3> with_butterfly_points(std::vector<Vec3> positions, const OrientedSurface& surface,
+                                        const EdgeSplit& split, SubdivisionForm form) {
+  const std::vector<Vec3> points = butterfly_points(surface, positions, split.edges, form);
+  positions.insert(positions.end(), points.begin(), points.end());
+  return positions;
+}
+
+/// One triangle mesh on its way through the levels of a scheme that splits edges.
+class EdgeSplitting {
+ public:
+  EdgeSplitting(IndexedTriangles mesh, const SubdivisionOptions& options)
+      : mesh_(std::move(mesh)), options_(options) {
+    if (options_.method != SubdivisionMethod::ls3) return;
+    normals_ = angle_weighted_normals(mesh_);
+    if (options_.form == SubdivisionForm::published) normalize(normals_);
+  }
+
+  void refine(int level) {
+    const EdgeMap<3> edges(mesh_.faces, mesh_.positions.size());
+    const EdgeSplit split = long_edges(mesh_.positions, edges, options_.threshold, options_.form);
+    require_room(count_after(mesh_.faces.size(), edges, split), level, options_);
+    std::vector<Vec3> positions = refined_positions(edges, split);
+    store(positions, options_.form);
+    mesh_.faces = split_faces(mesh_.faces, edges, split, judged_by(positions));
+    mesh_.positions = std::move(positions);
+    if (options_.method == SubdivisionMethod::ls3 && options_.form == SubdivisionForm::meshlab)
+      normals_ = angle_weighted_normals(mesh_);
+  }
+
+  IndexedTriangles take() { return std::move(mesh_); }
+
+ private:
+  std::vector<Vec3> refined_positions(const EdgeMap<3>& edges, const EdgeSplit& split) {
+    if (options_.method == SubdivisionMethod::mid_point) return with_middles(mesh_.positions, edges, split);
+    const OrientedSurface surface(mesh_.faces, edges, mesh_.positions.size());
+    if (options_.method == SubdivisionMethod::butterfly)
+      return with_butterfly_points(mesh_.positions, surface, split, options_.form);
+    if (options_.method == SubdivisionMethod::loop) return loop_points(surface, mesh_.positions, split.edges);
+    auto [points, normals] = ls3_points(surface, mesh_.positions, normals_, split.edges);
+    normals_ = std::move(normals);
+    return std::move(points);
+  }
+
+  /// Where the vertices are when a trapezoid's diagonals are compared: in the tool the old ones have not
+  /// moved yet.
+  std::vector<Vec3> judged_by(const std::vector<Vec3>& refined) const {
+    std::vector<Vec3> positions = refined;
+    if (options_.form == SubdivisionForm::meshlab)
+      std::copy(mesh_.positions.begin(), mesh_.positions.end(), positions.begin());
+    return positions;
+  }
+
+  IndexedTriangles mesh_;
+  std::vector<Vec3> normals_;  ///< for ls3
+  const SubdivisionOptions& options_;
+};
+
+IndexedTriangles refine_by_edges(IndexedTriangles mesh, const SubdivisionOptions& options) {
+  EdgeSplitting splitting(std::move(mesh), options);
+  for (int level = 1; level <= options.levels; ++level) splitting.refine(level);
+  return splitting.take();
+}
+
+IndexedTriangles refine_by_faces(IndexedTriangles mesh, const SubdivisionOptions& options) {
+  if (options.levels == 0) return mesh;
+  const auto positions = in_form(options) == SubdivisionMethod::catmull_clark ? CatmullClarkPositions::smooth
+                                                                              : CatmullClarkPositions::linear;
+  require_room(mesh.faces.size() * 6, 1, options);
+  IndexedQuads quads = catmull_clark(mesh, positions);
+  store(quads.positions, options.form);
+  for (int level = 2; level <= options.levels; ++level) {
+    require_room(quads.faces.size() * 8, level, options);
+    quads = catmull_clark(quads, positions);
+    store(quads.positions, options.form);
+  }
+  std::vector<TriangleMesh::Corners> triangles = triangulated(quads);
+  return {std::move(quads.positions), std::move(triangles)};
+}
+
+}  // namespace
+
+TriangleMesh subdivide(const TriangleMesh& mesh, const SubdivisionOptions& options) {
+  check(options);
+  Welded welded = weld(mesh);
+  if (welded.mesh.faces.empty()) {
+    throw MeshError("none of the " + std::to_string(mesh.size()) +
+                    " triangles has three corners in different places");
+  }
+  require_room(welded.mesh.faces.size(), 0, options);
+  const SubdivisionMethod method = in_form(options);
+  if (needs_surface(method)) require_surface(welded, name_of(options.method));
+  store(welded.mesh.positions, options.form);
+  const bool by_faces =
+      method == SubdivisionMethod::catmull_clark || method == SubdivisionMethod::catmull_clark_linear;
+  IndexedTriangles result = by_faces ? refine_by_faces(std::move(welded.mesh), options)
+                                     : refine_by_edges(std::move(welded.mesh), options);
+  return {std::move(result.positions), std::move(result.faces)};
+}
+
+std::string_view name_of(SubdivisionMethod method) noexcept {
+  for (const Named& named : names)
+    if (named.method == method) return named.name;
+  return {};
+}
+
+std::optional<SubdivisionMethod> subdivision_method(std::string_view name) noexcept {
+  for (const Named& named : names)
+    if (named.name == name) return named.method;
+  return std::nullopt;
+}
+
+}  // namespace touchmark
