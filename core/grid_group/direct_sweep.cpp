@@ -1,0 +1,139 @@
+/// The first touch along a straight way, through the hierarchy of boxes.
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+#include "core/geometry/sphere_triangle_sweep.h"
+#include "core/geometry/sweep_box.h"
+#include "core/grid_group/direct_grid.h"
+
+namespace touchmark::grid {
+namespace {
+
+/// The earliest hit among the triangles it comes by.
+class SweepSearch {
+ public:
+  /// The store's frame covers both ends.
+  SweepSearch(const TriangleStore& store, const Sweep& sweep, double widening) noexcept
+      : store_(store),
+        sweep_(sweep),
+        in_frame_{store.frame.scale() * (sweep.from - store.frame.origin()),
+                  store.frame.scale() * (sweep.to - store.frame.origin()), 0},
+        start_(store.frame.point(sweep.from)),
+        length_((sweep.to - sweep.from).norm()),
+        widening_(widening) {}
+
+  bool found() const noexcept { return first_.fraction <= 1; }
+  double fraction() const noexcept { return first_.fraction; }
+  std::uint32_t place() const noexcept { return place_; }  ///< of the first
+
+  void consider_tree(const BoxTree& tree, Work& work) noexcept {
+    BoxStack stack;
+    visit(tree, static_cast<std::uint32_t>(tree.levels()) - 1, 0, stack, work);
+    while (!stack.empty()) {
+      const BoxStack::Entry next = stack.pop();
+      // The bound may have been rounded up to single precision.
+      if (static_cast<double>(next.bound) > limit() * (1 + 0x1p-22)) continue;
+      if (next.level > 0) {
+        visit(tree, next.level - 1, next.index, stack, work);
+      } else {
+        consider_block(next.index, work);
+      }
+    }
+  }
+
+ private:
+  double limit() const noexcept { return std::min(first_.fraction, 1.0); }
+
+  /// Pushes the children that the way meets, the first met on top.
+  void visit(const BoxTree& tree, std::uint32_t level, std::uint32_t index, BoxStack& stack,
+             Work& work) const noexcept {
+    const EightBoxes& node = tree.node(level, index);
+    const double widening = store_.frame.scale() * widening_;
+    const std::size_t base = stack.size();
+    work.boxes += BoxTree::arity;
+    for (std::uint32_t child = 0; child < BoxTree::arity; ++child) {
+      Aabb box;
+      for (std::size_t k = 0; k < 3; ++k) {
+        box.min[static_cast<int>(k)] = static_cast<double>(node.min[k][child / 4][child % 4]);
+        box.max[static_cast<int>(k)] = static_cast<double>(node.max[k][child / 4][child % 4]);
+      }
+      const double enter = enters(box, in_frame_, widening, limit());
+      if (enter <= limit())
+        stack.insert(base, {static_cast<float>(enter), index * BoxTree::arity + child, level});
+    }
+  }
+
+  /// Those within the way's length of its start: nothing else can be met.
+  void consider_block(std::uint32_t block, Work& work) noexcept {
+    const std::uint32_t first = block * TriangleStore::block_size;
+    work.triangles += TriangleStore::block_size;
+    for (std::uint32_t at = first; at < first + TriangleStore::block_size; at += 4) {
+      const TrianglePlanes* planes = &store_.planes[at];
+      const double within = length_ * limit() * (1 + 0x1p-40) + widening_;
+      const Lanes bounds = lower_bounds(planes[0], planes[1], planes[2], planes[3], start_);
+      for (unsigned left = at_most(bounds, store_.frame.limit(within * within)); left != 0; left &= left - 1)
+        consider(at + static_cast<std::uint32_t>(std::countr_zero(left)));
+    }
+  }
+
+  void consider(std::uint32_t place) noexcept {
+    const PreparedTriangle& triangle = store_.exact[place];
+    const std::optional<double> hit = sweep_hit(triangle, sweep_, limit());
+    if (!hit || !(HitCandidate{*hit, triangle.index} < first_)) return;
+    first_ = {*hit, triangle.index};
+    place_ = place;
+  }
+
+  const TriangleStore& store_;
+  const Sweep& sweep_;
+  Sweep in_frame_;
+  FilterPoint start_;
+  double length_;
+  double widening_;
+  HitCandidate first_;
+  std::uint32_t place_ = 0;
+};
+
+}  // namespace
+
+std::optional<Impact> DirectGrid::first_hit(const Sweep& sweep, DirectMemory& memory,
+                                            Work& work) const noexcept {
+  if (!(store_.frame.covers(sweep.from) && store_.frame.covers(sweep.to))) return far_first_hit(sweep, work);
+  const double difference = std::max(largest_difference(sweep.from), largest_difference(sweep.to));
+  SweepSearch search(store_, sweep, sweep_widening(sweep, difference));
+  search.consider_tree(tree_, work);
+  if (!search.found()) return std::nullopt;
+  memory.place = search.place();
+  return impact_on(sweep, search.fraction(), search.place(), memory, work);
+}
+
+std::optional<Impact> DirectGrid::far_first_hit(const Sweep& sweep, Work& work) const noexcept {
+  const double difference = std::max(largest_difference(sweep.from), largest_difference(sweep.to));
+  ++work.boxes;
+  if (enters(bounds_, sweep, sweep_widening(sweep, difference), 1) > 1) return std::nullopt;
+  HitCandidate first;
+  std::uint32_t first_place = 0;
+  for (std::uint32_t place = 0; place < store_.size(); ++place) {
+    const PreparedTriangle& triangle = store_.exact[place];
+    const std::optional<double> hit = sweep_hit(triangle, sweep, std::min(first.fraction, 1.0));
+    if (!hit || !(HitCandidate{*hit, triangle.index} < first)) continue;
+    first = {*hit, triangle.index};
+    first_place = place;
+  }
+  work.triangles += store_.size();
+  if (!(first.fraction <= 1)) return std::nullopt;
+  DirectMemory memory;
+  return impact_on(sweep, first.fraction, first_place, memory, work);
+}
+
+std::optional<Impact> DirectGrid::impact_on(const Sweep& sweep, double fraction, std::uint32_t place,
+                                            DirectMemory& memory, Work& work) const noexcept {
+  if (fraction > 0)
+    return Impact{fraction, contact_on(store_.exact[place], position_at(sweep, fraction), store_.id(place))};
+  // Touching at the start: of all the triangles touched there the nearest one counts.
+  const std::optional<Contact> contact = nearest(sweep.from, sweep.radius, memory, work);
+  return contact ? std::optional(Impact{0, *contact}) : std::nullopt;
+}
+
+}  // namespace touchmark::grid

@@ -1,0 +1,100 @@
+#include "core/grid_group/grid_group.h"
+
+#include <stdexcept>
+#include <string>
+
+namespace touchmark {
+namespace {
+
+constexpr double least_bytes_per_triangle = 200;
+
+void check(const GridGroup::Options& options) {
+  if (!(options.cell >= 0)) {
+    throw std::invalid_argument("grid-group: cell is " + std::to_string(options.cell) + ", not 0 or more");
+  }
+  if (!(options.bytes_per_triangle >= least_bytes_per_triangle)) {
+    throw std::invalid_argument("grid-group: bytes_per_triangle is " +
+                                std::to_string(options.bytes_per_triangle) + ", less than " +
+                                std::to_string(least_bytes_per_triangle));
+  }
+}
+
+/// Where all corners coincide every triangle is the same point, so the first stands for all.
+TriangleMesh first_triangle(const TriangleMesh& mesh) {
+  const std::vector<Vec3> corners = {mesh.corner(0, 0), mesh.corner(0, 1), mesh.corner(0, 2)};
+  return {corners, {{0, 1, 2}}, {mesh.id(0)}};
+}
+
+}  // namespace
+
+GridGroup GridGroup::build(const TriangleMesh& mesh, const Options& options) {
+  check(options);
+  GridGroup detector;
+  if (mesh.bounds().extent().isZero(0)) {
+    detector.form_ = BruteForce::build(first_triangle(mesh));
+  } else if (!FilterFrame::fits(mesh.bounds())) {
+    detector.form_ = BruteForce::build(mesh);
+  } else if (options.lookup == Lookup::scan) {
+    detector.form_ = grid::ScanGrid::build(mesh, {options.shape, options.cell, options.groups});
+  } else {
+    detector.form_ = grid::DirectGrid::build(mesh, {options.cell, options.bytes_per_triangle});
+  }
+  return detector;
+}
+
+bool GridGroup::touches(const Probe& probe, Session& session) const noexcept {
+  if (const auto* direct = std::get_if<grid::DirectGrid>(&form_))
+    return direct->touches(probe, session.memory, session.work);
+  if (const auto* scan = std::get_if<grid::ScanGrid>(&form_)) return scan->touches(probe, session.work);
+  BruteForce::Session plain;
+  const bool touching = std::get_if<BruteForce>(&form_)->touches(probe, plain);
+  session.work += plain.work;
+  return touching;
+}
+
+std::optional<Contact> GridGroup::nearest(const Probe& probe, double reach, Session& session) const noexcept {
+  if (const auto* direct = std::get_if<grid::DirectGrid>(&form_))
+    return direct->nearest(probe.center, reach, session.memory, session.work);
+  if (const auto* scan = std::get_if<grid::ScanGrid>(&form_))
+    return scan->nearest(probe.center, reach, session.work);
+  BruteForce::Session plain;
+  const std::optional<Contact> contact = std::get_if<BruteForce>(&form_)->nearest(probe, reach, plain);
+  session.work += plain.work;
+  return contact;
+}
+
+std::optional<Impact> GridGroup::first_hit(const Sweep& sweep, Session& session) const noexcept {
+  if (const auto* direct = std::get_if<grid::DirectGrid>(&form_))
+    return direct->first_hit(sweep, session.memory, session.work);
+  if (const auto* scan = std::get_if<grid::ScanGrid>(&form_)) return scan->first_hit(sweep, session.work);
+  BruteForce::Session plain;
+  const std::optional<Impact> impact = std::get_if<BruteForce>(&form_)->first_hit(sweep, plain);
+  session.work += plain.work;
+  return impact;
+}
+
+std::size_t GridGroup::bytes() const noexcept {
+  if (const auto* direct = std::get_if<grid::DirectGrid>(&form_)) return direct->bytes();
+  if (const auto* scan = std::get_if<grid::ScanGrid>(&form_)) return scan->bytes();
+  return std::get_if<BruteForce>(&form_)->bytes();
+}
+
+std::size_t GridGroup::groups() const noexcept {
+  if (const auto* direct = std::get_if<grid::DirectGrid>(&form_)) return direct->groups();
+  if (const auto* scan = std::get_if<grid::ScanGrid>(&form_)) return scan->groups();
+  return 1;
+}
+
+double GridGroup::cell() const noexcept {
+  if (const auto* direct = std::get_if<grid::DirectGrid>(&form_)) return direct->cell();
+  if (const auto* scan = std::get_if<grid::ScanGrid>(&form_)) return scan->cell();
+  return 0;
+}
+
+bool GridGroup::coarsened() const noexcept {
+  if (const auto* direct = std::get_if<grid::DirectGrid>(&form_)) return direct->coarsened();
+  if (const auto* scan = std::get_if<grid::ScanGrid>(&form_)) return scan->coarsened();
+  return false;
+}
+
+}  // namespace touchmark

@@ -1,0 +1,65 @@
+/// Uniform cells, and in each the triangles that matter there.
+///
+/// After J.-S. Park and T.-J. Jang, "Fast collision detection using mesh grouping for haptic interaction"
+/// (Journal of Digital Contents Society 19(1), 2018, 199-204), in two forms:
+/// - scan, as published: a triangle belongs to every cell it touches, a group is the smallest cuboid or
+/// sphere
+///   around the triangles of a cell, and a query tests the HIP against every group, then all triangles of the
+///   groups that hold it. A probe of radius r enlarges the groups by r.
+/// - direct, fast: the HIP's own cell names the triangles that can be nearest somewhere in that cell.
+/// Both are exact at any radius and reach.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <variant>
+
+#include "core/brute_force/brute_force.h"
+#include "core/detector.h"
+#include "core/grid_group/direct_grid.h"
+#include "core/grid_group/scan_grid.h"
+
+namespace touchmark {
+
+class GridGroup {
+ public:
+  using Shape = grid::Shape;
+  enum class Lookup { scan, direct };
+  struct Options {
+    Shape shape = Shape::cube;  ///< of the groups; scan only
+    Lookup lookup = Lookup::direct;
+    double cell = 0;         ///< edge of a cell, direct: of the smallest; mesh units; 0: choose
+    std::size_t groups = 0;  ///< scan with cell = 0: aim at about so many groups; 0: choose
+    double bytes_per_triangle =
+        400;  ///< direct: what the structure may take, mesh copy included (200 at least)
+  };
+  struct Session {
+    Work work;
+    grid::DirectMemory memory;
+  };
+
+  /// Throws std::invalid_argument for a negative or NaN cell or a budget below 200.
+  static GridGroup build(const TriangleMesh& mesh, const Options& options);
+  static GridGroup build(const TriangleMesh& mesh) { return build(mesh, Options()); }
+
+  bool touches(const Probe& probe, Session& session) const noexcept;
+  std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept;
+  std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept;
+
+  std::size_t bytes() const noexcept;
+  Accuracy accuracy() const noexcept { return {Guarantee::exact, kernel_relative_error, 0}; }
+
+  /// Scan: groups tested by every query. Direct: cells that hold a list.
+  std::size_t groups() const noexcept;
+  /// Edge of the (smallest) cell, in mesh units; 0 where the mesh's extent admits no cells.
+  double cell() const noexcept;
+  /// Were the cells made larger than asked, or fewer than wanted, to keep within memory?
+  bool coarsened() const noexcept;
+
+ private:
+  /// BruteForce serves the meshes whose extent is zero or whose squares leave the range of double.
+  std::variant<BruteForce, grid::ScanGrid, grid::DirectGrid> form_;
+};
+
+}  // namespace touchmark

@@ -1,0 +1,85 @@
+/// The nearest of the triangles that a search comes by: filter in single precision, decide in double.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+#include "core/grid_group/box_tree.h"
+#include "core/grid_group/triangle_store.h"
+
+namespace touchmark::grid {
+
+/// Starts at a limit on the squared distance and tightens it with every triangle found.
+class NearestSearch {
+ public:
+  /// The store's frame covers `center`.
+  NearestSearch(const TriangleStore& store, const Vec3& center, double squared_limit) noexcept
+      : store_(store),
+        center_(center),
+        point_(store.frame.point(center)),
+        limit_(store.frame.limit(squared_limit)) {}
+
+  const Candidate& best() const noexcept { return best_; }
+  std::uint32_t place() const noexcept { return place_; }  ///< of the best
+  float limit() const noexcept { return limit_; }
+  const FilterPoint& point() const noexcept { return point_; }
+  std::uint64_t triangles() const noexcept { return triangles_; }  ///< tested
+  std::uint64_t boxes() const noexcept { return boxes_; }          ///< tested
+
+  void consider(std::uint32_t place) noexcept {
+    ++triangles_;
+    decide(place);
+  }
+  void consider_block(std::uint32_t block) noexcept {
+    const std::uint32_t first = block * TriangleStore::block_size;
+    triangles_ += TriangleStore::block_size;
+    for (std::uint32_t at = first; at < first + TriangleStore::block_size; at += 4) {
+      const TrianglePlanes* planes = &store_.planes[at];
+      const Lanes bounds = lower_bounds(planes[0], planes[1], planes[2], planes[3], point_);
+      for (unsigned left = at_most(bounds, limit_); left != 0; left &= left - 1)
+        decide(at + static_cast<std::uint32_t>(std::countr_zero(left)));
+    }
+  }
+  /// Visits the tree nearest first until `enough(best)`.
+  template <class Enough>
+  void consider_tree(const BoxTree& tree, const Enough& enough) noexcept {
+    BoxStack stack;
+    visit(tree, static_cast<std::uint32_t>(tree.levels()) - 1, 0, stack);
+    while (!stack.empty()) {
+      const BoxStack::Entry next = stack.pop();
+      if (next.bound > limit_) continue;
+      if (next.level > 0) {
+        visit(tree, next.level - 1, next.index, stack);
+        continue;
+      }
+      consider_block(next.index);
+      if (enough(best_)) return;
+    }
+  }
+
+ private:
+  void visit(const BoxTree& tree, std::uint32_t level, std::uint32_t node, BoxStack& stack) noexcept {
+    boxes_ += BoxTree::arity;
+    stack.push(lower_bounds(tree.node(level, node), point_), limit_, node, level);
+  }
+  void decide(std::uint32_t place) noexcept {
+    const PreparedTriangle& triangle = store_.exact[place];
+    const Candidate candidate{squared_distance(triangle, center_), triangle.index};
+    if (!(candidate < best_)) return;
+    best_ = candidate;
+    place_ = place;
+    limit_ = std::min(limit_, store_.frame.limit(candidate.squared_distance));
+  }
+
+  const TriangleStore& store_;
+  const Vec3& center_;
+  FilterPoint point_;
+  float limit_;
+  Candidate best_;
+  std::uint32_t place_ = 0;
+  std::uint64_t triangles_ = 0;
+  std::uint64_t boxes_ = 0;
+};
+
+}  // namespace touchmark::grid

@@ -1,0 +1,226 @@
+#include "core/grid_group/grid_group.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "tests/core/grid_group/meshes.h"
+
+namespace touchmark {
+namespace {
+
+static_assert(AnswersTouches<GridGroup> && AnswersNearest<GridGroup> && AnswersSweep<GridGroup>);
+
+using Lookup = GridGroup::Lookup;
+using Options = GridGroup::Options;
+using Shape = GridGroup::Shape;
+using testing::icosphere;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+TriangleMesh two_triangles() {
+  return TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}});
+}
+
+std::vector<Options> forms(double cell) {
+  return {{.shape = Shape::cube, .lookup = Lookup::scan, .cell = cell},
+          {.shape = Shape::sphere, .lookup = Lookup::scan, .cell = cell},
+          {.shape = Shape::cube, .lookup = Lookup::direct, .cell = cell}};
+}
+
+std::optional<Contact> nearest(const GridGroup& detector, const Vec3& center, double reach) {
+  GridGroup::Session session;
+  return detector.nearest({center, 0}, reach, session);
+}
+
+TEST(GridGroup, FindsTheEdgeSharedByTwoCells) {
+  // Cells of 0.5 have a border where the diagonal edge runs through (0.5, 0.5).
+  for (const Options& options : forms(0.5)) {
+    const auto contact = nearest(GridGroup::build(two_triangles(), options), {0.5, 0.5, 0.25}, 1);
+    ASSERT_TRUE(contact);
+    EXPECT_EQ(contact->triangle, 0u);
+    EXPECT_EQ(contact->distance, 0.25);
+  }
+}
+
+TEST(GridGroup, FindsWhatLiesBeyondTheCellOfAProbeWithARadiusLargerThanACell) {
+  for (const Options& options : forms(0.1)) {
+    const GridGroup detector = GridGroup::build(two_triangles(), options);
+    GridGroup::Session session;
+    EXPECT_TRUE(detector.touches({{0.75, 0.75, 2}, 2}, session));
+    EXPECT_FALSE(detector.touches({{0.75, 0.75, 2}, std::nextafter(2, 0)}, session));
+    EXPECT_EQ(nearest(detector, {0.75, 0.75, 2}, 2)->triangle, 1u);
+  }
+}
+
+TEST(GridGroup, FindsTheNearestFromFarAwayWithoutLimit) {
+  for (const Options& options : forms(0)) {
+    const GridGroup detector = GridGroup::build(icosphere(3), options);
+    for (const double away : {10.0, 1e3, 1e8, 1e12}) {
+      const auto contact = nearest(detector, {0, 0, away}, infinity);
+      ASSERT_TRUE(contact) << away;
+      EXPECT_NEAR(contact->distance / (away - 1), 1, 0.02) << away;
+    }
+  }
+}
+
+TEST(GridGroup, AllTrianglesOfASphereAreCandidatesAtItsCentre) {
+  for (const Options& options : forms(0)) {
+    const GridGroup detector = GridGroup::build(icosphere(4), options);
+    EXPECT_NEAR(nearest(detector, {0, 0, 0}, infinity)->distance, 1, 0.01);
+    EXPECT_FALSE(nearest(detector, {0, 0, 0}, 0.9));
+  }
+}
+
+TEST(GridGroup, AProbeThatIsNotANumberTouchesNothing) {
+  for (const Options& options : forms(0)) {
+    const GridGroup detector = GridGroup::build(icosphere(1), options);
+    GridGroup::Session session;
+    for (int k = 0; k < 3; ++k) {
+      Vec3 center = Vec3::Zero();
+      center[k] = std::nan("");
+      EXPECT_FALSE(detector.nearest({center, 1}, infinity, session));
+      EXPECT_FALSE(detector.touches({center, infinity}, session));
+      EXPECT_FALSE(detector.first_hit({center, Vec3::Zero(), 1}, session));
+    }
+    EXPECT_FALSE(detector.nearest({Vec3::Zero(), 0}, std::nan(""), session));
+    EXPECT_FALSE(detector.touches({Vec3::Zero(), std::nan("")}, session));
+    EXPECT_FALSE(detector.nearest({Vec3(0, 0, 1), 0}, -1, session));
+    // And leaves the session usable.
+    EXPECT_TRUE(detector.nearest({Vec3(0, 0, 1), 0}, 1, session));
+  }
+}
+
+TEST(GridGroup, AnInfinitelyFarProbeTouchesNothingWithinAFiniteReach) {
+  for (const Options& options : forms(0)) {
+    const GridGroup detector = GridGroup::build(icosphere(1), options);
+    GridGroup::Session session;
+    EXPECT_FALSE(detector.nearest({Vec3(infinity, 0, 0), 0}, 1e300, session));
+    EXPECT_FALSE(detector.touches({Vec3(0, -infinity, 0), 1}, session));
+  }
+}
+
+TEST(GridGroup, ReportsTheIdsOfTheFile) {
+  const TriangleMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}}, {7, 9});
+  for (const Options& options : forms(0))
+    EXPECT_EQ(nearest(GridGroup::build(mesh, options), {0.75, 0.75, 2}, infinity)->triangle, 9u);
+}
+
+TEST(GridGroup, ASweepStopsAtTheSurface) {
+  for (const Options& options : forms(0.2)) {
+    const GridGroup detector = GridGroup::build(two_triangles(), options);
+    GridGroup::Session session;
+    const auto impact = detector.first_hit({{0.75, 0.75, 2}, {0.75, 0.75, -2}, 0.5}, session);
+    ASSERT_TRUE(impact);
+    EXPECT_NEAR(impact->fraction, 1.5 / 4, 1e-15);
+    EXPECT_EQ(impact->contact.triangle, 1u);
+    EXPECT_FALSE(detector.first_hit({{0.75, 0.75, 2}, {0.75, 0.75, 0.6}, 0.5}, session));
+    EXPECT_FALSE(detector.first_hit({{3, 3, 2}, {3, 3, -2}, 0.5}, session));
+    EXPECT_EQ(detector.first_hit({{0.75, 0.75, 0.25}, {0.75, 0.75, 5}, 0.5}, session)->fraction, 0);
+  }
+}
+
+std::string refusal(const Options& options) {
+  try {
+    GridGroup::build(two_triangles(), options);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(GridGroup, RefusesOptionsByName) {
+  EXPECT_NE(refusal({.cell = -1}).find("cell is -1"), std::string::npos);
+  EXPECT_NE(refusal({.cell = std::nan("")}).find("cell is nan"), std::string::npos);
+  EXPECT_NE(refusal({.bytes_per_triangle = 10}).find("bytes_per_triangle is 10"), std::string::npos);
+  EXPECT_NE(refusal({.bytes_per_triangle = std::nan("")}).find("bytes_per_triangle is nan"),
+            std::string::npos);
+}
+
+TEST(GridGroupScan, TestsEveryGroupAndThenTheTrianglesOfThoseThatHoldTheProbe) {
+  // Four cells of 8 by 8 squares; the probe is well inside one of them.
+  const GridGroup detector =
+      GridGroup::build(testing::plate(16), {.shape = Shape::cube, .lookup = Lookup::scan, .cell = 0.53});
+  ASSERT_EQ(detector.groups(), 4u);
+  GridGroup::Session session;
+  EXPECT_TRUE(detector.nearest({{0.2, 0.2, 0}, 0}, 0, session));
+  EXPECT_EQ(session.work.cells, 4u);
+  EXPECT_GE(session.work.triangles, 8u * 8u * 2u);
+  EXPECT_LE(session.work.triangles, 9u * 9u * 2u);
+  EXPECT_FALSE(detector.nearest({{5, 5, 5}, 0}, 0.1, session));
+  EXPECT_EQ(session.work.cells, 8u);
+}
+
+TEST(GridGroupScan, SpheresHoldTheProbeAtLeastAsOftenAsCuboids) {
+  // A ball around a flat cell is far larger than its cuboid, so more triangles are tested.
+  const TriangleMesh mesh = icosphere(4);
+  std::uint64_t triangles[2] = {0, 0};
+  for (const Shape shape : {Shape::cube, Shape::sphere}) {
+    const GridGroup detector =
+        GridGroup::build(mesh, {.shape = shape, .lookup = Lookup::scan, .groups = 200});
+    GridGroup::Session session;
+    testing::Random random(12);
+    for (int i = 0; i < 200; ++i) detector.nearest({random.point(1).normalized(), 0}, 0.01, session);
+    triangles[shape == Shape::sphere] = session.work.triangles;
+  }
+  EXPECT_GT(triangles[1], triangles[0]);
+}
+
+TEST(GridGroupScan, MakesAboutAsManyGroupsAsAsked) {
+  for (const std::size_t wanted : {50u, 379u, 783u, 2115u}) {
+    const GridGroup detector = GridGroup::build(icosphere(5), {.lookup = Lookup::scan, .groups = wanted});
+    EXPECT_GT(detector.groups(), wanted / 2);
+    EXPECT_LT(detector.groups(), wanted * 2);
+    EXPECT_FALSE(detector.coarsened());
+  }
+}
+
+TEST(GridGroupScan, SaysSoWhenTheCellsAskedForWouldBeTooMany) {
+  const GridGroup detector = GridGroup::build(icosphere(2), {.lookup = Lookup::scan, .cell = 1e-7});
+  EXPECT_TRUE(detector.coarsened());
+  EXPECT_GT(detector.cell(), 1e-7);
+  EXPECT_FALSE(GridGroup::build(icosphere(2), {.lookup = Lookup::scan, .cell = 0.1}).coarsened());
+}
+
+TEST(GridGroupScan, EveryGroupEnclosesItsTrianglesAndEveryTriangleIsInAGroup) {
+  for (const testing::NamedMesh& named : testing::nasty_meshes()) {
+    const TriangleMesh& mesh = named.mesh;
+    if (!FilterFrame::fits(mesh.bounds())) continue;
+    for (const Shape shape : {Shape::cube, Shape::sphere}) {
+      const auto scan = grid::ScanGrid::build(mesh, {shape, 0.1 * mesh.diagonal(), 0});
+      std::vector<bool> grouped(mesh.size());
+      for (std::size_t group = 0; group < scan.groups(); ++group) {
+        for (const std::uint32_t triangle : scan.members(group)) {
+          grouped[triangle] = true;
+          for (int i = 0; i < 3; ++i) {
+            const Vec3& corner = mesh.corner(triangle, i);
+            EXPECT_TRUE(shape == Shape::cube ? scan.boxes()[group].contains(corner)
+                                             : scan.spheres()[group].contains(corner))
+                << named.name;
+          }
+        }
+      }
+      EXPECT_EQ(std::count(grouped.begin(), grouped.end(), false), 0) << named.name;
+    }
+  }
+}
+
+TEST(GridGroup, CountsTheMeshInItsBytes) {
+  const TriangleMesh mesh = icosphere(3);
+  for (const Options& options : forms(0))
+    EXPECT_GE(GridGroup::build(mesh, options).bytes(), mesh.size() * 9 * sizeof(double));
+}
+
+TEST(GridGroup, ASessionOfAnotherDetectorChangesNoAnswer) {
+  const GridGroup large = GridGroup::build(icosphere(3)), small = GridGroup::build(two_triangles());
+  GridGroup::Session session;
+  ASSERT_TRUE(large.nearest({{0, 0.9, 0}, 0}, infinity, session));
+  EXPECT_EQ(small.nearest({{0.75, 0.75, 2}, 0}, infinity, session)->distance, 2);
+  EXPECT_FALSE(large.nearest({{5, 0, 0}, 0}, 1, session));
+  EXPECT_TRUE(small.nearest({{0.75, 0.75, 0.5}, 0}, 1, session));
+}
+
+}  // namespace
+}  // namespace touchmark
