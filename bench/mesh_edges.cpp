@@ -3,63 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <tuple>
 
 #include <Eigen/Geometry>
 
+#include "bench/welded_mesh.h"
 #include "core/geometry/point_triangle.h"
 
 namespace touchmark::bench {
 namespace {
 
 constexpr double cosine_of_sharp = 0.8660254037844386;  // 30 degrees
-
-/// One side of a triangle, named from its lower node.
-struct Side {
-  std::uint32_t low, high, triangle;
-  bool forward;  ///< the triangle runs from low to high
-};
-
-bool precedes(const Vec3& a, const Vec3& b) {
-  return std::make_tuple(a.x(), a.y(), a.z()) < std::make_tuple(b.x(), b.y(), b.z());
-}
-
-struct Welded {
-  std::vector<Vec3> nodes;
-  std::vector<std::uint32_t> node_of;  ///< one a vertex
-};
-
-Welded weld(std::span<const Vec3> vertices) {
-  std::vector<std::uint32_t> order(vertices.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return precedes(vertices[a], vertices[b]) || (vertices[a] == vertices[b] && a < b);
-  });
-  Welded welded;
-  welded.node_of.resize(vertices.size());
-  for (const std::uint32_t vertex : order) {
-    if (welded.nodes.empty() || welded.nodes.back() != vertices[vertex])
-      welded.nodes.push_back(vertices[vertex]);
-    welded.node_of[vertex] = static_cast<std::uint32_t>(welded.nodes.size() - 1);
-  }
-  return welded;
-}
-
-std::vector<Side> sides_of(const TriangleMesh& mesh, const std::vector<std::uint32_t>& node_of) {
-  std::vector<Side> sides;
-  sides.reserve(3 * mesh.size());
-  for (std::uint32_t t = 0; t < mesh.size(); ++t) {
-    const TriangleMesh::Corners& corners = mesh.triangles()[t];
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t a = node_of[corners[i]], b = node_of[corners[(i + 1) % 3]];
-      if (a != b) sides.push_back({std::min(a, b), std::max(a, b), t, a < b});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.low, a.high, a.triangle, a.forward) < std::tie(b.low, b.high, b.triangle, b.forward);
-  });
-  return sides;
-}
 
 /// A face at an edge, and whether it runs along the edge from its lower node to its higher.
 struct Face {
@@ -91,21 +44,18 @@ Vec3 bisector_of(std::span<const Face> faces, const Vec3& along) {
 }  // namespace
 
 MeshEdges::MeshEdges(const TriangleMesh& mesh) {
-  Welded welded = weld(mesh.vertices());
+  WeldedMesh welded(mesh);
   nodes_ = std::move(welded.nodes);
-  const std::vector<Side> sides = sides_of(mesh, welded.node_of);
   std::vector<Face> faces;
-  for (std::size_t i = 0, next = 0; i < sides.size(); i = next) {
+  welded.each_edge([&](std::span<const TriangleSide> sides) {
     faces.clear();
-    for (next = i;
-         next < sides.size() && sides[next].low == sides[i].low && sides[next].high == sides[i].high;
-         ++next) {
-      const Vec3 normal = prepare(mesh, sides[next].triangle).normal;
-      if (!normal.isZero(0)) faces.push_back({normal, sides[next].forward});
+    for (const TriangleSide& side : sides) {
+      const Vec3 normal = prepare(mesh, side.triangle).normal;
+      if (!normal.isZero(0)) faces.push_back({normal, side.forward});
     }
-    const Vec3 along = nodes_[sides[i].high] - nodes_[sides[i].low];
-    edges_.push_back({sides[i].low, sides[i].high, bisector_of(faces, along), is_sharp(faces)});
-  }
+    const Vec3 along = nodes_[sides[0].high] - nodes_[sides[0].low];
+    edges_.push_back({sides[0].low, sides[0].high, bisector_of(faces, along), is_sharp(faces)});
+  });
   link();
 }
 
