@@ -3,10 +3,11 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <stdexcept>
 #include <utility>
 
 #include <unistd.h>
+
+#include "bench/failures.h"
 
 namespace touchmark::bench {
 
@@ -58,7 +59,7 @@ void AtomicFile::discard() const {
 }
 
 void AtomicFile::fail(int error) const {
-  throw std::runtime_error("cannot write " + path_ + ": " + std::strerror(error));
+  throw ResourceError("cannot write " + path_ + ": " + std::strerror(error));
 }
 
 }  // namespace touchmark::bench

@@ -9,14 +9,14 @@ namespace touchmark::bench {
 
 class AtomicFile {
  public:
-  /// Opens a file beside `path`; throws std::runtime_error when that fails.
+  /// Opens a file beside `path`; throws ResourceError when that fails.
   explicit AtomicFile(const std::string& path);
   /// Removes what was written, unless commit() was reached.
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  /// Throws std::runtime_error when the disk is full or fails.
+  /// Throws ResourceError when the disk is full or fails.
   void write(std::string_view text);
   /// Gives the file its name, in one step, in place of an older one.
   void commit();

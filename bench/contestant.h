@@ -24,7 +24,7 @@ struct Step {
   double reach = 0;  ///< of `nearest`
 };
 
-/// The steps [begin, end) of a path.
+/// The steps [begin, end) of a course.
 struct Window {
   std::size_t begin = 0;
   std::size_t end = 0;
@@ -32,12 +32,12 @@ struct Window {
 };
 
 /// A whole trajectory with what is asked along it.
-struct Path {
+struct Course {
   Query query = Query::nearest;
   std::span<const Step> steps;
 };
 
-/// One built detector with one session. answer, replay and replay_clocked need answers(path.query).
+/// One built detector with one session. answer, replay and replay_clocked need answers(course.query).
 class Contestant {
  public:
   Contestant() = default;
@@ -53,12 +53,12 @@ class Contestant {
   virtual Work work() const noexcept = 0;
 
   /// The answer to each step of the window and the total work it took; both spans have the window's size.
-  virtual void answer(const Path& path, Window window, std::span<Answer> answers,
+  virtual void answer(const Course& course, Window window, std::span<Answer> answers,
                       std::span<std::uint64_t> work) noexcept = 0;
   /// The same answers folded into the checksum, and nothing else: the loop that is timed from outside.
-  virtual void replay(const Path& path, Window window, Checksum& checksum) noexcept = 0;
+  virtual void replay(const Course& course, Window window, Checksum& checksum) noexcept = 0;
   /// The same, with the clock read once a step: the ticks each step took, one clock reading included.
-  virtual void replay_clocked(const Path& path, Window window, Checksum& checksum,
+  virtual void replay_clocked(const Course& course, Window window, Checksum& checksum,
                               std::span<std::uint64_t> ticks) noexcept = 0;
 };
 
@@ -93,34 +93,34 @@ class ContestantOf final : public Contestant {
   void forget() override { session_.emplace(); }
   Work work() const noexcept override { return session_->work; }
 
-  void answer(const Path& path, Window window, std::span<Answer> answers,
+  void answer(const Course& course, Window window, std::span<Answer> answers,
               std::span<std::uint64_t> work) noexcept override {
     assert(answers.size() == window.size() && work.size() == window.size());
-    with_query(path.query, [&](auto ask) {
+    with_query(course.query, [&](auto ask) {
       for (std::size_t i = 0; i < window.size(); ++i) {
         const std::uint64_t before = session_->work.total();
-        answers[i] = ask(path.steps, window.begin + i);
+        answers[i] = ask(course.steps, window.begin + i);
         work[i] = session_->work.total() - before;
       }
     });
   }
 
-  void replay(const Path& path, Window window, Checksum& checksum) noexcept override {
-    with_query(path.query, [&](auto ask) {
+  void replay(const Course& course, Window window, Checksum& checksum) noexcept override {
+    with_query(course.query, [&](auto ask) {
       Checksum sum = checksum;
-      for (std::size_t i = window.begin; i < window.end; ++i) sum.add(ask(path.steps, i));
+      for (std::size_t i = window.begin; i < window.end; ++i) sum.add(ask(course.steps, i));
       checksum = sum;
     });
   }
 
-  void replay_clocked(const Path& path, Window window, Checksum& checksum,
+  void replay_clocked(const Course& course, Window window, Checksum& checksum,
                       std::span<std::uint64_t> ticks) noexcept override {
     assert(ticks.size() == window.size());
-    with_query(path.query, [&](auto ask) {
+    with_query(course.query, [&](auto ask) {
       Checksum sum = checksum;
       std::uint64_t before = TickClock::now();
       for (std::size_t i = 0; i < window.size(); ++i) {
-        sum.add(ask(path.steps, window.begin + i));
+        sum.add(ask(course.steps, window.begin + i));
         const std::uint64_t after = TickClock::now();
         ticks[i] = after - before;
         before = after;

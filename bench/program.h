@@ -2,30 +2,14 @@
 /// went wrong into one line on stderr and an exit status.
 #pragma once
 
-#include <stdexcept>
-
 #include "bench/contestant_info.h"
+#include "bench/failures.h"
 
 namespace CLI {
 class App;
 }
 
 namespace touchmark::bench {
-
-/// What the program exits with.
-enum ExitStatus : int {
-  exit_done = 0,
-  exit_check_failed = 1,  ///< the command ran, and something it checked is wrong
-  exit_bad_input = 2,     ///< std::invalid_argument, MeshError, or the command line itself
-  exit_resources = 3,     ///< ResourceError, std::bad_alloc, std::system_error
-  exit_interrupted = 130  ///< Ctrl-C; what was finished is kept
-};
-
-/// Something outside ran out or broke: the disk is full, no process can be started.
-class ResourceError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// What commands share. A command sets `status` when it is not exit_done; errors are thrown.
 struct ProgramContext {

@@ -1,0 +1,224 @@
+#include "bench/worker.h"
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <malloc.h>
+#include <nlohmann/json.hpp>
+
+#include "bench/floating_point.h"
+#include "bench/line_channel.h"
+#include "bench/query_name.h"
+#include "bench/shared_memory.h"
+#include "bench/shared_workload.h"
+#include "bench/throughput.h"
+#include "bench/tick_clock.h"
+#include "bench/windows.h"
+#include "bench/worker_protocol.h"
+
+namespace touchmark::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double ns_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
+}
+
+std::uint64_t heap_in_use() {
+  const struct mallinfo2 info = mallinfo2();
+  return info.uordblks + info.hblkhd;
+}
+
+/// Messages of rivals and file names may hold bytes that are not UTF-8.
+std::string dumped(const nlohmann::json& json) {
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+class Worker {
+ public:
+  explicit Worker(const Roster& roster)
+      : roster_(roster),
+        input_(SharedMemory::attach(worker_input, SharedMemory::Access::read)),
+        output_(SharedMemory::attach(worker_output, SharedMemory::Access::write)) {}
+
+  /// The reply to one order.
+  nlohmann::json obey(const nlohmann::json& order) {
+    const std::string what = order.at("order");
+    if (what == "open") return open(order.at("layout"));
+    if (what == "build") return build(order.at("contestant"));
+    if (contestant_ == nullptr) throw std::logic_error("nothing is built");
+    const Task task = order.at("task");
+    if (what == "first") return first(task);
+    if (what == "calibrate") return calibrate(task, order.at("budget_ns"));
+    if (what == "answer") return answer(task);
+    if (what == "first_pass") return first_pass(task);
+    if (what == "time") return time(task, order.at("passes"));
+    if (what == "latency") return latency(task);
+    throw std::logic_error("unknown order " + what);
+  }
+
+ private:
+  nlohmann::json open(const WorkloadLayout& layout);
+  nlohmann::json build(const std::string& spec);
+  nlohmann::json first(const Task& task);
+  nlohmann::json calibrate(const Task& task, double budget_ns);
+  nlohmann::json answer(const Task& task);
+  nlohmann::json first_pass(const Task& task);
+  nlohmann::json time(const Task& task, std::int64_t passes);
+  nlohmann::json latency(const Task& task);
+
+  Course course_of(const Task& task) const { return {task.query, courses_.at(task.course)}; }
+  std::vector<Window> windows_of(const Task& task) const {
+    return plan_windows(courses_.at(task.course).size(), task.steps);
+  }
+  double timed_build(const ContestantSpec& spec);
+  Timed timed_replay(const Course& course, const std::vector<Window>& windows);
+
+  const Roster& roster_;
+  SharedMemory input_;
+  SharedMemory output_;
+  std::optional<OutputRoom> room_;
+  std::optional<TriangleMesh> mesh_;
+  std::vector<std::vector<Step>> courses_;
+  std::unique_ptr<Contestant> contestant_;
+};
+
+nlohmann::json Worker::open(const WorkloadLayout& layout) {
+  Opened opened;
+  opened.flushed_to_zero = restore_denormals();
+  mesh_ = read_mesh(input_.bytes(), layout);
+  courses_ = read_courses(input_.bytes(), layout);
+  room_.emplace(output_.bytes(), layout.longest_course());
+  const ClockCalibration clock = calibrate_clock();
+  opened.clock_cost_ns = clock.cost_ns;
+  opened.ns_per_tick = clock.ns_per_tick;
+  return opened;
+}
+
+double Worker::timed_build(const ContestantSpec& spec) {
+  contestant_.reset();
+  const Clock::time_point start = Clock::now();
+  contestant_ = roster_.build(spec, *mesh_);
+  return ns_since(start);
+}
+
+nlohmann::json Worker::build(const std::string& spec_text) {
+  const ContestantSpec spec = roster_.parse(spec_text);
+  Built built;
+  const std::uint64_t heap_before = heap_in_use();
+  std::vector<double> times_ns;
+  try {
+    times_ns.push_back(timed_build(spec));
+    const std::uint64_t heap_after = heap_in_use();
+    built.heap_bytes = heap_after > heap_before ? heap_after - heap_before : 0;
+    // A short build is repeated, since the first one pays for page faults that have nothing to do with it.
+    constexpr double short_build_ns = 20e6;
+    while (times_ns.size() < 5 && times_ns.front() < short_build_ns) times_ns.push_back(timed_build(spec));
+  } catch (const std::exception& error) {
+    contestant_.reset();
+    built.refused = error.what();
+    return built;
+  }
+  std::nth_element(times_ns.begin(), times_ns.begin() + static_cast<std::ptrdiff_t>(times_ns.size() / 2),
+                   times_ns.end());
+  built.build_ms = times_ns[times_ns.size() / 2] / 1e6;
+  mesh_.reset();  // detectors hold copies of what they need
+  built.bytes = contestant_->bytes();
+  built.accuracy = contestant_->accuracy();
+  for (const Query query : all_queries) {
+    if (contestant_->answers(query)) built.queries.push_back(query);
+  }
+  return built;
+}
+
+Timed Worker::timed_replay(const Course& course, const std::vector<Window>& windows) {
+  Checksum checksum;
+  const Clock::time_point start = Clock::now();
+  for (const Window& window : windows) contestant_->replay(course, window, checksum);
+  const double elapsed = ns_since(start);
+  return {elapsed / static_cast<double>(steps_in(windows)), checksum.value(), true};
+}
+
+nlohmann::json Worker::first(const Task& task) {
+  contestant_->forget();
+  return timed_replay(course_of(task), {{0, 1}});
+}
+
+nlohmann::json Worker::calibrate(const Task& task, double budget_ns) {
+  const std::size_t total = courses_.at(task.course).size();
+  for (std::size_t steps = 2;; steps *= 4) {
+    const std::vector<Window> windows = plan_windows(total, steps);
+    const Timed timed = timed_replay(course_of(task), windows);
+    const double elapsed = timed.ns_per_query * static_cast<double>(steps_in(windows));
+    if (elapsed * 4 >= budget_ns || steps >= total) return timed;
+  }
+}
+
+nlohmann::json Worker::answer(const Task& task) {
+  const Course course = course_of(task);
+  const std::vector<Window> windows = windows_of(task);
+  const std::size_t steps = steps_in(windows);
+  contestant_->forget();
+  std::size_t done = 0;
+  for (const Window& window : windows) {
+    contestant_->answer(course, window, room_->answers(steps).subspan(done, window.size()),
+                        room_->work(steps).subspan(done, window.size()));
+    done += window.size();
+  }
+  Checksum checksum;
+  for (const Answer& answer : room_->answers(steps)) checksum.add(answer);
+  return Answered{checksum.value()};
+}
+
+nlohmann::json Worker::first_pass(const Task& task) {
+  contestant_->forget();
+  return timed_replay(course_of(task), windows_of(task));
+}
+
+nlohmann::json Worker::time(const Task& task, std::int64_t passes) {
+  const Throughput throughput = measure_throughput(*contestant_, course_of(task), windows_of(task), passes);
+  return Timed{throughput.ns_per_query, throughput.checksum, throughput.steady};
+}
+
+nlohmann::json Worker::latency(const Task& task) {
+  const Course course = course_of(task);
+  const std::vector<Window> windows = windows_of(task);
+  const std::span<std::uint64_t> ticks = room_->ticks(steps_in(windows));
+  std::fill(ticks.begin(), ticks.end(), 0);  // no page fault inside a timed step
+  Checksum checksum;
+  std::size_t done = 0;
+  const Clock::time_point start = Clock::now();
+  for (const Window& window : windows) {
+    contestant_->replay_clocked(course, window, checksum, ticks.subspan(done, window.size()));
+    done += window.size();
+  }
+  return Timed{ns_since(start) / static_cast<double>(done), checksum.value(), true};
+}
+
+}  // namespace
+
+int run_worker(int argc, char** argv, const Roster& roster) {
+  try {
+    initialize_throughput({argv + 1, argv + argc});
+    Worker worker(roster);
+    LineChannel channel(worker_control);
+    std::string line;
+    while (channel.receive(line, std::nullopt, [] {}) == LineChannel::Outcome::line) {
+      if (!channel.send(dumped(worker.obey(nlohmann::json::parse(line))))) break;
+    }
+    return 0;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "worker: {}\n", error.what());
+    return 3;
+  }
+}
+
+}  // namespace touchmark::bench

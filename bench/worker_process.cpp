@@ -1,0 +1,153 @@
+#include "bench/worker_process.h"
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+#include <thread>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <sched.h>
+#include <sys/prctl.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "bench/failures.h"
+#include "bench/interrupt.h"
+#include "bench/worker_protocol.h"
+
+namespace touchmark::bench {
+namespace {
+
+std::filesystem::path beside_this_program(const std::string& program) {
+  std::error_code ignored;
+  return std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / program;
+}
+
+/// Everything the child needs, prepared before fork: after it only async-signal-safe calls are allowed.
+struct Exec {
+  std::string path;
+  std::vector<std::string> arguments;
+  std::vector<char*> argv;
+
+  explicit Exec(const WorkerLaunch& launch) : path(beside_this_program(launch.program)) {
+    arguments.push_back(path);
+    arguments.insert(arguments.end(), launch.flags.begin(), launch.flags.end());
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    argv.push_back(nullptr);
+  }
+};
+
+/// The three descriptors at their agreed numbers. Moved up first, so that none is overwritten by another.
+bool place_descriptors(int control, int input, int output) {
+  constexpr int above = 16;
+  const std::array<int, 3> from{fcntl(control, F_DUPFD_CLOEXEC, above), fcntl(input, F_DUPFD_CLOEXEC, above),
+                                fcntl(output, F_DUPFD_CLOEXEC, above)};
+  constexpr std::array<int, 3> to{worker_control, worker_input, worker_output};
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    if (from[i] < 0 || dup2(from[i], to[i]) < 0) return false;
+  }
+  return true;
+}
+
+void silence_output() {
+  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  dup2(nowhere, STDOUT_FILENO);
+  dup2(nowhere, STDERR_FILENO);
+}
+
+void restrict_to_core(int core) {
+  cpu_set_t cores;
+  CPU_ZERO(&cores);
+  CPU_SET(static_cast<unsigned>(core), &cores);
+  sched_setaffinity(0, sizeof cores, &cores);  // if refused, the worker runs anywhere
+}
+
+[[noreturn]] void become_worker(const WorkerLaunch& launch, const Exec& exec, int control, pid_t parent) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(exit_resources);  // it died before the line above
+  // Ctrl-C goes to the whole foreground group; the program decides what it means.
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_IGN);
+  if (!launch.show_output) silence_output();
+  if (launch.core) restrict_to_core(*launch.core);
+  if (place_descriptors(control, launch.input, launch.output)) execv(exec.path.c_str(), exec.argv.data());
+  _exit(127);
+}
+
+std::string how_it_ended(int status) {
+  if (WIFSIGNALED(status)) {
+    const char* name = sigabbrev_np(WTERMSIG(status));
+    return name != nullptr ? fmt::format("crashed:SIG{}", name) : fmt::format("crashed:{}", WTERMSIG(status));
+  }
+  return fmt::format("crashed:exit {}", WEXITSTATUS(status));
+}
+
+}  // namespace
+
+bool worker_program_exists(const std::string& program) {
+  return access(beside_this_program(program).c_str(), X_OK) == 0;
+}
+
+WorkerProcess::WorkerProcess(const WorkerLaunch& launch) {
+  if (!worker_program_exists(launch.program)) {
+    throw ResourceError(fmt::format("the program {} is not beside this one", launch.program));
+  }
+  std::array<int, 2> sockets{};
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets.data()) != 0) {
+    throw ResourceError(fmt::format("cannot talk to a worker: {}", std::strerror(errno)));
+  }
+  const Exec exec(launch);
+  const pid_t parent = getpid();
+  process_ = fork();
+  if (process_ == 0) become_worker(launch, exec, sockets[1], parent);
+  const int error = errno;
+  close(sockets[1]);
+  if (process_ < 0) {
+    close(sockets[0]);
+    throw ResourceError(fmt::format("cannot start a worker: {}", std::strerror(error)));
+  }
+  control_ = sockets[0];
+  channel_ = LineChannel(control_);
+}
+
+WorkerProcess::~WorkerProcess() {
+  if (process_ > 0) kill(process_, SIGKILL);
+  end();
+}
+
+std::string WorkerProcess::end() {
+  if (control_ >= 0) close(std::exchange(control_, -1));
+  if (process_ <= 0) return "ended";
+  int status = 0;
+  // Closing the socket ends an orderly worker; one that lingers is killed.
+  for (int waited_ms = 0; waitpid(process_, &status, WNOHANG) == 0; ++waited_ms) {
+    if (waited_ms == 2000) kill(process_, SIGKILL);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  process_ = -1;
+  return how_it_ended(status);
+}
+
+nlohmann::json WorkerProcess::ask(const nlohmann::json& order, std::chrono::milliseconds patience) {
+  if (process_ <= 0 || !channel_.send(order.dump())) throw WorkerFailure(end());
+  std::string line;
+  const auto deadline = std::chrono::steady_clock::now() + patience;
+  switch (channel_.receive(line, deadline, check_for_interrupt)) {
+    case LineChannel::Outcome::line:
+      return nlohmann::json::parse(line);
+    case LineChannel::Outcome::closed:
+      throw WorkerFailure(end());
+    case LineChannel::Outcome::late:
+      break;
+  }
+  kill(process_, SIGKILL);
+  end();
+  throw WorkerFailure("timeout");
+}
+
+}  // namespace touchmark::bench

@@ -1,0 +1,81 @@
+#include "bench/worker_protocol.h"
+
+#include <bit>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace touchmark::bench {
+namespace {
+
+// JSON has no infinity, so doubles that may be infinite travel as their bits.
+std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
+double from_bits(const nlohmann::json& json) { return std::bit_cast<double>(json.get<std::uint64_t>()); }
+
+}  // namespace
+
+void to_json(nlohmann::json& json, const Task& task) {
+  json = {{"course", task.course}, {"query", static_cast<std::uint32_t>(task.query)}, {"steps", task.steps}};
+}
+
+void from_json(const nlohmann::json& json, Task& task) {
+  json.at("course").get_to(task.course);
+  task.query = static_cast<Query>(json.at("query").get<std::uint32_t>());
+  json.at("steps").get_to(task.steps);
+}
+
+void to_json(nlohmann::json& json, const Opened& opened) {
+  json = {{"clock_cost_ns", opened.clock_cost_ns},
+          {"ns_per_tick", opened.ns_per_tick},
+          {"flushed_to_zero", opened.flushed_to_zero}};
+}
+
+void from_json(const nlohmann::json& json, Opened& opened) {
+  json.at("clock_cost_ns").get_to(opened.clock_cost_ns);
+  json.at("ns_per_tick").get_to(opened.ns_per_tick);
+  json.at("flushed_to_zero").get_to(opened.flushed_to_zero);
+}
+
+void to_json(nlohmann::json& json, const Built& built) {
+  std::vector<std::uint32_t> queries;
+  for (const Query query : built.queries) queries.push_back(static_cast<std::uint32_t>(query));
+  json = {{"refused", built.refused},
+          {"build_ms", built.build_ms},
+          {"bytes", built.bytes},
+          {"heap_bytes", built.heap_bytes},
+          {"guarantee", static_cast<int>(built.accuracy.guarantee)},
+          {"relative", bits(built.accuracy.relative)},
+          {"absolute", bits(built.accuracy.absolute)},
+          {"queries", queries}};
+}
+
+void from_json(const nlohmann::json& json, Built& built) {
+  json.at("refused").get_to(built.refused);
+  json.at("build_ms").get_to(built.build_ms);
+  json.at("bytes").get_to(built.bytes);
+  json.at("heap_bytes").get_to(built.heap_bytes);
+  built.accuracy = {static_cast<Guarantee>(json.at("guarantee").get<int>()), from_bits(json.at("relative")),
+                    from_bits(json.at("absolute"))};
+  built.queries.clear();
+  for (const nlohmann::json& query : json.at("queries")) {
+    built.queries.push_back(static_cast<Query>(query.get<std::uint32_t>()));
+  }
+}
+
+void to_json(nlohmann::json& json, const Answered& answered) { json = {{"checksum", answered.checksum}}; }
+
+void from_json(const nlohmann::json& json, Answered& answered) {
+  json.at("checksum").get_to(answered.checksum);
+}
+
+void to_json(nlohmann::json& json, const Timed& timed) {
+  json = {{"ns_per_query", timed.ns_per_query}, {"checksum", timed.checksum}, {"steady", timed.steady}};
+}
+
+void from_json(const nlohmann::json& json, Timed& timed) {
+  json.at("ns_per_query").get_to(timed.ns_per_query);
+  json.at("checksum").get_to(timed.checksum);
+  json.at("steady").get_to(timed.steady);
+}
+
+}  // namespace touchmark::bench

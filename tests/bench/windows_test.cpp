@@ -1,0 +1,43 @@
+#include "bench/windows.h"
+
+#include <gtest/gtest.h>
+
+namespace touchmark::bench {
+namespace {
+
+TEST(Windows, AreTheWholeWayWhereThereIsTimeForIt) {
+  for (const std::size_t wanted : {100U, 101U, 1000000U}) {
+    const std::vector<Window> windows = plan_windows(100, wanted);
+    ASSERT_EQ(windows.size(), 1U);
+    EXPECT_EQ(windows[0].begin, 0U);
+    EXPECT_EQ(windows[0].end, 100U);
+  }
+}
+
+TEST(Windows, AreDisjointAscendingAndInsideWhateverTheCounts) {
+  for (std::size_t total = 1; total < 200; ++total) {
+    for (std::size_t wanted = 0; wanted < total; ++wanted) {
+      std::size_t end = 0;
+      const std::vector<Window> windows = plan_windows(total, wanted);
+      for (const Window& window : windows) {
+        ASSERT_GE(window.begin, end);
+        ASSERT_GT(window.end, window.begin);
+        ASSERT_LE(window.end, total);
+        end = window.end;
+      }
+      ASSERT_GE(steps_in(windows), 1U);
+      ASSERT_LE(steps_in(windows), std::max<std::size_t>(wanted, 1));
+    }
+  }
+}
+
+TEST(Windows, AreSpreadOverTheWholeWayAndAlmostAsManyStepsAsWanted) {
+  const std::vector<Window> windows = plan_windows(20000, 1000);
+  EXPECT_GE(steps_in(windows), 900U);
+  EXPECT_EQ(windows.front().begin, 0U);
+  EXPECT_GT(windows.back().end, 18000U);
+  EXPECT_GE(windows.front().size(), 16U);  // neighbours, so that a session can profit
+}
+
+}  // namespace
+}  // namespace touchmark::bench
