@@ -11,6 +11,7 @@
 
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
+#include "core/grid_group/grid_group.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 
 namespace {
@@ -99,6 +100,17 @@ TEST(NoAllocation, CountsAllocations) {
 TEST(NoAllocation, BruteForce) { expect_no_allocation<BruteForce>({}); }
 
 TEST(NoAllocation, AabbTree) { expect_no_allocation<AabbTree>({}); }
+
+TEST(NoAllocation, GridGroup) {
+  for (const GridGroup::Shape shape : {GridGroup::Shape::cube, GridGroup::Shape::sphere}) {
+    for (const GridGroup::Lookup lookup : {GridGroup::Lookup::scan, GridGroup::Lookup::direct}) {
+      GridGroup::Options options;
+      options.shape = shape;
+      options.lookup = lookup;
+      expect_no_allocation<GridGroup>(options);
+    }
+  }
+}
 
 TEST(NoAllocation, SphereCluster) {
   using Lookup = SphereCluster::Lookup;
