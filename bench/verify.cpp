@@ -63,6 +63,12 @@ class Judge {
     return known_ ? accuracy_.relative * largest_difference + accuracy_.absolute
                   : kernel_relative_error * largest_difference;
   }
+  /// Does the way touch the mesh beyond all excuse? A radius below the tolerance leaves no depth to tell by,
+  /// only that the way goes through.
+  bool surely_touches(const Vec3& from, const Vec3& to, double radius, double tolerance) const {
+    return oracle_.segment_within(from, to, lowered(radius - tolerance)) ||
+           (radius >= 0 && radius <= tolerance && oracle_.surely_crosses(from, to, tolerance));
+  }
   Verdict threshold(const Truth& truth, const Vec3& center, double limit, bool found) const;
   void contact(const Truth& truth, const Vec3& center, const Answer& answer, double slack,
                Tally& tally) const;
@@ -229,7 +235,7 @@ void Judge::sweep(const SweepTruth& truth, const Sweep& sweep, const Answer& ans
   if (found != truth.hit) {
     const bool excused =
         known_ && (found ? oracle_.segment_within(sweep.from, sweep.to, raised(sweep.radius + tolerance))
-                         : !oracle_.segment_within(sweep.from, sweep.to, lowered(sweep.radius - tolerance)));
+                         : !surely_touches(sweep.from, sweep.to, sweep.radius, tolerance));
     ++(excused ? tally.unresolved : found ? tally.false_contacts : tally.missed);
     if (!excused) return;
   }
@@ -241,8 +247,7 @@ void Judge::sweep(const SweepTruth& truth, const Sweep& sweep, const Answer& ans
   if (answer.fraction > 0) note_distance_error(std::abs(there.high - sweep.radius), tally);
   if (!oracle_.within(there, position, raised(sweep.radius + tolerance))) {
     ++tally.false_contacts;
-  } else if (answer.fraction > 0 &&
-             oracle_.segment_within(sweep.from, position, lowered(sweep.radius - tolerance))) {
+  } else if (answer.fraction > 0 && surely_touches(sweep.from, position, sweep.radius, tolerance)) {
     ++tally.missed;
   } else {
     contact(there, position, answer, slack, tally);

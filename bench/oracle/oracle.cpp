@@ -48,6 +48,14 @@ Vec3 nearest_corner(std::span<const Triangle> triangles, const Vec3& point) noex
   return nearest;
 }
 
+/// Is the distance between the segment and the triangle at most `radius`? Exact.
+bool segment_is_within(const Vec3& from, const Vec3& to, const Triangle& triangle, double radius) {
+  const Interval distance = segment_distance_interval(from, to, triangle);
+  if (distance.hi <= radius) return true;
+  if (distance.lo > radius) return false;
+  return compare_segment_distance(from, to, triangle, radius) <= 0;
+}
+
 Truth truth_of(const Vec3& center, std::uint32_t index, const Triangle& triangle,
                const ExactNearest& nearest) {
   return {true,
@@ -77,13 +85,15 @@ std::vector<Candidate> Oracle::Structure::candidates(const Vec3& center,
   double limit = infinity;
   if (hint) limit = distance_interval(center, triangle_of(*mesh, *hint)).hi;
   std::vector<Candidate> found;
-  tree.visit([&](const Box& box) { return distance_below(box, center); }, limit,
-             [&](std::uint32_t triangle) {
-               const Interval distance = distance_interval(center, triangle_of(*mesh, triangle));
-               if (distance.lo > limit) return;
-               limit = std::min(limit, distance.hi);
-               found.push_back({triangle, distance.lo});
-             });
+  const auto below = [&](const Box& box) { return distance_below(box, center); };
+  tree.visit(below, limit, [&](std::uint32_t index) {
+    const Triangle triangle = triangle_of(*mesh, index);
+    if (below(box_of(triangle)) > limit) return;  // far cheaper than the interval
+    const Interval distance = distance_interval(center, triangle);
+    if (distance.lo > limit) return;
+    limit = std::min(limit, distance.hi);
+    found.push_back({index, distance.lo});
+  });
   std::erase_if(found, [&](const Candidate& candidate) { return candidate.lo > limit; });
   std::sort(found.begin(), found.end(),
             [](const Candidate& a, const Candidate& b) { return a.triangle < b.triangle; });
@@ -196,6 +206,28 @@ bool Oracle::segment_within(const Vec3& from, const Vec3& to, double radius) con
   return surely || std::any_of(doubtful.begin(), doubtful.end(), [&](std::uint32_t triangle) {
            return compare_segment_distance(from, to, triangle_of(mesh(), triangle), radius) <= 0;
          });
+}
+
+bool Oracle::surely_crosses(const Vec3& from, const Vec3& to, double margin) const {
+  if (!from.allFinite() || !to.allFinite() || !(margin >= 0)) return false;
+  const auto crosses = [&](const Triangle& t) {
+    if (!segment_is_within(from, to, t, 0)) return false;
+    if (segment_is_within(from, from, t, margin) || segment_is_within(to, to, t, margin)) return false;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 &a = t[i], &b = t[(i + 1) % 3];
+      if (segment_is_within(from, to, {a, b, b}, margin)) return false;
+    }
+    return true;
+  };
+  bool found = false;
+  double limit = 0;
+  structure_->tree.visit([&](const Box& box) { return distance_below(box, from, to); }, limit,
+                         [&](std::uint32_t triangle) {
+                           if (found || !crosses(triangle_of(mesh(), triangle))) return;
+                           found = true;
+                           limit = -1;  // nothing more to visit
+                         });
+  return found;
 }
 
 std::vector<std::uint32_t> Oracle::all_within(const Vec3& center, double radius) const {

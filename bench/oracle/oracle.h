@@ -57,6 +57,11 @@ class Oracle {
   /// finite.
   bool segment_within(const Vec3& from, const Vec3& to, double radius) const;
 
+  /// Does the segment pass through a triangle so well that no displacement of either by less than `margin`
+  /// could part them: the ends and the triangle's edges keep more than `margin` away? Exact likewise.
+  /// (Through the edge between two triangles is not through either.)
+  bool surely_crosses(const Vec3& from, const Vec3& to, double margin) const;
+
   /// The truth about `center` and this one triangle.
   Truth solve(const Vec3& center, std::uint32_t triangle) const;
   /// Every triangle whose distance to `center` is at most `radius`, ascending. Exact.

@@ -16,6 +16,10 @@ struct Box {
   Vec3 min, max;
 };
 
+inline Box box_of(const Triangle& t) noexcept {
+  return {t[0].cwiseMin(t[1]).cwiseMin(t[2]), t[0].cwiseMax(t[1]).cwiseMax(t[2])};
+}
+
 /// A number not above the distance from the point to the box.
 double distance_below(const Box& box, const Vec3& point) noexcept;
 /// The same for the segment `from`-`to`.
