@@ -1,0 +1,108 @@
+/// `touchmark mesh`: what a mesh is like.
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "bench/mesh_report.h"
+#include "bench/program.h"
+#include "bench/selectors.h"
+#include "bench/standard_output.h"
+
+namespace touchmark::bench {
+namespace {
+
+struct InfoOptions {
+  std::string mesh;
+  bool normalize = false;
+  bool json = false;
+};
+
+const char* yes_or_no(bool value) { return value ? "yes" : "no"; }
+
+std::string coordinates(const Vec3& v) { return fmt::format("{} {} {}", v.x(), v.y(), v.z()); }
+
+std::string as_text(const MeshReport& report) {
+  std::string text;
+  const auto line = [&text](const char* what, const auto& value) {
+    text += fmt::format("{}: {}\n", what, value);
+  };
+  line("triangles", report.triangles);
+  line("faces", report.faces);
+  line("vertices", report.vertices);
+  line("positions", report.positions);
+  line("bounds_min", coordinates(report.bounds.min));
+  line("bounds_max", coordinates(report.bounds.max));
+  line("diagonal", report.diagonal);
+  line("degenerate_triangles", report.degenerate);
+  line("edges", report.edges);
+  line("boundary_edges", report.boundary_edges);
+  line("non_manifold_edges", report.non_manifold_edges);
+  line("euler_characteristic", report.euler_characteristic);
+  line("closed", yes_or_no(report.closed));
+  line("oriented", yes_or_no(report.oriented));
+  line("area", report.area);
+  if (report.volume) line("volume", *report.volume);
+  line("shortest_edge", report.shortest_edge);
+  line("mean_edge", report.mean_edge);
+  line("longest_edge", report.longest_edge);
+  line("worst_aspect_ratio", report.worst_aspect_ratio);
+  return text;
+}
+
+std::string as_json(const std::string& mesh, const MeshReport& report) {
+  const auto triple = [](const Vec3& v) { return nlohmann::ordered_json{v.x(), v.y(), v.z()}; };
+  nlohmann::ordered_json json;
+  json["mesh"] = mesh;
+  json["triangles"] = report.triangles;
+  json["faces"] = report.faces;
+  json["vertices"] = report.vertices;
+  json["positions"] = report.positions;
+  json["bounds_min"] = triple(report.bounds.min);
+  json["bounds_max"] = triple(report.bounds.max);
+  json["diagonal"] = report.diagonal;
+  json["degenerate_triangles"] = report.degenerate;
+  json["edges"] = report.edges;
+  json["boundary_edges"] = report.boundary_edges;
+  json["non_manifold_edges"] = report.non_manifold_edges;
+  json["euler_characteristic"] = report.euler_characteristic;
+  json["closed"] = report.closed;
+  json["oriented"] = report.oriented;
+  json["area"] = report.area;
+  json["volume"] = report.volume ? nlohmann::ordered_json(*report.volume) : nlohmann::ordered_json();
+  json["shortest_edge"] = report.shortest_edge;
+  json["mean_edge"] = report.mean_edge;
+  json["longest_edge"] = report.longest_edge;
+  json["worst_aspect_ratio"] = report.worst_aspect_ratio;
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+void add_info(CLI::App& mesh_command) {
+  const auto options = std::make_shared<InfoOptions>();
+  CLI::App* command = mesh_command.add_subcommand("info", "size, connections, measures; one line each");
+  command->add_option("--mesh,mesh", options->mesh, "a scene (touchmark list) or a mesh file")
+      ->type_name("MESH")
+      ->required();
+  command->add_flag("--normalize", options->normalize, "scale to box diagonal 1 about the origin first");
+  command->add_flag("--json", options->json, "as JSON");
+  command->footer("Example: touchmark mesh info bunny@normalize\n");
+  command->final_callback([options] {
+    const MeshReport report = report_on(load_mesh(options->mesh, options->normalize));
+    StandardOutput out;
+    out.write(options->json ? as_json(options->mesh, report) : as_text(report));
+    out.finish();
+  });
+}
+
+}  // namespace
+
+void add_mesh(CLI::App& program, ProgramContext&) {
+  CLI::App* command = program.add_subcommand("mesh", "what a mesh is like: info");
+  command->require_subcommand(1);
+  command->footer("Example: touchmark mesh info bunny\n");
+  add_info(*command);
+}
+
+}  // namespace touchmark::bench
