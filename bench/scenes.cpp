@@ -15,7 +15,7 @@
 #include "bench/generated_scenes.h"
 #include "bench/near_names.h"
 #include "bench/numbers.h"
-#include "bench/program.h"
+#include "bench/failures.h"
 #include "core/mesh_io/mesh_io.h"
 
 namespace touchmark::bench {

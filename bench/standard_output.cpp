@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/program.h"
+#include "bench/failures.h"
 
 namespace touchmark::bench {
 namespace {
