@@ -1,0 +1,368 @@
+#include "baselines/bullet/bullet_detector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <BulletCollision/CollisionShapes/btOptimizedBvh.h>
+#include <btBulletCollisionCommon.h>
+
+#include "baselines/reach.h"
+#include "core/geometry/point_triangle.h"
+#include "core/geometry/sphere_triangle_sweep.h"
+
+namespace touchmark::baselines {
+namespace {
+
+constexpr double scalar_roundoff = std::numeric_limits<btScalar>::epsilon() / 2;
+
+Vec3 vec3(const btVector3& v) { return Vec3(v.x(), v.y(), v.z()); }
+btVector3 bt_vector(const Vec3& v) {
+  return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()), static_cast<btScalar>(v.z())};
+}
+btTransform at(const btVector3& center) { return btTransform(btQuaternion::getIdentity(), center); }
+
+/// How Bullet sees the mesh's coordinates: scale * (point - origin).
+struct View {
+  double scale = 1;
+  Vec3 origin = Vec3::Zero();
+
+  btVector3 into(const Vec3& point) const { return bt_vector(scale * (point - origin)); }
+  Vec3 back(const btVector3& point) const { return vec3(point) / scale + origin; }
+};
+
+double mean_edge(const TriangleMesh& mesh) {
+  double sum = 0;
+  for (std::size_t i = 0; i < mesh.size(); ++i) {
+    for (int k = 0; k < 3; ++k) sum += (mesh.corner(i, k) - mesh.corner(i, (k + 1) % 3)).norm();
+  }
+  return sum / (3 * static_cast<double>(mesh.size()));
+}
+
+View fitted_view(const TriangleMesh& mesh) {
+  const double edge = mean_edge(mesh);
+  return {edge > 0 ? 1 / edge : 1, mesh.bounds().center()};
+}
+
+/// The deepest of the contacts that Bullet reports, in Bullet's frame.
+class Deepest final : public btCollisionWorld::ContactResultCallback {
+ public:
+  btScalar addSingleResult(btManifoldPoint& point, const btCollisionObjectWrapper*, int, int,
+                           const btCollisionObjectWrapper*, int, int triangle) override {
+    ++reported;
+    // Bullet also reports what is apart by less than a tolerance of its own.
+    if (point.getDistance() > 0) return 0;
+    if (!found || std::pair(point.getDistance(), triangle) < std::pair(depth, index)) {
+      found = true;
+      depth = point.getDistance();
+      index = triangle;
+      on_mesh = point.getPositionWorldOnB();
+      normal = point.m_normalWorldOnB;
+    }
+    return 0;
+  }
+
+  bool found = false;
+  btScalar depth = 0;  ///< <= 0
+  int index = 0;
+  btVector3 on_mesh, normal;
+  std::uint64_t reported = 0;
+};
+
+class FirstHit final : public btCollisionWorld::ConvexResultCallback {
+ public:
+  btScalar addSingleResult(btCollisionWorld::LocalConvexResult& result, bool) override {
+    ++reported;
+    m_closestHitFraction = result.m_hitFraction;
+    point = result.m_hitPointLocal;
+    index = result.m_localShapeInfo ? result.m_localShapeInfo->m_triangleIndex : 0;
+    normal = result.m_hitNormalLocal;
+    return result.m_hitFraction;
+  }
+
+  int index = 0;
+  btVector3 point, normal;
+  std::uint64_t reported = 0;
+};
+
+template <class Visit>
+class Visitor final : public btNodeOverlapCallback {
+ public:
+  explicit Visitor(Visit visit) : visit_(std::move(visit)) {}
+  void processNode(int, int triangle) override { visit_(static_cast<std::uint32_t>(triangle)); }
+
+ private:
+  Visit visit_;
+};
+
+/// What Bullet calls a world, for one haptic point: it needs a dispatcher to find the algorithm for a pair of
+/// shapes, and objects that hold the shapes.
+struct World {
+  explicit World(btCollisionShape& mesh)
+      : configuration(small_pools()), dispatcher(&configuration), world(&dispatcher, &pairs, &configuration) {
+    mesh_object.setCollisionShape(&mesh);
+    probe_object.setCollisionShape(&ball);
+  }
+  static btDefaultCollisionConstructionInfo small_pools() {
+    btDefaultCollisionConstructionInfo info;
+    info.m_defaultMaxPersistentManifoldPoolSize = 16;
+    info.m_defaultMaxCollisionAlgorithmPoolSize = 16;
+    return info;
+  }
+
+  btDefaultCollisionConfiguration configuration;
+  btCollisionDispatcher dispatcher;
+  btDbvtBroadphase pairs;
+  btCollisionWorld world;
+  btSphereShape ball{1};
+  btCollisionObject mesh_object, probe_object;
+};
+
+}  // namespace
+
+struct BulletDetector::Model {
+  Model(const TriangleMesh& mesh, const Options& chosen)
+      : options(chosen), bounds(mesh.bounds()), ids(mesh.ids().begin(), mesh.ids().end()) {
+    if (options.frame == Frame::fitted) view = fitted_view(mesh);
+    if (options.method == Method::callback) triangles = prepare(mesh);
+    largest_coordinate =
+        view.scale *
+        (bounds.min - view.origin).cwiseAbs().cwiseMax((bounds.max - view.origin).cwiseAbs()).maxCoeff();
+    vertices.reserve(mesh.vertices().size());
+    corners_of_bullet.reserve(3 * mesh.size());
+    for (const Vec3& vertex : mesh.vertices()) vertices.push_back(view.into(vertex));
+    for (const TriangleMesh::Corners& corners : mesh.triangles())
+      for (const std::uint32_t corner : corners) corners_of_bullet.push_back(static_cast<int>(corner));
+    arrays = std::make_unique<btTriangleIndexVertexArray>(
+        static_cast<int>(mesh.size()), corners_of_bullet.data(), static_cast<int>(3 * sizeof(int)),
+        static_cast<int>(vertices.size()), reinterpret_cast<btScalar*>(vertices.data()),
+        static_cast<int>(sizeof(btVector3)));
+    // A quantised node keeps 21 bits for the triangle, and more of them crash it.
+    constexpr std::size_t quantisable = std::size_t{1} << (31 - MAX_NUM_PARTS_IN_BITS);
+    shape = std::make_unique<btBvhTriangleMeshShape>(arrays.get(), mesh.size() <= quantisable);
+  }
+
+  TriangleId id(std::size_t triangle) const {
+    return ids.empty() ? static_cast<TriangleId>(triangle) : ids[triangle];
+  }
+
+  /// Calls visit(triangle) for every triangle that may come as near as `reach` to the segment. Bullet rounds
+  /// vertices and boxes to its own precision; what it does with them then is monotone.
+  template <class Visit>
+  void near(const Vec3& from, const Vec3& to, double reach, Visit visit) const {
+    const Vec3 low = view.scale * (from.cwiseMin(to) - Vec3::Constant(reach) - view.origin);
+    const Vec3 high = view.scale * (from.cwiseMax(to) + Vec3::Constant(reach) - view.origin);
+    const double largest =
+        std::max({largest_coordinate, low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff()});
+    // One rounding of a vertex, one of a corner of the box, and as much again for doubles' own.
+    const Vec3 pad = Vec3::Constant(4 * scalar_roundoff * largest);
+    Visitor<Visit> visitor(std::move(visit));
+    shape->getOptimizedBvh()->reportAabbOverlappingNodex(&visitor, bt_vector(low - pad),
+                                                         bt_vector(high + pad));
+  }
+
+  Options options;
+  Aabb bounds;
+  std::vector<TriangleId> ids;
+  View view;
+  double largest_coordinate = 0;            ///< in Bullet's frame
+  std::vector<PreparedTriangle> triangles;  ///< method callback only
+  std::vector<btVector3> vertices;
+  std::vector<int> corners_of_bullet;
+  std::unique_ptr<btTriangleIndexVertexArray> arrays;
+  std::unique_ptr<btBvhTriangleMeshShape> shape;
+};
+
+struct BulletDetector::Session::State : World {
+  using World::World;
+  std::uint32_t last = 0;  ///< the nearest triangle of the last query
+};
+
+BulletDetector::Session::Session() noexcept = default;
+BulletDetector::Session::Session(Session&&) noexcept = default;
+BulletDetector::Session& BulletDetector::Session::operator=(Session&&) noexcept = default;
+BulletDetector::Session::~Session() = default;
+
+BulletDetector::Session::State& BulletDetector::state(Session& session) const {
+  const bool fits = session.state_ && session.state_->mesh_object.getCollisionShape() == model_->shape.get();
+  if (!fits) session.state_ = std::make_unique<Session::State>(*model_->shape);
+  return *session.state_;
+}
+
+BulletDetector::Precision BulletDetector::precision() noexcept {
+  return sizeof(btScalar) == sizeof(double) ? Precision::double_precision : Precision::single_precision;
+}
+
+namespace {
+
+/// Bullet's contact test of the ball with the mesh.
+Deepest contact_test(World& world, const View& view, const Vec3& center, double radius) {
+  world.ball.setUnscaledRadius(static_cast<btScalar>(view.scale * radius));
+  world.probe_object.setWorldTransform(at(view.into(center)));
+  Deepest deepest;
+  world.world.contactPairTest(&world.probe_object, &world.mesh_object, deepest);
+  return deepest;
+}
+
+Vec3 direction(const Vec3& from, const Vec3& to, const btVector3& otherwise) {
+  const Vec3 way = to - from;
+  const double length = way.norm();
+  return length > 0 ? Vec3(way / length) : vec3(otherwise).normalized();
+}
+
+/// Asks for the nearest within balls that double in size from the box of the mesh outwards, then within the
+/// reach: a ball about everything would make Bullet report every triangle.
+template <class Ask>
+std::optional<Contact> nearest_by_growing(const Aabb& bounds, const Vec3& center, double reach, Ask ask) {
+  const double outside = std::sqrt(bounds.squared_distance(center));
+  constexpr int doublings = 7;  // from 1/128 of the box's diagonal to all of it
+  double inside = std::ldexp(bounds.diagonal(), -doublings);
+  for (int i = 0; i < doublings && outside + inside < reach; ++i, inside *= 2) {
+    if (std::optional<Contact> contact = ask(outside + inside)) return contact;
+  }
+  return ask(reach);
+}
+
+}  // namespace
+
+/// The queries, method by method.
+struct BulletDetector::Queries {
+  const Model& model;
+  Session& session;
+  Session::State& state;
+
+  std::optional<Contact> deepest_contact(const Vec3& center, double reach) const {
+    const Deepest deepest = contact_test(state, model.view, center, reach);
+    session.work.triangles += deepest.reported;
+    if (!deepest.found) return std::nullopt;
+    const Vec3 point = model.view.back(deepest.on_mesh);
+    const double distance = std::max(0.0, reach + static_cast<double>(deepest.depth) / model.view.scale);
+    return Contact{point, direction(point, center, deepest.normal), distance,
+                   model.id(static_cast<std::size_t>(deepest.index))};
+  }
+
+  /// The least candidate of the triangles that Bullet reports within the reach.
+  Candidate reported_within(const Vec3& center, double reach) const {
+    Candidate best;
+    model.near(center, center, reach, [&](std::uint32_t triangle) {
+      ++session.work.triangles;
+      best = std::min(best, Candidate{squared_distance(model.triangles[triangle], center), triangle});
+    });
+    return best;
+  }
+
+  std::optional<Contact> exact_contact(const Vec3& center, double reach) const {
+    const Candidate best = reported_within(center, reach);
+    if (best.index >= model.triangles.size() || !(std::sqrt(best.squared_distance) <= reach))
+      return std::nullopt;
+    state.last = best.index;
+    return contact_on(model.triangles[best.index], center, model.id(best.index));
+  }
+
+  /// The last triangle's distance bounds the nearest one's.
+  double warm_reach(const Vec3& center, double reach) const {
+    const std::uint32_t last = state.last < model.triangles.size() ? state.last : 0;
+    ++session.work.triangles;
+    return std::min(reach, std::sqrt(squared_distance(model.triangles[last], center)));
+  }
+
+  std::optional<Contact> nearest(const Vec3& center, double reach) const {
+    if (model.options.method == Method::callback) {
+      return nearest_by_growing(model.bounds, center, warm_reach(center, reach),
+                                [&](double within) { return exact_contact(center, within); });
+    }
+    return nearest_by_growing(model.bounds, center, reach,
+                              [&](double within) { return deepest_contact(center, within); });
+  }
+
+  /// Bullet's sweep is for what starts apart: from a start in contact it finds nothing, or something later.
+  std::optional<Impact> convex_sweep(const Sweep& sweep) const {
+    if (std::optional<Contact> contact = deepest_contact(sweep.from, sweep.radius))
+      return Impact{0, *std::move(contact)};
+    state.ball.setUnscaledRadius(static_cast<btScalar>(model.view.scale * sweep.radius));
+    FirstHit hit;
+    btCollisionWorld::objectQuerySingle(&state.ball, at(model.view.into(sweep.from)),
+                                        at(model.view.into(sweep.to)), &state.mesh_object, model.shape.get(),
+                                        btTransform::getIdentity(), hit, 0);
+    session.work.triangles += hit.reported;
+    if (!hit.hasHit()) return std::nullopt;
+    const double fraction = std::clamp(static_cast<double>(hit.m_closestHitFraction), 0.0, 1.0);
+    const Vec3 center = position_at(sweep, fraction);
+    const Vec3 point = model.view.back(hit.point);
+    return Impact{fraction, Contact{point, direction(point, center, hit.normal), (center - point).norm(),
+                                    model.id(static_cast<std::size_t>(hit.index))}};
+  }
+
+  std::optional<Impact> exact_sweep(const Sweep& sweep) const {
+    HitCandidate first;
+    model.near(sweep.from, sweep.to, sweep.radius, [&](std::uint32_t triangle) {
+      ++session.work.triangles;
+      const auto fraction = sweep_hit(model.triangles[triangle], sweep, std::min(first.fraction, 1.0));
+      if (fraction) first = std::min(first, HitCandidate{*fraction, triangle});
+    });
+    if (first.index >= model.triangles.size()) return std::nullopt;
+    if (!(first.fraction > 0)) {  // of all the triangles touched at the start the nearest one counts
+      const std::optional<Contact> contact = nearest(sweep.from, sweep.radius);
+      return contact ? std::optional(Impact{0, *contact}) : std::nullopt;
+    }
+    return Impact{first.fraction, contact_on(model.triangles[first.index], position_at(sweep, first.fraction),
+                                             model.id(first.index))};
+  }
+};
+
+BulletDetector::BulletDetector(std::unique_ptr<const Model> model) noexcept : model_(std::move(model)) {}
+BulletDetector::BulletDetector(BulletDetector&&) noexcept = default;
+BulletDetector& BulletDetector::operator=(BulletDetector&&) noexcept = default;
+BulletDetector::~BulletDetector() = default;
+
+BulletDetector BulletDetector::build(const TriangleMesh& mesh, const Options& options) {
+  constexpr auto most = static_cast<std::size_t>(std::numeric_limits<int>::max());
+  if (mesh.size() > most || mesh.vertices().size() > most) {
+    throw MeshError("Bullet counts in int: " + std::to_string(std::max(mesh.size(), mesh.vertices().size())) +
+                    " triangles or vertices are more than " + std::to_string(most));
+  }
+  return BulletDetector(std::make_unique<Model>(mesh, options));
+}
+
+bool BulletDetector::touches(const Probe& probe, Session& session) const noexcept {
+  const double radius = finite_reach(model_->bounds, probe.center, probe.radius);
+  if (!answerable(probe.center, radius)) return false;
+  const Queries ask{*model_, session, state(session)};
+  if (model_->options.method == Method::contact) return ask.deepest_contact(probe.center, radius).has_value();
+  return std::sqrt(ask.reported_within(probe.center, radius).squared_distance) <= radius;
+}
+
+std::optional<Contact> BulletDetector::nearest(const Probe& probe, double reach,
+                                               Session& session) const noexcept {
+  const double finite = finite_reach(model_->bounds, probe.center, reach);
+  if (!answerable(probe.center, finite)) return std::nullopt;
+  return Queries{*model_, session, state(session)}.nearest(probe.center, finite);
+}
+
+std::optional<Impact> BulletDetector::first_hit(const Sweep& asked, Session& session) const noexcept {
+  const Sweep sweep{asked.from, asked.to, finite_reach(model_->bounds, asked.from, asked.radius)};
+  if (!answerable(sweep.from, sweep.radius) || !answerable(sweep.to, 0)) return std::nullopt;
+  const Queries ask{*model_, session, state(session)};
+  return model_->options.method == Method::callback ? ask.exact_sweep(sweep) : ask.convex_sweep(sweep);
+}
+
+std::size_t BulletDetector::bytes() const noexcept {
+  return model_->shape->getOptimizedBvh()->calculateSerializeBufferSize() +
+         model_->vertices.capacity() * sizeof(btVector3) +
+         model_->corners_of_bullet.capacity() * sizeof(int) +
+         model_->triangles.capacity() * sizeof(PreparedTriangle) +
+         model_->ids.capacity() * sizeof(TriangleId);
+}
+
+Accuracy BulletDetector::accuracy() const noexcept {
+  if (model_->options.method == Method::callback) return {Guarantee::exact, kernel_relative_error, 0};
+  // What Bullet's arithmetic would give if it did what it is meant to: a few dozen roundings of differences,
+  // one of each coordinate.
+  const double coordinates = 4 * scalar_roundoff * model_->largest_coordinate / model_->view.scale;
+  return {Guarantee::approximate, 64 * scalar_roundoff, coordinates};
+}
+
+}  // namespace touchmark::baselines
