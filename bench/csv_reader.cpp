@@ -4,6 +4,8 @@
 #include <cstring>
 #include <utility>
 
+#include <fmt/format.h>
+
 namespace touchmark::bench {
 namespace {
 
@@ -21,8 +23,8 @@ CsvReader::CsvReader(std::string path)
 }
 
 std::invalid_argument CsvReader::error(const std::string& what) const {
-  return std::invalid_argument(path_ + (record_line_ > 0 ? ":" + std::to_string(record_line_) : "") + ": " +
-                               what);
+  return std::invalid_argument(record_line_ > 0 ? fmt::format("{}:{}: {}", path_, record_line_, what)
+                                                : fmt::format("{}: {}", path_, what));
 }
 
 bool CsvReader::next(std::vector<std::string>& fields) {

@@ -54,7 +54,7 @@ Vec3 normal_of(const TriangleMesh& mesh, std::uint32_t triangle) {
 }  // namespace
 
 Surface::Surface(const TriangleMesh& mesh)
-    : mesh_(mesh), detector_(Nearest::build(mesh, {})), weight_up_to_(weights(mesh)) {}
+    : mesh_(mesh), detector_(Nearest::build(mesh)), weight_up_to_(weights(mesh)) {}
 
 Contact Surface::nearest(const Vec3& center) {
   const auto contact = detector_.nearest({center, 0}, std::numeric_limits<double>::infinity(), session_);

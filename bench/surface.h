@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "bench/random.h"
-#include "core/brute_force/brute_force.h"
 #include "core/probe.h"
+#include "core/sphere_cluster/sphere_cluster.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::bench {
@@ -32,7 +32,7 @@ class Surface {
   double thickness(const Place& place, double scale);
 
  private:
-  using Nearest = BruteForce;
+  using Nearest = SphereCluster;
 
   const TriangleMesh& mesh_;
   Nearest detector_;
