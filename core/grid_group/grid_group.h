@@ -1,7 +1,7 @@
 /// Uniform cells, and in each the triangles that matter there.
 ///
-/// After J.-S. Park and T.-J. Jang, "Fast collision detection using mesh grouping for haptic interaction"
-/// (Journal of Digital Contents Society 19(1), 2018, 199-204), in two forms:
+/// After J.-S. Park and T.-J. Jang (Journal of Digital Contents Society 19(1), 2018, pp. 199-204, in Korean),
+/// in two forms:
 /// - scan, as published: a triangle belongs to every cell it touches, a group is the smallest cuboid or
 /// sphere
 ///   around the triangles of a cell, and a query tests the HIP against every group, then all triangles of the
