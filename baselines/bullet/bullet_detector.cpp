@@ -213,19 +213,6 @@ Vec3 direction(const Vec3& from, const Vec3& to, const btVector3& otherwise) {
   return length > 0 ? Vec3(way / length) : vec3(otherwise).normalized();
 }
 
-/// Asks for the nearest within balls that double in size from the box of the mesh outwards, then within the
-/// reach: a ball about everything would make Bullet report every triangle.
-template <class Ask>
-std::optional<Contact> nearest_by_growing(const Aabb& bounds, const Vec3& center, double reach, Ask ask) {
-  const double outside = std::sqrt(bounds.squared_distance(center));
-  constexpr int doublings = 7;  // from 1/128 of the box's diagonal to all of it
-  double inside = std::ldexp(bounds.diagonal(), -doublings);
-  for (int i = 0; i < doublings && outside + inside < reach; ++i, inside *= 2) {
-    if (std::optional<Contact> contact = ask(outside + inside)) return contact;
-  }
-  return ask(reach);
-}
-
 }  // namespace
 
 /// The queries, method by method.
