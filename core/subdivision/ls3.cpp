@@ -12,7 +12,7 @@ namespace touchmark {
 namespace {
 
 Vec3 unit_or_zero(const Vec3& v) {
-  // By the largest component first, so that tiny meshes' cross products do not vanish when squared.
+  // By the largest component first, so that squares neither vanish nor overflow.
   const double largest = v.cwiseAbs().maxCoeff();
   if (!(largest > 0)) return Vec3::Zero();
   return (v / largest).normalized();
@@ -29,8 +29,8 @@ std::vector<Vec3> angle_weighted_normals(const IndexedTriangles& mesh) {
     const Vec3 normal = unit_or_zero((b - a).cross(c - a));
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec3& here = mesh.positions[corners[i]];
-      const Vec3 u = mesh.positions[corners[(i + 1) % 3]] - here;
-      const Vec3 v = mesh.positions[corners[(i + 2) % 3]] - here;
+      const Vec3 u = unit_or_zero(mesh.positions[corners[(i + 1) % 3]] - here);
+      const Vec3 v = unit_or_zero(mesh.positions[corners[(i + 2) % 3]] - here);
       normals[corners[i]] += std::atan2(u.cross(v).norm(), u.dot(v)) * normal;
     }
   }

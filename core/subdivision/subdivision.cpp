@@ -50,11 +50,30 @@ bool needs_surface(SubdivisionMethod method) noexcept {
   return method != SubdivisionMethod::mid_point && method != SubdivisionMethod::catmull_clark_linear;
 }
 
+/// Sides of faces and edges are counted in 32 bits.
+constexpr std::size_t most_triangles = 1'000'000'000;
+
+bool splits_faces(SubdivisionMethod method) noexcept {
+  return method == SubdivisionMethod::catmull_clark || method == SubdivisionMethod::catmull_clark_linear;
+}
+
+/// Throws MeshError when the level's triangles are too many.
 void require_room(std::size_t triangles, int level, const SubdivisionOptions& options) {
-  if (triangles <= options.max_triangles) return;
+  const std::size_t limit = std::min(options.max_triangles, most_triangles);
+  if (triangles <= limit) return;
   throw MeshError("level " + std::to_string(level) + " of " + std::string(name_of(options.method)) +
                   " would have " + std::to_string(triangles) + " triangles, more than " +
-                  std::to_string(options.max_triangles));
+                  std::to_string(limit));
+}
+
+/// Where all splits, the counts of all levels are known before the first.
+void require_room(std::size_t triangles, const SubdivisionOptions& options) {
+  require_room(triangles, 0, options);
+  if (!splits_faces(options.method) && options.threshold > 0) return;
+  for (int level = 1; level <= options.levels; ++level) {
+    triangles *= level == 1 && splits_faces(options.method) ? 6 : 4;
+    require_room(triangles, level, options);
+  }
 }
 
 /// The tool keeps single-precision positions between levels.
@@ -143,11 +162,9 @@ IndexedTriangles refine_by_faces(IndexedTriangles mesh, const SubdivisionOptions
   if (options.levels == 0) return mesh;
   const auto positions = in_form(options) == SubdivisionMethod::catmull_clark ? CatmullClarkPositions::smooth
                                                                               : CatmullClarkPositions::linear;
-  require_room(mesh.faces.size() * 6, 1, options);
   IndexedQuads quads = catmull_clark(mesh, positions);
   store(quads.positions, options.form);
   for (int level = 2; level <= options.levels; ++level) {
-    require_room(quads.faces.size() * 8, level, options);
     quads = catmull_clark(quads, positions);
     store(quads.positions, options.form);
   }
@@ -164,14 +181,12 @@ TriangleMesh subdivide(const TriangleMesh& mesh, const SubdivisionOptions& optio
     throw MeshError("none of the " + std::to_string(mesh.size()) +
                     " triangles has three corners in different places");
   }
-  require_room(welded.mesh.faces.size(), 0, options);
+  require_room(welded.mesh.faces.size(), options);
   const SubdivisionMethod method = in_form(options);
   if (needs_surface(method)) require_surface(welded, name_of(options.method));
   store(welded.mesh.positions, options.form);
-  const bool by_faces =
-      method == SubdivisionMethod::catmull_clark || method == SubdivisionMethod::catmull_clark_linear;
-  IndexedTriangles result = by_faces ? refine_by_faces(std::move(welded.mesh), options)
-                                     : refine_by_edges(std::move(welded.mesh), options);
+  IndexedTriangles result = splits_faces(method) ? refine_by_faces(std::move(welded.mesh), options)
+                                                 : refine_by_edges(std::move(welded.mesh), options);
   return {std::move(result.positions), std::move(result.faces)};
 }
 

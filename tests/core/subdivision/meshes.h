@@ -3,12 +3,8 @@
 
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <numbers>
-#include <optional>
 #include <random>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -125,27 +121,6 @@ inline TriangleMesh shaken_torus(std::uint32_t around, std::uint32_t across, dou
     }
   }
   return shaken(TriangleMesh(std::move(vertices), std::move(triangles)), by, 5);
-}
-
-/// One of the shared models, an ascii PLY of positions and triangles; nothing where it is not there.
-inline std::optional<TriangleMesh> shared_model(const std::string& name) {
-  std::ifstream file(std::filesystem::path(TOUCHMARK_SHARED_MODELS) / name);
-  if (!file) return std::nullopt;
-  std::string word;
-  std::size_t vertices = 0, faces = 0;
-  while (file >> word && word != "end_header") {
-    if (word == "vertex") file >> vertices;
-    if (word == "face") file >> faces;
-  }
-  std::vector<Vec3> positions(vertices);
-  std::vector<TriangleMesh::Corners> triangles(faces);
-  for (Vec3& p : positions) file >> p.x() >> p.y() >> p.z();
-  for (auto& corners : triangles) {
-    int three = 0;
-    file >> three >> corners[0] >> corners[1] >> corners[2];
-  }
-  if (!file) return std::nullopt;
-  return TriangleMesh(std::move(positions), std::move(triangles));
 }
 
 }  // namespace touchmark::test

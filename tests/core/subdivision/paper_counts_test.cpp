@@ -1,16 +1,17 @@
 /// The counts, volumes and tightnesses of Choi & Sung 2017 on their own mesh.
 #include <array>
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "core/mesh_io/mesh_io.h"
 #include "core/sphere_cluster/triangle_spheres.h"
 #include "core/subdivision/mesh_measures.h"
 #include "core/subdivision/subdivision.h"
-#include "tests/core/subdivision/meshes.h"
 
 namespace touchmark {
 namespace {
@@ -50,8 +51,9 @@ std::string label(const testing::TestParamInfo<Row>& row) {
 class PaperBunny : public testing::TestWithParam<Row> {
  protected:
   void SetUp() override {
-    mesh_ = test::shared_model("bunny-902.ply");
-    if (!mesh_) GTEST_SKIP() << "no bunny-902.ply in " TOUCHMARK_SHARED_MODELS;
+    const std::filesystem::path file = std::filesystem::path(TOUCHMARK_SHARED_MODELS) / "bunny-902.ply";
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
+    mesh_ = load_mesh(file);
     ASSERT_EQ(mesh_->size(), 902u);
     ASSERT_NEAR(mesh_->diagonal(), 2.61541, 5e-6);
   }
