@@ -9,23 +9,25 @@ namespace {
 
 class Butterfly {
  public:
-  Butterfly(const OrientedSurface& surface, std::span<const Vec3> positions)
+  Butterfly(const TriangleSurface& surface, std::span<const Vec3> positions)
       : surface_(surface), positions_(positions) {}
 
   /// Along the boundary: the cubic through four vertices, at its middle.
   Vec3 four_point(std::uint32_t side) const {
     const std::uint32_t a = surface_.start(side), b = surface_.end(side);
-    const Vec3& before = positions_[last_neighbour(a)];
-    const Vec3& after = positions_[surface_.end(surface_.side_from(b))];
-    return 9. / 16 * (positions_[a] + positions_[b]) - 1. / 16 * (before + after);
+    return 9. / 16 * (positions_[a] + positions_[b]) - 1. / 16 * (before(a, b) + after(b, a));
+  }
+
+  Vec3 middle(std::uint32_t side) const {
+    return (positions_[surface_.start(side)] + positions_[surface_.end(side)]) / 2;
   }
 
   Vec3 eight_point(std::uint32_t side) const {
     const std::uint32_t other = surface_.across(side);
     const Vec3 ends = positions_[surface_.start(side)] + positions_[surface_.end(side)];
     const Vec3 apexes = positions_[surface_.apex(side)] + positions_[surface_.apex(other)];
-    const Vec3 wings = wing(OrientedSurface::next(side)) + wing(OrientedSurface::previous(side)) +
-                       wing(OrientedSurface::next(other)) + wing(OrientedSurface::previous(other));
+    const Vec3 wings = wing(TriangleSurface::next(side)) + wing(TriangleSurface::previous(side)) +
+                       wing(TriangleSurface::next(other)) + wing(TriangleSurface::previous(other));
     return 1. / 2 * ends + 1. / 8 * apexes - 1. / 16 * wings;
   }
 
@@ -40,18 +42,28 @@ class Butterfly {
   }
 
  private:
-  bool regular(std::uint32_t v) const { return surface_.valence(v) == (surface_.on_boundary(v) ? 4 : 6); }
+  using Place = TriangleSurface::Place;
 
-  /// A boundary vertex's neighbour at the end of its fan: the one before it on the boundary.
-  std::uint32_t last_neighbour(std::uint32_t v) const {
-    std::uint32_t side = surface_.side_from(v);
-    while (surface_.turned(side) != OrientedSurface::no_side) side = surface_.turned(side);
-    return surface_.apex(side);
+  /// A corner has no rule of its own.
+  bool regular(std::uint32_t v) const {
+    if (surface_.place(v) == Place::corner) return true;
+    return surface_.valence(v) == (surface_.place(v) == Place::boundary ? 4 : 6);
+  }
+
+  /// The boundary vertex before `v`, whose next one is `next`; where a corner ends the boundary, `next`
+  /// reflected.
+  Vec3 before(std::uint32_t v, std::uint32_t next) const {
+    if (surface_.place(v) == Place::corner) return 2 * positions_[v] - positions_[next];
+    return positions_[surface_.apex(surface_.last_side_from(v))];
+  }
+  Vec3 after(std::uint32_t v, std::uint32_t previous) const {
+    if (surface_.place(v) == Place::corner) return 2 * positions_[v] - positions_[previous];
+    return positions_[surface_.end(surface_.side_from(v))];
   }
 
   Vec3 wing(std::uint32_t side) const {
     const std::uint32_t beyond = surface_.across(side);
-    if (beyond != OrientedSurface::no_side) return positions_[surface_.apex(beyond)];
+    if (beyond != TriangleSurface::no_side) return positions_[surface_.apex(beyond)];
     return positions_[surface_.start(side)] + positions_[surface_.end(side)] -
            positions_[surface_.apex(side)];
   }
@@ -59,7 +71,8 @@ class Butterfly {
   /// The rule of an extraordinary vertex at the start of the side.
   Vec3 from_ring(std::uint32_t side) {
     const std::uint32_t v = surface_.start(side);
-    return surface_.on_boundary(v) ? from_half_ring(v, surface_.end(side)) : from_whole_ring(v, side);
+    return surface_.place(v) == Place::boundary ? from_half_ring(v, surface_.end(side))
+                                                : from_whole_ring(v, side);
   }
 
   Vec3 from_whole_ring(std::uint32_t v, std::uint32_t side) {
@@ -97,22 +110,25 @@ class Butterfly {
     return sum;
   }
 
-  const OrientedSurface& surface_;
+  const TriangleSurface& surface_;
   std::span<const Vec3> positions_;
   std::vector<std::uint32_t> ring_;
 };
 
 }  // namespace
 
-std::vector<Vec3> butterfly_points(const OrientedSurface& surface, std::span<const Vec3> positions,
+std::vector<Vec3> butterfly_points(const TriangleSurface& surface, std::span<const Vec3> positions,
                                    std::span<const std::uint32_t> edges, SubdivisionForm form) {
   Butterfly butterfly(surface, positions);
   std::vector<Vec3> points;
   points.reserve(edges.size());
   for (const std::uint32_t edge : edges) {
     const auto sides = surface.edges().sides(edge);
-    if (sides.size() == 1) {
+    const TriangleSurface::Place place = surface.place_of_edge(edge);
+    if (place == TriangleSurface::Place::boundary) {
       points.push_back(butterfly.four_point(sides[0]));
+    } else if (place == TriangleSurface::Place::corner) {
+      points.push_back(butterfly.middle(sides[0]));
     } else if (form == SubdivisionForm::published) {
       points.push_back(butterfly.modified(sides[0]));
     } else {

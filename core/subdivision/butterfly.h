@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/probe.h"
 #include "core/subdivision/oriented_surface.h"
 #include "core/subdivision/subdivision.h"
 
@@ -20,8 +21,9 @@ namespace touchmark {
 /// ("Interpolating subdivision for meshes with arbitrary topology"), on a boundary by the crease rule of
 /// Zorin & Schröder's course notes ("Subdivision for modeling and animation", SIGGRAPH 2000).
 ///
-/// A wing beyond a boundary is the apex before it, reflected: start + end - apex.
-std::vector<Vec3> butterfly_points(const OrientedSurface& surface, std::span<const Vec3> positions,
+/// A wing beyond a boundary or a seam is the apex before it, reflected: start + end - apex. Seams split in
+/// the middle; a corner counts as regular, and the boundary goes straight on beyond it.
+std::vector<Vec3> butterfly_points(const TriangleSurface& surface, std::span<const Vec3> positions,
                                    std::span<const std::uint32_t> edges, SubdivisionForm form);
 
 }  // namespace touchmark

@@ -1,6 +1,7 @@
 #include "core/subdivision/catmull_clark.h"
 
 #include "core/subdivision/edge_map.h"
+#include "core/subdivision/oriented_surface.h"
 
 namespace touchmark {
 namespace {
@@ -43,42 +44,57 @@ Points middles(const IndexedFaces<N>& mesh, const EdgeMap<N>& edges) {
 
 /// The middle, drawn half-way to the two faces' points.
 template <std::size_t N>
-Points smooth_edge_points(const EdgeMap<N>& edges, const Points& middle, const Points& face) {
+Points smooth_edge_points(const OrientedSurface<N>& surface, const Points& middle, const Points& face) {
   Points points = middle;
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    const auto sides = edges.sides(e);
-    if (sides.size() == 2) points[e] = middle[e] / 2 + (face[sides[0] / N] + face[sides[1] / N]) / 4;
+  for (std::uint32_t e = 0; e < points.size(); ++e) {
+    if (surface.place_of_edge(e) != OrientedSurface<N>::Place::inside) continue;
+    const auto sides = surface.edges().sides(e);
+    points[e] = middle[e] / 2 + (face[sides[0] / N] + face[sides[1] / N]) / 4;
   }
   return points;
 }
 
-/// (F + 2 R + (n - 3) P) / n: F and R the means of the n faces' points and of the n edges' middles. On a
-/// boundary 3/4 P + 1/8 for each boundary neighbour, that is half P and a quarter of each boundary middle.
+/// What the rules of a vertex sum up.
+struct Around {
+  Vec3 faces = Vec3::Zero();     ///< the faces' points
+  Vec3 middles = Vec3::Zero();   ///< of all edges
+  Vec3 boundary = Vec3::Zero();  ///< the middles of the boundary's edges
+  std::uint32_t edges = 0;
+};
+
 template <std::size_t N>
-Points smooth_vertices(const IndexedFaces<N>& mesh, const EdgeMap<N>& edges, const Points& middle,
-                       const Points& face) {
-  const std::size_t vertices = mesh.positions.size();
-  Points faces(vertices, Vec3::Zero()), around(vertices, Vec3::Zero()), along(vertices, Vec3::Zero());
-  std::vector<std::uint32_t> valence(vertices, 0);
-  std::vector<bool> boundary(vertices, false);
+std::vector<Around> sums_around(const IndexedFaces<N>& mesh, const OrientedSurface<N>& surface,
+                                const Points& middle, const Points& face) {
+  std::vector<Around> sums(mesh.positions.size());
   for (std::size_t f = 0; f < mesh.faces.size(); ++f)
-    for (const std::uint32_t v : mesh.faces[f]) faces[v] += face[f];
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    for (const std::uint32_t v : edges.ends(e)) {
-      ++valence[v];
-      around[v] += middle[e];
-      if (edges.sides(e).size() != 1) continue;
-      boundary[v] = true;
-      along[v] += middle[e];
+    for (const std::uint32_t v : mesh.faces[f]) sums[v].faces += face[f];
+  for (std::uint32_t e = 0; e < middle.size(); ++e) {
+    const bool on_boundary = surface.place_of_edge(e) == OrientedSurface<N>::Place::boundary;
+    for (const std::uint32_t v : surface.edges().ends(e)) {
+      ++sums[v].edges;
+      sums[v].middles += middle[e];
+      if (on_boundary) sums[v].boundary += middle[e];
     }
   }
-  Points points;
-  points.reserve(vertices);
-  for (std::size_t v = 0; v < vertices; ++v) {
+  return sums;
+}
+
+/// (F + 2 R + (n - 3) P) / n: F and R the means of the n faces' points and of the n edges' middles. On a
+/// boundary 3/4 P + 1/8 for each boundary neighbour, that is half P and a quarter of each boundary middle. A
+/// corner stays.
+template <std::size_t N>
+Points smooth_vertices(const IndexedFaces<N>& mesh, const OrientedSurface<N>& surface, const Points& middle,
+                       const Points& face) {
+  using Place = OrientedSurface<N>::Place;
+  const std::vector<Around> sums = sums_around(mesh, surface, middle, face);
+  Points points = mesh.positions;
+  for (std::uint32_t v = 0; v < points.size(); ++v) {
     const Vec3& p = mesh.positions[v];
-    const double n = valence[v];
-    points.push_back(boundary[v] ? Vec3(p / 2 + along[v] / 4)
-                                 : Vec3((faces[v] / n + 2 * around[v] / n + (n - 3) * p) / n));
+    const double n = sums[v].edges;
+    if (surface.place(v) == Place::inside)
+      points[v] = ((sums[v].faces + 2 * sums[v].middles) / n + (n - 3) * p) / n;
+    else if (surface.place(v) == Place::boundary)
+      points[v] = p / 2 + sums[v].boundary / 4;
   }
   return points;
 }
@@ -90,12 +106,17 @@ IndexedQuads catmull_clark(const IndexedFaces<N>& mesh, CatmullClarkPositions po
   const EdgeMap<N> edges(mesh.faces, mesh.positions.size());
   const bool smooth = positions == CatmullClarkPositions::smooth;
   const Points face = smooth ? face_points(mesh) : cut_points(mesh);
-  const Points middle = middles(mesh, edges);
+  Points on_edges = middles(mesh, edges);
 
   IndexedQuads result;
   result.positions.reserve(mesh.positions.size() + edges.size() + mesh.faces.size());
-  result.positions = smooth ? smooth_vertices(mesh, edges, middle, face) : mesh.positions;
-  const Points on_edges = smooth ? smooth_edge_points(edges, middle, face) : middle;
+  if (smooth) {
+    const OrientedSurface<N> surface(mesh.faces, edges, mesh.positions.size());
+    result.positions = smooth_vertices(mesh, surface, on_edges, face);
+    on_edges = smooth_edge_points(surface, on_edges, face);
+  } else {
+    result.positions = mesh.positions;
+  }
   result.positions.insert(result.positions.end(), on_edges.begin(), on_edges.end());
   result.positions.insert(result.positions.end(), face.begin(), face.end());
 

@@ -32,33 +32,30 @@ std::vector<std::uint32_t> first_alike(std::span<const Vec3> vertices) {
 }
 
 /// The vertices that triangles use keep their order.
-void drop_unused(std::span<const Vec3> vertices, Welded& welded) {
+void take_used(std::span<const Vec3> vertices, IndexedTriangles& welded) {
   std::vector<std::uint32_t> number(vertices.size(), none);
-  for (const auto& corners : welded.mesh.faces)
+  for (const auto& corners : welded.faces)
     for (const std::uint32_t v : corners) number[v] = 0;
-  for (std::uint32_t v = 0; v < vertices.size(); ++v) {
+  for (std::size_t v = 0; v < vertices.size(); ++v) {
     if (number[v] == none) continue;
-    number[v] = static_cast<std::uint32_t>(welded.file_vertex.size());
-    welded.file_vertex.push_back(v);
-    welded.mesh.positions.push_back(vertices[v]);
+    number[v] = static_cast<std::uint32_t>(welded.positions.size());
+    welded.positions.push_back(vertices[v]);
   }
-  for (auto& corners : welded.mesh.faces)
+  for (auto& corners : welded.faces)
     for (std::uint32_t& v : corners) v = number[v];
 }
 
 }  // namespace
 
-Welded weld(const TriangleMesh& mesh) {
+IndexedTriangles weld(const TriangleMesh& mesh) {
   const std::vector<std::uint32_t> first = first_alike(mesh.vertices());
-  Welded welded;
-  for (std::uint32_t t = 0; t < mesh.size(); ++t) {
-    const auto [a, b, c] = mesh.triangles()[t];
+  IndexedTriangles welded;
+  for (const auto& [a, b, c] : mesh.triangles()) {
     const TriangleMesh::Corners corners = {first[a], first[b], first[c]};
     if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
-    welded.mesh.faces.push_back(corners);
-    welded.file_triangle.push_back(t);
+    welded.faces.push_back(corners);
   }
-  drop_unused(mesh.vertices(), welded);
+  take_used(mesh.vertices(), welded);
   return welded;
 }
 

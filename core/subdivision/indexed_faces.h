@@ -20,15 +20,8 @@ struct IndexedFaces {
 using IndexedTriangles = IndexedFaces<3>;
 using IndexedQuads = IndexedFaces<4>;
 
-/// A mesh made fit for connectivity, with the file's numbers for messages.
-struct Welded {
-  IndexedTriangles mesh;
-  std::vector<std::uint32_t> file_vertex;    ///< the first of the file's vertices that became this one
-  std::vector<std::uint32_t> file_triangle;  ///< position in the file's mesh
-};
-
 /// Vertices at equal coordinates become one, unused ones go, triangles with two corners in one place go,
 /// perhaps all of them.
-Welded weld(const TriangleMesh& mesh);
+IndexedTriangles weld(const TriangleMesh& mesh);
 
 }  // namespace touchmark

@@ -13,24 +13,22 @@ double beta(std::size_t valence) {
   return (5. / 8 - root * root) / k;
 }
 
-Vec3 weighted_mean(const std::vector<Weight>& mask, std::span<const Vec3> positions) {
+}  // namespace
+
+Vec3 weighted_mean(std::span<const Weight> mask, std::span<const Vec3> positions) {
   Vec3 sum = Vec3::Zero();
   for (const auto& [vertex, weight] : mask) sum += weight * positions[vertex];
   return sum;
 }
 
-}  // namespace
-
-void loop_vertex_mask(const OrientedSurface& surface, std::uint32_t vertex, std::vector<Weight>& mask) {
+void loop_vertex_mask(const TriangleSurface& surface, std::uint32_t vertex, std::vector<Weight>& mask) {
   const std::uint32_t first = surface.side_from(vertex);
-  mask.clear();
-  mask.push_back({vertex, 0});
-  if (surface.on_boundary(vertex)) {
-    std::uint32_t last = first;
-    while (surface.turned(last) != OrientedSurface::no_side) last = surface.turned(last);
+  mask.assign({{vertex, 1}});
+  if (surface.place(vertex) == TriangleSurface::Place::corner) return;
+  if (surface.place(vertex) == TriangleSurface::Place::boundary) {
     mask[0].weight = 3. / 4;
     mask.push_back({surface.end(first), 1. / 8});
-    mask.push_back({surface.apex(last), 1. / 8});
+    mask.push_back({surface.apex(surface.last_side_from(vertex)), 1. / 8});
     return;
   }
   std::uint32_t side = first;
@@ -44,18 +42,17 @@ void loop_vertex_mask(const OrientedSurface& surface, std::uint32_t vertex, std:
   mask[0].weight = 1 - static_cast<double>(valence) * share;
 }
 
-void loop_edge_mask(const OrientedSurface& surface, std::uint32_t edge, std::vector<Weight>& mask) {
+void loop_edge_mask(const TriangleSurface& surface, std::uint32_t edge, std::vector<Weight>& mask) {
   const auto [a, b] = surface.edges().ends(edge);
   const auto sides = surface.edges().sides(edge);
-  if (sides.size() == 1) {
-    mask.assign({{a, 1. / 2}, {b, 1. / 2}});
-  } else {
+  mask.assign({{a, 1. / 2}, {b, 1. / 2}});
+  if (surface.place_of_edge(edge) == TriangleSurface::Place::inside) {
     mask.assign(
         {{a, 3. / 8}, {b, 3. / 8}, {surface.apex(sides[0]), 1. / 8}, {surface.apex(sides[1]), 1. / 8}});
   }
 }
 
-std::vector<Vec3> loop_points(const OrientedSurface& surface, std::span<const Vec3> positions,
+std::vector<Vec3> loop_points(const TriangleSurface& surface, std::span<const Vec3> positions,
                               std::span<const std::uint32_t> edges) {
   std::vector<Vec3> points;
   points.reserve(positions.size() + edges.size());

@@ -41,27 +41,27 @@ void normalize(std::vector<Vec3>& normals) {
   for (Vec3& normal : normals) normal = unit_or_zero(normal);
 }
 
-PointsAndNormals ls3_points(const OrientedSurface& surface, std::span<const Vec3> positions,
+PointsAndNormals ls3_points(const TriangleSurface& surface, std::span<const Vec3> positions,
                             std::span<const Vec3> normals, std::span<const std::uint32_t> edges) {
   PointsAndNormals result;
   result.points.reserve(positions.size() + edges.size());
   result.normals.reserve(positions.size() + edges.size());
   AlgebraicSphereFit fit;
   std::vector<Weight> mask;
-  const auto place = [&] {
+  const auto place = [&](bool on_sphere) {
     fit.clear();
     for (const auto& [vertex, weight] : mask) fit.add(positions[vertex], normals[vertex], weight);
     const auto [point, gradient] = fit.mean_on_sphere();
-    result.points.push_back(point);
+    result.points.push_back(on_sphere ? point : weighted_mean(mask, positions));
     result.normals.push_back(unit_or_zero(gradient));
   };
   for (std::uint32_t v = 0; v < positions.size(); ++v) {
     loop_vertex_mask(surface, v, mask);
-    place();
+    place(surface.place(v) != TriangleSurface::Place::corner);
   }
   for (const std::uint32_t edge : edges) {
     loop_edge_mask(surface, edge, mask);
-    place();
+    place(surface.place_of_edge(edge) != TriangleSurface::Place::corner);
   }
   return result;
 }

@@ -10,6 +10,7 @@
 
 #include "core/subdivision/edge_map.h"
 #include "core/subdivision/indexed_faces.h"
+#include "core/subdivision/oriented_surface.h"
 
 namespace touchmark {
 namespace {
@@ -56,15 +57,16 @@ double absolute_volume(const TriangleMesh& mesh, const Vec3& center) {
 }
 
 EdgeStatistics edge_statistics(const TriangleMesh& mesh) {
-  const IndexedTriangles welded = weld(mesh).mesh;
+  const IndexedTriangles welded = weld(mesh);
   const EdgeMap<3> edges(welded.faces, welded.positions.size());
+  const TriangleSurface surface(welded.faces, edges, welded.positions.size());
   EdgeStatistics statistics;
   statistics.edges = edges.size();
   double sum = 0;
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    const std::size_t triangles = edges.sides(e).size();
-    if (triangles == 1) ++statistics.boundary;
-    if (triangles > 2) ++statistics.crowded;
+  for (std::uint32_t e = 0; e < edges.size(); ++e) {
+    using Place = TriangleSurface::Place;
+    if (surface.place_of_edge(e) == Place::boundary) ++statistics.boundary;
+    if (surface.place_of_edge(e) == Place::corner) ++statistics.seams;
     const auto [a, b] = edges.ends(e);
     const double length = (welded.positions[a] - welded.positions[b]).norm();
     statistics.shortest = e == 0 ? length : std::min(statistics.shortest, length);

@@ -28,12 +28,12 @@ double absolute_volume(const TriangleMesh& mesh, const Vec3& center);
 struct EdgeStatistics {
   std::size_t edges = 0;
   std::size_t boundary = 0;  ///< edges of one triangle
-  std::size_t crowded = 0;   ///< edges of more than two
+  std::size_t seams = 0;     ///< of more than two, or of two that run along it in the same direction
   double shortest = 0;       ///< mesh units; 0 where there is no edge
   double mean = 0;
   double longest = 0;
-  /// Every edge has two triangles.
-  bool closed() const noexcept { return edges > 0 && boundary == 0 && crowded == 0; }
+  /// Every edge has two triangles, of one orientation.
+  bool closed() const noexcept { return edges > 0 && boundary == 0 && seams == 0; }
 };
 EdgeStatistics edge_statistics(const TriangleMesh& mesh);
 

@@ -38,18 +38,6 @@ void check(const SubdivisionOptions& options) {
     throw std::invalid_argument("threshold is " + std::to_string(options.threshold) + ", must be 0 or more");
 }
 
-/// The method that the form makes of the one asked for.
-SubdivisionMethod in_form(const SubdivisionOptions& options) noexcept {
-  const bool smoothless = options.form == SubdivisionForm::meshlab;
-  if (smoothless && options.method == SubdivisionMethod::catmull_clark)
-    return SubdivisionMethod::catmull_clark_linear;
-  return options.method;
-}
-
-bool needs_surface(SubdivisionMethod method) noexcept {
-  return method != SubdivisionMethod::mid_point && method != SubdivisionMethod::catmull_clark_linear;
-}
-
 /// Sides of faces and edges are counted in 32 bits.
 constexpr std::size_t most_triangles = 1'000'000'000;
 
@@ -95,7 +83,7 @@ std::vector<Vec3> with_middles(std::vector<Vec3> positions, const EdgeMap<3>& ed
   return positions;
 }
 
-std::vector<Vec3> with_butterfly_points(std::vector<Vec3> positions, const OrientedSurface& surface,
+std::vector<Vec3> with_butterfly_points(std::vector<Vec3> positions, const TriangleSurface& surface,
                                         const EdgeSplit& split, SubdivisionForm form) {
   const std::vector<Vec3> points = butterfly_points(surface, positions, split.edges, form);
   positions.insert(positions.end(), points.begin(), points.end());
@@ -106,11 +94,7 @@ std::vector<Vec3> with_butterfly_points(std::vector<Vec3> positions, const Orien
 class EdgeSplitting {
  public:
   EdgeSplitting(IndexedTriangles mesh, const SubdivisionOptions& options)
-      : mesh_(std::move(mesh)), options_(options) {
-    if (options_.method != SubdivisionMethod::ls3) return;
-    normals_ = angle_weighted_normals(mesh_);
-    if (options_.form == SubdivisionForm::published) normalize(normals_);
-  }
+      : mesh_(std::move(mesh)), options_(options) {}
 
   void refine(int level) {
     const EdgeMap<3> edges(mesh_.faces, mesh_.positions.size());
@@ -120,8 +104,6 @@ class EdgeSplitting {
     store(positions, options_.form);
     mesh_.faces = split_faces(mesh_.faces, edges, split, judged_by(positions));
     mesh_.positions = std::move(positions);
-    if (options_.method == SubdivisionMethod::ls3 && options_.form == SubdivisionForm::meshlab)
-      normals_ = angle_weighted_normals(mesh_);
   }
 
   IndexedTriangles take() { return std::move(mesh_); }
@@ -129,13 +111,23 @@ class EdgeSplitting {
  private:
   std::vector<Vec3> refined_positions(const EdgeMap<3>& edges, const EdgeSplit& split) {
     if (options_.method == SubdivisionMethod::mid_point) return with_middles(mesh_.positions, edges, split);
-    const OrientedSurface surface(mesh_.faces, edges, mesh_.positions.size());
+    const TriangleSurface surface(mesh_.faces, edges, mesh_.positions.size());
     if (options_.method == SubdivisionMethod::butterfly)
       return with_butterfly_points(mesh_.positions, surface, split, options_.form);
     if (options_.method == SubdivisionMethod::loop) return loop_points(surface, mesh_.positions, split.edges);
-    auto [points, normals] = ls3_points(surface, mesh_.positions, normals_, split.edges);
-    normals_ = std::move(normals);
-    return std::move(points);
+    return by_spheres(surface, split);
+  }
+
+  std::vector<Vec3> by_spheres(const TriangleSurface& surface, const EdgeSplit& split) {
+    if (options_.form == SubdivisionForm::meshlab) {
+      normals_ = angle_weighted_normals(mesh_);
+    } else if (normals_.empty()) {
+      normals_ = angle_weighted_normals(mesh_);
+      normalize(normals_);
+    }
+    PointsAndNormals refined = ls3_points(surface, mesh_.positions, normals_, split.edges);
+    normals_ = std::move(refined.normals);
+    return std::move(refined.points);
   }
 
   /// Where the vertices are when a trapezoid's diagonals are compared: in the tool the old ones have not
@@ -160,8 +152,9 @@ IndexedTriangles refine_by_edges(IndexedTriangles mesh, const SubdivisionOptions
 
 IndexedTriangles refine_by_faces(IndexedTriangles mesh, const SubdivisionOptions& options) {
   if (options.levels == 0) return mesh;
-  const auto positions = in_form(options) == SubdivisionMethod::catmull_clark ? CatmullClarkPositions::smooth
-                                                                              : CatmullClarkPositions::linear;
+  const bool smooth =
+      options.method == SubdivisionMethod::catmull_clark && options.form == SubdivisionForm::published;
+  const auto positions = smooth ? CatmullClarkPositions::smooth : CatmullClarkPositions::linear;
   IndexedQuads quads = catmull_clark(mesh, positions);
   store(quads.positions, options.form);
   for (int level = 2; level <= options.levels; ++level) {
@@ -176,17 +169,15 @@ IndexedTriangles refine_by_faces(IndexedTriangles mesh, const SubdivisionOptions
 
 TriangleMesh subdivide(const TriangleMesh& mesh, const SubdivisionOptions& options) {
   check(options);
-  Welded welded = weld(mesh);
-  if (welded.mesh.faces.empty()) {
+  IndexedTriangles welded = weld(mesh);
+  if (welded.faces.empty()) {
     throw MeshError("none of the " + std::to_string(mesh.size()) +
                     " triangles has three corners in different places");
   }
-  require_room(welded.mesh.faces.size(), options);
-  const SubdivisionMethod method = in_form(options);
-  if (needs_surface(method)) require_surface(welded, name_of(options.method));
-  store(welded.mesh.positions, options.form);
-  IndexedTriangles result = splits_faces(method) ? refine_by_faces(std::move(welded.mesh), options)
-                                                 : refine_by_edges(std::move(welded.mesh), options);
+  require_room(welded.faces.size(), options);
+  store(welded.positions, options.form);
+  IndexedTriangles result = splits_faces(options.method) ? refine_by_faces(std::move(welded), options)
+                                                         : refine_by_edges(std::move(welded), options);
   return {std::move(result.positions), std::move(result.faces)};
 }
 

@@ -33,7 +33,7 @@ struct SubdivisionOptions {
   /// Catmull-Clark has no threshold: each of its faces splits.
   double threshold = 0;
   SubdivisionForm form = SubdivisionForm::published;
-  /// More triangles than this are refused before memory is taken for them: 50 million take about 10 GB.
+  /// More triangles than this are refused before memory is taken for them: 50 million take about 4 GB.
   std::size_t max_triangles = 50'000'000;
 };
 
@@ -47,13 +47,13 @@ struct SubdivisionOptions {
 /// - Triangles with two corners in one place have no surface and are left out. Other triangles without area
 ///   stay: they have neighbours like any other, and no normal.
 /// - Boundaries follow each scheme's boundary rule.
-/// - mid_point and catmull_clark_linear need no neighbours and take any such mesh. The others throw MeshError
-///   for an edge of more than two triangles, for two triangles that run along their edge in the same
-///   direction (different orientations) and for a vertex where several fans of triangles meet in a point.
+/// - A seam is an edge of more than two triangles, or of two of different orientations (they run along it in
+///   the same direction): it splits in the middle. The vertices on it, and those where several fans of
+///   triangles meet in a point, stay. To mid_point and catmull_clark_linear such places are nothing special.
 ///
-/// Throws std::invalid_argument for negative levels or a threshold that is negative or NaN; MeshError for the
-/// above, for a mesh without a triangle left, for too many triangles, and for coordinates that a float (form
-/// meshlab) or a double cannot hold.
+/// Throws std::invalid_argument for negative levels or a threshold that is negative or NaN; MeshError for a
+/// mesh without a triangle left, for too many triangles, and for coordinates that a float (form meshlab) or a
+/// double cannot hold.
 TriangleMesh subdivide(const TriangleMesh& mesh, const SubdivisionOptions& options);
 
 /// "butterfly", "catmull-clark", "catmull-clark-linear", "mid-point", "loop", "ls3".

@@ -50,20 +50,20 @@ TEST(EdgeMap, KeepsEulersFormula) {
 TEST(OrientedSurface, WalksAroundAnInnerVertexCounterClockwise) {
   const TriangleMesh mesh = test::octahedron();
   const EdgeMap<3> edges = edges_of(mesh);
-  const OrientedSurface surface(mesh.triangles(), edges, mesh.vertices().size());
+  const TriangleSurface surface(mesh.triangles(), edges, mesh.vertices().size());
   std::vector<std::uint32_t> ring;
   surface.ring(surface.side_from(4), ring);  // +z, seen from above
   ASSERT_EQ(ring.size(), 4u);
   std::ranges::rotate(ring, std::ranges::find(ring, 0u));
   EXPECT_EQ(ring, (std::vector<std::uint32_t>{0, 2, 1, 3}));
   EXPECT_EQ(surface.valence(4), 4u);
-  EXPECT_FALSE(surface.on_boundary(4));
+  EXPECT_EQ(surface.place(4), TriangleSurface::Place::inside);
 }
 
 TEST(OrientedSurface, WalksFromOneEndOfABoundaryFanToTheOther) {
   const TriangleMesh mesh = test::grid(3, [](double i, double j) { return Vec3(i, j, 0); });
   const EdgeMap<3> edges = edges_of(mesh);
-  const OrientedSurface surface(mesh.triangles(), edges, mesh.vertices().size());
+  const TriangleSurface surface(mesh.triangles(), edges, mesh.vertices().size());
   std::vector<std::uint32_t> ring;
   surface.ring(surface.side_from(1), ring);
   EXPECT_EQ(ring, (std::vector<std::uint32_t>{2, 4, 3, 0}));
@@ -71,7 +71,36 @@ TEST(OrientedSurface, WalksFromOneEndOfABoundaryFanToTheOther) {
   EXPECT_EQ(ring, (std::vector<std::uint32_t>{1, 3}));
   EXPECT_EQ(surface.valence(4), 6u);
   EXPECT_EQ(surface.valence(2), 3u);
-  EXPECT_TRUE(surface.on_boundary(5));
+  EXPECT_EQ(surface.place(5), TriangleSurface::Place::boundary);
+}
+
+TEST(OrientedSurface, EndsAtSeams) {
+  // Three triangles on the edge 0-1, and one that turns the other way on the edge 0-2.
+  const std::vector<Corners> faces = {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {2, 0, 5}, {5, 0, 6}};
+  const EdgeMap<3> edges(faces, 7);
+  const TriangleSurface surface(faces, edges, 7);
+  using enum TriangleSurface::Place;
+  EXPECT_EQ(surface.place_of_edge(edges.edge(0, 0)), corner);    // of three triangles
+  EXPECT_EQ(surface.place_of_edge(edges.edge(0, 2)), corner);    // 2-0 twice
+  EXPECT_EQ(surface.place_of_edge(edges.edge(3, 1)), inside);    // 0-5 there and back
+  EXPECT_EQ(surface.place_of_edge(edges.edge(0, 1)), boundary);  // 1-2
+  for (const std::uint32_t v : {0u, 1u, 2u}) EXPECT_EQ(surface.place(v), corner) << v;
+  for (const std::uint32_t v : {3u, 4u, 5u, 6u}) EXPECT_EQ(surface.place(v), boundary) << v;
+  EXPECT_EQ(surface.across(0), TriangleSurface::no_side);
+}
+
+TEST(OrientedSurface, CallsVerticesOfSeveralFansCorners) {
+  using enum TriangleSurface::Place;
+  const std::vector<Corners> open = {{0, 1, 2}, {3, 4, 2}};
+  const EdgeMap<3> open_edges(open, 5);
+  EXPECT_EQ(TriangleSurface(open, open_edges, 5).place(2), corner);
+  // Two tetrahedra tip to tip.
+  const std::vector<Corners> closed = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3},
+                                       {0, 4, 5}, {0, 5, 6}, {0, 6, 4}, {4, 6, 5}};
+  const EdgeMap<3> closed_edges(closed, 7);
+  const TriangleSurface tips(closed, closed_edges, 7);
+  EXPECT_EQ(tips.place(0), corner);
+  EXPECT_EQ(tips.place(1), inside);
 }
 
 TriangleMesh halved(const TriangleMesh& mesh, double threshold) {

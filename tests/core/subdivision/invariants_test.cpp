@@ -71,7 +71,7 @@ TEST(Subdivision, KeepsTheBoundarysLoops) {
   for (const SubdivisionMethod method : all_methods) {
     const TriangleMesh mesh = subdivide(test::open_patch(), {.method = method, .levels = 2});
     EXPECT_EQ(edge_statistics(mesh).boundary, 4 * boundary) << name_of(method);
-    EXPECT_EQ(edge_statistics(mesh).crowded, 0u);
+    EXPECT_EQ(edge_statistics(mesh).seams, 0u);
   }
 }
 

@@ -67,10 +67,10 @@ TEST(MeshMeasures, EdgesOfAnOpenMesh) {
   EXPECT_EQ(edges.longest, 5);
 }
 
-TEST(MeshMeasures, EdgesOfMoreThanTwoTrianglesAreCrowded) {
+TEST(MeshMeasures, EdgesOfMoreThanTwoTrianglesAreSeams) {
   const EdgeStatistics edges = edge_statistics(TriangleMesh(
       {{0, 0, 0}, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, {-1, -1, 0}}, {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}}));
-  EXPECT_EQ(edges.crowded, 1u);
+  EXPECT_EQ(edges.seams, 1u);
   EXPECT_EQ(edges.boundary, 6u);
   EXPECT_FALSE(edges.closed());
 }
