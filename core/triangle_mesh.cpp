@@ -1,6 +1,8 @@
 #include "core/triangle_mesh.h"
 
 #include <limits>
+#include <locale>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -10,7 +12,10 @@ namespace {
 constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max();
 
 std::string coordinates(const Vec3& v) {
-  return "(" + std::to_string(v.x()) + ", " + std::to_string(v.y()) + ", " + std::to_string(v.z()) + ")";
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << "(" << v.x() << ", " << v.y() << ", " << v.z() << ")";
+  return text.str();
 }
 
 }  // namespace
@@ -63,6 +68,10 @@ TriangleMesh TriangleMesh::transformed(double scale, const Vec3& shift) const {
 TriangleMesh TriangleMesh::normalized() const {
   const double size = diagonal();
   if (!(size > 0)) throw MeshError("the mesh cannot be normalised: all its vertices coincide");
+  if (!(size <= std::numeric_limits<double>::max())) {
+    throw MeshError("the mesh cannot be normalised: its box from " + coordinates(bounds_.min) + " to " +
+                    coordinates(bounds_.max) + " has a diagonal beyond double");
+  }
   return transformed(1 / size, -bounds_.center());
 }
 

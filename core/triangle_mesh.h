@@ -47,7 +47,8 @@ class TriangleMesh {
 
   /// Every vertex v becomes scale * (v + shift). Throws MeshError when a coordinate overflows.
   TriangleMesh transformed(double scale, const Vec3& shift) const;
-  /// Box diagonal 1, box centre at the origin. Throws MeshError when all vertices coincide.
+  /// Box diagonal 1, box centre at the origin. Throws MeshError when all vertices coincide, or lie so far
+  /// apart that the diagonal overflows.
   TriangleMesh normalized() const;
 
  private:

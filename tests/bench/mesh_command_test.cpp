@@ -61,7 +61,7 @@ TEST(MeshInfo, RefusesBadInputInOneLine) {
   expect_bad_input({"mesh", "info", "noisy-sphere:200000001"}, {"200000001", "200000000"});
   expect_bad_input({"mesh", "info", "cube@scale=0"}, {"@scale", "0"});
   expect_bad_input({"mesh", "info", folder.file("missing.ply")}, {"missing.ply"});
-  expect_bad_input({"mesh", "info", folder.file("")}, {folder.file("")});
+  expect_bad_input({"mesh", "info", folder.path()}, {folder.path(), "directory"});
   expect_bad_input({"mesh", "info", folder.file("empty.ply", "")}, {"empty.ply", "empty"});
   expect_bad_input({"mesh", "info", folder.file("cut.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")},
                    {"cut.obj", "line 4", "9"});

@@ -1,0 +1,208 @@
+// Files as users have them: through load_mesh, from disk. What each reader refuses is in readers_test.cpp.
+#include "core/mesh_io/mesh_io.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "tests/temporary_folder.h"
+
+namespace touchmark {
+namespace {
+
+std::string refusal(const std::string& path) {
+  try {
+    load_mesh(path);
+  } catch (const MeshError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+void expect_refusal(const std::string& path, const std::string& why) {
+  const std::string message = refusal(path);
+  EXPECT_EQ(message.rfind(path + ": ", 0), 0u) << message;
+  EXPECT_NE(message.find(why), std::string::npos) << message << "\ndoes not say: " << why;
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+}
+
+const std::string square_obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+const std::string triangle_off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+const std::string triangle_ply =
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+const std::string triangle_stl =
+    "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+    "0\nendloop\nendfacet\nendsolid\n";
+
+/// One triangle, used by two nodes; `positions` is its buffer in base64: nine floats, three 16-bit indices,
+/// padding.
+std::string two_triangles_gltf(const std::string& positions) {
+  return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1]}],
+"nodes":[{"mesh":0},{"mesh":0,"translation":[0,0,5],"scale":[2,2,2]}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
+{"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}],
+"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}],
+"buffers":[{"byteLength":44,"uri":"data:application/octet-stream;base64,)" +
+         positions + R"("}]})";
+}
+const std::string good_positions = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIAAAA=";
+const std::string nan_positions = "AAAAAAAAAAAAAAAAAADAfwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIAAAA=";
+
+TEST(LoadMesh, ChoosesTheReaderByTheEndingInAnyCase) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(load_mesh(folder.file("a.obj", square_obj)).size(), 2u);
+  EXPECT_EQ(load_mesh(folder.file("a.OFF", triangle_off)).size(), 1u);
+  EXPECT_EQ(load_mesh(folder.file("a.Ply", triangle_ply)).size(), 1u);
+  EXPECT_EQ(load_mesh(folder.file("b c.d.stl", triangle_stl)).size(), 1u);
+}
+
+TEST(LoadMesh, ReadsWindowsAndOldMacintoshLines) {
+  const TemporaryFolder folder;
+  for (const char* line_end : {"\r\n", "\r"}) {
+    for (const auto& [name, content] : {std::pair{"a.obj", square_obj},
+                                        {"a.off", triangle_off},
+                                        {"a.ply", triangle_ply},
+                                        {"a.stl", triangle_stl}}) {
+      std::string text;
+      for (const char c : content) text += c == '\n' ? std::string(line_end) : std::string(1, c);
+      EXPECT_EQ(refusal(folder.file(name, text)), "accepted") << name;
+    }
+  }
+}
+
+TEST(LoadMesh, RefusesWhatIsNoReadableFile) {
+  const TemporaryFolder folder;
+  expect_refusal(folder.file("missing.ply"), "no such file");
+  expect_refusal(folder.file("missing/a.ply"), "no such file");
+  expect_refusal(folder.path(), "is a directory");
+  std::filesystem::create_directory(folder.file("folder.obj"));
+  expect_refusal(folder.file("folder.obj"), "is a directory");
+  std::filesystem::create_symlink(folder.file("nowhere"), folder.file("dangling.obj"));
+  expect_refusal(folder.file("dangling.obj"), "no such file");
+}
+
+TEST(LoadMesh, RefusesAFileThatMayNotBeRead) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root may read everything";
+  const TemporaryFolder folder;
+  const std::string path = folder.file("secret.obj", square_obj);
+  std::filesystem::permissions(path, std::filesystem::perms::none);
+  expect_refusal(path, "cannot be opened");
+}
+
+TEST(LoadMesh, RefusesEmptyFilesOfEveryFormat) {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.ply", "a.obj", "a.off", "a.stl", "a.gltf", "a.3ds"}) {
+    expect_refusal(folder.file(name, ""), "is empty");
+  }
+}
+
+TEST(LoadMesh, RefusesEndingsOfNoFormatAndNone) {
+  const TemporaryFolder folder;
+  expect_refusal(folder.file("a.txt", "hello"), "'.txt'");
+  expect_refusal(folder.file("a.ply~", triangle_ply), "'.ply~'");
+  expect_refusal(folder.file("noending", triangle_ply), "''");
+}
+
+TEST(LoadMesh, RefusesOneFormatUnderAnothersEnding) {
+  const TemporaryFolder folder;
+  expect_refusal(folder.file("a.ply", square_obj), "line 1");
+  expect_refusal(folder.file("a.obj", triangle_ply), "line 1");
+  expect_refusal(folder.file("a.off", triangle_stl), "line 1");
+  expect_refusal(folder.file("a.stl", triangle_off), "line 1");
+}
+
+TEST(LoadMesh, KeepsNumbersThatSinglePrecisionCannot) {
+  const TemporaryFolder folder;
+  const TriangleMesh mesh =
+      load_mesh(folder.file("far.obj", "v 1000000.001 1e300 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+  EXPECT_EQ(mesh.vertices()[0], Vec3(1000000.001, 1e300, 0));
+}
+
+TEST(LoadMesh, KeepsDegenerateTrianglesAndRepeatedVertices) {
+  const TemporaryFolder folder;
+  const TriangleMesh mesh =
+      load_mesh(folder.file("a.obj", "v 0 0 0\nv 1 0 0\nv 1 0 0\nv 2 0 0\nf 1 1 1\nf 1 2 3\nf 1 2 4\n"));
+  EXPECT_EQ(mesh.size(), 3u);
+  EXPECT_EQ(mesh.vertices().size(), 4u);
+}
+
+TEST(LoadMesh, MaterialsAndGroupsDoNotReorderFaces) {
+  const TemporaryFolder folder;
+  const TriangleMesh mesh = load_mesh(
+      folder.file("a.obj",
+                  "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\no a\nusemtl red\nf 1 2 3\no b\nusemtl blue\nf 2 3 4\n"
+                  "p 1\nl 1 2\nusemtl red\nf 1 2 3 4\ng c\nf 3 4 1\n"));
+  const std::vector<TriangleId> expected = {0, 1, 2, 2, 3};
+  EXPECT_TRUE(std::equal(mesh.ids().begin(), mesh.ids().end(), expected.begin(), expected.end()));
+  EXPECT_EQ(mesh.triangles()[1], (TriangleMesh::Corners{1, 2, 3}));
+  EXPECT_EQ(mesh.triangles()[4], (TriangleMesh::Corners{2, 3, 0}));
+}
+
+// A damaged file is refused by its reader or still is a mesh; nothing else may come out, and no time or
+// memory that the file's size does not justify.
+TEST(LoadMesh, SurvivesEveryCutAndEveryChangedByte) {
+  const TemporaryFolder folder;
+  for (const auto& [name, content] : {std::pair{"a.obj", square_obj},
+                                      {"a.off", triangle_off},
+                                      {"a.ply", triangle_ply},
+                                      {"a.stl", triangle_stl}}) {
+    for (std::size_t length = 1; length < content.size(); ++length) {
+      const std::string path = folder.file(name, content.substr(0, length));
+      const std::string message = refusal(path);
+      EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    }
+    for (std::size_t at = 0; at < content.size(); ++at) {
+      for (const char c : {'9', '-', '\0'}) {
+        std::string changed = content;
+        changed[at] = c;
+        const std::string message = refusal(folder.file(name, changed));
+        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+      }
+    }
+  }
+}
+
+TEST(LoadMeshByAssimp, PlacesEveryNodesPartAndNumbersFacesThroughout) {
+  const TemporaryFolder folder;
+  const TriangleMesh mesh = load_mesh(folder.file("two.gltf", two_triangles_gltf(good_positions)));
+  ASSERT_EQ(mesh.size(), 2u);
+  EXPECT_EQ(mesh.id(1), 1u);
+  EXPECT_EQ(mesh.corner(0, 1), Vec3(1, 0, 0));
+  EXPECT_EQ(mesh.corner(1, 1), Vec3(2, 0, 5));
+}
+
+TEST(LoadMeshByAssimp, RefusesNaNAndMissingPartsAndGarbage) {
+  const TemporaryFolder folder;
+  expect_refusal(folder.file("nan.gltf", two_triangles_gltf(nan_positions)), "");
+  expect_refusal(folder.file("short.gltf", two_triangles_gltf("AAAA")), "");
+  expect_refusal(folder.file("cut.gltf", two_triangles_gltf(good_positions).substr(0, 300)), "assimp");
+  expect_refusal(folder.file("garbage.3ds", "this is no 3ds file"), "");
+  expect_refusal(folder.file("garbage.dae", "<xml"), "");
+}
+
+TEST(LoadMesh, ReadsTheSharedModels) {
+  const std::filesystem::path models = TOUCHMARK_SHARED_MODELS;
+  if (!std::filesystem::exists(models / "bunny-902.ply")) GTEST_SKIP() << models << " is not there";
+  EXPECT_EQ(load_mesh(models / "bunny-902.ply").size(), 902u);
+  EXPECT_EQ(load_mesh(models / "bun_zipper_res2.ply").size(), 16301u);
+  EXPECT_EQ(load_mesh(models / "bun_zipper_res3.ply").size(), 3851u);
+  EXPECT_EQ(load_mesh(models / "bun_zipper_res4.ply").size(), 948u);
+}
+
+TEST(LoadMesh, ReadsDebiansBunny) {
+  const char* bunny = "/usr/share/glmark2/models/bunny.obj";
+  if (!std::filesystem::exists(bunny)) GTEST_SKIP() << bunny << " is not there";
+  const TriangleMesh mesh = load_mesh(bunny);
+  EXPECT_EQ(mesh.size(), 69666u);
+  EXPECT_EQ(mesh.vertices().size(), 34835u);
+}
+
+}  // namespace
+}  // namespace touchmark
