@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/length.h"
 #include "bench/near_names.h"
 #include "bench/numbers.h"
 
@@ -38,16 +39,26 @@ const OptionInfo& find_option(const ContestantInfo& contestant, std::string_view
       fmt::format("{} has no option \"{}\"; its options: {}", contestant.name, key, fmt::join(keys, ", ")));
 }
 
-void check_value(const ContestantInfo& contestant, const OptionInfo& option, std::string_view value) {
-  if (option.choices.empty()) {
-    const std::optional<double> number = parse_number(value);
-    if (number && *number >= 0) return;
-    throw std::invalid_argument(
-        fmt::format("{}: {}=\"{}\" is not a number of 0 or more", contestant.name, option.key, value));
+/// What is expected of the value, if it is not that; else empty.
+std::string complaint(const OptionInfo& option, std::string_view value) {
+  switch (option.kind) {
+    case OptionKind::choice:
+      if (std::find(option.choices.begin(), option.choices.end(), value) != option.choices.end()) return "";
+      return fmt::format("none of {}", fmt::join(option.choices, ", "));
+    case OptionKind::number:
+      return parse_number(value).value_or(-1) >= 0 ? "" : "not a number of 0 or more";
+    case OptionKind::count:
+      return parse_count(value) ? "" : "not a whole number of 0 or more";
+    case OptionKind::length:
+      return parse_length(value) ? "" : "not a length of 0 or more, as 0.01 or 0.5%";
   }
-  if (std::find(option.choices.begin(), option.choices.end(), value) != option.choices.end()) return;
-  throw std::invalid_argument(fmt::format("{}: {}=\"{}\" is none of {}", contestant.name, option.key, value,
-                                          fmt::join(option.choices, ", ")));
+  return "";
+}
+
+void check_value(const ContestantInfo& contestant, const OptionInfo& option, std::string_view value) {
+  const std::string wrong = complaint(option, value);
+  if (wrong.empty()) return;
+  throw std::invalid_argument(fmt::format("{}: {}=\"{}\" is {}", contestant.name, option.key, value, wrong));
 }
 
 /// The pairs as written, checked. Throws for what is not key=value, an unknown or repeated key, a bad value.
@@ -71,6 +82,12 @@ std::map<std::string, std::string> parse_options(const ContestantInfo& contestan
 }  // namespace
 
 double OptionValues::number(const std::string& key) const { return parse_number(text(key)).value(); }
+
+std::size_t OptionValues::count(const std::string& key) const { return parse_count(text(key)).value(); }
+
+double OptionValues::length(const std::string& key, const TriangleMesh& mesh) const {
+  return parse_length(text(key)).value().in_mesh_units(mesh);
+}
 
 bool ContestantInfo::answers(Query query) const noexcept {
   return std::find(queries.begin(), queries.end(), query) != queries.end();

@@ -1,6 +1,7 @@
 /// What can be chosen on the command line: contestants, their options, and `NAME[:key=value,...]`.
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <memory>
@@ -12,9 +13,17 @@
 
 namespace touchmark::bench {
 
+enum class OptionKind {
+  choice,
+  number,  ///< 0 or more
+  count,   ///< a whole number of 0 or more
+  length   ///< 0 or more, in mesh units or in percent of the mesh's box diagonal
+};
+
 struct OptionInfo {
   std::string key;
-  std::vector<std::string> choices;  ///< empty: a number >= 0
+  OptionKind kind = OptionKind::choice;
+  std::vector<std::string> choices;  ///< of a choice
   std::string default_value;
   std::string summary;  ///< one line
 };
@@ -26,6 +35,8 @@ class OptionValues {
 
   const std::string& text(const std::string& key) const { return values_.at(key); }
   double number(const std::string& key) const;
+  std::size_t count(const std::string& key) const;
+  double length(const std::string& key, const TriangleMesh& mesh) const;  ///< in mesh units
   bool flag(const std::string& key) const { return text(key) == "true"; }
   const std::map<std::string, std::string>& all() const noexcept { return values_; }
 

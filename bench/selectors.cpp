@@ -49,24 +49,12 @@ std::uint64_t checked_seed(const std::string& text) {
 
 }  // namespace
 
-std::optional<Length> parse_length(std::string_view text) {
-  Length length;
-  if (text.ends_with('%')) {
-    length.percent = true;
-    text.remove_suffix(1);
-  }
-  const std::optional<double> value = parse_number(text);
-  if (!value || !(*value >= 0)) return std::nullopt;
-  length.value = *value;
-  return length;
-}
-
-void add_selectors(CLI::App& command, Selectors& selectors, MeshCount mesh_count) {
+void add_selectors(CLI::App& command, Selectors& selectors, Variety variety) {
   CLI::Option* mesh = command.add_option("--mesh", selectors.meshes,
                                          "a scene (touchmark list) or a mesh file; modifiers may follow: "
                                          "bunny@scale=1e-3@offset=1e6");
   mesh->type_name("MESH")->expected(1);
-  if (mesh_count == MeshCount::one) {
+  if (variety == Variety::one) {
     mesh->multi_option_policy(CLI::MultiOptionPolicy::Throw);
   } else {
     mesh->take_all();
@@ -84,7 +72,9 @@ void add_selectors(CLI::App& command, Selectors& selectors, MeshCount mesh_count
       ->type_name("D")
       ->expected(1)
       ->take_all();
-  command.add_option("--query", selectors.query, "touches, nearest or sweep")
+  command
+      .add_option("--query", selectors.query,
+                  variety == Variety::one ? "touches, nearest or sweep" : "touches, nearest, sweep or all")
       ->type_name("QUERY")
       ->capture_default_str();
   command.add_option("--radius", selectors.radius, "the probe's, in mesh units or % of the box diagonal")
@@ -99,9 +89,13 @@ void add_selectors(CLI::App& command, Selectors& selectors, MeshCount mesh_count
       ->capture_default_str();
 }
 
-Selection check(const Selectors& selectors, const Roster& roster) {
+Selection check(const Selectors& selectors, const Roster& roster, Variety variety) {
   Selection selection;
-  selection.query = checked_query(selectors.query);
+  if (variety == Variety::many && selectors.query == "all") {
+    selection.queries.assign(all_queries.begin(), all_queries.end());
+  } else {
+    selection.queries.push_back(checked_query(selectors.query));
+  }
   selection.radius = checked_length("--radius", selectors.radius);
   if (!selectors.reach.empty()) selection.reach = checked_length("--reach", selectors.reach);
   if (!selectors.steps.empty()) selection.steps = checked_steps(selectors.steps);

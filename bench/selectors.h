@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "bench/answer.h"
 #include "bench/contestant_info.h"
+#include "bench/length.h"
 #include "core/triangle_mesh.h"
 
 namespace CLI {
@@ -18,19 +18,6 @@ class App;
 
 namespace touchmark::bench {
 
-/// A length as written: in mesh units, or in percent of the mesh's box diagonal ("0.5%").
-struct Length {
-  double value = 0;
-  bool percent = false;
-
-  double in_mesh_units(const TriangleMesh& mesh) const noexcept {
-    return percent ? value / 100 * mesh.diagonal() : value;
-  }
-};
-
-/// 0 or more, "inf" allowed. Nothing when it is anything else.
-std::optional<Length> parse_length(std::string_view text);
-
 /// As the command line gave them, still unchecked against mesh, roster and trajectories. A command that wants
 /// other defaults sets them before it calls add_selectors.
 struct Selectors {
@@ -38,20 +25,21 @@ struct Selectors {
   bool normalize = false;
   std::vector<std::string> trajectories;
   std::vector<std::string> detectors;  ///< empty: the default set
-  std::string query = "nearest";
+  std::string query = "nearest";       ///< or "all" where the command allows it
   std::string radius = "0.5%";
   std::string reach;  ///< empty: the radius
   std::string steps;  ///< empty: the command's own choice
   std::string seed = "1";
 };
 
-enum class MeshCount { one, many };
+/// one: of --mesh and --query. many: --mesh is repeatable and --query may be "all".
+enum class Variety { one, many };
 
-void add_selectors(CLI::App& command, Selectors& selectors, MeshCount mesh_count = MeshCount::one);
+void add_selectors(CLI::App& command, Selectors& selectors, Variety variety = Variety::one);
 
 /// The checked values. All throw std::invalid_argument naming the option and the value.
 struct Selection {
-  Query query = Query::nearest;
+  std::vector<Query> queries;  ///< one, or all three
   Length radius;
   std::optional<Length> reach;  ///< nothing: each probe's radius
   std::optional<std::size_t> steps;
@@ -59,7 +47,7 @@ struct Selection {
   std::vector<ContestantSpec> contestants;
 };
 
-Selection check(const Selectors& selectors, const Roster& roster);
+Selection check(const Selectors& selectors, const Roster& roster, Variety variety = Variety::one);
 
 /// The mesh that --mesh names, normalised if asked to. Throws std::invalid_argument or MeshError.
 TriangleMesh load_mesh(const std::string& name, bool normalize);

@@ -11,9 +11,10 @@
 namespace touchmark::bench {
 
 struct Throughput {
-  double ns_per_query = 0;     ///< the mean over all passes
-  std::uint64_t checksum = 0;  ///< of one pass
-  bool steady = true;          ///< every pass had the same checksum
+  double ns_per_query = 0;      ///< elapsed, the mean over all passes
+  double cpu_ns_per_query = 0;  ///< the process's own time: without what others took of the core
+  std::uint64_t checksum = 0;   ///< of one pass
+  bool steady = true;           ///< every pass had the same checksum
 };
 
 /// Hands --benchmark_* flags to the library. Those it does not know come back.

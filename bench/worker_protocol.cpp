@@ -69,11 +69,15 @@ void from_json(const nlohmann::json& json, Answered& answered) {
 }
 
 void to_json(nlohmann::json& json, const Timed& timed) {
-  json = {{"ns_per_query", timed.ns_per_query}, {"checksum", timed.checksum}, {"steady", timed.steady}};
+  json = {{"ns_per_query", timed.ns_per_query},
+          {"cpu_ns_per_query", timed.cpu_ns_per_query},
+          {"checksum", timed.checksum},
+          {"steady", timed.steady}};
 }
 
 void from_json(const nlohmann::json& json, Timed& timed) {
   json.at("ns_per_query").get_to(timed.ns_per_query);
+  json.at("cpu_ns_per_query").get_to(timed.cpu_ns_per_query);
   json.at("checksum").get_to(timed.checksum);
   json.at("steady").get_to(timed.steady);
 }

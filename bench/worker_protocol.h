@@ -51,7 +51,8 @@ struct Answered {
 /// Reply to "first" (one step, fresh session), "calibrate", "first_pass" (fresh session), "time" and
 /// "latency" (ticks lie in the output room).
 struct Timed {
-  double ns_per_query = 0;
+  double ns_per_query = 0;      ///< elapsed
+  double cpu_ns_per_query = 0;  ///< of "time" only
   std::uint64_t checksum = 0;
   bool steady = true;  ///< every pass gave the same checksum
 };

@@ -8,13 +8,16 @@
 #include "bench/program.h"
 #include "bench/query_name.h"
 #include "bench/scenes.h"
+#include "bench/trajectories.h"
 
 namespace touchmark::bench {
 namespace {
 
 void print_option(const OptionInfo& option) {
-  const std::string values =
-      option.choices.empty() ? "NUMBER" : fmt::format("{}", fmt::join(option.choices, "|"));
+  const std::string values = option.kind == OptionKind::choice
+                                 ? fmt::format("{}", fmt::join(option.choices, "|"))
+                             : option.kind == OptionKind::length ? "LENGTH"
+                                                                 : "NUMBER";
   fmt::print("      {}={}  (default {})  {}\n", option.key, values, option.default_value, option.summary);
 }
 
@@ -33,7 +36,12 @@ void list(const Roster& roster) {
   for (const ContestantInfo& contestant : roster.contestants()) print_contestant(contestant);
   fmt::print("\nscenes: --mesh NAME[@scale=S][@offset=O][@normalize], or a mesh file\n");
   for (const SceneInfo& scene : scenes()) {
-    fmt::print("  {:<24}{}{}\n", scene.name, scene.description, scene.available ? "" : "  (not installed)");
+    fmt::print("  {:<28}{}{}\n", scene.name, scene.description, scene.available ? "" : "  (not installed)");
+  }
+  fmt::print(
+      "\ntrajectories: --trajectory NAME, or a CSV file with columns x,y,z and perhaps time_s, radius\n");
+  for (const TrajectoryInfo& trajectory : trajectories()) {
+    fmt::print("  {:<28}{}\n", trajectory.name, trajectory.description);
   }
 }
 

@@ -11,7 +11,10 @@ namespace {
 Roster small_roster() {
   ContestantInfo grid;
   grid.name = "grid-group";
-  grid.options = {{"shape", {"cube", "sphere"}, "cube", ""}, {"cell", {}, "0", ""}};
+  grid.options = {{"shape", OptionKind::choice, {"cube", "sphere"}, "cube", ""},
+                  {"cell", OptionKind::length, {}, "0", ""},
+                  {"groups", OptionKind::count, {}, "0", ""},
+                  {"bytes", OptionKind::number, {}, "1.5", ""}};
   grid.build = [](const TriangleMesh&, const OptionValues&) { return nullptr; };
   ContestantInfo absent;
   absent.name = "absent";
@@ -32,6 +35,8 @@ TEST(Roster, FillsInTheDefaultsOfOptionsThatWereNotWritten) {
   EXPECT_EQ(spec.text(), "grid-group:cell=0.25");
   EXPECT_EQ(spec.values.text("shape"), "cube");
   EXPECT_EQ(spec.values.number("cell"), 0.25);
+  EXPECT_EQ(spec.values.number("bytes"), 1.5);
+  EXPECT_EQ(spec.values.count("groups"), 0U);
 }
 
 TEST(Roster, WritesOptionsInTheContestantsOwnOrder) {
@@ -43,15 +48,20 @@ TEST(Roster, AnswersAnUnknownNameWithTheNearestOnes) {
 }
 
 TEST(Roster, AnswersAnUnknownKeyWithTheKeysThereAre) {
-  EXPECT_EQ(error_of("grid-group:size=1"), "grid-group has no option \"size\"; its options: shape, cell");
+  EXPECT_EQ(error_of("grid-group:size=1"),
+            "grid-group has no option \"size\"; its options: shape, cell, groups, bytes");
   EXPECT_EQ(error_of("absent:size=1"), "absent has no option \"size\": it takes none");
 }
 
 TEST(Roster, NamesTheValueThatIsWrong) {
   EXPECT_EQ(error_of("grid-group:shape=cone"), "grid-group: shape=\"cone\" is none of cube, sphere");
+  EXPECT_EQ(error_of("grid-group:groups=1.5"),
+            "grid-group: groups=\"1.5\" is not a whole number of 0 or more");
+  EXPECT_EQ(error_of("grid-group:cell=5cm"),
+            "grid-group: cell=\"5cm\" is not a length of 0 or more, as 0.01 or 0.5%");
   for (const std::string bad : {"-1", "x", "", "nan", "1x", " 1"}) {
-    EXPECT_EQ(error_of("grid-group:cell=" + bad),
-              "grid-group: cell=\"" + bad + "\" is not a number of 0 or more");
+    EXPECT_EQ(error_of("grid-group:bytes=" + bad),
+              "grid-group: bytes=\"" + bad + "\" is not a number of 0 or more");
   }
 }
 

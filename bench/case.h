@@ -1,0 +1,61 @@
+/// One contestant on one trajectory, from the first answer to the finished row.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bench/contestant_process.h"
+#include "bench/effort.h"
+#include "bench/result_row.h"
+#include "bench/truths.h"
+#include "bench/workload.h"
+
+namespace touchmark::bench {
+
+/// Steps in the order of their declaration; each of the measuring ones may come several times, other
+/// contestants' in between. Whatever the worker does, the case goes on with its status; only ResourceError
+/// and Interrupted are thrown.
+class Case {
+ public:
+  /// All references must outlive it.
+  Case(const Workload& workload, const WorkerStage& stage, const Effort& effort, ContestantProcess& process,
+       std::size_t course, Query query);
+
+  std::string contestant() const { return row_.contestant(); }
+  /// False once something went wrong, or for a query that the contestant does not answer.
+  bool alive() const noexcept { return row_.status == "ok"; }
+
+  /// Builds if that was not done, asks the first question, finds how many steps there is time for.
+  void introduce();
+  /// Has the steps answered and judged, before anything is timed.
+  void verify(Truths& truths);
+
+  void first_pass();
+  void repetition();
+  void latency_pass();
+
+  ResultRow finish();
+
+ private:
+  template <class Action>
+  void attempt(Action action);
+  void expect_verified_answers(const Timed& timed);
+  void judge(Truths& truths);
+
+  const WorkerStage& stage_;
+  const Effort& effort_;
+  ContestantProcess& process_;
+  ResultRow row_;
+  Task task_;
+  std::size_t course_steps_;
+  std::vector<Window> windows_;
+  std::int64_t passes_ = 1;  // a repetition's
+  double first_pass_ns_ = 0;
+  std::vector<double> repetitions_ns_;
+  std::vector<double> repetitions_cpu_ns_;
+  std::vector<std::vector<double>> latencies_ns_;
+};
+
+}  // namespace touchmark::bench

@@ -1,0 +1,206 @@
+/// `touchmark bench`: verify, then time, every contestant on every trajectory; print the table; leave
+/// results.csv and run.json.
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "bench/benchmark_flags.h"
+#include "bench/comparison.h"
+#include "bench/floating_point.h"
+#include "bench/interrupt.h"
+#include "bench/program.h"
+#include "bench/progress.h"
+#include "bench/query_name.h"
+#include "bench/report_table.h"
+#include "bench/results_csv.h"
+#include "bench/results_folder.h"
+#include "bench/run_json.h"
+#include "bench/scenes.h"
+#include "bench/selectors.h"
+#include "bench/worker_options.h"
+
+namespace touchmark::bench {
+namespace {
+
+const std::vector<std::string> default_trajectories{"slide", "approach", "hover", "jump"};
+constexpr const char* mesh_without_files = "icosphere:6";  // 81,920 triangles
+
+struct BenchOptions {
+  Selectors selectors;
+  std::string out;
+  bool quick = false;
+  WorkerSelectors workers;
+};
+
+Effort effort_for(const BenchOptions& options, const BenchmarkFlags& flags) {
+  Effort effort;
+  if (options.quick) effort = {3, 3, 25e6, 20e6};
+  effort.repetitions = flags.repetitions.value_or(effort.repetitions);
+  if (flags.min_time_s) effort.repetition_ns = *flags.min_time_s * 1e9;
+  return effort;
+}
+
+std::string default_mesh() {
+  for (const SceneInfo& scene : scenes()) {
+    if (scene.name == "bunny" && scene.available) return scene.name;
+  }
+  return mesh_without_files;
+}
+
+std::vector<std::string> arguments_of(const ProgramContext& context) {
+  return {context.argv + 1, context.argv + context.argc};
+}
+
+/// The whole run, from the checked command line to the last row.
+class BenchRun {
+ public:
+  BenchRun(const Roster& roster, const BenchOptions& options, const BenchmarkFlags& flags,
+           std::vector<std::string> arguments);
+
+  /// An exit status. Throws ResourceError.
+  int run();
+  void list_cases() const;
+
+ private:
+  void run_trajectory(std::size_t course);
+  void save(bool finished) const;
+  int status() const;
+  bool wanted(const std::string& trajectory, const std::string& contestant) const {
+    return flags_.wanted(contestant + "/" + trajectory);
+  }
+
+  const Roster& roster_;
+  BenchmarkFlags flags_;
+  Selection selection_;
+  std::optional<ResultsFolder> folder_;
+  RunDescription description_;
+  Workload workload_;
+  std::optional<Comparison> comparison_;
+  ProgressLine progress_;
+  std::vector<ResultRow> rows_;
+};
+
+Workload workload_for(const BenchOptions& options, const Selection& selection) {
+  const Selectors& selectors = options.selectors;
+  const std::string mesh = selectors.meshes.empty() ? default_mesh() : selectors.meshes.front();
+  return make_workload(without_directories(mesh), load_mesh(mesh, selectors.normalize), selection,
+                       selectors.trajectories.empty() ? default_trajectories : selectors.trajectories,
+                       options.quick ? 5000 : 20000);
+}
+
+BenchRun::BenchRun(const Roster& roster, const BenchOptions& options, const BenchmarkFlags& flags,
+                   std::vector<std::string> arguments)
+    : roster_(roster),
+      flags_(flags),
+      selection_(check(options.selectors, roster)),
+      workload_(workload_for(options, selection_)) {
+  if (!options.out.empty() && !flags.list_tests) folder_.emplace(options.out);
+  description_.system = system_info();
+  description_.run_id = new_run_id(description_.system);
+  description_.flushed_to_zero = restore_denormals();
+  description_.arguments = std::move(arguments);
+  description_.query = selection_.queries.front();
+  description_.seed = selection_.seed;
+  description_.effort = effort_for(options, flags);
+  description_.core = core_for_workers();
+  WorkerOptions workers = worker_options(options.workers);
+  workers.flags = flags.forwarded;
+  workers.core = description_.core;
+  comparison_.emplace(roster, workload_, selection_.contestants, workers, description_.effort,
+                      selection_.seed);
+  comparison_->set_filter([this](const std::string& trajectory, const std::string& contestant) {
+    return wanted(trajectory, contestant);
+  });
+  comparison_->set_progress([this](const std::string& trajectory, const std::string& contestant) {
+    progress_.show(fmt::format("{}: {}", trajectory, contestant));
+  });
+}
+
+void BenchRun::list_cases() const {
+  for (const std::string& trajectory : workload_.trajectories) {
+    for (const ContestantSpec& spec : selection_.contestants) {
+      if (wanted(trajectory, spec.text())) fmt::print("{}/{}\n", spec.text(), trajectory);
+    }
+  }
+}
+
+void BenchRun::save(bool finished) const {
+  if (!folder_) return;
+  RunDescription description = description_;
+  description.finished = finished;
+  folder_->write(results_csv(description.run_id, rows_),
+                 run_json(description, workload_, comparison_->contestants()));
+}
+
+void BenchRun::run_trajectory(std::size_t course) {
+  const std::vector<ResultRow> rows = comparison_->run(course, description_.query);
+  if (rows.empty()) return;
+  rows_.insert(rows_.end(), rows.begin(), rows.end());
+  save(false);
+  progress_.clear();
+  fmt::print("\n{} ({} steps)\n{}{}", workload_.trajectories[course], workload_.courses[course].size(),
+             timing_table(rows), verdict(rows));
+  std::fflush(stdout);
+}
+
+int BenchRun::status() const {
+  int status = exit_done;
+  for (const ResultRow& row : rows_) {
+    const bool mismatch = row.status == "checksum mismatch";
+    if (!mismatch && !row.broke_its_word()) continue;
+    status = exit_check_failed;
+    fmt::print(stderr, "touchmark: {} on {}: {}\n", row.contestant(), row.trajectory,
+               mismatch ? "timed answers differ from verified ones" : "answers are not as exact as claimed");
+  }
+  return status;
+}
+
+int BenchRun::run() {
+  watch_for_interrupts();
+  fmt::print("{}: {} triangles, {} within {:.6g}, radius {:.6g}\n", workload_.mesh_name,
+             workload_.mesh.size(), name_of(description_.query), workload_.reach.value_or(workload_.radius),
+             workload_.radius);
+  try {
+    for (std::size_t course = 0; course < workload_.courses.size(); ++course) run_trajectory(course);
+  } catch (const Interrupted&) {
+    progress_.clear();
+    save(false);
+    fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", rows_.size());
+    return exit_interrupted;
+  }
+  save(true);
+  return status();
+}
+
+}  // namespace
+
+void add_bench(CLI::App& program, ProgramContext& context) {
+  const auto options = std::make_shared<BenchOptions>();
+  CLI::App* command =
+      program.add_subcommand("bench", "verify and time contestants on identical trajectories");
+  add_selectors(*command, options->selectors);
+  command->add_option("--out", options->out, "folder for results.csv and run.json")->type_name("DIR");
+  command->add_flag("--quick", options->quick, "fewer steps and repetitions");
+  add_worker_selectors(*command, options->workers);
+  command->allow_extras();
+  command->footer(
+      "Any --benchmark_* flag of Google Benchmark may be added: --benchmark_repetitions=9,\n"
+      "--benchmark_min_time=0.2, --benchmark_filter=REGEX on contestant/trajectory.\n"
+      "Example: touchmark bench --mesh bunny --trajectory slide --detector grid-group --detector "
+      "fcl:bv=obbrss "
+      "--out results/today\n");
+  command->final_callback([options, command, &context] {
+    const BenchmarkFlags flags = parse_benchmark_flags(command->remaining());
+    BenchRun run(context.roster, *options, flags, arguments_of(context));
+    if (flags.list_tests) return run.list_cases();
+    context.status = run.run();
+  });
+}
+
+}  // namespace touchmark::bench

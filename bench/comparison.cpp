@@ -1,0 +1,78 @@
+#include "bench/comparison.h"
+
+#include <utility>
+
+#include "bench/case.h"
+#include "bench/interrupt.h"
+#include "bench/random.h"
+#include "bench/truths.h"
+
+namespace touchmark::bench {
+namespace {
+
+using Measurement = void (Case::*)();
+
+struct Order {
+  std::size_t which = 0;
+  Measurement measurement = nullptr;
+};
+
+/// Fisher and Yates, with our own arithmetic: std::shuffle differs between libraries.
+void shuffle(std::vector<Order>& orders, Random random) {
+  for (std::size_t i = orders.size(); i > 1; --i) std::swap(orders[i - 1], orders[random.below(i)]);
+}
+
+std::vector<Order> orders_for(std::size_t cases, const Effort& effort) {
+  std::vector<Order> orders;
+  for (std::size_t which = 0; which < cases; ++which) {
+    orders.push_back({which, &Case::first_pass});
+    orders.insert(orders.end(), effort.repetitions, {which, &Case::repetition});
+    orders.insert(orders.end(), effort.latency_passes, {which, &Case::latency_pass});
+  }
+  return orders;
+}
+
+}  // namespace
+
+Comparison::Comparison(const Roster& roster, const Workload& workload,
+                       const std::vector<ContestantSpec>& contestants, const WorkerOptions& workers,
+                       const Effort& effort, std::uint64_t seed)
+    : workload_(workload), effort_(effort), seed_(seed), stage_(workload, workers), oracle_(workload.mesh) {
+  for (const ContestantSpec& spec : contestants) {
+    processes_.emplace_back(stage_, spec, roster.find(spec.name).worker_program(spec.values));
+  }
+}
+
+std::vector<ResultRow> Comparison::run(std::size_t course, Query query) {
+  const std::string& trajectory = workload_.trajectories[course];
+  std::deque<Case> cases;
+  for (ContestantProcess& process : processes_) {
+    if (filter_(trajectory, process.spec().text())) {
+      cases.emplace_back(workload_, stage_, effort_, process, course, query);
+    }
+  }
+  Truths truths(oracle_, Course{query, workload_.courses[course]});
+  for (Case& one : cases) {
+    check_for_interrupt();
+    progress_(trajectory, one.contestant());
+    one.introduce();
+    one.verify(truths);
+  }
+  if (effort_.repetitions > 0) measure(cases, trajectory, seed_ + course);
+  std::vector<ResultRow> rows;
+  for (Case& one : cases) rows.push_back(one.finish());
+  return rows;
+}
+
+void Comparison::measure(std::deque<Case>& cases, const std::string& trajectory, std::uint64_t seed) {
+  std::vector<Order> orders = orders_for(cases.size(), effort_);
+  shuffle(orders, Random(seed));
+  for (const Order& order : orders) {
+    check_for_interrupt();
+    Case& one = cases[order.which];
+    progress_(trajectory, one.contestant());
+    (one.*order.measurement)();
+  }
+}
+
+}  // namespace touchmark::bench

@@ -1,0 +1,55 @@
+/// The comparison: every contestant on every trajectory of one workload, verified and then, if wanted, timed
+/// in random order.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bench/contestant_info.h"
+#include "bench/contestant_process.h"
+#include "bench/effort.h"
+#include "bench/oracle/oracle.h"
+#include "bench/result_row.h"
+#include "bench/workload.h"
+
+namespace touchmark::bench {
+
+/// Called before each order to a worker.
+using Progress = std::function<void(const std::string& trajectory, const std::string& contestant)>;
+
+/// Which cases are wanted, by trajectory and contestant.
+using CaseFilter = std::function<bool(const std::string& trajectory, const std::string& contestant)>;
+
+class Comparison {
+ public:
+  /// `roster` and `workload` must outlive it. A contestant that cannot run becomes a row, not an error.
+  Comparison(const Roster& roster, const Workload& workload, const std::vector<ContestantSpec>& contestants,
+             const WorkerOptions& workers, const Effort& effort, std::uint64_t seed);
+
+  void set_progress(Progress progress) { progress_ = std::move(progress); }
+  void set_filter(CaseFilter filter) { filter_ = std::move(filter); }
+
+  /// The rows of one trajectory, in the contestants' order. Throws ResourceError or Interrupted.
+  std::vector<ResultRow> run(std::size_t course, Query query);
+
+  /// With what their workers said of themselves.
+  const std::deque<ContestantProcess>& contestants() const noexcept { return processes_; }
+
+ private:
+  void measure(std::deque<class Case>& cases, const std::string& trajectory, std::uint64_t seed);
+
+  const Workload& workload_;
+  Effort effort_;
+  std::uint64_t seed_;
+  WorkerStage stage_;
+  Oracle oracle_;
+  std::deque<ContestantProcess> processes_;
+  Progress progress_ = [](const std::string&, const std::string&) {};
+  CaseFilter filter_ = [](const std::string&, const std::string&) { return true; };
+};
+
+}  // namespace touchmark::bench

@@ -1,0 +1,89 @@
+#include "bench/contestant_process.h"
+
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+namespace touchmark::bench {
+
+WorkerStage::WorkerStage(const Workload& workload, WorkerOptions options)
+    : options_(std::move(options)),
+      layout_(layout_of(workload.mesh, workload.courses)),
+      input_(write_input(workload.mesh, workload.courses)),
+      output_(SharedMemory::create(OutputRoom::bytes_for(layout_.longest_course()))),
+      room_(output_.bytes(), layout_.longest_course()) {}
+
+WorkerLaunch WorkerStage::launch(const std::string& program) const {
+  return {program,       options_.flags,      input_.descriptor(), output_.descriptor(),
+          options_.core, options_.show_output};
+}
+
+ContestantProcess::ContestantProcess(const WorkerStage& stage, ContestantSpec spec,
+                                     std::string worker_program)
+    : stage_(stage), spec_(std::move(spec)), program_(std::move(worker_program)) {}
+
+nlohmann::json ContestantProcess::ask(const nlohmann::json& order, std::chrono::milliseconds patience) {
+  try {
+    return process_->ask(order, patience);
+  } catch (const WorkerFailure&) {
+    process_.reset();
+    throw;
+  }
+}
+
+void ContestantProcess::start() {
+  if (process_ != nullptr) return;
+  if (!failed_build_.empty()) throw WorkerFailure(failed_build_);
+  const WorkerOptions& options = stage_.options();
+  process_ = std::make_unique<WorkerProcess>(stage_.launch(program_));
+  try {
+    opened_ =
+        ask({{"order", "open"}, {"layout", stage_.layout()}, {"calibrate_clock", options.calibrate_clock}},
+            options.build_patience);
+    const Built built = ask({{"order", "build"}, {"contestant", spec_.text()}}, options.build_patience);
+    if (!built_) built_ = built;
+  } catch (const WorkerFailure& failure) {
+    failed_build_ = failure.what();
+    throw;
+  }
+  if (built_->refused.empty()) return;
+  failed_build_ = "refused: " + built_->refused;
+  process_.reset();
+  throw WorkerFailure(failed_build_);
+}
+
+const Built& ContestantProcess::build() {
+  start();
+  return *built_;
+}
+
+nlohmann::json ContestantProcess::order(const char* what, const Task& task, const nlohmann::json& more) {
+  start();
+  nlohmann::json order{{"order", what}, {"task", task}};
+  order.update(more);
+  return ask(order, stage_.options().order_patience);
+}
+
+Timed ContestantProcess::first(const Task& task) { return order("first", task, nlohmann::json::object()); }
+
+Timed ContestantProcess::calibrate(const Task& task, double budget_ns) {
+  return order("calibrate", task, {{"budget_ns", budget_ns}});
+}
+
+Answered ContestantProcess::answer(const Task& task) {
+  return order("answer", task, nlohmann::json::object());
+}
+
+Timed ContestantProcess::first_pass(const Task& task) {
+  return order("first_pass", task, nlohmann::json::object());
+}
+
+Timed ContestantProcess::time(const Task& task, std::int64_t passes) {
+  return order("time", task, {{"passes", passes}});
+}
+
+Timed ContestantProcess::latency(const Task& task) {
+  return order("latency", task, nlohmann::json::object());
+}
+
+}  // namespace touchmark::bench

@@ -1,0 +1,76 @@
+/// What one contestant did on one trajectory: a row of results.csv and of the printed table.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "bench/answer.h"
+#include "bench/latency.h"
+#include "bench/verify.h"
+#include "core/detector.h"
+
+namespace touchmark::bench {
+
+/// How long queries took when the trajectory was replayed without a clock inside.
+struct ThroughputResult {
+  double ns_per_query = 0;             ///< median of the repetitions
+  double ns_per_query_min = 0;         ///< least
+  double ns_per_query_mad = 0;         ///< median absolute deviation from the median
+  double ns_per_query_first_pass = 0;  ///< fresh session, other contestants having used the caches meanwhile
+  double cpu_ns_per_query = 0;         ///< median; without what other processes took of the core
+  std::size_t repetitions = 0;
+};
+
+struct WorkResult {
+  double mean = 0;  ///< cells, spheres, boxes and triangles looked at, a step
+  std::uint64_t max = 0;
+};
+
+/// Empty is what was not measured, because the contestant did not come so far.
+struct ResultRow {
+  std::string detector;
+  std::string options;  ///< those written out: "key=value,..."
+  std::string mesh;
+  std::size_t triangles = 0;
+  std::string trajectory;
+  Query query = Query::nearest;
+  std::size_t steps = 0;      ///< replayed, timed and verified
+  double radius = 0;          ///< mesh units
+  double reach = 0;           ///< mesh units
+  std::string status = "ok";  ///< or unsupported, refused: ..., crashed:..., timeout, checksum mismatch
+
+  std::optional<Accuracy> accuracy;  ///< as claimed
+  std::optional<Tally> tally;        ///< as found
+  std::optional<ThroughputResult> throughput;
+  std::optional<LatencySummary> latency;
+  double clock_cost_ns = 0;
+  std::optional<double> build_ms;
+  std::optional<double> first_answer_ms;  ///< build and first query
+  std::optional<std::uint64_t> bytes;
+  std::optional<std::uint64_t> heap_bytes;
+  std::optional<WorkResult> work;
+  std::optional<std::uint64_t> checksum;
+
+  std::string contestant() const { return options.empty() ? detector : detector + ":" + options; }
+  /// It was judged, and did not do what it claims.
+  bool broke_its_word() const { return accuracy && tally && !keeps_its_word(*tally, *accuracy); }
+};
+
+/// As claimed; empty where it is not known.
+inline std::string_view guarantee_name(const ResultRow& row) noexcept {
+  if (!row.accuracy) return "";
+  switch (row.accuracy->guarantee) {
+    case Guarantee::exact:
+      return "exact";
+    case Guarantee::conservative:
+      return "conservative";
+    case Guarantee::approximate:
+      return "approximate";
+  }
+  return "";
+}
+
+}  // namespace touchmark::bench

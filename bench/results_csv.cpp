@@ -1,0 +1,146 @@
+#include "bench/results_csv.h"
+
+#include <array>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "bench/query_name.h"
+
+namespace touchmark::bench {
+namespace {
+
+struct Column {
+  std::string_view name;
+  std::string (*value)(const ResultRow& row);
+};
+
+std::string exactly(double value) { return fmt::format("{}", value); }
+/// Times: more digits than the clock has would be noise.
+std::string rounded(double value) { return fmt::format("{:.6g}", value); }
+
+template <auto Member>
+std::string count_of(const ResultRow& row) {
+  return row.tally ? fmt::format("{}", (*row.tally).*Member) : "";
+}
+
+template <auto Member>
+std::string error_of(const ResultRow& row) {
+  return row.tally ? exactly((*row.tally).*Member) : "";
+}
+
+template <auto Member>
+std::string throughput_of(const ResultRow& row) {
+  return row.throughput ? rounded((*row.throughput).*Member) : "";
+}
+
+template <auto Member>
+std::string latency_of(const ResultRow& row) {
+  return row.latency ? rounded((*row.latency).*Member) : "";
+}
+
+template <std::size_t Deadline>
+std::string misses_of(const ResultRow& row) {
+  return row.latency ? fmt::format("{}", row.latency->deadlines[Deadline].misses) : "";
+}
+
+template <std::size_t Deadline>
+std::string longest_run_of(const ResultRow& row) {
+  return row.latency ? fmt::format("{}", row.latency->deadlines[Deadline].longest_run) : "";
+}
+
+template <auto Member>
+std::string optional_time(const ResultRow& row) {
+  return row.*Member ? rounded(*(row.*Member)) : "";
+}
+
+template <auto Member>
+std::string optional_count(const ResultRow& row) {
+  return row.*Member ? fmt::format("{}", *(row.*Member)) : "";
+}
+
+using R = ResultRow;
+using Row = const ResultRow&;
+
+// The order is the contract. schema and run_id come before these.
+constexpr std::array columns{
+    Column{"detector", [](Row row) { return row.detector; }},
+    Column{"options", [](Row row) { return row.options; }},
+    Column{"mesh", [](Row row) { return row.mesh; }},
+    Column{"triangles", [](Row row) { return fmt::format("{}", row.triangles); }},
+    Column{"trajectory", [](Row row) { return row.trajectory; }},
+    Column{"query", [](Row row) { return std::string(name_of(row.query)); }},
+    Column{"steps", [](Row row) { return fmt::format("{}", row.steps); }},
+    Column{"radius", [](Row row) { return exactly(row.radius); }},
+    Column{"reach", [](Row row) { return exactly(row.reach); }},
+    Column{"guarantee", [](Row row) { return std::string(guarantee_name(row)); }},
+    Column{"missed", count_of<&Tally::missed>},
+    Column{"false_contacts", count_of<&Tally::false_contacts>},
+    Column{"wrong_triangle", count_of<&Tally::wrong_triangle>},
+    Column{"max_distance_error", error_of<&Tally::max_distance_error>},
+    Column{"max_distance_error_ulp", error_of<&Tally::max_distance_error_ulp>},
+    Column{"max_normal_angle_deg", error_of<&Tally::max_normal_angle_deg>},
+    Column{"unresolved", count_of<&Tally::unresolved>},
+    Column{"status", [](Row row) { return row.status; }},
+    Column{"ns_per_query", throughput_of<&ThroughputResult::ns_per_query>},
+    Column{"ns_p50", latency_of<&LatencySummary::p50>},
+    Column{"ns_p90", latency_of<&LatencySummary::p90>},
+    Column{"ns_p99", latency_of<&LatencySummary::p99>},
+    Column{"ns_p999", latency_of<&LatencySummary::p999>},
+    Column{"ns_max", latency_of<&LatencySummary::max>},
+    Column{"update_rate_hz",
+           [](Row row) { return row.throughput ? rounded(1e9 / row.throughput->ns_per_query) : ""; }},
+    Column{"deadline_misses_1khz", misses_of<0>},
+    Column{"longest_miss_run_1khz", longest_run_of<0>},
+    Column{"build_ms", optional_time<&R::build_ms>},
+    Column{"first_answer_ms", optional_time<&R::first_answer_ms>},
+    Column{"bytes", optional_count<&R::bytes>},
+    Column{"heap_bytes", optional_count<&R::heap_bytes>},
+    Column{"work_mean", [](Row row) { return row.work ? rounded(row.work->mean) : ""; }},
+    Column{"work_max", [](Row row) { return row.work ? fmt::format("{}", row.work->max) : ""; }},
+    Column{"repetitions",
+           [](Row row) { return row.throughput ? fmt::format("{}", row.throughput->repetitions) : ""; }},
+    // Appended to schema 1.
+    Column{"ns_per_query_min", throughput_of<&ThroughputResult::ns_per_query_min>},
+    Column{"ns_per_query_mad", throughput_of<&ThroughputResult::ns_per_query_mad>},
+    Column{"ns_per_query_first_pass", throughput_of<&ThroughputResult::ns_per_query_first_pass>},
+    Column{"deadline_misses_4khz", misses_of<1>},
+    Column{"longest_miss_run_4khz", longest_run_of<1>},
+    Column{"deadline_misses_10khz", misses_of<2>},
+    Column{"longest_miss_run_10khz", longest_run_of<2>},
+    Column{"clock_cost_ns", [](Row row) { return row.latency ? rounded(row.clock_cost_ns) : ""; }},
+    Column{"max_distance_error_of_diagonal", error_of<&Tally::max_distance_error_of_diagonal>},
+    Column{"beyond_bound", count_of<&Tally::beyond_bound>},
+    Column{"wrong_point", count_of<&Tally::wrong_point>},
+    Column{"wrong_normal", count_of<&Tally::wrong_normal>},
+    Column{"malformed", count_of<&Tally::malformed>},
+    Column{"cpu_ns_per_query", throughput_of<&ThroughputResult::cpu_ns_per_query>},
+    Column{"answers_checksum",
+           [](Row row) { return row.checksum ? fmt::format("{:016x}", *row.checksum) : ""; }},
+};
+
+}  // namespace
+
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char character : text) {
+    if (character == '"') quoted += '"';
+    quoted += character;
+  }
+  return quoted + '"';
+}
+
+std::string results_csv(const std::string& run_id, const std::vector<ResultRow>& rows) {
+  std::string csv = "schema,run_id";
+  for (const Column& column : columns) csv += fmt::format(",{}", column.name);
+  csv += '\n';
+  for (const ResultRow& row : rows) {
+    csv += fmt::format("{},{}", results_schema, csv_field(run_id));
+    for (const Column& column : columns) csv += ',' + csv_field(column.value(row));
+    csv += '\n';
+  }
+  return csv;
+}
+
+}  // namespace touchmark::bench

@@ -1,0 +1,20 @@
+/// results.csv, schema 1: one row a contestant, scene, trajectory and query. Columns are only ever appended.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/result_row.h"
+
+namespace touchmark::bench {
+
+inline constexpr int results_schema = 1;
+
+/// Header and rows, each ended by a line feed; fields quoted as RFC 4180 has it; empty where nothing was
+/// measured.
+std::string results_csv(const std::string& run_id, const std::vector<ResultRow>& rows);
+
+/// One field, in quotes if it needs them.
+std::string csv_field(const std::string& text);
+
+}  // namespace touchmark::bench

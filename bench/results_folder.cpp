@@ -1,0 +1,42 @@
+#include "bench/results_folder.h"
+
+#include <stdexcept>
+#include <system_error>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "bench/atomic_file.h"
+#include "bench/failures.h"
+
+namespace touchmark::bench {
+namespace {
+
+void write_file(const std::filesystem::path& path, const std::string& text) {
+  AtomicFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+}  // namespace
+
+ResultsFolder::ResultsFolder(const std::string& path) : path_(path) {
+  std::error_code error;
+  std::filesystem::create_directories(path_, error);
+  if (std::filesystem::is_directory(path_)) error.clear();
+  if (error == std::errc::file_exists || error == std::errc::not_a_directory || path.empty() ||
+      (!error && !std::filesystem::is_directory(path_))) {
+    throw std::invalid_argument(fmt::format("--out \"{}\" is not a folder", path));
+  }
+  if (error) throw ResourceError(fmt::format("cannot create {}: {}", path, error.message()));
+  if (access(path_.c_str(), W_OK | X_OK) != 0) {
+    throw ResourceError(fmt::format("cannot write into {}", path));
+  }
+}
+
+void ResultsFolder::write(const std::string& results_csv, const std::string& run_json) const {
+  write_file(path_ / "results.csv", results_csv);
+  write_file(path_ / "run.json", run_json);
+}
+
+}  // namespace touchmark::bench

@@ -1,0 +1,22 @@
+/// The folder that --out names: results.csv and run.json, each replaced as a whole whenever it is written.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace touchmark::bench {
+
+class ResultsFolder {
+ public:
+  /// Creates it. Throws std::invalid_argument when it cannot be a folder, ResourceError when it cannot be
+  /// written to: before the measuring, not after.
+  explicit ResultsFolder(const std::string& path);
+
+  /// Throws ResourceError.
+  void write(const std::string& results_csv, const std::string& run_json) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace touchmark::bench

@@ -1,0 +1,131 @@
+#include "bench/run_json.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
+
+#include "bench/build_info.h"
+#include "bench/query_name.h"
+#include "bench/results_csv.h"
+#include "bench/tick_clock.h"
+
+namespace touchmark::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON has no infinity.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(fmt::format("{}", value)); }
+
+Json libraries() {
+  Json json = Json::object();
+  for (const LibraryVersion& library : library_versions()) json[library.name] = library.version;
+  return json;
+}
+
+Json mesh_json(const Workload& workload) {
+  return {{"name", workload.mesh_name},
+          {"vertices", workload.mesh.vertices().size()},
+          {"triangles", workload.mesh.size()},
+          {"diagonal", workload.mesh.diagonal()},
+          {"fnv1a", fmt::format("{:016x}", hash_of(workload.mesh))}};
+}
+
+Json trajectories_json(const Workload& workload) {
+  Json json = Json::array();
+  for (std::size_t i = 0; i < workload.trajectories.size(); ++i) {
+    json.push_back({{"name", workload.trajectories[i]}, {"steps", workload.courses[i].size()}});
+  }
+  return json;
+}
+
+Json contestants_json(const std::deque<ContestantProcess>& contestants) {
+  Json json = Json::array();
+  for (const ContestantProcess& contestant : contestants) {
+    json.push_back({{"name", contestant.spec().name},
+                    {"written_options", contestant.spec().options},
+                    {"options", contestant.spec().values.all()},
+                    {"flushed_to_zero", contestant.opened().flushed_to_zero}});
+  }
+  return json;
+}
+
+Json clock_json(const std::deque<ContestantProcess>& contestants) {
+  Opened typical;
+  for (const ContestantProcess& contestant : contestants) {
+    if (contestant.opened().clock_cost_ns > 0) typical = contestant.opened();
+  }
+  return {{"name", TickClock::name},
+          {"cost_ns", typical.clock_cost_ns},
+          {"ns_per_tick", typical.ns_per_tick},
+          {"note", "each step's latency includes one reading of the clock"}};
+}
+
+Json effort_json(const Effort& effort) {
+  return {{"repetitions", effort.repetitions},
+          {"repetition_ms", effort.repetition_ns / 1e6},
+          {"pass_budget_ms", effort.pass_budget_ns / 1e6},
+          {"latency_passes", effort.latency_passes},
+          {"latency_note", "percentiles are of each step's median over the passes"}};
+}
+
+}  // namespace
+
+std::string run_json(const RunDescription& run, const Workload& workload,
+                     const std::deque<ContestantProcess>& contestants) {
+  const BuildInfo& build = build_info();
+  std::vector<std::string> arguments = run.arguments;
+  std::transform(arguments.begin(), arguments.end(), arguments.begin(), without_directories);
+  const Json json{{"schema", results_schema},
+                  {"run_id", run.run_id},
+                  {"date", run.system.date},
+                  {"finished", run.finished},
+                  {"version", build.version},
+                  {"commit", build.commit},
+                  {"compiler", build.compiler},
+                  {"flags", build.flags},
+                  {"build_type", build.build_type},
+                  {"native", build.native},
+                  {"cpu", run.system.cpu_model},
+                  {"cores", run.system.cores},
+                  {"governor", run.system.governor},
+                  {"load_average", run.system.load_average},
+                  {"workers_core", run.core ? Json(*run.core) : Json("any")},
+                  {"flushed_to_zero", run.flushed_to_zero},
+                  {"libraries", libraries()},
+                  {"seed", run.seed},
+                  {"command_line", arguments},
+                  {"mesh", mesh_json(workload)},
+                  {"query", name_of(run.query)},
+                  {"radius", number(workload.radius)},
+                  {"reach", workload.reach ? number(*workload.reach) : Json("radius")},
+                  {"trajectories", trajectories_json(workload)},
+                  {"clock", clock_json(contestants)},
+                  {"effort", effort_json(run.effort)},
+                  {"contestants", contestants_json(contestants)}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+std::string new_run_id(const SystemInfo& system) {
+  std::string id;
+  std::copy_if(system.date.begin(), system.date.end(), std::back_inserter(id),
+               [](char c) { return c != '-' && c != ':'; });
+  return fmt::format("{}-{:04x}", id, static_cast<unsigned>(getpid()) & 0xffffU);
+}
+
+std::uint64_t hash_of(const TriangleMesh& mesh) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  const auto add = [&hash](const void* data, std::size_t size) {
+    const auto* bytes = static_cast<const unsigned char*>(data);
+    for (std::size_t i = 0; i < size; ++i) hash = (hash ^ bytes[i]) * 0x100000001b3;
+  };
+  for (const Vec3& vertex : mesh.vertices()) add(vertex.data(), 3 * sizeof(double));
+  for (const TriangleMesh::Corners& corners : mesh.triangles()) add(corners.data(), sizeof corners);
+  for (const TriangleId id : mesh.ids()) add(&id, sizeof id);
+  return hash;
+}
+
+}  // namespace touchmark::bench

@@ -1,0 +1,38 @@
+/// run.json: what results.csv was measured with.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/contestant_process.h"
+#include "bench/effort.h"
+#include "bench/system_info.h"
+#include "bench/workload.h"
+
+namespace touchmark::bench {
+
+struct RunDescription {
+  std::string run_id;
+  SystemInfo system;             ///< as it was at the start
+  bool flushed_to_zero = false;  ///< denormals were off in this program at its start; they were put on
+  std::vector<std::string> arguments;
+  Query query = Query::nearest;
+  std::uint64_t seed = 0;
+  Effort effort;
+  std::optional<int> core;  ///< the workers'
+  bool finished = true;     ///< false after Ctrl-C
+};
+
+std::string run_json(const RunDescription& run, const Workload& workload,
+                     const std::deque<ContestantProcess>& contestants);
+
+/// Date and time, and four digits that tell runs of one second apart.
+std::string new_run_id(const SystemInfo& system);
+
+/// FNV-1a over the bits of vertices, corners and ids.
+std::uint64_t hash_of(const TriangleMesh& mesh);
+
+}  // namespace touchmark::bench
