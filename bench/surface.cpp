@@ -80,7 +80,8 @@ Place Surface::random_place(Random& random) const {
 double Surface::thickness(const Place& place, double scale) {
   // The ball behind the place that touches it there has it for nearest until the ball reaches another part.
   // That is the other side only if it faces away: near an edge the ball meets the next face.
-  for (double radius = scale / 1024; radius < scale / 2; radius *= 2) {
+  for (int halvings = 10; halvings >= 2; --halvings) {
+    const double radius = std::ldexp(scale, -halvings);
     const Contact contact = nearest(place.point - radius * place.normal);
     if (contact.distance < 0.9 * radius)
       return contact.normal.dot(place.normal) > 0.5 ? radius : std::numeric_limits<double>::infinity();
