@@ -3,16 +3,27 @@
 
 #include <initializer_list>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
 #include "core/grid_group/grid_group.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 
+#if TOUCHMARK_WITH_BULLET
+#include "baselines/bullet/bullet_detector.h"
+#endif
+#if TOUCHMARK_WITH_EMBREE
+#include "baselines/embree/embree_detector.h"
+#endif
 #if TOUCHMARK_WITH_FCL
 #include "baselines/fcl/fcl_detector.h"
+#endif
+#if TOUCHMARK_WITH_LIBCCD
+#include "baselines/libccd/libccd_detector.h"
 #endif
 
 namespace touchmark::bench {
@@ -49,6 +60,19 @@ ContestantInfo brute_force() {
   info.accuracy = "exact";
   info.queries = queries_of<BruteForce>();
   info.build = [](const TriangleMesh& mesh, const OptionValues&) { return contestant<BruteForce>(mesh, {}); };
+  return info;
+}
+
+ContestantInfo aabb_tree() {
+  ContestantInfo info;
+  info.name = "aabb-tree";
+  info.summary = "a plain binary tree of boxes in double precision: the reference";
+  info.accuracy = "exact";
+  info.queries = queries_of<AabbTree>();
+  info.options = {{"leaf_size", OptionKind::count, {}, "4", "triangles a leaf holds at most"}};
+  info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
+    return contestant<AabbTree>(mesh, {values.count("leaf_size")});
+  };
   return info;
 }
 
@@ -138,14 +162,97 @@ ContestantInfo fcl() {
   return info;
 }
 
+ContestantInfo bullet() {
+  ContestantInfo info;
+  info.name = "bullet";
+  info.summary = "Bullet Physics: quantised boxes, float or double library";
+#if TOUCHMARK_WITH_BULLET
+  using baselines::BulletDetector;
+  using Precision = BulletDetector::Precision;
+  using Method = BulletDetector::Method;
+  using Frame = BulletDetector::Frame;
+  static const Names<Precision> precisions{{"double", Precision::double_precision},
+                                           {"float", Precision::single_precision}};
+  static const Names<Method> methods{{"contact", Method::contact}, {"callback", Method::callback}};
+  static const Names<Frame> frames{{"mesh", Frame::mesh}, {"fitted", Frame::fitted}};
+  info.accuracy = "approximate; method=callback: exact";
+  info.queries = queries_of<BulletDetector>();
+  info.options = {choice("precision", precisions, "which of Bullet's two libraries"),
+                  choice("method", methods, "contact: Bullet's own test; callback: its boxes, our kernel"),
+                  choice("frame", frames, "fitted: in the size that Bullet is written for")};
+  info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
+    if (chosen(values, "precision", precisions) != BulletDetector::precision()) {
+      throw std::invalid_argument("this program is linked with Bullet's other library");
+    }
+    return contestant<BulletDetector>(mesh,
+                                      {chosen(values, "method", methods), chosen(values, "frame", frames)});
+  };
+  info.worker_program = [](const OptionValues& values) -> std::string {
+    const bool single = chosen(values, "precision", precisions) == Precision::single_precision;
+    return single ? "touchmark-worker-bullet-float" : default_worker_program;
+  };
+#endif
+  return info;
+}
+
+ContestantInfo libccd() {
+  ContestantInfo info;
+  info.name = "libccd+aabb";
+  info.summary = "libccd's ball against triangle, over the triangles that aabb-tree finds";
+#if TOUCHMARK_WITH_LIBCCD
+  using baselines::LibccdDetector;
+  using Algorithm = LibccdDetector::Algorithm;
+  using Frame = LibccdDetector::Frame;
+  static const Names<Algorithm> algorithms{{"gjk", Algorithm::gjk}, {"mpr", Algorithm::mpr}};
+  static const Names<Frame> frames{{"fitted", Frame::fitted}, {"mesh", Frame::mesh}};
+  info.accuracy = "approximate";
+  info.queries = queries_of<LibccdDetector>();
+  info.options = {choice("algorithm", algorithms, "gjk: GJK with EPA; mpr: Minkowski portal refinement"),
+                  choice("frame", frames, "fitted: the ball scaled to radius 1, about the origin"),
+                  {"tolerance", OptionKind::number, {}, "1e-4", "of EPA and MPR; in radii when fitted"}};
+  info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
+    return contestant<LibccdDetector>(mesh, {chosen(values, "algorithm", algorithms),
+                                             chosen(values, "frame", frames), values.number("tolerance")});
+  };
+#endif
+  return info;
+}
+
+ContestantInfo embree() {
+  ContestantInfo info;
+  info.name = "embree";
+  info.summary = "Embree's point query with our kernel as its callback";
+#if TOUCHMARK_WITH_EMBREE
+  using baselines::EmbreeDetector;
+  using Geometry = EmbreeDetector::Geometry;
+  using Quality = EmbreeDetector::Quality;
+  static const Names<Geometry> geometries{{"user", Geometry::user}, {"triangle", Geometry::triangle}};
+  static const Names<Quality> qualities{{"medium", Quality::medium}, {"high", Quality::high}};
+  static const Names<bool> yes_or_no{{"true", true}, {"false", false}};
+  info.accuracy = "exact";
+  info.queries = queries_of<EmbreeDetector>();
+  info.options = {choice("geometry", geometries, "user: our boxes, rounded outward; triangle: Embree's own"),
+                  choice("quality", qualities, "of Embree's build"),
+                  choice("warm", yes_or_no, "start from the distance of the last triangle")};
+  info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
+    return contestant<EmbreeDetector>(
+        mesh, {chosen(values, "geometry", geometries), chosen(values, "quality", qualities),
+               chosen(values, "warm", yes_or_no)});
+  };
+#endif
+  return info;
+}
+
 }  // namespace
 
 const Roster& roster() {
   static const Roster all(
-      {brute_force(), grid_group(), sphere_cluster(), fcl()},
-      {"brute-force", "grid-group:lookup=scan", "grid-group:lookup=scan,shape=sphere", "grid-group",
-       "sphere-cluster:lookup=scan", "sphere-cluster:lookup=scan,precise=false", "sphere-cluster", "fcl",
-       "fcl:bv=aabb,method=distance,narrow=exact"});
+      {brute_force(), aabb_tree(), grid_group(), sphere_cluster(), fcl(), bullet(), libccd(), embree()},
+      {"brute-force", "aabb-tree", "grid-group:lookup=scan", "grid-group:lookup=scan,shape=sphere",
+       "grid-group", "sphere-cluster:lookup=scan", "sphere-cluster:lookup=scan,precise=false",
+       "sphere-cluster", "fcl", "fcl:bv=aabb,method=distance,narrow=exact", "bullet", "bullet:frame=fitted",
+       "bullet:precision=float,frame=fitted", "bullet:method=callback,frame=fitted", "libccd+aabb",
+       "libccd+aabb:algorithm=mpr", "embree"});
   return all;
 }
 
