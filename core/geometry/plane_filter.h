@@ -83,7 +83,7 @@ class FilterFrame {
   double scale() const noexcept { return scale_; }
 
   /// u = 2^-24. The point, the normal and the offset are rounded once each, the three products once, the
-  /// three sums once: at most 6u(|x||n| + |offset|). Two more u, the kernel's own slack (2^-47) included.
+  /// three sums once: at most 6u(|x||n| + |offset|). Two more u, the kernel's own slack (2^-46) included.
   static constexpr double tau_per_unit = 8 * 0x1p-24;
 
  private:

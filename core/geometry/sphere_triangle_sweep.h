@@ -16,7 +16,7 @@
 namespace touchmark {
 
 /// The first fraction in [0, limit] of the way at which the distance to the triangle is at most the radius,
-/// or nothing. Touching is decided within the kernel's error: a ball that passes at radius + 16 u M may be
+/// or nothing. Touching is decided within the kernel's error: a ball that passes at radius + 48 u M may be
 /// reported as touching (u = 2^-53, M as in point_triangle.h, plus the rounding of the position on the way),
 /// one that passes nearer than the radius by more than that is always found. A sweep that does not move hits
 /// when it touches at once.

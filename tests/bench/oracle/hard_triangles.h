@@ -40,6 +40,17 @@ class HardCases {
     const Vec3 a = vector(), b = vector();
     return shuffled({a, b, a + fraction() * (b - a) + magnitude(-15, -1) * vector()});
   }
+  /// As thin as coordinates can tell: the third corner within a few roundings of the line, or on it.
+  Corners nearly_none() {
+    const Vec3 a = vector(), way = vector();
+    const Vec3 aside = (vector() - vector()).norm() * Vec3(-way.y(), way.x(), 0);
+    return shuffled({a, a + way, a + fraction() * way + magnitude(-17, -12) * aside});
+  }
+  /// Sides of very different lengths.
+  Corners mixed() {
+    const Vec3 a = vector();
+    return shuffled({a, a + magnitude(-8, 0) * vector(), a + magnitude(-8, 0) * vector()});
+  }
   Corners collinear() {
     const Vec3 a = lattice(), way = lattice();
     return shuffled({a, a + whole() * way, a + whole() * way});
@@ -54,7 +65,7 @@ class HardCases {
   /// Anywhere near, on, just off, over or far away from the triangle.
   Vec3 point_about(const Corners& t) {
     const double size = std::max({(t[1] - t[0]).norm(), (t[2] - t[1]).norm(), (t[0] - t[2]).norm(),
-                                  std::numeric_limits<double>::min()});
+                                  1e-12});  // of a point: some size to place others about it
     double a = fraction(), b = fraction();
     switch (below(5)) {
       case 0:
@@ -82,6 +93,19 @@ class HardCases {
       default:
         return on + size * magnitude(0, 6) * vector();
     }
+  }
+
+  /// Over the face or its border, from a hair's breadth to ten times the size above it; anywhere near when
+  /// there is no face.
+  Vec3 point_over(const Corners& t) {
+    const Vec3 e = t[1] - t[0], f = t[2] - t[0];
+    const Vec3 normal(e.y() * f.z() - e.z() * f.y(), e.z() * f.x() - e.x() * f.z(),
+                      e.x() * f.y() - e.y() * f.x());
+    const double length = normal.norm();
+    if (!(length > 0)) return point_about(t);
+    double a = fraction(), b = below(3) == 0 ? 0 : fraction();
+    if (a + b > 1) a = 1 - a, b = 1 - b;
+    return t[0] + a * e + b * f + (magnitude(-17, 1) / length) * normal;
   }
 
   Corners shuffled(Corners t) {
