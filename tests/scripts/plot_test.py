@@ -12,11 +12,11 @@ COLUMNS = (
     "schema,run_id,detector,options,mesh,triangles,trajectory,query,steps,radius,reach,guarantee,missed,"
     "false_contacts,wrong_triangle,max_distance_error,max_distance_error_ulp,max_normal_angle_deg,unresolved,status,"
     "ns_per_query,ns_p50,ns_p90,ns_p99,ns_p999,ns_max,update_rate_hz,deadline_misses_1khz,longest_miss_run_1khz,"
-    "build_ms,first_answer_ms,bytes,heap_bytes,work_mean,work_max,repetitions"
+    "build_ms,first_answer_ms,bytes,heap_bytes,work_mean,work_max,repetitions,beyond_bound,wrong_point,wrong_normal,malformed"
 ).split(",")
 GOOD = {
     "schema": 1, "detector": "grid-group", "mesh": "bunny", "triangles": 69666, "trajectory": "slide",
-    "query": "nearest", "steps": 1000, "radius": 0.005, "missed": 0, "false_contacts": 0, "wrong_triangle": 0,
+    "query": "nearest", "steps": 1000, "radius": 0.005, "guarantee": "exact", "missed": 0, "false_contacts": 0, "wrong_triangle": 0,
     "unresolved": 0, "status": "ok", "ns_p50": 100, "ns_p90": 130, "ns_p99": 200, "ns_p999": 400, "ns_max": 2e6,
     "update_rate_hz": 1e7,
 }
