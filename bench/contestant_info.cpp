@@ -93,8 +93,11 @@ bool ContestantInfo::answers(Query query) const noexcept {
   return std::find(queries.begin(), queries.end(), query) != queries.end();
 }
 
-Roster::Roster(std::vector<ContestantInfo> contestants, std::vector<std::string> default_set)
-    : contestants_(std::move(contestants)), default_set_(std::move(default_set)) {}
+Roster::Roster(std::vector<ContestantInfo> contestants, std::vector<std::string> default_set,
+               std::vector<std::string> verified_besides)
+    : contestants_(std::move(contestants)),
+      default_set_(std::move(default_set)),
+      verified_besides_(std::move(verified_besides)) {}
 
 const ContestantInfo& Roster::find(const std::string& name) const {
   const auto found = std::find_if(contestants_.begin(), contestants_.end(),
@@ -122,15 +125,21 @@ ContestantSpec Roster::parse(const std::string& text) const {
   return {contestant.name, fmt::format("{}", fmt::join(in_order, ",")), OptionValues(std::move(values))};
 }
 
+void Roster::add_built(std::vector<ContestantSpec>& specs, const std::vector<std::string>& texts) const {
+  for (const std::string& text : texts) {
+    if (find(text.substr(0, text.find(':'))).built()) specs.push_back(parse(text));
+  }
+}
+
 std::vector<ContestantSpec> Roster::default_set() const {
   std::vector<ContestantSpec> specs;
-  for (const std::string& text : default_set_) {
-    const std::string name = text.substr(0, text.find(':'));
-    const bool built = std::any_of(contestants_.begin(), contestants_.end(), [&](const ContestantInfo& info) {
-      return info.name == name && info.built();
-    });
-    if (built) specs.push_back(parse(text));
-  }
+  add_built(specs, default_set_);
+  return specs;
+}
+
+std::vector<ContestantSpec> Roster::thorough_set() const {
+  std::vector<ContestantSpec> specs = default_set();
+  add_built(specs, verified_besides_);
   return specs;
 }
 

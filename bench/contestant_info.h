@@ -75,10 +75,11 @@ struct ContestantSpec {
   std::string text() const { return options.empty() ? name : name + ":" + options; }
 };
 
-/// All contestants, and those that are compared when none is named.
+/// All contestants, and those that are compared or verified when none is named.
 class Roster {
  public:
-  Roster(std::vector<ContestantInfo> contestants, std::vector<std::string> default_set);
+  Roster(std::vector<ContestantInfo> contestants, std::vector<std::string> default_set,
+         std::vector<std::string> verified_besides = {});
 
   const std::vector<ContestantInfo>& contestants() const noexcept { return contestants_; }
   /// Throws std::invalid_argument; an unknown name's message lists the nearest ones.
@@ -87,12 +88,17 @@ class Roster {
   ContestantSpec parse(const std::string& text) const;
   /// The default set, without those that are not built in.
   std::vector<ContestantSpec> default_set() const;
+  /// The default set and the forms that only verify runs.
+  std::vector<ContestantSpec> thorough_set() const;
   /// Throws what the contestant's build throws, or std::invalid_argument when it is not built in.
   std::unique_ptr<Contestant> build(const ContestantSpec& spec, const TriangleMesh& mesh) const;
 
  private:
+  void add_built(std::vector<ContestantSpec>& specs, const std::vector<std::string>& texts) const;
+
   std::vector<ContestantInfo> contestants_;
   std::vector<std::string> default_set_;
+  std::vector<std::string> verified_besides_;
 };
 
 }  // namespace touchmark::bench

@@ -21,6 +21,7 @@ using AddCommand = void (*)(CLI::App& program, ProgramContext& context);
 // One line a command.
 constexpr AddCommand commands[] = {
     add_bench,
+    add_verify,
     add_list,
     add_mesh,
 };

@@ -22,6 +22,7 @@ struct ProgramContext {
 /// The usual way to write a command: `add_NAME(program, context)` adds a subcommand with its options and a
 /// final_callback that runs it. The list of them is in program.cpp.
 void add_bench(CLI::App& program, ProgramContext& context);
+void add_verify(CLI::App& program, ProgramContext& context);
 void add_list(CLI::App& program, ProgramContext& context);
 void add_mesh(CLI::App& program, ProgramContext& context);
 

@@ -36,7 +36,7 @@ std::vector<std::string> error_cells(const ResultRow& row) {
   if (!row.tally) return {"", "", "", ""};
   const Tally& tally = *row.tally;
   return {count(tally.missed), count(tally.false_contacts), count(tally.wrong_triangle),
-          count(tally.beyond_bound + tally.wrong_point + tally.wrong_normal + tally.malformed)};
+          count(answers_off(tally))};
 }
 
 bool exact_and_right(const ResultRow& row) {

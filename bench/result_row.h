@@ -1,6 +1,7 @@
 /// What one contestant did on one trajectory: a row of results.csv and of the printed table.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -58,6 +59,12 @@ struct ResultRow {
   /// It was judged, and did not do what it claims.
   bool broke_its_word() const { return accuracy && tally && !keeps_its_word(*tally, *accuracy); }
 };
+
+/// How many answers found contact with the wrong distance, point or normal: at least so many, since one
+/// answer is counted under each of the three.
+inline std::uint64_t answers_off(const Tally& tally) noexcept {
+  return std::max({tally.beyond_bound, tally.wrong_point, tally.wrong_normal}) + tally.malformed;
+}
 
 /// As claimed; empty where it is not known.
 inline std::string_view guarantee_name(const ResultRow& row) noexcept {

@@ -34,8 +34,12 @@ ResultsFolder::ResultsFolder(const std::string& path) : path_(path) {
   }
 }
 
-void ResultsFolder::write(const std::string& results_csv, const std::string& run_json) const {
+void ResultsFolder::write(const std::string& results_csv) const {
   write_file(path_ / "results.csv", results_csv);
+}
+
+void ResultsFolder::write(const std::string& results_csv, const std::string& run_json) const {
+  write(results_csv);
   write_file(path_ / "run.json", run_json);
 }
 

@@ -12,7 +12,8 @@ class ResultsFolder {
   /// written to: before the measuring, not after.
   explicit ResultsFolder(const std::string& path);
 
-  /// Throws ResourceError.
+  /// Both throw ResourceError.
+  void write(const std::string& results_csv) const;
   void write(const std::string& results_csv, const std::string& run_json) const;
 
  private:

@@ -1,14 +1,12 @@
 /// The only file that knows which baselines were built: TOUCHMARK_WITH_NAME is 0 or 1.
 #include "bench/roster.h"
 
-#include <initializer_list>
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "core/aabb_tree/aabb_tree.h"
+#include "bench/roster_options.h"
 #include "core/brute_force/brute_force.h"
 #include "core/grid_group/grid_group.h"
 #include "core/sphere_cluster/sphere_cluster.h"
@@ -29,29 +27,7 @@
 namespace touchmark::bench {
 namespace {
 
-template <Detector D>
-std::unique_ptr<Contestant> contestant(const TriangleMesh& mesh, const typename D::Options& options) {
-  return std::make_unique<ContestantOf<D>>(D::build(mesh, options));
-}
-
-/// A choice's names with what they stand for. The first one is the default.
-template <class Value>
-using Names = std::vector<std::pair<std::string, Value>>;
-
-template <class Value>
-OptionInfo choice(std::string key, const Names<Value>& names, std::string summary) {
-  OptionInfo option{std::move(key), OptionKind::choice, {}, names.front().first, std::move(summary)};
-  for (const auto& [name, value] : names) option.choices.push_back(name);
-  return option;
-}
-
-template <class Value>
-Value chosen(const OptionValues& values, const std::string& key, const Names<Value>& names) {
-  for (const auto& [name, value] : names) {
-    if (name == values.text(key)) return value;
-  }
-  return names.front().second;  // the roster has checked it
-}
+const Names<bool> yes_or_no{{"true", true}, {"false", false}};
 
 ContestantInfo brute_force() {
   ContestantInfo info;
@@ -60,19 +36,6 @@ ContestantInfo brute_force() {
   info.accuracy = "exact";
   info.queries = queries_of<BruteForce>();
   info.build = [](const TriangleMesh& mesh, const OptionValues&) { return contestant<BruteForce>(mesh, {}); };
-  return info;
-}
-
-ContestantInfo aabb_tree() {
-  ContestantInfo info;
-  info.name = "aabb-tree";
-  info.summary = "a plain binary tree of boxes in double precision: the reference";
-  info.accuracy = "exact";
-  info.queries = queries_of<AabbTree>();
-  info.options = {{"leaf_size", OptionKind::count, {}, "4", "triangles a leaf holds at most"}};
-  info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
-    return contestant<AabbTree>(mesh, {values.count("leaf_size")});
-  };
   return info;
 }
 
@@ -107,7 +70,6 @@ ContestantInfo grid_group() {
 ContestantInfo sphere_cluster() {
   static const Names<SphereCluster::Lookup> lookups{{"tree", SphereCluster::Lookup::tree},
                                                     {"scan", SphereCluster::Lookup::scan}};
-  static const Names<bool> yes_or_no{{"true", true}, {"false", false}};
   ContestantInfo info;
   info.name = "sphere-cluster";
   info.summary = "triangles in clustered bounding spheres, after Choi & Sung 2017";
@@ -165,7 +127,7 @@ ContestantInfo fcl() {
 ContestantInfo bullet() {
   ContestantInfo info;
   info.name = "bullet";
-  info.summary = "Bullet Physics: quantised boxes, float or double library";
+  info.summary = "Bullet Physics: a hierarchy of quantised boxes";
 #if TOUCHMARK_WITH_BULLET
   using baselines::BulletDetector;
   using Precision = BulletDetector::Precision;
@@ -177,19 +139,21 @@ ContestantInfo bullet() {
   static const Names<Frame> frames{{"mesh", Frame::mesh}, {"fitted", Frame::fitted}};
   info.accuracy = "approximate; method=callback: exact";
   info.queries = queries_of<BulletDetector>();
-  info.options = {choice("precision", precisions, "which of Bullet's two libraries"),
-                  choice("method", methods, "contact: Bullet's own test; callback: its boxes, our kernel"),
-                  choice("frame", frames, "fitted: in the size that Bullet is written for")};
+  info.options = {
+      choice("precision", precisions, "which of Debian's two builds of the library"),
+      choice("method", methods, "contact: as most programs use it; callback: this project's kernel"),
+      choice("frame", frames, "fitted: moved and scaled to the size that Bullet is written for")};
+  // The two builds define the same names, so a program has one or the other.
+  info.worker_program = [](const OptionValues& values) {
+    return values.text("precision") == "float" ? "touchmark-worker-bullet-float" : default_worker_program;
+  };
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
     if (chosen(values, "precision", precisions) != BulletDetector::precision()) {
-      throw std::invalid_argument("this program is linked with Bullet's other library");
+      throw std::invalid_argument("bullet: precision=" + values.text("precision") +
+                                  " is not the build of Bullet that this program has");
     }
     return contestant<BulletDetector>(mesh,
                                       {chosen(values, "method", methods), chosen(values, "frame", frames)});
-  };
-  info.worker_program = [](const OptionValues& values) -> std::string {
-    const bool single = chosen(values, "precision", precisions) == Precision::single_precision;
-    return single ? "touchmark-worker-bullet-float" : default_worker_program;
   };
 #endif
   return info;
@@ -198,7 +162,7 @@ ContestantInfo bullet() {
 ContestantInfo libccd() {
   ContestantInfo info;
   info.name = "libccd+aabb";
-  info.summary = "libccd's ball against triangle, over the triangles that aabb-tree finds";
+  info.summary = "libccd between the ball and each candidate triangle of this project's box tree";
 #if TOUCHMARK_WITH_LIBCCD
   using baselines::LibccdDetector;
   using Algorithm = LibccdDetector::Algorithm;
@@ -207,8 +171,8 @@ ContestantInfo libccd() {
   static const Names<Frame> frames{{"fitted", Frame::fitted}, {"mesh", Frame::mesh}};
   info.accuracy = "approximate";
   info.queries = queries_of<LibccdDetector>();
-  info.options = {choice("algorithm", algorithms, "gjk: GJK with EPA; mpr: Minkowski portal refinement"),
-                  choice("frame", frames, "fitted: the ball scaled to radius 1, about the origin"),
+  info.options = {choice("algorithm", algorithms, "gjk: GJK and EPA; mpr: Minkowski portal refinement"),
+                  choice("frame", frames, "fitted: the ball as the unit ball; mesh: coordinates as they are"),
                   {"tolerance", OptionKind::number, {}, "1e-4", "of EPA and MPR; in radii when fitted"}};
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
     return contestant<LibccdDetector>(mesh, {chosen(values, "algorithm", algorithms),
@@ -221,19 +185,19 @@ ContestantInfo libccd() {
 ContestantInfo embree() {
   ContestantInfo info;
   info.name = "embree";
-  info.summary = "Embree's point query with our kernel as its callback";
+  info.summary = "Embree: point query over its hierarchy, this project's kernel as the callback";
 #if TOUCHMARK_WITH_EMBREE
   using baselines::EmbreeDetector;
   using Geometry = EmbreeDetector::Geometry;
   using Quality = EmbreeDetector::Quality;
   static const Names<Geometry> geometries{{"user", Geometry::user}, {"triangle", Geometry::triangle}};
   static const Names<Quality> qualities{{"medium", Quality::medium}, {"high", Quality::high}};
-  static const Names<bool> yes_or_no{{"true", true}, {"false", false}};
   info.accuracy = "exact";
   info.queries = queries_of<EmbreeDetector>();
-  info.options = {choice("geometry", geometries, "user: our boxes, rounded outward; triangle: Embree's own"),
-                  choice("quality", qualities, "of Embree's build"),
-                  choice("warm", yes_or_no, "start from the distance of the last triangle")};
+  info.options = {
+      choice("geometry", geometries, "user: boxes of our own, rounded outward; triangle: Embree's"),
+      choice("quality", qualities, "Embree's build quality"),
+      choice("warm", yes_or_no, "start from the distance of the session's last triangle")};
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
     return contestant<EmbreeDetector>(
         mesh, {chosen(values, "geometry", geometries), chosen(values, "quality", qualities),
@@ -243,16 +207,42 @@ ContestantInfo embree() {
   return info;
 }
 
+// Each rival in the form most programs use and in its best fair one; see baselines/NAME/README.md.
+const std::vector<std::string> compared_by_default{"brute-force",
+                                                   "grid-group:lookup=scan",
+                                                   "grid-group:lookup=scan,shape=sphere",
+                                                   "grid-group",
+                                                   "sphere-cluster:lookup=scan",
+                                                   "sphere-cluster:lookup=scan,precise=false",
+                                                   "sphere-cluster",
+                                                   "fcl",
+                                                   "fcl:bv=obbrss",
+                                                   "fcl:bv=aabb,method=distance,narrow=exact",
+                                                   "bullet",
+                                                   "bullet:precision=float",
+                                                   "bullet:method=callback,frame=fitted",
+                                                   "libccd+aabb",
+                                                   "libccd+aabb:algorithm=mpr",
+                                                   "embree"};
+
+// What verify runs besides: every other exact form, and the rivals' forms that answer differently.
+const std::vector<std::string> verified_besides{"grid-group:cell=1%",
+                                                "sphere-cluster:clustering=2%",
+                                                "sphere-cluster:lookup=scan,clustering=2%",
+                                                "sphere-cluster:lookup=scan,clustering=2%,precise=false",
+                                                "fcl:bv=obb",
+                                                "fcl:bv=rss,method=distance",
+                                                "fcl:bv=kios,method=traverse,narrow=exact",
+                                                "bullet:frame=fitted",
+                                                "bullet:precision=float,method=callback",
+                                                "embree:geometry=triangle"};
+
 }  // namespace
 
 const Roster& roster() {
   static const Roster all(
-      {brute_force(), aabb_tree(), grid_group(), sphere_cluster(), fcl(), bullet(), libccd(), embree()},
-      {"brute-force", "aabb-tree", "grid-group:lookup=scan", "grid-group:lookup=scan,shape=sphere",
-       "grid-group", "sphere-cluster:lookup=scan", "sphere-cluster:lookup=scan,precise=false",
-       "sphere-cluster", "fcl", "fcl:bv=aabb,method=distance,narrow=exact", "bullet", "bullet:frame=fitted",
-       "bullet:precision=float,frame=fitted", "bullet:method=callback,frame=fitted", "libccd+aabb",
-       "libccd+aabb:algorithm=mpr", "embree"});
+      {brute_force(), grid_group(), sphere_cluster(), fcl(), bullet(), libccd(), embree()},
+      compared_by_default, verified_besides);
   return all;
 }
 

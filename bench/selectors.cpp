@@ -101,7 +101,9 @@ Selection check(const Selectors& selectors, const Roster& roster, Variety variet
   if (!selectors.steps.empty()) selection.steps = checked_steps(selectors.steps);
   selection.seed = checked_seed(selectors.seed);
   for (const std::string& text : selectors.detectors) selection.contestants.push_back(roster.parse(text));
-  if (selection.contestants.empty()) selection.contestants = roster.default_set();
+  if (selection.contestants.empty()) {
+    selection.contestants = variety == Variety::one ? roster.default_set() : roster.thorough_set();
+  }
   return selection;
 }
 

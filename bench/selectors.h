@@ -44,7 +44,8 @@ struct Selection {
   std::optional<Length> reach;  ///< nothing: each probe's radius
   std::optional<std::size_t> steps;
   std::uint64_t seed = 1;
-  std::vector<ContestantSpec> contestants;
+  std::vector<ContestantSpec>
+      contestants;  ///< with --detector absent the default set, or (many) the thorough one
 };
 
 Selection check(const Selectors& selectors, const Roster& roster, Variety variety = Variety::one);

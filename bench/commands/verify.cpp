@@ -1,0 +1,152 @@
+/// `touchmark verify`: every contestant's answers against the oracle; without --mesh on every scene, also far
+/// from the origin, tiny and huge.
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "bench/comparison.h"
+#include "bench/floating_point.h"
+#include "bench/interrupt.h"
+#include "bench/program.h"
+#include "bench/progress.h"
+#include "bench/query_name.h"
+#include "bench/results_csv.h"
+#include "bench/results_folder.h"
+#include "bench/run_json.h"
+#include "bench/scenes.h"
+#include "bench/selectors.h"
+#include "bench/trajectories.h"
+#include "bench/verification_report.h"
+#include "bench/worker_options.h"
+
+namespace touchmark::bench {
+namespace {
+
+constexpr std::size_t steps_on_every_scene = 200;
+constexpr std::size_t steps_on_a_mesh = 2000;
+constexpr std::size_t failures_shown = 40;
+
+struct VerifyOptions {
+  Selectors selectors;
+  std::string out;
+  WorkerSelectors workers;
+};
+
+std::vector<std::string> meshes_for(const VerifyOptions& options) {
+  if (!options.selectors.meshes.empty()) return options.selectors.meshes;
+  std::vector<std::string> meshes;
+  for (const SceneInfo& scene : scenes()) {
+    if (scene.example.empty()) continue;
+    for (const char* modifier : {"", "@offset=1e6", "@scale=1e-6", "@scale=1e6"}) {
+      meshes.push_back(scene.example + modifier);
+    }
+  }
+  return meshes;
+}
+
+std::vector<std::string> trajectories_for(const VerifyOptions& options) {
+  if (!options.selectors.trajectories.empty()) return options.selectors.trajectories;
+  std::vector<std::string> names;
+  for (const TrajectoryInfo& trajectory : trajectories()) names.push_back(trajectory.name);
+  return names;
+}
+
+Effort verify_only() {
+  Effort effort;
+  effort.repetitions = 0;
+  effort.pass_budget_ns = 1e9;
+  return effort;
+}
+
+class VerifyRun {
+ public:
+  VerifyRun(const Roster& roster, const VerifyOptions& options)
+      : roster_(roster),
+        options_(options),
+        selection_(check(options.selectors, roster, Variety::many)),
+        workers_(worker_options(options.workers)) {
+    workers_.calibrate_clock = false;
+    if (!options.out.empty()) folder_.emplace(options.out);
+  }
+
+  int run();
+
+ private:
+  void verify_mesh(const std::string& mesh);
+  int report(bool finished);
+
+  const Roster& roster_;
+  VerifyOptions options_;
+  Selection selection_;
+  WorkerOptions workers_;
+  std::optional<ResultsFolder> folder_;
+  ProgressLine progress_;
+  std::vector<ResultRow> rows_;
+};
+
+void VerifyRun::verify_mesh(const std::string& mesh) {
+  const std::size_t steps = options_.selectors.meshes.empty() ? steps_on_every_scene : steps_on_a_mesh;
+  const Workload workload =
+      make_workload(without_directories(mesh), load_mesh(mesh, options_.selectors.normalize), selection_,
+                    trajectories_for(options_), steps);
+  Comparison comparison(roster_, workload, selection_.contestants, workers_, verify_only(), selection_.seed);
+  comparison.set_progress([&](const std::string& trajectory, const std::string& contestant) {
+    progress_.show(fmt::format("{}, {}: {}", workload.mesh_name, trajectory, contestant));
+  });
+  for (std::size_t course = 0; course < workload.courses.size(); ++course) {
+    for (const Query query : selection_.queries) {
+      const std::vector<ResultRow> rows = comparison.run(course, query);
+      rows_.insert(rows_.end(), rows.begin(), rows.end());
+    }
+  }
+}
+
+int VerifyRun::report(bool finished) {
+  progress_.clear();
+  fmt::print("{}", verification_table(rows_));
+  const std::string failures = list_of_failures(rows_, failures_shown);
+  if (!failures.empty()) fmt::print("\n{}", failures);
+  if (folder_) folder_->write(results_csv(new_run_id(system_info()), rows_));
+  if (!finished) {
+    fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", rows_.size());
+    return exit_interrupted;
+  }
+  for (const ResultRow& row : rows_) {
+    if (claim_is_broken(row)) return exit_check_failed;
+  }
+  return exit_done;
+}
+
+int VerifyRun::run() {
+  watch_for_interrupts();
+  restore_denormals();
+  try {
+    for (const std::string& mesh : meshes_for(options_)) verify_mesh(mesh);
+  } catch (const Interrupted&) {
+    return report(false);
+  }
+  return report(true);
+}
+
+}  // namespace
+
+void add_verify(CLI::App& program, ProgramContext& context) {
+  const auto options = std::make_shared<VerifyOptions>();
+  options->selectors.query = "all";
+  CLI::App* command = program.add_subcommand("verify", "check contestants' answers against the exact oracle");
+  add_selectors(*command, options->selectors, Variety::many);
+  command->add_option("--out", options->out, "folder for results.csv")->type_name("DIR");
+  add_worker_selectors(*command, options->workers);
+  command->footer(
+      "Without --mesh: every scene that needs no file, also at an offset of 1e6 and scaled by 1e-6 and 1e6.\n"
+      "Exit status 1 if a contestant that claims exactness is wrong.\n"
+      "Example: touchmark verify --mesh bunny --trajectory slide --detector grid-group --radius 0.5%\n");
+  command->final_callback(
+      [options, &context] { context.status = VerifyRun(context.roster, *options).run(); });
+}
+
+}  // namespace touchmark::bench
