@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bench/roster_options.h"
+#include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
 #include "core/grid_group/grid_group.h"
 #include "core/sphere_cluster/sphere_cluster.h"
@@ -36,6 +37,19 @@ ContestantInfo brute_force() {
   info.accuracy = "exact";
   info.queries = queries_of<BruteForce>();
   info.build = [](const TriangleMesh& mesh, const OptionValues&) { return contestant<BruteForce>(mesh, {}); };
+  return info;
+}
+
+ContestantInfo aabb_tree() {
+  ContestantInfo info;
+  info.name = "aabb-tree";
+  info.summary = "a plain binary tree of boxes in double precision: the reference";
+  info.accuracy = "exact";
+  info.queries = queries_of<AabbTree>();
+  info.options = {{"leaf_size", OptionKind::count, {}, "4", "triangles a leaf holds at most"}};
+  info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
+    return contestant<AabbTree>(mesh, {values.count("leaf_size")});
+  };
   return info;
 }
 
@@ -209,6 +223,7 @@ ContestantInfo embree() {
 
 // Each rival in the form most programs use and in its best fair one; see baselines/NAME/README.md.
 const std::vector<std::string> compared_by_default{"brute-force",
+                                                   "aabb-tree",
                                                    "grid-group:lookup=scan",
                                                    "grid-group:lookup=scan,shape=sphere",
                                                    "grid-group",
@@ -220,6 +235,7 @@ const std::vector<std::string> compared_by_default{"brute-force",
                                                    "fcl:bv=aabb,method=distance,narrow=exact",
                                                    "bullet",
                                                    "bullet:precision=float",
+                                                   "bullet:precision=float,frame=fitted",
                                                    "bullet:method=callback,frame=fitted",
                                                    "libccd+aabb",
                                                    "libccd+aabb:algorithm=mpr",
@@ -233,7 +249,7 @@ const std::vector<std::string> verified_besides{"grid-group:cell=1%",
                                                 "fcl:bv=obb",
                                                 "fcl:bv=rss,method=distance",
                                                 "fcl:bv=kios,method=traverse,narrow=exact",
-                                                "bullet:frame=fitted",
+                                                "bullet:precision=float",
                                                 "bullet:precision=float,method=callback",
                                                 "embree:geometry=triangle"};
 
@@ -241,7 +257,7 @@ const std::vector<std::string> verified_besides{"grid-group:cell=1%",
 
 const Roster& roster() {
   static const Roster all(
-      {brute_force(), grid_group(), sphere_cluster(), fcl(), bullet(), libccd(), embree()},
+      {brute_force(), aabb_tree(), grid_group(), sphere_cluster(), fcl(), bullet(), libccd(), embree()},
       compared_by_default, verified_besides);
   return all;
 }
