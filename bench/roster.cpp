@@ -249,7 +249,7 @@ const std::vector<std::string> verified_besides{"grid-group:cell=1%",
                                                 "fcl:bv=obb",
                                                 "fcl:bv=rss,method=distance",
                                                 "fcl:bv=kios,method=traverse,narrow=exact",
-                                                "bullet:precision=float",
+                                                "bullet:frame=fitted",
                                                 "bullet:precision=float,method=callback",
                                                 "embree:geometry=triangle"};
 
