@@ -2,6 +2,7 @@
 """What the shell scripts say when they are asked or asked wrongly, and check_layers on this repository."""
 import os
 import pathlib
+import re
 import subprocess
 import tempfile
 import unittest
@@ -72,6 +73,22 @@ class Dragon(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("no usable models/dragon_vrip.ply.gz", done.stderr)
         self.assertEqual(list(self.data.iterdir()), [])
+
+
+class Documents(unittest.TestCase):
+    def test_every_column_of_the_results_is_explained(self):
+        source = (ROOT / "bench" / "results_csv.cpp").read_text(encoding="utf-8")
+        columns = re.findall(r'Column\{"(\w+)"', source)
+        self.assertGreater(len(columns), 30)
+        explained = set(re.findall(r"`(\w+)`", (ROOT / "results" / "README.md").read_text(encoding="utf-8")))
+        self.assertEqual([column for column in columns if column not in explained], [])
+
+    def test_every_path_in_the_readme_exists(self):
+        readme = (ROOT / "README.md").read_text(encoding="utf-8")
+        paths = re.findall(r"`((?:core|baselines|bench|results|scripts|tests)/[\w./]*)`", readme)
+        paths += re.findall(r"\]\(([^):]+)\)", readme)
+        self.assertGreater(len(paths), 5)
+        self.assertEqual([path for path in paths if not (ROOT / path).exists()], [])
 
 
 class CheckLayers(unittest.TestCase):
