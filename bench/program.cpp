@@ -24,6 +24,7 @@ constexpr AddCommand commands[] = {
     add_verify,
     add_list,
     add_mesh,
+    add_query,
 };
 
 /// One line whatever the library or a file put into it.

@@ -12,10 +12,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "bench/failures.h"
 #include "bench/generated_scenes.h"
 #include "bench/near_names.h"
 #include "bench/numbers.h"
-#include "bench/failures.h"
 #include "core/mesh_io/mesh_io.h"
 
 namespace touchmark::bench {
@@ -301,6 +301,8 @@ std::vector<SceneInfo> scenes() {
   }
   return infos;
 }
+
+std::string default_scene() { return has_bunny() ? "bunny" : "icosphere:6"; }
 
 TriangleMesh load_scene(const std::string& name) {
   Request request{name, std::nullopt, name};

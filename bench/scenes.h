@@ -17,6 +17,10 @@ struct SceneInfo {
 
 std::vector<SceneInfo> scenes();
 
+/// What commands use when no mesh is named: the bunny, or where it is not installed a generated mesh of its
+/// size.
+std::string default_scene();
+
 /// `name` is a scene's name or a path, with optional modifiers: "bunny@scale=1e-6@offset=1e6@normalize"
 /// (scale about the origin, then shift along (1,1,1), in the order written). A scene's name goes before a
 /// file's: "./cube" is the file. Throws std::invalid_argument for an unknown name or parameter, MeshError for
