@@ -192,12 +192,14 @@ void Judge::position(const Truth& truth, Query query, const Probe& probe, double
   ++tally.judged;
   const bool found = answer.found != 0;
   const bool has_fields = found && query == Query::nearest;
-  const bool beyond_doubles = truth.defined && std::isinf(truth.high);
+  // Infinitely far away within an infinite reach: any answer is right.
+  const bool beyond_doubles = truth.defined ? std::isinf(truth.high) : !probe.center.hasNaN();
   if (has_fields && !beyond_doubles && !well_formed(answer, reported_)) {
     ++tally.malformed;
     return;
   }
   const double limit = query == Query::touches ? probe.radius : reach;
+  if (!truth.defined && beyond_doubles && limit == infinity) return;
   switch (threshold(truth, probe.center, limit, found)) {
     case Verdict::wrong:
       ++(found ? tally.false_contacts : tally.missed);

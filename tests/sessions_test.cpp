@@ -1,0 +1,131 @@
+// What a session remembers changes the cost, never the answer: a fresh session for every probe, one used
+// session, and eight threads with a session each give the bits that brute force gives.
+#include <cstring>
+#include <future>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "bench/answer.h"
+#include "core/aabb_tree/aabb_tree.h"
+#include "core/brute_force/brute_force.h"
+#include "core/grid_group/grid_group.h"
+#include "core/sphere_cluster/sphere_cluster.h"
+#include "tests/conformance_scenes.h"
+
+namespace touchmark {
+namespace {
+
+using bench::Answer;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Three queries of each centre in turn, so that a session sees them mixed.
+struct Questions {
+  std::vector<Vec3> centers;
+  double radius = 0;
+};
+
+template <class D>
+void answer(const D& detector, const Questions& questions, std::size_t i, typename D::Session& session,
+            std::vector<Answer>& answers) {
+  const Probe probe{questions.centers[i], questions.radius};
+  for (const double reach : {questions.radius, infinity}) {
+    const auto contact = detector.nearest(probe, reach, session);
+    answers.push_back(contact ? Answer::of(*contact) : Answer{});
+  }
+  Answer touch;
+  touch.found = detector.touches(probe, session) ? 1 : 0;
+  answers.push_back(touch);
+  const Sweep sweep{questions.centers[i > 0 ? i - 1 : 0], probe.center, probe.radius};
+  const auto impact = detector.first_hit(sweep, session);
+  answers.push_back(impact ? Answer::of(impact->contact, impact->fraction) : Answer{});
+}
+
+template <class D>
+std::vector<Answer> answers_of_one_session(const D& detector, const Questions& questions) {
+  typename D::Session session;
+  std::vector<Answer> answers;
+  for (std::size_t i = 0; i < questions.centers.size(); ++i) answer(detector, questions, i, session, answers);
+  return answers;
+}
+
+template <class D>
+std::vector<Answer> answers_of_fresh_sessions(const D& detector, const Questions& questions) {
+  std::vector<Answer> answers;
+  for (std::size_t i = 0; i < questions.centers.size(); ++i) {
+    typename D::Session session;
+    answer(detector, questions, i, session, answers);
+  }
+  return answers;
+}
+
+/// The first answer that differs in any bit; none: their number.
+std::size_t first_difference(const std::vector<Answer>& a, const std::vector<Answer>& b) {
+  std::size_t i = 0;
+  while (i < a.size() && i < b.size() && std::memcmp(&a[i], &b[i], sizeof(Answer)) == 0) ++i;
+  return i;
+}
+
+template <class D>
+void expect_same_bits(const TriangleMesh& mesh, const typename D::Options& options,
+                      const Questions& questions, const std::vector<Answer>& expected,
+                      const std::string& name) {
+  const D detector = D::build(mesh, options);
+  EXPECT_EQ(first_difference(answers_of_fresh_sessions(detector, questions), expected), expected.size())
+      << name << ", fresh sessions";
+  EXPECT_EQ(first_difference(answers_of_one_session(detector, questions), expected), expected.size())
+      << name << ", one session";
+  std::vector<std::future<std::vector<Answer>>> threads;
+  for (int i = 0; i < 8; ++i) {
+    threads.push_back(
+        std::async(std::launch::async, [&] { return answers_of_one_session(detector, questions); }));
+  }
+  for (auto& thread : threads)
+    EXPECT_EQ(first_difference(thread.get(), expected), expected.size()) << name << ", eight threads";
+}
+
+class Sessions : public testing::TestWithParam<std::string> {};
+
+TEST_P(Sessions, GiveTheBitsOfBruteForceFreshUsedAndInThreads) {
+  const TriangleMesh mesh = bench::load_scene(GetParam());
+  const Questions questions{adversarial_centers(mesh, affordable(mesh)), 0.005 * mesh.diagonal()};
+  const std::vector<Answer> expected = answers_of_one_session(BruteForce::build(mesh), questions);
+  expect_same_bits<AabbTree>(mesh, {}, questions, expected, "aabb-tree");
+  using Cluster = SphereCluster;
+  for (const auto lookup : {Cluster::Lookup::scan, Cluster::Lookup::tree}) {
+    for (const double clustering : {0.0, 0.05 * mesh.diagonal()}) {
+      Cluster::Options options;
+      options.clustering = clustering;
+      options.lookup = lookup;
+      const char* name = lookup == Cluster::Lookup::scan ? "sphere-cluster, scan" : "sphere-cluster, tree";
+      expect_same_bits<Cluster>(mesh, options, questions, expected, name);
+    }
+  }
+  for (const auto shape : {GridGroup::Shape::cube, GridGroup::Shape::sphere}) {
+    for (const auto lookup : {GridGroup::Lookup::scan, GridGroup::Lookup::direct}) {
+      for (const double cell : {0.0, 0.03 * mesh.diagonal()}) {
+        GridGroup::Options options;
+        options.shape = shape;
+        options.lookup = lookup;
+        options.cell = cell;
+        const char* name = lookup == GridGroup::Lookup::scan ? "grid-group, scan" : "grid-group, direct";
+        expect_same_bits<GridGroup>(mesh, options, questions, expected, name);
+      }
+    }
+  }
+}
+
+std::string test_name(const testing::TestParamInfo<std::string>& scene) {
+  std::string name = scene.param;
+  for (char& c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Sessions, testing::ValuesIn(conformance_scenes()), test_name);
+
+}  // namespace
+}  // namespace touchmark
