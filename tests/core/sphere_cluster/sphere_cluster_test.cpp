@@ -23,7 +23,6 @@ std::vector<SphereCluster::Options> exact_forms(double size) {
   return {{0, Lookup::scan, true},
           {0.1 * size, Lookup::scan, true},
           {0, Lookup::tree, true},
-          {0, Lookup::tree, true, VisitOrder::mesh, true},
           {0.1 * size, Lookup::tree, true}};
 }
 
@@ -53,7 +52,7 @@ void expect_same(const std::optional<Impact>& a, const std::optional<Impact>& b)
 
 std::string label(const test::NamedMesh& scene, const SphereCluster::Options& options) {
   return scene.name + (options.lookup == Lookup::scan ? ", scan" : ", tree") + ", clustering " +
-         std::to_string(options.clustering) + (options.portable ? ", portable" : "");
+         std::to_string(options.clustering);
 }
 
 TEST(SphereCluster, FindsTheNearestOfTwoTriangles) {
