@@ -1,4 +1,4 @@
-/// `touchmark mesh`: what a mesh is like.
+/// `touchmark mesh`: what a mesh is like, and finer ones.
 #include <memory>
 #include <string>
 
@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/commands/mesh_commands.h"
 #include "bench/mesh_report.h"
 #include "bench/program.h"
 #include "bench/selectors.h"
@@ -99,10 +100,13 @@ void add_info(CLI::App& mesh_command) {
 }  // namespace
 
 void add_mesh(CLI::App& program, ProgramContext&) {
-  CLI::App* command = program.add_subcommand("mesh", "what a mesh is like: info");
+  CLI::App* command =
+      program.add_subcommand("mesh", "what a mesh is like, and finer ones: info, measure, subdivide");
   command->require_subcommand(1);
   command->footer("Example: touchmark mesh info bunny\n");
   add_info(*command);
+  add_mesh_measure(*command);
+  add_mesh_subdivide(*command);
 }
 
 }  // namespace touchmark::bench

@@ -38,7 +38,7 @@ double area(const TriangleMesh& mesh) {
   double sum = 0;
   for (std::size_t i = 0; i < mesh.size(); ++i) {
     const Vec3& a = mesh.corner(i, 0);
-    sum += (mesh.corner(i, 1) - a).cross(mesh.corner(i, 2) - a).norm() / 2;
+    sum += (mesh.corner(i, 1) - a).cross(mesh.corner(i, 2) - a).stableNorm() / 2;
   }
   return sum;
 }
@@ -68,7 +68,7 @@ EdgeStatistics edge_statistics(const TriangleMesh& mesh) {
     if (surface.place_of_edge(e) == Place::boundary) ++statistics.boundary;
     if (surface.place_of_edge(e) == Place::corner) ++statistics.seams;
     const auto [a, b] = edges.ends(e);
-    const double length = (welded.positions[a] - welded.positions[b]).norm();
+    const double length = (welded.positions[a] - welded.positions[b]).stableNorm();
     statistics.shortest = e == 0 ? length : std::min(statistics.shortest, length);
     statistics.longest = std::max(statistics.longest, length);
     sum += length;

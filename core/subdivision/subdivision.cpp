@@ -152,8 +152,7 @@ IndexedTriangles refine_by_edges(IndexedTriangles mesh, const SubdivisionOptions
 
 IndexedTriangles refine_by_faces(IndexedTriangles mesh, const SubdivisionOptions& options) {
   if (options.levels == 0) return mesh;
-  const bool smooth =
-      options.method == SubdivisionMethod::catmull_clark && options.form == SubdivisionForm::published;
+  const bool smooth = options.method == SubdivisionMethod::catmull_clark;
   const auto positions = smooth ? CatmullClarkPositions::smooth : CatmullClarkPositions::linear;
   IndexedQuads quads = catmull_clark(mesh, positions);
   store(quads.positions, options.form);

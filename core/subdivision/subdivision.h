@@ -15,14 +15,15 @@ enum class SubdivisionMethod { butterfly, catmull_clark, catmull_clark_linear, m
 /// published: the scheme of its paper, in double.
 ///   butterfly             modified butterfly: Zorin, Schröder, Sweldens 1996
 ///   catmull_clark         Catmull & Clark 1978, on quadrilaterals
-///   catmull_clark_linear  the same faces, positions interpolated linearly: the surface stays
+///   catmull_clark_linear  the same faces, positions interpolated linearly: the surface stays (what the
+///   paper's
+///                         tool calls Catmull-Clark)
 ///   mid_point             every edge halved where it lies: the surface stays
 ///   loop                  Loop 1987, boundary as a cubic B-spline
 ///   ls3                   least squares subdivision surfaces: Boye, Guennebaud, Schlick 2010; the normals of
 ///                         one level's spheres are the next level's normals
 /// meshlab: as the paper's tool does it. Positions are rounded to float after each level (the input's too).
 ///   butterfly             the plain eight-point scheme at every valence
-///   catmull_clark         the same as catmull_clark_linear
 ///   ls3                   vertex normals anew at each level: sums of unit face normals times angle
 enum class SubdivisionForm { published, meshlab };
 
