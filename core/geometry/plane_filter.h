@@ -61,14 +61,18 @@ class FilterFrame {
 
   /// Is the point close enough for single precision (2^20 extents)? A NaN is not.
   bool covers(const Vec3& center) const noexcept {
-    const Vec3 p = scale_ * (center - origin_);
+    const Vec3 p = to_frame(center);
     return std::abs(p.x()) < 0x1p20 && std::abs(p.y()) < 0x1p20 && std::abs(p.z()) < 0x1p20;
   }
   FilterPoint point(const Vec3& center) const noexcept {
-    const Vec3 p = scale_ * (center - origin_);
-    const double reach = std::abs(p.x()) + std::abs(p.y()) + std::abs(p.z()) + radius_;
-    return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()),
-            static_cast<float>(reach * tau_per_unit)};
+    const Vec3 p = to_frame(center);
+    return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), tau(p)};
+  }
+  Vec3 to_frame(const Vec3& point) const noexcept { return scale_ * (point - origin_); }
+  /// What rounding may do to a plane's value at this point of the frame.
+  float tau(const Vec3& in_frame) const noexcept {
+    const double reach = std::abs(in_frame.x()) + std::abs(in_frame.y()) + std::abs(in_frame.z()) + radius_;
+    return static_cast<float>(reach * tau_per_unit);
   }
   /// A squared distance of the mesh's frame as a limit on lower bounds, rounded up.
   float limit(double squared_distance) const noexcept {
@@ -101,14 +105,41 @@ TrianglePlanes planes_of(const PreparedTriangle& triangle, const FilterFrame& fr
 
 inline Lanes greater_of(Lanes a, Lanes b) noexcept { return a > b ? a : b; }
 
-/// Values of one triangle's planes.
-inline Lanes plane_values(const TrianglePlanes& planes, const FilterPoint& p) noexcept {
-  return ((planes.x * p.x + planes.y * p.y) + planes.z * p.z) + planes.offset;
+inline Lanes square_root(Lanes a) noexcept {
+#ifdef __SSE2__
+  return reinterpret_cast<Lanes>(_mm_sqrt_ps(reinterpret_cast<__m128>(a)));
+#else
+  return Lanes{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])};
+#endif
 }
 
-/// Lower bounds of the squared distances to four triangles, in the frame.
-inline Lanes lower_bounds(const TrianglePlanes& a, const TrianglePlanes& b, const TrianglePlanes& c,
-                          const TrianglePlanes& d, const FilterPoint& p) noexcept {
+/// A point in every lane, for loops over many triangles.
+struct PointLanes {
+  Lanes x, y, z, tau;
+
+  explicit PointLanes(const FilterPoint& p) noexcept
+      : x(Lanes{p.x, p.x, p.x, p.x}),
+        y(Lanes{p.y, p.y, p.y, p.y}),
+        z(Lanes{p.z, p.z, p.z, p.z}),
+        tau(Lanes{p.tau, p.tau, p.tau, p.tau}) {}
+};
+
+/// Values of one triangle's planes.
+inline Lanes plane_values(const TrianglePlanes& planes, const PointLanes& p) noexcept {
+  return ((planes.x * p.x + planes.y * p.y) + planes.z * p.z) + planes.offset;
+}
+inline Lanes plane_values(const TrianglePlanes& planes, const FilterPoint& p) noexcept {
+  return plane_values(planes, PointLanes(p));
+}
+
+/// Where a point is to four triangles, a lane each: its distance to the face's plane, and how far it is
+/// beyond the side it is farthest beyond; negative inside the prism over the face. Both within tau.
+struct PlaneLanes {
+  Lanes height, beside;
+};
+
+inline PlaneLanes plane_lanes(const TrianglePlanes& a, const TrianglePlanes& b, const TrianglePlanes& c,
+                              const TrianglePlanes& d, const PointLanes& p) noexcept {
   const Lanes va = plane_values(a, p), vb = plane_values(b, p), vc = plane_values(c, p),
               vd = plane_values(d, p);
   // Transpose: from four planes of one triangle to one plane of four triangles.
@@ -120,11 +151,33 @@ inline Lanes lower_bounds(const TrianglePlanes& a, const TrianglePlanes& b, cons
   const Lanes side1 = __builtin_shuffle(ab_low, cd_low, LaneBits{2, 3, 6, 7});
   const Lanes side2 = __builtin_shuffle(ab_high, cd_high, LaneBits{0, 1, 4, 5});
   const Lanes side3 = __builtin_shuffle(ab_high, cd_high, LaneBits{2, 3, 6, 7});
+  return {greater_of(face, -face), greater_of(side1, greater_of(side2, side3))};
+}
 
+/// Lower bounds of the squared distances, in the frame.
+inline Lanes lower_bounds(const PlaneLanes& values, const PointLanes& p) noexcept {
   const Lanes zero = {0, 0, 0, 0};
-  const Lanes height = greater_of(greater_of(face, -face) - p.tau, zero);
-  const Lanes excess = greater_of(greater_of(side1, greater_of(side2, side3)) - p.tau, zero);
+  const Lanes height = greater_of(values.height - p.tau, zero),
+              excess = greater_of(values.beside - p.tau, zero);
   return height * height + excess * excess;
+}
+inline Lanes lower_bounds(const TrianglePlanes& a, const TrianglePlanes& b, const TrianglePlanes& c,
+                          const TrianglePlanes& d, const PointLanes& p) noexcept {
+  return lower_bounds(plane_lanes(a, b, c, d, p), p);
+}
+inline Lanes lower_bounds(const TrianglePlanes& a, const TrianglePlanes& b, const TrianglePlanes& c,
+                          const TrianglePlanes& d, const FilterPoint& p) noexcept {
+  return lower_bounds(a, b, c, d, PointLanes(p));
+}
+
+/// Is each lane greater than its counterpart?
+inline bool all_exceed(Lanes values, Lanes limits) noexcept {
+  const LaneBits beyond = values > limits;
+#ifdef __SSE2__
+  return _mm_movemask_ps(reinterpret_cast<__m128>(beyond)) == 0xf;
+#else
+  return (beyond[0] & beyond[1] & beyond[2] & beyond[3]) != 0;
+#endif
 }
 
 /// Bit i is set when lane i is at most the limit.

@@ -1,13 +1,54 @@
+#include <algorithm>
+#include <atomic>
+#include <limits>
+
 #include "core/grid_group/direct_grid.h"
+#include "core/grid_group/group_builder.h"
 
 namespace touchmark::grid {
+namespace {
 
-DirectGrid DirectGrid::build(const TriangleMesh& mesh, const DirectOptions&) {
+std::uint64_t next_serial() {
+  static std::atomic<std::uint64_t> last = 0;
+  return ++last;
+}
+
+std::size_t bytes_for(const TriangleMesh& mesh, double bytes_per_triangle) {
+  const double bytes = bytes_per_triangle * static_cast<double>(mesh.size());
+  constexpr double most = 0x1p62;
+  return static_cast<std::size_t>(std::min(bytes, most));
+}
+
+/// By how much a triangle must lose to be left out of a group, in the frame: the kernel's error twice, and
+/// for sweeps the rounding of the position on the way, which goes with the coordinates. Sixteen times that.
+double lead_for(const TriangleMesh& mesh, const FilterFrame& frame) {
+  const Aabb& box = mesh.bounds();
+  const double coordinates = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  return 16 * (culling_slack(4) + 4 * epsilon * frame.scale() * coordinates);
+}
+
+}  // namespace
+
+DirectGrid DirectGrid::build(const TriangleMesh& mesh, const DirectOptions& options) {
   DirectGrid grid;
+  grid.serial_ = next_serial();
   grid.bounds_ = mesh.bounds();
   grid.store_ = TriangleStore::build(mesh);
   grid.tree_ = BoxTree(grid.store_);
+  const FilterFrame& frame = grid.store_.frame;
+  const std::size_t most = bytes_for(mesh, options.bytes_per_triangle);
+  const auto left = [&] { return most - std::min(most, grid.bytes()); };
+
+  grid.cells_ = CellTree::build(grid.store_, grid.tree_, {options.cell * frame.scale(), left() / 4});
+  GroupBuilder builder(grid.store_, grid.tree_, lead_for(mesh, frame), left());
+  grid.groups_ = builder.build();
+  grid.coarsened_ = grid.cells_.coarsened() || builder.ran_out();
   return grid;
+}
+
+std::size_t DirectGrid::bytes() const noexcept {
+  return store_.bytes() + tree_.bytes() + groups_.bytes() + cells_.bytes();
 }
 
 }  // namespace touchmark::grid

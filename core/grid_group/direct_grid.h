@@ -3,10 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "core/detector.h"
 #include "core/grid_group/box_tree.h"
+#include "core/grid_group/cell_tree.h"
+#include "core/grid_group/groups.h"
 #include "core/grid_group/triangle_store.h"
 
 namespace touchmark::grid {
@@ -18,7 +21,12 @@ struct DirectOptions {
 
 /// What one haptic point remembers between ticks. Forgetting it changes no answer.
 struct DirectMemory {
-  std::uint32_t place = 0;  ///< of the triangle that was nearest last
+  std::uint64_t owner = 0;  ///< the grid that it is about; 0: nothing is remembered
+  std::uint32_t place = 0;  ///< of a triangle that was near
+  Vec3 center = Vec3::Zero();
+  /// Of the distance at that centre, with room for the kernel's error wherever the bounds are put to use. The
+  /// distance changes by the displacement at most.
+  double lower = 0, upper = std::numeric_limits<double>::infinity();
 };
 
 class DirectGrid {
@@ -31,12 +39,31 @@ class DirectGrid {
                                  Work& work) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, DirectMemory& memory, Work& work) const noexcept;
 
-  std::size_t bytes() const noexcept { return store_.bytes() + tree_.bytes(); }
-  std::size_t groups() const noexcept { return 0; }
-  double cell() const noexcept { return 0; }
-  bool coarsened() const noexcept { return false; }
+  std::size_t bytes() const noexcept;
+  std::size_t groups() const noexcept { return groups_.count(); }
+  double cell() const noexcept { return cells_.smallest_edge() / store_.frame.scale(); }
+  bool coarsened() const noexcept { return coarsened_; }
 
  private:
+  /// Where to look first.
+  struct Start {
+    bool beyond = false;  ///< nothing is within reach
+    std::uint32_t place = 0;
+    const Group* group = nullptr;  ///< of that place, if it serves the point
+  };
+  Start start_at(const Vec3& center, const FilterPoint& point, double reach, DirectMemory& memory,
+                 Work& work) const noexcept;
+  /// The group of the triangle in this place if it serves the point.
+  const Group* serving(std::uint32_t place, const FilterPoint& point, Work& work) const noexcept;
+  /// The nearest triangle, or none when nothing is within reach. One that is found may still be beyond it, by
+  /// a rounding of the filter; then `lower` bounds the distance to all.
+  struct Located {
+    const PreparedTriangle* triangle = nullptr;
+    double lower = 0;
+  };
+  Located locate(const Vec3& center, double reach, DirectMemory& memory, Work& work) const noexcept;
+  void remember(const Vec3& center, double lower, double upper, DirectMemory& memory) const noexcept;
+
   /// For probes so far away that single precision tells the triangles no longer apart.
   std::optional<Contact> far_nearest(const Vec3& center, double reach, Work& work) const noexcept;
   std::optional<Impact> far_first_hit(const Sweep& sweep, Work& work) const noexcept;
@@ -45,9 +72,13 @@ class DirectGrid {
                                   DirectMemory& memory, Work& work) const noexcept;
   double largest_difference(const Vec3& center) const noexcept;
 
+  std::uint64_t serial_ = 0;  ///< tells this grid from all others
   Aabb bounds_;
   TriangleStore store_;
   BoxTree tree_;
+  Groups groups_;
+  CellTree cells_;
+  bool coarsened_ = false;
 };
 
 }  // namespace touchmark::grid

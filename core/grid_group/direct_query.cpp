@@ -1,6 +1,6 @@
+/// Nearest and touching: what the session knows, else the group that serves the point, else the hierarchy.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/grid_group/direct_grid.h"
 #include "core/grid_group/nearest_search.h"
@@ -8,42 +8,110 @@
 namespace touchmark::grid {
 namespace {
 
-void count(const NearestSearch& search, Work& work) noexcept {
-  work.triangles += search.triangles();
-  work.boxes += search.boxes();
+/// Room for the rounding of a displacement and of what is compared with it.
+constexpr double shy = 1 - 0x1p-40;
+
+bool moved_less(const DirectMemory& memory, const Vec3& center, double by) noexcept {
+  return by > 0 && (center - memory.center).squaredNorm() < by * by * shy;
 }
 
 }  // namespace
 
+double DirectGrid::largest_difference(const Vec3& center) const noexcept {
+  return (bounds_.max - center).cwiseAbs().cwiseMax((bounds_.min - center).cwiseAbs()).maxCoeff();
+}
+
+void DirectGrid::remember(const Vec3& center, double lower, double upper,
+                          DirectMemory& memory) const noexcept {
+  // The kernel's error here; what it grows by elsewhere goes with the displacement and is in `shy`.
+  const double slack = 2 * culling_slack(largest_difference(center));
+  memory.center = center;
+  memory.lower = lower - slack;
+  memory.upper = upper + slack;
+}
+
+const Group* DirectGrid::serving(std::uint32_t place, const FilterPoint& point, Work& work) const noexcept {
+  ++work.cells;
+  const Group& group = groups_.of(place);
+  return group.serves(plane_values(store_.planes[place], point), point.tau) ? &group : nullptr;
+}
+
+DirectGrid::Start DirectGrid::start_at(const Vec3& center, const FilterPoint& point, double reach,
+                                       DirectMemory& memory, Work& work) const noexcept {
+  const bool remembers = memory.owner == serial_;
+  if (remembers) {
+    if (moved_less(memory, center, memory.lower - reach)) return {true, memory.place, nullptr};
+    if (const Group* group = serving(memory.place, point, work)) return {false, memory.place, group};
+  } else {
+    memory = DirectMemory();
+    memory.owner = serial_;
+  }
+  const Vec3 in_frame = store_.frame.to_frame(center);
+  if (!cells_.holds(in_frame)) {
+    remember(center, std::sqrt(bounds_.squared_distance(center)), std::numeric_limits<double>::infinity(),
+             memory);
+    return {memory.lower > reach, memory.place, nullptr};
+  }
+  ++work.cells;
+  const Cell cell = cells_.at(in_frame);
+  remember(store_.frame.origin() + cell.middle / store_.frame.scale(), cell.distance / store_.frame.scale(),
+           std::numeric_limits<double>::infinity(), memory);
+  if (moved_less(memory, center, memory.lower - reach)) return {true, cell.place, nullptr};
+  return {false, cell.place, serving(cell.place, point, work)};
+}
+
+DirectGrid::Located DirectGrid::locate(const Vec3& center, double reach, DirectMemory& memory,
+                                       Work& work) const noexcept {
+  NearestSearch search(store_, center, reach * reach);
+  Start start = start_at(center, search.point(), reach, memory, work);
+  if (start.beyond) return {};
+  // A cell's triangle may be a neighbour of the one that is needed.
+  for (int hop = 0; hop < 2 && start.group == nullptr && groups_.of(start.place).count > 0; ++hop) {
+    const std::uint32_t next = search.closest_of(groups_.members(groups_.of(start.place)));
+    if (next == start.place) break;
+    start = {false, next, serving(next, search.point(), work)};
+  }
+  double lower = reach;
+  if (start.group != nullptr) {
+    lower = std::sqrt(store_.frame.squared(search.consider_group(groups_.members(*start.group))));
+  } else {
+    search.consider(start.place);
+    search.consider_tree(tree_);
+  }
+  work.triangles += search.triangles();
+  work.boxes += search.boxes();
+  if (!search.found()) {
+    remember(center, lower, std::numeric_limits<double>::infinity(), memory);
+    return {};
+  }
+  memory.place = search.place();
+  return {&store_.exact[search.place()], lower};
+}
+
 bool DirectGrid::touches(const Probe& probe, DirectMemory& memory, Work& work) const noexcept {
   if (!(probe.radius >= 0)) return false;
   if (!store_.frame.covers(probe.center)) return far_nearest(probe.center, probe.radius, work).has_value();
-  const auto touching = [&](const Candidate& best) {
-    return std::sqrt(best.squared_distance) <= probe.radius;
-  };
-  NearestSearch search(store_, probe.center, probe.radius * probe.radius);
-  search.consider(std::min(memory.place, store_.size() - 1));
-  if (!touching(search.best())) search.consider_tree(tree_, touching);
-  memory.place = search.place();
-  count(search, work);
-  return touching(search.best());
+  if (memory.owner == serial_ && moved_less(memory, probe.center, probe.radius - memory.upper)) return true;
+  const Located located = locate(probe.center, probe.radius, memory, work);
+  if (located.triangle == nullptr) return false;
+  const double distance = std::sqrt(squared_distance(*located.triangle, probe.center));
+  const bool touching = distance <= probe.radius;
+  remember(probe.center, touching ? distance : std::min(located.lower, distance), distance, memory);
+  return touching;
 }
 
 std::optional<Contact> DirectGrid::nearest(const Vec3& center, double reach, DirectMemory& memory,
                                            Work& work) const noexcept {
   if (!(reach >= 0)) return std::nullopt;
   if (!store_.frame.covers(center)) return far_nearest(center, reach, work);
-  NearestSearch search(store_, center, reach * reach);
-  search.consider(std::min(memory.place, store_.size() - 1));
-  search.consider_tree(tree_, [](const Candidate&) { return false; });
-  memory.place = search.place();
-  count(search, work);
-  if (!(std::sqrt(search.best().squared_distance) <= reach)) return std::nullopt;
-  return contact_on(store_.exact[search.place()], center, store_.id(search.place()));
-}
-
-double DirectGrid::largest_difference(const Vec3& center) const noexcept {
-  return (bounds_.max - center).cwiseAbs().cwiseMax((bounds_.min - center).cwiseAbs()).maxCoeff();
+  const Located located = locate(center, reach, memory, work);
+  if (located.triangle == nullptr) return std::nullopt;
+  const Contact contact = contact_on(*located.triangle, center, store_.id(memory.place));
+  const bool within = contact.distance <= reach;
+  remember(center, within ? contact.distance : std::min(located.lower, contact.distance), contact.distance,
+           memory);
+  if (!within) return std::nullopt;
+  return contact;
 }
 
 std::optional<Contact> DirectGrid::far_nearest(const Vec3& center, double reach, Work& work) const noexcept {

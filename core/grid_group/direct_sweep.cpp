@@ -1,7 +1,9 @@
 /// The first touch along a straight way, through the hierarchy of boxes.
 #include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "core/geometry/sphere_triangle_sweep.h"
 #include "core/geometry/sweep_box.h"
@@ -26,6 +28,18 @@ class SweepSearch {
   bool found() const noexcept { return first_.fraction <= 1; }
   double fraction() const noexcept { return first_.fraction; }
   std::uint32_t place() const noexcept { return place_; }  ///< of the first
+
+  /// Those of a group that serves the whole way.
+  void consider_group(std::span<const std::uint32_t> members, Work& work) noexcept {
+    work.triangles += members.size();
+    const std::uint32_t* const place = members.data();  // readable up to a multiple of four
+    for (std::size_t at = 0; at < members.size(); at += 4) {
+      const Lanes bounds = lower_bounds(store_.planes[place[at]], store_.planes[place[at + 1]],
+                                        store_.planes[place[at + 2]], store_.planes[place[at + 3]], start_);
+      for (unsigned left = at_most(bounds, within()); left != 0; left &= left - 1)
+        consider(place[at + static_cast<std::size_t>(std::countr_zero(left))]);
+    }
+  }
 
   void consider_tree(const BoxTree& tree, Work& work) noexcept {
     BoxStack stack;
@@ -64,15 +78,19 @@ class SweepSearch {
     }
   }
 
-  /// Those within the way's length of its start: nothing else can be met.
+  /// What is farther from the way's start than its length can't be met.
+  float within() const noexcept {
+    const double farthest = length_ * limit() * (1 + 0x1p-40) + widening_;
+    return store_.frame.limit(farthest * farthest);
+  }
+
   void consider_block(std::uint32_t block, Work& work) noexcept {
     const std::uint32_t first = block * TriangleStore::block_size;
     work.triangles += TriangleStore::block_size;
     for (std::uint32_t at = first; at < first + TriangleStore::block_size; at += 4) {
       const TrianglePlanes* planes = &store_.planes[at];
-      const double within = length_ * limit() * (1 + 0x1p-40) + widening_;
       const Lanes bounds = lower_bounds(planes[0], planes[1], planes[2], planes[3], start_);
-      for (unsigned left = at_most(bounds, store_.frame.limit(within * within)); left != 0; left &= left - 1)
+      for (unsigned left = at_most(bounds, within()); left != 0; left &= left - 1)
         consider(at + static_cast<std::uint32_t>(std::countr_zero(left)));
     }
   }
@@ -99,10 +117,20 @@ class SweepSearch {
 
 std::optional<Impact> DirectGrid::first_hit(const Sweep& sweep, DirectMemory& memory,
                                             Work& work) const noexcept {
+  if (!(sweep.radius >= 0)) return std::nullopt;
   if (!(store_.frame.covers(sweep.from) && store_.frame.covers(sweep.to))) return far_first_hit(sweep, work);
   const double difference = std::max(largest_difference(sweep.from), largest_difference(sweep.to));
-  SweepSearch search(store_, sweep, sweep_widening(sweep, difference));
-  search.consider_tree(tree_, work);
+  const double widening = sweep_widening(sweep, difference);
+  const double farthest = (sweep.to - sweep.from).norm() * (1 + 0x1p-40) + widening;
+  const Start start = start_at(sweep.from, store_.frame.point(sweep.from), farthest, memory, work);
+  if (start.beyond) return std::nullopt;
+  SweepSearch search(store_, sweep, widening);
+  // Where a group is valid is convex: it serves the way between two points that it serves.
+  if (start.group != nullptr && serving(start.place, store_.frame.point(sweep.to), work) != nullptr) {
+    search.consider_group(groups_.members(*start.group), work);
+  } else {
+    search.consider_tree(tree_, work);
+  }
   if (!search.found()) return std::nullopt;
   memory.place = search.place();
   return impact_on(sweep, search.fraction(), search.place(), memory, work);

@@ -2,10 +2,16 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <span>
 
 #include "core/grid_group/box_tree.h"
+#include "core/grid_group/group_filter.h"
 #include "core/grid_group/triangle_store.h"
 
 namespace touchmark::grid {
@@ -20,9 +26,10 @@ class NearestSearch {
         point_(store.frame.point(center)),
         limit_(store.frame.limit(squared_limit)) {}
 
+  bool found() const noexcept { return found_; }
+  std::uint32_t place() const noexcept { return place_; }  ///< of the nearest
+  /// Its squared distance, by the exact kernel. Unknown after consider_group.
   const Candidate& best() const noexcept { return best_; }
-  std::uint32_t place() const noexcept { return place_; }  ///< of the best
-  float limit() const noexcept { return limit_; }
   const FilterPoint& point() const noexcept { return point_; }
   std::uint64_t triangles() const noexcept { return triangles_; }  ///< tested
   std::uint64_t boxes() const noexcept { return boxes_; }          ///< tested
@@ -30,6 +37,38 @@ class NearestSearch {
   void consider(std::uint32_t place) noexcept {
     ++triangles_;
     decide(place);
+  }
+
+  /// All there is to consider. Afterwards something is found unless nothing is within the limit. Returns a
+  /// lower bound of the squared distance to all of them, in the frame.
+  float consider_group(std::span<const std::uint32_t> members) noexcept;
+
+  /// A guess at the nearest member, by the filter alone.
+  std::uint32_t closest_of(std::span<const std::uint32_t> members) noexcept;
+
+  /// Visits the tree nearest first.
+  void consider_tree(const BoxTree& tree) noexcept {
+    BoxStack stack;
+    visit(tree, static_cast<std::uint32_t>(tree.levels()) - 1, 0, stack);
+    while (!stack.empty()) {
+      const BoxStack::Entry next = stack.pop();
+      if (next.bound > limit_) continue;
+      if (next.level > 0) {
+        visit(tree, next.level - 1, next.index, stack);
+      } else {
+        consider_block(next.index);
+      }
+    }
+  }
+
+ private:
+  GroupBounds filter(std::span<const std::uint32_t> members) const noexcept;
+  /// Bit i is set for member i.
+  std::uint32_t within_limit(const GroupBounds& bounds, std::size_t members) const noexcept;
+
+  void visit(const BoxTree& tree, std::uint32_t level, std::uint32_t node, BoxStack& stack) noexcept {
+    boxes_ += BoxTree::arity;
+    stack.push(lower_bounds(tree.node(level, node), point_), limit_, node, level);
   }
   void consider_block(std::uint32_t block) noexcept {
     const std::uint32_t first = block * TriangleStore::block_size;
@@ -41,43 +80,26 @@ class NearestSearch {
         decide(at + static_cast<std::uint32_t>(std::countr_zero(left)));
     }
   }
-  /// Visits the tree nearest first until `enough(best)`.
-  template <class Enough>
-  void consider_tree(const BoxTree& tree, const Enough& enough) noexcept {
-    BoxStack stack;
-    visit(tree, static_cast<std::uint32_t>(tree.levels()) - 1, 0, stack);
-    while (!stack.empty()) {
-      const BoxStack::Entry next = stack.pop();
-      if (next.bound > limit_) continue;
-      if (next.level > 0) {
-        visit(tree, next.level - 1, next.index, stack);
-        continue;
-      }
-      consider_block(next.index);
-      if (enough(best_)) return;
-    }
-  }
-
- private:
-  void visit(const BoxTree& tree, std::uint32_t level, std::uint32_t node, BoxStack& stack) noexcept {
-    boxes_ += BoxTree::arity;
-    stack.push(lower_bounds(tree.node(level, node), point_), limit_, node, level);
-  }
   void decide(std::uint32_t place) noexcept {
     const PreparedTriangle& triangle = store_.exact[place];
     const Candidate candidate{squared_distance(triangle, center_), triangle.index};
     if (!(candidate < best_)) return;
     best_ = candidate;
     place_ = place;
+    found_ = true;
     limit_ = std::min(limit_, store_.frame.limit(candidate.squared_distance));
   }
+  std::uint32_t without_far_balls(std::uint32_t left, std::span<const std::uint32_t> members) const noexcept;
+  /// Is it, by its ball, farther than the limit?
+  bool ball_excludes(std::uint32_t place) const noexcept;
 
   const TriangleStore& store_;
   const Vec3& center_;
   FilterPoint point_;
   float limit_;
-  Candidate best_;
+  bool found_ = false;
   std::uint32_t place_ = 0;
+  Candidate best_;
   std::uint64_t triangles_ = 0;
   std::uint64_t boxes_ = 0;
 };

@@ -11,15 +11,35 @@
 
 namespace touchmark::grid {
 
-/// Places are positions in the order of a Morton curve through the centroids; `exact[place].index` is the
-/// position in the mesh. `planes` is filled up to whole blocks with triangles infinitely far away, which have
-/// no `exact`.
+/// A ball about a point of the triangle's plane that holds the triangle, in the filter's frame: it bounds the
+/// distance well beyond a corner, where the four planes do not.
+struct TriangleBall {
+  float x, y, z, radius;
+};
+
+/// How far beyond a triangle's ball the foot of four points in its plane surely lies; `height` is the
+/// distance to that plane. 0 or less where it may lie in the ball.
+inline Lanes beyond_ball(const TriangleBall& ball, Lanes x, Lanes y, Lanes z, Lanes height,
+                         float tau) noexcept {
+  const auto magnitude = [](Lanes v) { return greater_of(v, -v); };
+  const Lanes dx = x - ball.x, dy = y - ball.y, dz = z - ball.z;
+  // |p - c|^2 is off by 2 |p - c| times the rounding of p and c and by five roundings of its own, the height
+  // by tau: all together less than twice tau |p - c|, tau being eight roundings of |p| + |c|.
+  const Lanes rounding = 2 * tau * (magnitude(dx) + magnitude(dy) + magnitude(dz));
+  const Lanes along = ((dx * dx + dy * dy) + dz * dz) - rounding - (height + tau) * (height + tau);
+  return square_root(greater_of(along, Lanes{0, 0, 0, 0})) - (ball.radius + 4 * tau);
+}
+
+/// Places are positions in an order that halves the mesh again and again across its longest side;
+/// `exact[place].index` is the position in the mesh. `planes` is filled up to whole blocks with triangles
+/// infinitely far away, which have no `exact`.
 struct TriangleStore {
   static constexpr std::uint32_t block_size = 8;
 
   FilterFrame frame;
   std::vector<PreparedTriangle> exact;
   std::vector<TrianglePlanes> planes;
+  std::vector<TriangleBall> balls;
   std::vector<TriangleId> ids;  ///< by position in the mesh; empty when they are the positions
 
   /// The mesh's box must fit (FilterFrame::fits).

@@ -1,0 +1,139 @@
+#include "core/grid_group/cell_tree.h"
+
+#include <algorithm>
+#include <limits>
+
+#include <Eigen/Geometry>
+
+#include "core/grid_group/nearest_search.h"
+
+namespace touchmark::grid {
+
+/// Level by level, so that what memory there is goes evenly around.
+class CellTreeBuilder {
+ public:
+  CellTreeBuilder(const TriangleStore& store, const BoxTree& tree, const CellOptions& options)
+      : store_(store), tree_(tree), options_(options) {}
+
+  CellTree build() {
+    set_up_cube();
+    const auto root = static_cast<std::uint32_t>(cells_.links_.size());
+    cells_.links_.push_back(0);
+    std::vector<Open> level = {{Vec3::Zero(), root, 0}};
+    for (unsigned depth = 0; !level.empty(); ++depth) level = refine(level, depth);
+    fill_top(root);
+    cells_.links_.shrink_to_fit();
+    cells_.leaves_.shrink_to_fit();
+    return std::move(cells_);
+  }
+
+ private:
+  /// A cell whose link is not set yet.
+  struct Open {
+    Vec3 middle;
+    std::uint32_t link;
+    std::uint32_t hint;  ///< place of a triangle that is probably near
+  };
+
+  void set_up_cube() {
+    // The mesh's box reaches to 1 at most; a little room for probes that touch it from outside.
+    constexpr double room = 1.04;
+    cells_.half_ = room;
+    if (options_.smallest > 0) {
+      cells_.half_ = options_.smallest / 2;
+      while (cells_.half_ < room) cells_.half_ *= 2;
+    }
+    cells_.unit_ = std::ldexp(2 * cells_.half_, -static_cast<int>(CellTree::most_levels));
+    // A little less, so that a sum rounded up to the cube's edge still counts as inside.
+    cells_.units_per_length_ = (1 - 0x1p-50) / cells_.unit_;
+    // One cell at the top to 32 triangles or so, and no more of them than a cache likes.
+    while (cells_.top_levels_ < 5 && std::size_t{32} << (3 * cells_.top_levels_) < store_.size())
+      ++cells_.top_levels_;
+    cells_.links_.assign(std::size_t{1} << (3 * cells_.top_levels_), 0);
+    least_edge_ = options_.smallest > 0 ? options_.smallest : 0.25 * mean_size();
+    least_edge_ = std::max(least_edge_, cells_.unit_ * 4);
+  }
+
+  double size_of(const PreparedTriangle& t) const {
+    const double twice_area = (t.corner[1] - t.corner[0]).cross(t.corner[2] - t.corner[0]).norm();
+    return store_.frame.scale() * std::sqrt(twice_area);
+  }
+
+  double mean_size() const {
+    double sum = 0;
+    for (const PreparedTriangle& t : store_.exact) sum += size_of(t);
+    return sum / store_.size();
+  }
+
+  std::vector<Open> refine(const std::vector<Open>& open, unsigned level) {
+    const double edge = std::ldexp(2 * cells_.half_, -static_cast<int>(level));
+    cells_.smallest_edge_ = edge;
+    std::vector<Open> next;
+    for (const Open& cell : open) {
+      const CellTree::Leaf leaf = nearest_to(cell);
+      if (level < cells_.top_levels_ || (wants_children(leaf, edge) && fits_children(next.size()))) {
+        const auto node = static_cast<std::uint32_t>(cells_.links_.size());
+        cells_.links_[cell.link] = node;
+        cells_.links_.resize(cells_.links_.size() + 8);
+        for (std::uint32_t i = 0; i < 8; ++i) {
+          const Vec3 side(i & 1u ? 1 : -1, i & 2u ? 1 : -1, i & 4u ? 1 : -1);
+          next.push_back({cell.middle + 0.25 * edge * side, node + i, leaf.place});
+        }
+      } else {
+        cells_.links_[cell.link] = CellTree::is_leaf | static_cast<std::uint32_t>(cells_.leaves_.size());
+        cells_.leaves_.push_back(leaf);
+      }
+    }
+    return next;
+  }
+
+  CellTree::Leaf nearest_to(const Open& cell) const {
+    const Vec3 center = store_.frame.origin() + cell.middle / store_.frame.scale();
+    NearestSearch search(store_, center, std::numeric_limits<double>::infinity());
+    search.consider(cell.hint);
+    search.consider_tree(tree_);
+    const double distance = store_.frame.scale() * std::sqrt(search.best().squared_distance);
+    return {search.place(), static_cast<float>(distance * (1 - 0x1p-20) - 0x1p-30)};
+  }
+
+  /// Near the surface, down to the size of the triangles there.
+  bool wants_children(const CellTree::Leaf& leaf, double edge) const {
+    if (edge < 1.5 * least_edge_ || static_cast<double>(leaf.distance) > edge) return false;
+    return options_.smallest > 0 || edge > 2 * size_of(store_.exact[leaf.place]);
+  }
+
+  bool fits_children(std::size_t waiting) {
+    constexpr std::size_t bytes_a_cell = sizeof(CellTree::Leaf) + sizeof(std::uint32_t);
+    const std::size_t cells = cells_.leaves_.size() + cells_.links_.size() / 8 + waiting + 8;
+    const bool fits = cells * bytes_a_cell <= options_.most_bytes;
+    cells_.coarsened_ |= !fits;
+    return fits;
+  }
+
+  void fill_top(std::uint32_t root) {
+    const std::uint32_t count = 1u << cells_.top_levels_;
+    for (std::uint32_t z = 0; z < count; ++z) {
+      for (std::uint32_t y = 0; y < count; ++y) {
+        for (std::uint32_t x = 0; x < count; ++x) {
+          std::uint32_t link = cells_.links_[root];
+          for (unsigned shift = cells_.top_levels_; shift-- > 0;)
+            link =
+                cells_.links_[link + ((x >> shift & 1u) | (y >> shift & 1u) << 1 | (z >> shift & 1u) << 2)];
+          cells_.links_[(z * count + y) * count + x] = link;
+        }
+      }
+    }
+  }
+
+  const TriangleStore& store_;
+  const BoxTree& tree_;
+  CellOptions options_;
+  double least_edge_ = 0;
+  CellTree cells_;
+};
+
+CellTree CellTree::build(const TriangleStore& store, const BoxTree& tree, const CellOptions& options) {
+  return CellTreeBuilder(store, tree, options).build();
+}
+
+}  // namespace touchmark::grid

@@ -1,0 +1,85 @@
+/// Cells around the mesh: small ones near the surface, each naming a triangle near its middle.
+///
+/// An octree over a cube about the mesh, in the coordinates of the filter's frame; its top is one dense
+/// table.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/geometry/aabb.h"
+#include "core/grid_group/box_tree.h"
+#include "core/grid_group/triangle_store.h"
+
+namespace touchmark::grid {
+
+struct CellOptions {
+  double smallest = 0;  ///< edge, in the frame; 0: as the triangles are
+  std::size_t most_bytes = 0;
+};
+
+/// The triangle nearest to a cell's middle, and how far it is: what a query starts from.
+struct Cell {
+  Vec3 middle;      ///< in the frame
+  double distance;  ///< from the middle to the mesh, in the frame, rounded down
+  std::uint32_t place;
+};
+
+class CellTree {
+ public:
+  static CellTree build(const TriangleStore& store, const BoxTree& tree, const CellOptions& options);
+
+  bool holds(const Vec3& in_frame) const noexcept {
+    return std::abs(in_frame.x()) < half_ && std::abs(in_frame.y()) < half_ && std::abs(in_frame.z()) < half_;
+  }
+  /// Of the cell that a point of the cube lies in.
+  Cell at(const Vec3& in_frame) const noexcept {
+    const std::array<std::uint32_t, 3> at = {unit(in_frame.x()), unit(in_frame.y()), unit(in_frame.z())};
+    unsigned shift = most_levels - top_levels_;
+    std::uint32_t link =
+        links_[((at[2] >> shift << top_levels_ | at[1] >> shift) << top_levels_) | at[0] >> shift];
+    while (!(link & is_leaf)) {
+      --shift;
+      link = links_[link + ((at[0] >> shift & 1u) | (at[1] >> shift & 1u) << 1 | (at[2] >> shift & 1u) << 2)];
+    }
+    const Leaf& leaf = leaves_[link & ~is_leaf];
+    const double edge = unit_ * (1u << shift);
+    const auto middle = [&](std::uint32_t along) { return ((along >> shift) + 0.5) * edge - half_; };
+    return {{middle(at[0]), middle(at[1]), middle(at[2])}, static_cast<double>(leaf.distance), leaf.place};
+  }
+
+  std::size_t cells() const noexcept { return leaves_.size(); }
+  double smallest_edge() const noexcept { return smallest_edge_; }
+  bool coarsened() const noexcept { return coarsened_; }
+  std::size_t bytes() const noexcept {
+    return links_.capacity() * sizeof(std::uint32_t) + leaves_.capacity() * sizeof(Leaf);
+  }
+
+ private:
+  friend class CellTreeBuilder;
+  static constexpr unsigned most_levels = 24;
+  static constexpr std::uint32_t is_leaf = 1u << 31;
+
+  struct Leaf {
+    std::uint32_t place;
+    float distance;
+  };
+
+  std::uint32_t unit(double along) const noexcept {
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>((along + half_) * units_per_length_));
+  }
+
+  double half_ = 0;  ///< of the cube's edge; its middle is the frame's origin
+  double unit_ = 0;  ///< edge of a cell of the last possible level
+  double units_per_length_ = 0;
+  unsigned top_levels_ = 0;
+  std::vector<std::uint32_t> links_;  ///< the top table, then eight a node: the first of a node, or a leaf
+  std::vector<Leaf> leaves_;
+  double smallest_edge_ = 0;
+  bool coarsened_ = false;
+};
+
+}  // namespace touchmark::grid
