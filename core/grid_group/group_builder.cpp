@@ -68,7 +68,14 @@ void GroupBuilder::add_group(std::uint32_t place) {
       if (!gather(box.padded(prism.farthest() + lead_))) return;
       gathered = true;
     }
-    select_members(prism);
+    // What a higher prism can do without, a lower one can.
+    if (height == first_height * footprint.size) {
+      select_members(prism);
+    } else {
+      std::erase_if(members_, [&](std::uint32_t member) {
+        return prism.excludes(store_.planes[member], store_.balls[member]);
+      });
+    }
     if (members_.size() <= Groups::most_members) break;
     height *= shrinking;
   } while (height >= least_height * footprint.size);
