@@ -12,12 +12,6 @@ namespace {
 
 constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 
-/// A vector from a point of the triangle to the query point, and its squared length.
-struct Offset {
-  Vec3 vector;
-  double squared;
-};
-
 /// Which of two ends to measure a segment from must not depend on the order in which a triangle names them.
 bool precedes(const Vec3& a, const Vec3& b) noexcept {
   if (a.x() != b.x()) return a.x() < b.x();
@@ -58,24 +52,6 @@ bool surely_over_face(const PreparedTriangle& t, const std::array<Vec3, 3>& to,
       return false;
   }
   return true;
-}
-
-Offset offset_from(const PreparedTriangle& t, const Vec3& point) noexcept {
-  const std::array<Vec3, 3> to = {point - t.corner[0], point - t.corner[1], point - t.corner[2]};
-  const std::array<double, 3> squared = {to[0].squaredNorm(), to[1].squaredNorm(), to[2].squaredNorm()};
-  if (surely_over_face(t, to, squared)) {
-    std::size_t near = squared[1] < squared[0] ? 1 : 0;
-    if (squared[2] < squared[near]) near = 2;
-    const double height = to[near].dot(t.normal);
-    return {height * t.normal, height * height};
-  }
-  Offset best = from_segment(t.corner[0], t.corner[1], to[0], to[1], squared[0], squared[1]);
-  for (std::size_t i = 1; i < 3; ++i) {
-    const std::size_t j = i == 2 ? 0 : i + 1;
-    const Offset other = from_segment(t.corner[i], t.corner[j], to[i], to[j], squared[i], squared[j]);
-    if (other.squared < best.squared) best = other;
-  }
-  return best;
 }
 
 /// p x q for vectors given as double-doubles, one component.
@@ -138,12 +114,34 @@ std::vector<PreparedTriangle> prepare(const TriangleMesh& mesh) {
   return prepared;
 }
 
+Offset offset_from(const PreparedTriangle& t, const Vec3& point) noexcept {
+  const std::array<Vec3, 3> to = {point - t.corner[0], point - t.corner[1], point - t.corner[2]};
+  const std::array<double, 3> squared = {to[0].squaredNorm(), to[1].squaredNorm(), to[2].squaredNorm()};
+  if (surely_over_face(t, to, squared)) {
+    std::size_t near = squared[1] < squared[0] ? 1 : 0;
+    if (squared[2] < squared[near]) near = 2;
+    const double height = to[near].dot(t.normal);
+    return {height * t.normal, height * height};
+  }
+  Offset best = from_segment(t.corner[0], t.corner[1], to[0], to[1], squared[0], squared[1]);
+  for (std::size_t i = 1; i < 3; ++i) {
+    const std::size_t j = i == 2 ? 0 : i + 1;
+    const Offset other = from_segment(t.corner[i], t.corner[j], to[i], to[j], squared[i], squared[j]);
+    if (other.squared < best.squared) best = other;
+  }
+  return best;
+}
+
 double squared_distance(const PreparedTriangle& triangle, const Vec3& point) noexcept {
   return offset_from(triangle, point).squared;
 }
 
 Contact contact_on(const PreparedTriangle& triangle, const Vec3& point, TriangleId id) noexcept {
-  const Offset offset = offset_from(triangle, point);
+  return contact_at(triangle, point, offset_from(triangle, point), id);
+}
+
+Contact contact_at(const PreparedTriangle& triangle, const Vec3& point, const Offset& offset,
+                   TriangleId id) noexcept {
   const double distance = std::sqrt(offset.squared);
   // Below a rounding of the coordinates the offset's direction is noise.
   const bool coincident = !(distance > 0);

@@ -58,8 +58,20 @@ struct Candidate {
   }
 };
 
+/// The vector from a triangle's nearest point to the query point, and its squared length.
+struct Offset {
+  Vec3 vector;
+  double squared;
+};
+
+/// `squared` is squared_distance(triangle, point).
+Offset offset_from(const PreparedTriangle& triangle, const Vec3& point) noexcept;
+
 /// The contact on this triangle: `distance` is the square root of squared_distance(triangle, point).
 Contact contact_on(const PreparedTriangle& triangle, const Vec3& point, TriangleId id) noexcept;
+/// The same where offset_from(triangle, point) is known.
+Contact contact_at(const PreparedTriangle& triangle, const Vec3& point, const Offset& offset,
+                   TriangleId id) noexcept;
 
 /// By how much squared_distance can fall short of the true square, and a bounding volume's own rounded
 /// distance exceed its true one, anywhere in a query whose coordinates differ by at most

@@ -16,7 +16,7 @@ inline constexpr double smallest_length = 1e-150;
 /// to its centre is at most the square of this. The kernel may fall short of the true distance by
 /// culling_slack(|p - c| + R), with room for the few roundings of the test itself: twice that, relatively.
 inline double grown_radius(double radius, double reach) noexcept {
-  constexpr double roundings = 1 + 256 * (std::numeric_limits<double>::epsilon() / 2);
+  constexpr double roundings = 1 + 512 * (std::numeric_limits<double>::epsilon() / 2);
   return (radius + reach) * roundings + smallest_length;
 }
 

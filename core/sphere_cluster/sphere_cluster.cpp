@@ -20,7 +20,7 @@ SphereCluster SphereCluster::build(const TriangleMesh& mesh, const Options& opti
   } else if (options.lookup == Lookup::scan) {
     detector.scan_ = SphereScan(mesh, detector.clusters_);
   } else {
-    detector.tree_ = SphereTree(mesh, detector.clusters_);
+    detector.tree_ = SphereTree(mesh, detector.clusters_, options.portable);
   }
   return detector;
 }

@@ -25,6 +25,7 @@ class SphereCluster {
     Lookup lookup = Lookup::tree;
     bool precise = true;  ///< false: the fast level alone; spheres answer in place of their triangles
     VisitOrder order = VisitOrder::breadth_first;  ///< in which triangles are clustered
+    bool portable = false;  ///< tree: forgo the processor's wider instructions; slower, the same bits
   };
   struct Session {
     Work work;

@@ -1,146 +1,200 @@
 #include "core/sphere_cluster/sphere_tree.h"
 
 #include <algorithm>
-#include <array>
+#include <atomic>
 #include <cmath>
 
-#include "core/geometry/sphere_triangle_sweep.h"
-#include "core/sphere_cluster/search_bounds.h"
-#include "core/sphere_cluster/triangle_spheres.h"
+#include "core/sphere_cluster/sphere_tree_search.h"
+#include "core/sphere_cluster/tree_build.h"
 
 namespace touchmark {
 namespace {
 
-constexpr std::uint32_t leaf_size = 4;
-// Every split halves: 32 levels for 2^32 triangles, and one sibling waits for each.
-constexpr std::size_t most_waiting = 40;
+using spheres::TreeParts;
 
-Vec3 centroid_of(const PreparedTriangle& t) noexcept {
-  return t.corner[0] + ((t.corner[1] - t.corner[0]) + (t.corner[2] - t.corner[0])) / 3;
+constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
+
+/// Keeps the least candidate; the limit follows it.
+struct NearestVisitor {
+  const TreeParts& tree;
+  const FilterFrame& frame;
+  const Vec3& center;
+  float limit;
+  Work work{};
+  Candidate best{};
+  Vec3 offset{};
+  std::uint32_t kept_at = nowhere;
+
+  bool wants(std::uint32_t at) const noexcept { return at != kept_at; }
+  void take(std::uint32_t at, const Offset& found) noexcept {
+    const Candidate candidate{found.squared, tree.triangles[at].index};
+    if (!(candidate < best)) return;
+    best = candidate;
+    offset = found.vector;
+    kept_at = at;
+    limit = std::min(limit, frame.limit(best.squared_distance));
+  }
+};
+
+/// Is content with any triangle within the radius.
+struct TouchVisitor {
+  const Vec3& center;
+  double radius;
+  float limit;
+  Work work{};
+  double least = std::numeric_limits<double>::infinity();  ///< distance of those shown
+  std::uint32_t kept_at = nowhere;
+
+  bool wants(std::uint32_t) const noexcept { return kept_at == nowhere; }
+  void take(std::uint32_t at, const Offset& found) noexcept {
+    const double distance = std::sqrt(found.squared);
+    least = std::min(least, distance);
+    if (!(distance <= radius)) return;
+    kept_at = at;
+    limit = -1;  // nothing is within it: the search ends
+  }
+};
+
+/// Tells the memories of different trees apart, also where one took another's place in memory. From 1.
+std::uint64_t next_number() noexcept {
+  static std::atomic<std::uint64_t> last = 0;
+  return ++last;
+}
+
+double mean_block_radius(const TreeParts& parts) noexcept {
+  double sum = 0;
+  for (const spheres::TreeNode& node : parts.nodes)
+    for (std::size_t i = 0; i < spheres::tree_width; ++i)
+      if (node.child[i].is_block()) sum += node.radius[i];
+  return sum / static_cast<double>(parts.blocks.size());
 }
 
 }  // namespace
 
-SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters)
-    : ids_(mesh.ids().begin(), mesh.ids().end()) {
-  triangles_.reserve(mesh.size());
-  for (const std::uint32_t triangle : clusters.members) triangles_.push_back(prepare(mesh, triangle));
-  nodes_.emplace_back();
-  build(0, 0, static_cast<std::uint32_t>(triangles_.size()));
-  nodes_.shrink_to_fit();
-}
-
-void SphereTree::build(std::uint32_t node, std::uint32_t begin, std::uint32_t end) {
-  Aabb corners, centers;
-  for (std::uint32_t i = begin; i < end; ++i) {
-    for (const Vec3& corner : triangles_[i].corner) corners.extend(corner);
-    centers.extend(centroid_of(triangles_[i]));
-  }
-  Sphere sphere{corners.center(), 0};
-  for (std::uint32_t i = begin; i < end; ++i)
-    for (const Vec3& corner : triangles_[i].corner)
-      sphere.radius = std::max(sphere.radius, radius_to(sphere.center, corner));
-  nodes_[node].sphere = sphere;
-  if (end - begin <= leaf_size) {
-    nodes_[node].first = begin;
-    nodes_[node].count = end - begin;
+SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters, bool portable)
+    : number_(next_number()),
+      avx2_(!portable && spheres::processor_has_avx2()),
+      searchable_(FilterFrame::fits(mesh.bounds())),
+      radius_(0.5 * mesh.diagonal()),
+      ids_(mesh.ids().begin(), mesh.ids().end()) {
+  if (!searchable_) {
+    parts_.triangles = prepare(mesh);
     return;
   }
-  Eigen::Index axis = 0;
-  centers.extent().maxCoeff(&axis);
-  const std::uint32_t middle = begin + (end - begin) / 2;
-  std::nth_element(triangles_.begin() + begin, triangles_.begin() + middle, triangles_.begin() + end,
-                   [axis](const PreparedTriangle& a, const PreparedTriangle& b) {
-                     const double x = centroid_of(a)[axis], y = centroid_of(b)[axis];
-                     return x != y ? x < y : a.index < b.index;
-                   });
-  const auto children = static_cast<std::uint32_t>(nodes_.size());
-  nodes_[node].first = children;
-  nodes_.resize(nodes_.size() + 2);
-  build(children, begin, middle);
-  build(children + 1, middle, end);
+  frame_ = FilterFrame::around(mesh.bounds());
+  parts_ = spheres::build_tree(mesh, clusters, frame_);
+  grain_ = mean_block_radius(parts_) / frame_.scale();
 }
 
-void SphereTree::consider(std::uint32_t triangle, const Vec3& center, Best& best, Work& work) const noexcept {
-  const Candidate candidate{squared_distance(triangles_[triangle], center), triangles_[triangle].index};
-  ++work.triangles;
-  if (candidate < best.candidate) best = {candidate, triangle};
+void SphereTree::claim(Memory& memory) const noexcept {
+  if (memory.tree == number_) return;
+  memory = {};
+  memory.tree = number_;
+}
+
+/// What the kernel's rounding may do, here and wherever `free` is going to be used: it grows with the way
+/// there, which is at most `free` itself, so a relative 2^-40 of that does for the rest.
+double SphereTree::slack(const Vec3& center) const noexcept {
+  return 2 * culling_slack((center - frame_.origin()).lpNorm<1>() + radius_);
+}
+
+/// No triangle is nearer than this: neither those shown, the nearest of which is at `shown`, nor those
+/// unseen.
+double SphereTree::free_within(float unseen, double shown, const Vec3& center) const noexcept {
+  return std::min(std::sqrt(frame_.squared(unseen)), shown * (1 - 0x1p-40)) - slack(center);
+}
+
+/// The distance changes by no more than the point moves.
+bool SphereTree::surely_free(const Vec3& center, double reach, const Memory& memory) const noexcept {
+  const double room = memory.free - reach;
+  return room > 0 && (center - memory.center).squaredNorm() < room * room;
+}
+
+bool SphereTree::list_blocks(const Vec3& center, const FilterPoint& point, float distance, float ahead,
+                             Memory& memory, Work& work) const noexcept {
+  // A point that moves by many blocks a tick has left the list before it is used.
+  constexpr double most_grains = 4;
+  constexpr std::uint32_t longest_pause = 255;
+  if (memory.pause > 0) {
+    --memory.pause;
+    return false;
+  }
+  spheres::NearBlocks& blocks = memory.blocks;
+  const float enough = distance + 2 * point.tau;
+  bool complete = false;
+  if (ahead <= static_cast<float>(most_grains * frame_.scale() * grain_)) {
+    blocks.start(center, distance + ahead);
+    avx2_ ? spheres::avx2::list_blocks(parts_, point, blocks, enough, work)
+          : spheres::portable::list_blocks(parts_, point, blocks, enough, work);
+    complete = blocks.rest > enough;
+    // The listing ended early, so what it left out may be anywhere.
+    if (!complete) blocks.forget();
+  }
+  memory.last_pause = complete ? 0 : std::min(longest_pause, 2 * memory.last_pause + 1);
+  memory.pause = memory.last_pause;
+  return complete;
 }
 
 bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const noexcept {
-  return nearest(probe.center, probe.radius, memory, work).has_value();
+  const Vec3& center = probe.center;
+  const double radius = probe.radius;
+  if (!(radius >= 0)) return false;
+  claim(memory);
+  if (surely_free(center, radius, memory)) return false;
+  TouchVisitor visitor{center, radius, 0};
+  if (!can_search(center)) {
+    show_all(visitor);
+    work += visitor.work;
+    return visitor.kept_at != nowhere;
+  }
+  const double moved = (center - memory.center).norm();
+  if ((memory.nearest + moved) * (1 + 0x1p-40) + slack(center) <= radius) return true;
+  visitor.limit = frame_.limit(radius * radius);
+  float unseen = 0;
+  if (memory.nearest - moved <= radius) show(memory.last, visitor);
+  if (visitor.kept_at == nowhere) unseen = descend(frame_.point(center), visitor);
+  work += visitor.work;
+  const bool touching = visitor.kept_at != nowhere;
+  memory.center = center;
+  memory.free = touching ? -1 : free_within(unseen, visitor.least, center);
+  memory.nearest = touching ? visitor.least : std::numeric_limits<double>::infinity();
+  if (touching) memory.last = visitor.kept_at;
+  return touching;
 }
 
 std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Memory& memory,
                                            Work& work) const noexcept {
   if (!(reach >= 0)) return std::nullopt;
-  Best best;
-  consider(memory.last < triangles_.size() ? memory.last : 0, center, best, work);
-  struct Waiting {
-    std::uint32_t node;
-    double squared;
-  };
-  std::array<Waiting, most_waiting> waiting;
-  std::size_t count = 0;
-  waiting[count++] = {0, 0};
-  while (count > 0) {
-    const Node& node = nodes_[waiting[--count].node];
-    const double bound = std::min(reach, std::sqrt(best.candidate.squared_distance));
-    const double grown = grown_radius(node.sphere.radius, bound);
-    ++work.spheres;
-    if ((node.sphere.center - center).squaredNorm() > grown * grown) continue;
-    if (node.count > 0) {
-      for (std::uint32_t i = 0; i < node.count; ++i) consider(node.first + i, center, best, work);
-      continue;
+  claim(memory);
+  if (surely_free(center, reach, memory)) return std::nullopt;
+  NearestVisitor visitor{parts_, frame_, center, frame_.limit(reach * reach)};
+  if (can_search(center)) {
+    const FilterPoint point = frame_.point(center);
+    const double moved = (center - memory.center).norm();
+    float unseen = 0;
+    if (memory.nearest + moved <= reach && memory.nearest < std::numeric_limits<double>::infinity()) {
+      show(memory.last, visitor);
+      unseen = search_near(point, moved, visitor, memory);
+    } else {
+      unseen = descend(point, visitor);
     }
-    const double left = (nodes_[node.first].sphere.center - center).squaredNorm();
-    const double right = (nodes_[node.first + 1].sphere.center - center).squaredNorm();
-    const std::uint32_t near = right < left ? 1 : 0;
-    waiting[count++] = {node.first + 1 - near, 0};
-    waiting[count++] = {node.first + near, 0};
+    memory.center = center;
+    memory.nearest = std::sqrt(visitor.best.squared_distance);
+    memory.last = visitor.kept_at;
+    memory.free = free_within(unseen, memory.nearest, center);
+  } else {
+    show_all(visitor);
   }
-  if (best.candidate.index >= triangles_.size()) return std::nullopt;
-  memory.last = best.kept_at;
-  if (!(std::sqrt(best.candidate.squared_distance) <= reach)) return std::nullopt;
-  return contact_on(triangles_[best.kept_at], center, id(best.candidate.index));
-}
-
-std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, Work& work) const noexcept {
-  if (const std::optional<Contact> start = nearest(sweep.from, sweep.radius, memory, work))
-    return Impact{0, *start};
-  const double reach = sweep.radius + sweep_slack(sweep);
-  HitCandidate first;
-  std::uint32_t kept_at = 0;
-  std::array<std::uint32_t, most_waiting> waiting;
-  std::size_t count = 0;
-  waiting[count++] = 0;
-  while (count > 0) {
-    const Node& node = nodes_[waiting[--count]];
-    ++work.spheres;
-    const double grown = grown_radius(node.sphere.radius, reach);
-    const double limit = std::min(first.fraction, 1.0);
-    if (squared_distance_to_way(sweep, limit, node.sphere.center) > grown * grown) continue;
-    if (node.count == 0) {
-      waiting[count++] = node.first + 1;
-      waiting[count++] = node.first;
-      continue;
-    }
-    work.triangles += node.count;
-    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const auto fraction = sweep_hit(triangles_[i], sweep, std::min(first.fraction, 1.0));
-      if (!fraction || !(HitCandidate{*fraction, triangles_[i].index} < first)) continue;
-      first = {*fraction, triangles_[i].index};
-      kept_at = i;
-    }
-  }
-  if (first.index >= triangles_.size()) return std::nullopt;
-  return Impact{first.fraction,
-                contact_on(triangles_[kept_at], position_at(sweep, first.fraction), id(first.index))};
+  work += visitor.work;
+  if (visitor.kept_at == nowhere || !(std::sqrt(visitor.best.squared_distance) <= reach)) return std::nullopt;
+  return contact_at(parts_.triangles[visitor.kept_at], center,
+                    {visitor.offset, visitor.best.squared_distance}, id(visitor.best.index));
 }
 
 std::size_t SphereTree::bytes() const noexcept {
-  return nodes_.capacity() * sizeof(Node) + triangles_.capacity() * sizeof(PreparedTriangle) +
-         ids_.capacity() * sizeof(TriangleId);
+  return parts_.nodes.capacity() * sizeof(spheres::TreeNode) +
+         parts_.blocks.capacity() * sizeof(spheres::TriangleBlock) +
+         parts_.triangles.capacity() * sizeof(PreparedTriangle) + ids_.capacity() * sizeof(TriangleId);
 }
 
 }  // namespace touchmark

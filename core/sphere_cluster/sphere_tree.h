@@ -1,26 +1,39 @@
-/// A hierarchy of spheres over a mesh, searched nearest first.
+/// A hierarchy of spheres over a mesh, searched nearest first: the fast exact form of the sphere-cluster
+/// detector.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <vector>
 
 #include "core/detector.h"
+#include "core/geometry/plane_filter.h"
 #include "core/geometry/point_triangle.h"
 #include "core/sphere_cluster/clustering.h"
+#include "core/sphere_cluster/near_blocks.h"
+#include "core/sphere_cluster/tree_layout.h"
 
 namespace touchmark {
 
 class SphereTree {
  public:
-  /// What a haptic point remembers between ticks.
+  /// What a haptic point remembers between ticks: it changes the cost of an answer, never the answer.
   struct Memory {
-    std::uint32_t last = 0;  ///< where the last nearest triangle is kept
+    std::uint64_t tree = 0;      ///< whose memory this is; 0: nobody's
+    Vec3 center = Vec3::Zero();  ///< where the point was
+    double free = -1;            ///< no triangle was nearer, all rounding included; -1: nothing is known
+    double nearest = std::numeric_limits<double>::infinity();  ///< triangle `last` was that far
+    std::uint32_t last = 0;                                    ///< where it is kept
+    spheres::NearBlocks blocks;
+    std::uint32_t pause = 0;  ///< ticks until blocks are listed again, after there were too many
+    std::uint32_t last_pause = 0;
   };
 
   SphereTree() = default;
-  SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters);
+  /// `portable` forgoes the processor's wider instructions: slower, the same bits.
+  SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters, bool portable);
 
   bool touches(const Probe& probe, Memory& memory, Work& work) const noexcept;
   std::optional<Contact> nearest(const Vec3& center, double reach, Memory& memory, Work& work) const noexcept;
@@ -28,23 +41,35 @@ class SphereTree {
   std::size_t bytes() const noexcept;
 
  private:
-  struct Node {
-    Sphere sphere;
-    std::uint32_t first = 0;  // leaf: its first triangle. Else: its first child; the other one follows.
-    std::uint32_t count = 0;  // triangles; 0: not a leaf
-  };
-  struct Best {
-    Candidate candidate;
-    std::uint32_t kept_at = 0;
-  };
-
-  void build(std::uint32_t node, std::uint32_t begin, std::uint32_t end);
   TriangleId id(std::uint32_t index) const noexcept { return ids_.empty() ? index : ids_[index]; }
-  void consider(std::uint32_t triangle, const Vec3& center, Best& best, Work& work) const noexcept;
+  bool can_search(const Vec3& center) const noexcept { return searchable_ && frame_.covers(center); }
+  void claim(Memory& memory) const noexcept;
+  double slack(const Vec3& center) const noexcept;
+  double free_within(float unseen, double shown, const Vec3& center) const noexcept;
+  bool surely_free(const Vec3& center, double reach, const Memory& memory) const noexcept;
+  /// From a point of the mesh's frame to another, in the tree's, at least.
+  float way(const Vec3& from, const Vec3& to, const FilterPoint& at) const noexcept;
 
-  std::vector<Node> nodes_;
-  std::vector<PreparedTriangle> triangles_;  // in the order of the leaves
-  std::vector<TriangleId> ids_;              // by mesh index; empty when they are the same
+  // Visitors: see sphere_tree_search.h.
+  template <class Visitor>
+  void show(std::uint32_t at, Visitor& visitor) const noexcept;
+  template <class Visitor>
+  void show_all(Visitor& visitor) const noexcept;
+  template <class Visitor>
+  float descend(const FilterPoint& point, Visitor& visitor) const noexcept;
+  template <class Visitor>
+  float search_near(const FilterPoint& point, double moved, Visitor& visitor, Memory& memory) const noexcept;
+  bool list_blocks(const Vec3& center, const FilterPoint& point, float distance, float ahead, Memory& memory,
+                   Work& work) const noexcept;
+
+  std::uint64_t number_ = 0;  ///< of this tree and its copies
+  bool avx2_ = false;
+  bool searchable_ = false;  ///< else the mesh does not fit the frame, and every triangle is looked at
+  FilterFrame frame_;
+  double radius_ = 0;  ///< half the mesh's diagonal
+  double grain_ = 0;   ///< the mean radius of a block
+  spheres::TreeParts parts_;
+  std::vector<TriangleId> ids_;  ///< by mesh index; empty when they are the same
 };
 
 }  // namespace touchmark

@@ -23,6 +23,7 @@ std::vector<SphereCluster::Options> exact_forms(double size) {
   return {{0, Lookup::scan, true},
           {0.1 * size, Lookup::scan, true},
           {0, Lookup::tree, true},
+          {0, Lookup::tree, true, VisitOrder::mesh, true},
           {0.1 * size, Lookup::tree, true}};
 }
 
@@ -52,7 +53,7 @@ void expect_same(const std::optional<Impact>& a, const std::optional<Impact>& b)
 
 std::string label(const test::NamedMesh& scene, const SphereCluster::Options& options) {
   return scene.name + (options.lookup == Lookup::scan ? ", scan" : ", tree") + ", clustering " +
-         std::to_string(options.clustering);
+         std::to_string(options.clustering) + (options.portable ? ", portable" : "");
 }
 
 TEST(SphereCluster, FindsTheNearestOfTwoTriangles) {
@@ -128,6 +129,52 @@ TEST(SphereCluster, EqualsBruteForceOnACoherentWay) {
         if (HasFailure()) return;
       }
     }
+  }
+}
+
+TEST(SphereCluster, AMissedTouchLeavesNoMoreFreeSpaceThanThereIs) {
+  // The collinear triangle has no planes for a filter to reject it by, so the search sees it at 1.05; what
+  // the filter leaves out is 3 away.
+  const TriangleMesh mesh({{1.05, 0, 0}, {1.05, 0.1, 0}, {1.05, 0.2, 0}, {-3, 0, 0}, {-3, 1, 0}, {-3, 0, 1}},
+                          {{0, 1, 2}, {3, 4, 5}});
+  for (const auto& options : exact_forms(1)) {
+    const SphereCluster detector = SphereCluster::build(mesh, options);
+    SphereCluster::Session session;
+    EXPECT_FALSE(detector.touches({{0, 0, 0}, 1}, session));
+    EXPECT_TRUE(detector.touches({{0.5, 0, 0}, 1}, session));
+  }
+}
+
+TEST(SphereCluster, EqualsBruteForceWhereMoreIsNearThanASessionRemembers) {
+  // About the centre of a sphere all of its triangles are equally near, but for the bumps.
+  for (const double noise : {0.0, 1e-3}) {
+    const TriangleMesh mesh = test::bumpy_sphere(24, noise, 37);
+    const BruteForce oracle = BruteForce::build(mesh);
+    for (const auto& options : exact_forms(1)) {
+      const SphereCluster detector = SphereCluster::build(mesh, options);
+      SphereCluster::Session used;
+      BruteForce::Session oracle_session;
+      test::Random random(41);
+      Vec3 center = Vec3::Zero();
+      for (int step = 0; step < 300; ++step) {
+        center = (step % 2 == 0 ? 0.5 : 1) * center + random.vector(step % 2 == 0 ? 0.01 : 1e-5);
+        expect_same(detector.nearest({center, 0}, infinity, used),
+                    oracle.nearest({center, 0}, infinity, oracle_session));
+        if (HasFailure()) return;
+      }
+    }
+  }
+}
+
+TEST(SphereCluster, ASessionMayGoFromOneDetectorToTheNext) {
+  // Built one after the other in the same place, so that addresses do not tell them apart.
+  SphereCluster::Session session;
+  for (const double height : {0.0, 1.0, 0.5}) {
+    const TriangleMesh mesh({{0, 0, height}, {1, 0, height}, {0, 1, height}}, {{0, 1, 2}});
+    const SphereCluster detector = SphereCluster::build(mesh);
+    EXPECT_EQ(detector.nearest({{0.25, 0.25, 3}, 0}, infinity, session)->distance, 3 - height);
+    EXPECT_FALSE(detector.touches({{0.25, 0.25, 3}, std::nextafter(3 - height, 0.0)}, session));
+    EXPECT_TRUE(detector.touches({{0.25, 0.25, 3}, 3 - height}, session));
   }
 }
 

@@ -1,0 +1,57 @@
+/// The parts of SphereTree that depend on what a search is for. A visitor has
+///   center      where the search is from
+///   limit       squared, in the tree's frame: only triangles within it need to be shown; may fall meanwhile
+///   work        counts
+///   wants(at)   does it want to know about the triangle kept there
+///   take(at, offset)
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "core/sphere_cluster/sphere_tree.h"
+#include "core/sphere_cluster/tree_search.h"
+
+namespace touchmark {
+
+template <class Visitor>
+void SphereTree::show(std::uint32_t at, Visitor& visitor) const noexcept {
+  ++visitor.work.triangles;
+  avx2_ ? spheres::avx2::show(parts_, at, visitor) : spheres::portable::show(parts_, at, visitor);
+}
+
+template <class Visitor>
+void SphereTree::show_all(Visitor& visitor) const noexcept {
+  for (std::uint32_t i = 0; i < parts_.triangles.size(); ++i) show(i, visitor);
+}
+
+template <class Visitor>
+float SphereTree::descend(const FilterPoint& point, Visitor& visitor) const noexcept {
+  return avx2_ ? spheres::avx2::descend(parts_, point, visitor)
+               : spheres::portable::descend(parts_, point, visitor);
+}
+
+inline float SphereTree::way(const Vec3& from, const Vec3& to, const FilterPoint& at) const noexcept {
+  return static_cast<float>(frame_.scale() * (to - from).norm()) + 2 * at.tau;
+}
+
+/// From the blocks listed, when they are all that can be within the limit; lists them anew when they are not.
+template <class Visitor>
+float SphereTree::search_near(const FilterPoint& point, double moved, Visitor& visitor,
+                              Memory& memory) const noexcept {
+  // So many ticks ahead: with fewer the listing costs more, with more the longer list does.
+  constexpr double ticks = 16;
+  const float distance = std::sqrt(visitor.limit) + point.tau;
+  float away = way(memory.blocks.anchor, visitor.center, point);
+  if (!(distance + away < memory.blocks.rest)) {
+    const float ahead = static_cast<float>(frame_.scale() * ticks * moved) + 8 * point.tau;
+    if (!list_blocks(visitor.center, point, distance, ahead, memory, visitor.work))
+      return descend(point, visitor);
+    away = 2 * point.tau;
+  }
+  return avx2_ ? spheres::avx2::search_listed(parts_, point, memory.blocks, away, visitor)
+               : spheres::portable::search_listed(parts_, point, memory.blocks, away, visitor);
+}
+
+}  // namespace touchmark

@@ -1,0 +1,65 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/sphere_triangle_sweep.h"
+#include "core/sphere_cluster/search_bounds.h"
+#include "core/sphere_cluster/sphere_tree.h"
+#include "core/sphere_cluster/sphere_tree_search.h"
+
+namespace touchmark {
+namespace {
+
+/// Keeps the first hit of the whole sweep among the triangles near a part of it.
+struct SweepVisitor {
+  const spheres::TreeParts& tree;
+  const Sweep& sweep;
+  Vec3 center;
+  float limit;
+  Work work{};
+  HitCandidate first{};
+  std::uint32_t kept_at = 0;
+
+  /// Never: how far the triangle is from the centre does not matter.
+  bool wants(std::uint32_t at) noexcept {
+    const auto fraction = sweep_hit(tree.triangles[at], sweep, std::min(first.fraction, 1.0));
+    if (fraction && HitCandidate{*fraction, tree.triangles[at].index} < first) {
+      first = {*fraction, tree.triangles[at].index};
+      kept_at = at;
+    }
+    return false;
+  }
+  void take(std::uint32_t, const Offset&) noexcept {}
+};
+
+}  // namespace
+
+// The way is cut into parts, each in a ball about its middle. What can touch the probe on a part is within
+// the part's half length and the radius of that middle.
+std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, Work& work) const noexcept {
+  if (const std::optional<Contact> start = nearest(sweep.from, sweep.radius, memory, work))
+    return Impact{0, *start};
+  SweepVisitor visitor{parts_, sweep, sweep.from, 0};
+  if (!can_search(sweep.from) || !can_search(sweep.to)) {
+    show_all(visitor);
+  } else {
+    const double length = (sweep.to - sweep.from).norm();
+    const double reach = sweep.radius + sweep_slack(sweep);
+    if (surely_free(sweep.from, reach + length, memory)) return std::nullopt;
+    constexpr double most_parts = 256;
+    const double parts =
+        std::clamp(std::ceil(length / (2 * std::max(sweep.radius, grain_))), 1.0, most_parts);
+    const double ball = reach + 0.5 * length / parts * (1 + 0x1p-40);
+    for (double part = 0; part < parts && !(visitor.first.fraction < part / parts); ++part) {
+      visitor.center = position_at(sweep, (part + 0.5) / parts);
+      visitor.limit = frame_.limit(ball * ball);
+      descend(frame_.point(visitor.center), visitor);
+    }
+  }
+  work += visitor.work;
+  if (visitor.first.index >= parts_.triangles.size()) return std::nullopt;
+  return Impact{visitor.first.fraction,
+                contact_on(parts_.triangles[visitor.kept_at], position_at(sweep, visitor.first.fraction),
+                           id(visitor.first.index))};
+}
+
+}  // namespace touchmark

@@ -1,0 +1,130 @@
+#include "core/sphere_cluster/tree_build.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Geometry>
+
+#include "core/sphere_cluster/tree_bounds.h"
+#include "core/sphere_cluster/tree_split.h"
+
+namespace touchmark::spheres {
+namespace {
+
+class Builder {
+ public:
+  Builder(const TriangleMesh& mesh, const SphereClusters& clusters, const FilterFrame& frame)
+      : mesh_(mesh), frame_(frame), splitter_(mesh, clusters, frame) {}
+
+  TreeParts build() {
+    TreeParts parts;
+    parts_ = &parts;
+    const auto count = static_cast<std::uint32_t>(mesh_.size());
+    parts.triangles.reserve(mesh_.size());
+    parts.blocks.reserve(mesh_.size() / tree_width + 1);
+    add_node({0, count, 0});
+    parts.nodes.shrink_to_fit();
+    return parts;
+  }
+
+ private:
+  std::uint32_t add_node(TriangleRange range) {
+    const auto index = static_cast<std::uint32_t>(parts_->nodes.size());
+    parts_->nodes.emplace_back();
+    std::array<TriangleRange, tree_width> children;
+    const std::size_t count = split_into(range, children);
+    for (std::size_t i = count; i < tree_width; ++i) parts_->nodes[index].clear(i);
+    for (std::size_t i = 0; i < count; ++i) {
+      place(parts_->nodes[index], i, bound(children[i]));
+      const TreeRef child = children[i].size() <= tree_width
+                                ? TreeRef{add_block(children[i]) | TreeRef::block_bit}
+                                : TreeRef{add_node(children[i])};
+      parts_->nodes[index].child[i] = child;
+    }
+    return index;
+  }
+
+  /// Splits the range that is most likely to be looked into, again and again.
+  std::size_t split_into(TriangleRange range, std::array<TriangleRange, tree_width>& children) {
+    std::array<float, tree_width> area;
+    children[0] = range;
+    area[0] = splitter_.area(range);
+    std::size_t count = 1;
+    while (count < tree_width) {
+      std::size_t widest = count;
+      for (std::size_t i = 0; i < count; ++i)
+        if (children[i].size() > tree_width && (widest == count || area[i] > area[widest])) widest = i;
+      if (widest == count) break;
+      const auto [left, right] = splitter_.split(children[widest]);
+      children[widest] = left;
+      children[count] = right;
+      area[widest] = splitter_.area(left);
+      area[count] = splitter_.area(right);
+      ++count;
+    }
+    // In the splitter's order, so that the last block is the one that need not be full.
+    std::sort(children.begin(), children.begin() + count,
+              [](const TriangleRange& a, const TriangleRange& b) { return a.begin < b.begin; });
+    return count;
+  }
+
+  SlabbedSphere bound(const TriangleRange& range) {
+    corners_.clear();
+    Vec3 normal = Vec3::Zero();
+    for (std::uint32_t i = range.begin; i < range.end; ++i) {
+      std::array<Vec3, 3> v;
+      for (int k = 0; k < 3; ++k) {
+        v[static_cast<std::size_t>(k)] =
+            frame_.scale() * (mesh_.corner(splitter_.triangle(i), k) - frame_.origin());
+        corners_.push_back(v[static_cast<std::size_t>(k)]);
+      }
+      normal += (v[1] - v[0]).cross(v[2] - v[0]);
+    }
+    return bound_points(corners_, normal);
+  }
+
+  std::uint32_t add_block(const TriangleRange& range) {
+    const auto index = static_cast<std::uint32_t>(parts_->blocks.size());
+    TriangleBlock block{};
+    std::fill(std::begin(block.offset[0]), std::end(block.offset[0]), std::numeric_limits<float>::max());
+    for (std::uint32_t i = 0; i < range.size(); ++i) {
+      parts_->triangles.push_back(prepare(mesh_, splitter_.triangle(range.begin + i)));
+      const TrianglePlanes planes = planes_of(parts_->triangles.back(), frame_);
+      for (int k = 0; k < 4; ++k) {
+        block.x[k][i] = planes.x[k];
+        block.y[k][i] = planes.y[k];
+        block.z[k][i] = planes.z[k];
+        block.offset[k][i] = planes.offset[k];
+      }
+    }
+    parts_->blocks.push_back(block);
+    return index;
+  }
+
+  static void place(TreeNode& node, std::size_t i, const SlabbedSphere& bound) {
+    node.x[i] = bound.center.x();
+    node.y[i] = bound.center.y();
+    node.z[i] = bound.center.z();
+    node.radius[i] = bound.radius;
+    node.normal_x[i] = bound.normal.x();
+    node.normal_y[i] = bound.normal.y();
+    node.normal_z[i] = bound.normal.z();
+    node.half[i] = bound.half;
+  }
+
+  const TriangleMesh& mesh_;
+  const FilterFrame& frame_;
+  TriangleSplitter splitter_;
+  TreeParts* parts_ = nullptr;
+  std::vector<Vec3> corners_;
+};
+
+}  // namespace
+
+TreeParts build_tree(const TriangleMesh& mesh, const SphereClusters& clusters, const FilterFrame& frame) {
+  return Builder(mesh, clusters, frame).build();
+}
+
+}  // namespace touchmark::spheres

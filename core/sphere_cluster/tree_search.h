@@ -1,0 +1,112 @@
+/// The search of the hierarchy, for the portable instruction set and for AVX2, chosen at run time.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+#include "core/detector.h"
+#include "core/geometry/plane_filter.h"
+#include "core/geometry/point_triangle.h"
+#include "core/geometry/point_triangle_avx2.h"
+#include "core/sphere_cluster/near_blocks.h"
+#include "core/sphere_cluster/tree_layout.h"
+#include "core/sphere_cluster/tree_split.h"
+
+namespace touchmark::spheres {
+
+struct Waiting {
+  float bound;
+  TreeRef ref;
+};
+/// Seven siblings wait at each level.
+inline constexpr std::size_t most_waiting = TriangleSplitter::deepest * tree_width;
+
+/// More than any bound of what is there.
+inline constexpr float farthest = std::numeric_limits<float>::max();
+
+/// |v|^2 - (n.v)^2 may come out too large by 16 roundings of |v|^2: three for v and its square, two sums, the
+/// same for n.v, twice, and n's own length.
+inline constexpr float difference_rounding = 1 - 16 * 0x1p-24F;
+
+namespace portable {
+
+inline Offset kernel(const PreparedTriangle& triangle, const Vec3& point) noexcept {
+  return offset_from(triangle, point);
+}
+
+inline constexpr std::size_t lanes = 4;
+using Wide [[gnu::vector_size(16)]] = float;
+using WideBits [[gnu::vector_size(16)]] = int;
+
+inline Wide load(const float* from) noexcept {
+  Wide values;
+  std::memcpy(&values, from, sizeof values);
+  return values;
+}
+inline void store(float* to, Wide values) noexcept { std::memcpy(to, &values, sizeof values); }
+inline Wide larger(Wide a, Wide b) noexcept { return a > b ? a : b; }
+inline Wide smaller(Wide a, Wide b) noexcept { return a < b ? a : b; }
+#if defined(__SSE2__)
+inline Wide square_root(Wide x) noexcept { return _mm_sqrt_ps(x); }
+inline unsigned bits_of(WideBits mask) noexcept {
+  return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(mask)));
+}
+#else
+inline Wide square_root(Wide x) noexcept {
+  return Wide{std::sqrt(x[0]), std::sqrt(x[1]), std::sqrt(x[2]), std::sqrt(x[3])};
+}
+inline unsigned bits_of(WideBits mask) noexcept {
+  return static_cast<unsigned>((mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8));
+}
+#endif
+#include "core/sphere_cluster/tree_search.inl"
+
+}  // namespace portable
+
+#if TOUCHMARK_HAS_AVX2
+#pragma GCC push_options
+#pragma GCC target("avx2")
+namespace avx2 {
+
+inline Offset kernel(const PreparedTriangle& triangle, const Vec3& point) noexcept {
+  return touchmark::avx2::offset_from(triangle, point);
+}
+
+inline constexpr std::size_t lanes = 8;
+using Wide [[gnu::vector_size(32)]] = float;
+using WideBits [[gnu::vector_size(32)]] = int;
+
+inline Wide load(const float* from) noexcept {
+  Wide values;
+  std::memcpy(&values, from, sizeof values);
+  return values;
+}
+inline void store(float* to, Wide values) noexcept { std::memcpy(to, &values, sizeof values); }
+inline Wide larger(Wide a, Wide b) noexcept { return a > b ? a : b; }
+inline Wide smaller(Wide a, Wide b) noexcept { return a < b ? a : b; }
+inline Wide square_root(Wide x) noexcept { return _mm256_sqrt_ps(x); }
+inline unsigned bits_of(WideBits mask) noexcept {
+  return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask)));
+}
+#include "core/sphere_cluster/tree_search.inl"
+
+}  // namespace avx2
+#pragma GCC pop_options
+
+inline bool processor_has_avx2() noexcept { return __builtin_cpu_supports("avx2") != 0; }
+#else
+namespace avx2 = portable;
+inline bool processor_has_avx2() noexcept { return false; }
+#endif
+
+}  // namespace touchmark::spheres

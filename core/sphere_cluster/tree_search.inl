@@ -1,0 +1,175 @@
+// The search itself, written once and included once an instruction set (tree_search.h), in a namespace that
+// defines Wide, a vector of `lanes` floats, and its load, square_root, larger, smaller and bits_of. The same
+// operations in the same order, so that both visit the same nodes and give the same bits.
+
+struct Point {
+  Wide x, y, z, tau;
+};
+
+/// Lower bounds of the squared distances to the children's slabbed spheres. The height over the slab and the
+/// excess beyond the radius are orthogonal, so their squares add up.
+inline Wide child_bounds(const TreeNode& node, std::size_t at, const Point& p) noexcept {
+  const Wide x = p.x - load(node.x + at), y = p.y - load(node.y + at), z = p.z - load(node.z + at);
+  const Wide along =
+      x * load(node.normal_x + at) + y * load(node.normal_y + at) + z * load(node.normal_z + at);
+  const Wide squared = x * x + y * y + z * z;
+  const Wide across = square_root(larger(squared * difference_rounding - along * along, Wide{}));
+  const Wide height = larger(larger(along, -along) - load(node.half + at) - p.tau, Wide{});
+  const Wide excess = larger(across - load(node.radius + at) - p.tau, Wide{});
+  return height * height + excess * excess;
+}
+
+/// Lower bounds of the squared distances to the triangles: the plane filter of core/geometry/plane_filter.h
+/// on plain arrays.
+inline Wide triangle_bounds(const TriangleBlock& block, std::size_t at, const Point& p) noexcept {
+  const auto plane = [&](std::size_t k) {
+    return ((p.x * load(block.x[k] + at) + p.y * load(block.y[k] + at)) + p.z * load(block.z[k] + at)) +
+           load(block.offset[k] + at);
+  };
+  const Wide face = plane(0);
+  const Wide side = larger(plane(1), larger(plane(2), plane(3)));
+  const Wide height = larger(larger(face, -face) - p.tau, Wide{});
+  const Wide excess = larger(side - p.tau, Wide{});
+  return height * height + excess * excess;
+}
+
+inline Point spread(const FilterPoint& p) noexcept {
+  return {Wide{} + p.x, Wide{} + p.y, Wide{} + p.z, Wide{} + p.tau};
+}
+
+/// Those of eight bounds that are at most the limit, as bits; `unseen` falls to the least of the others.
+template <class Bounds>
+inline unsigned within(const Bounds& bounds_at, float limit, Wide& unseen) noexcept {
+  unsigned near = 0;
+  for (std::size_t at = 0; at < tree_width; at += lanes) {
+    const Wide bounds = bounds_at(at);
+    const WideBits is_near = bounds <= limit;
+    near |= bits_of(is_near) << at;
+    unseen = smaller(unseen, is_near ? unseen : bounds);
+  }
+  return near;
+}
+
+inline float least_lane(Wide values) noexcept {
+  float least = values[0];
+  for (std::size_t i = 1; i < lanes; ++i) least = values[i] < least ? values[i] : least;
+  return least;
+}
+
+inline void prefetch(const TreeNode& node) noexcept {
+  for (std::size_t line = 0; line < sizeof node; line += 64)
+    __builtin_prefetch(reinterpret_cast<const char*>(&node) + line);
+}
+
+/// Takes the lowest bit off.
+inline std::uint32_t take(unsigned& bits) noexcept {
+  const auto lowest = static_cast<std::uint32_t>(std::countr_zero(bits));
+  bits &= bits - 1;
+  return lowest;
+}
+
+template <class Visitor>
+inline void show(const TreeParts& tree, std::uint32_t at, Visitor& visitor) noexcept {
+  if (visitor.wants(at)) visitor.take(at, kernel(tree.triangles[at], visitor.center));
+}
+
+/// Shows the visitor every triangle that may be within its limit, nearest volumes first. Returns a lower
+/// bound of the squared distance to what it was not shown.
+template <class Visitor>
+float descend(const TreeParts& tree, const FilterPoint& point, Visitor& visitor) noexcept {
+  const Point p = spread(point);
+  Wide unseen = Wide{} + farthest;
+  std::array<Waiting, most_waiting> waiting;
+  std::size_t count = 1;
+  waiting[0] = {0, TreeRef{0}};
+  while (count > 0) {
+    const Waiting next = waiting[--count];
+    if (next.bound > visitor.limit) {
+      unseen = smaller(unseen, Wide{} + next.bound);
+      continue;
+    }
+    const std::uint32_t index = next.ref.index();
+    if (next.ref.is_block()) {
+      const TriangleBlock& block = tree.blocks[index];
+      unsigned near =
+          within([&](std::size_t at) { return triangle_bounds(block, at, p); }, visitor.limit, unseen);
+      visitor.work.triangles += tree_width;
+      while (near != 0) show(tree, index * tree_width + take(near), visitor);
+      continue;
+    }
+    const TreeNode& node = tree.nodes[index];
+    alignas(64) std::array<float, tree_width> bound;
+    unsigned near = within(
+        [&](std::size_t at) {
+          const Wide bounds = child_bounds(node, at, p);
+          store(bound.data() + at, bounds);
+          return bounds;
+        },
+        visitor.limit, unseen);
+    visitor.work.spheres += tree_width;
+    const std::size_t base = count;
+    while (near != 0) {
+      const std::uint32_t child = take(near);
+      std::size_t at = count++;
+      for (; at > base && waiting[at - 1].bound < bound[child]; --at) waiting[at] = waiting[at - 1];
+      waiting[at] = {bound[child], node.child[child]};
+    }
+  }
+  return least_lane(unseen);
+}
+
+/// Lists the blocks within the list's rest, until the rest falls to `enough`.
+inline void list_blocks(const TreeParts& tree, const FilterPoint& point, NearBlocks& list, float enough,
+                        Work& work) noexcept {
+  const Point p = spread(point);
+  std::array<std::uint32_t, most_waiting> waiting;
+  std::size_t count = 1;
+  waiting[0] = 0;
+  while (count > 0 && list.rest > enough) {
+    const TreeNode& node = tree.nodes[waiting[--count]];
+    for (std::uint32_t at = 0; at < tree_width; at += lanes) {
+      const Wide bounds = square_root(child_bounds(node, at, p));
+      for (unsigned near = bits_of(bounds <= list.rest); near != 0;) {
+        const std::uint32_t lane = take(near);
+        const TreeRef child = node.child[at + lane];
+        if (child.is_block()) {
+          list.add(node, at + lane, bounds[lane]);
+        } else {
+          prefetch(tree.nodes[child.index()]);
+          waiting[count++] = child.index();
+        }
+      }
+    }
+    work.spheres += tree_width;
+  }
+  list.finish();
+}
+
+/// As descend, when every triangle within the visitor's limit is in a listed block. `moved`: from the list's
+/// anchor. In passes, so that no call and no branch on what was found interrupts the wide arithmetic.
+template <class Visitor>
+float search_listed(const TreeParts& tree, const FilterPoint& point, const NearBlocks& list, float moved,
+                    Visitor& visitor) noexcept {
+  const Point p = spread(point);
+  const float limit = visitor.limit;
+  Wide unseen = Wide{} + farthest;
+  std::array<std::uint32_t, NearBlocks::capacity> blocks;
+  std::size_t block_count = 0;
+  for (std::uint32_t group = 0; group * tree_width < list.count; ++group) {
+    const TreeNode& node = list.nodes[group];
+    unsigned near = within([&](std::size_t at) { return child_bounds(node, at, p); }, limit, unseen);
+    while (near != 0) blocks[block_count++] = node.child[take(near)].index();
+    visitor.work.spheres += tree_width;
+  }
+  std::array<std::uint32_t, NearBlocks::capacity * tree_width> left;
+  std::size_t left_count = 0;
+  for (std::size_t i = 0; i < block_count; ++i) {
+    const TriangleBlock& block = tree.blocks[blocks[i]];
+    unsigned near = within([&](std::size_t at) { return triangle_bounds(block, at, p); }, limit, unseen);
+    while (near != 0) left[left_count++] = blocks[i] * tree_width + take(near);
+  }
+  visitor.work.triangles += block_count * tree_width;
+  for (std::size_t k = 0; k < left_count; ++k) show(tree, left[k], visitor);
+  const float rest = std::max(list.rest - moved, 0.0F);
+  return std::min(rest * rest, least_lane(unseen));
+}

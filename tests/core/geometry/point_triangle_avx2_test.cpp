@@ -1,0 +1,49 @@
+#include "core/geometry/point_triangle_avx2.h"
+
+#include <cstring>
+
+#include <gtest/gtest.h>
+
+#include "tests/core/sphere_cluster/test_meshes.h"
+
+namespace touchmark {
+namespace {
+
+#if TOUCHMARK_HAS_AVX2
+
+bool same_bits(const Offset& a, const Offset& b) {
+  return std::memcmp(a.vector.data(), b.vector.data(), sizeof(double[3])) == 0 &&
+         std::memcmp(&a.squared, &b.squared, sizeof(double)) == 0;
+}
+
+TEST(PointTriangleAvx2, GivesTheBitsOfTheScalarKernelOnEveryMesh) {
+  if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "this processor has no AVX2";
+  for (const auto& scene : test::test_meshes()) {
+    const std::vector<PreparedTriangle> triangles = prepare(scene.mesh);
+    test::Random random(41);
+    for (int step = 0; step < 20000; ++step) {
+      const Vec3 point = test::random_point(scene, random);
+      const PreparedTriangle& triangle = triangles[random.below(triangles.size())];
+      ASSERT_TRUE(same_bits(avx2::offset_from(triangle, point), offset_from(triangle, point)))
+          << scene.name << ", step " << step;
+    }
+  }
+}
+
+TEST(PointTriangleAvx2, GivesTheBitsOfTheScalarKernelWhereCornersAreEquallyNear) {
+  if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "this processor has no AVX2";
+  // Points of a lattice that is symmetric to the triangle's: two or three corners at the same distance.
+  const PreparedTriangle triangle = prepare({1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 0);
+  for (int x = -4; x <= 4; ++x)
+    for (int y = -4; y <= 4; ++y)
+      for (int z = -4; z <= 4; ++z) {
+        const Vec3 point(0.5 * x, 0.5 * y, 0.5 * z);
+        ASSERT_TRUE(same_bits(avx2::offset_from(triangle, point), offset_from(triangle, point)))
+            << x << ' ' << y << ' ' << z;
+      }
+}
+
+#endif
+
+}  // namespace
+}  // namespace touchmark
