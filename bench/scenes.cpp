@@ -133,16 +133,15 @@ TriangleMesh make_bunny(const Request& request) {
   return touchmark::load_mesh(file);
 }
 
-/// ${TOUCHMARK_DATA:-${XDG_CACHE_HOME:-~/.cache}}/touchmark, where scripts/setup puts what it fetches.
+/// ${TOUCHMARK_DATA:-${XDG_CACHE_HOME:-~/.cache}/touchmark}, where scripts/setup puts what it fetches.
 fs::path data_folder() {
   const auto variable = [](const char* name) -> fs::path {
     const char* value = std::getenv(name);
     return value == nullptr ? fs::path() : fs::path(value);
   };
-  fs::path base = variable("TOUCHMARK_DATA");
-  if (base.empty()) base = variable("XDG_CACHE_HOME");
-  if (base.empty()) base = variable("HOME") / ".cache";
-  return base / "touchmark";
+  const fs::path data = variable("TOUCHMARK_DATA"), cache = variable("XDG_CACHE_HOME");
+  if (!data.empty()) return data;
+  return (cache.empty() ? variable("HOME") / ".cache" : cache) / "touchmark";
 }
 
 fs::path dragon_file(std::uint64_t resolution) {
