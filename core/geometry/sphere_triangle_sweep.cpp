@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/detector.h"
 
 namespace touchmark {
 namespace {
 
-/// The largest coordinate difference between a point and the corners: M in the kernel's error bound.
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+
+/// M in the kernel's error bound: the largest coordinate difference between a point and the corners.
 double largest_difference(const PreparedTriangle& triangle, const Vec3& point) noexcept {
   double largest = 0;
   for (const Vec3& corner : triangle.corner)
@@ -16,33 +19,95 @@ double largest_difference(const PreparedTriangle& triangle, const Vec3& point) n
   return largest;
 }
 
+/// How far ball and triangle are apart, along the way: a convex function.
+class Gap {
+ public:
+  Gap(const PreparedTriangle& triangle, const Sweep& sweep) noexcept
+      : triangle_(triangle),
+        sweep_(sweep),
+        way_(sweep.to - sweep.from),
+        length_(way_.norm()),
+        position_error_(position_error(sweep)) {}
+
+  /// What is known of it at a fraction of the way.
+  struct Sample {
+    double gap;
+    double
+        tolerance;  ///< the gap that counts as touching: none at the start, as for a probe that stands there
+    double slope;   ///< d gap / d fraction
+    double slope_error;
+
+    bool touching() const noexcept { return gap <= tolerance; }
+  };
+
+  Sample at(double fraction) const noexcept {
+    const Vec3 position = position_at(sweep_, fraction);
+    const Contact contact = contact_on(triangle_, position, 0);
+    const double kernel_error = kernel_relative_error * largest_difference(triangle_, position);
+    const double slope = contact.normal.dot(way_);
+    const double slope_error = length_ * (2 * epsilon + kernel_error / contact.distance);
+    return {contact.distance - sweep_.radius, fraction > 0 ? kernel_error + position_error_ : 0, slope,
+            slope_error};
+  }
+
+ private:
+  const PreparedTriangle& triangle_;
+  const Sweep& sweep_;
+  Vec3 way_;
+  double length_;
+  double position_error_;
+};
+
+/// Where the slope drowns in rounding: looks for the least gap by comparing gaps alone, in thirds, and if
+/// that is a touch for the first one by halving. `apart` is a fraction where the two are apart.
+std::optional<double> search(const Gap& gap, double apart) noexcept {
+  constexpr int most_steps = 128;  // (2/3)^128 is less than a rounding
+  double low = apart, high = 1;
+  bool touched = gap.at(high).touching();
+  double touching = high;
+  for (int step = 0; step < most_steps && !touched && low < high; ++step) {
+    const double third = (high - low) / 3;
+    const double left = low + third, right = high - third;
+    const Gap::Sample at_left = gap.at(left), at_right = gap.at(right);
+    touched = at_left.touching() || at_right.touching();
+    touching = at_left.touching() ? left : right;
+    (at_left.gap < at_right.gap ? high : low) = at_left.gap < at_right.gap ? right : left;
+  }
+  if (!touched) return std::nullopt;
+  while (touching - apart > epsilon) {
+    const double middle = std::midpoint(apart, touching);
+    (gap.at(middle).touching() ? touching : apart) = middle;
+  }
+  return touching;
+}
+
 }  // namespace
 
+double position_error(const Sweep& sweep) noexcept {
+  return 4 * epsilon * (sweep.from.cwiseAbs().maxCoeff() + sweep.to.cwiseAbs().maxCoeff());
+}
+
+// Detectors look at triangles in different orders and so with different limits: the limit only ends the
+// search, the steps do not depend on it.
 std::optional<double> sweep_hit(const PreparedTriangle& triangle, const Sweep& sweep, double limit) noexcept {
-  constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  // Grazing makes Newton's steps halve instead of square the error: 64 of them exhaust a double's digits.
+  // Grazing makes Newton's steps halve instead of square the error: this many exhaust a double's digits.
   constexpr int most_steps = 64;
-  const Vec3 way = sweep.to - sweep.from;
-  const double length = way.norm();
+  const Gap gap(triangle, sweep);
   double fraction = 0;
   for (int step = 0; step < most_steps && fraction <= limit; ++step) {
-    const Vec3 position = position_at(sweep, fraction);
-    const Contact contact = contact_on(triangle, position, 0);
-    const double difference = largest_difference(triangle, position);
-    const double position_error = epsilon * position.cwiseAbs().maxCoeff();
-    const double tolerance = fraction > 0 ? kernel_relative_error * difference + position_error : 0;
-    const double gap = contact.distance - sweep.radius;
-    if (gap <= tolerance) return fraction;
-    if (fraction >= 1) return std::nullopt;
-    // d distance / d fraction, taken steeper by its rounding so that no step goes past the touch.
-    const double slope_error = 2 * epsilon * length * (1 + difference / contact.distance);
-    const double slope = contact.normal.dot(way) - slope_error;
-    if (!(slope < 0)) return std::nullopt;
-    const double next = std::min(fraction + gap / -slope, 1.0);
-    if (!(next > fraction)) return fraction;  // nearer than the fraction's own rounding
+    const Gap::Sample here = gap.at(fraction);
+    if (here.touching()) return fraction;
+    // Even falling as steeply as it can, it stays apart to the end. A NaN ends here as well.
+    if (!(here.gap + (here.slope - here.slope_error) * (1 - fraction) <= here.tolerance)) return std::nullopt;
+    if (!(here.slope < -2 * here.slope_error)) break;
+    // Where the tangent meets zero. The slope's error takes it past the touch by the kernel's error at most.
+    const double next = std::min(fraction - here.gap / here.slope, 1.0);
+    if (!(next > fraction)) break;
     fraction = next;
   }
-  return std::nullopt;
+  if (fraction > limit) return std::nullopt;
+  const std::optional<double> found = search(gap, fraction);
+  return found && *found <= limit ? found : std::nullopt;
 }
 
 }  // namespace touchmark

@@ -6,17 +6,17 @@
 
 #include "core/geometry/aabb.h"
 #include "core/geometry/point_triangle.h"
+#include "core/geometry/sphere_triangle_sweep.h"
 #include "core/probe.h"
 
 namespace touchmark {
 
 /// By how much a box must be widened so that no triangle in it that sweep_hit calls touched is missed: the
-/// radius, the kernel's slack, and the rounding of the position on the way, which goes with the coordinates
-/// themselves. `largest_difference` bounds the coordinate differences between the way and the mesh.
+/// radius, the kernel's slack, and twice the rounding of the position on the way: once for the touch and once
+/// for the fraction at which the box is entered. `largest_difference` bounds the coordinate differences
+/// between the way and the mesh.
 inline double sweep_widening(const Sweep& sweep, double largest_difference) noexcept {
-  const double coordinates = std::max(sweep.from.cwiseAbs().maxCoeff(), sweep.to.cwiseAbs().maxCoeff());
-  return sweep.radius + culling_slack(largest_difference) +
-         4 * std::numeric_limits<double>::epsilon() * coordinates;
+  return sweep.radius + culling_slack(largest_difference) + 2 * position_error(sweep);
 }
 
 /// The fraction at which the centre enters the box widened on every side, or infinity when it does not before

@@ -20,10 +20,11 @@ inline double grown_radius(double radius, double reach) noexcept {
   return (radius + reach) * roundings + smallest_length;
 }
 
-/// What a touch found by sweep_hit may be farther away than the probe's radius: the rounding of a position on
-/// the way, which is relative to the coordinates themselves.
+/// What a touch found by sweep_hit may be farther away than the probe's radius and than grown_radius leaves
+/// room for: 48 u of the largest difference between the way and a triangle near it, which is at most the
+/// coordinates of both ends and the sphere, and the rounding of a position on the way.
 inline double sweep_slack(const Sweep& sweep) noexcept {
-  return 32 * std::numeric_limits<double>::epsilon() *
+  return 128 * std::numeric_limits<double>::epsilon() *
          (sweep.from.lpNorm<Eigen::Infinity>() + sweep.to.lpNorm<Eigen::Infinity>());
 }
 

@@ -114,5 +114,43 @@ TEST(SphereTriangleSweep, StopsAtTheRadiusAndNeverTouchesBefore) {
   EXPECT_GT(hits, 1000);
 }
 
+TEST(SphereTriangleSweep, ALongWayThatPiercesTheFaceOrEndsOnACornerIsNotMissed) {
+  std::mt19937_64 random(11);
+  const auto coordinate = [&] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1; };
+  const auto point = [&] { return Vec3(coordinate(), coordinate(), coordinate()); };
+  for (int trial = 0; trial < 20000; ++trial) {
+    const PreparedTriangle t = prepare(point(), point(), point(), 0);
+    const Vec3 middle = (t.corner[0] + t.corner[1] + t.corner[2]) / 3;
+    const double far = std::pow(10.0, 1 + trial % 9);
+    const Vec3 from = far * point();
+    const Vec3 way = (middle - from).normalized();
+    // In triangles seen nearly edge on, rounding decides whether the way goes through the inside.
+    if (std::abs(way.dot(t.normal)) < 0.1) continue;
+    const double behind = std::max(far * 1e-14, std::pow(10.0, -1 - trial % 13));
+    const Sweep through{from, middle + behind * way, 0};
+    EXPECT_TRUE(sweep_hit(t, through, 1)) << trial;
+    EXPECT_TRUE(sweep_hit(t, {from, t.corner[trial % 3], 0}, 1)) << trial;
+  }
+}
+
+TEST(SphereTriangleSweep, TheLimitDoesNotChangeWhereItHits) {
+  std::mt19937_64 random(12);
+  const auto coordinate = [&] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1; };
+  const auto point = [&] { return Vec3(coordinate(), coordinate(), coordinate()); };
+  int hits = 0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    const PreparedTriangle t = prepare(point(), point(), point(), 0);
+    const Sweep sweep{2 * point(), 2 * point(), trial % 3 == 0 ? 0.0 : 0.3 * std::abs(coordinate())};
+    const auto hit = sweep_hit(t, sweep, 1);
+    if (!hit) continue;
+    ++hits;
+    EXPECT_EQ(sweep_hit(t, sweep, *hit), hit) << trial;
+    if (*hit > 0) {
+      EXPECT_EQ(sweep_hit(t, sweep, std::nextafter(*hit, 0)), std::nullopt) << trial;
+    }
+  }
+  EXPECT_GT(hits, 1000);
+}
+
 }  // namespace
 }  // namespace touchmark

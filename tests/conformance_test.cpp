@@ -1,0 +1,285 @@
+// Every contestant of the roster on every small scene, ours with every option, judged by the oracle. Those
+// that claim exactness must keep their word; ours must give brute force's bits besides. Rivals, in the forms
+// that are compared by default, answer in processes of their own.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <new>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "bench/contestant.h"
+#include "bench/roster.h"
+#include "bench/verify.h"
+#include "core/brute_force/brute_force.h"
+#include "tests/conformance_scenes.h"
+
+namespace touchmark::bench {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// One query along all centres, with one reach.
+struct Part {
+  std::string name;
+  Query query;
+  double reach;
+  std::vector<Step> steps;
+};
+
+std::vector<Probe> probes_of(const Part& part) {
+  std::vector<Probe> probes;
+  for (const Step& step : part.steps) probes.push_back(step.probe);
+  return probes;
+}
+
+std::vector<Sweep> sweeps_of(const Part& part) {
+  std::vector<Sweep> sweeps;
+  for (std::size_t i = 0; i < part.steps.size(); ++i) {
+    const Probe& now = part.steps[i].probe;
+    sweeps.push_back({part.steps[i > 0 ? i - 1 : 0].probe.center, now.center, now.radius});
+  }
+  return sweeps;
+}
+
+/// A scene with its truth, found out once for all contestants.
+class Exam {
+ public:
+  explicit Exam(const std::string& scene) : mesh_(load_scene(scene)), oracle_(mesh_) {
+    const std::vector<Vec3> centers = adversarial_centers(mesh_, affordable(mesh_));
+    for (const Vec3& center : centers) truths_.push_back(oracle_.solve(center));
+    const double radius = 0.005 * mesh_.diagonal();
+    const auto part = [&](const char* name, Query query, double reach, auto radius_at) {
+      Part made{name, query, reach, {}};
+      for (std::size_t i = 0; i < centers.size(); ++i)
+        made.steps.push_back({{centers[i], radius_at(truths_[i].high)}, reach});
+      parts_.push_back(std::move(made));
+    };
+    part("nearest within a radius", Query::nearest, radius, [&](double) { return radius; });
+    part("nearest at any reach", Query::nearest, infinity, [&](double) { return radius; });
+    part("nearest within nothing", Query::nearest, 0, [&](double) { return 0.0; });
+    part("touches", Query::touches, 0, [&](double) { return radius; });
+    part("touches at the very distance", Query::touches, 0, [](double d) { return d; });
+    part("touches an ulp short of it", Query::touches, 0, [](double d) { return std::nextafter(d, 0); });
+    part("sweep", Query::sweep, 0, [&](double) { return radius; });
+    part("sweep of a point", Query::sweep, 0, [](double) { return 0.0; });
+    for (const Part& one : parts_)
+      sweep_truths_.push_back(one.query == Query::sweep ? oracle_.solve(sweeps_of(one))
+                                                        : std::vector<SweepTruth>());
+  }
+
+  const TriangleMesh& mesh() const { return mesh_; }
+  const std::vector<Part>& parts() const { return parts_; }
+
+  Tally judge_answers(std::size_t part, const std::vector<Answer>& answers, const Accuracy& accuracy) const {
+    const Part& asked = parts_[part];
+    if (asked.query == Query::sweep)
+      return judge(oracle_, sweep_truths_[part], sweeps_of(asked), answers, accuracy);
+    return judge(oracle_, truths_, asked.query, probes_of(asked), asked.reach, answers, accuracy);
+  }
+
+ private:
+  TriangleMesh mesh_;
+  Oracle oracle_;
+  std::vector<Truth> truths_;
+  std::vector<Part> parts_;
+  std::vector<std::vector<SweepTruth>> sweep_truths_;
+};
+
+std::vector<Answer> ask(Contestant& contestant, const Part& part) {
+  std::vector<Answer> answers(part.steps.size());
+  std::vector<std::uint64_t> work(answers.size());
+  contestant.answer({part.query, part.steps}, {0, answers.size()}, answers, work);
+  return answers;
+}
+
+/// How a rival fared in a process of its own, part by part.
+struct Testimony {
+  enum class State { not_reached, unsupported, answered } state;
+  Accuracy accuracy;
+};
+
+/// Room that a child process can write to: a testimony a part, then all answers.
+class SharedRoom {
+ public:
+  SharedRoom(std::size_t parts, std::size_t answers)
+      : parts_(parts),
+        bytes_(parts * sizeof(Testimony) + parts * answers * sizeof(Answer)),
+        memory_(mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)) {
+    if (memory_ == MAP_FAILED) throw std::bad_alloc();
+  }
+  SharedRoom(const SharedRoom&) = delete;
+  SharedRoom& operator=(const SharedRoom&) = delete;
+  ~SharedRoom() { munmap(memory_, bytes_); }
+
+  Testimony* testimonies() const { return static_cast<Testimony*>(memory_); }
+  Answer* answers() const {
+    return reinterpret_cast<Answer*>(static_cast<std::byte*>(memory_) + parts_ * sizeof(Testimony));
+  }
+
+ private:
+  std::size_t parts_;
+  std::size_t bytes_;
+  void* memory_;
+};
+
+/// The child's life: builds and answers from part `first` on. Its exit says how it went if it is not
+/// killed.
+[[noreturn]] void testify(const ContestantSpec& spec, const Exam& exam, std::size_t first,
+                          const SharedRoom& room) {
+  constexpr unsigned patience_s = 20;
+  constexpr int refused = 3;
+  alarm(patience_s);
+  if (std::freopen("/dev/null", "w", stdout) == nullptr || std::freopen("/dev/null", "w", stderr) == nullptr)
+    _exit(1);
+  try {
+    const auto contestant = roster().build(spec, exam.mesh());
+    for (std::size_t i = first; i < exam.parts().size(); ++i) {
+      const Part& part = exam.parts()[i];
+      Testimony& testimony = room.testimonies()[i];
+      testimony.accuracy = contestant->accuracy();
+      if (!contestant->answers(part.query)) {
+        testimony.state = Testimony::State::unsupported;
+        continue;
+      }
+      const std::vector<Answer> answers = ask(*contestant, part);
+      std::copy(answers.begin(), answers.end(), room.answers() + i * part.steps.size());
+      testimony.state = Testimony::State::answered;
+    }
+  } catch (...) {
+    _exit(refused);
+  }
+  _exit(0);
+}
+
+/// Calls judged(part, testimony, answers) for every part that a rival ended, and ended(part, status)
+/// for those it did not survive. In child processes, since some abort, divide by zero or never end.
+template <class Judged, class Ended>
+void examine_in_processes(const ContestantSpec& spec, const Exam& exam, const Judged& judged,
+                          const Ended& ended) {
+  const std::size_t parts = exam.parts().size(), steps = exam.parts().front().steps.size();
+  const SharedRoom room(parts, steps);
+  for (std::size_t next = 0; next < parts;) {
+    const pid_t child = fork();
+    if (child == 0) testify(spec, exam, next, room);
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    while (next < parts && room.testimonies()[next].state != Testimony::State::not_reached) {
+      if (room.testimonies()[next].state == Testimony::State::answered) {
+        const Answer* answers = room.answers() + next * steps;
+        judged(next, room.testimonies()[next].accuracy, std::vector<Answer>(answers, answers + steps));
+      }
+      ++next;
+    }
+    if (next == parts) return;
+    if (WIFSIGNALED(status)) {
+      ended(next++, "signal " + std::to_string(WTERMSIG(status)));
+    } else {
+      ended(next, "exit " + std::to_string(WEXITSTATUS(status)));
+      return;  // it refuses the mesh
+    }
+  }
+}
+
+/// The default, and every combination of choices; a length is tried at its default and at 3 % of the
+/// diagonal.
+std::vector<ContestantSpec> every_option(const ContestantInfo& info) {
+  std::vector<std::string> texts = {info.name};
+  for (const OptionInfo& option : info.options) {
+    std::vector<std::string> values = option.choices;
+    if (option.kind == OptionKind::length) values = {option.default_value, "3%"};
+    if (values.empty()) continue;
+    std::vector<std::string> longer;
+    for (const std::string& text : texts)
+      for (const std::string& value : values)
+        longer.push_back(text + (text == info.name ? ":" : ",") + option.key + "=" + value);
+    texts = longer;
+  }
+  std::vector<ContestantSpec> specs;
+  for (const std::string& text : texts) specs.push_back(roster().parse(text));
+  return specs;
+}
+
+bool is_ours(const ContestantInfo& info) {
+  for (const char* name : {"brute-force", "aabb-tree", "grid-group", "sphere-cluster"})
+    if (info.name == name) return true;
+  return false;
+}
+
+std::string summary(const Tally& t) {
+  return fmt::format(
+      "{} missed, {} false, {} wrong triangle, {} beyond, {} point, {} normal, {} malformed; {}", t.missed,
+      t.false_contacts, t.wrong_triangle, t.beyond_bound, t.wrong_point, t.wrong_normal, t.malformed,
+      t.max_distance_error);
+}
+
+class Conformance : public testing::TestWithParam<std::string> {};
+
+TEST_P(Conformance, OursKeepTheirWordAndTheExactOnesGiveTheBitsOfBruteForce) {
+  const Exam exam(GetParam());
+  const BruteForce reference = BruteForce::build(exam.mesh());
+  ContestantOf<BruteForce> brute_force(reference);
+  std::vector<std::vector<Answer>> expected;
+  for (const Part& part : exam.parts()) expected.push_back(ask(brute_force, part));
+  for (const ContestantInfo& info : roster().contestants()) {
+    if (!is_ours(info)) continue;
+    for (const ContestantSpec& spec : every_option(info)) {
+      const auto contestant = roster().build(spec, exam.mesh());
+      const Accuracy accuracy = contestant->accuracy();
+      for (std::size_t i = 0; i < exam.parts().size(); ++i) {
+        const Part& part = exam.parts()[i];
+        if (!contestant->answers(part.query)) continue;
+        const std::vector<Answer> answers = ask(*contestant, part);
+        const Tally tally = exam.judge_answers(i, answers, accuracy);
+        EXPECT_TRUE(keeps_its_word(tally, accuracy))
+            << spec.text() << ", " << part.name << ": " << summary(tally);
+        if (accuracy.guarantee != Guarantee::exact) continue;
+        EXPECT_EQ(std::memcmp(answers.data(), expected[i].data(), answers.size() * sizeof(Answer)), 0)
+            << spec.text() << ", " << part.name;
+      }
+    }
+  }
+}
+
+/// What a rival did not survive, and what it gets wrong without claiming otherwise, is printed: verify counts
+/// it.
+TEST_P(Conformance, RivalsThatClaimExactnessKeepTheirWord) {
+  const Exam exam(GetParam());
+  for (const ContestantSpec& spec : roster().default_set()) {
+    if (is_ours(roster().find(spec.name))) continue;
+    const auto judged = [&](std::size_t i, const Accuracy& accuracy, const std::vector<Answer>& answers) {
+      const Tally tally = exam.judge_answers(i, answers, accuracy);
+      const std::string finding =
+          fmt::format("{}, {}: {}", spec.text(), exam.parts()[i].name, summary(tally));
+      if (accuracy.guarantee == Guarantee::exact) {
+        EXPECT_TRUE(keeps_its_word(tally, accuracy)) << finding;
+      } else if (!keeps_its_word(tally, {Guarantee::exact, accuracy.relative, accuracy.absolute})) {
+        fmt::print("    faulty: {}\n", finding);
+      }
+    };
+    const auto ended = [&](std::size_t i, const std::string& how) {
+      fmt::print("    ended: {}, {}: {}\n", spec.text(), exam.parts()[i].name, how);
+    };
+    examine_in_processes(spec, exam, judged, ended);
+  }
+}
+
+std::string test_name(const testing::TestParamInfo<std::string>& scene) {
+  std::string name = scene.param;
+  for (char& c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Conformance, testing::ValuesIn(conformance_scenes()), test_name);
+
+}  // namespace
+}  // namespace touchmark::bench
