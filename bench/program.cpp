@@ -3,14 +3,18 @@
 #include <algorithm>
 #include <cstdio>
 #include <new>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "bench/build_info.h"
+#include "bench/near_names.h"
+#include "bench/standard_output.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::bench {
@@ -35,18 +39,27 @@ int fail(int status, std::string_view what) {
   return status;
 }
 
+std::string complaint_about_command(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands(nullptr)) names.push_back(command->get_name());
+  const std::vector<std::string> words = program.remaining();
+  if (words.empty()) return fmt::format("a command is missing: one of {}", fmt::join(names, ", "));
+  return fmt::format("unknown command \"{}\"; the nearest names: {}", words.front(),
+                     near_names(words.front(), names));
+}
+
 int parse_and_run(CLI::App& program, ProgramContext& context) {
   try {
     program.parse(context.argc, context.argv);
-  } catch (const CLI::CallForHelp& help) {
-    return program.exit(help);
-  } catch (const CLI::CallForAllHelp& help) {
-    return program.exit(help);
-  } catch (const CLI::CallForVersion& version) {
-    return program.exit(version);
+  } catch (const CLI::Success& asked) {  // for help or the version
+    std::ostringstream text;
+    program.exit(asked, text, text);
+    StandardOutput().write(text.str());
+    return exit_done;
   } catch (const CLI::ParseError& error) {
     return fail(exit_bad_input, fmt::format("{} (touchmark --help)", one_line(error.what())));
   }
+  if (program.get_subcommands().empty()) return fail(exit_bad_input, complaint_about_command(program));
   return context.status;
 }
 
@@ -56,12 +69,16 @@ int run_program(int argc, char** argv, const Roster& roster) {
   ProgramContext context{roster, argc, argv};
   CLI::App program("Which collision detector can serve a haptic loop.", "touchmark");
   program.set_version_flag("--version", std::string("touchmark ") + build_info().version);
-  program.require_subcommand(1);
+  program.require_subcommand(0, 1);
   program.footer("Example: touchmark bench --mesh bunny --trajectory slide --out results/today\n");
   for (const AddCommand add : commands) add(program, context);
+  program.allow_extras();  // after the commands, which must not inherit it
 
   try {
-    return parse_and_run(program, context);
+    StandardOutput out;
+    const int status = parse_and_run(program, context);
+    out.finish();
+    return status;
   } catch (const std::invalid_argument& error) {
     return fail(exit_bad_input, error.what());
   } catch (const MeshError& error) {

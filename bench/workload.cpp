@@ -1,5 +1,6 @@
 #include "bench/workload.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "bench/trajectories.h"
@@ -16,6 +17,15 @@ std::vector<Step> course_along(const Trajectory& trajectory, double radius, std:
   return course;
 }
 
+/// A recorded trajectory is replayed whole unless --steps says otherwise (0 stands for that).
+std::size_t steps_of(const std::string& name, const Selection& selection, std::size_t default_steps) {
+  if (selection.steps) return *selection.steps;
+  const std::vector<TrajectoryInfo> generated = trajectories();
+  const bool is_generated = std::any_of(generated.begin(), generated.end(),
+                                        [&](const TrajectoryInfo& info) { return info.name == name; });
+  return is_generated ? default_steps : 0;
+}
+
 }  // namespace
 
 Workload make_workload(std::string mesh_name, TriangleMesh mesh, const Selection& selection,
@@ -25,7 +35,7 @@ Workload make_workload(std::string mesh_name, TriangleMesh mesh, const Selection
   if (selection.reach) workload.reach = selection.reach->in_mesh_units(workload.mesh);
   for (const std::string& name : trajectories) {
     const Trajectory trajectory = make_trajectory(
-        name, workload.mesh, {selection.steps.value_or(default_steps), selection.seed, workload.radius});
+        name, workload.mesh, {steps_of(name, selection, default_steps), selection.seed, workload.radius});
     workload.trajectories.push_back(trajectory.name);
     workload.courses.push_back(course_along(trajectory, workload.radius, workload.reach));
   }

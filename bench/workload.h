@@ -21,7 +21,8 @@ struct Workload {
   std::vector<std::vector<Step>> courses;  ///< one a trajectory
 };
 
-/// Generates or reads the trajectories. Throws std::invalid_argument.
+/// Generates the trajectories, of `default_steps` unless --steps was given, or reads them whole. Throws
+/// std::invalid_argument.
 Workload make_workload(std::string mesh_name, TriangleMesh mesh, const Selection& selection,
                        const std::vector<std::string>& trajectories, std::size_t default_steps);
 

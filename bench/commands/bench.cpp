@@ -23,13 +23,13 @@
 #include "bench/run_json.h"
 #include "bench/scenes.h"
 #include "bench/selectors.h"
+#include "bench/standard_output.h"
 #include "bench/worker_options.h"
 
 namespace touchmark::bench {
 namespace {
 
 const std::vector<std::string> default_trajectories{"slide", "approach", "hover", "jump"};
-constexpr const char* mesh_without_files = "icosphere:6";  // 81,920 triangles
 
 struct BenchOptions {
   Selectors selectors;
@@ -46,13 +46,6 @@ Effort effort_for(const BenchOptions& options, const BenchmarkFlags& flags) {
   return effort;
 }
 
-std::string default_mesh() {
-  for (const SceneInfo& scene : scenes()) {
-    if (scene.name == "bunny" && scene.available) return scene.name;
-  }
-  return mesh_without_files;
-}
-
 std::vector<std::string> arguments_of(const ProgramContext& context) {
   return {context.argv + 1, context.argv + context.argc};
 }
@@ -65,7 +58,7 @@ class BenchRun {
 
   /// An exit status. Throws ResourceError.
   int run();
-  void list_cases() const;
+  void list_cases();
 
  private:
   void run_trajectory(std::size_t course);
@@ -83,12 +76,13 @@ class BenchRun {
   Workload workload_;
   std::optional<Comparison> comparison_;
   ProgressLine progress_;
+  StandardOutput out_;
   std::vector<ResultRow> rows_;
 };
 
 Workload workload_for(const BenchOptions& options, const Selection& selection) {
   const Selectors& selectors = options.selectors;
-  const std::string mesh = selectors.meshes.empty() ? default_mesh() : selectors.meshes.front();
+  const std::string mesh = selectors.meshes.empty() ? default_scene() : selectors.meshes.front();
   return make_workload(without_directories(mesh), load_mesh(mesh, selectors.normalize), selection,
                        selectors.trajectories.empty() ? default_trajectories : selectors.trajectories,
                        options.quick ? 5000 : 20000);
@@ -122,10 +116,10 @@ BenchRun::BenchRun(const Roster& roster, const BenchOptions& options, const Benc
   });
 }
 
-void BenchRun::list_cases() const {
+void BenchRun::list_cases() {
   for (const std::string& trajectory : workload_.trajectories) {
     for (const ContestantSpec& spec : selection_.contestants) {
-      if (wanted(trajectory, spec.text())) fmt::print("{}/{}\n", spec.text(), trajectory);
+      if (wanted(trajectory, spec.text())) out_.write(fmt::format("{}/{}\n", spec.text(), trajectory));
     }
   }
 }
@@ -144,9 +138,9 @@ void BenchRun::run_trajectory(std::size_t course) {
   rows_.insert(rows_.end(), rows.begin(), rows.end());
   save(false);
   progress_.clear();
-  fmt::print("\n{} ({} steps)\n{}{}", workload_.trajectories[course], workload_.courses[course].size(),
-             timing_table(rows), verdict(rows));
-  std::fflush(stdout);
+  out_.write(fmt::format("\n{} ({} steps)\n{}{}", workload_.trajectories[course],
+                         workload_.courses[course].size(), timing_table(rows), verdict(rows)));
+  out_.finish();
 }
 
 int BenchRun::status() const {
@@ -163,9 +157,9 @@ int BenchRun::status() const {
 
 int BenchRun::run() {
   watch_for_interrupts();
-  fmt::print("{}: {} triangles, {} within {:.6g}, radius {:.6g}\n", workload_.mesh_name,
-             workload_.mesh.size(), name_of(description_.query), workload_.reach.value_or(workload_.radius),
-             workload_.radius);
+  out_.write(fmt::format("{}: {} triangles, {} within {:.6g}, radius {:.6g}\n", workload_.mesh_name,
+                         workload_.mesh.size(), name_of(description_.query),
+                         workload_.reach.value_or(workload_.radius), workload_.radius));
   try {
     for (std::size_t course = 0; course < workload_.courses.size(); ++course) run_trajectory(course);
   } catch (const Interrupted&) {

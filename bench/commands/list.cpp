@@ -8,41 +8,45 @@
 #include "bench/program.h"
 #include "bench/query_name.h"
 #include "bench/scenes.h"
+#include "bench/standard_output.h"
 #include "bench/trajectories.h"
 
 namespace touchmark::bench {
 namespace {
 
-void print_option(const OptionInfo& option) {
+std::string about(const OptionInfo& option) {
   const std::string values = option.kind == OptionKind::choice
                                  ? fmt::format("{}", fmt::join(option.choices, "|"))
                              : option.kind == OptionKind::length ? "LENGTH"
                                                                  : "NUMBER";
-  fmt::print("      {}={}  (default {})  {}\n", option.key, values, option.default_value, option.summary);
+  return fmt::format("      {}={}  (default {})  {}\n", option.key, values, option.default_value,
+                     option.summary);
 }
 
-void print_contestant(const ContestantInfo& contestant) {
+std::string about(const ContestantInfo& contestant) {
   std::vector<std::string_view> queries;
   for (const Query query : contestant.queries) queries.push_back(name_of(query));
-  fmt::print("  {}{}\n", contestant.name, contestant.built() ? "" : "  (not built)");
-  fmt::print("      {}\n", contestant.summary);
-  if (!contestant.built()) return;
-  fmt::print("      answers {}; {}\n", fmt::join(queries, ", "), contestant.accuracy);
-  for (const OptionInfo& option : contestant.options) print_option(option);
+  std::string text = fmt::format("  {}{}\n      {}\n", contestant.name,
+                                 contestant.built() ? "" : "  (not built)", contestant.summary);
+  if (!contestant.built()) return text;
+  text += fmt::format("      answers {}; {}\n", fmt::join(queries, ", "), contestant.accuracy);
+  for (const OptionInfo& option : contestant.options) text += about(option);
+  return text;
 }
 
-void list(const Roster& roster) {
-  fmt::print("contestants: --detector NAME[:key=value,...]\n");
-  for (const ContestantInfo& contestant : roster.contestants()) print_contestant(contestant);
-  fmt::print("\nscenes: --mesh NAME[@scale=S][@offset=O][@normalize], or a mesh file\n");
+std::string list(const Roster& roster) {
+  std::string text = "contestants: --detector NAME[:key=value,...]\n";
+  for (const ContestantInfo& contestant : roster.contestants()) text += about(contestant);
+  text += "\nscenes: --mesh NAME[@scale=S][@offset=O][@normalize], or a mesh file\n";
   for (const SceneInfo& scene : scenes()) {
-    fmt::print("  {:<28}{}{}\n", scene.name, scene.description, scene.available ? "" : "  (not installed)");
+    text += fmt::format("  {:<28}{}{}\n", scene.name, scene.description,
+                        scene.available ? "" : "  (not installed)");
   }
-  fmt::print(
-      "\ntrajectories: --trajectory NAME, or a CSV file with columns x,y,z and perhaps time_s, radius\n");
+  text += "\ntrajectories: --trajectory NAME, or a CSV file with columns x,y,z and perhaps time_s, radius\n";
   for (const TrajectoryInfo& trajectory : trajectories()) {
-    fmt::print("  {:<28}{}\n", trajectory.name, trajectory.description);
+    text += fmt::format("  {:<28}{}\n", trajectory.name, trajectory.description);
   }
+  return text;
 }
 
 }  // namespace
@@ -50,7 +54,7 @@ void list(const Roster& roster) {
 void add_list(CLI::App& program, ProgramContext& context) {
   CLI::App* command = program.add_subcommand("list", "what can be chosen: contestants, scenes, trajectories");
   command->footer("Example: touchmark list\n");
-  command->final_callback([&context] { list(context.roster); });
+  command->final_callback([&context] { StandardOutput().write(list(context.roster)); });
 }
 
 }  // namespace touchmark::bench

@@ -19,6 +19,7 @@
 #include "bench/run_json.h"
 #include "bench/scenes.h"
 #include "bench/selectors.h"
+#include "bench/standard_output.h"
 #include "bench/trajectories.h"
 #include "bench/verification_report.h"
 #include "bench/worker_options.h"
@@ -107,9 +108,8 @@ void VerifyRun::verify_mesh(const std::string& mesh) {
 
 int VerifyRun::report(bool finished) {
   progress_.clear();
-  fmt::print("{}", verification_table(rows_));
   const std::string failures = list_of_failures(rows_, failures_shown);
-  if (!failures.empty()) fmt::print("\n{}", failures);
+  StandardOutput().write(verification_table(rows_) + (failures.empty() ? "" : "\n" + failures));
   if (folder_) folder_->write(results_csv(new_run_id(system_info()), rows_));
   if (!finished) {
     fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", rows_.size());
