@@ -99,7 +99,7 @@ class CellTreeBuilder {
   /// Near the surface, down to the size of the triangles there.
   bool wants_children(const CellTree::Leaf& leaf, double edge) const {
     if (edge < 1.5 * least_edge_ || static_cast<double>(leaf.distance) > edge) return false;
-    return options_.smallest > 0 || edge > 2 * size_of(store_.exact[leaf.place]);
+    return options_.smallest > 0 || edge > 3 * size_of(store_.exact[leaf.place]);
   }
 
   bool fits_children(std::size_t waiting) {

@@ -4,6 +4,7 @@
 
 #include "core/grid_group/direct_grid.h"
 #include "core/grid_group/nearest_search.h"
+#include "core/grid_group/over_face.h"
 
 namespace touchmark::grid {
 namespace {
@@ -21,10 +22,11 @@ double DirectGrid::largest_difference(const Vec3& center) const noexcept {
   return (bounds_.max - center).cwiseAbs().cwiseMax((bounds_.min - center).cwiseAbs()).maxCoeff();
 }
 
-void DirectGrid::remember(const Vec3& center, double lower, double upper,
+void DirectGrid::remember(const Vec3& center, float tau, double lower, double upper,
                           DirectMemory& memory) const noexcept {
-  // The kernel's error here; what it grows by elsewhere goes with the displacement and is in `shy`.
-  const double slack = 2 * culling_slack(largest_difference(center));
+  // Twice culling_slack, for the kernel's error here: tau is 2^-21 of a length above the largest difference.
+  // What the error grows by elsewhere goes with the displacement and is in `shy`.
+  const double slack = static_cast<double>(tau) * (0x1p-24 * (1 + 0x1p-20)) / store_.frame.scale();
   memory.center = center;
   memory.lower = lower - slack;
   memory.upper = upper + slack;
@@ -48,13 +50,14 @@ DirectGrid::Start DirectGrid::start_at(const Vec3& center, const FilterPoint& po
   }
   const Vec3 in_frame = store_.frame.to_frame(center);
   if (!cells_.holds(in_frame)) {
-    remember(center, std::sqrt(bounds_.squared_distance(center)), std::numeric_limits<double>::infinity(),
-             memory);
+    remember(center, point.tau, std::sqrt(bounds_.squared_distance(center)),
+             std::numeric_limits<double>::infinity(), memory);
     return {memory.lower > reach, memory.place, nullptr};
   }
   ++work.cells;
   const Cell cell = cells_.at(in_frame);
-  remember(store_.frame.origin() + cell.middle / store_.frame.scale(), cell.distance / store_.frame.scale(),
+  const Vec3 middle = store_.frame.origin() + cell.middle / store_.frame.scale();
+  remember(middle, store_.frame.tau(cell.middle), cell.distance / store_.frame.scale(),
            std::numeric_limits<double>::infinity(), memory);
   if (moved_less(memory, center, memory.lower - reach)) return {true, cell.place, nullptr};
   return {false, cell.place, serving(cell.place, point, work)};
@@ -71,9 +74,9 @@ DirectGrid::Located DirectGrid::locate(const Vec3& center, double reach, DirectM
     if (next == start.place) break;
     start = {false, next, serving(next, search.point(), work)};
   }
-  double lower = reach;
+  double squared_lower = reach * reach;
   if (start.group != nullptr) {
-    lower = std::sqrt(store_.frame.squared(search.consider_group(groups_.members(*start.group))));
+    squared_lower = store_.frame.squared(search.consider_group(groups_.members(*start.group)));
   } else {
     search.consider(start.place);
     search.consider_tree(tree_);
@@ -81,11 +84,19 @@ DirectGrid::Located DirectGrid::locate(const Vec3& center, double reach, DirectM
   work.triangles += search.triangles();
   work.boxes += search.boxes();
   if (!search.found()) {
-    remember(center, lower, std::numeric_limits<double>::infinity(), memory);
+    remember(center, search.point().tau, std::sqrt(squared_lower), std::numeric_limits<double>::infinity(),
+             memory);
     return {};
   }
   memory.place = search.place();
-  return {&store_.exact[search.place()], lower};
+  return {&store_.exact[search.place()], search.over_face() && fourth_powers_fit_, squared_lower,
+          search.point().tau};
+}
+
+Contact DirectGrid::contact_at(const Located& located, const Vec3& center,
+                               std::uint32_t place) const noexcept {
+  return located.over_face ? contact_over_face(*located.triangle, center, store_.id(place))
+                           : contact_on(*located.triangle, center, store_.id(place));
 }
 
 bool DirectGrid::touches(const Probe& probe, DirectMemory& memory, Work& work) const noexcept {
@@ -96,7 +107,8 @@ bool DirectGrid::touches(const Probe& probe, DirectMemory& memory, Work& work) c
   if (located.triangle == nullptr) return false;
   const double distance = std::sqrt(squared_distance(*located.triangle, probe.center));
   const bool touching = distance <= probe.radius;
-  remember(probe.center, touching ? distance : std::min(located.lower, distance), distance, memory);
+  const double lower = touching ? distance : std::min(std::sqrt(located.squared_lower), distance);
+  remember(probe.center, located.tau, lower, distance, memory);
   return touching;
 }
 
@@ -106,10 +118,11 @@ std::optional<Contact> DirectGrid::nearest(const Vec3& center, double reach, Dir
   if (!store_.frame.covers(center)) return far_nearest(center, reach, work);
   const Located located = locate(center, reach, memory, work);
   if (located.triangle == nullptr) return std::nullopt;
-  const Contact contact = contact_on(*located.triangle, center, store_.id(memory.place));
+  const Contact contact = contact_at(located, center, memory.place);
   const bool within = contact.distance <= reach;
-  remember(center, within ? contact.distance : std::min(located.lower, contact.distance), contact.distance,
-           memory);
+  const double lower =
+      within ? contact.distance : std::min(std::sqrt(located.squared_lower), contact.distance);
+  remember(center, located.tau, lower, contact.distance, memory);
   if (!within) return std::nullopt;
   return contact;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
 
 namespace touchmark::grid {
@@ -55,31 +56,8 @@ void GroupBuilder::add_group(std::uint32_t place) {
   const bool visible =
       growth * footprint.inradius > static_cast<double>(store_.frame.tau(footprint.incenter));
   if (footprint.normal.isZero(0) || !visible) return;
-  double height = first_height * footprint.size;
-  bool gathered = false;
-  do {
-    const Prism prism(footprint, growth, height, lead_, store_.frame);
-    if (!gathered) {
-      Aabb box;
-      for (const Vec3& corner : footprint.grown(growth)) {
-        box.extend(corner + height * footprint.normal);
-        box.extend(corner - height * footprint.normal);
-      }
-      if (!gather(box.padded(prism.farthest() + lead_))) return;
-      gathered = true;
-    }
-    // What a higher prism can do without, a lower one can.
-    if (height == first_height * footprint.size) {
-      select_members(prism);
-    } else {
-      std::erase_if(members_, [&](std::uint32_t member) {
-        return prism.excludes(store_.planes[member], store_.balls[member]);
-      });
-    }
-    if (members_.size() <= Groups::most_members) break;
-    height *= shrinking;
-  } while (height >= least_height * footprint.size);
-  if (members_.size() > Groups::most_members) return;
+  const double height = find_members(footprint);
+  if (members_.empty() || members_.size() > Groups::most_members) return;
   const std::size_t count = members_.size();
   members_.resize(Groups::rounded_up(count), members_.back());
 
@@ -98,12 +76,35 @@ void GroupBuilder::add_group(std::uint32_t place) {
   ++groups_.count_;
 }
 
-void GroupBuilder::select_members(const Prism& prism) {
+double GroupBuilder::find_members(const Footprint& footprint) {
+  double height = first_height * footprint.size;
+  const Prism highest(footprint, growth, height, lead_, store_.frame);
+  Aabb box;
+  for (const Vec3& corner : footprint.grown(growth)) {
+    box.extend(corner + height * footprint.normal);
+    box.extend(corner - height * footprint.normal);
+  }
   members_.clear();
+  if (!gather(box.padded(highest.farthest() + lead_))) return 0;
+  select_members(highest);
+  while (members_.size() > Groups::many_members && shrinking * height >= least_height * footprint.size) {
+    height *= shrinking;
+    const Prism lower(footprint, growth, height, lead_, store_.frame);
+    // What a higher prism can do without, a lower one can.
+    std::erase_if(members_, [&](std::uint32_t place) {
+      return lower.excludes(store_.planes[place], store_.balls[place]);
+    });
+  }
+  return height;
+}
+
+void GroupBuilder::select_members(const Prism& prism) {
   for (std::size_t at = 0; at < near_.size(); at += 4) {
-    if (prism.excludes_balls(load(near_x_, at), load(near_y_, at), load(near_z_, at), load(near_radius_, at)))
-      continue;
-    for (std::size_t i = at; i < std::min(at + 4, near_.size()); ++i) {
+    unsigned left =
+        prism.balls_left(load(near_x_, at), load(near_y_, at), load(near_z_, at), load(near_radius_, at));
+    for (; left != 0; left &= left - 1) {
+      const std::size_t i = at + static_cast<std::size_t>(std::countr_zero(left));
+      if (i >= near_.size()) break;  // behind the last are its copies
       const std::uint32_t place = near_[i];
       if (!prism.excludes(store_.planes[place], store_.balls[place])) members_.push_back(place);
     }
@@ -112,7 +113,7 @@ void GroupBuilder::select_members(const Prism& prism) {
 
 bool GroupBuilder::gather(const Aabb& box) {
   if (gathered_.contains(box.min) && gathered_.contains(box.max)) return true;
-  gathered_ = box.padded(0.1 * box.extent().maxCoeff());
+  gathered_ = box.padded(0.2 * box.extent().maxCoeff());
   if (!gather_blocks(gathered_)) {
     gathered_ = Aabb();
     return false;

@@ -26,6 +26,9 @@ class GroupBuilder {
 
  private:
   void add_group(std::uint32_t place);
+  /// Leaves the members of the highest prism with no more than many, or of the lowest; none when the mesh is
+  /// too dense there. Returns the prism's height.
+  double find_members(const Footprint& footprint);
   /// Makes near_ hold every triangle that reaches into the box, or says that they are too many.
   bool gather(const Aabb& box);
   bool gather_blocks(const Aabb& box);

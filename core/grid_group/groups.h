@@ -30,7 +30,8 @@ struct Group {
 /// By place in the TriangleStore.
 class Groups {
  public:
-  static constexpr std::size_t most_members = 32;
+  /// More than many only where a lower prism would not help.
+  static constexpr std::size_t many_members = 32, most_members = 64;
 
   const Group& of(std::uint32_t place) const noexcept { return groups_[place]; }
   std::span<const std::uint32_t> members(const Group& group) const noexcept {

@@ -3,7 +3,7 @@
 namespace touchmark::grid {
 namespace {
 
-bool several(std::uint32_t bits) noexcept { return (bits & (bits - 1)) != 0; }
+bool several(std::uint64_t bits) noexcept { return (bits & (bits - 1)) != 0; }
 
 }  // namespace
 
@@ -22,13 +22,14 @@ float NearestSearch::consider_group(std::span<const std::uint32_t> members) noex
   } else {
     decide(bounds.guess);
   }
-  std::uint32_t left = within_limit(bounds, members.size());
+  std::uint64_t left = within_limit(bounds, members.size());
   if (several(left)) left = without_far_balls(left, members);
   // A limit from outside, below every height, may leave members whose planes fall short but balls do not.
   if (left == 0) return bounds.least;
   if (bounds.over_one && !several(left)) {
     place_ = members[static_cast<std::size_t>(std::countr_zero(left))];
     found_ = true;
+    over_face_ = place_ == bounds.guess;
     return bounds.least;
   }
   if (bounds.over_one) decide(bounds.guess);
@@ -39,15 +40,16 @@ float NearestSearch::consider_group(std::span<const std::uint32_t> members) noex
   return bounds.least;
 }
 
-std::uint32_t NearestSearch::within_limit(const GroupBounds& bounds, std::size_t members) const noexcept {
-  std::uint32_t left = 0;
-  for (std::size_t at = 0; at < members; at += 4) left |= at_most(bounds.squared[at / 4], limit_) << at;
-  return left & (~std::uint32_t{0} >> (32 - members));  // without the copies of the last
+std::uint64_t NearestSearch::within_limit(const GroupBounds& bounds, std::size_t members) const noexcept {
+  std::uint64_t left = 0;
+  for (std::size_t at = 0; at < members; at += 4)
+    left |= std::uint64_t{at_most(bounds.squared[at / 4], limit_)} << at;
+  return left & (~std::uint64_t{0} >> (64 - members));  // without the copies of the last
 }
 
-std::uint32_t NearestSearch::without_far_balls(std::uint32_t left,
+std::uint64_t NearestSearch::without_far_balls(std::uint64_t left,
                                                std::span<const std::uint32_t> members) const noexcept {
-  for (std::uint32_t rest = left; rest != 0; rest &= rest - 1)
+  for (std::uint64_t rest = left; rest != 0; rest &= rest - 1)
     if (ball_excludes(members[static_cast<std::size_t>(std::countr_zero(rest))])) left &= ~(rest & -rest);
   return left;
 }

@@ -28,6 +28,8 @@ class NearestSearch {
 
   bool found() const noexcept { return found_; }
   std::uint32_t place() const noexcept { return place_; }  ///< of the nearest
+  /// Is the point surely over the face of the triangle found (contact_over_face)?
+  bool over_face() const noexcept { return over_face_; }
   /// Its squared distance, by the exact kernel. Unknown after consider_group.
   const Candidate& best() const noexcept { return best_; }
   const FilterPoint& point() const noexcept { return point_; }
@@ -64,7 +66,7 @@ class NearestSearch {
  private:
   GroupBounds filter(std::span<const std::uint32_t> members) const noexcept;
   /// Bit i is set for member i.
-  std::uint32_t within_limit(const GroupBounds& bounds, std::size_t members) const noexcept;
+  std::uint64_t within_limit(const GroupBounds& bounds, std::size_t members) const noexcept;
 
   void visit(const BoxTree& tree, std::uint32_t level, std::uint32_t node, BoxStack& stack) noexcept {
     boxes_ += BoxTree::arity;
@@ -89,7 +91,7 @@ class NearestSearch {
     found_ = true;
     limit_ = std::min(limit_, store_.frame.limit(candidate.squared_distance));
   }
-  std::uint32_t without_far_balls(std::uint32_t left, std::span<const std::uint32_t> members) const noexcept;
+  std::uint64_t without_far_balls(std::uint64_t left, std::span<const std::uint32_t> members) const noexcept;
   /// Is it, by its ball, farther than the limit?
   bool ball_excludes(std::uint32_t place) const noexcept;
 
@@ -98,6 +100,7 @@ class NearestSearch {
   FilterPoint point_;
   float limit_;
   bool found_ = false;
+  bool over_face_ = false;
   std::uint32_t place_ = 0;
   Candidate best_;
   std::uint64_t triangles_ = 0;

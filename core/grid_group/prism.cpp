@@ -6,6 +6,11 @@
 #include <Eigen/Geometry>
 
 namespace touchmark::grid {
+namespace {
+
+Lanes lesser_of(Lanes a, Lanes b) noexcept { return a < b ? a : b; }
+
+}  // namespace
 
 Footprint::Footprint(const PreparedTriangle& triangle, const FilterFrame& frame) noexcept
     : normal(triangle.normal) {
@@ -99,22 +104,19 @@ void Prism::set_ball_limits(const Footprint& footprint, double height, double le
   for (std::size_t i = 0; i < 6; ++i) {
     const Vec3 p = corner[i % 3] + (i < 3 ? -height : height) * footprint.normal;
     const double distance = std::sqrt((p - footprint.incenter).squaredNorm() + lead * (2 * farthest + lead));
-    ball_limits_[i] = {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()),
-                       static_cast<float>(distance + 4 * static_cast<double>(tau_))};
+    corner_limits_[i] = {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()),
+                         static_cast<float>(distance + 4 * static_cast<double>(tau_))};
   }
 }
 
-bool Prism::excludes_balls(Lanes x, Lanes y, Lanes z, Lanes radius) const noexcept {
-  LaneBits left = {-1, -1, -1, -1};
-  for (const auto& [px, py, pz, limit] : ball_limits_) {
-    const Lanes dx = x - px, dy = y - py, dz = z - pz, beyond = radius + limit;
-    left &= (dx * dx + dy * dy + dz * dz) * (1 - 0x1p-20f) > beyond * beyond;
-  }
-#ifdef __SSE2__
-  return _mm_movemask_ps(reinterpret_cast<__m128>(left)) == 0xf;
-#else
-  return (left[0] & left[1] & left[2] & left[3]) != 0;
-#endif
+unsigned Prism::balls_left(Lanes x, Lanes y, Lanes z, Lanes radius) const noexcept {
+  const auto ahead = [&](const BallLimit& at) {  // what exceeds 0 is excluded
+    const Lanes dx = x - at.x, dy = y - at.y, dz = z - at.z, beyond = radius + at.limit;
+    return (dx * dx + dy * dy + dz * dz) * (1 - 0x1p-20f) - beyond * beyond;
+  };
+  Lanes least = ahead(corner_limits_[0]);
+  for (std::size_t i = 1; i < 6; ++i) least = lesser_of(least, ahead(corner_limits_[i]));
+  return at_most(least, 0);
 }
 
 bool Prism::excludes(const TrianglePlanes& t, const TriangleBall& ball) const noexcept {
@@ -126,9 +128,10 @@ bool Prism::excludes(const TrianglePlanes& t, const TriangleBall& ball) const no
     const Lanes face = value(0), distance = greater_of(face, -face);
     const Lanes height = greater_of(distance - tau_, zero);
     const Lanes beside = greater_of(value(1), greater_of(value(2), value(3))) - tau_;
-    const Lanes excess =
-        greater_of(greater_of(beside, beyond_ball(ball, x_[i], y_[i], z_[i], distance, tau_)), zero);
-    if (!all_exceed(height * height + excess * excess, limit_[i])) return false;
+    const Lanes excess = greater_of(beside, zero);
+    if (all_exceed(height * height + excess * excess, limit_[i])) continue;
+    const Lanes round = greater_of(excess, beyond_ball(ball, x_[i], y_[i], z_[i], distance, tau_));
+    if (!all_exceed(height * height + round * round, limit_[i])) return false;
   }
   return true;
 }

@@ -40,8 +40,8 @@ class Prism {
 
   /// Is the triangle surely not nearest anywhere in the prism?
   bool excludes(const TrianglePlanes& triangle, const TriangleBall& ball) const noexcept;
-  /// The same for four balls, and whatever is in them: a quick look first.
-  bool excludes_balls(Lanes x, Lanes y, Lanes z, Lanes radius) const noexcept;
+  /// A quick look at four balls first: bit i is set unless the same holds for whatever is in ball i.
+  unsigned balls_left(Lanes x, Lanes y, Lanes z, Lanes radius) const noexcept;
   /// No point of the prism is farther than this from its footprint.
   double farthest() const noexcept { return farthest_; }
 
@@ -64,8 +64,12 @@ class Prism {
 
   std::array<Vec3, points_an_end> base_;
   AtPoints x_, y_, z_;
-  AtPoints limit_;                                   ///< squared distances beyond which a triangle loses
-  std::array<std::array<float, 4>, 6> ball_limits_;  ///< the prism's corners, and the distance for each
+  AtPoints limit_;  ///< squared distances beyond which a triangle loses
+  /// A point, and the distance from it beyond which a ball loses there.
+  struct BallLimit {
+    float x, y, z, limit;
+  };
+  std::array<BallLimit, 6> corner_limits_;
   float tau_ = 0;
   double farthest_ = 0;
 };
