@@ -92,7 +92,7 @@ class CellTreeBuilder {
     NearestSearch search(store_, center, std::numeric_limits<double>::infinity());
     search.consider(cell.hint);
     search.consider_tree(tree_);
-    const double distance = store_.frame.scale() * std::sqrt(search.best().squared_distance);
+    const double distance = store_.frame.scale() * std::sqrt(search.offset().squared);
     return {search.place(), static_cast<float>(distance * (1 - 0x1p-20) - 0x1p-30)};
   }
 

@@ -34,8 +34,6 @@ DirectGrid DirectGrid::build(const TriangleMesh& mesh, const DirectOptions& opti
   DirectGrid grid;
   grid.serial_ = next_serial();
   grid.bounds_ = mesh.bounds();
-  const double extent = mesh.bounds().extent().maxCoeff();
-  grid.fourth_powers_fit_ = extent > 0x1p-200 && extent < 0x1p200;
   grid.store_ = TriangleStore::build(mesh);
   grid.tree_ = BoxTree(grid.store_);
   const FilterFrame& frame = grid.store_.frame;

@@ -59,14 +59,13 @@ class DirectGrid {
   /// a rounding of the filter; then `squared_lower` bounds the squared distance to all.
   struct Located {
     const PreparedTriangle* triangle = nullptr;
-    bool over_face = false;
+    Offset offset{Vec3::Zero(), 0};
     double squared_lower = 0;
     float tau = 0;  ///< the filter's, at the centre
   };
   Located locate(const Vec3& center, double reach, DirectMemory& memory, Work& work) const noexcept;
   void remember(const Vec3& center, float tau, double lower, double upper,
                 DirectMemory& memory) const noexcept;
-  Contact contact_at(const Located& located, const Vec3& center, std::uint32_t place) const noexcept;
 
   /// For probes so far away that single precision tells the triangles no longer apart.
   std::optional<Contact> far_nearest(const Vec3& center, double reach, Work& work) const noexcept;
@@ -83,7 +82,6 @@ class DirectGrid {
   Groups groups_;
   CellTree cells_;
   bool coarsened_ = false;
-  bool fourth_powers_fit_ = false;  ///< of the mesh's extent, into the range of double
 };
 
 }  // namespace touchmark::grid

@@ -4,7 +4,6 @@
 
 #include "core/grid_group/direct_grid.h"
 #include "core/grid_group/nearest_search.h"
-#include "core/grid_group/over_face.h"
 
 namespace touchmark::grid {
 namespace {
@@ -89,14 +88,7 @@ DirectGrid::Located DirectGrid::locate(const Vec3& center, double reach, DirectM
     return {};
   }
   memory.place = search.place();
-  return {&store_.exact[search.place()], search.over_face() && fourth_powers_fit_, squared_lower,
-          search.point().tau};
-}
-
-Contact DirectGrid::contact_at(const Located& located, const Vec3& center,
-                               std::uint32_t place) const noexcept {
-  return located.over_face ? contact_over_face(*located.triangle, center, store_.id(place))
-                           : contact_on(*located.triangle, center, store_.id(place));
+  return {&store_.exact[search.place()], search.offset(), squared_lower, search.point().tau};
 }
 
 bool DirectGrid::touches(const Probe& probe, DirectMemory& memory, Work& work) const noexcept {
@@ -105,7 +97,7 @@ bool DirectGrid::touches(const Probe& probe, DirectMemory& memory, Work& work) c
   if (memory.owner == serial_ && moved_less(memory, probe.center, probe.radius - memory.upper)) return true;
   const Located located = locate(probe.center, probe.radius, memory, work);
   if (located.triangle == nullptr) return false;
-  const double distance = std::sqrt(squared_distance(*located.triangle, probe.center));
+  const double distance = std::sqrt(located.offset.squared);
   const bool touching = distance <= probe.radius;
   const double lower = touching ? distance : std::min(std::sqrt(located.squared_lower), distance);
   remember(probe.center, located.tau, lower, distance, memory);
@@ -118,7 +110,7 @@ std::optional<Contact> DirectGrid::nearest(const Vec3& center, double reach, Dir
   if (!store_.frame.covers(center)) return far_nearest(center, reach, work);
   const Located located = locate(center, reach, memory, work);
   if (located.triangle == nullptr) return std::nullopt;
-  const Contact contact = contact_at(located, center, memory.place);
+  const Contact contact = contact_at(*located.triangle, center, located.offset, store_.id(memory.place));
   const bool within = contact.distance <= reach;
   const double lower =
       within ? contact.distance : std::min(std::sqrt(located.squared_lower), contact.distance);

@@ -13,7 +13,7 @@ namespace {
 constexpr double growth = 0.3;
 /// Over and under the triangle by this part of its size at first, and by less where the groups would be too
 /// large.
-constexpr double first_height = 1.5, least_height = 0.2, shrinking = 0.6;
+constexpr double first_height = 1.0, least_height = 0.2, shrinking = 0.6;
 /// More than this around one triangle: it is out of proportion to its neighbours, and the hierarchy serves
 /// it.
 constexpr std::size_t most_near = 1024;

@@ -29,7 +29,7 @@ float NearestSearch::consider_group(std::span<const std::uint32_t> members) noex
   if (bounds.over_one && !several(left)) {
     place_ = members[static_cast<std::size_t>(std::countr_zero(left))];
     found_ = true;
-    over_face_ = place_ == bounds.guess;
+    over_face_ = place_ == bounds.guess && store_.fourth_powers_fit;
     return bounds.least;
   }
   if (bounds.over_one) decide(bounds.guess);

@@ -11,6 +11,7 @@
 #include <span>
 
 #include "core/grid_group/box_tree.h"
+#include "core/grid_group/exact_offset.h"
 #include "core/grid_group/group_filter.h"
 #include "core/grid_group/triangle_store.h"
 
@@ -28,10 +29,12 @@ class NearestSearch {
 
   bool found() const noexcept { return found_; }
   std::uint32_t place() const noexcept { return place_; }  ///< of the nearest
-  /// Is the point surely over the face of the triangle found (contact_over_face)?
-  bool over_face() const noexcept { return over_face_; }
-  /// Its squared distance, by the exact kernel. Unknown after consider_group.
-  const Candidate& best() const noexcept { return best_; }
+  /// Of the nearest, as the exact kernel gives it; when there is one.
+  Offset offset() const noexcept {
+    const PreparedTriangle& triangle = store_.exact[place_];
+    if (known_) return offset_;
+    return over_face_ ? offset_over_face(triangle, center_) : exact_offset(triangle, center_);
+  }
   const FilterPoint& point() const noexcept { return point_; }
   std::uint64_t triangles() const noexcept { return triangles_; }  ///< tested
   std::uint64_t boxes() const noexcept { return boxes_; }          ///< tested
@@ -41,8 +44,8 @@ class NearestSearch {
     decide(place);
   }
 
-  /// All there is to consider. Afterwards something is found unless nothing is within the limit. Returns a
-  /// lower bound of the squared distance to all of them, in the frame.
+  /// All there is to consider, and the first. Afterwards something is found unless nothing is within the
+  /// limit. Returns a lower bound of the squared distance to all of them, in the frame.
   float consider_group(std::span<const std::uint32_t> members) noexcept;
 
   /// A guess at the nearest member, by the filter alone.
@@ -84,11 +87,13 @@ class NearestSearch {
   }
   void decide(std::uint32_t place) noexcept {
     const PreparedTriangle& triangle = store_.exact[place];
-    const Candidate candidate{squared_distance(triangle, center_), triangle.index};
+    const Offset offset = exact_offset(triangle, center_);
+    const Candidate candidate{offset.squared, triangle.index};
     if (!(candidate < best_)) return;
     best_ = candidate;
+    offset_ = offset;
     place_ = place;
-    found_ = true;
+    found_ = known_ = true;
     limit_ = std::min(limit_, store_.frame.limit(candidate.squared_distance));
   }
   std::uint64_t without_far_balls(std::uint64_t left, std::span<const std::uint32_t> members) const noexcept;
@@ -100,9 +105,11 @@ class NearestSearch {
   FilterPoint point_;
   float limit_;
   bool found_ = false;
-  bool over_face_ = false;
+  bool known_ = false;      ///< offset_, and best_ with it
+  bool over_face_ = false;  ///< is the point surely over the face of the triangle found?
   std::uint32_t place_ = 0;
   Candidate best_;
+  Offset offset_{Vec3::Zero(), 0};
   std::uint64_t triangles_ = 0;
   std::uint64_t boxes_ = 0;
 };

@@ -88,6 +88,7 @@ TriangleBall ball_around(const PreparedTriangle& triangle, const FilterFrame& fr
 TriangleStore TriangleStore::build(const TriangleMesh& mesh) {
   TriangleStore store;
   store.frame = FilterFrame::around(mesh.bounds());
+  store.fourth_powers_fit = store.frame.scale() > 0x1p-200 && store.frame.scale() < 0x1p200;
   std::vector<Middle> middles = middles_of(mesh, store.frame);
   arrange(middles);
 

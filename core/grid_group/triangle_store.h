@@ -40,7 +40,8 @@ struct TriangleStore {
   std::vector<PreparedTriangle> exact;
   std::vector<TrianglePlanes> planes;
   std::vector<TriangleBall> balls;
-  std::vector<TriangleId> ids;  ///< by position in the mesh; empty when they are the positions
+  bool fourth_powers_fit = false;  ///< of the mesh's extent, into the range of double
+  std::vector<TriangleId> ids;     ///< by position in the mesh; empty when they are the positions
 
   /// The mesh's box must fit (FilterFrame::fits).
   static TriangleStore build(const TriangleMesh& mesh);
