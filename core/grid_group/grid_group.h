@@ -3,10 +3,10 @@
 /// After J.-S. Park and T.-J. Jang (Journal of Digital Contents Society 19(1), 2018, pp. 199-204, in Korean),
 /// in two forms:
 /// - scan, as published: a triangle belongs to every cell it touches, a group is the smallest cuboid or
-/// sphere
-///   around the triangles of a cell, and a query tests the HIP against every group, then all triangles of the
-///   groups that hold it. A probe of radius r enlarges the groups by r.
-/// - direct, fast: the HIP's own cell names the triangles that can be nearest somewhere in that cell.
+///   sphere around the triangles of a cell, and a query tests the HIP against every group, then all triangles
+///   of the groups that hold it. A probe of radius r enlarges the groups by r.
+/// - direct, fast: a group is all triangles that can be nearest somewhere close to one triangle. The
+///   HIP's own cell, or the tick before, names a triangle, and its group is all that is looked at.
 /// Both are exact at any radius and reach.
 #pragma once
 
@@ -50,7 +50,7 @@ class GridGroup {
   std::size_t bytes() const noexcept;
   Accuracy accuracy() const noexcept { return {Guarantee::exact, kernel_relative_error, 0}; }
 
-  /// Scan: groups tested by every query. Direct: cells that hold a list.
+  /// Scan: groups tested by every query. Direct: triangles that have one.
   std::size_t groups() const noexcept;
   /// Edge of the (smallest) cell, in mesh units; 0 where the mesh's extent admits no cells.
   double cell() const noexcept;
