@@ -16,6 +16,9 @@
 
 #if TOUCHMARK_HAS_AVX2
 #include <array>
+#include <bit>
+#include <cstddef>
+#include <limits>
 
 #include <immintrin.h>
 
@@ -53,6 +56,14 @@ inline QuadVec select(const QuadVec& a, const QuadVec& b, Quad mask) noexcept {
 }
 inline Quad all(double a) noexcept { return _mm256_set1_pd(a); }
 
+/// The lowest of lanes 0 to 2 that holds the least value. None is NaN.
+inline std::size_t least_of_three(Quad a) noexcept {
+  const Quad following = next(a);
+  const Quad least = _mm256_min_pd(_mm256_min_pd(a, following), next(following));
+  const int holders = _mm256_movemask_pd(_mm256_cmp_pd(a, least, _CMP_EQ_OQ));
+  return static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(holders)));
+}
+
 /// Corner i in lane i.
 inline QuadVec corners(const PreparedTriangle& triangle) noexcept {
   const double* const at = triangle.corner[0].data();
@@ -83,14 +94,10 @@ inline Offset offset_from(const PreparedTriangle& triangle, const Vec3& point) n
   const Quad rounding = _mm256_mul_pd(_mm256_mul_pd(all(roundings * roundings), near_squared), edge_squared);
   const Quad over = _mm256_and_pd(_mm256_cmp_pd(inside, _mm256_setzero_pd(), _CMP_GT_OQ),
                                   _mm256_cmp_pd(_mm256_mul_pd(inside, inside), rounding, _CMP_GT_OQ));
-  alignas(32) std::array<double, 4> s;
   if ((_mm256_movemask_pd(over) & 7) == 7) {
     alignas(32) std::array<double, 4> heights;
-    _mm256_store_pd(s.data(), squared);
     _mm256_store_pd(heights.data(), dot(to, normal));
-    std::size_t nearest = s[1] < s[0] ? 1 : 0;
-    if (s[2] < s[nearest]) nearest = 2;
-    const double height = heights[nearest];
+    const double height = heights[least_of_three(squared)];
     return {height * triangle.normal, height * height};
   }
 
@@ -104,10 +111,10 @@ inline Offset offset_from(const PreparedTriangle& triangle, const Vec3& point) n
   const Quad beside = _mm256_and_pd(_mm256_cmp_pd(along, _mm256_setzero_pd(), _CMP_GT_OQ),
                                     _mm256_cmp_pd(across_squared, near_squared, _CMP_LT_OQ));
   const QuadVec offset = select(near, across, beside);
-  _mm256_store_pd(s.data(), select(near_squared, across_squared, beside));
-  std::size_t best = s[1] < s[0] ? 1 : 0;
-  if (s[2] < s[best]) best = 2;
-  alignas(32) std::array<double, 4> x, y, z;
+  const Quad least = select(near_squared, across_squared, beside);
+  const std::size_t best = least_of_three(least);
+  alignas(32) std::array<double, 4> s, x, y, z;
+  _mm256_store_pd(s.data(), least);
   _mm256_store_pd(x.data(), offset.x);
   _mm256_store_pd(y.data(), offset.y);
   _mm256_store_pd(z.data(), offset.z);

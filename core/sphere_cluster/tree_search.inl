@@ -56,9 +56,11 @@ inline float least_lane(Wide values) noexcept {
   return least;
 }
 
-inline void prefetch(const TreeNode& node) noexcept {
-  for (std::size_t line = 0; line < sizeof node; line += 64)
-    __builtin_prefetch(reinterpret_cast<const char*>(&node) + line);
+/// A node's lines, or as many of a block.
+inline void prefetch(const TreeParts& tree, TreeRef ref) noexcept {
+  const auto* const start = ref.is_block() ? reinterpret_cast<const char*>(&tree.blocks[ref.index()])
+                                           : reinterpret_cast<const char*>(&tree.nodes[ref.index()]);
+  for (std::size_t line = 0; line < sizeof(TreeNode); line += 64) __builtin_prefetch(start + line);
 }
 
 /// Takes the lowest bit off.
@@ -110,6 +112,7 @@ float descend(const TreeParts& tree, const FilterPoint& point, Visitor& visitor)
     const std::size_t base = count;
     while (near != 0) {
       const std::uint32_t child = take(near);
+      prefetch(tree, node.child[child]);
       std::size_t at = count++;
       for (; at > base && waiting[at - 1].bound < bound[child]; --at) waiting[at] = waiting[at - 1];
       waiting[at] = {bound[child], node.child[child]};
@@ -135,7 +138,7 @@ inline void list_blocks(const TreeParts& tree, const FilterPoint& point, NearBlo
         if (child.is_block()) {
           list.add(node, at + lane, bounds[lane]);
         } else {
-          prefetch(tree.nodes[child.index()]);
+          prefetch(tree, child);
           waiting[count++] = child.index();
         }
       }
