@@ -26,6 +26,8 @@ void add_verify(CLI::App& program, ProgramContext& context);
 void add_list(CLI::App& program, ProgramContext& context);
 void add_mesh(CLI::App& program, ProgramContext& context);
 void add_query(CLI::App& program, ProgramContext& context);
+void add_paper(CLI::App& program, ProgramContext& context);
+void add_tune(CLI::App& program, ProgramContext& context);
 
 int run_program(int argc, char** argv, const Roster& roster);
 

@@ -43,4 +43,13 @@ void ResultsFolder::write(const std::string& results_csv, const std::string& run
   write_file(path_ / "run.json", run_json);
 }
 
+void ResultsFolder::write_file(const std::filesystem::path& name, const std::string& text) const {
+  const std::filesystem::path path = path_ / name;
+  std::error_code error;
+  std::filesystem::create_directories(path.parent_path(), error);
+  if (error)
+    throw ResourceError(fmt::format("cannot create {}: {}", path.parent_path().string(), error.message()));
+  bench::write_file(path, text);
+}
+
 }  // namespace touchmark::bench

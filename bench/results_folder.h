@@ -12,9 +12,11 @@ class ResultsFolder {
   /// written to: before the measuring, not after.
   explicit ResultsFolder(const std::string& path);
 
-  /// Both throw ResourceError.
+  /// All throw ResourceError.
   void write(const std::string& results_csv) const;
   void write(const std::string& results_csv, const std::string& run_json) const;
+  /// Any file, by its path inside the folder; folders on the way are created.
+  void write_file(const std::filesystem::path& name, const std::string& text) const;
 
  private:
   std::filesystem::path path_;

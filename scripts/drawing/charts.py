@@ -1,0 +1,221 @@
+"""The papers' charts, from their CSV files: legible in grey, every axis with its unit."""
+import collections
+import csv
+import math
+import pathlib
+
+from .pictures import METHODS
+
+SHADES = ["0.95", "0.75", "0.45", "0.1"]
+HATCHES = ["", "////", "....", ""]
+NAMES = {"butterfly": "Butterfly", "catmull-clark-linear": "Catmull-\nClark", "mid-point": "Mid-point", "loop": "Loop",
+         "ls3": "LS3", "original": "original"}
+
+
+def read(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def number(row, column):
+    return float(row[column]) if row.get(column) else math.nan
+
+
+class Table1:
+    """table1.csv by method, level and whether clustered; level 0 stands for every method."""
+
+    def __init__(self, directory):
+        self.rows = {}
+        for row in read(pathlib.Path(directory) / "table1.csv"):
+            self.rows[row["method"], int(row["level"]), float(row["clustering"]) > 0] = row
+        self.levels = 1 + max(level for _, level, _ in self.rows)
+
+    def value(self, method, level, clustered, column):
+        row = self.rows.get((method if level else "original", level, clustered))
+        return number(row, column) if row else math.nan
+
+
+def bars(axes, table, column, clustered, levels, log=False, factor=1.0, digits="{:.3g}"):
+    """A group a method, a bar a level."""
+    width = 0.86 / len(levels)
+    for k, level in enumerate(levels):
+        values = [factor * table.value(method, level, clustered, column) for method, _ in METHODS]
+        at = [m - 0.43 + (k + 0.5) * width for m in range(len(METHODS))]
+        drawn = axes.bar(at, values, width, color=SHADES[level], hatch=HATCHES[level], edgecolor="black", linewidth=0.6,
+                         label="original" if level == 0 else f"level {level}")
+        axes.bar_label(drawn, [digits.format(v) if math.isfinite(v) else "" for v in values], fontsize=6.5, rotation=90,
+                       padding=2)
+    axes.set_xticks(range(len(METHODS)), [NAMES[method] for method, _ in METHODS], fontsize=9)
+    if log:
+        axes.set_yscale("log")
+        low, high = axes.get_ylim()
+        axes.set_ylim(low, high * (high / low) ** 0.18)
+    else:
+        axes.margins(y=0.18)
+    axes.grid(axis="y", color="0.85", linewidth=0.6)
+    axes.set_axisbelow(True)
+
+
+def draw_plain(plt, table, column, title, unit, clustered=False, from_level=0, one=False, log=False):
+    figure, axes = plt.subplots(figsize=(7.5, 4.2))
+    bars(axes, table, column, clustered, range(from_level, table.levels), log)
+    if one:
+        axes.axhline(1, color="black", linewidth=0.8, linestyle="--")
+    axes.set_ylabel(unit)
+    axes.set_title(title, fontsize=12, fontweight="bold", loc="left")
+    axes.legend(ncols=4, fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.13), frameon=False)
+    figure.tight_layout()
+    return figure
+
+
+def printed_ls3(directory, what):
+    """(printed, reproduced) by level, of the report's list."""
+    values = {}
+    for row in read(pathlib.Path(directory) / "numbers.csv"):
+        if row["where"].startswith("Table 3, LS3 level ") and row["what"] == what and row["reproduced"]:
+            values[int(row["where"].rsplit(" ", 1)[1])] = (float(row["printed"]), float(row["reproduced"]))
+    return values
+
+
+def draw_pair(plt, directory, table, column, title, unit, printed, log=True, relative=True):
+    """Without and with clustering, and LS3 beside the paper's numbers."""
+    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(14, 4.4), gridspec_kw={"width_ratios": [5, 5, 3.4]})
+    levels = range(table.levels)
+    bars(left, table, column, False, levels, log)
+    bars(middle, table, column, True, levels, log)
+    low = min(left.get_ylim()[0], middle.get_ylim()[0])
+    high = max(left.get_ylim()[1], middle.get_ylim()[1])
+    for axes, name in ((left, "without clustering"), (middle, "with clustering")):
+        axes.set_ylim(low, high)
+        axes.set_title(name, fontsize=10)
+    left.set_ylabel(unit)
+    left.legend(ncols=4, fontsize=8, loc="upper center", bbox_to_anchor=(1.05, -0.13), frameon=False)
+    for name, what, line in (("without", printed[0], "-"), ("with", printed[1], "--")):
+        values = printed_ls3(directory, what)
+        if not values:
+            continue
+        base = [values[0][k] if relative else 1 for k in (0, 1)]
+        for k, (who, marker, fill) in enumerate((("paper", "s", "white"), ("here", "o", "black"))):
+            right.plot(list(values), [pair[k] / base[k] for pair in values.values()], line, marker=marker, color="black",
+                       markerfacecolor=fill, markersize=6, linewidth=1, label=f"{who}, {name} clustering")
+    right.set_yscale("log")
+    right.set_xticks(levels)
+    right.set_xlabel("level")
+    right.set_ylabel("times level 0's" if relative else unit)
+    right.set_title("LS3: the paper's numbers and these", fontsize=10)
+    right.grid(axis="y", color="0.85", linewidth=0.6)
+    right.legend(fontsize=7.5, frameon=False)
+    figure.suptitle(title, fontsize=12, fontweight="bold", x=0.01, ha="left")
+    figure.tight_layout()
+    return figure
+
+
+def draw_fast_forms(plt, directory):
+    figure, axes = plt.subplots(figsize=(8, 5))
+    rows = read(pathlib.Path(directory) / "fast_forms.csv")
+    forms = [("scan_update_rate_hz", "published scan", "o", "white"),
+             ("clustered_scan_update_rate_hz", "published scan, clustered", "s", "0.7"),
+             ("tree_update_rate_hz", "exact tree", "^", "0.4"), ("grid_update_rate_hz", "exact grid", "D", "black")]
+    for column, name, marker, fill in forms:
+        axes.plot([number(row, "triangles") for row in rows], [number(row, column) for row in rows], marker, color="black",
+                  markerfacecolor=fill, markersize=6, label=name)
+    axes.axhline(1000, color="black", linestyle="--", linewidth=0.8, label="1000 Hz")
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlabel("triangles (all methods and levels)")
+    axes.set_ylabel("update rate, Hz")
+    axes.grid(color="0.88", linewidth=0.6)
+    axes.set_title("What subdivision really costs", fontsize=12, fontweight="bold", loc="left")
+    axes.legend(fontsize=9, frameon=False, loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    figure.tight_layout()
+    return figure
+
+
+def draw_frontier(plt, directory):
+    """Time against error: below and to the left is better."""
+    figure, axes = plt.subplots(figsize=(9.5, 6))
+    rows = [row for row in read(pathlib.Path(directory) / "frontier.csv") if row["detection_ms"]]
+    distances = sorted({float(row["clustering"]) for row in rows})
+    forms = {"scan": "o", "fast level": "v", "tree": "^", "grid": "D"}
+    for form, marker in forms.items():
+        for k, distance in enumerate(distances):
+            mine = [row for row in rows if row["form"] == form and float(row["clustering"]) == distance]
+            shade = "white" if form in ("scan", "fast level") and k == 0 else str(0.85 - 0.7 * k / max(len(distances) - 1, 1))
+            axes.plot([1e3 * number(row, "detection_ms") for row in mine], [number(row, "mean_error_percent") for row in mine],
+                      marker, color="black", markerfacecolor=shade if form in ("scan", "fast level") else "black",
+                      markersize=5 + (form in ("tree", "grid")), markeredgewidth=0.7)
+    published = pareto([row for row in rows if row["form"] in ("scan", "fast level")])
+    every = pareto(rows)
+    for best, style, name in ((published, "--", "frontier as published"), (every, "-", "frontier with the exact fast forms")):
+        axes.step([1e3 * number(row, "detection_ms") for row in best], [number(row, "mean_error_percent") for row in best],
+                  where="post", color="black", linestyle=style, linewidth=1.2, label=name, zorder=0)
+    named = set()
+    for row in published + every:
+        name = NAMES[row["method"]].replace("\n", "") + (f" {row['level']}" if int(row["level"]) else "")
+        spot = (name, row["form"])
+        if spot in named:
+            continue
+        named.add(spot)
+        axes.annotate(name, (1e3 * number(row, "detection_ms"), number(row, "mean_error_percent")), (5, 4),
+                      textcoords="offset points", fontsize=7)
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlabel("time of one query, µs")
+    axes.set_ylabel("mean distance error to the smooth surface, % of the box diagonal")
+    axes.grid(color="0.88", linewidth=0.6)
+    legend = axes.get_legend_handles_labels()[0]
+    for form, marker in forms.items():
+        kind = {"scan": "scan, precise (published)", "fast level": "fast level alone (published)", "tree": "exact tree",
+                "grid": "exact grid"}[form]
+        legend.append(plt.Line2D([], [], linestyle="", marker=marker, color="black", label=kind,
+                                 markerfacecolor="white" if form in ("scan", "fast level") else "black"))
+    legend.append(plt.Line2D([], [], linestyle="", label=f"darker: clustered farther, 0 to {max(distances):.3g} mesh units"))
+    axes.legend(handles=legend, fontsize=8.5, loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=3, frameon=False)
+    axes.set_title("Run time against error: left and down is better", fontsize=12, fontweight="bold", loc="left")
+    figure.tight_layout()
+    return figure
+
+
+def pareto(rows):
+    best, least = [], math.inf
+    for row in sorted(rows, key=lambda row: number(row, "detection_ms")):
+        if number(row, "mean_error_percent") < least:
+            least = number(row, "mean_error_percent")
+            best.append(row)
+    return best
+
+
+def draw_groups_against_time(plt, directory):
+    """Park & Jang's Fig. 7, a panel a mesh."""
+    meshes = collections.OrderedDict()
+    for row in read(pathlib.Path(directory) / "times.csv"):
+        if row["detection_ms"]:
+            meshes.setdefault((row["mesh"], int(row["triangles"])), []).append(row)
+    columns = min(2, len(meshes))
+    lines = -(-len(meshes) // columns)
+    figure, panels = plt.subplots(lines, columns, squeeze=False, figsize=(6.2 * columns, 4 * lines + 0.6), sharex=True)
+    for spare in list(panels.flat)[len(meshes):]:
+        spare.set_visible(False)
+    for axes, ((mesh, triangles), rows) in zip(panels.flat, meshes.items()):
+        for form, marker, fill in (("cube", "s", "black"), ("sphere", "o", "white")):
+            mine = [row for row in rows if row["form"] == form]
+            axes.plot([number(row, "groups") for row in mine], [1e3 * number(row, "detection_ms") for row in mine], "-",
+                      marker=marker, color="black", markerfacecolor=fill, markersize=5, linewidth=1, label=f"groups: {form}s")
+        for form, style, name in (("ungrouped", "--", "ungrouped"), ("direct", ":", "exact grid (own cell only)")):
+            for row in rows:
+                if row["form"] == form:
+                    axes.axhline(1e3 * number(row, "detection_ms"), color="black", linestyle=style, linewidth=1.2, label=name)
+        axes.axvline(783, color="0.6", linewidth=3, alpha=0.6, label="783: the paper's turning point")
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        axes.set_title(f"{mesh}: {triangles:,} triangles", fontsize=10, loc="left", fontweight="bold")
+        axes.grid(color="0.9", linewidth=0.6)
+        axes.set_ylabel("time of one query, µs")
+        axes.tick_params(labelbottom=True)
+    for axes in panels[-1]:
+        axes.set_xlabel("number of groups")
+    handles, labels = panels[0][0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="lower center", ncols=5, fontsize=9, frameon=False)
+    figure.suptitle("Time against the number of groups (Fig. 7)", fontsize=12, fontweight="bold", x=0.01, ha="left")
+    figure.tight_layout(rect=(0, 0.05, 1, 0.98))
+    return figure
