@@ -17,6 +17,7 @@
 #include "bench/program.h"
 #include "bench/progress.h"
 #include "bench/results_folder.h"
+#include "core/geometry/plane_filter.h"
 #include "core/grid_group/scan_grid.h"
 
 namespace touchmark::bench {
@@ -65,8 +66,19 @@ class GroupPictures {
   }
 
  private:
+  /// Cells come in steps, so a few sizes about the right one are tried for exactly as many groups.
   grid::ScanGrid groups(grid::Shape shape, std::size_t count) const {
-    return grid::ScanGrid::build(mesh_.mesh, {.shape = shape, .groups = count});
+    const auto miss = [count](const grid::ScanGrid& grid) {
+      return grid.groups() > count ? grid.groups() - count : count - grid.groups();
+    };
+    grid::ScanGrid best = grid::ScanGrid::build(mesh_.mesh, {.shape = shape, .groups = count});
+    const double cell = best.cell();
+    for (int i = 1; i <= 60 && miss(best) > 0; ++i) {
+      const double part = (i % 2 == 0 ? 0.002 : -0.002) * ((i + 1) / 2);
+      grid::ScanGrid next = grid::ScanGrid::build(mesh_.mesh, {.shape = shape, .cell = cell * (1 + part)});
+      if (miss(next) < miss(best)) best = std::move(next);
+    }
+    return best;
   }
 
   /// The group that the probe is deepest in.
@@ -91,9 +103,10 @@ int run(const Options& options) {
   const ResultsFolder folder(options.common.out);
   watch_for_interrupts();
   restore_denormals();
-  // The mesh whose size is nearest to that of the paper's, as far as its numbers tell: between the Stanford
-  // ones.
-  GroupPictures(meshes[std::min<std::size_t>(meshes.size() - 1, 2)], settings, folder).write();
+  // Of a mesh between the Stanford resolutions; the groups need a box that can be divided.
+  const PaperMesh& pictured = meshes[std::min<std::size_t>(meshes.size() - 1, 2)];
+  if (FilterFrame::fits(pictured.mesh.bounds()) && pictured.mesh.diagonal() > 0)
+    GroupPictures(pictured, settings, folder).write();
   ProgressLine progress;
   const ParkJangResult result =
       run_park_jang(meshes, settings, [&](const std::string& what) { progress.show(what); });

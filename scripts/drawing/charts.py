@@ -35,15 +35,22 @@ class Table1:
         return number(row, column) if row else math.nan
 
 
-def bars(axes, table, column, clustered, levels, log=False, factor=1.0, digits="{:.3g}"):
+def short(value):
+    """Three digits, without an exponent."""
+    if not math.isfinite(value):
+        return ""
+    return f"{value:,.0f}" if value >= 100 else f"{value:.3g}" if value >= 1e-4 else f"{value:.6f}"
+
+
+def bars(axes, table, column, clustered, levels, log=False):
     """A group a method, a bar a level."""
     width = 0.86 / len(levels)
     for k, level in enumerate(levels):
-        values = [factor * table.value(method, level, clustered, column) for method, _ in METHODS]
+        values = [table.value(method, level, clustered, column) for method, _ in METHODS]
         at = [m - 0.43 + (k + 0.5) * width for m in range(len(METHODS))]
         drawn = axes.bar(at, values, width, color=SHADES[level], hatch=HATCHES[level], edgecolor="black", linewidth=0.6,
                          label="original" if level == 0 else f"level {level}")
-        axes.bar_label(drawn, [digits.format(v) if math.isfinite(v) else "" for v in values], fontsize=6.5, rotation=90,
+        axes.bar_label(drawn, [short(v) for v in values], fontsize=6.5, rotation=90,
                        padding=2)
     axes.set_xticks(range(len(METHODS)), [NAMES[method] for method, _ in METHODS], fontsize=9)
     if log:
@@ -79,35 +86,40 @@ def printed_ls3(directory, what):
 
 def draw_pair(plt, directory, table, column, title, unit, printed, log=True, relative=True):
     """Without and with clustering, and LS3 beside the paper's numbers."""
-    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(14, 4.4), gridspec_kw={"width_ratios": [5, 5, 3.4]})
+    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(14.5, 4.8), gridspec_kw={"width_ratios": [5, 5, 3.6]})
     levels = range(table.levels)
     bars(left, table, column, False, levels, log)
     bars(middle, table, column, True, levels, log)
-    low = min(left.get_ylim()[0], middle.get_ylim()[0])
-    high = max(left.get_ylim()[1], middle.get_ylim()[1])
+    low = min(axes.get_ylim()[0] for axes in (left, middle))
+    high = max(axes.get_ylim()[1] for axes in (left, middle))
     for axes, name in ((left, "without clustering"), (middle, "with clustering")):
-        axes.set_ylim(low, high)
+        axes.set_ylim(low / 1.3, high)
         axes.set_title(name, fontsize=10)
     left.set_ylabel(unit)
-    left.legend(ncols=4, fontsize=8, loc="upper center", bbox_to_anchor=(1.05, -0.13), frameon=False)
+    draw_ls3(right, directory, printed, levels, relative, unit)
+    handles, labels = left.get_legend_handles_labels()
+    figure.legend(handles, labels, ncols=4, fontsize=9, loc="lower left", bbox_to_anchor=(0.2, 0), frameon=False)
+    figure.suptitle(title, fontsize=12, fontweight="bold", x=0.01, ha="left")
+    figure.tight_layout(rect=(0, 0.05, 1, 1))
+    return figure
+
+
+def draw_ls3(axes, directory, printed, levels, relative, unit):
     for name, what, line in (("without", printed[0], "-"), ("with", printed[1], "--")):
         values = printed_ls3(directory, what)
         if not values:
             continue
         base = [values[0][k] if relative else 1 for k in (0, 1)]
         for k, (who, marker, fill) in enumerate((("paper", "s", "white"), ("here", "o", "black"))):
-            right.plot(list(values), [pair[k] / base[k] for pair in values.values()], line, marker=marker, color="black",
-                       markerfacecolor=fill, markersize=6, linewidth=1, label=f"{who}, {name} clustering")
-    right.set_yscale("log")
-    right.set_xticks(levels)
-    right.set_xlabel("level")
-    right.set_ylabel("times level 0's" if relative else unit)
-    right.set_title("LS3: the paper's numbers and these", fontsize=10)
-    right.grid(axis="y", color="0.85", linewidth=0.6)
-    right.legend(fontsize=7.5, frameon=False)
-    figure.suptitle(title, fontsize=12, fontweight="bold", x=0.01, ha="left")
-    figure.tight_layout()
-    return figure
+            axes.plot(list(values), [pair[k] / base[k] for pair in values.values()], line, marker=marker, color="black",
+                      markerfacecolor=fill, markersize=6, linewidth=1, label=f"{who}, {name}")
+    axes.set_yscale("log")
+    axes.set_xticks(levels)
+    axes.set_xlabel("level")
+    axes.set_ylabel("times level 0's" if relative else unit)
+    axes.set_title("LS3, printed and here", fontsize=10)
+    axes.grid(axis="y", which="both", color="0.9", linewidth=0.6)
+    axes.legend(fontsize=8.5, frameon=False, title="clustering", title_fontsize=8.5)
 
 
 def draw_fast_forms(plt, directory):
@@ -151,6 +163,8 @@ def draw_frontier(plt, directory):
                   where="post", color="black", linestyle=style, linewidth=1.2, label=name, zorder=0)
     named = set()
     for row in published + every:
+        if row["form"] == "fast level":  # all in one corner, all as far off
+            continue
         name = NAMES[row["method"]].replace("\n", "") + (f" {row['level']}" if int(row["level"]) else "")
         spot = (name, row["form"])
         if spot in named:
@@ -161,7 +175,7 @@ def draw_frontier(plt, directory):
     axes.set_xscale("log")
     axes.set_yscale("log")
     axes.set_xlabel("time of one query, µs")
-    axes.set_ylabel("mean distance error to the smooth surface, % of the box diagonal")
+    axes.set_ylabel("mean error to the smooth surface, % of the diagonal")
     axes.grid(color="0.88", linewidth=0.6)
     legend = axes.get_legend_handles_labels()[0]
     for form, marker in forms.items():

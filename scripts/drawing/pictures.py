@@ -7,7 +7,7 @@ from . import raster
 
 METHODS = [("butterfly", "(a) Butterfly"), ("catmull-clark-linear", "(b) Catmull-Clark"), ("mid-point", "(c) Mid-point"),
            ("loop", "(d) Loop"), ("ls3", "(e) LS3")]
-PIXELS = 330
+PIXELS = 300  # the side of a picture on a sheet; those that stand alone are twice as large
 FRONT = raster.turned(-20, 8)
 
 
@@ -27,12 +27,12 @@ def show(axes, picture):
         spine.set_visible(False)
 
 
-def surface_picture(folder, method, level, what, frame):
+def surface_picture(folder, method, level, what, frame, pixels):
     """`what`: mesh, spheres or clustered. Returns the picture and how many things it shows; None without a file."""
     path = folder / f"{method if level else 'original'}-{level}-{what}.csv"
     if not path.exists():
         return None
-    picture = raster.Picture(frame, PIXELS, FRONT)
+    picture = raster.Picture(frame, pixels, FRONT)
     if what == "mesh":
         triangles = read_triangles(path)
         picture.triangles(triangles)
@@ -42,7 +42,7 @@ def surface_picture(folder, method, level, what, frame):
     return picture, len(spheres)
 
 
-def draw_surfaces(plt, directory, what, unit, title):
+def draw_surfaces(plt, directory, what, unit, title, pixels=PIXELS):
     """The paper's sheet: a column a method, a row a level; the original is drawn once and shown in every column."""
     folder = pathlib.Path(directory) / "pictures"
     frame = read_triangles(folder / "original-0-mesh.csv").reshape(-1, 3)
@@ -51,10 +51,11 @@ def draw_surfaces(plt, directory, what, unit, title):
         frame = middle + 1.12 * (frame - middle)
     levels = 1 + max(int(path.name.split("-mesh")[0].rsplit("-", 1)[1]) for path in folder.glob("*-mesh.csv"))
     figure, axes = plt.subplots(levels, len(METHODS), squeeze=False, figsize=(2.5 * len(METHODS), 2.75 * levels + 0.5))
+    original = surface_picture(folder, "original", 0, what, frame, pixels)
     for column, (method, label) in enumerate(METHODS):
         for level in range(levels):
             cell = axes[level][column]
-            drawn = surface_picture(folder, method, level, what, frame)
+            drawn = surface_picture(folder, method, level, what, frame, pixels) if level else original
             if drawn is None:
                 cell.set_visible(False)
                 continue
@@ -76,10 +77,10 @@ def facing(point, points):
     return raster.turned(-numpy.degrees(numpy.arctan2(away[0], away[2])), 15)
 
 
-def draw_original(plt, directory):
+def draw_original(plt, directory, pixels=PIXELS):
     triangles = read_triangles(pathlib.Path(directory) / "pictures" / "original-mesh.csv")
     figure, axes = plt.subplots(figsize=(5, 5.3))
-    picture = raster.Picture(triangles.reshape(-1, 3), 2 * PIXELS, FRONT)
+    picture = raster.Picture(triangles.reshape(-1, 3), 2 * pixels, FRONT)
     picture.triangles(triangles)
     show(axes, picture)
     axes.set_xlabel(f"{len(triangles):,} triangles", fontsize=10)
@@ -88,7 +89,7 @@ def draw_original(plt, directory):
     return figure
 
 
-def draw_groups(plt, directory, shape, title):
+def draw_groups(plt, directory, shape, title, pixels=PIXELS):
     """Left the groups, right the triangles of one group that holds the probe, dark on the pale model."""
     folder = pathlib.Path(directory) / "pictures"
     triangles = read_triangles(folder / "original-mesh.csv")
@@ -97,14 +98,14 @@ def draw_groups(plt, directory, shape, title):
     points = triangles.reshape(-1, 3)
     view = facing(hip, points)
     figure, (left, right) = plt.subplots(1, 2, figsize=(10, 5.6))
-    picture = raster.Picture(points, 2 * PIXELS, view, margin=0.1)
+    picture = raster.Picture(points, 2 * pixels, view, margin=0.1)
     if shape == "cube":
         picture.boxes(groups[:, :3], groups[:, 3:])
     else:
         picture.spheres(groups[:, :3], groups[:, 3])
     show(left, picture)
     left.set_xlabel(f"{len(groups):,} groups", fontsize=11)
-    picture = raster.Picture(points, 2 * PIXELS, view, margin=0.1)
+    picture = raster.Picture(points, 2 * pixels, view, margin=0.1)
     picture.triangles(triangles, lines=False)
     toward_viewer = view[2] * 0.01 * (points.max(axis=0) - points.min(axis=0)).max()
     picture.triangles(active + toward_viewer, brightness=0.3, lines=False, cull=False)
