@@ -22,7 +22,7 @@ namespace touchmark::bench {
 namespace {
 
 struct Options {
-  std::string mesh;
+  std::string mesh, levels;
   std::string clustering = fmt::format("{}%", choi_sung_clustering_percent);
   PaperOptions common{"results/papers/choi-sung-2017", "0.5%", "", "1", false};
 };
@@ -30,6 +30,7 @@ struct Options {
 ChoiSungSettings checked(const Options& options, const TriangleMesh& mesh) {
   const bool quick = options.common.quick;
   ChoiSungSettings settings;
+  settings.levels = static_cast<int>(checked_number("--levels", options.levels, 1, 5, 3));
   settings.steps = checked_number("--steps", options.common.steps, 1, 1'000'000, quick ? 50 : 2000);
   settings.seed = checked_seed(options.common.seed);
   settings.radius = checked_finite_length("--radius", options.common.radius).in_mesh_units(mesh);
@@ -42,6 +43,7 @@ ChoiSungSettings checked(const Options& options, const TriangleMesh& mesh) {
 
 FrontierSettings frontier_settings(const ChoiSungSettings& settings, const TriangleMesh& mesh, bool quick) {
   FrontierSettings frontier;
+  frontier.levels = settings.levels;
   frontier.threshold = choi_sung_threshold_percent / 100 * mesh.diagonal();
   frontier.clusterings = {0, settings.clustering};
   frontier.radius = settings.radius;
@@ -130,6 +132,7 @@ void add_paper_choi_sung(CLI::App& paper_command, ProgramContext& context) {
           "--mesh", options->mesh,
           "level 0: a scene or a mesh file; without it the paper's bunny, or one decimated to its size")
       ->type_name("MESH");
+  command->add_option("--levels", options->levels, "of subdivision (3, as in the paper)")->type_name("N");
   command->add_option("--clustering", options->clustering, "distance: mesh units or % of the box diagonal")
       ->type_name("LENGTH")
       ->capture_default_str();

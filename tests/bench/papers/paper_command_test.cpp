@@ -53,10 +53,23 @@ Outcome run_paper(const char* paper, const std::string& mesh, const TemporaryFol
   return run_touchmark(words);
 }
 
-TEST(PaperChoiSung, LeavesTablesReportAndPictureData) {
-  const TemporaryFolder folder;
-  const Outcome outcome = run_paper("choi-sung-2017", "icosphere:1", folder);
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
+/// One quick run on a small sphere, for all tests that only read what it left.
+class PaperChoiSung : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    folder_ = new TemporaryFolder;
+    outcome_ = run_paper("choi-sung-2017", "icosphere:1", *folder_);
+    ASSERT_EQ(outcome_.status, 0) << outcome_.err;
+  }
+  static void TearDownTestSuite() { delete folder_; }
+
+  static inline const TemporaryFolder* folder_ = nullptr;
+  static inline Outcome outcome_;
+  const TemporaryFolder& folder = *folder_;
+  const Outcome& outcome = outcome_;
+};
+
+TEST_F(PaperChoiSung, LeavesTablesReportAndPictureData) {
   EXPECT_EQ(outcome.err, "");
   for (const char* file :
        {"table1.csv", "table2.csv", "table3.csv", "fast_forms.csv", "frontier.csv", "numbers.csv",
@@ -64,9 +77,7 @@ TEST(PaperChoiSung, LeavesTablesReportAndPictureData) {
     EXPECT_TRUE(is_there(folder, file)) << file;
 }
 
-TEST(PaperChoiSung, HasARowForEverySurfaceWithoutAndWithClustering) {
-  const TemporaryFolder folder;
-  ASSERT_EQ(run_paper("choi-sung-2017", "icosphere:1", folder).status, 0);
+TEST_F(PaperChoiSung, HasARowForEverySurfaceWithoutAndWithClustering) {
   const Rows rows = rows_of(folder.file("table1.csv"));
   ASSERT_EQ(rows.size(), 2u * (1 + 5 * 3));
   for (auto row : rows) {
@@ -83,9 +94,7 @@ TEST(PaperChoiSung, HasARowForEverySurfaceWithoutAndWithClustering) {
   EXPECT_EQ(rows_of(folder.file("table3.csv")).size(), 4u);
 }
 
-TEST(PaperChoiSung, KeepsTheSurfaceOfTheInterpolatingFlatMethods) {
-  const TemporaryFolder folder;
-  ASSERT_EQ(run_paper("choi-sung-2017", "icosphere:1", folder).status, 0);
+TEST_F(PaperChoiSung, KeepsTheSurfaceOfTheInterpolatingFlatMethods) {
   for (auto row : rows_of(folder.file("table1.csv"))) {
     if (row["method"] == "mid-point" || row["method"] == "catmull-clark-linear") {
       EXPECT_NEAR(std::stod(row["relative_volume"]), 1, 1e-6);
@@ -96,11 +105,11 @@ TEST(PaperChoiSung, KeepsTheSurfaceOfTheInterpolatingFlatMethods) {
   }
 }
 
-TEST(PaperChoiSung, MakesThePapersCountsOfThePapersBunny) {
+TEST(PaperChoiSungBunny, MakesThePapersCountsOfThePapersBunny) {
   const std::filesystem::path bunny = std::filesystem::path(TOUCHMARK_SHARED_MODELS) / "bunny-902.ply";
   if (!std::filesystem::exists(bunny)) GTEST_SKIP() << "no " << bunny;
   const TemporaryFolder folder;
-  ASSERT_EQ(run_paper("choi-sung-2017", bunny.string(), folder).status, 0);
+  ASSERT_EQ(run_paper("choi-sung-2017", bunny.string(), folder, {"--steps", "5"}).status, 0);
   const std::map<std::string, std::vector<std::string>> expected{
       {"butterfly", {"3580", "13620", "41768"}},
       {"catmull-clark-linear", {"5412", "21648", "86592"}},
@@ -125,11 +134,11 @@ TEST(PaperChoiSung, MakesThePapersCountsOfThePapersBunny) {
     EXPECT_NEAR(std::stod(table3[level].at("clustered_spheres")), printed[level], 0.03 * printed[level]);
 }
 
-TEST(PaperChoiSung, DecimatesWhereThePapersBunnyIsMissingAndSaysSo) {
+TEST(PaperChoiSungBunny, DecimatesWhereThePapersBunnyIsMissingAndSaysSo) {
   if (!can_decimate()) GTEST_SKIP() << "built without OpenMesh";
   const TemporaryFolder folder;
   ::setenv("TOUCHMARK_MODELS", "/no-such-folder", 1);
-  const Outcome outcome = run_paper("choi-sung-2017", "", folder);
+  const Outcome outcome = run_paper("choi-sung-2017", "", folder, {"--levels", "1", "--steps", "5"});
   ::unsetenv("TOUCHMARK_MODELS");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(content_of(folder.file("report.md")).find("in place of the paper's own"), std::string::npos);
@@ -196,7 +205,10 @@ TEST(Papers, RefuseBadInputInOneLineAndWriteNothing) {
     expect_bad_input(
         {"paper", "park-jang-2018", "--mesh", "icosphere:1", "--out", out, "--most-groups", groups},
         {"--most-groups", groups});
-  expect_bad_input({"paper", "choi-sung-2018"}, {"choi-sung-2018"});
+  for (const char* levels : {"0", "6", "x"})
+    expect_bad_input({"paper", "choi-sung-2017", "--mesh", "icosphere:1", "--out", out, "--levels", levels},
+                     {"--levels", levels});
+  expect_bad_input({"paper", "choi-sung-2018"}, {"subcommand"});
   expect_bad_input({"paper"}, {"subcommand"});
   EXPECT_FALSE(std::filesystem::exists(out));
 }
