@@ -31,13 +31,20 @@ class Gap {
 
   /// What is known of it at a fraction of the way.
   struct Sample {
+    bool at_start;
     double gap;
-    double
-        tolerance;  ///< the gap that counts as touching: none at the start, as for a probe that stands there
-    double slope;   ///< d gap / d fraction
+    double error;  ///< how far off `gap` may be
+    double slope;  ///< d gap / d fraction
     double slope_error;
 
-    bool touching() const noexcept { return gap <= tolerance; }
+    /// At the start as for a probe that stands there, on the way within the error.
+    bool touching() const noexcept { return gap <= (at_start ? 0 : error); }
+    /// Even falling as steeply as it can, from `back` before here to `ahead` of it, it stays apart. So does
+    /// a NaN.
+    bool apart_within(double back, double ahead) const noexcept {
+      const double fall = std::min((slope - slope_error) * ahead, -(slope + slope_error) * back);
+      return !(gap + fall <= error);
+    }
   };
 
   Sample at(double fraction) const noexcept {
@@ -46,7 +53,7 @@ class Gap {
     const double kernel_error = kernel_relative_error * largest_difference(triangle_, position);
     const double slope = contact.normal.dot(way_);
     const double slope_error = length_ * (2 * epsilon + kernel_error / contact.distance);
-    return {contact.distance - sweep_.radius, fraction > 0 ? kernel_error + position_error_ : 0, slope,
+    return {!(fraction > 0), contact.distance - sweep_.radius, kernel_error + position_error_, slope,
             slope_error};
   }
 
@@ -70,6 +77,8 @@ std::optional<double> search(const Gap& gap, double apart) noexcept {
     const double left = low + third, right = high - third;
     const Gap::Sample at_left = gap.at(left), at_right = gap.at(right);
     touched = at_left.touching() || at_right.touching();
+    if (!touched && (at_left.apart_within(third, 2 * third) || at_right.apart_within(2 * third, third)))
+      break;
     touching = at_left.touching() ? left : right;
     (at_left.gap < at_right.gap ? high : low) = at_left.gap < at_right.gap ? right : left;
   }
@@ -97,8 +106,7 @@ std::optional<double> sweep_hit(const PreparedTriangle& triangle, const Sweep& s
   for (int step = 0; step < most_steps && fraction <= limit; ++step) {
     const Gap::Sample here = gap.at(fraction);
     if (here.touching()) return fraction;
-    // Even falling as steeply as it can, it stays apart to the end. A NaN ends here as well.
-    if (!(here.gap + (here.slope - here.slope_error) * (1 - fraction) <= here.tolerance)) return std::nullopt;
+    if (here.apart_within(0, 1 - fraction)) return std::nullopt;
     if (!(here.slope < -2 * here.slope_error)) break;
     // Where the tangent meets zero. The slope's error takes it past the touch by the kernel's error at most.
     const double next = std::min(fraction - here.gap / here.slope, 1.0);
