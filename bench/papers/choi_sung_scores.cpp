@@ -41,6 +41,7 @@ std::vector<double> badness(const ChoiSungResult& result, bool both, const Value
 std::vector<double> scores_of(const std::vector<double>& badness) {
   const auto [least, greatest] = std::minmax_element(badness.begin(), badness.end());
   std::vector<double> scores;
+  scores.reserve(badness.size());
   for (const double value : badness)
     scores.push_back(*greatest > *least ? 5 * (*greatest - value) / (*greatest - *least) : 5);
   return scores;

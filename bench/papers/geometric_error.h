@@ -33,6 +33,7 @@ class ReferenceSurface {
   GeometricError error_of(const D& detector) const {
     typename D::Session session;
     std::vector<double> distances;
+    distances.reserve(centers_.size());
     for (const Vec3& center : centers_) distances.push_back(distance_by(detector, center, session));
     return error_of_distances(distances);
   }

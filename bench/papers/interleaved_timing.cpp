@@ -84,6 +84,7 @@ void InterleavedTiming::clock_steps(Entry& entry) const {
   Checksum checksum;
   entry.contestant->replay_clocked(course_, {0, course_.steps.size()}, checksum, ticks);
   std::vector<double> ns;
+  ns.reserve(ticks.size());
   for (const std::uint64_t step : ticks)
     ns.push_back(std::max(static_cast<double>(step) * clock_.ns_per_tick - clock_.cost_ns, 0.0));
   entry.step_ns.push_back(std::move(ns));
