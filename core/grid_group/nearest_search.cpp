@@ -1,5 +1,9 @@
 #include "core/grid_group/nearest_search.h"
 
+#include <algorithm>
+#include <bit>
+#include <cassert>
+
 namespace touchmark::grid {
 namespace {
 
@@ -41,6 +45,7 @@ float NearestSearch::consider_group(std::span<const std::uint32_t> members) noex
 }
 
 std::uint64_t NearestSearch::within_limit(const GroupBounds& bounds, std::size_t members) const noexcept {
+  assert(members > 0 && members <= 64);
   std::uint64_t left = 0;
   for (std::size_t at = 0; at < members; at += 4)
     left |= std::uint64_t{at_most(bounds.squared[at / 4], limit_)} << at;

@@ -55,7 +55,8 @@ class Prism {
 
   /// Of the lattice point that is i cuts from corner 0 towards 1 and j towards 2.
   static constexpr std::size_t number(int i, int j) {
-    return static_cast<std::size_t>(i * (2 * cuts + 3 - i) / 2 + j);
+    const int before = i * (2 * cuts + 3 - i) / 2;  // in the rows of smaller i
+    return static_cast<std::size_t>(before + j);
   }
   void place_points(const Footprint& footprint, double growth, double height,
                     const FilterFrame& frame) noexcept;
