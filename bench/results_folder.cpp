@@ -10,15 +10,6 @@
 #include "bench/failures.h"
 
 namespace touchmark::bench {
-namespace {
-
-void write_file(const std::filesystem::path& path, const std::string& text) {
-  AtomicFile file(path);
-  file.write(text);
-  file.commit();
-}
-
-}  // namespace
 
 ResultsFolder::ResultsFolder(const std::string& path) : path_(path) {
   std::error_code error;
@@ -34,13 +25,11 @@ ResultsFolder::ResultsFolder(const std::string& path) : path_(path) {
   }
 }
 
-void ResultsFolder::write(const std::string& results_csv) const {
-  write_file(path_ / "results.csv", results_csv);
-}
+void ResultsFolder::write(const std::string& results_csv) const { write_file("results.csv", results_csv); }
 
 void ResultsFolder::write(const std::string& results_csv, const std::string& run_json) const {
   write(results_csv);
-  write_file(path_ / "run.json", run_json);
+  write_file("run.json", run_json);
 }
 
 void ResultsFolder::write_file(const std::filesystem::path& name, const std::string& text) const {
@@ -49,7 +38,9 @@ void ResultsFolder::write_file(const std::filesystem::path& name, const std::str
   std::filesystem::create_directories(path.parent_path(), error);
   if (error)
     throw ResourceError(fmt::format("cannot create {}: {}", path.parent_path().string(), error.message()));
-  bench::write_file(path, text);
+  AtomicFile file(path);
+  file.write(text);
+  file.commit();
 }
 
 }  // namespace touchmark::bench

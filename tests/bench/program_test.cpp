@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <thread>
@@ -84,6 +85,17 @@ TEST(Bench, LeavesOneRowAContestantAndTrajectoryAndARunJson) {
   EXPECT_GT(json["clock"]["cost_ns"], 0);
   EXPECT_EQ(json["contestants"][1]["options"]["lookup"], "scan");
   EXPECT_EQ(json.dump().find(folder.path()), std::string::npos) << "no paths of the machine";
+}
+
+TEST(Bench, WritesIntoARelativeFolder) {
+  const TemporaryFolder folder;
+  const std::string relative = std::filesystem::relative(folder.file("here")).string();
+  const Outcome finished =
+      run_touchmark({"bench", "--mesh", "icosphere:0", "--quick", "--steps", "10", "--trajectory", "slide",
+                     "--detector", "brute-force", "--out", relative, "--benchmark_min_time=0.001"});
+  EXPECT_EQ(finished.status, 0) << finished.err;
+  EXPECT_TRUE(std::filesystem::exists(folder.file("here/results.csv")));
+  EXPECT_TRUE(std::filesystem::exists(folder.file("here/run.json")));
 }
 
 TEST(Bench, SameSeedSameAnswersAnotherSeedOthers) {
