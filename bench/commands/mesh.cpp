@@ -83,10 +83,7 @@ std::string as_json(const std::string& mesh, const MeshReport& report) {
 void add_info(CLI::App& mesh_command) {
   const auto options = std::make_shared<InfoOptions>();
   CLI::App* command = mesh_command.add_subcommand("info", "size, connections, measures; one line each");
-  command->add_option("--mesh,mesh", options->mesh, "a scene (touchmark list) or a mesh file")
-      ->type_name("MESH")
-      ->required();
-  command->add_flag("--normalize", options->normalize, "scale to box diagonal 1 about the origin first");
+  add_mesh_options(*command, options->mesh, options->normalize);
   command->add_flag("--json", options->json, "as JSON");
   command->footer("Example: touchmark mesh info bunny@normalize\n");
   command->final_callback([options] {
@@ -98,6 +95,13 @@ void add_info(CLI::App& mesh_command) {
 }
 
 }  // namespace
+
+void add_mesh_options(CLI::App& command, std::string& mesh, bool& normalize) {
+  command.add_option("--mesh,mesh", mesh, "a scene (touchmark list) or a mesh file")
+      ->type_name("MESH")
+      ->required();
+  command.add_flag("--normalize", normalize, "scale to box diagonal 1 about the origin first");
+}
 
 void add_mesh(CLI::App& program, ProgramContext&) {
   CLI::App* command =

@@ -95,10 +95,7 @@ void add_mesh_measure(CLI::App& mesh_command) {
   const auto options = std::make_shared<MeasureOptions>();
   CLI::App* command =
       mesh_command.add_subcommand("measure", "area, volume and tightness as Choi & Sung 2017 define them");
-  command->add_option("--mesh,mesh", options->mesh, "a scene (touchmark list) or a mesh file")
-      ->type_name("MESH")
-      ->required();
-  command->add_flag("--normalize", options->normalize, "scale to box diagonal 1 about the origin first");
+  add_mesh_options(*command, options->mesh, options->normalize);
   command
       ->add_option("--center", options->center, "tip of the tetrahedra whose absolute volumes are added up")
       ->type_name("X,Y,Z")

@@ -108,10 +108,7 @@ void subdivide_into_file(const SubdivideOptions& options) {
 void add_mesh_subdivide(CLI::App& mesh_command) {
   const auto options = std::make_shared<SubdivideOptions>();
   CLI::App* command = mesh_command.add_subcommand("subdivide", "a finer mesh, written to a file");
-  command->add_option("--mesh,mesh", options->mesh, "a scene (touchmark list) or a mesh file")
-      ->type_name("MESH")
-      ->required();
-  command->add_flag("--normalize", options->normalize, "scale to box diagonal 1 about the origin first");
+  add_mesh_options(*command, options->mesh, options->normalize);
   command->add_option("--method", options->method, fmt::format("{}", fmt::join(method_names, "|")))
       ->type_name("METHOD")
       ->check(CLI::IsMember(method_names))

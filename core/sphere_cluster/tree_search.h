@@ -48,14 +48,6 @@ inline constexpr std::size_t lanes = 4;
 using Wide [[gnu::vector_size(16)]] = float;
 using WideBits [[gnu::vector_size(16)]] = int;
 
-inline Wide load(const float* from) noexcept {
-  Wide values;
-  std::memcpy(&values, from, sizeof values);
-  return values;
-}
-inline void store(float* to, Wide values) noexcept { std::memcpy(to, &values, sizeof values); }
-inline Wide larger(Wide a, Wide b) noexcept { return a > b ? a : b; }
-inline Wide smaller(Wide a, Wide b) noexcept { return a < b ? a : b; }
 #if defined(__SSE2__)
 inline Wide square_root(Wide x) noexcept { return _mm_sqrt_ps(x); }
 inline unsigned bits_of(WideBits mask) noexcept {
@@ -86,14 +78,6 @@ inline constexpr std::size_t lanes = 8;
 using Wide [[gnu::vector_size(32)]] = float;
 using WideBits [[gnu::vector_size(32)]] = int;
 
-inline Wide load(const float* from) noexcept {
-  Wide values;
-  std::memcpy(&values, from, sizeof values);
-  return values;
-}
-inline void store(float* to, Wide values) noexcept { std::memcpy(to, &values, sizeof values); }
-inline Wide larger(Wide a, Wide b) noexcept { return a > b ? a : b; }
-inline Wide smaller(Wide a, Wide b) noexcept { return a < b ? a : b; }
 inline Wide square_root(Wide x) noexcept { return _mm256_sqrt_ps(x); }
 inline unsigned bits_of(WideBits mask) noexcept {
   return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask)));

@@ -1,6 +1,15 @@
 // The search itself, written once and included once an instruction set (tree_search.h), in a namespace that
-// defines Wide, a vector of `lanes` floats, and its load, square_root, larger, smaller and bits_of. The same
-// operations in the same order, so that both visit the same nodes and give the same bits.
+// defines Wide, a vector of `lanes` floats, and its square_root and bits_of. The same operations in the same
+// order, so that both visit the same nodes and give the same bits.
+
+inline Wide load(const float* from) noexcept {
+  Wide values;
+  std::memcpy(&values, from, sizeof values);
+  return values;
+}
+inline void store(float* to, Wide values) noexcept { std::memcpy(to, &values, sizeof values); }
+inline Wide larger(Wide a, Wide b) noexcept { return a > b ? a : b; }
+inline Wide smaller(Wide a, Wide b) noexcept { return a < b ? a : b; }
 
 struct Point {
   Wide x, y, z, tau;

@@ -1,6 +1,7 @@
 #include "core/geometry/sphere_triangle_sweep.h"
 
 #include <cmath>
+#include <cstdint>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -11,6 +12,22 @@ namespace touchmark {
 namespace {
 
 const PreparedTriangle triangle = prepare({0, 0, 0}, {4, 0, 0}, {0, 4, 0}, 0);
+
+/// Triangles and sweeps in and about the cube [-1, 1]^3, seeded.
+class RandomCases {
+ public:
+  explicit RandomCases(std::uint64_t seed) : random_(seed) {}
+
+  double coordinate() { return static_cast<double>(random_() >> 11) * 0x1p-52 - 1; }
+  Vec3 point() { return {coordinate(), coordinate(), coordinate()}; }
+  PreparedTriangle triangle() { return prepare(point(), point(), point(), 0); }
+  Sweep sweep(bool of_a_bare_point) {
+    return {2 * point(), 2 * point(), of_a_bare_point ? 0.0 : 0.3 * std::abs(coordinate())};
+  }
+
+ private:
+  std::mt19937_64 random_;
+};
 
 TEST(SphereTriangleSweep, HitsTheFaceOneRadiusAboveIt) {
   const auto hit = sweep_hit(triangle, {{1, 1, 5}, {1, 1, -3}, 1}, 1);
@@ -83,13 +100,11 @@ TEST(SphereTriangleSweep, NotANumberHitsNothing) {
 
 /// Random sweeps against dense sampling of the distance, which is convex along the way.
 TEST(SphereTriangleSweep, StopsAtTheRadiusAndNeverTouchesBefore) {
-  std::mt19937_64 random(7);
-  const auto coordinate = [&] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1; };
-  const auto point = [&] { return Vec3(coordinate(), coordinate(), coordinate()); };
+  RandomCases random(7);
   int hits = 0;
   for (int trial = 0; trial < 20000; ++trial) {
-    const PreparedTriangle t = prepare(point(), point(), point(), 0);
-    const Sweep sweep{2 * point(), 2 * point(), trial % 3 == 0 ? 0.0 : 0.3 * std::abs(coordinate())};
+    const PreparedTriangle t = random.triangle();
+    const Sweep sweep = random.sweep(trial % 3 == 0);
     const auto distance_at = [&](double fraction) {
       return std::sqrt(squared_distance(t, position_at(sweep, fraction)));
     };
@@ -115,14 +130,12 @@ TEST(SphereTriangleSweep, StopsAtTheRadiusAndNeverTouchesBefore) {
 }
 
 TEST(SphereTriangleSweep, ALongWayThatPiercesTheFaceOrEndsOnACornerIsNotMissed) {
-  std::mt19937_64 random(11);
-  const auto coordinate = [&] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1; };
-  const auto point = [&] { return Vec3(coordinate(), coordinate(), coordinate()); };
+  RandomCases random(11);
   for (int trial = 0; trial < 20000; ++trial) {
-    const PreparedTriangle t = prepare(point(), point(), point(), 0);
+    const PreparedTriangle t = random.triangle();
     const Vec3 middle = (t.corner[0] + t.corner[1] + t.corner[2]) / 3;
     const double far = std::pow(10.0, 1 + trial % 9);
-    const Vec3 from = far * point();
+    const Vec3 from = far * random.point();
     const Vec3 way = (middle - from).normalized();
     // In triangles seen nearly edge on, rounding decides whether the way goes through the inside.
     if (std::abs(way.dot(t.normal)) < 0.1) continue;
@@ -134,13 +147,11 @@ TEST(SphereTriangleSweep, ALongWayThatPiercesTheFaceOrEndsOnACornerIsNotMissed) 
 }
 
 TEST(SphereTriangleSweep, TheLimitDoesNotChangeWhereItHits) {
-  std::mt19937_64 random(12);
-  const auto coordinate = [&] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1; };
-  const auto point = [&] { return Vec3(coordinate(), coordinate(), coordinate()); };
+  RandomCases random(12);
   int hits = 0;
   for (int trial = 0; trial < 20000; ++trial) {
-    const PreparedTriangle t = prepare(point(), point(), point(), 0);
-    const Sweep sweep{2 * point(), 2 * point(), trial % 3 == 0 ? 0.0 : 0.3 * std::abs(coordinate())};
+    const PreparedTriangle t = random.triangle();
+    const Sweep sweep = random.sweep(trial % 3 == 0);
     const auto hit = sweep_hit(t, sweep, 1);
     if (!hit) continue;
     ++hits;
