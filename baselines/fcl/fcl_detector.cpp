@@ -36,7 +36,7 @@ fcl::Transform3d at(const Vec3& center) {
 
 /// FCL's traversals for each volume, and the ball as that volume. FCL itself fits kIOS and RSS to the twelve
 /// corners of an icosahedron about the sphere, every query; the ball itself is one of either, and tighter.
-template <class Volume>
+template <class Bounds>
 struct Traversal;
 
 template <>
@@ -234,10 +234,10 @@ struct FclDetector::Model {
   }
 };
 
-template <class Volume>
+template <class Bounds>
 struct FclDetector::ModelOf : FclDetector::Model {
-  using Collide = typename Traversal<Volume>::Collide;
-  using Distance = typename Traversal<Volume>::Distance;
+  using Collide = typename Traversal<Bounds>::Collide;
+  using Distance = typename Traversal<Bounds>::Distance;
   using Gather = ExactCollide<Collide>;
   static constexpr bool has_distance = !std::is_void_v<Distance>;
 
@@ -323,7 +323,7 @@ struct FclDetector::ModelOf : FclDetector::Model {
     Gather node(triangles, probe, stop);
     const Sphere ball(probe.radius);
     set_up(node, ball, probe.center, session);
-    Traversal<Volume>::set_ball(node.model2_bv, probe.center,
+    Traversal<Bounds>::set_ball(node.model2_bv, probe.center,
                                 probe.radius + fitting_slack(largest_coordinate, probe.center));
     nodes::collide(&node, nullptr);
     count(node, session);
@@ -334,7 +334,7 @@ struct FclDetector::ModelOf : FclDetector::Model {
     FclNearest<Distance> node;
     const Sphere point(0);
     set_up(node, point, center, session);
-    Traversal<Volume>::set_ball(node.model2_bv, center, 0);
+    Traversal<Bounds>::set_ball(node.model2_bv, center, 0);
     // Only what is nearer than the bound counts for FCL; contact here is closed.
     fcl::DistanceResultd result(std::nextafter(reach, std::numeric_limits<double>::infinity()));
     node.result = &result;
@@ -354,7 +354,7 @@ struct FclDetector::ModelOf : FclDetector::Model {
                                 state.last < triangles.size() ? state.last : 0);
     const Sphere point(0);
     set_up(node, point, center, session);
-    Traversal<Volume>::set_ball(node.model2_bv, center, 0);
+    Traversal<Bounds>::set_ball(node.model2_bv, center, 0);
     nodes::distance(&node, nullptr, 2);
     count(node, session);
     if (node.best().index < triangles.size()) state.last = node.best().index;
@@ -392,12 +392,12 @@ struct FclDetector::ModelOf : FclDetector::Model {
   }
 
   std::size_t hierarchy_bytes() const override {
-    return sizeof(fcl::BVNode<Volume>) * static_cast<std::size_t>(hierarchy.getNumBVs()) +
+    return sizeof(fcl::BVNode<Bounds>) * static_cast<std::size_t>(hierarchy.getNumBVs()) +
            (sizeof(fcl::Triangle) + sizeof(unsigned)) * static_cast<std::size_t>(hierarchy.num_tris) +
            sizeof(Vec3) * static_cast<std::size_t>(hierarchy.num_vertices);
   }
 
-  fcl::BVHModel<Volume> hierarchy;
+  fcl::BVHModel<Bounds> hierarchy;
 };
 
 FclDetector::FclDetector(std::unique_ptr<const Model> model) noexcept : model_(std::move(model)) {}
