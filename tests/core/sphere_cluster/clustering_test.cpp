@@ -143,7 +143,7 @@ TEST(Tightness, IsTheMeanOfRadiusMinusCentroidDistance) {
 }
 
 TEST(Clustering, ReproducesTheCountsOfThePaper) {
-  const std::string path = std::string(TOUCHMARK_SHARED_MODELS) + "/bunny-902.ply";
+  const std::string path = TOUCHMARK_SHARED_MODELS "/bunny-902.ply";
   std::ifstream file(path);
   if (!file) GTEST_SKIP() << path << " is not there";
   const TriangleMesh bunny = read_plain_ply(file);
