@@ -3,8 +3,8 @@ import math
 
 from . import detectors
 from .history import CERTAIN, relative_error
-from .layout import (canvas, label, log_axis, name_axis, name_panel, note, room_for, times, trajectories_of,
-                     what_was_asked)
+from .layout import (canvas, label, log_axis, name_axis, name_panel, note, room_for, telling_words, times,
+                     trajectories_of, what_was_asked)
 from .results import Unusable, shortened, unique
 
 
@@ -45,8 +45,8 @@ def pictures(a, b, reference):
     if not timed:
         raise Unusable("the two share no row with times: same mesh, query, radius, trajectory and detector")
     scenes = unique(key[:3] for key in timed)
+    words = telling_words(scenes)
     for scene in scenes:
-        words = [word for k, word in enumerate(scene) if len({other[k] for other in scenes}) > 1]
         ratios = {}
         for key in (key for key in timed if key[:3] == scene):
             below = key[:4] + (reference,)
@@ -54,7 +54,7 @@ def pictures(a, b, reference):
                 raise Unusable(f"--reference {shortened(reference)}: not timed in both on {shortened(key[3])}")
             ratios[key[3:]] = Ratio(rows_a[key], rows_b[key], rows_a[below] if reference else None,
                                     rows_b[below] if reference else None)
-        yield words, [row for row in a.rows if row.scene == scene], [row for row in b.rows if row.scene == scene], ratios
+        yield words[scene], [row for row in a.rows if row.scene == scene], [row for row in b.rows if row.scene == scene], ratios
 
 
 def draw_comparison(plt, a, b, rows_a, rows_b, ratios, reference):

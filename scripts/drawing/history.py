@@ -2,8 +2,8 @@
 import math
 
 from . import detectors
-from .layout import (canvas, label, log_axis, name_panel, times, trajectories_of, trajectory_legend, trajectory_mark,
-                     what_was_asked)
+from .layout import (canvas, label, log_axis, name_panel, telling_words, times, trajectories_of, trajectory_legend,
+                     trajectory_mark, what_was_asked)
 from .results import NothingToDraw, Unusable, shortened, unique
 
 CERTAIN = 1.96  # standard errors: 95 %
@@ -18,10 +18,10 @@ def pictures(runs, reference):
         for scene in unique(row.scene for row in run.rows):
             found.setdefault((run.machine,) + scene, []).append(run)
     found = {key: series for key, series in found.items() if len(series) > 1}
+    words = telling_words(found)
     for key, series in found.items():
-        words = [word for k, word in enumerate(key) if len({other[k] for other in found}) > 1]
         rows = [[row for row in run.rows if row.scene == key[1:]] for run in series]
-        yield words, series, rows, chosen_reference(rows, reference)
+        yield words[key], series, rows, chosen_reference(rows, reference)
 
 
 def chosen_reference(rows, wanted):

@@ -185,8 +185,17 @@ def detector_legend(plt, figure, axes, names, lines=True, extra=()):
                 frameon=False, handlelength=3 if lines else 1.5, labelspacing=0.55)
 
 
+def telling_words(keys):
+    """By key, a tuple: those of its parts that tell it from the others, the later ones only where the earlier do not."""
+    keys = unique(keys)
+    telling = [k for k in range(len(keys[0]) if keys else 0)
+               if len({key[:k + 1] for key in keys}) > len({key[:k] for key in keys})]
+    return {key: [key[k] for k in telling if key[k] != ""] for key in keys}
+
+
 def in_file_name(words):
-    return "".join("-" + re.sub(r"[^A-Za-z0-9.]+", "_", str(word)) for word in words)
+    words = [f"{word:.6g}" if isinstance(word, float) else str(word) for word in words]
+    return "".join("-" + re.sub(r"[^A-Za-z0-9.]+", "_", word) for word in words)
 
 
 def save(figure, stem):

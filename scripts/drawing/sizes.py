@@ -3,7 +3,8 @@ import math
 import statistics
 
 from . import detectors
-from .layout import canvas, count, detector_legend, duration, label, log_axis, name_panel, trajectories_of, what_was_asked
+from .layout import (canvas, count, detector_legend, duration, label, log_axis, name_panel, telling_words, trajectories_of,
+                     what_was_asked)
 from .results import NothingToDraw, positive, shortened, unique
 from .time_error import room_for_legend
 
@@ -31,11 +32,11 @@ def pictures(runs):
         for radius_key, subset in by_radius(measured).items():
             if len(sizes([row for _, row in subset])) > 1:
                 found[key + radius_key] = subset
+    words = telling_words(found)
     for key, measured in found.items():
-        words = [word for k, word in enumerate(key) if word != "" and len({other[k] for other in found}) > 1]
         used = unique(run.source for run, _ in measured)
         source = used[0] if len(used) == 1 else f"{len(used)} runs, {measured[-1][0].machine}"
-        yield words, latest(measured), source
+        yield words[key], latest(measured), source
 
 
 def by_radius(measured):

@@ -233,6 +233,13 @@ class Looks(unittest.TestCase):
     def test_marks_that_would_meet_stand_on_different_levels(self):
         self.assertEqual(time_error.spread([100, 101, 5000, 5001, 5002], span=10), [0, 1, 0, 1, 2])
 
+    def test_file_names_say_what_tells_pictures_apart_and_no_more(self):
+        words = layout.telling_words([("a", "nearest", 0.5), ("b", "nearest", 0.25)])
+        self.assertEqual(words, {("a", "nearest", 0.5): ["a"], ("b", "nearest", 0.25): ["b"]})
+        words = layout.telling_words([("a", "nearest", 0.5), ("a", "nearest", 1 / 3)])
+        self.assertEqual(layout.in_file_name(words["a", "nearest", 1 / 3]), "-0.333333")
+        self.assertEqual(layout.telling_words([("a", "nearest")]), {("a", "nearest"): []})
+
     def test_legends_break_before_they_are_wider_than_the_picture(self):
         self.assertEqual(layout.entries_per_line(["abcde"] * 6, 100), 6)
         self.assertEqual(layout.entries_per_line(["abcde"] * 6, 4), 3)
