@@ -54,7 +54,8 @@ def pictures(a, b, reference):
                 raise Unusable(f"--reference {shortened(reference)}: not timed in both on {shortened(key[3])}")
             ratios[key[3:]] = Ratio(rows_a[key], rows_b[key], rows_a[below] if reference else None,
                                     rows_b[below] if reference else None)
-        yield words[scene], [row for row in a.rows if row.scene == scene], [row for row in b.rows if row.scene == scene], ratios
+        yield (words[scene], [row for row in a.rows if row.scene == scene], [row for row in b.rows if row.scene == scene],
+               ratios)
 
 
 def draw_comparison(plt, a, b, rows_a, rows_b, ratios, reference):

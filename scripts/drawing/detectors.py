@@ -54,7 +54,27 @@ def filling(name):
         return KNOWN_FILLINGS[name]
     if ":" not in name and kind_of(name):
         return "full"
-    return FILLINGS[1 + zlib.crc32(name.encode()) % (len(FILLINGS) - 1)]
+    return chosen_fillings.get(name) or preferred(name)[0]
+
+
+def preferred(name):
+    """The fillings in the order in which a detector that is not known would like them: the same everywhere."""
+    first = 1 + zlib.crc32(name.encode()) % (len(FILLINGS) - 1)
+    return FILLINGS[first:] + FILLINGS[1:first] + FILLINGS[:1]
+
+
+chosen_fillings = {}  # of detectors that are not known
+
+
+def tell_apart(names):
+    """Of those to be drawn in one go: gives each that is not known a filling that no other of its kind has, if one is
+    left."""
+    known = [name for name in names if name in KNOWN_FILLINGS or ":" not in name and kind_of(name)]
+    taken = {(kind_of(name), filling(name)) for name in known}
+    for name in in_order(set(names) - set(known)):
+        free = [filling for filling in preferred(name) if (kind_of(name), filling) not in taken]
+        chosen_fillings[name] = (free or preferred(name))[0]
+        taken.add((kind_of(name), chosen_fillings[name]))
 
 
 def colour(name):

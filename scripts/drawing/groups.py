@@ -70,6 +70,12 @@ def from_rows(rows):
     return usable(panels.values())
 
 
+def others(rows):
+    """Without those that this picture shows: a row a number of groups is too many for a picture of detectors."""
+    numbers = {options["groups"] for options in map(options_of, rows) if "groups" in options}
+    return [row for row in rows if len(numbers) < 2 or "groups" not in options_of(row)]
+
+
 def draw_rows(plt, rows, source):
     panels = from_rows(rows)
     if not panels:

@@ -185,6 +185,18 @@ def detector_legend(plt, figure, axes, names, lines=True, extra=()):
                 frameon=False, handlelength=3 if lines else 1.5, labelspacing=0.55)
 
 
+def spread(times, span, near=0.035):
+    """A level for each of the ascending times, so that no two on one level lie closer than `near` of the span."""
+    last = []
+    levels = []
+    for time in times:
+        position = math.log(time) / span
+        level = next((k for k, other in enumerate(last) if position - other > near), len(last))
+        last[level:level + 1] = [position]
+        levels.append(level)
+    return levels
+
+
 def telling_words(keys):
     """By key, a tuple: those of its parts that tell it from the others, the later ones only where the earlier do not."""
     keys = unique(keys)

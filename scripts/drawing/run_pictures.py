@@ -4,7 +4,7 @@ import math
 
 from . import detectors
 from .layout import (GRID, canvas, count, duration, label, log_axis, name_axis, name_panel, note, rate, room_for,
-                     tinted, trajectories_of, trajectory_legend, trajectory_mark, what_was_asked)
+                     spread, tinted, trajectories_of, trajectory_legend, trajectory_mark, what_was_asked)
 from .results import NothingToDraw, finite, positive, shortened
 
 PERCENTILES = [  # column, label, marker, how much of the colour: told apart by shape, so that grey print will do
@@ -69,17 +69,22 @@ def draw_update_rate(plt, rows, source):
     if not rates:
         raise NothingToDraw("no row has an update rate")
     names, trajectories = detectors.in_order(row.name for row in rows), trajectories_of(rows)
-    figure, (axes,) = canvas(plt, 1, 7.5, 0.33 * len(names), left=room_for(names))
+    low, high = min(rates + [1000]) / 3, max(rates + [1000]) * 3
+    timed, levels = {}, {}  # marks that would meet stand below each other
+    for name in names:
+        timed[name] = sorted((row for row in rows if row.name == name and row.update_rate_hz > 0),
+                             key=lambda row: row.update_rate_hz)
+        levels[name] = spread([row.update_rate_hz for row in timed[name]], math.log(high / low), 0.014)
+    height = max(0.33, 0.1 * (2 + max(map(max, filter(None, levels.values())))))  # inches
+    figure, (axes,) = canvas(plt, 1, 7.5, height * len(names), left=room_for(names))
     for y, name in enumerate(names):
-        mine = [row for row in rows if row.name == name]
-        for row in mine:
-            if row.update_rate_hz > 0:
-                axes.plot(row.update_rate_hz, y, linestyle="",
-                          **trajectory_mark(row.trajectory, trajectories, detectors.colour(name)))
-        if not positive(row.update_rate_hz for row in mine):
-            note(axes, y, shortened(mine[0].status) or "no times")
+        for row, level in zip(timed[name], levels[name]):
+            axes.plot(row.update_rate_hz, y + 0.09 / height * (level - max(levels[name]) / 2), linestyle="",
+                      **trajectory_mark(row.trajectory, trajectories, detectors.colour(name), 6.5))
+        if not timed[name]:
+            note(axes, y, shortened(next(row.status for row in rows if row.name == name)) or "no times")
     deadline = axes.axvline(1000, color="black", linestyle="--", linewidth=1, label="1 kHz: what haptics asks for")
-    log_axis(axes.xaxis, min(rates + [1000]) / 3, max(rates + [1000]) * 3, rate)
+    log_axis(axes.xaxis, low, high, rate)
     name_axis(axes, names)
     legend = trajectory_legend(plt, trajectories, linestyle="")
     label(figure, "Update rate: right is better", what_was_asked(rows), source, "queries answered in a second (log scale)",

@@ -2,7 +2,7 @@
 import math
 import statistics
 
-from . import detectors
+from . import detectors, groups
 from .layout import (canvas, count, detector_legend, duration, label, log_axis, name_panel, telling_words, trajectories_of,
                      what_was_asked)
 from .results import NothingToDraw, positive, shortened, unique
@@ -24,8 +24,8 @@ def pictures(runs):
     rows_by_key = {}
     family = families({row.mesh for run in runs for row in run.rows})
     for run in sorted(runs, key=lambda run: run.moment):
-        for row in run.rows:
-            if "groups=" not in row.options and row.ns_per_query > 0 and 0 < row.triangles < math.inf:
+        for row in groups.others(run.rows):
+            if row.ns_per_query > 0 and 0 < row.triangles < math.inf:
                 rows_by_key.setdefault((run.machine, row.query, family[row.mesh]), []).append((run, row))
     found = {}
     for key, measured in rows_by_key.items():

@@ -2,7 +2,7 @@
 import math
 
 from . import detectors
-from .layout import canvas, detector_legend, duration, label, log_axis, name_panel, trajectories_of, what_was_asked
+from .layout import canvas, detector_legend, duration, label, log_axis, name_panel, spread, trajectories_of, what_was_asked
 from .results import NothingToDraw, finite, geometric_mean, shortened
 
 TIMES = [("ns_p50", "median of the steps"), ("ns_p999", "99.9 % of the steps take at most this")]
@@ -96,7 +96,7 @@ def draw_panel(axes, error, times):
     axes.set_yticks([middle] + ticks, ["none" if error.floor == 0 else "rounding"] + [error.written(t) for t in ticks],
                     fontsize=9)
     clean = sorted((name for name in error.values if error.values[name] <= error.floor), key=times.get)
-    levels = spread([times[name] for name in clean], math.log(max(times.values()) * 4 / min(times.values())))
+    levels = spread([times[name] for name in clean], math.log(4 * max(times.values()) / min(times.values())))
     rows = max(levels, default=0) + 1
     for name, level in zip(clean, levels):
         put(axes, name, times[name], foot * (low / foot) ** ((level + 0.5) / rows if rows > 1 else 0.5))
@@ -107,15 +107,3 @@ def draw_panel(axes, error, times):
 
 def put(axes, name, time, value):
     axes.plot(time, value, linestyle="", zorder=3, clip_on=False, **detectors.mark(name, 8))
-
-
-def spread(times, span, near=0.035):
-    """A level for each of the ascending times, so that no two on one level lie closer than `near` of the span."""
-    last = []
-    levels = []
-    for time in times:
-        position = math.log(time) / span
-        level = next((k for k, other in enumerate(last) if position - other > near), len(last))
-        last[level:level + 1] = [position]
-        levels.append(level)
-    return levels

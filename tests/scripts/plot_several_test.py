@@ -12,7 +12,7 @@ SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(SCRIPTS))
 
-from drawing import comparison, detectors, history, layout, results, sizes, time_error  # noqa: E402
+from drawing import comparison, detectors, history, layout, results, sizes  # noqa: E402
 
 ROW = {
     "detector": "grid-group", "options": "", "mesh": "bunny", "triangles": 69666, "trajectory": "slide", "query": "nearest",
@@ -113,6 +113,12 @@ class Groups(Folders):
         done = subprocess.run([SCRIPTS / "plot", folder], capture_output=True, text=True, check=False)
         self.assertEqual((done.returncode, done.stderr),
                          (2, f"plot: {table}: line 2: column groups: 'many' is not a number\n"))
+
+    def test_have_a_picture_of_their_own(self):
+        rows = [row(f"{self.SCAN},groups={n}", ns=100 + n, missed=1) for n in (1, 10)] + [row("fcl", missed=2)]
+        self.plot(self.run_of("a", *rows), "--only", "time_error,groups")
+        self.assertNotIn("groups=", self.picture("time_error"))
+        self.assertIn("groups: cubes", self.picture("groups"))
 
     def test_are_left_out_where_there_is_one_number_only(self):
         folder = self.run_of("a", row(f"{self.SCAN},groups=10"))
@@ -226,12 +232,18 @@ class Looks(unittest.TestCase):
         looks = {(mark["marker"], mark["fillstyle"]) for mark in map(detectors.mark, names)}
         self.assertEqual(len(looks), len(names))
 
+    def test_detectors_that_are_not_known_are_told_apart_too(self):
+        names = ["fcl", "fcl:bv=obbrss", "fcl:a=1", "fcl:a=2", "fcl:a=3", "new", "newer", "newest"]
+        detectors.tell_apart(names)
+        looks = {(mark["marker"], mark["fillstyle"]) for mark in map(detectors.mark, names)}
+        self.assertEqual(len(looks), len(names))
+
     def test_trajectories_keep_their_marker_whatever_else_is_drawn(self):
         alone = layout.trajectory_mark("jump", ["jump"], "black")
         self.assertEqual(alone, layout.trajectory_mark("jump", ["slide", "mine.csv", "jump"], "black"))
 
     def test_marks_that_would_meet_stand_on_different_levels(self):
-        self.assertEqual(time_error.spread([100, 101, 5000, 5001, 5002], span=10), [0, 1, 0, 1, 2])
+        self.assertEqual(layout.spread([100, 101, 5000, 5001, 5002], span=10), [0, 1, 0, 1, 2])
 
     def test_file_names_say_what_tells_pictures_apart_and_no_more(self):
         words = layout.telling_words([("a", "nearest", 0.5), ("b", "nearest", 0.25)])
