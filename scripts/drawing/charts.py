@@ -1,9 +1,10 @@
 """The papers' charts, from their CSV files: legible in grey, every axis with its unit."""
-import collections
 import csv
 import math
 import pathlib
 
+from . import groups
+from .layout import count, duration, log_axis, plain, rate
 from .pictures import METHODS
 
 SHADES = ["0.95", "0.75", "0.45", "0.1"]
@@ -42,32 +43,33 @@ def short(value):
     return f"{value:,.0f}" if value >= 100 else f"{value:.3g}" if value >= 1e-4 else f"{value:.6f}"
 
 
-def bars(axes, table, column, clustered, levels, log=False):
-    """A group a method, a bar a level."""
+def bars(axes, table, column, clustered, levels, log=False, factor=1.0, base=0.0):
+    """A group a method, a bar a level; they show `factor` times the column and stand on `base`."""
     width = 0.86 / len(levels)
     for k, level in enumerate(levels):
-        values = [table.value(method, level, clustered, column) for method, _ in METHODS]
+        values = [factor * table.value(method, level, clustered, column) for method, _ in METHODS]
         at = [m - 0.43 + (k + 0.5) * width for m in range(len(METHODS))]
-        drawn = axes.bar(at, values, width, color=SHADES[level], hatch=HATCHES[level], edgecolor="black", linewidth=0.6,
+        drawn = axes.bar(at, [value - base for value in values], width, bottom=base, color=SHADES[level],
+                         hatch=HATCHES[level], edgecolor="black", linewidth=0.6,
                          label="original" if level == 0 else f"level {level}")
-        axes.bar_label(drawn, [short(v) for v in values], fontsize=6.5, rotation=90,
-                       padding=2)
+        axes.bar_label(drawn, [short(v) for v in values], fontsize=7.5, rotation=90, padding=2)
     axes.set_xticks(range(len(METHODS)), [NAMES[method] for method, _ in METHODS], fontsize=9)
     if log:
         axes.set_yscale("log")
         low, high = axes.get_ylim()
         axes.set_ylim(low, high * (high / low) ** 0.18)
+        axes.yaxis.set_major_formatter(lambda value, _: plain(value))
     else:
         axes.margins(y=0.18)
     axes.grid(axis="y", color="0.85", linewidth=0.6)
     axes.set_axisbelow(True)
 
 
-def draw_plain(plt, table, column, title, unit, clustered=False, from_level=0, one=False, log=False):
+def draw_plain(plt, table, column, title, unit, clustered=False, from_level=0, base=0.0, log=False):
     figure, axes = plt.subplots(figsize=(7.5, 4.2))
-    bars(axes, table, column, clustered, range(from_level, table.levels), log)
-    if one:
-        axes.axhline(1, color="black", linewidth=0.8, linestyle="--")
+    bars(axes, table, column, clustered, range(from_level, table.levels), log, base=base)
+    if base:
+        axes.axhline(base, color="black", linewidth=1)
     axes.set_ylabel(unit)
     axes.set_title(title, fontsize=12, fontweight="bold", loc="left")
     axes.legend(ncols=4, fontsize=8, loc="upper center", bbox_to_anchor=(0.5, -0.13), frameon=False)
@@ -84,12 +86,12 @@ def printed_ls3(directory, what):
     return values
 
 
-def draw_pair(plt, directory, table, column, title, unit, printed, log=True, relative=True):
+def draw_pair(plt, directory, table, column, title, unit, printed, log=True, relative=True, factor=1.0):
     """Without and with clustering, and LS3 beside the paper's numbers."""
     figure, (left, middle, right) = plt.subplots(1, 3, figsize=(14.5, 4.8), gridspec_kw={"width_ratios": [5, 5, 3.6]})
     levels = range(table.levels)
-    bars(left, table, column, False, levels, log)
-    bars(middle, table, column, True, levels, log)
+    bars(left, table, column, False, levels, log, factor)
+    bars(middle, table, column, True, levels, log, factor)
     low = min(axes.get_ylim()[0] for axes in (left, middle))
     high = max(axes.get_ylim()[1] for axes in (left, middle))
     for axes, name in ((left, "without clustering"), (middle, "with clustering")):
@@ -105,7 +107,7 @@ def draw_pair(plt, directory, table, column, title, unit, printed, log=True, rel
 
 
 def draw_ls3(axes, directory, printed, levels, relative, unit):
-    for name, what, line in (("without", printed[0], "-"), ("with", printed[1], "--")):
+    for name, what, line in (("not clustered", printed[0], "-"), ("clustered", printed[1], "--")):
         values = printed_ls3(directory, what)
         if not values:
             continue
@@ -114,12 +116,12 @@ def draw_ls3(axes, directory, printed, levels, relative, unit):
             axes.plot(list(values), [pair[k] / base[k] for pair in values.values()], line, marker=marker, color="black",
                       markerfacecolor=fill, markersize=6, linewidth=1, label=f"{who}, {name}")
     axes.set_yscale("log")
+    log_axis(axes.yaxis, *axes.get_ylim(), plain)
     axes.set_xticks(levels)
     axes.set_xlabel("level")
-    axes.set_ylabel("times level 0's" if relative else unit)
-    axes.set_title("LS3, printed and here", fontsize=10)
-    axes.grid(axis="y", which="both", color="0.9", linewidth=0.6)
-    axes.legend(fontsize=8.5, frameon=False, title="clustering", title_fontsize=8.5)
+    axes.set_ylabel("ratio to level 0" if relative else unit)
+    axes.set_title("LS3: as printed in the paper, and here", fontsize=10)
+    axes.legend(fontsize=8.5, frameon=False)
 
 
 def draw_fast_forms(plt, directory):
@@ -127,17 +129,18 @@ def draw_fast_forms(plt, directory):
     rows = read(pathlib.Path(directory) / "fast_forms.csv")
     forms = [("scan_update_rate_hz", "published scan", "o", "white"),
              ("clustered_scan_update_rate_hz", "published scan, clustered", "s", "0.7"),
-             ("tree_update_rate_hz", "exact tree", "^", "0.4"), ("grid_update_rate_hz", "exact grid", "D", "black")]
+             ("grid_update_rate_hz", "exact grid", "D", "black"), ("tree_update_rate_hz", "exact tree", "^", "white")]
     for column, name, marker, fill in forms:
         axes.plot([number(row, "triangles") for row in rows], [number(row, column) for row in rows], marker, color="black",
                   markerfacecolor=fill, markersize=6, label=name)
-    axes.axhline(1000, color="black", linestyle="--", linewidth=0.8, label="1000 Hz")
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_xlabel("triangles (all methods and levels)")
-    axes.set_ylabel("update rate, Hz")
-    axes.grid(color="0.88", linewidth=0.6)
-    axes.set_title("What subdivision really costs", fontsize=12, fontweight="bold", loc="left")
+    axes.axhline(1000, color="black", linestyle="--", linewidth=0.8, label="1 kHz: a haptic loop")
+    for axis, columns, written in ((axes.xaxis, ["triangles"], count), (axes.yaxis, [form[0] for form in forms], rate)):
+        shown = [number(row, column) for row in rows for column in columns if number(row, column) > 0]
+        log_axis(axis, min(shown + [1000]) / 1.6, max(shown + [1000]) * 1.6, written)
+    axes.set_xlabel("triangles, all methods and levels (log scale)")
+    axes.set_ylabel("update rate (log scale)")
+    axes.set_title("What subdivision costs the scan of Choi & Sung 2017, and exact forms", fontsize=12,
+                   fontweight="bold", loc="left")
     axes.legend(fontsize=9, frameon=False, loc="upper left", bbox_to_anchor=(1.0, 1.0))
     figure.tight_layout()
     return figure
@@ -153,41 +156,48 @@ def draw_frontier(plt, directory):
         for k, distance in enumerate(distances):
             mine = [row for row in rows if row["form"] == form and float(row["clustering"]) == distance]
             shade = "white" if form in ("scan", "fast level") and k == 0 else str(0.85 - 0.7 * k / max(len(distances) - 1, 1))
-            axes.plot([1e3 * number(row, "detection_ms") for row in mine], [number(row, "mean_error_percent") for row in mine],
+            axes.plot([1e6 * number(row, "detection_ms") for row in mine], [number(row, "mean_error_percent") for row in mine],
                       marker, color="black", markerfacecolor=shade if form in ("scan", "fast level") else "black",
                       markersize=5 + (form in ("tree", "grid")), markeredgewidth=0.7)
     published = pareto([row for row in rows if row["form"] in ("scan", "fast level")])
     every = pareto(rows)
     for best, style, name in ((published, "--", "frontier as published"), (every, "-", "frontier with the exact fast forms")):
-        axes.step([1e3 * number(row, "detection_ms") for row in best], [number(row, "mean_error_percent") for row in best],
+        axes.step([1e6 * number(row, "detection_ms") for row in best], [number(row, "mean_error_percent") for row in best],
                   where="post", color="black", linestyle=style, linewidth=1.2, label=name, zorder=0)
-    named = set()
-    for row in published + every:
-        if row["form"] == "fast level":  # all in one corner, all as far off
-            continue
-        name = NAMES[row["method"]].replace("\n", "") + (f" {row['level']}" if int(row["level"]) else "")
-        spot = (name, row["form"])
-        if spot in named:
-            continue
-        named.add(spot)
-        axes.annotate(name, (1e3 * number(row, "detection_ms"), number(row, "mean_error_percent")), (5, 4),
-                      textcoords="offset points", fontsize=7)
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_xlabel("time of one query, µs")
-    axes.set_ylabel("mean error to the smooth surface, % of the diagonal")
-    axes.grid(color="0.88", linewidth=0.6)
+    times = [1e6 * number(row, "detection_ms") for row in rows]
+    errors = [number(row, "mean_error_percent") for row in rows if number(row, "mean_error_percent") > 0]
+    log_axis(axes.xaxis, min(times) / 1.6, max(times) * 1.6, duration)
+    if errors:
+        log_axis(axes.yaxis, min(errors) / 1.6, max(errors) * 1.6, lambda percent: f"{plain(percent)} %")
+    name_best(axes, published + every)
+    axes.set_xlabel("time of one query (log scale)")
+    axes.set_ylabel("mean error to the smooth surface, of the diagonal (log scale)")
     legend = axes.get_legend_handles_labels()[0]
     for form, marker in forms.items():
         kind = {"scan": "scan, precise (published)", "fast level": "fast level alone (published)", "tree": "exact tree",
                 "grid": "exact grid"}[form]
         legend.append(plt.Line2D([], [], linestyle="", marker=marker, color="black", label=kind,
                                  markerfacecolor="white" if form in ("scan", "fast level") else "black"))
-    legend.append(plt.Line2D([], [], linestyle="", label=f"darker: clustered farther, 0 to {max(distances):.3g} mesh units"))
+    legend.append(plt.Line2D([], [], linestyle="", marker="o", color="black", markerfacecolor="0.4",
+                             label=f"darker: clustered within more, up to {max(distances):.3g} mesh units"))
     axes.legend(handles=legend, fontsize=8.5, loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=3, frameon=False)
-    axes.set_title("Run time against error: left and down is better", fontsize=12, fontweight="bold", loc="left")
+    axes.set_title("Choi & Sung 2017: time against error, left and down is better", fontsize=12, fontweight="bold", loc="left")
     figure.tight_layout()
     return figure
+
+
+def name_best(axes, rows):
+    """Method and level beside the mark, above or below it so that no two names meet."""
+    placed = {}  # by name and form: where, in pixels
+    for row in rows:
+        name = NAMES[row["method"]].replace("\n", "") + (f" {row['level']}" if int(row["level"]) else "")
+        if row["form"] == "fast level" or (name, row["form"]) in placed:  # those are all in one corner, all as far off
+            continue
+        spot = 1e6 * number(row, "detection_ms"), number(row, "mean_error_percent")
+        x, y = axes.transData.transform(spot)
+        crowded = any(abs(x - other_x) < 70 and abs(y - other_y) < 14 for other_x, other_y in placed.values())
+        axes.annotate(name, spot, (5, -11 if crowded else 4), textcoords="offset points", fontsize=8)
+        placed[name, row["form"]] = x, y
 
 
 def pareto(rows):
@@ -201,35 +211,8 @@ def pareto(rows):
 
 def draw_groups_against_time(plt, directory):
     """Park & Jang's Fig. 7, a panel a mesh."""
-    meshes = collections.OrderedDict()
-    for row in read(pathlib.Path(directory) / "times.csv"):
-        if row["detection_ms"]:
-            meshes.setdefault((row["mesh"], int(row["triangles"])), []).append(row)
-    columns = min(2, len(meshes))
-    lines = -(-len(meshes) // columns)
-    figure, panels = plt.subplots(lines, columns, squeeze=False, figsize=(6.2 * columns, 4 * lines + 0.6), sharex=True)
-    for spare in list(panels.flat)[len(meshes):]:
-        spare.set_visible(False)
-    for axes, ((mesh, triangles), rows) in zip(panels.flat, meshes.items()):
-        for form, marker, fill in (("cube", "s", "black"), ("sphere", "o", "white")):
-            mine = [row for row in rows if row["form"] == form]
-            axes.plot([number(row, "groups") for row in mine], [1e3 * number(row, "detection_ms") for row in mine], "-",
-                      marker=marker, color="black", markerfacecolor=fill, markersize=5, linewidth=1, label=f"groups: {form}s")
-        for form, style, name in (("ungrouped", "--", "ungrouped"), ("direct", ":", "exact grid (own cell only)")):
-            for row in rows:
-                if row["form"] == form:
-                    axes.axhline(1e3 * number(row, "detection_ms"), color="black", linestyle=style, linewidth=1.2, label=name)
-        axes.axvline(783, color="0.6", linewidth=3, alpha=0.6, label="783: the paper's turning point")
-        axes.set_xscale("log")
-        axes.set_yscale("log")
-        axes.set_title(f"{mesh}: {triangles:,} triangles", fontsize=10, loc="left", fontweight="bold")
-        axes.grid(color="0.9", linewidth=0.6)
-        axes.set_ylabel("time of one query, µs")
-        axes.tick_params(labelbottom=True)
-    for axes in panels[-1]:
-        axes.set_xlabel("number of groups")
-    handles, labels = panels[0][0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="lower center", ncols=5, fontsize=9, frameon=False)
-    figure.suptitle("Time against the number of groups (Fig. 7)", fontsize=12, fontweight="bold", x=0.01, ha="left")
-    figure.tight_layout(rect=(0, 0.05, 1, 0.98))
-    return figure
+    panels = groups.from_paper(pathlib.Path(directory) / "times.csv")
+    if not panels:
+        raise ValueError("times.csv has no times of several numbers of groups")
+    return groups.draw_groups(plt, panels, "Park & Jang 2018, Fig. 7: time against the number of groups",
+                              "query: nearest; down is better", "processor time of one query, as touchmark paper measured it")

@@ -28,14 +28,15 @@ def show(axes, picture):
 
 
 def surface_picture(folder, method, level, what, frame, pixels):
-    """`what`: mesh, spheres or clustered. Returns the picture and how many things it shows; None without a file."""
+    """`what`: mesh, spheres or clustered. Returns the picture and how many things it shows; None without a file. Edges
+    are drawn up to level 1, so that all methods of a level compare; beyond it they would blacken the surface."""
     path = folder / f"{method if level else 'original'}-{level}-{what}.csv"
     if not path.exists():
         return None
     picture = raster.Picture(frame, pixels, FRONT)
     if what == "mesh":
         triangles = read_triangles(path)
-        picture.triangles(triangles)
+        picture.triangles(triangles, lines=level < 2)
         return picture, len(triangles)
     spheres = read(path)
     picture.spheres(spheres[:, :3], spheres[:, 3])
@@ -84,12 +85,12 @@ def draw_original(plt, directory, pixels=PIXELS):
     picture.triangles(triangles)
     show(axes, picture)
     axes.set_xlabel(f"{len(triangles):,} triangles", fontsize=10)
-    axes.set_title("The model (Fig. 4)", fontsize=12, fontweight="bold")
+    axes.set_title("Park & Jang 2018, Fig. 4: the model", fontsize=12, fontweight="bold")
     figure.tight_layout()
     return figure
 
 
-def draw_groups(plt, directory, shape, title, pixels=PIXELS):
+def draw_groups(plt, directory, shape, title, printed, pixels=PIXELS):
     """Left the groups, right the triangles of one group that holds the probe, dark on the pale model."""
     folder = pathlib.Path(directory) / "pictures"
     triangles = read_triangles(folder / "original-mesh.csv")
@@ -104,7 +105,7 @@ def draw_groups(plt, directory, shape, title, pixels=PIXELS):
     else:
         picture.spheres(groups[:, :3], groups[:, 3])
     show(left, picture)
-    left.set_xlabel(f"{len(groups):,} groups", fontsize=11)
+    left.set_xlabel(f"{len(groups):,} groups (printed: {printed:,})", fontsize=11)
     picture = raster.Picture(points, 2 * pixels, view, margin=0.1)
     picture.triangles(triangles, lines=False)
     toward_viewer = view[2] * 0.01 * (points.max(axis=0) - points.min(axis=0)).max()

@@ -50,11 +50,11 @@ class Plot(unittest.TestCase):
         self.assertEqual(done.stderr, f"plot: {self.directory}/results.csv: {message}\n")
         self.assertFalse((self.directory / "plots").exists())
 
-    def test_draws_three_pictures_twice(self):
+    def test_draws_what_applies_to_one_run_twice(self):
         self.write(GOOD, {**GOOD, "detector": "fcl", "options": "bv=kios", "missed": 3}, CRASHED)
         done = self.plot()
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertEqual(self.pictures(), [f"{name}.{kind}" for name in ("errors", "latency", "update_rate")
+        self.assertEqual(self.pictures(), [f"{name}.{kind}" for name in ("errors", "latency", "time_error", "update_rate")
                                            for kind in ("png", "svg")])
         for path in (self.directory / "plots").glob("*.png"):
             self.assertTrue(path.read_bytes().startswith(b"\x89PNG"))
@@ -82,12 +82,54 @@ class Plot(unittest.TestCase):
 
     def test_draws_a_picture_for_each_mesh_and_query(self):
         self.write(GOOD, {**GOOD, "mesh": "a/b.stl"}, {**GOOD, "query": "touches"})
-        self.assertEqual(self.plot().returncode, 0)
+        self.assertEqual(self.plot(self.directory, "--only", "latency,update_rate").returncode, 0)
         self.assertIn("latency-a_b.stl-nearest.png", self.pictures())
-        self.assertEqual(len(self.pictures()), 18)
+        self.assertEqual(len(self.pictures()), 12)
 
-    def test_draws_when_nobody_answered(self):
+    def test_leaves_out_what_has_no_data_and_says_why(self):
         self.write(CRASHED, {**CRASHED, "detector": "other", "status": "unsupported"})
+        done = self.plot()
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(self.pictures(), ["errors.png", "errors.svg"])  # who failed, and how
+        for line in ("latency: left out: no row has times", "update_rate: left out: no row has an update rate",
+                     "time_error: left out: no detector has times and errors on every trajectory",
+                     "mesh_size: left out: meshes of one size only"):
+            self.assertIn(line, done.stdout.splitlines())
+
+    def test_shows_no_trade_of_time_for_error_where_nobody_errs(self):
+        self.write(GOOD)
+        self.assertIn("time_error: left out: nobody errs", self.plot(self.directory, "--only", "time_error").stdout)
+
+    def test_names_who_is_not_shown_in_time_against_error(self):
+        self.write({**GOOD, "missed": 3}, {**GOOD, "trajectory": "jump"}, {**GOOD, "detector": "fcl"})
+        self.plot(self.directory, "--only", "time_error")
+        picture = (self.directory / "plots" / "time_error.svg").read_text(encoding="utf-8")
+        self.assertIn("not everywhere answered, so not shown: fcl", picture)
+
+    def test_draws_only_what_was_asked_for(self):
+        self.write(GOOD)
+        self.assertEqual(self.plot("--only", "latency", self.directory).stdout, f"{self.directory}/plots/latency.png\n")
+        self.assertEqual(self.pictures(), ["latency.png", "latency.svg"])
+
+    def test_takes_a_file_and_another_place_for_the_pictures(self):
+        self.write(GOOD)
+        elsewhere = self.directory / "a" / "b"
+        self.assertEqual(self.plot(self.directory / "results.csv", "--only", "latency", "--out", elsewhere).returncode, 0)
+        self.assertTrue((elsewhere / "latency.png").exists())
+
+    def test_says_where_the_numbers_are_from(self):
+        self.write(GOOD)
+        (self.directory / "run.json").write_text('{"cpu": "Abacus 3", "commit": "beef"}', encoding="utf-8")
+        self.plot(self.directory, "--only", "latency")
+        self.assertIn(f"{self.directory.name}, Abacus 3, commit beef",
+                      (self.directory / "plots" / "latency.svg").read_text(encoding="utf-8"))
+        (self.directory / "run.json").write_text("{", encoding="utf-8")
+        done = self.plot()
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1))
+        self.assertIn("run.json: not JSON", done.stderr)
+
+    def test_takes_any_name_as_it_is(self):
+        self.write({**GOOD, "mesh": "/models/$\\frac{$.stl", "trajectory": "손 $x^$.csv", "detector": "n" * 200}, CRASHED)
         done = self.plot()
         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
@@ -95,7 +137,7 @@ class Plot(unittest.TestCase):
         COLUMNS.append("joules")
         self.addCleanup(COLUMNS.pop)
         self.write({**GOOD, "joules": "1"})
-        self.assertEqual(self.plot().returncode, 0)
+        self.assertEqual(self.plot(self.directory, "--only", "latency").returncode, 0)
 
     def test_names_what_is_wrong_with_a_file(self):
         results = self.directory / "results.csv"
@@ -111,6 +153,8 @@ class Plot(unittest.TestCase):
         self.assert_refused("no row follows the header")
         self.write({**GOOD, "ns_p99": "fast"})
         self.assert_refused("line 2: column ns_p99: 'fast' is not a number")
+        self.write({**GOOD, "ns_p50": "inf"})
+        self.assert_refused("line 2: column ns_p50: 'inf' is not finite")
         self.write(GOOD)
         with open(results, "a", encoding="utf-8") as file:
             file.write("1,2,3\n")
@@ -124,9 +168,11 @@ class Plot(unittest.TestCase):
         self.assertEqual(done.returncode, 0)
         self.assertIn("example: scripts/plot out", done.stdout)
 
-    def test_refuses_a_missing_argument(self):
-        done = subprocess.run([PLOT], capture_output=True, text=True, check=False)
-        self.assertEqual(done.returncode, 2)
+    def test_refuses_wrong_arguments_in_one_line(self):
+        for wrong in ([], ["a", "b"], ["--only", "latency,pie", "a"], ["--compare", "a", "b"], ["--compare", "a"],
+                      ["--compare", "a", "b", "--out", "c", "d"]):
+            done = subprocess.run([PLOT, *wrong], capture_output=True, text=True, check=False)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), (wrong, done.stderr))
 
 
 if __name__ == "__main__":

@@ -1,0 +1,113 @@
+"""Time against the number of groups (Park & Jang's Fig. 7): from times.csv of the paper's experiment, or from rows of
+grid-group:lookup=scan,groups=N in results.csv."""
+import math
+
+from .layout import canvas, count, duration, label, log_axis, name_panel, what_was_asked
+from .results import NothingToDraw, Unusable, number, rows_of, shortened
+
+TURNING_POINT = 783  # groups, as printed
+FORMS = [("cube", "groups: cubes", "s", "#c04a00", "full", "-"),
+         ("sphere", "groups: spheres", "o", "#0060a8", "none", "--")]
+LEVELS = [("ungrouped", "ungrouped", "black", (0, (6, 3))), ("direct", "exact grid (own cell only)", "black", ":")]
+PAPER_COLUMNS = ["mesh", "triangles", "form", "groups", "detection_ms"]
+
+
+class Panel:
+    """`curves`: (groups, ns) ascending by form; `levels`: ns by form."""
+
+    def __init__(self, title):
+        self.title, self.curves, self.levels = title, {}, {}
+
+    def add(self, form, groups, ns):
+        if any(form == level for level, *_ in LEVELS):
+            self.levels[form] = ns
+        elif any(form == curve for curve, *_ in FORMS):
+            self.curves.setdefault(form, []).append((groups, ns))
+
+
+def from_paper(path):
+    """A panel a mesh of times.csv."""
+    def record(row, line):
+        return (row["mesh"], number(row["triangles"], "triangles", line), row["form"],
+                number(row["groups"], "groups", line), 1e6 * number(row["detection_ms"], "detection_ms", line))
+    panels = {}
+    for mesh, triangles, form, groups, ns in rows_of(path, PAPER_COLUMNS, record):
+        if not math.isfinite(triangles):
+            raise Unusable(f"{path}: mesh {shortened(mesh)}: no number of triangles")
+        if ns > 0:
+            panel = panels.setdefault(mesh, Panel(f"{shortened(mesh)}: {int(triangles):,} triangles"))
+            panel.add(form, groups, ns)
+    return usable(panels.values())
+
+
+def usable(panels):
+    chosen = []
+    for panel in panels:
+        panel.curves = {form: sorted(point for point in points if point[0] >= 1) for form, points in panel.curves.items()}
+        if any(len(points) > 1 for points in panel.curves.values()):
+            chosen.append(panel)
+    return chosen
+
+
+def options_of(row):
+    return dict(option.partition("=")[::2] for option in row.options.split(",")) if row.options else {}
+
+
+def from_rows(rows):
+    """A panel a trajectory; the number of groups is what was aimed at."""
+    panels = {}
+    for row in rows:
+        if not row.ns_per_query > 0:
+            continue
+        panel = panels.setdefault(row.trajectory, Panel(shortened(row.trajectory, 40)))
+        options = options_of(row)
+        if row.name == "brute-force":
+            panel.add("ungrouped", 0, row.ns_per_query)
+        elif row.name == "grid-group":
+            panel.add("direct", 0, row.ns_per_query)
+        elif row.detector == "grid-group" and options.get("lookup") == "scan" and options.get("groups", "").isdigit():
+            panel.add(options.get("shape", "cube"), int(options["groups"]), row.ns_per_query)
+    return usable(panels.values())
+
+
+def others(rows):
+    """Without those that this picture shows: a row a number of groups is too many for a picture of detectors."""
+    numbers = {options["groups"] for options in map(options_of, rows) if "groups" in options}
+    return [row for row in rows if len(numbers) < 2 or "groups" not in options_of(row)]
+
+
+def draw_rows(plt, rows, source):
+    panels = from_rows(rows)
+    if not panels:
+        raise NothingToDraw("no detector grid-group:lookup=scan,groups=N with several N")
+    return draw_groups(plt, panels, "Time against the number of groups: down is better", what_was_asked(rows), source,
+                       "groups aimed at (log scale)")
+
+
+def draw_groups(plt, panels, title, asked, source, axis="number of groups (log scale)"):
+    figure, shown = canvas(plt, len(panels), 5.4, 3.4, left=1.05, share_y=False, gap=(0.9, 0.55),
+                           columns=min(2, len(panels)))
+    groups = [at for panel in panels for points in panel.curves.values() for at, _ in points]
+    for axes, panel in zip(shown, panels):
+        for form, text, marker, colour, fill, style in FORMS:
+            points = panel.curves.get(form, [])
+            axes.plot([at for at, _ in points], [ns for _, ns in points], linestyle=style, marker=marker, color=colour,
+                      fillstyle=fill, markersize=6, linewidth=1.2)
+        for form, _, colour, style in LEVELS:
+            if form in panel.levels:
+                axes.axhline(panel.levels[form], color=colour, linestyle=style, linewidth=1.3)
+        axes.axvline(TURNING_POINT, color="0.6", linewidth=4, alpha=0.5, zorder=0)
+        times = [ns for points in panel.curves.values() for _, ns in points] + list(panel.levels.values())
+        log_axis(axes.xaxis, min(groups) / 1.5, max(groups + [TURNING_POINT]) * 1.5, count)
+        log_axis(axes.yaxis, min(times) / 1.8, max(times) * 1.8, duration)
+        axes.set_ylabel("time of one query", fontsize=9)
+        name_panel(axes, panel.title)
+    legend = [plt.Line2D([], [], linestyle=style, marker=marker, color=colour, fillstyle=fill, markersize=6,
+                         linewidth=1.2, label=text) for form, text, marker, colour, fill, style in FORMS
+              if any(form in panel.curves for panel in panels)]
+    legend += [plt.Line2D([], [], color=colour, linestyle=style, linewidth=1.3, label=text)
+               for form, text, colour, style in LEVELS if any(form in panel.levels for panel in panels)]
+    legend.append(plt.Line2D([], [], color="0.6", linewidth=4, alpha=0.5,
+                             label=f"{TURNING_POINT}: the paper's turning point"))
+    label(figure, title, asked, source, axis, legend)
+    return figure

@@ -1,0 +1,132 @@
+"""results.csv and run.json, read with care: whatever cannot be used is told in one line."""
+import csv
+import json
+import math
+import pathlib
+
+TEXT_COLUMNS = ["detector", "options", "mesh", "trajectory", "query", "guarantee", "status"]
+NUMBER_COLUMNS = ["triangles", "steps", "radius", "missed", "false_contacts", "wrong_triangle", "unresolved", "beyond_bound",
+                  "wrong_point", "wrong_normal", "malformed", "max_distance_error", "ns_p50", "ns_p90", "ns_p99", "ns_p999",
+                  "ns_max", "update_rate_hz"]
+OPTIONAL_NUMBERS = ["ns_per_query", "ns_per_query_mad", "repetitions", "max_distance_error_of_diagonal"]
+MAY_BE_INFINITE = ["radius", "max_distance_error", "max_distance_error_of_diagonal"]
+OPTIONAL_TEXTS = ["answers_checksum"]
+DONE = "ok"
+
+
+class Unusable(Exception):
+    """A file or a wish that cannot be served; the message is one line."""
+
+
+class NothingToDraw(Exception):
+    """The rows hold nothing for this picture; the message says why, in one line."""
+
+
+class Row:
+    """One row of results.csv; a number that is not there is NaN."""
+
+    def __init__(self, record, line):
+        for column in TEXT_COLUMNS + OPTIONAL_TEXTS:
+            setattr(self, column, record.get(column) or "")
+        for column in NUMBER_COLUMNS + OPTIONAL_NUMBERS:
+            setattr(self, column, number(record.get(column), column, line))
+        self.name = self.detector + (":" + self.options if self.options else "")
+        self.done = self.status == DONE
+        if math.isnan(self.ns_per_query) and self.update_rate_hz > 0:
+            self.ns_per_query = 1e9 / self.update_rate_hz
+
+    @property
+    def scene(self):
+        return self.mesh, self.query, self.radius
+
+
+class Run:
+    """The rows of one file, and what run.json beside it says of where they come from."""
+
+    def __init__(self, path, rows, about):
+        folder = path.resolve().parent
+        self.rows = rows
+        self.name = folder.name if path.name == "results.csv" else path.stem
+        self.moment = str(about.get("date", "")), self.name
+        self.machine = str(about.get("cpu") or folder.parent.name)
+        facts = [about.get("cpu"), about.get("compiler"), "commit " + about["commit"] if about.get("commit") else ""]
+        self.source = ", ".join([self.name] + [str(fact) for fact in facts if fact])
+
+
+def number(text, column, line):
+    if not text:
+        return math.nan
+    try:
+        value = float(text)
+    except ValueError:
+        raise Unusable(f"line {line}: column {column}: '{shortened(text)}' is not a number") from None
+    if math.isinf(value) and column not in MAY_BE_INFINITE:
+        raise Unusable(f"line {line}: column {column}: '{shortened(text)}' is not finite")
+    return math.nan if math.isnan(value) else value  # one NaN, which equals itself in a tuple
+
+
+def read_records(path, columns):
+    """(line, record) of each row of a CSV file that must have these columns."""
+    try:
+        with open(path, newline="", encoding="utf-8") as file:
+            reader = csv.DictReader(file, strict=True)
+            missing = [column for column in columns if column not in (reader.fieldnames or [])]
+            if missing:
+                raise Unusable(f"the header has no column {', '.join(missing)}")
+            for record in reader:
+                if None in record or None in record.values():
+                    raise Unusable(f"line {reader.line_num}: not as many fields as the header")
+                yield reader.line_num, record
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise Unusable(f"not a CSV file in UTF-8: {error}") from None
+
+
+def rows_of(path, columns, row):
+    """The file's rows as row(record, line) makes them: at least one."""
+    try:
+        rows = [row(record, line) for line, record in read_records(path, columns)]
+        if not rows:
+            raise Unusable("no row follows the header")
+        return rows
+    except OSError as error:
+        raise Unusable(f"{path}: {error.strerror}") from None
+    except Unusable as error:
+        raise Unusable(f"{path}: {error}") from None
+
+
+def read_about(path):
+    try:
+        about = json.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        return {}
+    except OSError as error:
+        raise Unusable(f"{path}: {error.strerror}") from None
+    except ValueError as error:  # of the text's encoding, too
+        raise Unusable(f"{path}: not JSON in UTF-8: {error}") from None
+    return about if isinstance(about, dict) else {}
+
+
+def read_run(path):
+    path = pathlib.Path(path)
+    rows = rows_of(path, TEXT_COLUMNS + NUMBER_COLUMNS, Row)
+    return Run(path, rows, read_about(path.with_name("run.json")))
+
+
+def unique(values):
+    return list(dict.fromkeys(values))
+
+
+def finite(values):
+    return [value for value in values if math.isfinite(value)]
+
+
+def positive(values):
+    return [value for value in finite(values) if value > 0]
+
+
+def geometric_mean(values):
+    return math.exp(sum(map(math.log, values)) / len(values))
+
+
+def shortened(text, most=48):
+    return text if len(text) <= most else text[:most - 3] + "..."

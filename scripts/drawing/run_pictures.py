@@ -1,0 +1,176 @@
+"""One scene of one run: latency, update rate, errors. A line a detector, those that have no numbers with the reason."""
+import collections
+import math
+
+from . import detectors
+from .layout import (GRID, canvas, count, duration, label, log_axis, name_axis, name_panel, note, rate, room_for,
+                     spread, tinted, trajectories_of, trajectory_legend, trajectory_mark, what_was_asked)
+from .results import NothingToDraw, finite, positive, shortened
+
+PERCENTILES = [  # column, label, marker, how much of the colour: told apart by shape, so that grey print will do
+    ("ns_p50", "median", "|", 1.0),
+    ("ns_p90", "90 %", ".", 1.0),
+    ("ns_p99", "99 %", "o", 0.0),
+    ("ns_p999", "99.9 %", "D", 1.0),
+    ("ns_max", "maximum", ">", 1.0),
+]
+Kind = collections.namedtuple("Kind", "columns label hatch shade")
+ERRORS = [
+    Kind(["missed"], "missed contacts", "////", "0.35"),
+    Kind(["false_contacts"], "false contacts", "....", "0.75"),
+    Kind(["wrong_triangle"], "wrong triangle", "xxxx", "0.95"),
+    Kind(["beyond_bound"], "distance worse than declared", "", "0.1"),
+    Kind(["wrong_point", "wrong_normal", "malformed"], "wrong point or normal, no number", "---", "0.85"),
+    Kind(["unresolved"], "unresolved (within the declared accuracy)", "", "1.0"),
+]
+DEADLINE_NS = 1e6  # 1 kHz, what a haptic loop is held to
+
+
+def draw_latency(plt, rows, source):
+    times = positive(getattr(row, column) for row in rows for column, *_ in PERCENTILES)
+    if not times:
+        raise NothingToDraw("no row has times")
+    names, trajectories = detectors.in_order(row.name for row in rows), trajectories_of(rows)
+    figure, panels = canvas(plt, len(trajectories), 4.0, 0.27 * len(names), left=room_for(names))
+    for axes, trajectory in zip(panels, trajectories):
+        for row in (row for row in rows if row.trajectory == trajectory):
+            draw_percentiles(axes, names.index(row.name), row)
+        axes.axvline(DEADLINE_NS, color="black", linestyle="--", linewidth=1)
+        name_panel(axes, shortened(trajectory, 40))
+        log_axis(axes.xaxis, min(times + [DEADLINE_NS]) / 2, max(times + [DEADLINE_NS]) * 3, duration)
+        name_axis(axes, names)
+    legend = [plt.Line2D([], [], linewidth=1, label=which, **percentile_mark(marker, "0.2", strength))
+              for _, which, marker, strength in PERCENTILES]
+    legend.append(plt.Line2D([], [], color="black", linestyle="--", linewidth=1, label="1 ms: a 1 kHz tick is over"))
+    label(figure, "Latency of one query: left is better", what_was_asked(rows), source, "time for one query (log scale)",
+          legend)
+    return figure
+
+
+def percentile_mark(marker, colour, strength):
+    return {"marker": marker, "color": colour, "markersize": 11 if marker == "|" else 5,
+            "markeredgewidth": 2 if marker == "|" else 1, "markerfacecolor": tinted(colour, strength)}
+
+
+def draw_percentiles(axes, y, row):
+    colour = detectors.colour(row.name)
+    points = [(getattr(row, column), marker, strength) for column, _, marker, strength in PERCENTILES]
+    points = [point for point in points if math.isfinite(point[0]) and point[0] > 0]
+    if not points:
+        note(axes, y, shortened(row.status) or "no times")
+        return
+    axes.plot([points[0][0], points[-1][0]], [y, y], color=colour, alpha=0.5, linewidth=1.2, zorder=1)
+    for time, marker, strength in points:
+        axes.plot(time, y, linestyle="", zorder=2, **percentile_mark(marker, colour, strength))
+
+
+def draw_update_rate(plt, rows, source):
+    rates = positive(row.update_rate_hz for row in rows)
+    if not rates:
+        raise NothingToDraw("no row has an update rate")
+    names, trajectories = detectors.in_order(row.name for row in rows), trajectories_of(rows)
+    low, high = min(rates + [1000]) / 3, max(rates + [1000]) * 3
+    timed, levels = {}, {}  # marks that would meet stand below each other
+    for name in names:
+        timed[name] = sorted((row for row in rows if row.name == name and row.update_rate_hz > 0),
+                             key=lambda row: row.update_rate_hz)
+        levels[name] = spread([row.update_rate_hz for row in timed[name]], math.log(high / low), 0.014)
+    height = max(0.33, 0.1 * (2 + max(map(max, filter(None, levels.values())))))  # inches
+    figure, (axes,) = canvas(plt, 1, 7.5, height * len(names), left=room_for(names))
+    for y, name in enumerate(names):
+        for row, level in zip(timed[name], levels[name]):
+            axes.plot(row.update_rate_hz, y + 0.09 / height * (level - max(levels[name]) / 2), linestyle="",
+                      **trajectory_mark(row.trajectory, trajectories, detectors.colour(name), 6.5))
+        if not timed[name]:
+            note(axes, y, shortened(next(row.status for row in rows if row.name == name)) or "no times")
+    deadline = axes.axvline(1000, color="black", linestyle="--", linewidth=1, label="1 kHz: what haptics asks for")
+    log_axis(axes.xaxis, low, high, rate)
+    name_axis(axes, names)
+    legend = trajectory_legend(plt, trajectories, linestyle="")
+    label(figure, "Update rate: right is better", what_was_asked(rows), source, "queries answered in a second (log scale)",
+          legend + [deadline])
+    return figure
+
+
+def errors_of(row, kind):
+    return sum(finite(getattr(row, column) for column in kind.columns))
+
+
+def failures(rows, name):
+    """"crashed in slide, tap; unsupported in edge", or nothing."""
+    statuses = {}
+    for row in rows:
+        if row.name == name and not row.done:
+            statuses.setdefault(shortened(row.status) or "no status", []).append(row.trajectory)
+    return "; ".join(f"{status} in {', '.join(where)}" for status, where in statuses.items())
+
+
+def claims_exactness(rows, name):
+    return all(row.guarantee == "exact" for row in rows if row.name == name and row.done)
+
+
+def draw_errors(plt, rows, source):
+    names = detectors.in_order(row.name for row in rows)
+    wrong = {name: {kind.label: sum(errors_of(row, kind) for row in rows if row.name == name) for kind in ERRORS}
+             for name in names}
+    lines = max(sum(number > 0 for number in wrong[name].values()) + bool(failures(rows, name)) for name in names)
+    lines = max(3, lines)
+    figure, (count_axes, size_axes) = canvas(plt, 2, 5.5, 0.13 * lines * len(names), left=room_for(names), share_x=False,
+                                             gap=(0.3, 0.55))
+    draw_error_counts(count_axes, rows, names, wrong, lines)
+    draw_error_sizes(size_axes, rows, names)
+    legend = [plt.Rectangle((0, 0), 1, 1, facecolor=kind.shade, edgecolor="black", hatch=kind.hatch, linewidth=0.6,
+                            label=kind.label) for kind in ERRORS if any(wrong[name][kind.label] for name in names)]
+    label(figure, "Errors against the exact oracle: left is better", what_was_asked(rows), source,
+          "all trajectories together", legend + size_axes.get_legend_handles_labels()[0])
+    return figure
+
+
+def draw_error_counts(axes, rows, names, wrong, lines):
+    """Bars for the kinds that occur, so that a clean row stays clean; notes for the rest, on lines of their own."""
+    for y, name in enumerate(names):
+        steps = sum(finite(row.steps for row in rows if row.name == name and row.done))
+        kinds = [kind for kind in ERRORS if wrong[name][kind.label]]
+        clean = "no error" if claims_exactness(rows, name) else "none beyond what it declares"
+        clean = "" if kinds or not steps else clean
+        remark = "; ".join(filter(None, [clean, failures(rows, name)]))
+        used = len(kinds) + bool(remark)
+        at = [y + (k - (used - 1) / 2) * 0.94 / lines for k in range(used)]
+        for kind, line in zip(kinds, at):
+            number = wrong[name][kind.label]
+            axes.barh(line, number, 0.94 / lines, color=kind.shade, edgecolor="black", hatch=kind.hatch, linewidth=0.6,
+                      zorder=2)
+            share = f" ({100 * number / steps:.2g} %)" if steps else ""
+            axes.text(number * 1.1, line, f"{int(number):,}{share}", va="center", fontsize=8)
+        if remark:
+            note(axes, at[-1], remark)
+    axes.set_xscale("symlog", linthresh=1)
+    axes.set_xlim(0, 20 * max([1] + [number for counts in wrong.values() for number in counts.values()]))
+    axes.xaxis.set_major_formatter(lambda number, _: count(number))
+    axes.grid(axis="x", **GRID)
+    name_axis(axes, names)
+    name_panel(axes, "wrong answers, and their share of all (log scale)")
+
+
+def draw_error_sizes(axes, rows, names):
+    """The largest distance error of each, beside the probe's radius."""
+    sizes = {name: max(finite(row.max_distance_error for row in rows if row.name == name), default=math.nan)
+             for name in names}
+    shown = positive(sizes.values())
+    radius = rows[0].radius
+    if radius > 0 and math.isfinite(radius):
+        axes.axvline(radius, color="black", linestyle="--", linewidth=1, label=f"the probe's radius, {radius:.3g}")
+        shown.append(radius)
+    low, high = min(shown, default=1) / 10, max(shown, default=1) * 30
+    log_axis(axes.xaxis, low, high, lambda size: f"{size:.0e}".replace("e-0", "e-"))
+    for y, name in enumerate(names):
+        if sizes[name] > 0:
+            axes.plot(sizes[name], y, "D", color=detectors.colour(name), markersize=6)
+            # beside the mark, on the side with room: above it the radius' line would cross the number
+            right = sizes[name] > radius or math.log(sizes[name] / low) < 0.6 * math.log(high / low)
+            axes.annotate(f"{sizes[name]:.2g}", (sizes[name], y), (8 if right else -8, 0), textcoords="offset points",
+                          ha="left" if right else "right", va="center", fontsize=8)
+        else:
+            note(axes, y, "0" if sizes[name] == 0 else "no distances judged")
+    name_axis(axes, names)
+    name_panel(axes, "largest distance error (mesh units, log scale)")

@@ -1,0 +1,263 @@
+#!/usr/bin/python3
+"""scripts/plot on several made-up runs: mesh sizes, groups, history, A against B; and what the pictures share."""
+import csv
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(SCRIPTS))
+
+from drawing import comparison, detectors, history, layout, results, sizes  # noqa: E402
+
+ROW = {
+    "detector": "grid-group", "options": "", "mesh": "bunny", "triangles": 69666, "trajectory": "slide", "query": "nearest",
+    "steps": 1000, "radius": 0.005, "guarantee": "exact", "status": "ok", "missed": 0, "false_contacts": 0,
+    "wrong_triangle": 0, "unresolved": 0, "beyond_bound": 0, "wrong_point": 0, "wrong_normal": 0, "malformed": 0,
+    "max_distance_error": 0, "ns_p50": 90, "ns_p90": 110, "ns_p99": 130, "ns_p999": 150, "ns_max": 200,
+    "update_rate_hz": 1e7, "ns_per_query": 100, "ns_per_query_mad": 1, "repetitions": 9, "answers_checksum": "1f",
+}
+
+
+def row(detector="grid-group", ns=100, **others):
+    name, _, options = detector.partition(":")
+    return {**ROW, "detector": name, "options": options, "ns_per_query": ns, "update_rate_hz": 1e9 / ns, **others}
+
+
+class Folders(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.directory = pathlib.Path(temporary.name)
+        self.out = self.directory / "pictures"
+
+    def run_of(self, name, *rows, about=None):
+        folder = self.directory / name
+        folder.mkdir(parents=True)
+        with open(folder / "results.csv", "w", newline="", encoding="utf-8") as file:
+            writer = csv.DictWriter(file, list(ROW))
+            writer.writeheader()
+            writer.writerows(rows)
+        if about:
+            (folder / "run.json").write_text(json.dumps(about), encoding="utf-8")
+        return folder
+
+    def plot(self, *arguments):
+        done = subprocess.run([SCRIPTS / "plot", *arguments, "--out", self.out], capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return done.stdout
+
+    def refusal(self, *arguments):
+        done = subprocess.run([SCRIPTS / "plot", *arguments, "--out", self.out], capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+        self.assertFalse(self.out.exists())
+        return done.stderr
+
+    def picture(self, name):
+        """matplotlib writes a comment with the text above each run of glyphs."""
+        self.assertTrue((self.out / f"{name}.png").read_bytes().startswith(b"\x89PNG"))
+        return (self.out / f"{name}.svg").read_text(encoding="utf-8")
+
+
+class MeshSize(Folders):
+    def test_is_drawn_from_several_folders(self):
+        folders = [self.run_of(f"ico{n}", row(mesh=f"icosphere:{n}", triangles=20 * 4 ** n), row("fcl", mesh=f"icosphere:{n}",
+                   triangles=20 * 4 ** n)) for n in (2, 4)]
+        self.plot(*folders, "--only", "mesh_size")
+        picture = self.picture("mesh_size")
+        for text in ("icosphere:2, icosphere:4", "grid-group", "fcl", "1,000", "2 runs", "triangles (log scale)"):
+            self.assertIn(text, picture)
+
+    def test_is_drawn_from_several_meshes_of_one_run_for_each_kind_of_mesh(self):
+        folder = self.run_of("a", *(row(mesh=f"{kind}:{n}", triangles=n) for kind in ("soup", "torus") for n in (20, 50)))
+        self.plot(folder, "--only", "mesh_size")
+        self.picture("mesh_size-soup")
+        self.picture("mesh_size-torus")
+
+    def test_never_mixes_the_times_of_two_machines(self):
+        folders = [self.run_of(f"m{n}", row(triangles=n), about={"cpu": f"cpu {n}"}) for n in (10, 20)]
+        self.assertIn("mesh_size: left out: meshes of one size only", self.plot(*folders, "--only", "mesh_size"))
+        self.assertFalse(self.out.exists())
+
+    def test_takes_the_sizes_of_one_kind_together(self):
+        self.assertEqual(sizes.families({"dragon", "dragon:2", "bunny", "torus:8x9@scale=2", "a.ply"}),
+                         {"dragon": "dragon", "dragon:2": "dragon", "bunny": "", "torus:8x9@scale=2": "torus", "a.ply": ""})
+
+
+class Groups(Folders):
+    SCAN = "grid-group:lookup=scan"
+
+    def test_are_drawn_from_rows_that_name_their_number(self):
+        rows = [row(f"{self.SCAN},groups={n}", ns=1e6 / n) for n in (1, 10, 100)]
+        rows += [row(f"{self.SCAN},shape=sphere,groups={n}", ns=2e6 / n) for n in (1, 10)]
+        self.plot(self.run_of("a", *rows, row("brute-force", 1e6)), "--only", "groups")
+        picture = self.picture("groups")
+        for text in ("groups: cubes", "groups: spheres", "ungrouped", "slide", "groups aimed at"):
+            self.assertIn(text, picture)
+        self.assertNotIn("exact grid", picture)  # nobody timed it
+
+    def test_are_drawn_from_the_papers_table(self):
+        folder = self.directory / "park"
+        folder.mkdir()
+        table = folder / "times.csv"
+        table.write_text("mesh,triangles,form,groups,detection_ms\nbunny,948,ungrouped,,0.02\nbunny,948,cube,1,0.03\n"
+                         "bunny,948,cube,97,0.001\nbunny,948,direct,,0.0001\n", encoding="utf-8")
+        self.plot(folder)
+        self.assertIn("bunny: 948 triangles", self.picture("groups"))
+        self.assertIn("park/times.csv", self.picture("groups"))
+        table.write_text("mesh,triangles,form,groups,detection_ms\nbunny,948,cube,many,0.03\n", encoding="utf-8")
+        done = subprocess.run([SCRIPTS / "plot", folder], capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr),
+                         (2, f"plot: {table}: line 2: column groups: 'many' is not a number\n"))
+
+    def test_have_a_picture_of_their_own(self):
+        rows = [row(f"{self.SCAN},groups={n}", ns=100 + n, missed=1) for n in (1, 10)] + [row("fcl", missed=2)]
+        self.plot(self.run_of("a", *rows), "--only", "time_error,groups")
+        self.assertNotIn("groups=", self.picture("time_error"))
+        self.assertIn("groups: cubes", self.picture("groups"))
+
+    def test_are_left_out_where_there_is_one_number_only(self):
+        folder = self.run_of("a", row(f"{self.SCAN},groups=10"))
+        self.assertIn("groups: left out: no detector grid-group:lookup=scan,groups=N with several N",
+                      self.plot(folder, "--only", "groups"))
+
+
+class History(Folders):
+    def record(self, day, *rows, cpu="x"):
+        return self.run_of(f"machine/2026-01-{day:02}-beef", *rows, about={"date": f"2026-01-{day:02}", "cpu": cpu})
+
+    def test_is_drawn_from_a_machines_folder(self):
+        for day in (1, 2, 3):
+            self.record(day, row(ns=100 * day), row("aabb-tree", ns=200), row("fcl", ns=400))
+        self.assertIn("mesh_size: left out", self.plot(self.directory / "machine"))
+        self.assertEqual(sorted(path.name for path in self.out.iterdir()), ["history.png", "history.svg"])
+        picture = self.picture("history")
+        for text in ("over that of aabb-tree in the same run", "3 recordings", "2026-01-02-beef", "fcl"):
+            self.assertIn(text, picture)
+
+    def test_goes_by_the_reference_that_is_asked_for(self):
+        folders = [self.record(day, row(), row("aabb-tree"), row("fcl")) for day in (1, 2)]
+        self.plot(*folders, "--only", "history", "--reference", "fcl")
+        self.assertIn("over that of fcl in the same run", self.picture("history"))
+
+    def test_refuses_a_reference_that_is_not_everywhere(self):
+        self.record(1, row(), row("fcl"))
+        self.record(2, row())
+        self.assertIn("--reference fcl: not timed in every recording",
+                      self.refusal(self.directory / "machine", "--reference", "fcl"))
+
+    def test_is_left_out_without_a_common_reference(self):
+        self.record(1, row())
+        self.record(2, row())
+        self.assertIn("history: left out: the recordings share no detector to compare with",
+                      self.plot(self.directory / "machine"))
+
+    def test_never_spans_two_machines(self):
+        for day, cpu in ((1, "y"), (2, "z")):
+            self.record(day, row(), row("fcl"), cpu=cpu)
+        self.assertIn("history: left out: no scene was recorded twice on one machine", self.plot(self.directory / "machine"))
+        self.record(3, row(), row("fcl"), cpu="z")
+        self.plot(self.directory / "machine")
+        self.assertIn("2 recordings, z", self.picture("history"))
+
+    def test_ratio_is_that_of_one_run(self):
+        mine, reference = (results.Row(row(ns=ns), 2) for ns in (300, 200))
+        value, error = history.ratio(mine, {"slide": reference})
+        self.assertEqual(value, 1.5)
+        self.assertAlmostEqual(error, 1.253 * 1.483 / 3 * ((1 / 300) ** 2 + (1 / 200) ** 2) ** 0.5)
+        self.assertIsNone(history.ratio(mine, {}))
+
+
+class Comparison(Folders):
+    def test_shows_each_row_of_b_over_that_of_a(self):
+        a = self.run_of("a", row(ns=100), row("fcl", ns=400), row("embree"))
+        b = self.run_of("b", row(ns=50, answers_checksum="2e"), row("fcl", ns=404), row("bullet", ns_per_query="", update_rate_hz="", status="timeout"))
+        (b / "results.csv").rename(b / "after.csv")
+        self.assertEqual(self.plot("--compare", a, b / "after.csv"), f"{self.out}/comparison.png\n")
+        picture = self.picture("comparison")
+        for text in ("A: a, B: after", "0.5×  other answers", "1.01×", "not in B", "not in A; B: timeout"):
+            self.assertIn(text, picture)
+
+    def test_takes_out_what_the_reference_shares(self):
+        a = self.run_of("a", row(ns=100), row("fcl", ns=400))
+        b = self.run_of("b", row(ns=300), row("fcl", ns=800))
+        self.plot("--compare", a, b, "--reference", "fcl")
+        self.assertIn("1.5×", self.picture("comparison"))
+
+    def test_interval_widens_with_the_spread_and_is_absent_without(self):
+        def ratio(**spread):
+            return comparison.Ratio(results.Row(row(ns=100, **spread), 2), results.Row(row(ns=110, **spread), 2), None, None)
+        quiet, noisy, unknown = ratio(ns_per_query_mad=1), ratio(ns_per_query_mad=20), ratio(ns_per_query_mad="")
+        self.assertTrue(quiet.differs)
+        self.assertLess(quiet.high / quiet.low, noisy.high / noisy.low)
+        self.assertFalse(noisy.differs)
+        self.assertEqual((unknown.known, unknown.differs, unknown.low), (False, False, unknown.value))
+
+    def test_says_what_cannot_be_compared(self):
+        a, b = self.run_of("a", row()), self.run_of("b", row(mesh="other"))
+        twice = self.run_of("twice", row(), row())
+        self.assertIn("the two share no row with times", self.refusal("--compare", a, b))
+        self.assertIn("twice: two rows of grid-group on slide: compare single runs", self.refusal("--compare", a, twice))
+        self.assertIn("--reference fcl: not timed in both on slide", self.refusal("--compare", a, a, "--reference", "fcl"))
+        self.assertIn("--compare: each of the two is a folder with results.csv", self.refusal("--compare", self.directory, a))
+
+
+class SeveralRuns(Folders):
+    def test_of_one_scene_are_drawn_apart(self):
+        self.plot(self.run_of("a", row()), self.run_of("b", row()), "--only", "latency")
+        self.picture("latency-a")
+        self.picture("latency-b")
+
+    def test_of_one_name_do_not_overwrite_each_other(self):
+        self.plot(self.run_of("x/run", row()), self.run_of("y/run", row()), "--only", "latency")
+        self.picture("latency-run")
+        self.picture("latency-run-2")
+
+
+class Looks(unittest.TestCase):
+    NAMES = ["brute-force", "fcl:bv=obbrss", "sphere-cluster:lookup=scan", "new-one", "embree", "fcl", "grid-group",
+             "sphere-cluster", "grid-group:lookup=scan"]
+
+    def test_order_is_ours_rivals_published_brute_force(self):
+        self.assertEqual(detectors.in_order(self.NAMES + ["fcl"]),
+                         ["sphere-cluster", "grid-group", "embree", "fcl", "fcl:bv=obbrss", "new-one", "grid-group:lookup=scan",
+                          "sphere-cluster:lookup=scan", "brute-force"])
+
+    def test_no_two_known_detectors_look_alike_without_colour(self):
+        names = [*detectors.KNOWN_FILLINGS, *(kind for kind in detectors.KINDS if kind and " " not in kind)]
+        looks = {(mark["marker"], mark["fillstyle"]) for mark in map(detectors.mark, names)}
+        self.assertEqual(len(looks), len(names))
+
+    def test_detectors_that_are_not_known_are_told_apart_too(self):
+        names = ["fcl", "fcl:bv=obbrss", "fcl:a=1", "fcl:a=2", "fcl:a=3", "new", "newer", "newest"]
+        detectors.tell_apart(names)
+        looks = {(mark["marker"], mark["fillstyle"]) for mark in map(detectors.mark, names)}
+        self.assertEqual(len(looks), len(names))
+
+    def test_trajectories_keep_their_marker_whatever_else_is_drawn(self):
+        alone = layout.trajectory_mark("jump", ["jump"], "black")
+        self.assertEqual(alone, layout.trajectory_mark("jump", ["slide", "mine.csv", "jump"], "black"))
+
+    def test_marks_that_would_meet_stand_on_different_levels(self):
+        self.assertEqual(layout.spread([100, 101, 5000, 5001, 5002], span=10), [0, 1, 0, 1, 2])
+
+    def test_file_names_say_what_tells_pictures_apart_and_no_more(self):
+        words = layout.telling_words([("a", "nearest", 0.5), ("b", "nearest", 0.25)])
+        self.assertEqual(words, {("a", "nearest", 0.5): ["a"], ("b", "nearest", 0.25): ["b"]})
+        words = layout.telling_words([("a", "nearest", 0.5), ("a", "nearest", 1 / 3)])
+        self.assertEqual(layout.in_file_name(words["a", "nearest", 1 / 3]), "-0.333333")
+        self.assertEqual(layout.telling_words([("a", "nearest")]), {("a", "nearest"): []})
+
+    def test_legends_break_before_they_are_wider_than_the_picture(self):
+        self.assertEqual(layout.entries_per_line(["abcde"] * 6, 100), 6)
+        self.assertEqual(layout.entries_per_line(["abcde"] * 6, 4), 3)
+        self.assertEqual(layout.entries_per_line(["abcde" * 20] + ["abcde"] * 5, 11.5), 4)
+        self.assertEqual(layout.entries_per_line(["abcde"] * 6, 0.1), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
