@@ -23,7 +23,7 @@ struct Timing {
   std::vector<std::string> only;    ///< names of cases; empty: all timed ones
   std::uint64_t seed = 1;           ///< of the order
   std::size_t sittings = 6;         ///< how often detectors are built anew, so that memory lies elsewhere
-  std::size_t rounds = 10;          ///< of each sitting: every plug-in once, in random order
+  std::size_t rounds = 25;          ///< of each sitting: every plug-in once, in random order
   double base_again = 0;            ///< slows base and control down; see TouchmarkGatePass
   double head_again = 0;
 };

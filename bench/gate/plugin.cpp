@@ -53,7 +53,7 @@ class Answers {
   }
   void fold(std::uint64_t bits) noexcept { value_ = (std::rotl(value_, 7) ^ bits) * 0x9e3779b97f4a7c15ULL; }
 
-  std::uint64_t value_ = 0;
+  std::uint64_t value_ = 1;  // of nothing found in one step is not that of nothing in two
 };
 
 /// And where, and facing which way.

@@ -61,7 +61,7 @@ def answers(driver, plugins):
 def read_dump(path):
     """The case that a callgrind dump is named after, and its instructions; or None."""
     case = total = None
-    with open(path, encoding="utf-8") as file:
+    with open(path, encoding="utf-8", errors="replace") as file:
         for line in file:
             found = re.match(r"desc: Trigger: Client Request: (.*)", line)
             case = found[1].strip() if found else case
@@ -95,7 +95,7 @@ def read_times(path):
     return {case: numpy.array(list(sittings.values())) for case, sittings in rows.items()}
 
 
-def times(driver, plugins, out, seed, cases=(), sittings=6, rounds=10, base_again=0.0, head_again=0.0):
+def times(driver, plugins, out, seed, cases=(), sittings=6, rounds=25, base_again=0.0, head_again=0.0):
     """plugins: base, control, head. The rounds stay in the file `out`."""
     command = [driver, "times", "--out", out, "--seed", str(seed), "--sittings", str(sittings), "--rounds", str(rounds),
                "--base-again", str(base_again), "--head-again", str(head_again)]
