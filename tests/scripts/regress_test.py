@@ -1,5 +1,10 @@
 #!/usr/bin/python3
 """The judgement of scripts/regress, on made-up numbers whose truth is known."""
+import argparse
+import contextlib
+import importlib.machinery
+import importlib.util
+import io
 import json
 import pathlib
 import subprocess
@@ -290,6 +295,104 @@ class Revisions(unittest.TestCase):
         self.assertEqual((source / "core" / "a.h").read_text(), "mark")
         builds.extracted(self.commits[1], folder)
         self.assertEqual((source / "core" / "a.h").read_text(), "two")
+
+
+def measured(**changes):
+    return {"a": answer(**changes), "b": answer(**changes)}
+
+
+class Comparison(unittest.TestCase):
+    """The whole of scripts/regress with made-up measurements in the place of builds."""
+
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.out = pathlib.Path(temporary.name)
+        loader = importlib.machinery.SourceFileLoader("regress", str(SCRIPTS / "regress"))
+        self.regress = importlib.util.module_from_spec(importlib.util.spec_from_loader("regress", loader))
+        loader.exec_module(self.regress)
+        self.regress.EXPECTED = self.out / "answers.json"
+        self.regress.ACCEPTED = self.out / "accepted.json"
+        self.regress.builds = mock.Mock(wraps=builds, DoesNotBuild=builds.DoesNotBuild, ROOT=self.out)
+        self.regress.say = lambda text: None
+        expectations.update_answers(self.regress.EXPECTED, measured(), "first")
+
+    def compare(self, head="head", base="base", answers=None, instructions=1.0, truths=({},), **options):
+        """truths: what the rounds of each batch are made of. Returns the exit status and the record."""
+        library = {"head": self.out / "head.so", "base": self.out / "base.so"}
+        library["head"].write_text(head)
+        library["base"].write_text(base or "")
+        fakes = self.regress.builds
+        fakes.head_revision.side_effect = fakes.base_revision.side_effect = lambda *_: builds.Revision("c0ffee", "text")
+        fakes.core_of.side_effect = lambda commit: "core of base"
+        fakes.extracted.side_effect = fakes.synchronised.side_effect = lambda *_: None
+
+        def plugin(source, folder, driver=False):
+            if base is None and not driver:
+                raise builds.DoesNotBuild("base: the plug-in does not build; see build.log")
+            return library["head" if driver else "base"]
+        fakes.plugin.side_effect = plugin
+        batches = iter(truths)
+
+        def times(driver, plugins, out, seed, cases=()):
+            now = next(batches)
+            return {name: rounds(seed, **now) for name in cases or ("a", "b")}
+        counted = [{"a": 1000, "b": 1000}, {"a": 1000, "b": 1000 * instructions}]
+        arguments = argparse.Namespace(out=self.out, against=None, seed=1, even_if_same=False, accept=False,
+                                       reason=None, **options)
+        self.arguments = arguments
+        with mock.patch.object(measure, "answers", lambda _, plugins: [answers or measured(), measured()][:len(plugins)]), \
+                mock.patch.object(measure, "instructions", lambda *_: counted), \
+                mock.patch.object(measure, "times", times), contextlib.redirect_stdout(io.StringIO()) as printed:
+            status = self.regress.compare(arguments)
+        self.printed = printed.getvalue()
+        return status, json.loads((self.out / "report.json").read_text())
+
+    def test_equal_builds_pass(self):
+        status, record = self.compare()
+        self.assertEqual((status, record["verdict"], record["failed"]), (0, "pass", []))
+        self.assertEqual(len(record["cases"]["a"]["batches"]), 1)
+        self.assertIn("verdict: PASS", self.printed)
+
+    def test_the_same_bits_are_not_timed(self):
+        status, record = self.compare(head="same", base="same", truths=())
+        self.assertEqual((status, record["same_build"]), (0, True))
+
+    def test_a_slowdown_fails_after_two_batches(self):
+        status, record = self.compare(truths=({"head": 1.15}, {"head": 1.15}))
+        self.assertEqual((status, record["failed"]), (1, ["a: slower", "b: slower"]))
+        self.assertEqual(len(record["cases"]["a"]["batches"]), 2)
+
+    def test_instructions_fail_of_their_own_case(self):
+        status, record = self.compare(instructions=1.03)
+        self.assertEqual((status, record["failed"]), (1, ["b: more instructions"]))
+
+    def test_a_restless_machine_is_inconclusive_and_hides_no_other_answers(self):
+        restless = ({"control": 1.06},) * judge.BATCHES
+        self.assertEqual(self.compare(truths=restless)[0], 4)
+        status, record = self.compare(answers=measured(answers="0c"), truths=restless)
+        self.assertEqual((status, record["failed"]), (1, ["a: other answers", "b: other answers"]))
+        self.assertEqual(len(record["inconclusive"]), 2)
+        self.assertIn("a: base finds what is expected", record["remarks"])
+        self.assertIn("--update-expected", self.printed)
+
+    def test_a_base_that_does_not_build_leaves_the_answers_to_be_judged(self):
+        status, record = self.compare(base=None, truths=())
+        self.assertEqual(status, 4)
+        self.assertIn("does not build", record["inconclusive"][0])
+        self.assertEqual(self.compare(base=None, answers=measured(boxes=9), truths=())[0], 1)
+
+    def test_an_accepted_slowdown_passes_the_next_time(self):
+        slower = {"instructions": 1.05, "truths": ({"head": 1.12}, {"head": 1.12})}
+        with mock.patch.object(self.regress.builds, "ROOT", self.out):
+            self.compare(**slower)
+            comparison = self.regress.Comparison(self.arguments)
+            comparison.ratios, comparison.findings = {"a": 1.0, "b": 1.05}, {"a": "same", "b": "fail"}
+            comparison.times = {"a": judge.REGRESSION, "b": judge.REGRESSION}
+            slow = judge.Batch(judge.Interval(1.1, 1.12, 1.14), judge.Interval(1, 1, 1), "slow")
+            comparison.batches = {"a": [slow, slow], "b": [slow, slow]}
+            self.regress.accept(comparison, "worth it")
+        self.assertEqual(self.compare(**slower)[0], 0)
 
 
 class CommandLine(unittest.TestCase):
