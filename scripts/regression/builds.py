@@ -103,12 +103,12 @@ def synchronised(folder):
 
 
 def plugin(source, folder, driver=False):
-    """The plug-in with the core of `source` inside, built in folder/build; with `driver` touchmark-gate beside it."""
+    """The plug-in with the core of `source` inside, built in folder/build; with `driver` touchmark-regression beside it."""
     build, log = folder / "build", folder / "build.log"
     folder.mkdir(parents=True, exist_ok=True)
     launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
     steps = (
-        ["cmake", "-S", ROOT / "bench" / "gate", "-B", build, "-G", "Ninja", "-Wno-dev", "-DCMAKE_BUILD_TYPE=Release",
+        ["cmake", "-S", ROOT / "bench" / "regression", "-B", build, "-G", "Ninja", "-Wno-dev", "-DCMAKE_BUILD_TYPE=Release",
          f"-DTOUCHMARK_SOURCE={source}", f"-DTOUCHMARK_GATE_DRIVER={'ON' if driver else 'OFF'}", *launcher],
         ["cmake", "--build", build],
     )

@@ -1,4 +1,4 @@
-"""Runs touchmark-gate and reads what it leaves."""
+"""Runs touchmark-regression and reads what it leaves."""
 import csv
 import pathlib
 import re

@@ -9,20 +9,20 @@
 
 #include "bench/failures.h"
 #include "bench/floating_point.h"
-#include "bench/gate/cases.h"
-#include "bench/gate/commands.h"
+#include "bench/regression/cases.h"
+#include "bench/regression/commands.h"
 
 namespace {
 
 using namespace touchmark::bench;
 
 int fail(int status, const std::string& what) {
-  fmt::print(stderr, "touchmark-gate: {}\n", what);
+  fmt::print(stderr, "touchmark-regression: {}\n", what);
   return status;
 }
 
 void list_cases() {
-  for (const gate::Case& listed : gate::cases())
+  for (const regression::Case& listed : regression::cases())
     fmt::print("{}{}\n", listed.name(), listed.timed ? "" : " (not timed)");
 }
 
@@ -34,24 +34,25 @@ void add_share(CLI::App& command, const std::string& flag, double& share, const 
 
 int main(int argc, char** argv) {
   restore_denormals();
-  CLI::App program("Measures builds of the core for scripts/regress.", "touchmark-gate");
+  CLI::App program("Measures builds of the core for scripts/regress.", "touchmark-regression");
   program.require_subcommand(1);
-  program.footer("Example: touchmark-gate answers --plugin build/regress/head/plugin.so --out answers.csv\n");
+  program.footer(
+      "Example: touchmark-regression answers --plugin build/regress/head/plugin.so --out answers.csv\n");
   std::string plugin, out;
   double again = 0;
-  gate::Timing timing;
+  regression::Timing timing;
 
   program.add_subcommand("list", "the pinned cases")->callback(list_cases);
 
   auto* const answers = program.add_subcommand("answers", "work counters and checksums of every case");
   answers->add_option("--plugin", plugin)->required();
   answers->add_option("--out", out)->required();
-  answers->callback([&] { gate::write_answers(plugin, out); });
+  answers->callback([&] { regression::write_answers(plugin, out); });
 
   auto* const instructions = program.add_subcommand("instructions", "under callgrind: a dump for every case");
   instructions->add_option("--plugin", plugin)->required();
   add_share(*instructions, "--again", again, "share of the steps to ask twice");
-  instructions->callback([&] { gate::count_instructions(plugin, again); });
+  instructions->callback([&] { regression::count_instructions(plugin, again); });
 
   auto* const times = program.add_subcommand("times", "three builds in one process, in random order");
   times->add_option("--base", timing.base)->required();
@@ -64,7 +65,7 @@ int main(int argc, char** argv) {
   add_share(*times, "--base-again", timing.base_again, "share of the steps that base and control ask twice");
   add_share(*times, "--head-again", timing.head_again, "share of the steps that head asks twice");
   times->add_option("--out", out)->required();
-  times->callback([&] { gate::write_times(timing, out); });
+  times->callback([&] { regression::write_times(timing, out); });
 
   try {
     program.parse(argc, argv);

@@ -1,5 +1,5 @@
-/// What the program touchmark-gate can do. Each writes a CSV file that appears only when it is complete, and
-/// throws as the program's commands do (bench/failures.h).
+/// What the program touchmark-regression can do. Each writes a CSV file that appears only when it is
+/// complete, and throws as the program's commands do (bench/failures.h).
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace touchmark::bench::gate {
+namespace touchmark::bench::regression {
 
 /// case,needs_file,inputs,cells,spheres,boxes,triangles,answers,details,note: checksums in hexadecimal; where
 /// there is a note, it says why there are no numbers.
@@ -32,4 +32,4 @@ struct Timing {
 /// left out.
 void write_times(const Timing& timing, const std::string& out);
 
-}  // namespace touchmark::bench::gate
+}  // namespace touchmark::bench::regression

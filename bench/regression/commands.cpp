@@ -1,4 +1,4 @@
-#include "bench/gate/commands.h"
+#include "bench/regression/commands.h"
 
 #include <algorithm>
 #include <array>
@@ -17,12 +17,12 @@
 
 #include "bench/atomic_file.h"
 #include "bench/failures.h"
-#include "bench/gate/cases.h"
-#include "bench/gate/plugin_library.h"
-#include "bench/gate/workloads.h"
 #include "bench/random.h"
+#include "bench/regression/cases.h"
+#include "bench/regression/plugin_library.h"
+#include "bench/regression/workloads.h"
 
-namespace touchmark::bench::gate {
+namespace touchmark::bench::regression {
 namespace {
 
 /// Without what other processes took of the core.
@@ -183,4 +183,4 @@ void write_times(const Timing& timing, const std::string& out) {
   file.commit();
 }
 
-}  // namespace touchmark::bench::gate
+}  // namespace touchmark::bench::regression

@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
-#include "bench/gate/plugin.h"
+#include "bench/regression/plugin.h"
 
-namespace touchmark::bench::gate {
+namespace touchmark::bench::regression {
 
 /// Never unloaded: a detector may outlive it.
 class PluginLibrary {
@@ -33,4 +33,4 @@ class PluginLibrary {
   decltype(&touchmark_gate_destroy) destroy_;
 };
 
-}  // namespace touchmark::bench::gate
+}  // namespace touchmark::bench::regression

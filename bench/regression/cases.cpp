@@ -1,8 +1,8 @@
-#include "bench/gate/cases.h"
+#include "bench/regression/cases.h"
 
 #include <string_view>
 
-namespace touchmark::bench::gate {
+namespace touchmark::bench::regression {
 namespace {
 
 constexpr auto touches = touchmark_gate_touches;
@@ -85,4 +85,4 @@ bool Case::needs_file() const { return std::string_view(scene) == "bunny"; }
 
 std::span<const Case> cases() { return pinned; }
 
-}  // namespace touchmark::bench::gate
+}  // namespace touchmark::bench::regression

@@ -1,5 +1,5 @@
 // What an older core may lack is asked for with `requires`, so that it can still be compared.
-#include "bench/gate/plugin.h"
+#include "bench/regression/plugin.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,11 +1,11 @@
-#include "bench/gate/plugin_library.h"
+#include "bench/regression/plugin_library.h"
 
 #include <array>
 #include <stdexcept>
 
 #include <dlfcn.h>
 
-namespace touchmark::bench::gate {
+namespace touchmark::bench::regression {
 namespace {
 
 template <class Function>
@@ -46,4 +46,4 @@ TouchmarkGateResult PluginLibrary::replay(const Detector& detector, const Touchm
   return result;
 }
 
-}  // namespace touchmark::bench::gate
+}  // namespace touchmark::bench::regression

@@ -1,4 +1,4 @@
-#include "bench/gate/workloads.h"
+#include "bench/regression/workloads.h"
 
 #include <algorithm>
 #include <bit>
@@ -6,7 +6,7 @@
 #include "bench/scenes.h"
 #include "bench/trajectories.h"
 
-namespace touchmark::bench::gate {
+namespace touchmark::bench::regression {
 namespace {
 
 constexpr double radius_of_diagonal = 0.005;
@@ -78,4 +78,4 @@ Workload Workloads::of(const Case& asked) {
   return workload;
 }
 
-}  // namespace touchmark::bench::gate
+}  // namespace touchmark::bench::regression

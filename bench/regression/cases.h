@@ -5,9 +5,9 @@
 #include <span>
 #include <string>
 
-#include "bench/gate/plugin.h"
+#include "bench/regression/plugin.h"
 
-namespace touchmark::bench::gate {
+namespace touchmark::bench::regression {
 
 struct Case {
   const char* detector;  ///< as the plug-in knows it
@@ -26,4 +26,4 @@ struct Case {
 /// Those of one scene and detector stand together.
 std::span<const Case> cases();
 
-}  // namespace touchmark::bench::gate
+}  // namespace touchmark::bench::regression

@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "bench/gate/cases.h"
+#include "bench/regression/cases.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench::gate {
+namespace touchmark::bench::regression {
 
 struct Workload {
   TouchmarkGateMesh mesh = {};
@@ -39,4 +39,4 @@ class Workloads {
   std::map<std::pair<std::string, std::size_t>, std::vector<double>> centers_;
 };
 
-}  // namespace touchmark::bench::gate
+}  // namespace touchmark::bench::regression
