@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <span>
 
 #include "bench/windows.h"
@@ -21,12 +20,6 @@ double median_absolute_deviation(std::vector<double> values) {
   const double center = median(values);
   for (double& value : values) value = std::abs(value - center);
   return median(values);
-}
-
-WorkResult summarize_work(std::span<const std::uint64_t> work) {
-  const auto total = std::accumulate(work.begin(), work.end(), std::uint64_t{0});
-  return {static_cast<double>(total) / static_cast<double>(work.size()),
-          *std::max_element(work.begin(), work.end())};
 }
 
 double largest_radius(const std::vector<Step>& course) {

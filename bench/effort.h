@@ -12,4 +12,9 @@ struct Effort {
   double repetition_ns = 50e6;    ///< shorter passes are repeated until they last so long
 };
 
+inline constexpr Effort quick_effort{3, 3, 25e6, 20e6};
+
+/// To verify and not to time: more steps in return.
+inline constexpr Effort accuracy_effort{0, 0, 1e9, 0};
+
 }  // namespace touchmark::bench

@@ -11,6 +11,7 @@ enum ExitStatus : int {
   exit_check_failed = 1,  ///< the command ran, and something it checked is wrong
   exit_bad_input = 2,     ///< std::invalid_argument, MeshError, or the command line itself
   exit_resources = 3,     ///< ResourceError, std::bad_alloc, std::system_error
+  exit_inconclusive = 4,  ///< gate: the machine was too noisy to tell
   exit_interrupted = 130  ///< Ctrl-C; what was finished is kept
 };
 

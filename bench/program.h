@@ -28,6 +28,11 @@ void add_mesh(CLI::App& program, ProgramContext& context);
 void add_query(CLI::App& program, ProgramContext& context);
 void add_paper(CLI::App& program, ProgramContext& context);
 void add_tune(CLI::App& program, ProgramContext& context);
+void add_gate(CLI::App& program, ProgramContext& context);
+void add_plan(CLI::App& program, ProgramContext& context);
+void add_run(CLI::App& program, ProgramContext& context);
+void add_merge(CLI::App& program, ProgramContext& context);
+void add_validate(CLI::App& program, ProgramContext& context);
 
 int run_program(int argc, char** argv, const Roster& roster);
 

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -29,6 +31,13 @@ struct WorkResult {
   double mean = 0;  ///< cells, spheres, boxes and triangles looked at, a step
   std::uint64_t max = 0;
 };
+
+/// Of at least one step.
+inline WorkResult summarize_work(std::span<const std::uint64_t> work) {
+  const auto total = std::accumulate(work.begin(), work.end(), std::uint64_t{0});
+  return {static_cast<double>(total) / static_cast<double>(work.size()),
+          *std::max_element(work.begin(), work.end())};
+}
 
 /// Empty is what was not measured, because the contestant did not come so far.
 struct ResultRow {

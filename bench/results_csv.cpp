@@ -131,15 +131,27 @@ std::string csv_field(const std::string& text) {
   return quoted + '"';
 }
 
+std::vector<std::string> results_columns() {
+  std::vector<std::string> names{"schema", "run_id"};
+  for (const Column& column : columns) names.emplace_back(column.name);
+  return names;
+}
+
+std::vector<std::string> results_fields(const std::string& run_id, const ResultRow& row) {
+  std::vector<std::string> fields{std::to_string(results_schema), run_id};
+  for (const Column& column : columns) fields.push_back(column.value(row));
+  return fields;
+}
+
+std::string csv_line(const std::vector<std::string>& fields) {
+  std::string line;
+  for (std::size_t i = 0; i < fields.size(); ++i) line += (i > 0 ? "," : "") + csv_field(fields[i]);
+  return line + '\n';
+}
+
 std::string results_csv(const std::string& run_id, const std::vector<ResultRow>& rows) {
-  std::string csv = "schema,run_id";
-  for (const Column& column : columns) csv += fmt::format(",{}", column.name);
-  csv += '\n';
-  for (const ResultRow& row : rows) {
-    csv += fmt::format("{},{}", results_schema, csv_field(run_id));
-    for (const Column& column : columns) csv += ',' + csv_field(column.value(row));
-    csv += '\n';
-  }
+  std::string csv = csv_line(results_columns());
+  for (const ResultRow& row : rows) csv += csv_line(results_fields(run_id, row));
   return csv;
 }
 

@@ -14,6 +14,15 @@ inline constexpr int results_schema = 1;
 /// measured.
 std::string results_csv(const std::string& run_id, const std::vector<ResultRow>& rows);
 
+/// The names of all columns, in their order.
+std::vector<std::string> results_columns();
+
+/// The fields of one row, in the order of the columns.
+std::vector<std::string> results_fields(const std::string& run_id, const ResultRow& row);
+
+/// One line, ended by a line feed.
+std::string csv_line(const std::vector<std::string>& fields);
+
 /// One field, in quotes if it needs them.
 std::string csv_field(const std::string& text);
 

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "bench/build_info.h"
+#include "bench/content_hash.h"
 #include "bench/query_name.h"
 #include "bench/results_csv.h"
 #include "bench/tick_clock.h"
@@ -114,18 +115,6 @@ std::string new_run_id(const SystemInfo& system) {
   std::copy_if(system.date.begin(), system.date.end(), std::back_inserter(id),
                [](char c) { return c != '-' && c != ':'; });
   return fmt::format("{}-{:04x}", id, static_cast<unsigned>(getpid()) & 0xffffU);
-}
-
-std::uint64_t hash_of(const TriangleMesh& mesh) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  const auto add = [&hash](const void* data, std::size_t size) {
-    const auto* bytes = static_cast<const unsigned char*>(data);
-    for (std::size_t i = 0; i < size; ++i) hash = (hash ^ bytes[i]) * 0x100000001b3;
-  };
-  for (const Vec3& vertex : mesh.vertices()) add(vertex.data(), 3 * sizeof(double));
-  for (const TriangleMesh::Corners& corners : mesh.triangles()) add(corners.data(), sizeof corners);
-  for (const TriangleId id : mesh.ids()) add(&id, sizeof id);
-  return hash;
 }
 
 }  // namespace touchmark::bench

@@ -32,7 +32,4 @@ std::string run_json(const RunDescription& run, const Workload& workload,
 /// Date and time, and four digits that tell runs of one second apart.
 std::string new_run_id(const SystemInfo& system);
 
-/// FNV-1a over the bits of vertices, corners and ids.
-std::uint64_t hash_of(const TriangleMesh& mesh);
-
 }  // namespace touchmark::bench

@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <sched.h>
 
+#include "bench/content_hash.h"
+
 namespace touchmark::bench {
 namespace {
 
@@ -44,6 +46,19 @@ SystemInfo system_info() {
   getloadavg(info.load_average.data(), static_cast<int>(info.load_average.size()));
   info.date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
   return info;
+}
+
+std::string machine_fingerprint() {
+  std::ifstream file("/etc/machine-id");
+  std::string id;
+  std::getline(file, id);
+  const SystemInfo info = system_info();
+  ContentHash hash;
+  hash.add(std::string_view("touchmark"));
+  hash.add(std::string_view(id));
+  hash.add(std::string_view(info.cpu_model));
+  hash.add(static_cast<double>(info.cores));
+  return fmt::format("{:016x}", hash.value());
 }
 
 std::optional<int> core_for_workers() {

@@ -17,6 +17,10 @@ struct SystemInfo {
 
 SystemInfo system_info();
 
+/// Tells machines apart without naming one: a hash over processor, cores and, where there is one, the
+/// machine's random id. Machines made from one image may share it.
+std::string machine_fingerprint();
+
 /// The last of the cores this process may use, if there are at least two: one for the workers alone.
 std::optional<int> core_for_workers();
 

@@ -40,7 +40,7 @@ struct BenchOptions {
 
 Effort effort_for(const BenchOptions& options, const BenchmarkFlags& flags) {
   Effort effort;
-  if (options.quick) effort = {3, 3, 25e6, 20e6};
+  if (options.quick) effort = quick_effort;
   effort.repetitions = flags.repetitions.value_or(effort.repetitions);
   if (flags.min_time_s) effort.repetition_ns = *flags.min_time_s * 1e9;
   return effort;

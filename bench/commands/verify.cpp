@@ -56,13 +56,6 @@ std::vector<std::string> trajectories_for(const VerifyOptions& options) {
   return names;
 }
 
-Effort verify_only() {
-  Effort effort;
-  effort.repetitions = 0;
-  effort.pass_budget_ns = 1e9;
-  return effort;
-}
-
 class VerifyRun {
  public:
   VerifyRun(const Roster& roster, const VerifyOptions& options)
@@ -94,7 +87,8 @@ void VerifyRun::verify_mesh(const std::string& mesh) {
   const Workload workload =
       make_workload(without_directories(mesh), load_mesh(mesh, options_.selectors.normalize), selection_,
                     trajectories_for(options_), steps);
-  Comparison comparison(roster_, workload, selection_.contestants, workers_, verify_only(), selection_.seed);
+  Comparison comparison(roster_, workload, selection_.contestants, workers_, accuracy_effort,
+                        selection_.seed);
   comparison.set_progress([&](const std::string& trajectory, const std::string& contestant) {
     progress_.show(fmt::format("{}, {}: {}", workload.mesh_name, trajectory, contestant));
   });

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <optional>
@@ -92,6 +93,44 @@ struct Fickle : Honest {
   }
 };
 
+/// So slow as the test says: that many turns of a loop an answer.
+struct Spins : Honest {
+  static std::optional<Contact> at_answer(std::optional<Contact> contact) {
+    static const int turns = std::atoi(environment("TOUCHMARK_TEST_SPIN", "1000"));
+    for (volatile int i = 0; i < turns;) i = i + 1;
+    return contact;
+  }
+  static const char* environment(const char* name, const char* otherwise) {
+    const char* value = std::getenv(name);
+    return value != nullptr ? value : otherwise;
+  }
+};
+/// As fast as Spins is without being told.
+struct SpinsSteadily : Honest {
+  static std::optional<Contact> at_answer(std::optional<Contact> contact) {
+    for (volatile int i = 0; i < 1000;) i = i + 1;
+    return contact;
+  }
+};
+/// Slower by another process: each build, counted in a file, adds to it.
+struct Moody : Honest {
+  static void at_build() {
+    std::FILE* const file = std::fopen(Spins::environment("TOUCHMARK_TEST_COUNTER", "/dev/null"), "ab");
+    if (file == nullptr) return;
+    std::fputc('x', file);
+    builds() = std::ftell(file);
+    std::fclose(file);
+  }
+  static std::optional<Contact> at_answer(std::optional<Contact> contact) {
+    for (volatile long i = 0; i < 1000 * builds();) i = i + 1;
+    return contact;
+  }
+  static long& builds() {
+    static long count = 1;
+    return count;
+  }
+};
+
 struct TouchesOnly {
   struct Options {};
   using Session = BruteForce::Session;
@@ -126,7 +165,8 @@ const Roster& hostile_roster() {
        contestant<Misbehaving<Exits>>("exits"), contestant<Misbehaving<Hangs>>("hangs"),
        contestant<Misbehaving<HangsAtBuild>>("hangs-at-build"), contestant<Misbehaving<Refuses>>("refuses"),
        contestant<Misbehaving<Lies>>("lies"), contestant<Misbehaving<Fickle>>("fickle"),
-       contestant<TouchesOnly>("touches-only")},
+       contestant<TouchesOnly>("touches-only"), contestant<Misbehaving<Spins>>("spins"),
+       contestant<Misbehaving<SpinsSteadily>>("spins-steadily"), contestant<Misbehaving<Moody>>("moody")},
       {"honest"});
   return all;
 }

@@ -6,7 +6,7 @@
 namespace touchmark::bench {
 
 /// honest, aborts, aborts-at-build, divides-by-zero, throws, exits, hangs, hangs-at-build, refuses, lies,
-/// fickle, touches-only. They run in the program touchmark-hostile-worker.
+/// fickle, touches-only, spins, spins-steadily, moody. They run in the program touchmark-hostile-worker.
 const Roster& hostile_roster();
 
 }  // namespace touchmark::bench

@@ -1,0 +1,147 @@
+#include "bench/sweep/manifest.h"
+
+#include <charconv>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "bench/content_hash.h"
+#include "bench/query_name.h"
+#include "bench/system_info.h"
+#include "bench/validation/json_schema.h"
+#include "bench/validation/located_json.h"
+
+namespace touchmark::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* manifest_form = R"({
+  "type": "object", "required": ["schema", "version", "effort", "scenes"],
+  "properties": {
+    "schema": {"const": 1},
+    "version": {"type": "string"},
+    "effort": {"enum": ["full", "quick", "accuracy"]},
+    "scenes": {"type": "array", "minItems": 1, "items": {
+      "type": "object",
+      "required": ["mesh", "normalize", "mesh_fnv1a", "trajectory", "course_fnv1a", "steps", "seed", "radius", "reach",
+                   "query", "jobs"],
+      "properties": {
+        "mesh": {"type": "string", "minLength": 1},
+        "normalize": {"type": "boolean"},
+        "mesh_fnv1a": {"type": "string", "pattern": "^[0-9a-f]{16}$"},
+        "trajectory": {"type": "string", "minLength": 1},
+        "course_fnv1a": {"type": "string", "pattern": "^[0-9a-f]{16}$"},
+        "steps": {"type": "integer", "minimum": 1},
+        "seed": {"type": "integer", "minimum": 0},
+        "radius": {"type": "string", "minLength": 1},
+        "reach": {"type": "string"},
+        "query": {"enum": ["touches", "nearest", "sweep"]},
+        "jobs": {"type": "array", "minItems": 1, "items": {
+          "type": "object", "required": ["id", "detector"],
+          "properties": {"id": {"type": "string", "pattern": "^[0-9a-f]{16}$"},
+                         "detector": {"type": "string", "minLength": 1}}}}
+      }}}
+  }})";
+
+std::string hex(std::uint64_t value) { return fmt::format("{:016x}", value); }
+
+std::uint64_t from_hex(const std::string& text) {
+  std::uint64_t value = 0;
+  std::from_chars(text.data(), text.data() + text.size(), value, 16);
+  return value;
+}
+
+Json json_of(const SweepScene& scene) {
+  Json jobs = Json::array();
+  for (const SweepJob& job : scene.jobs) jobs.push_back({{"id", job.id}, {"detector", job.detector}});
+  return {{"mesh", scene.mesh},
+          {"normalize", scene.normalize},
+          {"mesh_fnv1a", hex(scene.mesh_hash)},
+          {"trajectory", scene.trajectory},
+          {"course_fnv1a", hex(scene.course_hash)},
+          {"steps", scene.steps},
+          {"seed", scene.seed},
+          {"radius", scene.radius},
+          {"reach", scene.reach},
+          {"query", name_of(scene.query)},
+          {"jobs", jobs}};
+}
+
+SweepScene scene_of(const nlohmann::json& json) {
+  SweepScene scene;
+  scene.mesh = json.at("mesh");
+  scene.normalize = json.at("normalize");
+  scene.mesh_hash = from_hex(json.at("mesh_fnv1a"));
+  scene.trajectory = json.at("trajectory");
+  scene.course_hash = from_hex(json.at("course_fnv1a"));
+  scene.steps = json.at("steps");
+  scene.seed = json.at("seed");
+  scene.radius = json.at("radius");
+  scene.reach = json.at("reach");
+  scene.query = query_named(json.at("query").get<std::string>()).value();
+  for (const nlohmann::json& job : json.at("jobs")) scene.jobs.push_back({job.at("id"), job.at("detector")});
+  return scene;
+}
+
+void expect_form(const std::string& path, const LocatedJson& document, Faults& faults) {
+  static const JsonSchema form(nlohmann::json::parse(manifest_form));
+  for (const SchemaFault& fault : form.check(document.value)) {
+    faults.push_back({path, document.line_of(fault.pointer), fault.pointer.empty() ? "/" : fault.pointer,
+                      fault.value, fault.wrong});
+  }
+}
+
+}  // namespace
+
+std::string Manifest::json() const {
+  Json all = Json::array();
+  for (const SweepScene& scene : scenes) all.push_back(json_of(scene));
+  const Json json{{"schema", manifest_schema}, {"version", version}, {"effort", effort}, {"scenes", all}};
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+Manifest Manifest::read(const std::string& path) {
+  Faults faults;
+  const std::optional<LocatedJson> document = read_located_json(path, faults);
+  if (document) expect_form(path, *document, faults);
+  if (!faults.empty()) throw std::invalid_argument(line_of(faults.front()));
+  Manifest manifest{document->value.at("version"), document->value.at("effort"), {}};
+  for (const nlohmann::json& scene : document->value.at("scenes")) manifest.scenes.push_back(scene_of(scene));
+  return manifest;
+}
+
+std::size_t Manifest::jobs() const noexcept {
+  std::size_t count = 0;
+  for (const SweepScene& scene : scenes) count += scene.jobs.size();
+  return count;
+}
+
+std::string job_id(const SweepScene& scene, const std::string& detector, const std::string& effort,
+                   const std::string& version) {
+  ContentHash hash;
+  for (const std::uint64_t number : {scene.mesh_hash, scene.course_hash, scene.seed}) hash.add(hex(number));
+  for (const std::string& text : {std::string(name_of(scene.query)), detector, effort, version})
+    hash.add(text);
+  return hex(hash.value());
+}
+
+Effort effort_named(const std::string& name) {
+  if (name == "full") return {};
+  if (name == "quick") return quick_effort;
+  if (name == "accuracy") return accuracy_effort;
+  throw std::invalid_argument(fmt::format("effort \"{}\" is not one of full, quick, accuracy", name));
+}
+
+Workload workload_of(const SweepScene& scene, const Roster& roster) {
+  Selectors selectors;
+  selectors.radius = scene.radius;
+  selectors.reach = scene.reach;
+  selectors.seed = std::to_string(scene.seed);
+  selectors.steps = std::to_string(scene.steps);
+  return make_workload(without_directories(scene.mesh), load_mesh(scene.mesh, scene.normalize),
+                       check(selectors, roster), {scene.trajectory}, scene.steps);
+}
+
+}  // namespace touchmark::bench

@@ -1,0 +1,132 @@
+#include "bench/validation/column_rules.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "bench/numbers.h"
+#include "bench/query_name.h"
+#include "bench/results_csv.h"
+
+namespace touchmark::bench {
+namespace {
+
+bool is_anything(std::string_view) { return true; }
+bool is_schema(std::string_view text) { return text == std::to_string(results_schema); }
+bool is_count(std::string_view text) { return parse_count(text).has_value(); }
+bool is_query(std::string_view text) { return query_named(text).has_value(); }
+
+bool is_length(std::string_view text) {
+  const std::optional<double> value = parse_number(text);
+  return value && *value >= 0;
+}
+
+bool is_finite(std::string_view text) { return is_length(text) && std::isfinite(*parse_number(text)); }
+bool is_above_zero(std::string_view text) { return is_finite(text) && *parse_number(text) > 0; }
+
+bool is_angle(std::string_view text) {
+  constexpr double rounding = 1e-9;  // of the conversion from radians
+  return is_finite(text) && *parse_number(text) <= 180 + rounding;
+}
+
+bool is_guarantee(std::string_view text) {
+  return text == "exact" || text == "conservative" || text == "approximate";
+}
+
+bool is_checksum(std::string_view text) {
+  return text.size() == 16 && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
+/// "key=value,key=value".
+bool is_options(std::string_view text) {
+  while (!text.empty()) {
+    const std::string_view option = text.substr(0, text.find(','));
+    const std::size_t equals = option.find('=');
+    if (equals == 0 || equals == std::string_view::npos || equals + 1 == option.size()) return false;
+    if (option.size() == text.size()) return true;
+    text.remove_prefix(option.size() + 1);
+  }
+  return false;  // after a comma comes nothing
+}
+
+bool is_status(std::string_view text) {
+  constexpr std::array words{"ok", "unsupported", "timeout", "checksum mismatch"};
+  constexpr std::array beginnings{"refused: ", "crashed:"};
+  const auto begins = [&](std::string_view begin) { return text.starts_with(begin) && text != begin; };
+  return std::find(words.begin(), words.end(), text) != words.end() ||
+         std::any_of(beginnings.begin(), beginnings.end(), begins);
+}
+
+constexpr std::string_view count = "is not a whole number of 0 or more";
+constexpr std::string_view length = "is not a number of 0 or more, or inf";
+constexpr std::string_view amount = "is not a finite number of 0 or more";
+constexpr std::string_view time = "is not a finite number above 0";
+
+constexpr ColumnRule counted(std::string_view name, Presence presence) {
+  return {name, presence, &is_count, count};
+}
+constexpr ColumnRule text(std::string_view name) { return {name, Presence::always, &is_anything, ""}; }
+constexpr ColumnRule clocked(std::string_view name) { return {name, Presence::timed, &is_above_zero, time}; }
+
+constexpr std::array rules{
+    ColumnRule{"schema", Presence::always, &is_schema, "is not 1"},
+    text("run_id"),
+    text("detector"),
+    ColumnRule{"options", Presence::optional, &is_options, "is not key=value,key=value"},
+    text("mesh"),
+    counted("triangles", Presence::always),
+    text("trajectory"),
+    ColumnRule{"query", Presence::always, &is_query, "is not one of touches, nearest, sweep"},
+    counted("steps", Presence::always),
+    ColumnRule{"radius", Presence::always, &is_length, length},
+    ColumnRule{"reach", Presence::always, &is_length, length},
+    ColumnRule{"guarantee", Presence::judged, &is_guarantee,
+               "is not one of exact, conservative, approximate"},
+    counted("missed", Presence::judged),
+    counted("false_contacts", Presence::judged),
+    counted("wrong_triangle", Presence::judged),
+    ColumnRule{"max_distance_error", Presence::judged, &is_length, length},
+    ColumnRule{"max_distance_error_ulp", Presence::judged, &is_length, length},
+    ColumnRule{"max_normal_angle_deg", Presence::judged, &is_angle, "is not an angle from 0 to 180"},
+    counted("unresolved", Presence::judged),
+    ColumnRule{"status", Presence::always, &is_status,
+               "is not ok, unsupported, timeout, checksum mismatch, refused: WHY or crashed:HOW"},
+    clocked("ns_per_query"),
+    ColumnRule{"ns_p50", Presence::timed, &is_finite, amount},
+    ColumnRule{"ns_p90", Presence::timed, &is_finite, amount},
+    ColumnRule{"ns_p99", Presence::timed, &is_finite, amount},
+    ColumnRule{"ns_p999", Presence::timed, &is_finite, amount},
+    ColumnRule{"ns_max", Presence::timed, &is_finite, amount},
+    clocked("update_rate_hz"),
+    counted("deadline_misses_1khz", Presence::timed),
+    counted("longest_miss_run_1khz", Presence::timed),
+    ColumnRule{"build_ms", Presence::built, &is_finite, amount},
+    ColumnRule{"first_answer_ms", Presence::built, &is_finite, amount},
+    counted("bytes", Presence::judged),
+    counted("heap_bytes", Presence::built),
+    ColumnRule{"work_mean", Presence::optional, &is_finite, amount},
+    counted("work_max", Presence::optional),
+    counted("repetitions", Presence::timed),
+    clocked("ns_per_query_min"),
+    ColumnRule{"ns_per_query_mad", Presence::timed, &is_finite, amount},
+    clocked("ns_per_query_first_pass"),
+    counted("deadline_misses_4khz", Presence::timed),
+    counted("longest_miss_run_4khz", Presence::timed),
+    counted("deadline_misses_10khz", Presence::timed),
+    counted("longest_miss_run_10khz", Presence::timed),
+    ColumnRule{"clock_cost_ns", Presence::timed, &is_finite, amount},
+    ColumnRule{"max_distance_error_of_diagonal", Presence::judged, &is_length, length},
+    counted("beyond_bound", Presence::judged),
+    counted("wrong_point", Presence::judged),
+    counted("wrong_normal", Presence::judged),
+    counted("malformed", Presence::judged),
+    ColumnRule{"cpu_ns_per_query", Presence::timed, &is_finite, amount},
+    ColumnRule{"answers_checksum", Presence::judged, &is_checksum, "is not 16 hexadecimal digits"},
+};
+
+}  // namespace
+
+std::span<const ColumnRule> column_rules() { return rules; }
+
+}  // namespace touchmark::bench

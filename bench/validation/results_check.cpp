@@ -1,0 +1,171 @@
+#include "bench/validation/results_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "bench/numbers.h"
+#include "bench/validation/column_rules.h"
+
+namespace touchmark::bench {
+namespace {
+
+// Times are written with six digits, so that two of them may disagree in the last.
+constexpr double rounding = 1e-5;
+
+/// The left column's number is never above the right one's.
+constexpr std::array ascending{
+    std::pair{"missed", "steps"},
+    std::pair{"false_contacts", "steps"},
+    std::pair{"wrong_triangle", "steps"},
+    std::pair{"unresolved", "steps"},
+    std::pair{"ns_per_query_min", "ns_per_query"},
+    std::pair{"ns_p50", "ns_p90"},
+    std::pair{"ns_p90", "ns_p99"},
+    std::pair{"ns_p99", "ns_p999"},
+    std::pair{"ns_p999", "ns_max"},
+    std::pair{"longest_miss_run_1khz", "deadline_misses_1khz"},
+    std::pair{"longest_miss_run_4khz", "deadline_misses_4khz"},
+    std::pair{"longest_miss_run_10khz", "deadline_misses_10khz"},
+    std::pair{"deadline_misses_1khz", "deadline_misses_4khz"},
+    std::pair{"deadline_misses_4khz", "deadline_misses_10khz"},
+    std::pair{"deadline_misses_10khz", "steps"},
+    std::pair{"build_ms", "first_answer_ms"},
+    std::pair{"work_mean", "work_max"},
+};
+
+bool is_ok(const CsvTable& table, const CsvRecord& record) { return table.field(record, "status") == "ok"; }
+
+class ResultsCheck {
+ public:
+  ResultsCheck(const CsvTable& table, const nlohmann::json* run, Faults& faults)
+      : table_(table), run_(run), faults_(faults) {
+    timed_ = run != nullptr || std::any_of(table.records.begin(), table.records.end(), [&](const auto& row) {
+               return is_ok(table, row) && !table.field(row, "ns_per_query").empty();
+             });
+  }
+
+  void check() {
+    if (!header_is_right()) return;
+    for (const CsvRecord& record : table_.records) {
+      if (record.fields.size() != table_.header.size()) continue;  // check_form has said so
+      row_ = &record;
+      check_fields();
+      check_order();
+      check_rate();
+      if (run_ != nullptr) check_against_run();
+    }
+  }
+
+ private:
+  bool header_is_right();
+  void check_fields();
+  void check_presence(const ColumnRule& rule, const std::string& text);
+  void check_order();
+  void check_rate();
+  void check_against_run();
+  void check_listed(const char* column, const nlohmann::json& list, const char* what);
+
+  std::string field(const std::string& column) const { return table_.field(*row_, column); }
+  void fault(std::string_view column, const std::string& wrong) {
+    faults_.push_back({table_.path, row_->line, std::string(column), field(std::string(column)), wrong});
+  }
+
+  const CsvTable& table_;
+  const nlohmann::json* run_;
+  Faults& faults_;
+  bool timed_ = false;
+  const CsvRecord* row_ = nullptr;
+};
+
+bool ResultsCheck::header_is_right() {
+  const std::span<const ColumnRule> rules = column_rules();
+  const std::size_t given = table_.header.size();
+  for (std::size_t i = 0; i < std::max(columns_of_the_contract, std::min(given, rules.size())); ++i) {
+    const std::string found = i < given ? table_.header[i] : "";
+    if (found == rules[i].name) continue;
+    faults_.push_back({table_.path, 1, fmt::format("header, column {}", i + 1), found,
+                       fmt::format("is not {}", rules[i].name)});
+    return false;
+  }
+  return true;
+}
+
+void ResultsCheck::check_fields() {
+  for (const ColumnRule& rule : column_rules()) {
+    if (!table_.has(std::string(rule.name))) return;  // columns may be missing at the end only
+    const std::string text = field(std::string(rule.name));
+    check_presence(rule, text);
+    if (!text.empty() && !rule.accepts(text)) fault(rule.name, std::string(rule.expected));
+  }
+}
+
+void ResultsCheck::check_presence(const ColumnRule& rule, const std::string& text) {
+  const bool ok = is_ok(table_, *row_);
+  const bool of_times = rule.presence == Presence::built || rule.presence == Presence::timed;
+  const bool needed = rule.presence == Presence::always || (rule.presence == Presence::judged && ok) ||
+                      (of_times && ok && timed_);
+  if (text.empty() && needed) {
+    fault(rule.name, rule.presence == Presence::always ? "must not be empty"
+                                                       : "must not be empty where the status is ok");
+  }
+  if (!text.empty() && rule.presence == Presence::timed && !ok) {
+    fault(rule.name, "must be empty where the status is not ok");
+  }
+  if (rule.name == "steps" && ok && text == "0") fault(rule.name, "must be above 0 where the status is ok");
+}
+
+void ResultsCheck::check_order() {
+  for (const auto& [low, high] : ascending) {
+    const std::optional<double> less = parse_number(field(low)), more = parse_number(field(high));
+    if (less && more && *less > *more * (1 + rounding)) {
+      fault(low, fmt::format("is above {} {}", high, field(high)));
+    }
+  }
+}
+
+void ResultsCheck::check_rate() {
+  const std::optional<double> ns = parse_number(field("ns_per_query"));
+  const std::optional<double> rate = parse_number(field("update_rate_hz"));
+  if (ns && rate && std::abs(*ns * *rate / 1e9 - 1) > 2 * rounding) {
+    fault("update_rate_hz", fmt::format("is not 1e9 / ns_per_query {}", field("ns_per_query")));
+  }
+}
+
+/// A run.json that is not as it should be has faults of its own, so what is not there is not compared.
+void ResultsCheck::check_against_run() {
+  const auto expect = [&](const char* column, const nlohmann::json& value) {
+    if (!value.is_string() && !value.is_number()) return;
+    const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+    if (field(column) != text) fault(column, fmt::format("is not run.json's {}", text));
+  };
+  const nlohmann::json mesh = run_->value("mesh", nlohmann::json::object());
+  expect("run_id", run_->value("run_id", nlohmann::json()));
+  expect("query", run_->value("query", nlohmann::json()));
+  if (mesh.is_object()) {
+    expect("mesh", mesh.value("name", nlohmann::json()));
+    expect("triangles", mesh.value("triangles", nlohmann::json()));
+  }
+  check_listed("trajectory", run_->value("trajectories", nlohmann::json()), "trajectories");
+  check_listed("detector", run_->value("contestants", nlohmann::json()), "contestants");
+}
+
+void ResultsCheck::check_listed(const char* column, const nlohmann::json& list, const char* what) {
+  if (!list.is_array()) return;
+  const bool listed = std::any_of(list.begin(), list.end(), [&](const nlohmann::json& entry) {
+    return entry.is_object() && entry.contains("name") && entry["name"] == field(column);
+  });
+  if (!listed) fault(column, fmt::format("is not among run.json's {}", what));
+}
+
+}  // namespace
+
+void check_results(const CsvTable& table, const nlohmann::json* run, Faults& faults) {
+  ResultsCheck(table, run, faults).check();
+}
+
+}  // namespace touchmark::bench
