@@ -231,7 +231,8 @@ std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Sessi
   if (best.index >= triangles_.size()) return std::nullopt;
   session.last = kept_at;
   const double distance = std::sqrt(best.squared_distance);
-  if (!is_certain(distance, reach, error)) {
+  if (!is_certain(distance, reach, error) &&
+      !is_certain_on(triangles_[kept_at], distance, center, reach, error)) {
     return nearest_of_ties(
         center, distance, reach, error, ids_, session.work.exact_decisions,
         [&](double within, const auto& visit) { for_each_near(center, within, session.work, visit); });

@@ -92,7 +92,7 @@ std::optional<Contact> nearest_of_all(std::span<const PreparedTriangle> triangle
     nearest = &triangle;
   }
   const double distance = std::sqrt(best.squared_distance);
-  if (!is_certain(distance, reach, error)) {
+  if (!is_certain(distance, reach, error) && !is_certain_on(*nearest, distance, center, reach, error)) {
     return nearest_of_ties(
         center, distance, reach, error, ids, exact_decisions,
         [&](double, const auto& visit) { std::for_each(triangles.begin(), triangles.end(), visit); });

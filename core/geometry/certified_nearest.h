@@ -11,7 +11,7 @@
 /// - `nearest` keeps the triangle of the least computed distance, d. Every true distance is at least
 ///   d - error / 2 and this one's at most d + error / 2; so where d and the reach are farther apart than the
 ///   error, d decides whether any triangle is within reach, although another one may be nearer by a rounding.
-///   Where they are not, or where d is so small that its error would tell (see below), a true nearest one is
+///   Where they are not, or where d is within the error of zero but not negligible, a true nearest one is
 ///   among those whose computed distance is at most d + error. Of these the exactly nearest is found,
 ///   the first of the mesh where several are, and it alone is compared with the reach.
 ///
@@ -28,6 +28,7 @@
 /// Two searches may find different triangles, but both distances are within this of the true least one.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -58,9 +59,22 @@ inline double distance_error(const Aabb& bounds, const Vec3& center) noexcept {
   return distance_error(largest_difference(bounds, center));
 }
 
-/// Does the least computed distance decide, and is it good enough to be reported?
+/// Does the least computed distance decide, and is it good enough to be reported? A quick look; where it says
+/// no, is_certain_on may still say yes.
 inline bool is_certain(double distance, double reach, double error) noexcept {
   return distance > error && std::abs(distance - reach) > error;
+}
+
+/// The same with regard to the triangle of that distance: on it but for rounding, below 8 u M, the distance
+/// is good as it is. The true one is not negative, and that of this triangle not above 15 u M.
+inline bool is_certain_on(const PreparedTriangle& triangle, double distance, const Vec3& center, double reach,
+                          double error) noexcept {
+  if (!(std::abs(distance - reach) > error)) return false;
+  double largest = 0;
+  for (const Vec3& corner : triangle.corner)
+    largest = std::max(largest, (center - corner).cwiseAbs().maxCoeff());
+  constexpr double roundings = 8 * (std::numeric_limits<double>::epsilon() / 2);
+  return distance > error || distance <= roundings * largest;
 }
 
 /// Is this triangle, at this computed distance, within the radius? Exact.

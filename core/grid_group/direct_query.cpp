@@ -91,9 +91,10 @@ DirectGrid::Start DirectGrid::start_at(const Vec3& center, const FilterPoint& po
 
 DirectGrid::Located DirectGrid::locate(const Vec3& center, double reach, DirectMemory& memory,
                                        Work& work) const noexcept {
-  NearestSearch search(store_, center, reach);
-  Start start = start_at(center, search.point(), reach, memory, work);
+  const FilterPoint point = store_.frame.point(center);
+  Start start = start_at(center, point, reach, memory, work);
   if (start.beyond) return {};
+  NearestSearch search(store_, center, point, reach);
   // A cell's triangle may be a neighbour of the one that is needed.
   for (int hop = 0; hop < 2 && start.group == nullptr && groups_.of(start.place).count > 0; ++hop) {
     const std::uint32_t next = search.closest_of(groups_.members(groups_.of(start.place)));
@@ -147,7 +148,7 @@ std::optional<Contact> DirectGrid::nearest(const Vec3& center, double reach, Dir
   remember(center, located.tau, lower, contact.distance, memory);
   if (!is_certain(contact.distance, reach, located.error)) {
     const double error = distance_error(bounds_, center);
-    if (!is_certain(contact.distance, reach, error))
+    if (!is_certain_on(*located.triangle, contact.distance, center, reach, error))
       return nearest_tie(center, contact.distance, reach, error, work);
   }
   if (!within) return std::nullopt;

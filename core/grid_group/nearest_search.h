@@ -22,9 +22,13 @@ class NearestSearch {
  public:
   /// The store's frame covers `center`.
   NearestSearch(const TriangleStore& store, const Vec3& center, double reach) noexcept
+      : NearestSearch(store, center, store.frame.point(center), reach) {}
+  /// `point` is the centre in that frame.
+  NearestSearch(const TriangleStore& store, const Vec3& center, const FilterPoint& point,
+                double reach) noexcept
       : store_(store),
         center_(center),
-        point_(store.frame.point(center)),
+        point_(point),
         error_(store.frame.kernel_error(point_.tau)),
         limit_(store.frame.limit((reach + error_) * (reach + error_))) {}
 

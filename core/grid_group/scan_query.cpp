@@ -96,7 +96,8 @@ std::optional<Contact> ScanGrid::nearest(const Vec3& center, double reach, Work&
   });
   if (best.index >= triangles_.size()) return std::nullopt;
   const double distance = std::sqrt(best.squared_distance);
-  if (!is_certain(distance, reach, error)) {
+  if (!is_certain(distance, reach, error) &&
+      !is_certain_on(triangles_[best.index], distance, center, reach, error)) {
     return nearest_of_ties(center, distance, reach, error, ids_, work.exact_decisions,
                            [&](double within, const auto& visit) {
                              search(center, within, work, [&](const PreparedTriangle& triangle) {

@@ -99,7 +99,8 @@ std::optional<Contact> SphereScan::nearest(const Vec3& center, double reach, Wor
   work.spheres += x_.size();
   if (best.candidate.index >= triangles_.size()) return std::nullopt;
   const double distance = std::sqrt(best.candidate.squared_distance);
-  if (!is_certain(distance, reach, error)) {
+  if (!is_certain(distance, reach, error) &&
+      !is_certain_on(triangles_[best.kept_at], distance, center, reach, error)) {
     return nearest_of_ties(center, distance, reach, error, ids_, work.exact_decisions,
                            [&](double within, const auto& visit) {
                              work.spheres += x_.size();

@@ -209,7 +209,7 @@ std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Mem
   if (visitor.kept_at == nowhere) return std::nullopt;
   if (!is_certain(distance, reach, error)) {
     const double least_error = distance_error(bounds_, center);
-    if (!is_certain(distance, reach, least_error))
+    if (!is_certain_on(parts_.triangles[visitor.kept_at], distance, center, reach, least_error))
       return nearest_tie(center, distance, reach, least_error, work);
   }
   if (distance > reach) return std::nullopt;

@@ -130,8 +130,7 @@ TEST(CertifiedNearest, SphereClusterDecidesAsTheOracleDoes) {
   }
 }
 
-// The face of the first is a rounding nearer, by computation; exactly it is the second's.
-TEST(CertifiedNearest, OnTheSurfaceTheExactlyNearestOfManyIsFound) {
+TEST(CertifiedNearest, AtTheVeryDistanceTheExactlyNearestOfManyIsFound) {
   HardCases hard(72);
   std::vector<HardCases::Corners> fan;
   const Vec3 tip = hard.vector();
@@ -145,12 +144,26 @@ TEST(CertifiedNearest, OnTheSurfaceTheExactlyNearestOfManyIsFound) {
     const Vec3 point = i % 2 == 0 ? Vec3(tip + hard.magnitude(-17, -14) * hard.vector())
                                   : hard.point_about({t[0], t[1], t[2]});
     const bench::Truth truth = oracle.solve(point);
-    if (truth.high > 1e-14) continue;
-    const auto contact = detector.nearest({point, 0}, infinity, session);
+    const double reach = truth.low > 0 ? std::nextafter(truth.high, infinity) : truth.high;
+    const auto contact = detector.nearest({point, 0}, reach, session);
     ASSERT_TRUE(contact);
     EXPECT_EQ(contact->triangle, truth.triangle) << i;
     EXPECT_EQ(contact->distance, truth.high) << i;
   }
+}
+
+TEST(CertifiedNearest, OnTheSurfaceButForRoundingNeedsNoExactDecision) {
+  const TriangleMesh mesh = plate(6);
+  const AabbTree detector = AabbTree::build(mesh);
+  AabbTree::Session session;
+  for (const double height : {0.0, 0x1p-53, -0x1p-53}) {
+    const auto contact = detector.nearest({{1.3, 2.4, height}, 0}, 0.5, session);
+    ASSERT_TRUE(contact);
+    EXPECT_NEAR(contact->distance, std::abs(height), 16 * unit_roundoff * 2.4);
+  }
+  EXPECT_EQ(session.work.exact_decisions, 0U);
+  detector.nearest({{1.3, 2.4, 1e-14}, 0}, 0.5, session);
+  EXPECT_EQ(session.work.exact_decisions, 1U);
 }
 
 TEST(CertifiedNearest, AProbeThatSlidesNeedsNoExactDecision) {
