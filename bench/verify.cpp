@@ -86,7 +86,7 @@ class Judge {
 
 Verdict Judge::threshold(const Truth& truth, const Vec3& center, double limit, bool found) const {
   if (found == oracle_.within(truth, center, limit)) return Verdict::right;
-  if (!known_ || !truth.defined) return Verdict::wrong;
+  if (!known_ || !truth.defined || accuracy_.decides_exactly) return Verdict::wrong;
   const double bound = allowed(truth.largest_difference);
   const bool excused = found ? oracle_.within(truth, center, raised(limit + bound))
                              : !oracle_.within(truth, center, lowered(limit - bound));
@@ -313,7 +313,9 @@ Tally judge(const Oracle& oracle, std::span<const Truth> truths, Query query, st
 
 Tally judge(const Oracle& oracle, std::span<const SweepTruth> truths, std::span<const Sweep> sweeps,
             std::span<const Answer> answers, const Accuracy& accuracy, const Reported& reported) {
-  const Judge judge(oracle, accuracy, reported);
+  Accuracy of_sweeps = accuracy;
+  of_sweeps.relative = std::max(accuracy.relative, kernel_relative_error);
+  const Judge judge(oracle, of_sweeps, reported);
   return total(std::min({truths.size(), sweeps.size(), answers.size()}), oracle.threads(),
                [&](std::size_t i, Tally& tally) { judge.sweep(truths[i], sweeps[i], answers[i], tally); });
 }

@@ -58,7 +58,7 @@ bool keeps_its_word(const Tally& tally, const Accuracy& accuracy) noexcept;
 /// The accuracy allowed at a step is relative * M + absolute, M the largest coordinate difference between the
 /// centre and the corners of the nearest (and of the reported, if tied) triangle, plus the rounding of the
 /// result itself. Where it is infinite or NaN nothing is excused: thresholds are judged exactly, and fields
-/// by `kernel_relative_error`, since nothing computed in double can do better.
+/// by `kernel_relative_error`. Where it decides exactly nothing is excused at a threshold either.
 ///
 /// An id stands for every triangle that carries it (a polygon's pieces).
 Tally judge(const Oracle& oracle, std::span<const Truth> truths, Query query, std::span<const Probe> probes,
@@ -67,7 +67,8 @@ Tally judge(const Oracle& oracle, std::span<const Truth> truths, Query query, st
 
 /// Judges `sweep`. A hit is right when the sweep hits, the centre at the reported fraction is the radius away
 /// from the mesh (at fraction 0: at most that), and was not nearer before; all within the accuracy plus the
-/// rounding of a position on the way. The contact is judged as `nearest` there.
+/// rounding of a position on the way. The contact is judged as `nearest` there. The accuracy's relative part
+/// is kernel_relative_error at least: no sweep claims better.
 Tally judge(const Oracle& oracle, std::span<const SweepTruth> truths, std::span<const Sweep> sweeps,
             std::span<const Answer> answers, const Accuracy& accuracy, const Reported& reported = {});
 

@@ -20,23 +20,32 @@ enum class Guarantee { exact, conservative, approximate };
 /// How far a reported distance may be from the true one of the stored doubles:
 /// relative * M + absolute, with M the largest coordinate difference between the probe's centre and the
 /// nearest triangle's vertices. Approximate detectors state what they know: infinity where they know nothing.
+/// Whether there is a contact may be off by as much, unless `decides_exactly`: then `touches` and `nearest`
+/// compare the true distance with the radius and the reach. The touch of a sweep is never told better than
+/// within kernel_relative_error.
 struct Accuracy {
   Guarantee guarantee = Guarantee::exact;
   double relative = 0;
   double absolute = 0;
+  bool decides_exactly = false;
 };
 
 /// Forty-eight roundings of the largest coordinate difference: what the kernel of
 /// core/geometry/point_triangle.h keeps, by its analysis there.
 inline constexpr double kernel_relative_error = 48 * (std::numeric_limits<double>::epsilon() / 2);
 
+/// What core/geometry/certified_nearest.h makes of it.
+inline constexpr Accuracy certified = {Guarantee::exact, 16 * (std::numeric_limits<double>::epsilon() / 2), 0,
+                                       true};
+
 /// What a query looked at, counted up over the life of a session. The same probes in the same order give the
 /// same counts on every machine.
 struct Work {
-  std::uint64_t cells = 0;      ///< grid cells or groups tested
-  std::uint64_t spheres = 0;    ///< bounding spheres tested
-  std::uint64_t boxes = 0;      ///< bounding boxes tested
-  std::uint64_t triangles = 0;  ///< triangles tested, by the full kernel or by a filter before it
+  std::uint64_t cells = 0;            ///< grid cells or groups tested
+  std::uint64_t spheres = 0;          ///< bounding spheres tested
+  std::uint64_t boxes = 0;            ///< bounding boxes tested
+  std::uint64_t triangles = 0;        ///< triangles tested, by the full kernel or by a filter before it
+  std::uint64_t exact_decisions = 0;  ///< how often doubles did not decide; not in the total
 
   std::uint64_t total() const noexcept { return cells + spheres + boxes + triangles; }
   Work& operator+=(const Work& other) noexcept {
@@ -44,6 +53,7 @@ struct Work {
     spheres += other.spheres;
     boxes += other.boxes;
     triangles += other.triangles;
+    exact_decisions += other.exact_decisions;
     return *this;
   }
 };

@@ -156,27 +156,27 @@ AabbTree AabbTree::build(const TriangleMesh& mesh, const Options& options) {
   return tree;
 }
 
-double AabbTree::largest_difference(const Vec3& center) const noexcept {
-  const Aabb& box = nodes_.front().box;
-  return (center - box.min).cwiseAbs().cwiseMax((center - box.max).cwiseAbs()).maxCoeff();
-}
-
 double AabbTree::lower_bound(const Aabb& box, const Vec3& center, double slack) noexcept {
   return std::sqrt(box.squared_distance(center)) - slack;
 }
 
 bool AabbTree::touches(const Probe& probe, Session& session) const noexcept {
-  const double slack = culling_slack(largest_difference(probe.center));
+  if (!(probe.radius >= 0)) return false;
+  const double difference = largest_difference(bounds(), probe.center);
+  const double error = distance_error(difference), slack = culling_slack(difference);
+  if (std::isinf(error)) return nearest(probe, probe.radius, session).has_value();
   std::array<Waiting, most_levels> waiting;
   std::size_t count = 0;
   waiting[count++] = {lower_bound(nodes_[0].box, probe.center, slack), 0};
   while (count > 0) {
     const Waiting next = waiting[--count];
-    if (!(next.bound <= probe.radius)) continue;
+    if (!(next.bound <= probe.radius + error)) continue;
     const Node& node = nodes_[next.node];
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       ++session.work.triangles;
-      if (std::sqrt(squared_distance(triangles_[i], probe.center)) <= probe.radius) return true;
+      const double distance = std::sqrt(squared_distance(triangles_[i], probe.center));
+      if (is_within(triangles_[i], distance, probe.center, probe.radius, error, session.work.exact_decisions))
+        return true;
     }
     if (node.count > 0) continue;
     session.work.boxes += 2;
@@ -191,7 +191,13 @@ bool AabbTree::touches(const Probe& probe, Session& session) const noexcept {
 
 std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Session& session) const noexcept {
   const Vec3& center = probe.center;
-  const double slack = culling_slack(largest_difference(center));
+  if (!(reach >= 0)) return std::nullopt;
+  const double difference = largest_difference(bounds(), center);
+  const double error = distance_error(difference), slack = culling_slack(difference);
+  if (std::isinf(error)) {
+    session.work.triangles += triangles_.size();
+    return nearest_of_all(triangles_, bounds(), center, reach, ids_, session.work.exact_decisions);
+  }
   Candidate best;
   std::uint32_t kept_at = 0;
   const auto consider = [&](std::uint32_t i) {
@@ -202,7 +208,7 @@ std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Sessi
     kept_at = i;
   };
   if (session.last < triangles_.size()) consider(session.last);
-  double limit = std::min(reach, std::sqrt(best.squared_distance));
+  double limit = std::min(reach + error, std::sqrt(best.squared_distance));
   std::array<Waiting, most_levels> waiting;
   std::size_t count = 0;
   waiting[count++] = {lower_bound(nodes_[0].box, center, slack), 0};
@@ -222,15 +228,22 @@ std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Sessi
     waiting[count++] = far;
     waiting[count++] = near;
   }
-  const bool found = best.index < triangles_.size();  // not so for a probe that is not a number
-  if (!found || !(std::sqrt(best.squared_distance) <= reach)) return std::nullopt;
+  if (best.index >= triangles_.size()) return std::nullopt;
   session.last = kept_at;
+  const double distance = std::sqrt(best.squared_distance);
+  if (!is_certain(distance, reach, error) &&
+      !is_certain_on(triangles_[kept_at], distance, center, reach, error)) {
+    return nearest_of_ties(
+        center, distance, reach, error, ids_, session.work.exact_decisions,
+        [&](double within, const auto& visit) { for_each_near(center, within, session.work, visit); });
+  }
+  if (distance > reach) return std::nullopt;
   return contact_on(triangles_[kept_at], center, id(best.index));
 }
 
 std::optional<Impact> AabbTree::first_hit(const Sweep& sweep, Session& session) const noexcept {
-  const double widening =
-      sweep_widening(sweep, std::max(largest_difference(sweep.from), largest_difference(sweep.to)));
+  const double widening = sweep_widening(
+      sweep, std::max(largest_difference(bounds(), sweep.from), largest_difference(bounds(), sweep.to)));
   HitCandidate first;
   std::uint32_t kept_at = 0;
   std::array<std::uint32_t, most_levels> waiting;
@@ -255,12 +268,10 @@ std::optional<Impact> AabbTree::first_hit(const Sweep& sweep, Session& session) 
     }
   }
   if (first.index >= triangles_.size()) return std::nullopt;
-  if (first.fraction > 0) {
-    return Impact{first.fraction,
-                  contact_on(triangles_[kept_at], position_at(sweep, first.fraction), id(first.index))};
-  }
-  // Touching at the start: of all the triangles touched there the nearest one counts.
-  return Impact{0, *nearest({sweep.from, sweep.radius}, sweep.radius, session)};
+  // Touching at the start, which is decided exactly: of all the triangles there the nearest one counts.
+  if (const auto start = nearest({sweep.from, sweep.radius}, sweep.radius, session)) return Impact{0, *start};
+  return Impact{first.fraction,
+                contact_on(triangles_[kept_at], position_at(sweep, first.fraction), id(first.index))};
 }
 
 std::size_t AabbTree::bytes() const noexcept {

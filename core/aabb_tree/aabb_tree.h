@@ -11,6 +11,7 @@
 
 #include "core/detector.h"
 #include "core/geometry/aabb.h"
+#include "core/geometry/certified_nearest.h"
 #include "core/geometry/point_triangle.h"
 
 namespace touchmark {
@@ -34,13 +35,13 @@ class AabbTree {
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept;
 
   std::size_t bytes() const noexcept;
-  Accuracy accuracy() const noexcept { return {Guarantee::exact, kernel_relative_error, 0}; }
+  Accuracy accuracy() const noexcept { return certified; }
 
   /// Calls visit(triangle) for every triangle in a leaf whose box is within `reach` of the centre: a broad
   /// phase for libraries that have none. Misses no triangle whose computed distance is at most the reach.
   template <class Visit>
   void for_each_near(const Vec3& center, double reach, Work& work, const Visit& visit) const noexcept {
-    const double slack = culling_slack(largest_difference(center));
+    const double slack = culling_slack(largest_difference(bounds(), center));
     std::array<std::uint32_t, most_levels> waiting;
     std::size_t count = 0;
     waiting[count++] = 0;
@@ -72,7 +73,7 @@ class AabbTree {
 
   /// What the distance of a triangle in the box cannot fall below, as the kernel computes it.
   static double lower_bound(const Aabb& box, const Vec3& center, double slack) noexcept;
-  double largest_difference(const Vec3& center) const noexcept;
+  const Aabb& bounds() const noexcept { return nodes_.front().box; }
   TriangleId id(std::uint32_t index) const noexcept { return ids_.empty() ? index : ids_[index]; }
 
   std::vector<Node> nodes_;

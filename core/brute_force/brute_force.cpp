@@ -3,23 +3,29 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/certified_nearest.h"
 #include "core/geometry/sphere_triangle_sweep.h"
 
 namespace touchmark {
 
 BruteForce BruteForce::build(const TriangleMesh& mesh, const Options&) {
   BruteForce detector;
+  detector.bounds_ = mesh.bounds();
   detector.triangles_ = prepare(mesh);
   detector.ids_.assign(mesh.ids().begin(), mesh.ids().end());
   return detector;
 }
 
 bool BruteForce::touches(const Probe& probe, Session& session) const noexcept {
+  if (!(probe.radius >= 0)) return false;
+  const double error = distance_error(bounds_, probe.center);
+  if (std::isinf(error)) return nearest(probe, probe.radius, session).has_value();
   std::uint64_t tested = 0;
   const bool touching =
       std::any_of(triangles_.begin(), triangles_.end(), [&](const PreparedTriangle& triangle) {
         ++tested;
-        return std::sqrt(squared_distance(triangle, probe.center)) <= probe.radius;
+        const double distance = std::sqrt(squared_distance(triangle, probe.center));
+        return is_within(triangle, distance, probe.center, probe.radius, error, session.work.exact_decisions);
       });
   session.work.triangles += tested;
   return touching;
@@ -27,14 +33,8 @@ bool BruteForce::touches(const Probe& probe, Session& session) const noexcept {
 
 std::optional<Contact> BruteForce::nearest(const Probe& probe, double reach,
                                            Session& session) const noexcept {
-  Candidate best;
-  for (const PreparedTriangle& triangle : triangles_) {
-    best = std::min(best, Candidate{squared_distance(triangle, probe.center), triangle.index});
-  }
   session.work.triangles += triangles_.size();
-  const bool found = best.index < triangles_.size();  // not so for a probe that is not a number
-  if (!found || !(std::sqrt(best.squared_distance) <= reach)) return std::nullopt;
-  return contact_on(triangles_[best.index], probe.center, id(best.index));
+  return nearest_of_all(triangles_, bounds_, probe.center, reach, ids_, session.work.exact_decisions);
 }
 
 std::optional<Impact> BruteForce::first_hit(const Sweep& sweep, Session& session) const noexcept {
@@ -45,12 +45,10 @@ std::optional<Impact> BruteForce::first_hit(const Sweep& sweep, Session& session
   }
   session.work.triangles += triangles_.size();
   if (first.index >= triangles_.size()) return std::nullopt;
-  if (first.fraction > 0) {
-    return Impact{first.fraction,
-                  contact_on(triangles_[first.index], position_at(sweep, first.fraction), id(first.index))};
-  }
-  // Touching at the start: of all the triangles touched there the nearest one counts.
-  return Impact{0, *nearest({sweep.from, sweep.radius}, sweep.radius, session)};
+  // Touching at the start, which is decided exactly: of all the triangles there the nearest one counts.
+  if (const auto start = nearest({sweep.from, sweep.radius}, sweep.radius, session)) return Impact{0, *start};
+  return Impact{first.fraction,
+                contact_on(triangles_[first.index], position_at(sweep, first.fraction), id(first.index))};
 }
 
 std::size_t BruteForce::bytes() const noexcept {

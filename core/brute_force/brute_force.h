@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/detector.h"
+#include "core/geometry/aabb.h"
 #include "core/geometry/point_triangle.h"
 
 namespace touchmark {
@@ -25,11 +26,12 @@ class BruteForce {
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept;
 
   std::size_t bytes() const noexcept;
-  Accuracy accuracy() const noexcept { return {Guarantee::exact, kernel_relative_error, 0}; }
+  Accuracy accuracy() const noexcept { return certified; }
 
  private:
   TriangleId id(std::uint32_t index) const noexcept { return ids_.empty() ? index : ids_[index]; }
 
+  Aabb bounds_;
   std::vector<PreparedTriangle> triangles_;
   std::vector<TriangleId> ids_;
 };

@@ -1,6 +1,6 @@
-/// Just enough double-double arithmetic (106 bits) for a cross product: Dekker's and Knuth's error-free
-/// transformations. Dekker, "A floating-point technique for extending the available precision" (1971). Finite
-/// inputs below 1e290.
+/// Just enough double-double arithmetic (106 bits) for a cross product and a quotient: Dekker's and Knuth's
+/// error-free transformations. Dekker, "A floating-point technique for extending the available precision"
+/// (1971). Finite inputs below 1e290.
 #pragma once
 
 namespace touchmark {
@@ -44,6 +44,13 @@ inline DoubleDouble operator-(DoubleDouble a, DoubleDouble b) noexcept { return 
 inline DoubleDouble operator*(DoubleDouble a, DoubleDouble b) noexcept {
   const DoubleDouble product = two_product(a.high, b.high);
   return two_sum(product.high, product.low + (a.high * b.low + a.low * b.high));
+}
+
+/// Within 2^-101 of the quotient.
+inline DoubleDouble operator/(DoubleDouble a, DoubleDouble b) noexcept {
+  const double first = a.high / b.high;
+  const DoubleDouble rest = a - b * DoubleDouble{first, 0};
+  return two_sum(first, rest.high / b.high);
 }
 
 }  // namespace touchmark

@@ -8,7 +8,7 @@ namespace touchmark {
 
 bool FilterFrame::fits(const Aabb& bounds) noexcept {
   const double extent = bounds.extent().maxCoeff();
-  return extent > 0x1p-300 && extent < 0x1p300;
+  return extent > 0x1p-130 && extent < 0x1p200;
 }
 
 FilterFrame FilterFrame::around(const Aabb& bounds) noexcept {

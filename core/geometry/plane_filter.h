@@ -74,6 +74,10 @@ class FilterFrame {
     const double reach = std::abs(in_frame.x()) + std::abs(in_frame.y()) + std::abs(in_frame.z()) + radius_;
     return static_cast<float>(reach * tau_per_unit);
   }
+  /// At least the distance_error of certified_nearest.h, in mesh units, at the point whose tau this is, and
+  /// quicker to have: tau is 2^-21 of a length that would exceed every coordinate difference if the frame's
+  /// origin were not rounded, and exceeds half of it so.
+  double kernel_error(float tau) const noexcept { return static_cast<double>(tau) * 0x1p-23 / scale_; }
   /// A squared distance of the mesh's frame as a limit on lower bounds, rounded up.
   float limit(double squared_distance) const noexcept {
     const double limit = squared_distance * squared_scale_ * (1 + 0x1p-20) + 0x1p-120;

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "core/geometry/double_double.h"
+#include "core/geometry/exact_decision.h"
 
 namespace touchmark {
 namespace {
@@ -59,7 +60,19 @@ DoubleDouble minor(DoubleDouble a, DoubleDouble b, DoubleDouble c, DoubleDouble 
   return a * d - b * c;
 }
 
-Vec3 unit_normal(const std::array<Vec3, 3>& v) noexcept {
+/// The same triangle, but for a power of two, where squares of its sides would leave the range of double.
+std::array<Vec3, 3> in_range(const std::array<Vec3, 3>& v) noexcept {
+  constexpr int largest = 400, most = 1000;
+  const double extent = std::max({(v[1] - v[0]).cwiseAbs().maxCoeff(), (v[2] - v[1]).cwiseAbs().maxCoeff(),
+                                  (v[0] - v[2]).cwiseAbs().maxCoeff()});
+  if (extent == 0 || (extent > std::ldexp(1.0, -largest) && extent < std::ldexp(1.0, largest))) return v;
+  const int exponent = std::isinf(extent) ? most : std::clamp(std::ilogb(extent), -most, most);
+  const double scale = std::ldexp(1.0, -exponent);
+  return {scale * v[0], scale * v[1], scale * v[2]};
+}
+
+Vec3 unit_normal(const std::array<Vec3, 3>& corner) noexcept {
+  const std::array<Vec3, 3> v = in_range(corner);
   // Edges from the corner opposite the longest edge: the best conditioned pair.
   const std::array<double, 3> opposite = {(v[2] - v[1]).squaredNorm(), (v[0] - v[2]).squaredNorm(),
                                           (v[1] - v[0]).squaredNorm()};
@@ -81,21 +94,22 @@ Vec3 unit_normal(const std::array<Vec3, 3>& v) noexcept {
   // Thinner than a rounding of its length: whatever is over the face is as near to an edge. (length ~ 2
   // area.)
   if (!(length > unit_roundoff)) return Vec3::Zero();
+  // As thin as that, the double-doubles' own rounding would show.
+  if (length < 0x1p-40) return normal_exactly(corner);
   return n / length;
 }
 
-/// A unit vector for the normal where the point lies on the triangle: the face's, or any across a collinear
-/// one.
+}  // namespace
+
 Vec3 face_normal(const PreparedTriangle& t) noexcept {
   if (!t.normal.isZero(0)) return t.normal;
-  Vec3 along = t.corner[1] - t.corner[0];
-  for (const Vec3& other : {Vec3(t.corner[2] - t.corner[1]), Vec3(t.corner[0] - t.corner[2])})
+  const std::array<Vec3, 3> v = in_range(t.corner);
+  Vec3 along = v[1] - v[0];
+  for (const Vec3& other : {Vec3(v[2] - v[1]), Vec3(v[0] - v[2])})
     if (other.cwiseAbs().maxCoeff() > along.cwiseAbs().maxCoeff()) along = other;
   if (along.isZero(0)) return Vec3::UnitZ();
   return (along / along.cwiseAbs().maxCoeff()).unitOrthogonal();
 }
-
-}  // namespace
 
 PreparedTriangle prepare(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t index) noexcept {
   PreparedTriangle triangle{{a, b, c}, Vec3::Zero(), index};

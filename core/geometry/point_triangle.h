@@ -73,6 +73,9 @@ Contact contact_on(const PreparedTriangle& triangle, const Vec3& point, Triangle
 Contact contact_at(const PreparedTriangle& triangle, const Vec3& point, const Offset& offset,
                    TriangleId id) noexcept;
 
+/// A unit vector for the normal of a contact at distance zero: the face's, or any across a collinear one.
+Vec3 face_normal(const PreparedTriangle& triangle) noexcept;
+
 /// By how much squared_distance can fall short of the true square, and a bounding volume's own rounded
 /// distance exceed its true one, anywhere in a query whose coordinates differ by at most
 /// `largest_difference`: a volume may be skipped only if its distance minus this exceeds the best distance so

@@ -61,7 +61,8 @@ class DirectGrid {
     const PreparedTriangle* triangle = nullptr;
     Offset offset{Vec3::Zero(), 0};
     double squared_lower = 0;
-    float tau = 0;  ///< the filter's, at the centre
+    float tau = 0;     ///< the filter's, at the centre
+    double error = 0;  ///< of a computed distance there
   };
   Located locate(const Vec3& center, double reach, DirectMemory& memory, Work& work) const noexcept;
   void remember(const Vec3& center, float tau, double lower, double upper,
@@ -73,7 +74,9 @@ class DirectGrid {
   /// The impact of a sweep whose first hit is known.
   std::optional<Impact> impact_on(const Sweep& sweep, double fraction, std::uint32_t place,
                                   DirectMemory& memory, Work& work) const noexcept;
-  double largest_difference(const Vec3& center) const noexcept;
+  /// What `nearest` answers where rounding could tell.
+  std::optional<Contact> nearest_tie(const Vec3& center, double distance, double reach, double error,
+                                     Work& work) const noexcept;
 
   std::uint64_t serial_ = 0;  ///< tells this grid from all others
   Aabb bounds_;

@@ -1,7 +1,9 @@
 /// Nearest and touching: what the session knows, else the group that serves the point, else the hierarchy.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
+#include "core/geometry/certified_nearest.h"
 #include "core/grid_group/direct_grid.h"
 #include "core/grid_group/nearest_search.h"
 
@@ -15,11 +17,36 @@ bool moved_less(const DirectMemory& memory, const Vec3& center, double by) noexc
   return by > 0 && (center - memory.center).squaredNorm() < by * by * shy;
 }
 
-}  // namespace
-
-double DirectGrid::largest_difference(const Vec3& center) const noexcept {
-  return (bounds_.max - center).cwiseAbs().cwiseMax((bounds_.min - center).cwiseAbs()).maxCoeff();
+/// Calls visit(triangle) for every triangle that the filter does not put beyond the distance.
+template <class Visit>
+void for_each_near(const TriangleStore& store, const BoxTree& tree, const Vec3& center, double distance,
+                   Work& work, const Visit& visit) noexcept {
+  const FilterPoint point = store.frame.point(center);
+  const float limit = store.frame.limit(distance * distance);
+  BoxStack stack;
+  const auto open = [&](std::uint32_t level, std::uint32_t node) {
+    work.boxes += BoxTree::arity;
+    stack.push(lower_bounds(tree.node(level, node), point), limit, node, level);
+  };
+  open(static_cast<std::uint32_t>(tree.levels()) - 1, 0);
+  while (!stack.empty()) {
+    const BoxStack::Entry next = stack.pop();
+    if (next.level > 0) {
+      open(next.level - 1, next.index);
+      continue;
+    }
+    const std::uint32_t first = next.index * TriangleStore::block_size;
+    work.triangles += TriangleStore::block_size;
+    for (std::uint32_t at = first; at < first + TriangleStore::block_size; at += 4) {
+      const TrianglePlanes* planes = &store.planes[at];
+      const Lanes bounds = lower_bounds(planes[0], planes[1], planes[2], planes[3], point);
+      for (unsigned left = at_most(bounds, limit); left != 0; left &= left - 1)
+        visit(store.exact[at + static_cast<std::uint32_t>(std::countr_zero(left))]);
+    }
+  }
 }
+
+}  // namespace
 
 void DirectGrid::remember(const Vec3& center, float tau, double lower, double upper,
                           DirectMemory& memory) const noexcept {
@@ -64,9 +91,10 @@ DirectGrid::Start DirectGrid::start_at(const Vec3& center, const FilterPoint& po
 
 DirectGrid::Located DirectGrid::locate(const Vec3& center, double reach, DirectMemory& memory,
                                        Work& work) const noexcept {
-  NearestSearch search(store_, center, reach * reach);
-  Start start = start_at(center, search.point(), reach, memory, work);
+  const FilterPoint point = store_.frame.point(center);
+  Start start = start_at(center, point, reach, memory, work);
   if (start.beyond) return {};
+  NearestSearch search(store_, center, point, reach);
   // A cell's triangle may be a neighbour of the one that is needed.
   for (int hop = 0; hop < 2 && start.group == nullptr && groups_.of(start.place).count > 0; ++hop) {
     const std::uint32_t next = search.closest_of(groups_.members(groups_.of(start.place)));
@@ -88,7 +116,7 @@ DirectGrid::Located DirectGrid::locate(const Vec3& center, double reach, DirectM
     return {};
   }
   memory.place = search.place();
-  return {&store_.exact[search.place()], search.offset(), squared_lower, search.point().tau};
+  return {&store_.exact[search.place()], search.offset(), squared_lower, search.point().tau, search.error()};
 }
 
 bool DirectGrid::touches(const Probe& probe, DirectMemory& memory, Work& work) const noexcept {
@@ -98,7 +126,10 @@ bool DirectGrid::touches(const Probe& probe, DirectMemory& memory, Work& work) c
   const Located located = locate(probe.center, probe.radius, memory, work);
   if (located.triangle == nullptr) return false;
   const double distance = std::sqrt(located.offset.squared);
-  const bool touching = distance <= probe.radius;
+  const bool touching =
+      std::abs(distance - probe.radius) > located.error
+          ? distance < probe.radius
+          : nearest_tie(probe.center, distance, probe.radius, located.error, work).has_value();
   const double lower = touching ? distance : std::min(std::sqrt(located.squared_lower), distance);
   remember(probe.center, located.tau, lower, distance, memory);
   return touching;
@@ -115,25 +146,28 @@ std::optional<Contact> DirectGrid::nearest(const Vec3& center, double reach, Dir
   const double lower =
       within ? contact.distance : std::min(std::sqrt(located.squared_lower), contact.distance);
   remember(center, located.tau, lower, contact.distance, memory);
+  if (!is_certain(contact.distance, reach, located.error)) {
+    const double error = distance_error(bounds_, center);
+    if (!is_certain_on(*located.triangle, contact.distance, center, reach, error))
+      return nearest_tie(center, contact.distance, reach, error, work);
+  }
   if (!within) return std::nullopt;
   return contact;
+}
+
+std::optional<Contact> DirectGrid::nearest_tie(const Vec3& center, double distance, double reach,
+                                               double error, Work& work) const noexcept {
+  return nearest_of_ties(
+      center, distance, reach, error, store_.ids, work.exact_decisions,
+      [&](double within, const auto& visit) { for_each_near(store_, tree_, center, within, work, visit); });
 }
 
 std::optional<Contact> DirectGrid::far_nearest(const Vec3& center, double reach, Work& work) const noexcept {
   const double box_distance = std::sqrt(bounds_.squared_distance(center));
   ++work.boxes;
-  if (box_distance - culling_slack(largest_difference(center)) > reach) return std::nullopt;
-  Candidate best;
-  const PreparedTriangle* nearest = nullptr;
-  for (const PreparedTriangle& triangle : store_.exact) {
-    const Candidate candidate{squared_distance(triangle, center), triangle.index};
-    if (!(candidate < best)) continue;
-    best = candidate;
-    nearest = &triangle;
-  }
+  if (box_distance - distance_error(bounds_, center) > reach) return std::nullopt;
   work.triangles += store_.exact.size();
-  if (nearest == nullptr || !(std::sqrt(best.squared_distance) <= reach)) return std::nullopt;
-  return contact_on(*nearest, center, store_.id(static_cast<std::uint32_t>(nearest - store_.exact.data())));
+  return nearest_of_all(store_.exact, bounds_, center, reach, store_.ids, work.exact_decisions);
 }
 
 }  // namespace touchmark::grid

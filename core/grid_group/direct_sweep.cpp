@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/geometry/certified_nearest.h"
 #include "core/geometry/sphere_triangle_sweep.h"
 #include "core/geometry/sweep_box.h"
 #include "core/grid_group/direct_grid.h"
@@ -119,7 +120,8 @@ std::optional<Impact> DirectGrid::first_hit(const Sweep& sweep, DirectMemory& me
                                             Work& work) const noexcept {
   if (!(sweep.radius >= 0)) return std::nullopt;
   if (!(store_.frame.covers(sweep.from) && store_.frame.covers(sweep.to))) return far_first_hit(sweep, work);
-  const double difference = std::max(largest_difference(sweep.from), largest_difference(sweep.to));
+  const double difference =
+      std::max(largest_difference(bounds_, sweep.from), largest_difference(bounds_, sweep.to));
   const double widening = sweep_widening(sweep, difference);
   const double farthest = (sweep.to - sweep.from).norm() * (1 + 0x1p-40) + widening;
   const Start start = start_at(sweep.from, store_.frame.point(sweep.from), farthest, memory, work);
@@ -137,7 +139,8 @@ std::optional<Impact> DirectGrid::first_hit(const Sweep& sweep, DirectMemory& me
 }
 
 std::optional<Impact> DirectGrid::far_first_hit(const Sweep& sweep, Work& work) const noexcept {
-  const double difference = std::max(largest_difference(sweep.from), largest_difference(sweep.to));
+  const double difference =
+      std::max(largest_difference(bounds_, sweep.from), largest_difference(bounds_, sweep.to));
   ++work.boxes;
   if (enters(bounds_, sweep, sweep_widening(sweep, difference), 1) > 1) return std::nullopt;
   HitCandidate first;
@@ -157,11 +160,9 @@ std::optional<Impact> DirectGrid::far_first_hit(const Sweep& sweep, Work& work) 
 
 std::optional<Impact> DirectGrid::impact_on(const Sweep& sweep, double fraction, std::uint32_t place,
                                             DirectMemory& memory, Work& work) const noexcept {
-  if (fraction > 0)
-    return Impact{fraction, contact_on(store_.exact[place], position_at(sweep, fraction), store_.id(place))};
-  // Touching at the start: of all the triangles touched there the nearest one counts.
-  const std::optional<Contact> contact = nearest(sweep.from, sweep.radius, memory, work);
-  return contact ? std::optional(Impact{0, *contact}) : std::nullopt;
+  // Touching at the start, which is decided exactly: of all the triangles there the nearest one counts.
+  if (const auto start = nearest(sweep.from, sweep.radius, memory, work)) return Impact{0, *start};
+  return Impact{fraction, contact_on(store_.exact[place], position_at(sweep, fraction), store_.id(place))};
 }
 
 }  // namespace touchmark::grid

@@ -48,7 +48,7 @@ class GridGroup {
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept;
 
   std::size_t bytes() const noexcept;
-  Accuracy accuracy() const noexcept { return {Guarantee::exact, kernel_relative_error, 0}; }
+  Accuracy accuracy() const noexcept { return certified; }
 
   /// Scan: groups tested by every query. Direct: triangles that have one.
   std::size_t groups() const noexcept;

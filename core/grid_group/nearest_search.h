@@ -17,15 +17,20 @@
 
 namespace touchmark::grid {
 
-/// Starts at a limit on the squared distance and tightens it with every triangle found.
+/// Starts at the reach, with room for the kernel's error, and tightens it with every triangle found.
 class NearestSearch {
  public:
   /// The store's frame covers `center`.
-  NearestSearch(const TriangleStore& store, const Vec3& center, double squared_limit) noexcept
+  NearestSearch(const TriangleStore& store, const Vec3& center, double reach) noexcept
+      : NearestSearch(store, center, store.frame.point(center), reach) {}
+  /// `point` is the centre in that frame.
+  NearestSearch(const TriangleStore& store, const Vec3& center, const FilterPoint& point,
+                double reach) noexcept
       : store_(store),
         center_(center),
-        point_(store.frame.point(center)),
-        limit_(store.frame.limit(squared_limit)) {}
+        point_(point),
+        error_(store.frame.kernel_error(point_.tau)),
+        limit_(store.frame.limit((reach + error_) * (reach + error_))) {}
 
   bool found() const noexcept { return found_; }
   std::uint32_t place() const noexcept { return place_; }  ///< of the nearest
@@ -36,6 +41,7 @@ class NearestSearch {
     return over_face_ ? offset_over_face(triangle, center_) : exact_offset(triangle, center_);
   }
   const FilterPoint& point() const noexcept { return point_; }
+  double error() const noexcept { return error_; }                 ///< of a computed distance
   std::uint64_t triangles() const noexcept { return triangles_; }  ///< tested
   std::uint64_t boxes() const noexcept { return boxes_; }          ///< tested
 
@@ -103,6 +109,7 @@ class NearestSearch {
   const TriangleStore& store_;
   const Vec3& center_;
   FilterPoint point_;
+  double error_;
   float limit_;
   bool found_ = false;
   bool known_ = false;      ///< offset_, and best_ with it

@@ -53,8 +53,6 @@ class ScanGrid {
   void search(const Vec3& center, double reach, Work& work, const Visit& visit) const noexcept;
   template <class Visit>
   bool search_members(std::size_t group, Work& work, const Visit& visit) const noexcept;
-  /// An upper bound of the coordinate differences between the point and the mesh.
-  double largest_difference(const Vec3& point) const noexcept;
   TriangleId id(std::uint32_t triangle) const noexcept { return ids_.empty() ? triangle : ids_[triangle]; }
 
   std::vector<Aabb> boxes_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/certified_nearest.h"
 #include "core/geometry/sphere_triangle_sweep.h"
 #include "core/geometry/sweep_box.h"
 #include "core/grid_group/scan_grid.h"
@@ -39,10 +40,6 @@ bool passes(const Sphere& sphere, const Sweep& sweep, double by) noexcept {
 
 }  // namespace
 
-double ScanGrid::largest_difference(const Vec3& point) const noexcept {
-  return std::max((bounds_.max - point).cwiseAbs().maxCoeff(), (point - bounds_.min).cwiseAbs().maxCoeff());
-}
-
 template <class Visit>
 bool ScanGrid::search_members(std::size_t group, Work& work, const Visit& visit) const noexcept {
   const std::span<const std::uint32_t> triangles = members(group);
@@ -59,7 +56,7 @@ bool ScanGrid::search_members(std::size_t group, Work& work, const Visit& visit)
 template <class Visit>
 void ScanGrid::search(const Vec3& center, double reach, Work& work, const Visit& visit) const noexcept {
   // The kernel may call near what is this much farther.
-  const double by = reach + culling_slack(largest_difference(center));
+  const double by = reach + culling_slack(largest_difference(bounds_, center));
   const auto scan = [&](const auto& shapes) {
     for (std::size_t group = 0; group < shapes.size(); ++group) {
       if (holds(shapes[group], center, by) && search_members(group, work, visit)) {
@@ -73,26 +70,49 @@ void ScanGrid::search(const Vec3& center, double reach, Work& work, const Visit&
 }
 
 bool ScanGrid::touches(const Probe& probe, Work& work) const noexcept {
+  const Vec3& center = probe.center;
+  if (!(probe.radius >= 0)) return false;
+  const double error = distance_error(bounds_, center);
+  if (std::isinf(error)) return nearest(center, probe.radius, work).has_value();
   bool touching = false;
-  search(probe.center, probe.radius, work, [&](const PreparedTriangle& triangle) {
-    return touching = std::sqrt(squared_distance(triangle, probe.center)) <= probe.radius;
+  search(center, probe.radius + error, work, [&](const PreparedTriangle& triangle) {
+    const double distance = std::sqrt(squared_distance(triangle, center));
+    return touching = is_within(triangle, distance, center, probe.radius, error, work.exact_decisions);
   });
   return touching;
 }
 
 std::optional<Contact> ScanGrid::nearest(const Vec3& center, double reach, Work& work) const noexcept {
+  if (!(reach >= 0)) return std::nullopt;
+  const double error = distance_error(bounds_, center);
+  if (std::isinf(error)) {
+    work.triangles += triangles_.size();
+    return nearest_of_all(triangles_, bounds_, center, reach, ids_, work.exact_decisions);
+  }
   Candidate best;
-  search(center, reach, work, [&](const PreparedTriangle& triangle) {
+  search(center, reach + error, work, [&](const PreparedTriangle& triangle) {
     best = std::min(best, Candidate{squared_distance(triangle, center), triangle.index});
     return false;
   });
-  const bool found = best.index < triangles_.size();
-  if (!found || !(std::sqrt(best.squared_distance) <= reach)) return std::nullopt;
+  if (best.index >= triangles_.size()) return std::nullopt;
+  const double distance = std::sqrt(best.squared_distance);
+  if (!is_certain(distance, reach, error) &&
+      !is_certain_on(triangles_[best.index], distance, center, reach, error)) {
+    return nearest_of_ties(center, distance, reach, error, ids_, work.exact_decisions,
+                           [&](double within, const auto& visit) {
+                             search(center, within, work, [&](const PreparedTriangle& triangle) {
+                               visit(triangle);
+                               return false;
+                             });
+                           });
+  }
+  if (distance > reach) return std::nullopt;
   return contact_on(triangles_[best.index], center, id(best.index));
 }
 
 std::optional<Impact> ScanGrid::first_hit(const Sweep& sweep, Work& work) const noexcept {
-  const double difference = std::max(largest_difference(sweep.from), largest_difference(sweep.to));
+  const double difference =
+      std::max(largest_difference(bounds_, sweep.from), largest_difference(bounds_, sweep.to));
   const double by = sweep_widening(sweep, difference);
   HitCandidate first;
   const auto scan = [&](const auto& shapes) {
@@ -108,13 +128,10 @@ std::optional<Impact> ScanGrid::first_hit(const Sweep& sweep, Work& work) const 
   };
   boxes_.empty() ? scan(spheres_) : scan(boxes_);
   if (first.index >= triangles_.size()) return std::nullopt;
-  if (first.fraction > 0) {
-    const Vec3 position = position_at(sweep, first.fraction);
-    return Impact{first.fraction, contact_on(triangles_[first.index], position, id(first.index))};
-  }
-  // Touching at the start: of all the triangles touched there the nearest one counts.
-  const std::optional<Contact> contact = nearest(sweep.from, sweep.radius, work);
-  return contact ? std::optional(Impact{0, *contact}) : std::nullopt;
+  // Touching at the start, which is decided exactly: of all the triangles there the nearest one counts.
+  if (const auto start = nearest(sweep.from, sweep.radius, work)) return Impact{0, *start};
+  const Vec3 position = position_at(sweep, first.fraction);
+  return Impact{first.fraction, contact_on(triangles_[first.index], position, id(first.index))};
 }
 
 }  // namespace touchmark::grid

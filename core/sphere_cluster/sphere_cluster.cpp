@@ -45,7 +45,7 @@ std::optional<Impact> SphereCluster::first_hit(const Sweep& sweep, Session& sess
 }
 
 Accuracy SphereCluster::accuracy() const noexcept {
-  if (options_.precise) return {Guarantee::exact, kernel_relative_error, 0};
+  if (options_.precise) return certified;
   return {Guarantee::conservative, kernel_relative_error, fast_.error_bound()};
 }
 

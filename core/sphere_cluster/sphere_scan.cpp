@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 
+#include "core/geometry/certified_nearest.h"
 #include "core/geometry/sphere_triangle_sweep.h"
 #include "core/sphere_cluster/search_bounds.h"
 
@@ -34,7 +35,7 @@ bool for_each_held(std::size_t count, const Outside& outside, const Found& found
 }  // namespace
 
 SphereScan::SphereScan(const TriangleMesh& mesh, const SphereClusters& clusters)
-    : first_(clusters.first), ids_(mesh.ids().begin(), mesh.ids().end()) {
+    : bounds_(mesh.bounds()), first_(clusters.first), ids_(mesh.ids().begin(), mesh.ids().end()) {
   for (const Sphere& sphere : clusters.spheres) {
     x_.push_back(sphere.center.x());
     y_.push_back(sphere.center.y());
@@ -53,21 +54,31 @@ void SphereScan::search(std::size_t sphere, const Vec3& center, Best& best, Work
   work.triangles += first_[sphere + 1] - first_[sphere];
 }
 
-bool SphereScan::touches(const Probe& probe, Work& work) const noexcept {
-  if (!(probe.radius >= 0)) return false;
-  const double px = probe.center.x(), py = probe.center.y(), pz = probe.center.z();
+template <class Found>
+bool SphereScan::for_each_met(const Vec3& center, double reach, const Found& found) const noexcept {
+  const double px = center.x(), py = center.y(), pz = center.z();
   const auto outside = [&](std::size_t i) noexcept {
     const double dx = x_[i] - px, dy = y_[i] - py, dz = z_[i] - pz;
-    const double grown = grown_radius(radius_[i], probe.radius);
+    const double grown = grown_radius(radius_[i], reach);
     return static_cast<std::uint8_t>(dx * dx + dy * dy + dz * dz > grown * grown);
   };
+  return for_each_held(x_.size(), outside, found);
+}
+
+bool SphereScan::touches(const Probe& probe, Work& work) const noexcept {
+  const Vec3& center = probe.center;
+  if (!(probe.radius >= 0)) return false;
+  const double error = distance_error(bounds_, center);
+  if (std::isinf(error)) return nearest(center, probe.radius, work).has_value();
   std::size_t tested = 0;
-  const bool touching = for_each_held(x_.size(), outside, [&](std::size_t sphere) noexcept {
+  const bool touching = for_each_met(center, probe.radius + error, [&](std::size_t sphere) noexcept {
     tested = sphere;
-    Best best;
-    search(sphere, probe.center, best, work);
-    return std::sqrt(best.candidate.squared_distance) <= probe.radius &&
-           best.candidate.index < triangles_.size();
+    for (std::size_t i = first_[sphere]; i < first_[sphere + 1]; ++i) {
+      ++work.triangles;
+      const double distance = std::sqrt(squared_distance(triangles_[i], center));
+      if (is_within(triangles_[i], distance, center, probe.radius, error, work.exact_decisions)) return true;
+    }
+    return false;
   });
   work.spheres += touching ? tested + 1 : x_.size();
   return touching;
@@ -75,20 +86,33 @@ bool SphereScan::touches(const Probe& probe, Work& work) const noexcept {
 
 std::optional<Contact> SphereScan::nearest(const Vec3& center, double reach, Work& work) const noexcept {
   if (!(reach >= 0)) return std::nullopt;
-  const double px = center.x(), py = center.y(), pz = center.z();
-  const auto outside = [&](std::size_t i) noexcept {
-    const double dx = x_[i] - px, dy = y_[i] - py, dz = z_[i] - pz;
-    const double grown = grown_radius(radius_[i], reach);
-    return static_cast<std::uint8_t>(dx * dx + dy * dy + dz * dz > grown * grown);
-  };
+  const double error = distance_error(bounds_, center);
+  if (std::isinf(error)) {
+    work.triangles += triangles_.size();
+    return nearest_of_all(triangles_, bounds_, center, reach, ids_, work.exact_decisions);
+  }
   Best best;
-  for_each_held(x_.size(), outside, [&](std::size_t sphere) noexcept {
+  for_each_met(center, reach + error, [&](std::size_t sphere) noexcept {
     search(sphere, center, best, work);
     return false;
   });
   work.spheres += x_.size();
-  const bool found = best.candidate.index < triangles_.size();  // not so for a probe that is not a number
-  if (!found || !(std::sqrt(best.candidate.squared_distance) <= reach)) return std::nullopt;
+  if (best.candidate.index >= triangles_.size()) return std::nullopt;
+  const double distance = std::sqrt(best.candidate.squared_distance);
+  if (!is_certain(distance, reach, error) &&
+      !is_certain_on(triangles_[best.kept_at], distance, center, reach, error)) {
+    return nearest_of_ties(center, distance, reach, error, ids_, work.exact_decisions,
+                           [&](double within, const auto& visit) {
+                             work.spheres += x_.size();
+                             for_each_met(center, within, [&](std::size_t sphere) noexcept {
+                               work.triangles += first_[sphere + 1] - first_[sphere];
+                               for (std::size_t i = first_[sphere]; i < first_[sphere + 1]; ++i)
+                                 visit(triangles_[i]);
+                               return false;
+                             });
+                           });
+  }
+  if (distance > reach) return std::nullopt;
   return contact_on(triangles_[best.kept_at], center, id(best.candidate.index));
 }
 

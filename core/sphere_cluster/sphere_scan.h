@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/detector.h"
+#include "core/geometry/aabb.h"
 #include "core/geometry/point_triangle.h"
 #include "core/sphere_cluster/clustering.h"
 
@@ -34,6 +35,11 @@ class SphereScan {
   TriangleId id(std::uint32_t index) const noexcept { return ids_.empty() ? index : ids_[index]; }
   void search(std::size_t sphere, const Vec3& center, Best& best, Work& work) const noexcept;
 
+  /// Calls found(i) for every sphere i that reaches within `reach` of the centre, until it returns true.
+  template <class Found>
+  bool for_each_met(const Vec3& center, double reach, const Found& found) const noexcept;
+
+  Aabb bounds_;
   // The spheres as plain arrays, so that the fast level's loop vectorises.
   std::vector<double> x_, y_, z_, radius_;
   std::vector<std::uint32_t> first_;         // sphere i holds triangles_[first_[i]] .. before first_[i + 1]

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "core/geometry/certified_nearest.h"
 #include "core/sphere_cluster/sphere_tree_search.h"
 #include "core/sphere_cluster/tree_build.h"
 
@@ -36,23 +37,42 @@ struct NearestVisitor {
   }
 };
 
-/// Is content with any triangle within the radius.
+/// Is content with any triangle within the radius. What doubles leave open is decided exactly at once.
 struct TouchVisitor {
+  const TreeParts& tree;
   const Vec3& center;
   double radius;
+  double error;  ///< of a computed distance
   float limit;
   Work work{};
-  double least = std::numeric_limits<double>::infinity();  ///< distance of those shown
+  double least = std::numeric_limits<double>::infinity();  ///< distance of the one kept, else of those shown
   std::uint32_t kept_at = nowhere;
 
   bool wants(std::uint32_t) const noexcept { return kept_at == nowhere; }
   void take(std::uint32_t at, const Offset& found) noexcept {
     const double distance = std::sqrt(found.squared);
     least = std::min(least, distance);
-    if (!(distance <= radius)) return;
+    if (!is_within(tree.triangles[at], distance, center, radius, error, work.exact_decisions)) return;
     kept_at = at;
+    least = distance;
     limit = -1;  // nothing is within it: the search ends
   }
+};
+
+/// Shows ties everything within a distance.
+template <class Visit>
+struct TieVisitor {
+  const TreeParts& tree;
+  const Vec3& center;
+  float limit;
+  const Visit& visit;
+  Work work{};
+
+  bool wants(std::uint32_t at) const noexcept {
+    visit(tree.triangles[at]);
+    return false;
+  }
+  void take(std::uint32_t, const Offset&) const noexcept {}
 };
 
 /// Tells the memories of different trees apart, also where one took another's place in memory. From 1.
@@ -75,6 +95,7 @@ SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters,
     : number_(next_number()),
       avx2_(!portable && spheres::processor_has_avx2()),
       searchable_(FilterFrame::fits(mesh.bounds())),
+      bounds_(mesh.bounds()),
       radius_(0.5 * mesh.diagonal()),
       ids_(mesh.ids().begin(), mesh.ids().end()) {
   if (!searchable_) {
@@ -98,10 +119,14 @@ double SphereTree::slack(const Vec3& center) const noexcept {
   return 2 * culling_slack((center - frame_.origin()).lpNorm<1>() + radius_);
 }
 
+/// At least distance_error(bounds_, center), and quicker to have: twice what it would be if the frame's
+/// origin were not rounded.
+double SphereTree::error_from(double slack) noexcept { return 2 * slack; }
+
 /// No triangle is nearer than this: neither those shown, the nearest of which is at `shown`, nor those
 /// unseen.
-double SphereTree::free_within(float unseen, double shown, const Vec3& center) const noexcept {
-  return std::min(std::sqrt(frame_.squared(unseen)), shown * (1 - 0x1p-40)) - slack(center);
+double SphereTree::free_within(float unseen, double shown, double slack) const noexcept {
+  return std::min(std::sqrt(frame_.squared(unseen)), shown * (1 - 0x1p-40)) - slack;
 }
 
 /// The distance changes by no more than the point moves.
@@ -141,22 +166,18 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
   if (!(radius >= 0)) return false;
   claim(memory);
   if (surely_free(center, radius, memory)) return false;
-  TouchVisitor visitor{center, radius, 0};
-  if (!can_search(center)) {
-    show_all(visitor);
-    work += visitor.work;
-    return visitor.kept_at != nowhere;
-  }
+  if (!can_search(center)) return nearest_without(center, radius, work).has_value();
+  const double rounding = slack(center), error = error_from(rounding);
   const double moved = (center - memory.center).norm();
-  if ((memory.nearest + moved) * (1 + 0x1p-40) + slack(center) <= radius) return true;
-  visitor.limit = frame_.limit(radius * radius);
+  if ((memory.nearest + moved) * (1 + 0x1p-40) + rounding <= radius) return true;
+  TouchVisitor visitor{parts_, center, radius, error, frame_.limit((radius + error) * (radius + error))};
   float unseen = 0;
   if (memory.nearest - moved <= radius) show(memory.last, visitor);
   if (visitor.kept_at == nowhere) unseen = descend(frame_.point(center), visitor);
   work += visitor.work;
   const bool touching = visitor.kept_at != nowhere;
   memory.center = center;
-  memory.free = touching ? -1 : free_within(unseen, visitor.least, center);
+  memory.free = touching ? -1 : free_within(unseen, visitor.least, rounding);
   memory.nearest = touching ? visitor.least : std::numeric_limits<double>::infinity();
   if (touching) memory.last = visitor.kept_at;
   return touching;
@@ -167,28 +188,51 @@ std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Mem
   if (!(reach >= 0)) return std::nullopt;
   claim(memory);
   if (surely_free(center, reach, memory)) return std::nullopt;
-  NearestVisitor visitor{parts_, frame_, center, frame_.limit(reach * reach)};
-  if (can_search(center)) {
-    const FilterPoint point = frame_.point(center);
-    const double moved = (center - memory.center).norm();
-    float unseen = 0;
-    if (memory.nearest + moved <= reach && memory.nearest < std::numeric_limits<double>::infinity()) {
-      show(memory.last, visitor);
-      unseen = search_near(point, moved, visitor, memory);
-    } else {
-      unseen = descend(point, visitor);
-    }
-    memory.center = center;
-    memory.nearest = std::sqrt(visitor.best.squared_distance);
-    memory.last = visitor.kept_at;
-    memory.free = free_within(unseen, memory.nearest, center);
+  if (!can_search(center)) return nearest_without(center, reach, work);
+  const double rounding = slack(center), error = error_from(rounding);
+  NearestVisitor visitor{parts_, frame_, center, frame_.limit((reach + error) * (reach + error))};
+  const FilterPoint point = frame_.point(center);
+  const double moved = (center - memory.center).norm();
+  float unseen = 0;
+  if (memory.nearest + moved <= reach && memory.nearest < std::numeric_limits<double>::infinity()) {
+    show(memory.last, visitor);
+    unseen = search_near(point, moved, visitor, memory);
   } else {
-    show_all(visitor);
+    unseen = descend(point, visitor);
   }
+  const double distance = std::sqrt(visitor.best.squared_distance);
+  memory.center = center;
+  memory.nearest = distance;
+  memory.last = visitor.kept_at;
+  memory.free = free_within(unseen, distance, rounding);
   work += visitor.work;
-  if (visitor.kept_at == nowhere || !(std::sqrt(visitor.best.squared_distance) <= reach)) return std::nullopt;
+  if (visitor.kept_at == nowhere) return std::nullopt;
+  if (!is_certain(distance, reach, error)) {
+    const double least_error = distance_error(bounds_, center);
+    if (!is_certain_on(parts_.triangles[visitor.kept_at], distance, center, reach, least_error))
+      return nearest_tie(center, distance, reach, least_error, work);
+  }
+  if (distance > reach) return std::nullopt;
   return contact_at(parts_.triangles[visitor.kept_at], center,
                     {visitor.offset, visitor.best.squared_distance}, id(visitor.best.index));
+}
+
+std::optional<Contact> SphereTree::nearest_tie(const Vec3& center, double distance, double reach,
+                                               double error, Work& work) const noexcept {
+  return nearest_of_ties(center, distance, reach, error, ids_, work.exact_decisions,
+                         [&](double within, const auto& visit) {
+                           TieVisitor<std::decay_t<decltype(visit)>> visitor{
+                               parts_, center, frame_.limit(within * within), visit};
+                           descend(frame_.point(center), visitor);
+                           work += visitor.work;
+                         });
+}
+
+/// Where the hierarchy does not serve.
+std::optional<Contact> SphereTree::nearest_without(const Vec3& center, double reach,
+                                                   Work& work) const noexcept {
+  work.triangles += parts_.triangles.size();
+  return nearest_of_all(parts_.triangles, bounds_, center, reach, ids_, work.exact_decisions);
 }
 
 std::size_t SphereTree::bytes() const noexcept {

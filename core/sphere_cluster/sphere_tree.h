@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/detector.h"
+#include "core/geometry/aabb.h"
 #include "core/geometry/plane_filter.h"
 #include "core/geometry/point_triangle.h"
 #include "core/sphere_cluster/clustering.h"
@@ -45,10 +46,15 @@ class SphereTree {
   bool can_search(const Vec3& center) const noexcept { return searchable_ && frame_.covers(center); }
   void claim(Memory& memory) const noexcept;
   double slack(const Vec3& center) const noexcept;
-  double free_within(float unseen, double shown, const Vec3& center) const noexcept;
+  static double error_from(double slack) noexcept;
+  double free_within(float unseen, double shown, double slack) const noexcept;
   bool surely_free(const Vec3& center, double reach, const Memory& memory) const noexcept;
   /// From a point of the mesh's frame to another, in the tree's, at least.
   float way(const Vec3& from, const Vec3& to, const FilterPoint& at) const noexcept;
+
+  std::optional<Contact> nearest_tie(const Vec3& center, double distance, double reach, double error,
+                                     Work& work) const noexcept;
+  std::optional<Contact> nearest_without(const Vec3& center, double reach, Work& work) const noexcept;
 
   // Visitors: see sphere_tree_search.h.
   template <class Visitor>
@@ -65,6 +71,7 @@ class SphereTree {
   std::uint64_t number_ = 0;  ///< of this tree and its copies
   bool avx2_ = false;
   bool searchable_ = false;  ///< else the mesh does not fit the frame, and every triangle is looked at
+  Aabb bounds_;
   FilterFrame frame_;
   double radius_ = 0;  ///< half the mesh's diagonal
   double grain_ = 0;   ///< the mean radius of a block

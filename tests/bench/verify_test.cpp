@@ -283,6 +283,13 @@ TEST_F(Threshold, OfTheRoundingKindIsUnresolvedForAKernelInDouble) {
   EXPECT_EQ(counts(tally_of(0.5, 0.5 - 1e-13, true, exact)), Counts{.false_contacts = 1});
 }
 
+TEST_F(Threshold, IsNotExcusedForOneThatDecidesExactly) {
+  Accuracy certain = {Guarantee::exact, 0, 1e-3, true};
+  EXPECT_EQ(counts(tally_of(0.5, std::nextafter(0.5, 0), true, certain)), Counts{.false_contacts = 1});
+  EXPECT_EQ(counts(tally_of(0.5, 0.5, false, certain)), Counts{.missed = 1});
+  EXPECT_EQ(counts(tally_of(0.5, 0.5, true, certain)), Counts{});
+}
+
 TEST_F(Threshold, AtInfinityIsNeverUnresolved) {
   EXPECT_EQ(counts(tally_of(0.5, infinity, false, {Guarantee::exact, 0, 1e3})), Counts{.missed = 1});
 }

@@ -145,7 +145,7 @@ TEST(GridGroupScan, TestsEveryGroupAndThenTheTrianglesOfThoseThatHoldTheProbe) {
       GridGroup::build(testing::plate(16), {.shape = Shape::cube, .lookup = Lookup::scan, .cell = 0.53});
   ASSERT_EQ(detector.groups(), 4u);
   GridGroup::Session session;
-  EXPECT_TRUE(detector.nearest({{0.2, 0.2, 0}, 0}, 0, session));
+  EXPECT_TRUE(detector.nearest({{0.2, 0.2, 0.01}, 0}, 0.02, session));
   EXPECT_EQ(session.work.cells, 4u);
   EXPECT_GE(session.work.triangles, 8u * 8u * 2u);
   EXPECT_LE(session.work.triangles, 9u * 9u * 2u);

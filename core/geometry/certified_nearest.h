@@ -1,0 +1,126 @@
+/// How a search that compares distances in double still decides exactly, at the price of two comparisons.
+///
+/// distance_error bounds what any computed distance of a query may be off by, either way: 256 u M, M the
+/// largest coordinate difference between the centre and the mesh's box; five times what the kernel's analysis
+/// gives. It is a function of mesh and centre alone, so that all detectors draw the same line. Then:
+///
+/// - Whoever looks for triangles within `reach` looks within reach + error. A triangle whose true distance is
+///   at most the reach has a computed one of at most that, so no exact answer is lost to culling.
+/// - `touches` decides triangle by triangle: where the computed distance is farther than the error from the
+///   radius it decides, else whole numbers do. Some triangle touches exactly if one of those says so.
+/// - `nearest` keeps the triangle of the least computed distance, d. Every true distance is at least
+///   d - error / 2 and this one's at most d + error / 2; so where d and the reach are farther apart than the
+///   error, d decides whether any triangle is within reach, although another one may be nearer by a rounding.
+///   Where they are not, or where d is within the error of zero but not negligible, a true nearest one is
+///   among those whose computed distance is at most d + error. Of these the exactly nearest is found,
+///   the first of the mesh where several are, and it alone is compared with the reach.
+///
+/// So the reported distance is within 16 u M, M now of the nearest triangle: there is a step from the edge to
+/// the face and a slide along an edge, each across the offset, in the kernel's error of 48 u M. Where the
+/// distance d is above 200 u M these matter by half their square over d only, less than 5 u M. What is left
+/// is
+/// - over the face: the difference to the nearer corner, the normal's components (rounded, then divided by
+///   their norm) and their products come to |w_k n_k| (5 - 2 n_k^2) u each, the first sum to |x + y| u, the
+///   norm and the second sum to 3.5 |h| u; at w_k = M this is greatest along the diagonal: 14.8 u M. (The
+///   square root of a square is exact.)
+/// - beside an edge: (1 + 2 cos + 3.5 sin) u |w| <= 5.1 sqrt(3) u M, and those 5;
+/// - off a corner: 3.5 sqrt(3) u M.
+/// Two searches may find different triangles, but both distances are within this of the true least one.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "core/geometry/aabb.h"
+#include "core/geometry/exact_decision.h"
+#include "core/geometry/point_triangle.h"
+#include "core/probe.h"
+
+namespace touchmark {
+
+/// The largest coordinate difference between the point and the box's corners.
+inline double largest_difference(const Aabb& box, const Vec3& point) noexcept {
+  return (point - box.min).cwiseAbs().cwiseMax((point - box.max).cwiseAbs()).maxCoeff();
+}
+
+/// See above. Infinite where fourth powers of the differences leave the range of double and nothing is known
+/// of the kernel's results: below 2^-132, above 2^232, or no number; there, ask nearest_of_all.
+inline double distance_error(double largest_difference) noexcept {
+  constexpr double roundings = 256 * (std::numeric_limits<double>::epsilon() / 2);
+  constexpr double underflow = 0x1p-200;
+  const bool known = largest_difference >= 0x1p-132 && largest_difference <= 0x1p232;
+  return known ? roundings * largest_difference + underflow : std::numeric_limits<double>::infinity();
+}
+inline double distance_error(const Aabb& bounds, const Vec3& center) noexcept {
+  return distance_error(largest_difference(bounds, center));
+}
+
+/// Does the least computed distance decide, and is it good enough to be reported? A quick look; where it says
+/// no, is_certain_on may still say yes.
+inline bool is_certain(double distance, double reach, double error) noexcept {
+  return distance > error && std::abs(distance - reach) > error;
+}
+
+/// The same with regard to the triangle of that distance: on it but for rounding, below 8 u M, the distance
+/// is good as it is. The true one is not negative, and that of this triangle not above 15 u M.
+inline bool is_certain_on(const PreparedTriangle& triangle, double distance, const Vec3& center, double reach,
+                          double error) noexcept {
+  if (!(std::abs(distance - reach) > error)) return false;
+  double largest = 0;
+  for (const Vec3& corner : triangle.corner)
+    largest = std::max(largest, (center - corner).cwiseAbs().maxCoeff());
+  constexpr double roundings = 8 * (std::numeric_limits<double>::epsilon() / 2);
+  return distance > error || distance <= roundings * largest;
+}
+
+/// Is this triangle, at this computed distance, within the radius? Exact.
+inline bool is_within(const PreparedTriangle& triangle, double distance, const Vec3& center, double radius,
+                      double error, std::uint64_t& exact_decisions) noexcept {
+  if (std::abs(distance - radius) > error) return distance < radius;
+  ++exact_decisions;
+  return within_exactly(triangle.corner, center, radius);
+}
+
+/// The exactly nearest of the triangles shown.
+class NearestOfTies {
+ public:
+  explicit NearestOfTies(const Vec3& center) noexcept : center_(center) {}
+
+  void consider(const PreparedTriangle& triangle) noexcept;
+  /// Nothing when even that one is beyond the reach. `ids` by the mesh's order, empty where they are the
+  /// same.
+  std::optional<Contact> contact(double reach, std::span<const TriangleId> ids) const noexcept;
+
+ private:
+  Vec3 center_;
+  const PreparedTriangle* nearest_ = nullptr;
+  ExactFoot foot_;
+};
+
+/// What `nearest` answers where is_certain says no. for_each_near(limit, visit) calls visit(triangle) for
+/// every triangle whose computed distance is at most the limit, and for others as it pleases.
+template <class ForEachNear>
+[[gnu::noinline, gnu::cold]] std::optional<Contact> nearest_of_ties(
+    const Vec3& center, double distance, double reach, double error, std::span<const TriangleId> ids,
+    std::uint64_t& exact_decisions, const ForEachNear& for_each_near) noexcept {
+  ++exact_decisions;
+  const double limit = distance + error;
+  NearestOfTies ties(center);
+  for_each_near(limit, [&](const PreparedTriangle& triangle) {
+    if (std::sqrt(squared_distance(triangle, center)) <= limit) ties.consider(triangle);
+  });
+  return ties.contact(reach, ids);
+}
+
+/// The same answer by a look at every triangle, for any finite numbers: where distance_error is infinite they
+/// are measured as scaled by a power of two. `bounds` are the triangles'; nothing for a centre that is not
+/// finite.
+std::optional<Contact> nearest_of_all(std::span<const PreparedTriangle> triangles, const Aabb& bounds,
+                                      const Vec3& center, double reach, std::span<const TriangleId> ids,
+                                      std::uint64_t& exact_decisions) noexcept;
+
+}  // namespace touchmark

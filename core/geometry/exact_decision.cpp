@@ -1,0 +1,203 @@
+#include "core/geometry/exact_decision.h"
+
+#include <algorithm>
+#include <bit>
+#include <climits>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/geometry/exact_integer.h"
+
+namespace touchmark {
+namespace {
+
+using exact::Integer;
+using exact::Scaled;
+using exact::Vector;
+
+/// |x| == mantissa * 2^exponent, the mantissa odd or zero.
+struct Parts {
+  std::uint64_t mantissa;
+  int exponent;
+
+  explicit Parts(double x) noexcept {
+    constexpr int digits = 52, bias = 1075;
+    const auto bits = std::bit_cast<std::uint64_t>(x);
+    const auto biased = static_cast<int>(bits >> digits & 0x7ff);
+    mantissa = (bits & ((std::uint64_t{1} << digits) - 1)) | (biased > 0 ? std::uint64_t{1} << digits : 0);
+    const int zeros = mantissa == 0 ? 0 : std::countr_zero(mantissa);
+    mantissa >>= zeros;
+    exponent = std::max(biased, 1) - bias + zeros;
+  }
+};
+
+/// The coarsest power of two of which every number put in is a multiple.
+class Grid {
+ public:
+  Grid(const TriangleCorners& triangle, const Vec3& point) noexcept {
+    add(triangle);
+    add(point);
+  }
+  void add(double x) noexcept {
+    if (x != 0) exponent_ = std::min(exponent_, Parts(x).exponent);
+  }
+  void add(const Vec3& v) noexcept {
+    for (const double x : {v.x(), v.y(), v.z()}) add(x);
+  }
+  void add(const TriangleCorners& triangle) noexcept {
+    for (const Vec3& corner : triangle) add(corner);
+  }
+
+  /// 0 where only zeros were put in.
+  int exponent() const noexcept { return exponent_ == INT_MAX ? 0 : exponent_; }
+  Integer<1> operator()(double x) const noexcept {
+    if (x == 0) return {};
+    const Parts parts(x);
+    return Integer<1>::of(parts.mantissa, static_cast<unsigned>(parts.exponent - exponent()), x < 0);
+  }
+  Vector<1> operator()(const Vec3& v) const noexcept {
+    return {(*this)(v.x()), (*this)(v.y()), (*this)(v.z())};
+  }
+
+ private:
+  int exponent_ = INT_MAX;
+};
+
+/// A point of the triangle, in grid units: seen from the query point it is at way * along / across, and the
+/// square of its distance is numerator / denominator.
+struct Foot {
+  Integer<6> numerator;
+  Integer<4> denominator;
+  Vector<3> way;
+  Integer<3> along;
+  Integer<4> across;
+};
+
+std::strong_ordering compare(const Foot& a, const Foot& b) noexcept {
+  return a.numerator * b.denominator <=> b.numerator * a.denominator;
+}
+
+Foot at_corner(const Vector<1>& w) noexcept {
+  const auto one = Integer<1>::one();
+  return {dot(w, w), one, {w[0], w[1], w[2]}, one, one};
+}
+
+/// On the segment from w to v. One of no length is its corner.
+Foot on_segment(const Vector<1>& w, const Vector<1>& v) noexcept {
+  const Vector<1> edge = v - w;
+  const Integer<2> squared = dot(edge, edge), along = -dot(w, edge);
+  if (along.sign() <= 0) return at_corner(w);
+  if (along >= squared) return at_corner(v);
+  const Vector<2> moment = cross(w, edge);
+  Vector<3> way;
+  for (std::size_t k = 0; k < 3; ++k) way[k] = w[k] * squared + edge[k] * along;
+  return {dot(moment, moment), squared, way, Integer<1>::one(), squared};
+}
+
+/// The nearest point of the triangle whose corners, seen from the query point, are at w.
+Foot nearest_foot(const std::array<Vector<1>, 3>& w) noexcept {
+  const Vector<2> normal = cross(w[1] - w[0], w[2] - w[0]);
+  bool over_face = !is_zero(normal);
+  // The normal of side ij in the plane, (w_j - w_i) x (0 - w_i), is w_i x w_j.
+  for (std::size_t i = 0; i < 3 && over_face; ++i)
+    over_face = dot(cross(w[i], w[(i + 1) % 3]), normal).sign() >= 0;
+  if (over_face) {
+    const Integer<3> height = dot(w[0], normal);
+    const Integer<4> squared = dot(normal, normal);
+    return {height * height, squared, {normal[0], normal[1], normal[2]}, height, squared};
+  }
+  Foot best = on_segment(w[0], w[1]);
+  for (std::size_t i = 1; i < 3; ++i) {
+    const Foot other = on_segment(w[i], w[(i + 1) % 3]);
+    if (compare(other, best) < 0) best = other;
+  }
+  return best;
+}
+
+Foot nearest_foot(const Grid& grid, const TriangleCorners& triangle, const Vec3& point) noexcept {
+  const Vector<1> origin = grid(point);
+  return nearest_foot({grid(triangle[0]) - origin, grid(triangle[1]) - origin, grid(triangle[2]) - origin});
+}
+
+/// Square root of a quotient, in units of 2^exponent.
+DoubleDouble root(const Scaled& numerator, const Scaled& denominator, int exponent) noexcept {
+  Scaled square = numerator / denominator;
+  if (!(square.fraction.high > 0)) return {};
+  if (square.exponent % 2 != 0) {
+    square.fraction = square.fraction + square.fraction;
+    --square.exponent;
+  }
+  // One step of Newton's method from the root in double.
+  const double first = std::sqrt(square.fraction.high);
+  const DoubleDouble rest = square.fraction - two_product(first, first);
+  const DoubleDouble fraction = two_sum(first, rest.high / (2 * first));
+  const int scale = square.exponent / 2 + exponent;
+  const double high = std::ldexp(fraction.high, scale);
+  return {high, std::isinf(high) ? 0 : std::ldexp(fraction.low, scale)};
+}
+
+/// Unit, or zero: of any magnitude.
+Vec3 unit(const std::array<Scaled, 3>& v) noexcept {
+  int most = INT_MIN;
+  for (const Scaled& x : v)
+    if (x.fraction.high != 0) most = std::max(most, x.exponent);
+  if (most == INT_MIN) return Vec3::Zero();
+  Vec3 result;
+  for (std::size_t k = 0; k < 3; ++k)
+    result[static_cast<Eigen::Index>(k)] = std::ldexp(v[k].fraction.rounded(), v[k].exponent - most);
+  return result.normalized();
+}
+
+template <int degree>
+std::array<Scaled, 3> scaled(const Vector<degree>& v) noexcept {
+  return {v[0].scaled(), v[1].scaled(), v[2].scaled()};
+}
+
+bool all_finite(const TriangleCorners& triangle, const Vec3& point) noexcept {
+  return point.allFinite() && triangle[0].allFinite() && triangle[1].allFinite() && triangle[2].allFinite();
+}
+
+}  // namespace
+
+bool within_exactly(const TriangleCorners& triangle, const Vec3& point, double radius) noexcept {
+  if (!(radius >= 0) || !all_finite(triangle, point)) return false;
+  if (std::isinf(radius)) return true;
+  Grid grid(triangle, point);
+  grid.add(radius);
+  const Foot foot = nearest_foot(grid, triangle, point);
+  const Integer<1> r = grid(radius);
+  return foot.numerator <= r * r * foot.denominator;
+}
+
+std::strong_ordering compare_exactly(const TriangleCorners& a, const TriangleCorners& b,
+                                     const Vec3& point) noexcept {
+  Grid grid(a, point);
+  grid.add(b);
+  return compare(nearest_foot(grid, a, point), nearest_foot(grid, b, point));
+}
+
+ExactFoot foot_exactly(const TriangleCorners& triangle, const Vec3& point) noexcept {
+  const Grid grid(triangle, point);
+  const Foot foot = nearest_foot(grid, triangle, point);
+  ExactFoot result;
+  result.distance = root(foot.numerator.scaled(), foot.denominator.scaled(), grid.exponent());
+  if (foot.numerator.sign() == 0) return result;
+  const std::array<Scaled, 3> way = scaled(foot.way);
+  const Scaled part = foot.along.scaled() / foot.across.scaled();
+  for (std::size_t k = 0; k < 3; ++k) {
+    Scaled towards = way[k] * part;
+    towards.exponent += grid.exponent();
+    result.offset[static_cast<Eigen::Index>(k)] = -towards.rounded();
+  }
+  result.direction = foot.along.sign() > 0 ? Vec3(-unit(way)) : unit(way);
+  return result;
+}
+
+Vec3 normal_exactly(const TriangleCorners& triangle) noexcept {
+  const Grid grid(triangle, triangle[0]);
+  const Vector<1> origin = grid(triangle[0]);
+  return unit(scaled(cross(grid(triangle[1]) - origin, grid(triangle[2]) - origin)));
+}
+
+}  // namespace touchmark

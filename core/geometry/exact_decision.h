@@ -1,0 +1,40 @@
+/// Point-triangle distances of the numbers as they are stored: nothing rounds until the result is known.
+///
+/// Every decision is a comparison of whole numbers (exact_integer.h), so any finite doubles will do, denormal
+/// and huge ones alike, and needles, caps and triangles without area. No memory is taken. A call takes about
+/// a microsecond for numbers of one magnitude and up to a hundred where they span the whole range of double:
+/// for what the kernel of point_triangle.h leaves open.
+#pragma once
+
+#include <array>
+#include <compare>
+
+#include "core/geometry/double_double.h"
+#include "core/probe.h"
+
+namespace touchmark {
+
+using TriangleCorners = std::array<Vec3, 3>;
+
+/// Is the distance at most the radius? Exact. False when a coordinate is not finite or the radius not at
+/// least 0; the radius may be infinite.
+bool within_exactly(const TriangleCorners& triangle, const Vec3& point, double radius) noexcept;
+
+/// How the distances to two triangles compare. Exact, for finite coordinates.
+std::strong_ordering compare_exactly(const TriangleCorners& a, const TriangleCorners& b,
+                                     const Vec3& point) noexcept;
+
+/// The nearest point of a triangle, rounded at the end.
+struct ExactFoot {
+  DoubleDouble distance;          ///< within 2^-98 of it; infinite beyond all doubles
+  Vec3 offset = Vec3::Zero();     ///< from the foot to the point; each coordinate within one ulp
+  Vec3 direction = Vec3::Zero();  ///< the same, unit; zero where the distance is exactly 0
+};
+/// Finite coordinates.
+ExactFoot foot_exactly(const TriangleCorners& triangle, const Vec3& point) noexcept;
+
+/// The unit normal, counter-clockwise, each coordinate within a few ulp; zero when the corners are exactly
+/// collinear. Finite coordinates.
+Vec3 normal_exactly(const TriangleCorners& triangle) noexcept;
+
+}  // namespace touchmark
