@@ -9,13 +9,6 @@
 namespace touchmark::bench {
 namespace {
 
-std::string csv_line(const std::vector<std::string>& cells) {
-  std::vector<std::string> fields;
-  fields.reserve(cells.size());
-  for (const std::string& cell : cells) fields.push_back(csv_field(cell));
-  return fmt::format("{}\n", fmt::join(fields, ","));
-}
-
 std::string markdown_line(const std::vector<std::string>& cells) {
   return fmt::format("| {} |\n", fmt::join(cells, " | "));
 }
