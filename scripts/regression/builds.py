@@ -69,6 +69,12 @@ def core_of(commit):
     return hashlib.sha256(" ".join(parts).encode()).hexdigest()[:16]
 
 
+def is_unchanged_since(commit):
+    """Is what is judged of this tree, with what is not committed, what it was in the commit?"""
+    return (git("diff", "--quiet", commit, "--", *JUDGED, check=False) is not None
+            and not git("status", "--porcelain", "--untracked-files=all", "--", *JUDGED))
+
+
 def extracted(commit, folder):
     """The tree of the commit in folder/source, left alone where it is already."""
     stamp, source = folder / "revision", folder / "source"

@@ -286,6 +286,14 @@ class Revisions(unittest.TestCase):
         (self.root / "core" / "a.h").write_text("four")
         self.assertIn("uncommitted", builds.head_revision().text)
 
+    def test_what_changed_is_what_is_judged(self):
+        self.assertTrue(builds.is_unchanged_since(self.commits[2]))
+        self.assertFalse(builds.is_unchanged_since(self.commits[1]))
+        (self.root / "README.md").write_text("not judged")
+        self.assertTrue(builds.is_unchanged_since(self.commits[2]))
+        (self.root / "core" / "b.h").write_text("not committed")
+        self.assertFalse(builds.is_unchanged_since(self.commits[2]))
+
     def test_a_tree_is_unpacked_anew_only_for_another_core(self):
         folder = self.root.parent / "base"
         source = builds.extracted(self.commits[0], folder)
@@ -317,7 +325,7 @@ class Comparison(unittest.TestCase):
         self.regress.say = lambda text: None
         expectations.update_answers(self.regress.EXPECTED, measured(), "first")
 
-    def compare(self, head="head", base="base", answers=None, instructions=1.0, truths=({},), **options):
+    def compare(self, head="head", base="base", answers=None, instructions=1.0, truths=({},), unchanged=False, **options):
         """truths: what the rounds of each batch are made of. Returns the exit status and the record."""
         library = {"head": self.out / "head.so", "base": self.out / "base.so"}
         library["head"].write_text(head)
@@ -325,6 +333,7 @@ class Comparison(unittest.TestCase):
         fakes = self.regress.builds
         fakes.head_revision.side_effect = fakes.base_revision.side_effect = lambda *_: builds.Revision("c0ffee", "text")
         fakes.core_of.side_effect = lambda commit: "core of base"
+        fakes.is_unchanged_since.side_effect = lambda commit: unchanged
         fakes.extracted.side_effect = fakes.synchronised.side_effect = lambda *_: None
 
         def plugin(source, folder, driver=False):
@@ -356,6 +365,10 @@ class Comparison(unittest.TestCase):
 
     def test_the_same_bits_are_not_timed(self):
         status, record = self.compare(head="same", base="same", truths=())
+        self.assertEqual((status, record["same_build"]), (0, True))
+
+    def test_a_base_with_the_same_core_is_not_built(self):
+        status, record = self.compare(base=None, unchanged=True, truths=())
         self.assertEqual((status, record["same_build"]), (0, True))
 
     def test_a_slowdown_fails_after_two_batches(self):
