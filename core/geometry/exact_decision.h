@@ -1,9 +1,9 @@
 /// Point-triangle distances of the numbers as they are stored: nothing rounds until the result is known.
 ///
 /// Every decision is a comparison of whole numbers (exact_integer.h), so any finite doubles will do, denormal
-/// and huge ones alike, and needles, caps and triangles without area. No memory is taken. A call takes about
-/// a microsecond for numbers of one magnitude and up to a hundred where they span the whole range of double:
-/// for what the kernel of point_triangle.h leaves open.
+/// and huge ones alike, and needles, caps and triangles without area. No memory is taken. A call takes
+/// hundreds of times as long as the kernel of point_triangle.h, more where the numbers span the whole range
+/// of double: it is for what the kernel leaves open.
 #pragma once
 
 #include <array>
