@@ -4,17 +4,11 @@
 #include <cmath>
 #include <span>
 
+#include "bench/median.h"
 #include "bench/windows.h"
 
 namespace touchmark::bench {
 namespace {
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2 == 1) return *middle;
-  return (*middle + *std::max_element(values.begin(), middle)) / 2;
-}
 
 double median_absolute_deviation(std::vector<double> values) {
   const double center = median(values);

@@ -17,11 +17,6 @@ struct Order {
   Measurement measurement = nullptr;
 };
 
-/// Fisher and Yates, with our own arithmetic: std::shuffle differs between libraries.
-void shuffle(std::vector<Order>& orders, Random random) {
-  for (std::size_t i = orders.size(); i > 1; --i) std::swap(orders[i - 1], orders[random.below(i)]);
-}
-
 std::vector<Order> orders_for(std::size_t cases, const Effort& effort) {
   std::vector<Order> orders;
   for (std::size_t which = 0; which < cases; ++which) {
@@ -66,7 +61,7 @@ std::vector<ResultRow> Comparison::run(std::size_t course, Query query) {
 
 void Comparison::measure(std::deque<Case>& cases, const std::string& trajectory, std::uint64_t seed) {
   std::vector<Order> orders = orders_for(cases.size(), effort_);
-  shuffle(orders, Random(seed));
+  Random(seed).shuffle(orders);
   for (const Order& order : orders) {
     check_for_interrupt();
     Case& one = cases[order.which];

@@ -4,8 +4,11 @@
 #include <charconv>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <system_error>
+
+#include <fmt/format.h>
 
 namespace touchmark::bench {
 
@@ -21,6 +24,19 @@ inline std::optional<double> parse_number(std::string_view text) noexcept {
 inline std::optional<std::uint64_t> parse_count(std::string_view text) noexcept {
   std::uint64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+/// A hash or a checksum as it stands in files: 16 hexadecimal digits.
+inline std::string hex(std::uint64_t value) { return fmt::format("{:016x}", value); }
+inline bool is_hex(std::string_view text) noexcept {
+  return text.size() == 16 && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+/// The whole text as a hexadecimal number, of any number of digits.
+inline std::optional<std::uint64_t> parse_hex(std::string_view text) noexcept {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
   if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
   return value;
 }

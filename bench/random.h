@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <random>
+#include <utility>
 
 #include "core/probe.h"
 
@@ -20,6 +21,11 @@ class Random {
   double between(double low, double high) { return low + unit() * (high - low); }
   /// Uniform in 0..count-1; the bias of the remainder is below count / 2^64.
   std::size_t below(std::size_t count) { return static_cast<std::size_t>(bits_() % count); }
+  /// Fisher and Yates, with our own arithmetic: std::shuffle differs between libraries.
+  template <class Range>
+  void shuffle(Range& range) {
+    for (std::size_t i = range.size(); i > 1; --i) std::swap(range[i - 1], range[below(i)]);
+  }
 
   /// Uniform on the unit sphere, by rejection: no sine that libraries round differently.
   Vec3 direction() {

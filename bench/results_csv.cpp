@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/numbers.h"
 #include "bench/query_name.h"
 
 namespace touchmark::bench {
@@ -115,8 +116,7 @@ constexpr std::array columns{
     Column{"wrong_normal", count_of<&Tally::wrong_normal>},
     Column{"malformed", count_of<&Tally::malformed>},
     Column{"cpu_ns_per_query", throughput_of<&ThroughputResult::cpu_ns_per_query>},
-    Column{"answers_checksum",
-           [](Row row) { return row.checksum ? fmt::format("{:016x}", *row.checksum) : ""; }},
+    Column{"answers_checksum", [](Row row) { return row.checksum ? hex(*row.checksum) : ""; }},
 };
 
 }  // namespace

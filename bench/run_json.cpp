@@ -9,6 +9,7 @@
 
 #include "bench/build_info.h"
 #include "bench/content_hash.h"
+#include "bench/numbers.h"
 #include "bench/query_name.h"
 #include "bench/results_csv.h"
 #include "bench/tick_clock.h"
@@ -32,7 +33,7 @@ Json mesh_json(const Workload& workload) {
           {"vertices", workload.mesh.vertices().size()},
           {"triangles", workload.mesh.size()},
           {"diagonal", workload.mesh.diagonal()},
-          {"fnv1a", fmt::format("{:016x}", hash_of(workload.mesh))}};
+          {"fnv1a", hex(hash_of(workload.mesh))}};
 }
 
 Json trajectories_json(const Workload& workload) {

@@ -10,6 +10,7 @@
 #include <sched.h>
 
 #include "bench/content_hash.h"
+#include "bench/numbers.h"
 
 namespace touchmark::bench {
 namespace {
@@ -58,7 +59,7 @@ std::string machine_fingerprint() {
   hash.add(std::string_view(id));
   hash.add(std::string_view(info.cpu_model));
   hash.add(static_cast<double>(info.cores));
-  return fmt::format("{:016x}", hash.value());
+  return hex(hash.value());
 }
 
 std::optional<int> core_for_workers() {

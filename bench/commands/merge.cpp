@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "bench/atomic_file.h"
+#include "bench/numbers.h"
 #include "bench/program.h"
 #include "bench/results_csv.h"
 #include "bench/sweep/merged.h"
@@ -26,11 +27,7 @@ struct Options {
   bool accuracy_only = false;
 };
 
-bool is_job_file(const fs::path& path) {
-  const std::string stem = path.stem().string();
-  return path.extension() == ".json" && stem.size() == 16 &&
-         stem.find_first_not_of("0123456789abcdef") == std::string::npos;
-}
+bool is_job_file(const fs::path& path) { return path.extension() == ".json" && is_hex(path.stem().string()); }
 
 std::vector<FoundJob> jobs_of(const std::vector<std::string>& folders) {
   std::vector<FoundJob> jobs;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
@@ -53,11 +52,9 @@ class Record {
     return *value;
   }
   std::uint64_t hash(const std::string& column) const {
-    const std::string& hex = text(column);
-    std::uint64_t value = 0;
-    const auto [end, error] = std::from_chars(hex.data(), hex.data() + hex.size(), value, 16);
-    if (error != std::errc{} || end != hex.data() + hex.size()) refuse(column, "a hexadecimal number");
-    return value;
+    const std::optional<std::uint64_t> value = parse_hex(text(column));
+    if (!value) refuse(column, "a hexadecimal number");
+    return *value;
   }
   [[noreturn]] void refuse(const std::string& column, const char* expected) const {
     throw reader_.error(fmt::format("{} \"{}\" is not {}", column, text(column), expected));
@@ -90,13 +87,12 @@ BaselineRow row_of(const Record& record) {
 
 std::string line_of(const BaselineRow& row) {
   const GateKey& key = row.key;
-  return csv_line(
-      {key.mesh, key.trajectory, key.query, key.detector, key.reference,
-       fmt::format("{:016x}", row.mesh_hash), fmt::format("{:016x}", row.course_hash),
-       fmt::format("{}", row.steps), fmt::format("{:.6g}", row.ratio.ratio),
-       fmt::format("{:.6g}", row.ratio.low), fmt::format("{:.6g}", row.ratio.high),
-       row.work ? fmt::format("{}", row.work->mean) : "", row.work ? fmt::format("{}", row.work->max) : "",
-       row.checksum ? fmt::format("{:016x}", *row.checksum) : "", row.version, row.commit, row.cpu});
+  return csv_line({key.mesh, key.trajectory, key.query, key.detector, key.reference, hex(row.mesh_hash),
+                   hex(row.course_hash), fmt::format("{}", row.steps), fmt::format("{:.6g}", row.ratio.ratio),
+                   fmt::format("{:.6g}", row.ratio.low), fmt::format("{:.6g}", row.ratio.high),
+                   row.work ? fmt::format("{}", row.work->mean) : "",
+                   row.work ? fmt::format("{}", row.work->max) : "", row.checksum ? hex(*row.checksum) : "",
+                   row.version, row.commit, row.cpu});
 }
 
 }  // namespace

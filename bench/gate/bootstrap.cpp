@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "bench/papers/interleaved_timing.h"
+#include "bench/median.h"
 #include "bench/random.h"
 
 namespace touchmark::bench {

@@ -45,16 +45,14 @@ std::string gate_csv(const std::vector<GateLine>& lines, double tolerance) {
       "control_high,batches,tolerance,answers,verdict\n";
   for (const GateLine& line : lines) {
     const auto& [ratio, control] = line.judgement.batch;
-    for (const std::string& field :
-         {line.key.mesh, line.key.trajectory, line.key.query, line.key.detector, line.key.reference}) {
-      csv += csv_field(field) + ",";
-    }
-    csv += line.baseline ? fmt::format("{:.6g},", line.baseline->ratio) : ",";
-    csv += line.judgement.batches == 0 ? ",,,,,"
-                                       : fmt::format("{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},", ratio.ratio,
-                                                     ratio.low, ratio.high, control.low, control.high);
-    csv += fmt::format("{},{},{},{}\n", line.judgement.batches, tolerance, csv_field(line.answers),
-                       line.verdict);
+    const auto measured = [&](double value) {
+      return line.judgement.batches == 0 ? "" : fmt::format("{:.6g}", value);
+    };
+    csv += csv_line({line.key.mesh, line.key.trajectory, line.key.query, line.key.detector,
+                     line.key.reference, line.baseline ? fmt::format("{:.6g}", line.baseline->ratio) : "",
+                     measured(ratio.ratio), measured(ratio.low), measured(ratio.high), measured(control.low),
+                     measured(control.high), std::to_string(line.judgement.batches),
+                     fmt::format("{}", tolerance), line.answers, line.verdict});
   }
   return csv;
 }

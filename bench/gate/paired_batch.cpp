@@ -134,7 +134,7 @@ Batch PairedBatches::measure() {
   Random random(seed_++);
   std::array<std::size_t, 3> order{0, 1, 2};
   for (std::size_t round = 0; round < effort_.rounds; ++round) {
-    for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
+    random.shuffle(order);
     for (const std::size_t which : order) {
       check_for_interrupt();
       contenders[which].turn();

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <numeric>
 #include <utility>
 
 #include "bench/interrupt.h"
 #include "bench/latency.h"
+#include "bench/median.h"
+#include "bench/processor_time.h"
 #include "bench/random.h"
 
 namespace touchmark::bench {
@@ -16,25 +17,11 @@ namespace {
 std::vector<std::size_t> shuffled(std::size_t count, Random& random) {
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
-  for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
+  random.shuffle(order);
   return order;
 }
 
-/// What this thread has had of the processor: what others took of a shared one does not count.
-double processor_ns() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1e9 * static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec);
-}
-
 }  // namespace
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
-}
 
 InterleavedTiming::InterleavedTiming(std::span<const Step> steps, Query query, std::uint64_t seed)
     : course_{query, steps}, seed_(seed) {}

@@ -61,7 +61,4 @@ class InterleavedTiming {
   std::vector<Entry> entries_;
 };
 
-/// Median: the mean of the two in the middle of an even number. 0 of nothing.
-double median(std::vector<double> values);
-
 }  // namespace touchmark::bench

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/median.h"
 #include "bench/papers/paper_report.h"
 #include "bench/papers/park_jang.h"
 

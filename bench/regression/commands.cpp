@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <ctime>
 #include <stdexcept>
 #include <string_view>
 
@@ -17,6 +16,7 @@
 
 #include "bench/atomic_file.h"
 #include "bench/failures.h"
+#include "bench/processor_time.h"
 #include "bench/random.h"
 #include "bench/regression/cases.h"
 #include "bench/regression/plugin_library.h"
@@ -24,13 +24,6 @@
 
 namespace touchmark::bench::regression {
 namespace {
-
-/// Without what other processes took of the core.
-double processor_ns() {
-  timespec time = {};
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) * 1e9 + static_cast<double>(time.tv_nsec);
-}
 
 std::string answers_row(const PluginLibrary& plugin, Workloads& workloads, const Case& asked) {
   const std::string start = fmt::format("\"{}\",{:d},", asked.name(), asked.needs_file());
@@ -107,7 +100,7 @@ class Sitting {
  private:
   std::array<std::size_t, 3> random_order() {
     std::array<std::size_t, 3> order = {0, 1, 2};
-    for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random_.below(i)]);
+    random_.shuffle(order);
     return order;
   }
 

@@ -46,12 +46,7 @@ JobResult read_job(const std::string& path) {
   static const JsonSchema form(form_of_jobs());
   Faults faults;
   const std::optional<LocatedJson> document = read_located_json(path, faults);
-  if (document) {
-    for (const SchemaFault& fault : form.check(document->value)) {
-      faults.push_back({path, document->line_of(fault.pointer), fault.pointer.empty() ? "/" : fault.pointer,
-                        fault.value, fault.wrong});
-    }
-  }
+  if (document) form.check(path, *document, faults);
   if (!faults.empty()) throw std::invalid_argument(line_of(faults.front()) + " (not a finished job)");
   const nlohmann::json& job = document->value;
   JobResult result{job.at("id"), job.at("machine"), job.at("run"), {}};

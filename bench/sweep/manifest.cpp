@@ -1,12 +1,12 @@
 #include "bench/sweep/manifest.h"
 
-#include <charconv>
 #include <stdexcept>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "bench/content_hash.h"
+#include "bench/numbers.h"
 #include "bench/query_name.h"
 #include "bench/system_info.h"
 #include "bench/validation/json_schema.h"
@@ -45,13 +45,7 @@ constexpr const char* manifest_form = R"({
       }}}
   }})";
 
-std::string hex(std::uint64_t value) { return fmt::format("{:016x}", value); }
-
-std::uint64_t from_hex(const std::string& text) {
-  std::uint64_t value = 0;
-  std::from_chars(text.data(), text.data() + text.size(), value, 16);
-  return value;
-}
+std::uint64_t hash_in(const nlohmann::json& json) { return parse_hex(json.get<std::string>()).value(); }
 
 Json json_of(const SweepScene& scene) {
   Json jobs = Json::array();
@@ -73,9 +67,9 @@ SweepScene scene_of(const nlohmann::json& json) {
   SweepScene scene;
   scene.mesh = json.at("mesh");
   scene.normalize = json.at("normalize");
-  scene.mesh_hash = from_hex(json.at("mesh_fnv1a"));
+  scene.mesh_hash = hash_in(json.at("mesh_fnv1a"));
   scene.trajectory = json.at("trajectory");
-  scene.course_hash = from_hex(json.at("course_fnv1a"));
+  scene.course_hash = hash_in(json.at("course_fnv1a"));
   scene.steps = json.at("steps");
   scene.seed = json.at("seed");
   scene.radius = json.at("radius");
@@ -83,14 +77,6 @@ SweepScene scene_of(const nlohmann::json& json) {
   scene.query = query_named(json.at("query").get<std::string>()).value();
   for (const nlohmann::json& job : json.at("jobs")) scene.jobs.push_back({job.at("id"), job.at("detector")});
   return scene;
-}
-
-void expect_form(const std::string& path, const LocatedJson& document, Faults& faults) {
-  static const JsonSchema form(nlohmann::json::parse(manifest_form));
-  for (const SchemaFault& fault : form.check(document.value)) {
-    faults.push_back({path, document.line_of(fault.pointer), fault.pointer.empty() ? "/" : fault.pointer,
-                      fault.value, fault.wrong});
-  }
 }
 
 }  // namespace
@@ -103,9 +89,10 @@ std::string Manifest::json() const {
 }
 
 Manifest Manifest::read(const std::string& path) {
+  static const JsonSchema form(nlohmann::json::parse(manifest_form));
   Faults faults;
   const std::optional<LocatedJson> document = read_located_json(path, faults);
-  if (document) expect_form(path, *document, faults);
+  if (document) form.check(path, *document, faults);
   if (!faults.empty()) throw std::invalid_argument(line_of(faults.front()));
   Manifest manifest{document->value.at("version"), document->value.at("effort"), {}};
   for (const nlohmann::json& scene : document->value.at("scenes")) manifest.scenes.push_back(scene_of(scene));

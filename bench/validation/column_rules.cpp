@@ -34,10 +34,6 @@ bool is_guarantee(std::string_view text) {
   return text == "exact" || text == "conservative" || text == "approximate";
 }
 
-bool is_checksum(std::string_view text) {
-  return text.size() == 16 && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
-}
-
 /// "key=value,key=value".
 bool is_options(std::string_view text) {
   while (!text.empty()) {
@@ -66,6 +62,12 @@ constexpr std::string_view time = "is not a finite number above 0";
 constexpr ColumnRule counted(std::string_view name, Presence presence) {
   return {name, presence, &is_count, count};
 }
+constexpr ColumnRule measured(std::string_view name, Presence presence) {
+  return {name, presence, &is_finite, amount};
+}
+constexpr ColumnRule ranged(std::string_view name, Presence presence) {
+  return {name, presence, &is_length, length};
+}
 constexpr ColumnRule text(std::string_view name) { return {name, Presence::always, &is_anything, ""}; }
 constexpr ColumnRule clocked(std::string_view name) { return {name, Presence::timed, &is_above_zero, time}; }
 
@@ -79,50 +81,50 @@ constexpr std::array rules{
     text("trajectory"),
     ColumnRule{"query", Presence::always, &is_query, "is not one of touches, nearest, sweep"},
     counted("steps", Presence::always),
-    ColumnRule{"radius", Presence::always, &is_length, length},
-    ColumnRule{"reach", Presence::always, &is_length, length},
+    ranged("radius", Presence::always),
+    ranged("reach", Presence::always),
     ColumnRule{"guarantee", Presence::judged, &is_guarantee,
                "is not one of exact, conservative, approximate"},
     counted("missed", Presence::judged),
     counted("false_contacts", Presence::judged),
     counted("wrong_triangle", Presence::judged),
-    ColumnRule{"max_distance_error", Presence::judged, &is_length, length},
-    ColumnRule{"max_distance_error_ulp", Presence::judged, &is_length, length},
+    ranged("max_distance_error", Presence::judged),
+    ranged("max_distance_error_ulp", Presence::judged),
     ColumnRule{"max_normal_angle_deg", Presence::judged, &is_angle, "is not an angle from 0 to 180"},
     counted("unresolved", Presence::judged),
     ColumnRule{"status", Presence::always, &is_status,
                "is not ok, unsupported, timeout, checksum mismatch, refused: WHY or crashed:HOW"},
     clocked("ns_per_query"),
-    ColumnRule{"ns_p50", Presence::timed, &is_finite, amount},
-    ColumnRule{"ns_p90", Presence::timed, &is_finite, amount},
-    ColumnRule{"ns_p99", Presence::timed, &is_finite, amount},
-    ColumnRule{"ns_p999", Presence::timed, &is_finite, amount},
-    ColumnRule{"ns_max", Presence::timed, &is_finite, amount},
+    measured("ns_p50", Presence::timed),
+    measured("ns_p90", Presence::timed),
+    measured("ns_p99", Presence::timed),
+    measured("ns_p999", Presence::timed),
+    measured("ns_max", Presence::timed),
     clocked("update_rate_hz"),
     counted("deadline_misses_1khz", Presence::timed),
     counted("longest_miss_run_1khz", Presence::timed),
-    ColumnRule{"build_ms", Presence::built, &is_finite, amount},
-    ColumnRule{"first_answer_ms", Presence::built, &is_finite, amount},
+    measured("build_ms", Presence::built),
+    measured("first_answer_ms", Presence::built),
     counted("bytes", Presence::judged),
     counted("heap_bytes", Presence::built),
-    ColumnRule{"work_mean", Presence::optional, &is_finite, amount},
+    measured("work_mean", Presence::optional),
     counted("work_max", Presence::optional),
     counted("repetitions", Presence::timed),
     clocked("ns_per_query_min"),
-    ColumnRule{"ns_per_query_mad", Presence::timed, &is_finite, amount},
+    measured("ns_per_query_mad", Presence::timed),
     clocked("ns_per_query_first_pass"),
     counted("deadline_misses_4khz", Presence::timed),
     counted("longest_miss_run_4khz", Presence::timed),
     counted("deadline_misses_10khz", Presence::timed),
     counted("longest_miss_run_10khz", Presence::timed),
-    ColumnRule{"clock_cost_ns", Presence::timed, &is_finite, amount},
-    ColumnRule{"max_distance_error_of_diagonal", Presence::judged, &is_length, length},
+    measured("clock_cost_ns", Presence::timed),
+    ranged("max_distance_error_of_diagonal", Presence::judged),
     counted("beyond_bound", Presence::judged),
     counted("wrong_point", Presence::judged),
     counted("wrong_normal", Presence::judged),
     counted("malformed", Presence::judged),
-    ColumnRule{"cpu_ns_per_query", Presence::timed, &is_finite, amount},
-    ColumnRule{"answers_checksum", Presence::judged, &is_checksum, "is not 16 hexadecimal digits"},
+    measured("cpu_ns_per_query", Presence::timed),
+    ColumnRule{"answers_checksum", Presence::judged, &is_hex, "is not 16 hexadecimal digits"},
 };
 
 }  // namespace

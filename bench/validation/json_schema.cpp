@@ -187,4 +187,11 @@ std::vector<SchemaFault> JsonSchema::check(const nlohmann::json& document) const
   return faults;
 }
 
+void JsonSchema::check(const std::string& path, const LocatedJson& document, Faults& faults) const {
+  for (const SchemaFault& fault : check(document.value)) {
+    faults.push_back({path, document.line_of(fault.pointer), fault.pointer.empty() ? "/" : fault.pointer,
+                      fault.value, fault.wrong});
+  }
+}
+
 }  // namespace touchmark::bench

@@ -6,6 +6,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bench/validation/fault.h"
+#include "bench/validation/located_json.h"
+
 namespace touchmark::bench {
 
 struct SchemaFault {
@@ -20,6 +23,8 @@ class JsonSchema {
   explicit JsonSchema(nlohmann::json schema);
 
   std::vector<SchemaFault> check(const nlohmann::json& document) const;
+  /// The same as faults of the file that the document was read from.
+  void check(const std::string& path, const LocatedJson& document, Faults& faults) const;
 
  private:
   nlohmann::json schema_;

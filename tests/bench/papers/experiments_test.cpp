@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/interrupt.h"
+#include "bench/median.h"
 #include "bench/papers/choi_sung.h"
 #include "bench/papers/choi_sung_report.h"
 #include "bench/papers/choi_sung_scores.h"
