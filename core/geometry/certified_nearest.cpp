@@ -10,16 +10,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Equal where double-doubles can't tell.
-std::partial_ordering surely(const DoubleDouble& a, const DoubleDouble& b) noexcept {
-  const double larger = std::max(a.high, b.high);
-  // Below, their lower halves underflow.
-  if (!(larger > 0x1p-900 && larger < infinity)) return std::partial_ordering::equivalent;
-  const double difference = (a.high - b.high) + (a.low - b.low);
-  if (std::abs(difference) > 0x1p-96 * larger) return difference <=> 0;
-  return std::partial_ordering::equivalent;
-}
-
 /// A power of two that brings the difference near 1, or as near as the range of doubles lets it.
 double scale_for(double difference) noexcept {
   constexpr int most = 1000;
@@ -30,8 +20,8 @@ double scale_for(double difference) noexcept {
 
 /// By kernel distances of a copy scaled by a power of two.
 std::optional<Contact> nearest_at_any_scale(std::span<const PreparedTriangle> triangles, const Aabb& bounds,
-                                            const Vec3& center, double reach,
-                                            std::span<const TriangleId> ids) noexcept {
+                                            const Vec3& center, double reach, std::span<const TriangleId> ids,
+                                            std::uint64_t& exact_decisions) noexcept {
   const double scale = scale_for(largest_difference(bounds, center));
   const Vec3 point = scale * center;
   const auto distance_to = [&](const PreparedTriangle& t) {
@@ -45,32 +35,54 @@ std::optional<Contact> nearest_at_any_scale(std::span<const PreparedTriangle> tr
   NearestOfTies ties(center);
   for (const PreparedTriangle& triangle : triangles)
     if (distance_to(triangle) <= limit) ties.consider(triangle);
-  return ties.contact(reach, ids);
+  return ties.contact(reach, ids, exact_decisions);
 }
 
 }  // namespace
 
+CloseFoot NearestOfTies::foot_of(const PreparedTriangle& triangle) noexcept {
+  if (const std::optional<CloseFoot> close = close_foot(triangle.corner, center_)) return *close;
+  exactly_ = true;
+  return {foot_exactly(triangle.corner, center_), std::nullopt};
+}
+
 void NearestOfTies::consider(const PreparedTriangle& triangle) noexcept {
   if (&triangle == nearest_) return;
-  const ExactFoot foot = foot_exactly(triangle.corner, center_);
+  const CloseFoot foot = foot_of(triangle);
   if (nearest_ != nullptr) {
-    std::partial_ordering order = surely(foot.distance, foot_.distance);
-    if (order == 0) order = compare_exactly(triangle.corner, nearest_->corner, center_);
+    std::partial_ordering order = compare(foot.foot, foot_.foot);
+    if (order == std::partial_ordering::unordered) {
+      if (on_same_feature(foot, foot_)) {
+        order = std::partial_ordering::equivalent;
+      } else {
+        order = compare_exactly(triangle.corner, nearest_->corner, center_);
+        exactly_ = true;
+      }
+    }
     if (order > 0 || (order == 0 && triangle.index > nearest_->index)) return;
   }
   nearest_ = &triangle;
   foot_ = foot;
 }
 
-std::optional<Contact> NearestOfTies::contact(double reach, std::span<const TriangleId> ids) const noexcept {
+bool NearestOfTies::is_within(double reach) noexcept {
+  if (std::isinf(reach)) return true;
+  const std::partial_ordering order = compare(foot_.foot, {.distance = {reach, 0}});
+  if (order != std::partial_ordering::unordered) return order <= 0;
+  exactly_ = true;
+  return within_exactly(nearest_->corner, center_, reach);
+}
+
+std::optional<Contact> NearestOfTies::contact(double reach, std::span<const TriangleId> ids,
+                                              std::uint64_t& exact_decisions) noexcept {
   if (nearest_ == nullptr) return std::nullopt;
-  if (reach < infinity) {
-    const std::partial_ordering order = surely(foot_.distance, {reach, 0});
-    if (order > 0 || (order == 0 && !within_exactly(nearest_->corner, center_, reach))) return std::nullopt;
-  }
-  const bool coincident = foot_.direction.isZero(0);
-  return Contact{center_ - foot_.offset, coincident ? face_normal(*nearest_) : foot_.direction,
-                 std::min(foot_.distance.rounded(), reach),
+  const bool within = is_within(reach);
+  if (exactly_) ++exact_decisions;
+  if (!within) return std::nullopt;
+  const Foot& foot = foot_.foot;
+  const bool coincident = foot.direction.isZero(0);
+  return Contact{center_ - foot.offset, coincident ? face_normal(*nearest_) : foot.direction,
+                 std::min(foot.distance.rounded(), reach),
                  ids.empty() ? nearest_->index : ids[nearest_->index]};
 }
 
@@ -80,8 +92,7 @@ std::optional<Contact> nearest_of_all(std::span<const PreparedTriangle> triangle
   if (!center.allFinite() || !(reach >= 0)) return std::nullopt;
   const double error = distance_error(bounds, center);
   if (std::isinf(error)) {
-    ++exact_decisions;
-    return nearest_at_any_scale(triangles, bounds, center, reach, ids);
+    return nearest_at_any_scale(triangles, bounds, center, reach, ids, exact_decisions);
   }
   Candidate best;
   const PreparedTriangle* nearest = nullptr;

@@ -36,6 +36,7 @@
 #include <span>
 
 #include "core/geometry/aabb.h"
+#include "core/geometry/close_foot.h"
 #include "core/geometry/exact_decision.h"
 #include "core/geometry/point_triangle.h"
 #include "core/probe.h"
@@ -85,20 +86,25 @@ inline bool is_within(const PreparedTriangle& triangle, double distance, const V
   return within_exactly(triangle.corner, center, radius);
 }
 
-/// The exactly nearest of the triangles shown.
+/// The exactly nearest of the triangles shown: by double-doubles, by whole numbers where these do not tell.
 class NearestOfTies {
  public:
   explicit NearestOfTies(const Vec3& center) noexcept : center_(center) {}
 
   void consider(const PreparedTriangle& triangle) noexcept;
   /// Nothing when even that one is beyond the reach. `ids` by the mesh's order, empty where they are the
-  /// same.
-  std::optional<Contact> contact(double reach, std::span<const TriangleId> ids) const noexcept;
+  /// same. Counts one decision if any took whole numbers.
+  std::optional<Contact> contact(double reach, std::span<const TriangleId> ids,
+                                 std::uint64_t& exact_decisions) noexcept;
 
  private:
+  CloseFoot foot_of(const PreparedTriangle& triangle) noexcept;
+  bool is_within(double reach) noexcept;
+
   Vec3 center_;
   const PreparedTriangle* nearest_ = nullptr;
-  ExactFoot foot_;
+  CloseFoot foot_;
+  bool exactly_ = false;
 };
 
 /// What `nearest` answers where is_certain says no. for_each_near(limit, visit) calls visit(triangle) for
@@ -107,13 +113,12 @@ template <class ForEachNear>
 [[gnu::noinline, gnu::cold]] std::optional<Contact> nearest_of_ties(
     const Vec3& center, double distance, double reach, double error, std::span<const TriangleId> ids,
     std::uint64_t& exact_decisions, const ForEachNear& for_each_near) noexcept {
-  ++exact_decisions;
   const double limit = distance + error;
   NearestOfTies ties(center);
   for_each_near(limit, [&](const PreparedTriangle& triangle) {
     if (std::sqrt(squared_distance(triangle, center)) <= limit) ties.consider(triangle);
   });
-  return ties.contact(reach, ids);
+  return ties.contact(reach, ids, exact_decisions);
 }
 
 /// The same answer by a look at every triangle, for any finite numbers: where distance_error is infinite they

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "core/geometry/exact_integer.h"
 
@@ -66,7 +67,7 @@ class Grid {
 
 /// A point of the triangle, in grid units: seen from the query point it is at way * along / across, and the
 /// square of its distance is numerator / denominator.
-struct Foot {
+struct ExactFoot {
   Integer<6> numerator;
   Integer<4> denominator;
   Vector<3> way;
@@ -74,17 +75,17 @@ struct Foot {
   Integer<4> across;
 };
 
-std::strong_ordering compare(const Foot& a, const Foot& b) noexcept {
+std::strong_ordering compare(const ExactFoot& a, const ExactFoot& b) noexcept {
   return a.numerator * b.denominator <=> b.numerator * a.denominator;
 }
 
-Foot at_corner(const Vector<1>& w) noexcept {
+ExactFoot at_corner(const Vector<1>& w) noexcept {
   const auto one = Integer<1>::one();
   return {dot(w, w), one, {w[0], w[1], w[2]}, one, one};
 }
 
 /// On the segment from w to v. One of no length is its corner.
-Foot on_segment(const Vector<1>& w, const Vector<1>& v) noexcept {
+ExactFoot on_segment(const Vector<1>& w, const Vector<1>& v) noexcept {
   const Vector<1> edge = v - w;
   const Integer<2> squared = dot(edge, edge), along = -dot(w, edge);
   if (along.sign() <= 0) return at_corner(w);
@@ -96,7 +97,7 @@ Foot on_segment(const Vector<1>& w, const Vector<1>& v) noexcept {
 }
 
 /// The nearest point of the triangle whose corners, seen from the query point, are at w.
-Foot nearest_foot(const std::array<Vector<1>, 3>& w) noexcept {
+ExactFoot nearest_foot(const std::array<Vector<1>, 3>& w) noexcept {
   const Vector<2> normal = cross(w[1] - w[0], w[2] - w[0]);
   bool over_face = !is_zero(normal);
   // The normal of side ij in the plane, (w_j - w_i) x (0 - w_i), is w_i x w_j.
@@ -107,15 +108,15 @@ Foot nearest_foot(const std::array<Vector<1>, 3>& w) noexcept {
     const Integer<4> squared = dot(normal, normal);
     return {height * height, squared, {normal[0], normal[1], normal[2]}, height, squared};
   }
-  Foot best = on_segment(w[0], w[1]);
+  ExactFoot best = on_segment(w[0], w[1]);
   for (std::size_t i = 1; i < 3; ++i) {
-    const Foot other = on_segment(w[i], w[(i + 1) % 3]);
+    const ExactFoot other = on_segment(w[i], w[(i + 1) % 3]);
     if (compare(other, best) < 0) best = other;
   }
   return best;
 }
 
-Foot nearest_foot(const Grid& grid, const TriangleCorners& triangle, const Vec3& point) noexcept {
+ExactFoot nearest_foot(const Grid& grid, const TriangleCorners& triangle, const Vec3& point) noexcept {
   const Vector<1> origin = grid(point);
   return nearest_foot({grid(triangle[0]) - origin, grid(triangle[1]) - origin, grid(triangle[2]) - origin});
 }
@@ -154,6 +155,12 @@ std::array<Scaled, 3> scaled(const Vector<degree>& v) noexcept {
   return {v[0].scaled(), v[1].scaled(), v[2].scaled()};
 }
 
+/// Of a distance to 98 bits. Where its lower half underflows, or it is beyond all doubles, nothing is known.
+double error_of(double distance) noexcept {
+  const bool known = distance > 0x1p-900 && !std::isinf(distance);
+  return known ? 0x1p-97 * distance : std::numeric_limits<double>::infinity();
+}
+
 bool all_finite(const TriangleCorners& triangle, const Vec3& point) noexcept {
   return point.allFinite() && triangle[0].allFinite() && triangle[1].allFinite() && triangle[2].allFinite();
 }
@@ -165,7 +172,7 @@ bool within_exactly(const TriangleCorners& triangle, const Vec3& point, double r
   if (std::isinf(radius)) return true;
   Grid grid(triangle, point);
   grid.add(radius);
-  const Foot foot = nearest_foot(grid, triangle, point);
+  const ExactFoot foot = nearest_foot(grid, triangle, point);
   const Integer<1> r = grid(radius);
   return foot.numerator <= r * r * foot.denominator;
 }
@@ -177,11 +184,20 @@ std::strong_ordering compare_exactly(const TriangleCorners& a, const TriangleCor
   return compare(nearest_foot(grid, a, point), nearest_foot(grid, b, point));
 }
 
-ExactFoot foot_exactly(const TriangleCorners& triangle, const Vec3& point) noexcept {
+std::partial_ordering compare(const Foot& a, const Foot& b) noexcept {
+  const double error = a.error + b.error;
+  // Where one is infinite so is its error, and the difference may be no number.
+  if (std::isinf(error)) return std::partial_ordering::unordered;
+  const double difference = (a.distance.high - b.distance.high) + (a.distance.low - b.distance.low);
+  return std::abs(difference) > error ? difference <=> 0 : std::partial_ordering::unordered;
+}
+
+Foot foot_exactly(const TriangleCorners& triangle, const Vec3& point) noexcept {
   const Grid grid(triangle, point);
-  const Foot foot = nearest_foot(grid, triangle, point);
-  ExactFoot result;
+  const ExactFoot foot = nearest_foot(grid, triangle, point);
+  Foot result;
   result.distance = root(foot.numerator.scaled(), foot.denominator.scaled(), grid.exponent());
+  result.error = error_of(result.distance.high);
   if (foot.numerator.sign() == 0) return result;
   const std::array<Scaled, 3> way = scaled(foot.way);
   const Scaled part = foot.along.scaled() / foot.across.scaled();

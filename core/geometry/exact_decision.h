@@ -24,14 +24,20 @@ bool within_exactly(const TriangleCorners& triangle, const Vec3& point, double r
 std::strong_ordering compare_exactly(const TriangleCorners& a, const TriangleCorners& b,
                                      const Vec3& point) noexcept;
 
-/// The nearest point of a triangle, rounded at the end.
-struct ExactFoot {
-  DoubleDouble distance;          ///< within 2^-98 of it; infinite beyond all doubles
-  Vec3 offset = Vec3::Zero();     ///< from the foot to the point; each coordinate within one ulp
-  Vec3 direction = Vec3::Zero();  ///< the same, unit; zero where the distance is exactly 0
+/// The nearest point of a triangle to a point.
+struct Foot {
+  DoubleDouble distance;          ///< infinite beyond all doubles
+  double error = 0;               ///< bound of the distance's; infinite where none is known
+  Vec3 offset = Vec3::Zero();     ///< from the foot to the point
+  Vec3 direction = Vec3::Zero();  ///< the same, unit; zero where the distance is 0
 };
-/// Finite coordinates.
-ExactFoot foot_exactly(const TriangleCorners& triangle, const Vec3& point) noexcept;
+
+/// How the distances compare; unordered where their errors do not tell.
+std::partial_ordering compare(const Foot& a, const Foot& b) noexcept;
+
+/// Rounded at the end: the distance within 2^-98 of it where both halves of it are normal, each coordinate of
+/// the offset within one ulp, the direction zero only where the distance is exactly 0. Finite coordinates.
+Foot foot_exactly(const TriangleCorners& triangle, const Vec3& point) noexcept;
 
 /// The unit normal, counter-clockwise, each coordinate within a few ulp; zero when the corners are exactly
 /// collinear. Finite coordinates.

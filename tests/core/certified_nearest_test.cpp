@@ -148,7 +148,8 @@ TEST(CertifiedNearest, AtTheVeryDistanceTheExactlyNearestOfManyIsFound) {
     const auto contact = detector.nearest({point, 0}, reach, session);
     ASSERT_TRUE(contact);
     EXPECT_EQ(contact->triangle, truth.triangle) << i;
-    EXPECT_EQ(contact->distance, truth.high) << i;
+    EXPECT_NEAR(contact->distance, truth.high, 0x1p-52 * truth.high + 0x1p-59 * truth.largest_difference)
+        << i;
   }
 }
 
@@ -161,9 +162,34 @@ TEST(CertifiedNearest, OnTheSurfaceButForRoundingNeedsNoExactDecision) {
     ASSERT_TRUE(contact);
     EXPECT_NEAR(contact->distance, std::abs(height), 16 * unit_roundoff * 2.4);
   }
-  EXPECT_EQ(session.work.exact_decisions, 0U);
   detector.nearest({{1.3, 2.4, 1e-14}, 0}, 0.5, session);
+  EXPECT_EQ(session.work.exact_decisions, 0U);
+  detector.nearest({{1.3, 2.4, 1e-14}, 0}, 1e-14, session);
   EXPECT_EQ(session.work.exact_decisions, 1U);
+}
+
+/// Sheared, so that no point is exactly as far from two faces.
+TriangleMesh lopsided_octasphere() {
+  const TriangleMesh sphere = octasphere(12);
+  std::vector<Vec3> vertices(sphere.vertices().begin(), sphere.vertices().end());
+  for (Vec3& v : vertices) v += Vec3(0.3 * v.y(), 0.2 * v.z(), 0);
+  return {std::move(vertices), {sphere.triangles().begin(), sphere.triangles().end()}};
+}
+
+TEST(CertifiedNearest, OnAnEdgeButForRoundingNeedsNoExactDecision) {
+  const TriangleMesh mesh = lopsided_octasphere();
+  const AabbTree detector = AabbTree::build(mesh);
+  AabbTree::Session session;
+  HardCases hard(73);
+  for (int i = 0; i < 10000; ++i) {
+    const auto t = static_cast<std::uint32_t>(hard.below(mesh.size()));
+    const double part = hard.fraction();
+    const Vec3 point = (1 - part) * mesh.corner(t, 0) + part * mesh.corner(t, 1);
+    const auto contact = detector.nearest({point, 0}, 0.5, session);
+    ASSERT_TRUE(contact);
+    ASSERT_LE(contact->distance, 16 * unit_roundoff) << i;
+  }
+  EXPECT_EQ(session.work.exact_decisions, 0U);
 }
 
 TEST(CertifiedNearest, AProbeThatSlidesNeedsNoExactDecision) {

@@ -4,10 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <ostream>
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -24,26 +21,21 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double largest = std::numeric_limits<double>::max();
 constexpr double smallest = std::numeric_limits<double>::denorm_min();
 
-struct Case {
-  Corners triangle;
-  Vec3 point;
-};
-
 /// The distance, rounded, an ulp to each side, and what is far from it.
 std::vector<double> radii(double distance) {
   return {distance, std::nextafter(distance, 0.0), std::nextafter(distance, infinity), 0, 2 * distance,
           infinity};
 }
 
-bool within_by_oracle(const Case& c, double radius) {
+bool within_by_oracle(const HardCase& c, double radius) {
   return radius >= 0 && bench::compare_distance(c.point, c.triangle, radius) <= 0;
 }
 
-void expect_oracle_agrees(const Case& c) {
+void expect_oracle_agrees(const HardCase& c) {
   const bench::ExactNearest truth = bench::nearest_exactly(c.point, {&c.triangle, 1});
   for (const double radius : radii(std::min(truth.high, largest)))
     ASSERT_EQ(within_exactly(c.triangle, c.point, radius), within_by_oracle(c, radius)) << radius;
-  const ExactFoot foot = foot_exactly(c.triangle, c.point);
+  const Foot foot = foot_exactly(c.triangle, c.point);
   ASSERT_EQ(foot.distance.high, truth.high);
   if (std::isinf(truth.high)) return;
   if (truth.high > 1e-250) {
@@ -57,36 +49,23 @@ void expect_oracle_agrees(const Case& c) {
   }
 }
 
-struct Family {
-  std::string name;
-  std::function<Corners(HardCases&)> triangle;
-};
-
-void PrintTo(const Family& family, std::ostream* out) { *out << family.name; }
-
-class ExactDecision : public testing::TestWithParam<Family> {};
+class ExactDecision : public testing::TestWithParam<HardFamily> {};
 
 TEST_P(ExactDecision, IsTheOracles) {
   HardCases hard(60);
   for (int i = 0; i < 4000; ++i) {
-    Case c{GetParam().triangle(hard), Vec3::Zero()};
-    c.point = i % 3 == 0 ? hard.point_over(c.triangle) : hard.point_about(c.triangle);
-    const double scale = i % 4 == 1 ? hard.magnitude(-9, 9) : 1;
-    const Vec3 offset = i % 4 == 2 ? Vec3(hard.magnitude(0, 9) * hard.vector()) : Vec3::Zero();
-    for (Vec3* v : {&c.triangle[0], &c.triangle[1], &c.triangle[2], &c.point}) *v = scale * *v + offset;
-    ASSERT_NO_FATAL_FAILURE(expect_oracle_agrees(c)) << "case " << i;
+    ASSERT_NO_FATAL_FAILURE(expect_oracle_agrees(placed(GetParam(), hard, i))) << "case " << i;
   }
 }
 
 TEST_P(ExactDecision, IsTheOraclesWhereverInTheRangeOfDouble) {
   HardCases hard(61);
   for (int i = 0; i < 1000; ++i) {
-    Case c{GetParam().triangle(hard), Vec3::Zero()};
+    HardCase c{GetParam().triangle(hard), Vec3::Zero()};
     c.point = hard.point_about(c.triangle);
     // At either end, or each corner at a size of its own.
     const double common = i % 3 == 0 ? 0x1p1000 : 0x1p-1060;
-    for (Vec3* v : {&c.triangle[0], &c.triangle[1], &c.triangle[2], &c.point})
-      *v *= i % 3 == 2 ? hard.magnitude(-300, 300) : common;
+    for (Vec3* v : c.vectors()) *v *= i % 3 == 2 ? hard.magnitude(-300, 300) : common;
     ASSERT_NO_FATAL_FAILURE(expect_oracle_agrees(c)) << "case " << i;
   }
 }
@@ -108,13 +87,8 @@ TEST_P(ExactDecision, OrdersTrianglesAsTheOracleDoes) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Families, ExactDecision,
-    testing::Values(Family{"needles", &HardCases::needle}, Family{"caps", &HardCases::cap},
-                    Family{"nearly_none", &HardCases::nearly_none}, Family{"mixed_sides", &HardCases::mixed},
-                    Family{"collinear", &HardCases::collinear}, Family{"coincident", &HardCases::coincident},
-                    Family{"plain", &HardCases::plain}, Family{"lattice", &HardCases::on_lattice}),
-    [](const auto& family) { return family.param.name; });
+INSTANTIATE_TEST_SUITE_P(Families, ExactDecision, testing::ValuesIn(hard_families()),
+                         [](const auto& family) { return family.param.name; });
 
 TEST(ExactDecisions, TheWholeRangeOfDoubleAtOnce) {
   const Corners triangle = {Vec3(largest, smallest, 0), Vec3(-largest, largest, smallest),

@@ -1,0 +1,142 @@
+#include "core/geometry/close_foot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "core/geometry/double_double.h"
+
+namespace touchmark {
+namespace {
+
+// Below, m is the largest coordinate of the corners as seen from the point, and v = 2^-103 bounds the
+// relative error of a sum, difference or product of two double-doubles (Joldes, Muller & Popescu, "Tight and
+// rigorous error bounds for basic building blocks of double-word arithmetic", 2017: 3 u^2 and 5 u^2). The
+// differences of two doubles, so the corners and the edges, are exact.
+
+using Vector = std::array<DoubleDouble, 3>;
+using Corners = std::array<Vector, 3>;
+
+Vector difference(const Vec3& a, const Vec3& b) noexcept {
+  return {two_sum(a.x(), -b.x()), two_sum(a.y(), -b.y()), two_sum(a.z(), -b.z())};
+}
+
+DoubleDouble dot(const Vector& a, const Vector& b) noexcept {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Vector cross(const Vector& a, const Vector& b) noexcept {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+DoubleDouble root(DoubleDouble square) noexcept {
+  if (!(square.high > 0)) return {};
+  const double first = std::sqrt(square.high);
+  return two_sum(first, (square - two_product(first, first)).high / (2 * first));
+}
+
+CloseFoot at(const Vector& way, double error) noexcept {
+  CloseFoot close;
+  close.foot.distance = root(dot(way, way));
+  close.foot.error = error;
+  close.foot.offset = -Vec3(way[0].rounded(), way[1].rounded(), way[2].rounded());
+  if (close.foot.distance.high > 0) close.foot.direction = close.foot.offset.normalized();
+  return close;
+}
+
+CloseFoot at_corner(const Vector& w, const Vec3& corner, double m) noexcept {
+  CloseFoot close = at(w, 0x1p-98 * m);
+  close.feature = {corner, corner};
+  return close;
+}
+
+/// From corner p at w to corner q.
+std::optional<CloseFoot> on_segment(const Vec3& p, const Vec3& q, const Vector& w, const Vector& to_q,
+                                    double m) noexcept {
+  const Vector edge = difference(q, p);
+  const DoubleDouble squared = dot(edge, edge), along = -dot(w, edge);
+  // 16 m^2 v of error in the one, 32 m^2 v in the other.
+  const double uncertain = 0x1p-96 * m * m;
+  if (std::abs(along.high) <= uncertain) return std::nullopt;
+  if (along.high < 0) return at_corner(w, p, m);
+  const double beyond = (along - squared).high;
+  if (std::abs(beyond) <= uncertain) return std::nullopt;
+  if (beyond > 0) return at_corner(to_q, q, m);
+  const DoubleDouble part = along / squared;  // off by less than 2^-96 m^2 / |edge|^2
+  Vector way;
+  for (std::size_t k = 0; k < 3; ++k) way[k] = w[k] + edge[k] * part;
+  CloseFoot close = at(way, 0x1p-94 * m * (m / std::sqrt(squared.high)));
+  close.feature = {p, q};
+  return close;
+}
+
+CloseFoot on_face(const Vector& w, const Vector& normal, double m) noexcept {
+  const DoubleDouble squared = dot(normal, normal);
+  const DoubleDouble part = dot(w, normal) / squared;
+  Vector way;
+  for (std::size_t k = 0; k < 3; ++k) way[k] = normal[k] * part;
+  CloseFoot close = at(way, 0);
+  // With N = |normal| each coordinate of the way is off by 112 v m^3 / N for the height's error, and by
+  // 1472 v d (m^2 / N)^2 + 2^-101 d for the other factors' and the quotient's. N <= 12 m^2.
+  const double ratio = m * m / std::sqrt(squared.high);
+  close.foot.error = ratio * (0x1p-94 * m + 0x1p-90 * close.foot.distance.high * ratio);
+  return close;
+}
+
+enum class OverFace { yes, no, unknown };
+
+OverFace over_face(const Corners& w, const Vector& normal, double m) noexcept {
+  const double uncertain = 0x1p-93 * (m * m) * (m * m);  // 320 m^4 v of error
+  bool known = true;
+  for (std::size_t i = 0; i < 3; ++i) {
+    // The normal of the side in the plane, (w_j - w_i) x (0 - w_i), is w_i x w_j.
+    const double side = dot(cross(w[i], w[(i + 1) % 3]), normal).high;
+    if (side < -uncertain) return OverFace::no;
+    known = known && side > uncertain;
+  }
+  return known ? OverFace::yes : OverFace::unknown;
+}
+
+std::optional<CloseFoot> on_border(const TriangleCorners& triangle, const Corners& w, double m) noexcept {
+  std::optional<CloseFoot> best;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const std::optional<CloseFoot> other = on_segment(triangle[i], triangle[j], w[i], w[j], m);
+    if (!other) return std::nullopt;
+    if (!best) {
+      best = other;
+      continue;
+    }
+    const std::partial_ordering order = compare(other->foot, best->foot);
+    if (order == std::partial_ordering::unordered && !on_same_feature(*other, *best)) return std::nullopt;
+    if (order < 0) best = other;
+  }
+  return best;
+}
+
+}  // namespace
+
+std::optional<CloseFoot> close_foot(const TriangleCorners& triangle, const Vec3& point) noexcept {
+  double m = 0;
+  for (const Vec3& corner : triangle) m = std::max(m, (corner - point).cwiseAbs().maxCoeff());
+  // Otherwise fourth powers leave the range in which double-doubles keep both halves.
+  if (!(m >= 0x1p-132 && m <= 0x1p232)) return std::nullopt;
+  const Corners w = {difference(triangle[0], point), difference(triangle[1], point),
+                     difference(triangle[2], point)};
+  const Vector normal = cross(difference(triangle[1], triangle[0]), difference(triangle[2], triangle[0]));
+  const OverFace over = over_face(w, normal, m);
+  if (over == OverFace::unknown) return std::nullopt;
+  std::optional<CloseFoot> close =
+      over == OverFace::yes ? on_face(w[0], normal, m) : on_border(triangle, w, m);
+  if (close && !(close->foot.error <= 0x1p-60 * m)) return std::nullopt;
+  return close;
+}
+
+bool on_same_feature(const CloseFoot& a, const CloseFoot& b) noexcept {
+  if (!a.feature || !b.feature) return false;
+  const auto& [a_first, a_second] = *a.feature;
+  const auto& [b_first, b_second] = *b.feature;
+  return (a_first == b_first && a_second == b_second) || (a_first == b_second && a_second == b_first);
+}
+
+}  // namespace touchmark
