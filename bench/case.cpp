@@ -84,7 +84,7 @@ void Case::verify(Truths& truths) {
   attempt([&] {
     const Answered answered = process_.answer(task_);
     row_.checksum = answered.checksum;
-    row_.work = summarize_work(stage_.room().work(row_.steps));
+    row_.work = summarize_work(stage_.room().work(row_.steps), answered.work);
   });
   if (alive()) judge(truths);
 }

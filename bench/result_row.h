@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
@@ -30,13 +29,13 @@ struct ThroughputResult {
 struct WorkResult {
   double mean = 0;  ///< cells, spheres, boxes and triangles looked at, a step
   std::uint64_t max = 0;
+  Work total;  ///< over all steps, by kind
 };
 
-/// Of at least one step.
-inline WorkResult summarize_work(std::span<const std::uint64_t> work) {
-  const auto total = std::accumulate(work.begin(), work.end(), std::uint64_t{0});
-  return {static_cast<double>(total) / static_cast<double>(work.size()),
-          *std::max_element(work.begin(), work.end())};
+/// Of at least one step; `total` is by all of them.
+inline WorkResult summarize_work(std::span<const std::uint64_t> work, const Work& total) {
+  return {static_cast<double>(total.total()) / static_cast<double>(work.size()),
+          *std::max_element(work.begin(), work.end()), total};
 }
 
 /// Empty is what was not measured, because the contestant did not come so far.

@@ -60,6 +60,12 @@ std::string optional_count(const ResultRow& row) {
   return row.*Member ? fmt::format("{}", *(row.*Member)) : "";
 }
 
+template <auto Member>
+std::string work_of(const ResultRow& row) {
+  if (!row.work) return "";
+  return rounded(static_cast<double>(row.work->total.*Member) / static_cast<double>(row.steps));
+}
+
 using R = ResultRow;
 using Row = const ResultRow&;
 
@@ -117,6 +123,14 @@ constexpr std::array columns{
     Column{"malformed", count_of<&Tally::malformed>},
     Column{"cpu_ns_per_query", throughput_of<&ThroughputResult::cpu_ns_per_query>},
     Column{"answers_checksum", [](Row row) { return row.checksum ? hex(*row.checksum) : ""; }},
+    Column{"cells_mean", work_of<&Work::cells>},
+    Column{"spheres_mean", work_of<&Work::spheres>},
+    Column{"boxes_mean", work_of<&Work::boxes>},
+    Column{"triangles_mean", work_of<&Work::triangles>},
+    Column{"exact_decisions",
+           [](Row row) { return row.work ? fmt::format("{}", row.work->total.exact_decisions) : ""; }},
+    Column{"decides_exactly",
+           [](Row row) { return row.accuracy ? fmt::format("{:d}", row.accuracy->decides_exactly) : ""; }},
 };
 
 }  // namespace

@@ -175,7 +175,7 @@ nlohmann::json Worker::answer(const Task& task) {
   }
   Checksum checksum;
   for (const Answer& answer : room_->answers(steps)) checksum.add(answer);
-  return Answered{checksum.value()};
+  return Answered{checksum.value(), contestant_->work()};
 }
 
 nlohmann::json Worker::first_pass(const Task& task) {

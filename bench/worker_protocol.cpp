@@ -63,10 +63,20 @@ void from_json(const nlohmann::json& json, Built& built) {
   }
 }
 
-void to_json(nlohmann::json& json, const Answered& answered) { json = {{"checksum", answered.checksum}}; }
+void to_json(nlohmann::json& json, const Answered& answered) {
+  const Work& work = answered.work;
+  json = {{"checksum", answered.checksum}, {"cells", work.cells},
+          {"spheres", work.spheres},       {"boxes", work.boxes},
+          {"triangles", work.triangles},   {"exact_decisions", work.exact_decisions}};
+}
 
 void from_json(const nlohmann::json& json, Answered& answered) {
   json.at("checksum").get_to(answered.checksum);
+  json.at("cells").get_to(answered.work.cells);
+  json.at("spheres").get_to(answered.work.spheres);
+  json.at("boxes").get_to(answered.work.boxes);
+  json.at("triangles").get_to(answered.work.triangles);
+  json.at("exact_decisions").get_to(answered.work.exact_decisions);
 }
 
 void to_json(nlohmann::json& json, const Timed& timed) {

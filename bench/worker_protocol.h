@@ -46,6 +46,7 @@ struct Built {
 /// Reply to "answer": answers and work lie in the output room, from a fresh session.
 struct Answered {
   std::uint64_t checksum = 0;
+  Work work;  ///< of all steps
 };
 
 /// Reply to "first" (one step, fresh session), "calibrate", "first_pass" (fresh session), "time" and

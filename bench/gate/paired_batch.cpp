@@ -61,7 +61,7 @@ class PairedBatches::Contender {
     if (!keeps_its_word(truths.judge(windows, room.answers(count), accuracy_), accuracy_)) {
       fail("gives wrong answers (touchmark verify says which)");
     }
-    return {checksum_, summarize_work(room.work(count))};
+    return {checksum_, summarize_work(room.work(count), answered.work)};
   }
 
   /// One turn that is not counted tells how many passes a turn has.

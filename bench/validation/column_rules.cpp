@@ -30,6 +30,8 @@ bool is_angle(std::string_view text) {
   return is_finite(text) && *parse_number(text) <= 180 + rounding;
 }
 
+bool is_bit(std::string_view text) { return text == "0" || text == "1"; }
+
 bool is_guarantee(std::string_view text) {
   return text == "exact" || text == "conservative" || text == "approximate";
 }
@@ -125,6 +127,12 @@ constexpr std::array rules{
     counted("malformed", Presence::judged),
     measured("cpu_ns_per_query", Presence::timed),
     ColumnRule{"answers_checksum", Presence::judged, &is_hex, "is not 16 hexadecimal digits"},
+    measured("cells_mean", Presence::optional),
+    measured("spheres_mean", Presence::optional),
+    measured("boxes_mean", Presence::optional),
+    measured("triangles_mean", Presence::optional),
+    counted("exact_decisions", Presence::optional),
+    ColumnRule{"decides_exactly", Presence::judged, &is_bit, "is not 0 or 1"},
 };
 
 }  // namespace

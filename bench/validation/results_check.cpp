@@ -36,6 +36,10 @@ constexpr std::array ascending{
     std::pair{"deadline_misses_10khz", "steps"},
     std::pair{"build_ms", "first_answer_ms"},
     std::pair{"work_mean", "work_max"},
+    std::pair{"cells_mean", "work_mean"},
+    std::pair{"spheres_mean", "work_mean"},
+    std::pair{"boxes_mean", "work_mean"},
+    std::pair{"triangles_mean", "work_mean"},
 };
 
 bool is_ok(const CsvTable& table, const CsvRecord& record) { return table.field(record, "status") == "ok"; }

@@ -103,7 +103,7 @@ BaselineRow example() {
           7,
           500,
           {1.25, 1.2, 1.3},
-          WorkResult{25.5348, 199},
+          WorkResult{25.5348, 199, {}},
           0xfeb9b2fc58af4d3c,
           "0.1.0",
           "abc",
