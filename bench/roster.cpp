@@ -30,6 +30,10 @@ namespace {
 
 const Names<bool> yes_or_no{{"true", true}, {"false", false}};
 
+OptionInfo certified_option() {
+  return choice("certified", yes_or_no, "false: contact as doubles have it, to measure what certainty costs");
+}
+
 ContestantInfo brute_force() {
   ContestantInfo info;
   info.name = "brute-force";
@@ -46,9 +50,10 @@ ContestantInfo aabb_tree() {
   info.summary = "a plain binary tree of boxes in double precision: the reference";
   info.accuracy = "exact";
   info.queries = queries_of<AabbTree>();
-  info.options = {{"leaf_size", OptionKind::count, {}, "4", "triangles a leaf holds at most"}};
+  info.options = {{"leaf_size", OptionKind::count, {}, "4", "triangles a leaf holds at most"},
+                  certified_option()};
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
-    return contestant<AabbTree>(mesh, {values.count("leaf_size")});
+    return contestant<AabbTree>(mesh, {values.count("leaf_size"), chosen(values, "certified", yes_or_no)});
   };
   return info;
 }
@@ -68,7 +73,8 @@ ContestantInfo grid_group() {
       choice("shape", shapes, "of the groups; scan only"),
       {"cell", OptionKind::length, {}, "0", "edge of a cell, direct: of the smallest; 0: choose"},
       {"groups", OptionKind::count, {}, "0", "scan with cell=0: aim at so many groups; 0: choose"},
-      {"bytes_per_triangle", OptionKind::number, {}, "400", "direct: what the structure may take"}};
+      {"bytes_per_triangle", OptionKind::number, {}, "400", "direct: what the structure may take"},
+      certified_option()};
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
     GridGroup::Options options;
     options.lookup = chosen(values, "lookup", lookups);
@@ -76,6 +82,7 @@ ContestantInfo grid_group() {
     options.cell = values.length("cell", mesh);
     options.groups = values.count("groups");
     options.bytes_per_triangle = values.number("bytes_per_triangle");
+    options.certified = chosen(values, "certified", yes_or_no);
     return contestant<GridGroup>(mesh, options);
   };
   return info;

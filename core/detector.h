@@ -38,6 +38,9 @@ inline constexpr double kernel_relative_error = 48 * (std::numeric_limits<double
 inline constexpr Accuracy certified = {Guarantee::exact, 16 * (std::numeric_limits<double>::epsilon() / 2), 0,
                                        true};
 
+/// What the kernel alone makes of it: contact within rounding of the threshold is told either way.
+inline constexpr Accuracy uncertified = {Guarantee::exact, kernel_relative_error, 0, false};
+
 /// What a query looked at, counted up over the life of a session. The same probes in the same order give the
 /// same counts on every machine.
 struct Work {

@@ -150,6 +150,7 @@ AabbTree AabbTree::build(const TriangleMesh& mesh, const Options& options) {
     throw std::invalid_argument("the leaf size must be 1 to 255, not " + std::to_string(options.leaf_size));
   }
   AabbTree tree;
+  tree.certified_ = options.certified;
   tree.triangles_ = prepare(mesh);
   tree.ids_.assign(mesh.ids().begin(), mesh.ids().end());
   Builder(tree, options.leaf_size).build();
@@ -163,7 +164,7 @@ double AabbTree::lower_bound(const Aabb& box, const Vec3& center, double slack) 
 bool AabbTree::touches(const Probe& probe, Session& session) const noexcept {
   if (!(probe.radius >= 0)) return false;
   const double difference = largest_difference(bounds(), probe.center);
-  const double error = distance_error(difference), slack = culling_slack(difference);
+  const double error = certified_ ? distance_error(difference) : 0, slack = culling_slack(difference);
   if (std::isinf(error)) return nearest(probe, probe.radius, session).has_value();
   std::array<Waiting, most_levels> waiting;
   std::size_t count = 0;
@@ -175,7 +176,9 @@ bool AabbTree::touches(const Probe& probe, Session& session) const noexcept {
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       ++session.work.triangles;
       const double distance = std::sqrt(squared_distance(triangles_[i], probe.center));
-      if (is_within(triangles_[i], distance, probe.center, probe.radius, error, session.work.exact_decisions))
+      if (certified_ ? is_within(triangles_[i], distance, probe.center, probe.radius, error,
+                                 session.work.exact_decisions)
+                     : distance <= probe.radius)
         return true;
     }
     if (node.count > 0) continue;
@@ -193,7 +196,7 @@ std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Sessi
   const Vec3& center = probe.center;
   if (!(reach >= 0)) return std::nullopt;
   const double difference = largest_difference(bounds(), center);
-  const double error = distance_error(difference), slack = culling_slack(difference);
+  const double error = certified_ ? distance_error(difference) : 0, slack = culling_slack(difference);
   if (std::isinf(error)) {
     session.work.triangles += triangles_.size();
     return nearest_of_all(triangles_, bounds(), center, reach, ids_, session.work.exact_decisions);
@@ -231,7 +234,7 @@ std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Sessi
   if (best.index >= triangles_.size()) return std::nullopt;
   session.last = kept_at;
   const double distance = std::sqrt(best.squared_distance);
-  if (!is_certain(distance, reach, error) &&
+  if (certified_ && !is_certain(distance, reach, error) &&
       !is_certain_on(triangles_[kept_at], distance, center, reach, error)) {
     return nearest_of_ties(
         center, distance, reach, error, ids_, session.work.exact_decisions,

@@ -20,6 +20,7 @@ class AabbTree {
  public:
   struct Options {
     std::size_t leaf_size = 4;  ///< triangles a leaf holds at most, 1 to 255
+    bool certified = true;      ///< false: as doubles have it, to measure what certainty costs
   };
   struct Session {
     Work work;
@@ -35,7 +36,7 @@ class AabbTree {
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept;
 
   std::size_t bytes() const noexcept;
-  Accuracy accuracy() const noexcept { return certified; }
+  Accuracy accuracy() const noexcept { return certified_ ? certified : uncertified; }
 
   /// Calls visit(triangle) for every triangle in a leaf whose box is within `reach` of the centre: a broad
   /// phase for libraries that have none. Misses no triangle whose computed distance is at most the reach.
@@ -76,6 +77,7 @@ class AabbTree {
   const Aabb& bounds() const noexcept { return nodes_.front().box; }
   TriangleId id(std::uint32_t index) const noexcept { return ids_.empty() ? index : ids_[index]; }
 
+  bool certified_ = true;
   std::vector<Node> nodes_;
   std::vector<PreparedTriangle> triangles_;  ///< in the order of the leaves
   std::vector<TriangleId> ids_;              ///< by mesh index; empty when they are the same

@@ -33,6 +33,7 @@ double lead_for(const TriangleMesh& mesh, const FilterFrame& frame) {
 DirectGrid DirectGrid::build(const TriangleMesh& mesh, const DirectOptions& options) {
   DirectGrid grid;
   grid.serial_ = next_serial();
+  grid.certified_ = options.certified;
   grid.bounds_ = mesh.bounds();
   grid.store_ = TriangleStore::build(mesh);
   grid.tree_ = BoxTree(grid.store_);

@@ -17,6 +17,7 @@ namespace touchmark::grid {
 struct DirectOptions {
   double cell = 0;                  ///< edge of the smallest cell, mesh units; 0: choose
   double bytes_per_triangle = 400;  ///< the whole structure
+  bool certified = true;            ///< false: as doubles have it
 };
 
 /// What one haptic point remembers between ticks. Forgetting it changes no answer.
@@ -43,6 +44,7 @@ class DirectGrid {
   std::size_t groups() const noexcept { return groups_.count(); }
   double cell() const noexcept { return cells_.smallest_edge() / store_.frame.scale(); }
   bool coarsened() const noexcept { return coarsened_; }
+  bool is_certified() const noexcept { return certified_; }
 
  private:
   /// Where to look first.
@@ -85,6 +87,7 @@ class DirectGrid {
   Groups groups_;
   CellTree cells_;
   bool coarsened_ = false;
+  bool certified_ = true;
 };
 
 }  // namespace touchmark::grid

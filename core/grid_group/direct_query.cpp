@@ -127,8 +127,8 @@ bool DirectGrid::touches(const Probe& probe, DirectMemory& memory, Work& work) c
   if (located.triangle == nullptr) return false;
   const double distance = std::sqrt(located.offset.squared);
   const bool touching =
-      std::abs(distance - probe.radius) > located.error
-          ? distance < probe.radius
+      !certified_ || std::abs(distance - probe.radius) > located.error
+          ? distance <= probe.radius
           : nearest_tie(probe.center, distance, probe.radius, located.error, work).has_value();
   const double lower = touching ? distance : std::min(std::sqrt(located.squared_lower), distance);
   remember(probe.center, located.tau, lower, distance, memory);
@@ -146,7 +146,7 @@ std::optional<Contact> DirectGrid::nearest(const Vec3& center, double reach, Dir
   const double lower =
       within ? contact.distance : std::min(std::sqrt(located.squared_lower), contact.distance);
   remember(center, located.tau, lower, contact.distance, memory);
-  if (!is_certain(contact.distance, reach, located.error)) {
+  if (certified_ && !is_certain(contact.distance, reach, located.error)) {
     const double error = distance_error(bounds_, center);
     if (!is_certain_on(*located.triangle, contact.distance, center, reach, error))
       return nearest_tie(center, contact.distance, reach, error, work);

@@ -17,6 +17,9 @@ void check(const GridGroup::Options& options) {
                                 std::to_string(options.bytes_per_triangle) + ", less than " +
                                 std::to_string(least_bytes_per_triangle));
   }
+  if (!options.certified && options.lookup == GridGroup::Lookup::scan) {
+    throw std::invalid_argument("grid-group: certified=false is for lookup=direct, not for scan");
+  }
 }
 
 /// Where all corners coincide every triangle is the same point, so the first stands for all.
@@ -37,7 +40,8 @@ GridGroup GridGroup::build(const TriangleMesh& mesh, const Options& options) {
   } else if (options.lookup == Lookup::scan) {
     detector.form_ = grid::ScanGrid::build(mesh, {options.shape, options.cell, options.groups});
   } else {
-    detector.form_ = grid::DirectGrid::build(mesh, {options.cell, options.bytes_per_triangle});
+    detector.form_ =
+        grid::DirectGrid::build(mesh, {options.cell, options.bytes_per_triangle, options.certified});
   }
   return detector;
 }
@@ -71,6 +75,11 @@ std::optional<Impact> GridGroup::first_hit(const Sweep& sweep, Session& session)
   const std::optional<Impact> impact = std::get_if<BruteForce>(&form_)->first_hit(sweep, plain);
   session.work += plain.work;
   return impact;
+}
+
+Accuracy GridGroup::accuracy() const noexcept {
+  const auto* direct = std::get_if<grid::DirectGrid>(&form_);
+  return direct == nullptr || direct->is_certified() ? certified : uncertified;
 }
 
 std::size_t GridGroup::bytes() const noexcept {

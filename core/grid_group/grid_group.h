@@ -32,14 +32,15 @@ class GridGroup {
     double cell = 0;         ///< edge of a cell, direct: of the smallest; mesh units; 0: choose
     std::size_t groups = 0;  ///< scan with cell = 0: aim at about so many groups; 0: choose
     double bytes_per_triangle =
-        400;  ///< direct: what the structure may take, mesh copy included (200 at least)
+        400;                ///< direct: what the structure may take, mesh copy included (200 at least)
+    bool certified = true;  ///< false, direct only: as doubles have it, to measure what certainty costs
   };
   struct Session {
     Work work;
     grid::DirectMemory memory;
   };
 
-  /// Throws std::invalid_argument for a negative or NaN cell or a budget below 200.
+  /// Throws std::invalid_argument for a negative or NaN cell, a budget below 200, or an uncertified scan.
   static GridGroup build(const TriangleMesh& mesh, const Options& options);
   static GridGroup build(const TriangleMesh& mesh) { return build(mesh, Options()); }
 
@@ -48,7 +49,7 @@ class GridGroup {
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept;
 
   std::size_t bytes() const noexcept;
-  Accuracy accuracy() const noexcept { return certified; }
+  Accuracy accuracy() const noexcept;
 
   /// Scan: groups tested by every query. Direct: triangles that have one.
   std::size_t groups() const noexcept;

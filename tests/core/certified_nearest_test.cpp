@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -205,6 +206,42 @@ TEST(CertifiedNearest, AProbeThatSlidesNeedsNoExactDecision) {
     detector.touches({center, 0.005}, session);
   }
   EXPECT_LE(session.work.exact_decisions, 2U * steps / 10000);
+}
+
+template <class D>
+void expect_decisions_within_rounding(const typename D::Options& uncertified_options) {
+  const TriangleMesh mesh = octasphere(12);
+  const bench::Oracle oracle(mesh);
+  const D detector = D::build(mesh, uncertified_options);
+  EXPECT_FALSE(detector.accuracy().decides_exactly);
+  typename D::Session session;
+  HardCases hard(74);
+  for (const Vec3& point : hard_points(mesh, hard, 200)) {
+    const bench::Truth truth = oracle.solve(point);
+    const double error = detector.accuracy().relative * truth.largest_difference;
+    for (const double off : {-2.0, -1.0, 0.0, 1.0, 2.0}) {
+      const double radius = truth.high + off * error;
+      if (radius < 0) continue;
+      const bool touches = detector.touches({point, radius}, session);
+      const auto contact = detector.nearest({point, 0}, radius, session);
+      if (off > 1) {
+        EXPECT_TRUE(touches && contact);
+      }
+      if (off < -1) {
+        EXPECT_FALSE(touches || contact);
+      }
+    }
+  }
+}
+
+TEST(CertifiedNearest, WithoutCertificationDoublesDecideWithinTheirRounding) {
+  expect_decisions_within_rounding<AabbTree>({.certified = false});
+  expect_decisions_within_rounding<GridGroup>({.certified = false});
+}
+
+TEST(CertifiedNearest, AScanIsNeverUncertified) {
+  EXPECT_THROW(GridGroup::build(plate(2), {.lookup = GridGroup::Lookup::scan, .certified = false}),
+               std::invalid_argument);
 }
 
 TEST(CertifiedNearest, TheErrorsBoundIsInfiniteWhereTheKernelLeavesTheRangeOfDouble) {
