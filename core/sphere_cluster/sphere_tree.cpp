@@ -13,6 +13,12 @@ namespace {
 
 using spheres::TreeParts;
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A point that moves by more of the mean block's radius a tick starts anew: it has left a list of blocks
+/// before that is used.
+constexpr double farthest_in_grains = 4;
+
 constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
 
 /// Keeps the least candidate; the limit follows it.
@@ -34,6 +40,24 @@ struct NearestVisitor {
     offset = found.vector;
     kept_at = at;
     limit = std::min(limit, frame.limit(best.squared_distance));
+  }
+};
+
+/// Is content with a triangle that is nearly nearest.
+struct RoughVisitor {
+  static constexpr double enough = 0.64;  ///< of the squared distance
+
+  const TreeParts& tree;
+  const FilterFrame& frame;
+  const Vec3& center;
+  float limit;
+  Work work{};
+  double squared = std::numeric_limits<double>::infinity();
+
+  bool wants(std::uint32_t) const noexcept { return true; }
+  void take(std::uint32_t, const Offset& found) noexcept {
+    squared = std::min(squared, found.squared);
+    limit = std::min(limit, frame.limit(enough * squared));
   }
 };
 
@@ -104,7 +128,33 @@ SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters,
   }
   frame_ = FilterFrame::around(mesh.bounds());
   parts_ = spheres::build_tree(mesh, clusters, frame_);
+  unit_ = 1 / frame_.scale();
   grain_ = mean_block_radius(parts_) / frame_.scale();
+  fill_distances();
+}
+
+void SphereTree::fill_distances() {
+  // Two roundings of a sample's place in the mesh's frame, measured in the tree's: of a mesh so far from 0
+  // that they count, nothing is known beforehand.
+  const double rounding =
+      std::numeric_limits<double>::epsilon() * frame_.origin().lpNorm<1>() * frame_.scale();
+  if (!(rounding < 0x1p-24)) return;
+  // Where the hierarchy is a poor fit, the samples may cost no more than the hierarchy did.
+  constexpr std::uint64_t most_work_a_triangle = 1024;
+  const std::uint64_t most_work = most_work_a_triangle * parts_.triangles.size();
+  Work work;
+  const Vec3 min = frame_.to_frame(bounds_.min), max = frame_.to_frame(bounds_.max);
+  distances_ = spheres::DistanceGrid(min.cast<float>(), max.cast<float>(), parts_.triangles.size());
+  distances_.fill([&](float x, float y, float z, double most) {
+    if (work.total() > most_work) return spheres::DistanceGrid::Interval{-1, -1};
+    const Vec3 center = frame_.origin() + Vec3(x, y, z) / frame_.scale();
+    const double reach = most / frame_.scale();
+    RoughVisitor visitor{parts_, frame_, center, frame_.limit(reach * reach)};
+    const float unseen = descend(frame_.point(center), visitor);
+    work += visitor.work;
+    const double found = std::sqrt(visitor.squared) * frame_.scale();
+    return spheres::DistanceGrid::Interval{std::min<double>(std::sqrt(unseen), found), std::min(found, most)};
+  });
 }
 
 void SphereTree::claim(Memory& memory) const noexcept {
@@ -135,10 +185,19 @@ bool SphereTree::surely_free(const Vec3& center, double reach, const Memory& mem
   return room > 0 && (center - memory.center).squaredNorm() < room * room;
 }
 
+/// The same by what was sampled, which then is what is known of the place.
+bool SphereTree::is_far(const FilterPoint& point, const Vec3& center, double reach, double slack,
+                        Memory& memory) const noexcept {
+  const double free = distances_.at_least(point) * unit_ - slack;
+  if (!(free > reach)) return false;
+  memory.center = center;
+  memory.free = free;
+  memory.nearest = std::numeric_limits<double>::infinity();
+  return true;
+}
+
 bool SphereTree::list_blocks(const Vec3& center, const FilterPoint& point, float distance, float ahead,
                              Memory& memory, Work& work) const noexcept {
-  // A point that moves by many blocks a tick has left the list before it is used.
-  constexpr double most_grains = 4;
   constexpr std::uint32_t longest_pause = 255;
   if (memory.pause > 0) {
     --memory.pause;
@@ -147,7 +206,7 @@ bool SphereTree::list_blocks(const Vec3& center, const FilterPoint& point, float
   spheres::NearBlocks& blocks = memory.blocks;
   const float enough = distance + 2 * point.tau;
   bool complete = false;
-  if (ahead <= static_cast<float>(most_grains * frame_.scale() * grain_)) {
+  if (ahead <= static_cast<float>(farthest_in_grains * frame_.scale() * grain_)) {
     blocks.start(center, distance + ahead);
     avx2_ ? spheres::avx2::list_blocks(parts_, point, blocks, enough, work)
           : spheres::portable::list_blocks(parts_, point, blocks, enough, work);
@@ -173,7 +232,11 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
   TouchVisitor visitor{parts_, center, radius, error, frame_.limit((radius + error) * (radius + error))};
   float unseen = 0;
   if (memory.nearest - moved <= radius) show(memory.last, visitor);
-  if (visitor.kept_at == nowhere) unseen = descend(frame_.point(center), visitor);
+  if (visitor.kept_at == nowhere) {
+    const FilterPoint point = frame_.point(center);
+    if (is_far(point, center, radius, rounding, memory)) return false;
+    unseen = descend(point, visitor);
+  }
   work += visitor.work;
   const bool touching = visitor.kept_at != nowhere;
   memory.center = center;
@@ -189,15 +252,20 @@ std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Mem
   claim(memory);
   if (surely_free(center, reach, memory)) return std::nullopt;
   if (!can_search(center)) return nearest_without(center, reach, work);
-  const double rounding = slack(center), error = error_from(rounding);
-  NearestVisitor visitor{parts_, frame_, center, frame_.limit((reach + error) * (reach + error))};
+  const double rounding = slack(center);
   const FilterPoint point = frame_.point(center);
-  const double moved = (center - memory.center).norm();
+  const double moved = memory.nearest < infinity ? (center - memory.center).norm() : infinity;
+  const bool near = moved <= farthest_in_grains * grain_ && memory.nearest + moved <= reach;
+  if (!near && is_far(point, center, reach, rounding, memory)) return std::nullopt;
+  const double error = error_from(rounding);
+  NearestVisitor visitor{parts_, frame_, center, frame_.limit((reach + error) * (reach + error))};
   float unseen = 0;
-  if (memory.nearest + moved <= reach && memory.nearest < std::numeric_limits<double>::infinity()) {
+  if (near) {
     show(memory.last, visitor);
     unseen = search_near(point, moved, visitor, memory);
   } else {
+    const double most = distances_.at_most(point) * unit_;
+    if (most < reach) visitor.limit = frame_.limit((most + error) * (most + error));
     unseen = descend(point, visitor);
   }
   const double distance = std::sqrt(visitor.best.squared_distance);
@@ -238,7 +306,8 @@ std::optional<Contact> SphereTree::nearest_without(const Vec3& center, double re
 std::size_t SphereTree::bytes() const noexcept {
   return parts_.nodes.capacity() * sizeof(spheres::TreeNode) +
          parts_.blocks.capacity() * sizeof(spheres::TriangleBlock) +
-         parts_.triangles.capacity() * sizeof(PreparedTriangle) + ids_.capacity() * sizeof(TriangleId);
+         parts_.triangles.capacity() * sizeof(PreparedTriangle) + distances_.bytes() +
+         ids_.capacity() * sizeof(TriangleId);
 }
 
 }  // namespace touchmark

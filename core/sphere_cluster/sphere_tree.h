@@ -13,6 +13,7 @@
 #include "core/geometry/plane_filter.h"
 #include "core/geometry/point_triangle.h"
 #include "core/sphere_cluster/clustering.h"
+#include "core/sphere_cluster/distance_grid.h"
 #include "core/sphere_cluster/near_blocks.h"
 #include "core/sphere_cluster/tree_layout.h"
 
@@ -49,12 +50,16 @@ class SphereTree {
   static double error_from(double slack) noexcept;
   double free_within(float unseen, double shown, double slack) const noexcept;
   bool surely_free(const Vec3& center, double reach, const Memory& memory) const noexcept;
+  bool is_far(const FilterPoint& point, const Vec3& center, double reach, double slack,
+              Memory& memory) const noexcept;
   /// From a point of the mesh's frame to another, in the tree's, at least.
   float way(const Vec3& from, const Vec3& to, const FilterPoint& at) const noexcept;
 
   std::optional<Contact> nearest_tie(const Vec3& center, double distance, double reach, double error,
                                      Work& work) const noexcept;
   std::optional<Contact> nearest_without(const Vec3& center, double reach, Work& work) const noexcept;
+
+  void fill_distances();
 
   // Visitors: see sphere_tree_search.h.
   template <class Visitor>
@@ -74,8 +79,10 @@ class SphereTree {
   Aabb bounds_;
   FilterFrame frame_;
   double radius_ = 0;  ///< half the mesh's diagonal
+  double unit_ = 1;    ///< of the frame, in mesh units
   double grain_ = 0;   ///< the mean radius of a block
   spheres::TreeParts parts_;
+  spheres::DistanceGrid distances_;
   std::vector<TriangleId> ids_;  ///< by mesh index; empty when they are the same
 };
 

@@ -1,0 +1,51 @@
+#include "core/sphere_cluster/distance_grid.h"
+
+namespace touchmark::spheres {
+SampleLattice::SampleLattice(const Eigen::Vector3f& min, const Eigen::Vector3f& max, std::uint32_t most) {
+  const Eigen::Vector3f extent = max - min;
+  // The box and its surroundings in cubes, of which there are at most so many.
+  const auto counts = [&](float edge) {
+    std::array<std::uint32_t, 3> count;
+    for (int k = 0; k < 3; ++k)
+      count[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(1.2F * extent[k] / edge) + 1;
+    return count;
+  };
+  edge_ = 1.2F * extent.maxCoeff() / std::cbrt(static_cast<float>(most));
+  // A flat box needs fewer cubes than it may have, so they may be smaller, but not without end.
+  constexpr float finer = 0.9F;
+  const float finest = extent.maxCoeff() / 128;
+  const auto fits = [&](float edge) {
+    const std::array<std::uint32_t, 3> count = counts(edge);
+    return std::uint64_t{count[0]} * count[1] * count[2] <= most;
+  };
+  while (!fits(edge_)) edge_ /= finer;
+  while (edge_ > finest && fits(edge_ * finer)) edge_ *= finer;
+  count_ = counts(edge_);
+  per_edge_ = 1 / edge_;
+  for (int k = 0; k < 3; ++k) {
+    const auto axis = static_cast<std::size_t>(k);
+    const float middle = 0.5F * (min[k] + max[k]), half = 0.5F * edge_ * static_cast<float>(count_[axis]);
+    min_[axis] = std::min(middle - half, min[k]);
+    max_[axis] = std::max(middle + half, max[k]);
+  }
+}
+
+SampleLattice SampleLattice::halved() const noexcept {
+  SampleLattice half = *this;
+  half.edge_ *= 0.5F;
+  half.per_edge_ *= 2;
+  for (std::uint32_t& count : half.count_) count *= 2;
+  return half;
+}
+
+DistanceGrid::DistanceGrid(const Eigen::Vector3f& min, const Eigen::Vector3f& max, std::size_t triangles) {
+  // As many as pay: a quarter of a megabyte stays in the second cache, and no more than four bytes a
+  // triangle.
+  constexpr std::size_t fewest = 8, most = std::size_t{1} << 15;
+  coarse_ = SampleLattice(min, max, static_cast<std::uint32_t>(std::clamp(triangles / 2, fewest, most)));
+  fine_ = coarse_.halved();
+  constexpr float steps_an_edge = 4;
+  step_ = std::ldexp(1.0F, std::ilogb(fine_.edge() / steps_an_edge));
+}
+
+}  // namespace touchmark::spheres

@@ -1,0 +1,168 @@
+/// Bounds of the distance to the mesh by a look at one number: what is far need not be searched, and what
+/// is near is searched no farther than it has to be.
+///
+/// The distance at p is that at a sampled point c, give or take |p - c|: it changes by no more than the point
+/// moves. Any sample will do, so it does not matter which cell rounding takes a point to be in.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/geometry/plane_filter.h"
+
+namespace touchmark::spheres {
+
+/// The middles of cubes that fill a box, in the tree's frame.
+class SampleLattice {
+ public:
+  SampleLattice() = default;
+  /// Holds the box and a tenth of its extent around it, in at most so many cubes.
+  SampleLattice(const Eigen::Vector3f& min, const Eigen::Vector3f& max, std::uint32_t most);
+  /// Each cube cut in eight.
+  SampleLattice halved() const noexcept;
+
+  std::uint32_t count(int axis) const noexcept { return count_[static_cast<std::size_t>(axis)]; }
+  std::size_t size() const noexcept { return std::size_t{count_[0]} * count_[1] * count_[2]; }
+  float edge() const noexcept { return edge_; }
+  float min(int axis) const noexcept { return min_[static_cast<std::size_t>(axis)]; }
+  float max(int axis) const noexcept { return max_[static_cast<std::size_t>(axis)]; }
+
+  std::uint32_t index(std::uint32_t x, std::uint32_t y, std::uint32_t z) const noexcept {
+    return (z * count_[1] + y) * count_[0] + x;
+  }
+  /// The coordinate of a sample; the same bits wherever it is asked for.
+  float middle(int axis, std::uint32_t i) const noexcept {
+    return min(axis) + (static_cast<float>(i) + 0.5F) * edge_;
+  }
+  /// The cube of a coordinate within the box; the nearest one of a coordinate beyond.
+  std::uint32_t place(int axis, float x) const noexcept {
+    const float at = std::max((x - min(axis)) * per_edge_, 0.0F);
+    return static_cast<std::uint32_t>(std::min(at, static_cast<float>(count(axis) - 1)));
+  }
+
+ private:
+  std::array<float, 3> min_{}, max_{};
+  float edge_ = 1, per_edge_ = 1;
+  std::array<std::uint32_t, 3> count_{};
+};
+
+class DistanceGrid {
+ public:
+  struct Interval {
+    double least, most;
+  };
+
+  DistanceGrid() = default;
+  /// A lattice to be filled for so many triangles whose box this is, in the frame.
+  DistanceGrid(const Eigen::Vector3f& min, const Eigen::Vector3f& max, std::size_t triangles);
+
+  /// distance_at(x, y, z, most) bounds the distance at a point of the frame, which is at most `most`, each
+  /// bound within 2^-23. Where it gives up, by a negative one, so does the rest of the grid: nothing is known
+  /// there.
+  template <class DistanceAt>
+  void fill(const DistanceAt& distance_at);
+
+  /// No part of the mesh is nearer than this. May be negative.
+  float at_least(const FilterPoint& point) const noexcept;
+  /// Some part of the mesh is this near, or infinity.
+  float at_most(const FilterPoint& point) const noexcept;
+  std::size_t bytes() const noexcept { return fine_steps_.capacity() + coarse_steps_.capacity(); }
+
+ private:
+  using Step = std::uint8_t;
+  static constexpr Step most_steps = 255;
+
+  /// More than all roundings between two points of the lattice's box: the frame's coordinates are below 2,
+  /// and tau is at least 4 u of them (plane_filter.h), u = 2^-24. The point and its coordinates are rounded
+  /// once each; differences, squares, sums and the root relatively: below 8 u of the box in all.
+  static constexpr float roundings_in_tau = 4;
+
+  static float squared(float x) noexcept { return x * x; }
+  static float length(float x, float y, float z) noexcept {
+    return std::sqrt(squared(x) + squared(y) + squared(z));
+  }
+  Step steps_in(double distance) const noexcept {
+    return static_cast<Step>(std::clamp(distance / static_cast<double>(step_), 0.0, double{most_steps}));
+  }
+
+  SampleLattice coarse_, fine_;
+  float step_ = 1;                  ///< a power of two: multiples are exact
+  std::vector<Step> fine_steps_;    ///< the distance is at least so many steps
+  std::vector<Step> coarse_steps_;  ///< and at most so many; the last: nothing is known
+};
+
+// Beyond the lattice's box, which is convex and holds the mesh, its nearest point q sees p and every point m
+// of the mesh at an angle of at least 90 degrees: |p - m|^2 >= |p - q|^2 + |q - m|^2.
+inline float DistanceGrid::at_least(const FilterPoint& p) const noexcept {
+  if (fine_steps_.empty()) return 0;
+  const float x = std::clamp(p.x, fine_.min(0), fine_.max(0)),
+              y = std::clamp(p.y, fine_.min(1), fine_.max(1)),
+              z = std::clamp(p.z, fine_.min(2), fine_.max(2));
+  const std::uint32_t i = fine_.place(0, x), j = fine_.place(1, y), k = fine_.place(2, z);
+  const float steps = static_cast<float>(fine_steps_[fine_.index(i, j, k)]);
+  const float within =
+      steps * step_ - length(x - fine_.middle(0, i), y - fine_.middle(1, j), z - fine_.middle(2, k));
+  const float beyond = squared(p.x - x) + squared(p.y - y) + squared(p.z - z);
+  if (beyond == 0) return within - roundings_in_tau * p.tau;
+  return std::sqrt(beyond + squared(std::max(within, 0.0F))) - roundings_in_tau * p.tau;
+}
+
+inline float DistanceGrid::at_most(const FilterPoint& p) const noexcept {
+  if (coarse_steps_.empty()) return std::numeric_limits<float>::infinity();
+  const std::uint32_t i = coarse_.place(0, p.x), j = coarse_.place(1, p.y), k = coarse_.place(2, p.z);
+  const Step steps = coarse_steps_[coarse_.index(i, j, k)];
+  if (steps == most_steps) return std::numeric_limits<float>::infinity();
+  return static_cast<float>(steps) * step_ +
+         length(p.x - coarse_.middle(0, i), p.y - coarse_.middle(1, j), p.z - coarse_.middle(2, k)) +
+         roundings_in_tau * p.tau;
+}
+
+/// Away from the surface the eight samples of a coarse cube are what its own leaves of them.
+template <class DistanceAt>
+void DistanceGrid::fill(const DistanceAt& distance_at) {
+  // Then even a point at the corner of a fine cube is known to be half a cube away.
+  constexpr double far_in_edges = 2.5;
+  // Room for the roundings of two samples' places.
+  constexpr double rounding = 0x1p-20;
+  const double far = far_in_edges * fine_.edge();
+  const double to_next = coarse_.edge() + rounding,
+               to_eighth = 0.5 * std::sqrt(3.0) * fine_.edge() + rounding;
+  const auto sample = [&](const SampleLattice& lattice, std::uint32_t x, std::uint32_t y, std::uint32_t z,
+                          double most) -> Interval {
+    return distance_at(lattice.middle(0, x), lattice.middle(1, y), lattice.middle(2, z), most);
+  };
+  coarse_steps_.assign(coarse_.size(), most_steps);
+  fine_steps_.assign(fine_.size(), 0);
+  double before_row = std::numeric_limits<double>::infinity();
+  for (std::uint32_t z = 0; z < coarse_.count(2); ++z) {
+    double before = before_row;
+    for (std::uint32_t y = 0; y < coarse_.count(1); ++y) {
+      double first = 0;
+      for (std::uint32_t x = 0; x < coarse_.count(0); ++x) {
+        const Interval distance = sample(coarse_, x, y, z, before + to_next);
+        if (distance.least < 0) return;
+        before = distance.most;
+        if (x == 0) first = distance.most;
+        coarse_steps_[coarse_.index(x, y, z)] = steps_in(distance.most + step_);
+        for (std::uint32_t eighth = 0; eighth < 8; ++eighth) {
+          const std::uint32_t i = 2 * x + (eighth & 1), j = 2 * y + (eighth >> 1 & 1),
+                              k = 2 * z + (eighth >> 2);
+          const double least = distance.least > far ? distance.least - to_eighth
+                                                    : sample(fine_, i, j, k, distance.most + to_eighth).least;
+          fine_steps_[fine_.index(i, j, k)] = steps_in(least);
+        }
+      }
+      before = first;
+      if (y == 0) before_row = first;
+    }
+  }
+}
+
+}  // namespace touchmark::spheres
