@@ -103,12 +103,14 @@ ContestantInfo sphere_cluster() {
        {},
        "0",
        "distance between centroids that share a sphere; 0: a sphere each"},
-      choice("precise", yes_or_no, "false: the published fast level alone, spheres for triangles")};
+      choice("precise", yes_or_no, "false: the published fast level alone, spheres for triangles"),
+      certified_option()};
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
     SphereCluster::Options options;
     options.lookup = chosen(values, "lookup", lookups);
     options.clustering = values.length("clustering", mesh);
     options.precise = chosen(values, "precise", yes_or_no);
+    options.certified = chosen(values, "certified", yes_or_no);
     return contestant<SphereCluster>(mesh, options);
   };
   return info;

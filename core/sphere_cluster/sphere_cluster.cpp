@@ -11,6 +11,9 @@ SphereCluster SphereCluster::build(const TriangleMesh& mesh, const Options& opti
     throw std::invalid_argument("sphere-cluster: clustering is " + std::to_string(options.clustering) +
                                 ", not a finite distance of at least 0");
   }
+  if (!options.certified && (options.lookup == Lookup::scan || !options.precise)) {
+    throw std::invalid_argument("sphere-cluster: certified=false is for lookup=tree with precise=true");
+  }
   SphereCluster detector;
   detector.options_ = options;
   detector.clusters_ = cluster_spheres(mesh, options.clustering, options.order);
@@ -20,7 +23,7 @@ SphereCluster SphereCluster::build(const TriangleMesh& mesh, const Options& opti
   } else if (options.lookup == Lookup::scan) {
     detector.scan_ = SphereScan(mesh, detector.clusters_);
   } else {
-    detector.tree_ = SphereTree(mesh, detector.clusters_, options.portable);
+    detector.tree_ = SphereTree(mesh, detector.clusters_, {options.portable, options.certified});
   }
   return detector;
 }
@@ -45,7 +48,7 @@ std::optional<Impact> SphereCluster::first_hit(const Sweep& sweep, Session& sess
 }
 
 Accuracy SphereCluster::accuracy() const noexcept {
-  if (options_.precise) return certified;
+  if (options_.precise) return options_.certified ? certified : uncertified;
   return {Guarantee::conservative, kernel_relative_error, fast_.error_bound()};
 }
 

@@ -25,6 +25,7 @@ class SphereCluster {
     Lookup lookup = Lookup::tree;
     bool precise = true;  ///< false: the fast level alone; spheres answer in place of their triangles
     VisitOrder order = VisitOrder::breadth_first;  ///< in which triangles are clustered
+    bool certified = true;  ///< false, tree only: as doubles have it, to measure what certainty costs
     bool portable = false;  ///< tree: forgo the processor's wider instructions; slower, the same bits
   };
   struct Session {
@@ -32,7 +33,8 @@ class SphereCluster {
     SphereTree::Memory memory;
   };
 
-  /// Throws std::invalid_argument for a clustering distance that is negative, infinite or not a number.
+  /// Throws std::invalid_argument for a clustering distance that is negative, infinite or not a number, and
+  /// for certified = false where nothing is certified: with a scan or the fast level.
   static SphereCluster build(const TriangleMesh& mesh, const Options& options);
   static SphereCluster build(const TriangleMesh& mesh) { return build(mesh, Options()); }
 

@@ -67,6 +67,7 @@ struct TouchVisitor {
   const Vec3& center;
   double radius;
   double error;  ///< of a computed distance
+  bool certified;
   float limit;
   Work work{};
   double least = std::numeric_limits<double>::infinity();  ///< distance of the one kept, else of those shown
@@ -76,7 +77,10 @@ struct TouchVisitor {
   void take(std::uint32_t at, const Offset& found) noexcept {
     const double distance = std::sqrt(found.squared);
     least = std::min(least, distance);
-    if (!is_within(tree.triangles[at], distance, center, radius, error, work.exact_decisions)) return;
+    const bool within =
+        certified ? is_within(tree.triangles[at], distance, center, radius, error, work.exact_decisions)
+                  : distance <= radius;
+    if (!within) return;
     kept_at = at;
     least = distance;
     limit = -1;  // nothing is within it: the search ends
@@ -115,11 +119,12 @@ double mean_block_radius(const TreeParts& parts) noexcept {
 
 }  // namespace
 
-SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters, bool portable)
+SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters, const Options& options)
     : number_(next_number()),
-      avx2_(!portable && spheres::processor_has_avx2()),
+      avx2_(!options.portable && spheres::processor_has_avx2()),
       searchable_(FilterFrame::fits(mesh.bounds())),
       bounds_(mesh.bounds()),
+      certified_(options.certified),
       radius_(0.5 * mesh.diagonal()),
       ids_(mesh.ids().begin(), mesh.ids().end()) {
   if (!searchable_) {
@@ -229,7 +234,8 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
   const double rounding = slack(center), error = error_from(rounding);
   const double moved = (center - memory.center).norm();
   if ((memory.nearest + moved) * (1 + 0x1p-40) + rounding <= radius) return true;
-  TouchVisitor visitor{parts_, center, radius, error, frame_.limit((radius + error) * (radius + error))};
+  TouchVisitor visitor{parts_, center,     radius,
+                       error,  certified_, frame_.limit((radius + error) * (radius + error))};
   float unseen = 0;
   if (memory.nearest - moved <= radius) show(memory.last, visitor);
   if (visitor.kept_at == nowhere) {
@@ -275,7 +281,7 @@ std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Mem
   memory.free = free_within(unseen, distance, rounding);
   work += visitor.work;
   if (visitor.kept_at == nowhere) return std::nullopt;
-  if (!is_certain(distance, reach, error)) {
+  if (certified_ && !is_certain(distance, reach, error)) {
     const double least_error = distance_error(bounds_, center);
     if (!is_certain_on(parts_.triangles[visitor.kept_at], distance, center, reach, least_error))
       return nearest_tie(center, distance, reach, least_error, work);

@@ -33,9 +33,13 @@ class SphereTree {
     std::uint32_t last_pause = 0;
   };
 
+  struct Options {
+    bool portable = false;  ///< forgo the processor's wider instructions: slower, the same bits
+    bool certified = true;  ///< false: contact as doubles have it
+  };
+
   SphereTree() = default;
-  /// `portable` forgoes the processor's wider instructions: slower, the same bits.
-  SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters, bool portable);
+  SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters, const Options& options);
 
   bool touches(const Probe& probe, Memory& memory, Work& work) const noexcept;
   std::optional<Contact> nearest(const Vec3& center, double reach, Memory& memory, Work& work) const noexcept;
@@ -78,6 +82,7 @@ class SphereTree {
   bool searchable_ = false;  ///< else the mesh does not fit the frame, and every triangle is looked at
   Aabb bounds_;
   FilterFrame frame_;
+  bool certified_ = true;
   double radius_ = 0;  ///< half the mesh's diagonal
   double unit_ = 1;    ///< of the frame, in mesh units
   double grain_ = 0;   ///< the mean radius of a block

@@ -237,9 +237,12 @@ void expect_decisions_within_rounding(const typename D::Options& uncertified_opt
 TEST(CertifiedNearest, WithoutCertificationDoublesDecideWithinTheirRounding) {
   expect_decisions_within_rounding<AabbTree>({.certified = false});
   expect_decisions_within_rounding<GridGroup>({.certified = false});
+  expect_decisions_within_rounding<SphereCluster>({.certified = false});
 }
 
 TEST(CertifiedNearest, AScanIsNeverUncertified) {
+  EXPECT_THROW(SphereCluster::build(plate(2), {.lookup = SphereCluster::Lookup::scan, .certified = false}),
+               std::invalid_argument);
   EXPECT_THROW(GridGroup::build(plate(2), {.lookup = GridGroup::Lookup::scan, .certified = false}),
                std::invalid_argument);
 }
