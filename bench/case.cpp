@@ -80,16 +80,16 @@ void Case::introduce() {
   });
 }
 
-void Case::verify(Truths& truths) {
+void Case::verify(Truths& truths, Truths* stored) {
   attempt([&] {
     const Answered answered = process_.answer(task_);
     row_.checksum = answered.checksum;
     row_.work = summarize_work(stage_.room().work(row_.steps), answered.work);
   });
-  if (alive()) judge(truths);
+  if (alive()) judge(truths, stored);
 }
 
-void Case::judge(Truths& truths) {
+void Case::judge(Truths& truths, Truths* stored) {
   const std::span<const Answer> answers = stage_.room().answers(row_.steps);
   Checksum checksum;
   for (const Answer& answer : answers) checksum.add(answer);
@@ -98,6 +98,7 @@ void Case::judge(Truths& truths) {
     return;
   }
   row_.tally = truths.judge(windows_, answers, *row_.accuracy);
+  if (stored != nullptr) row_.stored_tally = stored->judge(windows_, answers, *row_.accuracy);
 }
 
 void Case::expect_verified_answers(const Timed& timed) {

@@ -29,8 +29,9 @@ class Case {
 
   /// Builds if that was not done, asks the first question, finds how many steps there is time for.
   void introduce();
-  /// Has the steps answered and judged, before anything is timed.
-  void verify(Truths& truths);
+  /// Has the steps answered and judged, before anything is timed; once more by `stored`, unless that is null:
+  /// the truths of the scene as the contestant's library stores it.
+  void verify(Truths& truths, Truths* stored = nullptr);
 
   void first_pass();
   void repetition();
@@ -42,7 +43,7 @@ class Case {
   template <class Action>
   void attempt(Action action);
   void expect_verified_answers(const Timed& timed);
-  void judge(Truths& truths);
+  void judge(Truths& truths, Truths* stored);
 
   const WorkerStage& stage_;
   const Effort& effort_;

@@ -1,5 +1,6 @@
 #include "bench/comparison.h"
 
+#include <optional>
 #include <utility>
 
 #include "bench/case.h"
@@ -27,6 +28,19 @@ std::vector<Order> orders_for(std::size_t cases, const Effort& effort) {
   return orders;
 }
 
+/// Null where it stores what it is given, or where nothing is left of the mesh that could be judged by.
+std::unique_ptr<const StoredScene> stored_scene(const ContestantInfo& info, const ContestantSpec& spec,
+                                                const TriangleMesh& mesh) {
+  if (!info.built()) return nullptr;
+  std::optional<Storing> storing = info.storing(mesh, spec.values);
+  if (!storing) return nullptr;
+  try {
+    return std::make_unique<const StoredScene>(mesh, *std::move(storing));
+  } catch (const MeshError&) {
+    return nullptr;
+  }
+}
+
 }  // namespace
 
 Comparison::Comparison(const Roster& roster, const Workload& workload,
@@ -34,29 +48,36 @@ Comparison::Comparison(const Roster& roster, const Workload& workload,
                        const Effort& effort, std::uint64_t seed)
     : workload_(workload), effort_(effort), seed_(seed), stage_(workload, workers), oracle_(workload.mesh) {
   for (const ContestantSpec& spec : contestants) {
-    processes_.emplace_back(stage_, spec, roster.find(spec.name).worker_program(spec.values));
+    const ContestantInfo& info = roster.find(spec.name);
+    processes_.emplace_back(stage_, spec, info.worker_program(spec.values));
+    stored_.push_back(stored_scene(info, spec, workload.mesh));
   }
 }
 
 std::vector<ResultRow> Comparison::run(std::size_t course, Query query) {
   const std::string& trajectory = workload_.trajectories[course];
   std::deque<Case> cases;
-  for (ContestantProcess& process : processes_) {
-    if (filter_(trajectory, process.spec().text())) {
-      cases.emplace_back(workload_, stage_, effort_, process, course, query);
-    }
-  }
   Truths truths(oracle_, Course{query, workload_.courses[course]});
-  for (Case& one : cases) {
+  for (std::size_t i = 0; i < processes_.size(); ++i) {
+    if (!filter_(trajectory, processes_[i].spec().text())) continue;
+    Case& one = cases.emplace_back(workload_, stage_, effort_, processes_[i], course, query);
     check_for_interrupt();
     progress_(trajectory, one.contestant());
     one.introduce();
-    one.verify(truths);
+    verify(one, stored_[i].get(), course, query, truths);
   }
   if (effort_.repetitions > 0) measure(cases, trajectory, seed_ + course);
   std::vector<ResultRow> rows;
   for (Case& one : cases) rows.push_back(one.finish());
   return rows;
+}
+
+void Comparison::verify(Case& one, const StoredScene* stored, std::size_t course, Query query,
+                        Truths& truths) {
+  if (stored == nullptr) return one.verify(truths);
+  const std::vector<Step> steps = stored->course(workload_.courses[course]);
+  Truths of_stored(stored->oracle(), Course{query, steps});
+  one.verify(truths, &of_stored);
 }
 
 void Comparison::measure(std::deque<Case>& cases, const std::string& trajectory, std::uint64_t seed) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,8 @@
 #include "bench/effort.h"
 #include "bench/oracle/oracle.h"
 #include "bench/result_row.h"
+#include "bench/stored_scene.h"
+#include "bench/truths.h"
 #include "bench/workload.h"
 
 namespace touchmark::bench {
@@ -41,6 +44,7 @@ class Comparison {
 
  private:
   void measure(std::deque<class Case>& cases, const std::string& trajectory, std::uint64_t seed);
+  void verify(class Case& one, const StoredScene* stored, std::size_t course, Query query, Truths& truths);
 
   const Workload& workload_;
   Effort effort_;
@@ -48,6 +52,8 @@ class Comparison {
   WorkerStage stage_;
   Oracle oracle_;
   std::deque<ContestantProcess> processes_;
+  std::vector<std::unique_ptr<const StoredScene>>
+      stored_;  ///< a process each; null: it stores what it is given
   Progress progress_ = [](const std::string&, const std::string&) {};
   CaseFilter filter_ = [](const std::string&, const std::string&) { return true; };
 };

@@ -94,10 +94,11 @@ bool ContestantInfo::answers(Query query) const noexcept {
 }
 
 Roster::Roster(std::vector<ContestantInfo> contestants, std::vector<std::string> default_set,
-               std::vector<std::string> verified_besides)
+               std::vector<std::string> verified_besides, std::vector<std::string> frontier)
     : contestants_(std::move(contestants)),
       default_set_(std::move(default_set)),
-      verified_besides_(std::move(verified_besides)) {}
+      verified_besides_(std::move(verified_besides)),
+      frontier_(std::move(frontier)) {}
 
 const ContestantInfo& Roster::find(const std::string& name) const {
   const auto found = std::find_if(contestants_.begin(), contestants_.end(),
@@ -134,6 +135,12 @@ void Roster::add_built(std::vector<ContestantSpec>& specs, const std::vector<std
 std::vector<ContestantSpec> Roster::default_set() const {
   std::vector<ContestantSpec> specs;
   add_built(specs, default_set_);
+  return specs;
+}
+
+std::vector<ContestantSpec> Roster::frontier() const {
+  std::vector<ContestantSpec> specs;
+  add_built(specs, frontier_);
   return specs;
 }
 

@@ -5,10 +5,12 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bench/contestant.h"
+#include "bench/stored_scene.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::bench {
@@ -62,6 +64,10 @@ struct ContestantInfo {
     return std::string(default_worker_program);
   };
 
+  /// What its library keeps of coordinates where it decides by other numbers than the given ones; else empty.
+  std::function<std::optional<Storing>(const TriangleMesh&, const OptionValues&)> storing =
+      [](const TriangleMesh&, const OptionValues&) { return std::nullopt; };
+
   bool built() const noexcept { return static_cast<bool>(build); }
   bool answers(Query query) const noexcept;
 };
@@ -79,7 +85,7 @@ struct ContestantSpec {
 class Roster {
  public:
   Roster(std::vector<ContestantInfo> contestants, std::vector<std::string> default_set,
-         std::vector<std::string> verified_besides = {});
+         std::vector<std::string> verified_besides = {}, std::vector<std::string> frontier = {});
 
   const std::vector<ContestantInfo>& contestants() const noexcept { return contestants_; }
   /// Throws std::invalid_argument; an unknown name's message lists the nearest ones.
@@ -90,6 +96,8 @@ class Roster {
   std::vector<ContestantSpec> default_set() const;
   /// The default set and the forms that only verify runs.
   std::vector<ContestantSpec> thorough_set() const;
+  /// Every contestant over the options that trade accuracy for time.
+  std::vector<ContestantSpec> frontier() const;
   /// Throws what the contestant's build throws, or std::invalid_argument when it is not built in.
   std::unique_ptr<Contestant> build(const ContestantSpec& spec, const TriangleMesh& mesh) const;
 
@@ -99,6 +107,7 @@ class Roster {
   std::vector<ContestantInfo> contestants_;
   std::vector<std::string> default_set_;
   std::vector<std::string> verified_besides_;
+  std::vector<std::string> frontier_;
 };
 
 }  // namespace touchmark::bench

@@ -51,8 +51,9 @@ struct ResultRow {
   double reach = 0;           ///< mesh units
   std::string status = "ok";  ///< or unsupported, refused: ..., crashed:..., timeout, checksum mismatch
 
-  std::optional<Accuracy> accuracy;  ///< as claimed
-  std::optional<Tally> tally;        ///< as found
+  std::optional<Accuracy> accuracy;   ///< as claimed
+  std::optional<Tally> tally;         ///< as found
+  std::optional<Tally> stored_tally;  ///< the same by the mesh that its library keeps, where that is another
   std::optional<ThroughputResult> throughput;
   std::optional<LatencySummary> latency;
   double clock_cost_ns = 0;

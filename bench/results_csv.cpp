@@ -26,6 +26,11 @@ std::string count_of(const ResultRow& row) {
 }
 
 template <auto Member>
+std::string stored_count_of(const ResultRow& row) {
+  return row.stored_tally ? fmt::format("{}", (*row.stored_tally).*Member) : "";
+}
+
+template <auto Member>
 std::string error_of(const ResultRow& row) {
   return row.tally ? exactly((*row.tally).*Member) : "";
 }
@@ -131,6 +136,12 @@ constexpr std::array columns{
            [](Row row) { return row.work ? fmt::format("{}", row.work->total.exact_decisions) : ""; }},
     Column{"decides_exactly",
            [](Row row) { return row.accuracy ? fmt::format("{:d}", row.accuracy->decides_exactly) : ""; }},
+    Column{"stored_missed", stored_count_of<&Tally::missed>},
+    Column{"stored_false_contacts", stored_count_of<&Tally::false_contacts>},
+    Column{"stored_max_distance_error_of_diagonal",
+           [](Row row) {
+             return row.stored_tally ? exactly(row.stored_tally->max_distance_error_of_diagonal) : "";
+           }},
 };
 
 }  // namespace

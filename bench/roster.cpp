@@ -14,6 +14,7 @@
 
 #if TOUCHMARK_WITH_BULLET
 #include "baselines/bullet/bullet_detector.h"
+#include "baselines/bullet/view.h"
 #endif
 #if TOUCHMARK_WITH_EMBREE
 #include "baselines/embree/embree_detector.h"
@@ -178,6 +179,12 @@ ContestantInfo bullet() {
     return contestant<BulletDetector>(mesh,
                                       {chosen(values, "method", methods), chosen(values, "frame", frames)});
   };
+  info.storing = [](const TriangleMesh& mesh, const OptionValues& values) -> std::optional<Storing> {
+    if (values.text("precision") != "float" || values.text("method") != "contact") return std::nullopt;
+    baselines::BulletView view;
+    if (chosen(values, "frame", frames) == Frame::fitted) view = baselines::BulletView::fitted(mesh);
+    return stored_in_single_precision(view.scale, view.origin);
+  };
 #endif
   return info;
 }
@@ -196,10 +203,12 @@ ContestantInfo libccd() {
   info.queries = queries_of<LibccdDetector>();
   info.options = {choice("algorithm", algorithms, "gjk: GJK and EPA; mpr: Minkowski portal refinement"),
                   choice("frame", frames, "fitted: the ball as the unit ball; mesh: coordinates as they are"),
-                  {"tolerance", OptionKind::number, {}, "1e-4", "of EPA and MPR; in radii when fitted"}};
+                  {"tolerance", OptionKind::number, {}, "1e-4", "of EPA and MPR; in radii when fitted"},
+                  {"iterations", OptionKind::count, {}, "500", "of GJK at most"}};
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
-    return contestant<LibccdDetector>(mesh, {chosen(values, "algorithm", algorithms),
-                                             chosen(values, "frame", frames), values.number("tolerance")});
+    return contestant<LibccdDetector>(
+        mesh, {chosen(values, "algorithm", algorithms), chosen(values, "frame", frames),
+               values.number("tolerance"), values.count("iterations")});
   };
 #endif
   return info;
@@ -262,12 +271,46 @@ const std::vector<std::string> verified_besides{"grid-group:cell=1%",
                                                 "bullet:precision=float,method=callback",
                                                 "embree:geometry=triangle"};
 
+// Each contestant over what trades its accuracy for its time.
+const std::vector<std::string> over_accuracy{"aabb-tree",
+                                             "aabb-tree:certified=false",
+                                             "grid-group",
+                                             "grid-group:certified=false",
+                                             "grid-group:cell=0.5%",
+                                             "grid-group:cell=4%",
+                                             "sphere-cluster",
+                                             "sphere-cluster:certified=false",
+                                             "sphere-cluster:clustering=2%",
+                                             "sphere-cluster:precise=false",
+                                             "sphere-cluster:clustering=0.5%,precise=false",
+                                             "sphere-cluster:clustering=1%,precise=false",
+                                             "sphere-cluster:clustering=2%,precise=false",
+                                             "sphere-cluster:clustering=5%,precise=false",
+                                             "fcl",
+                                             "fcl:bv=kios,method=traverse,narrow=exact",
+                                             "fcl:bv=rss,method=distance",
+                                             "fcl:bv=aabb,method=distance,narrow=exact",
+                                             "bullet",
+                                             "bullet:frame=fitted",
+                                             "bullet:precision=float",
+                                             "bullet:precision=float,frame=fitted",
+                                             "bullet:method=callback,frame=fitted",
+                                             "libccd+aabb:tolerance=1e-2",
+                                             "libccd+aabb",
+                                             "libccd+aabb:tolerance=1e-8",
+                                             "libccd+aabb:tolerance=1e-8,iterations=20",
+                                             "libccd+aabb:iterations=5",
+                                             "libccd+aabb:algorithm=mpr,tolerance=1e-2",
+                                             "libccd+aabb:algorithm=mpr",
+                                             "libccd+aabb:algorithm=mpr,tolerance=1e-8",
+                                             "embree"};
+
 }  // namespace
 
 const Roster& roster() {
   static const Roster all(
       {brute_force(), aabb_tree(), grid_group(), sphere_cluster(), fcl(), bullet(), libccd(), embree()},
-      compared_by_default, verified_besides);
+      compared_by_default, verified_besides, over_accuracy);
   return all;
 }
 

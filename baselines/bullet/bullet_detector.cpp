@@ -10,6 +10,7 @@
 #include <BulletCollision/CollisionShapes/btOptimizedBvh.h>
 #include <btBulletCollisionCommon.h>
 
+#include "baselines/bullet/view.h"
 #include "baselines/reach.h"
 #include "core/geometry/point_triangle.h"
 #include "core/geometry/sphere_triangle_sweep.h"
@@ -25,27 +26,11 @@ btVector3 bt_vector(const Vec3& v) {
 }
 btTransform at(const btVector3& center) { return btTransform(btQuaternion::getIdentity(), center); }
 
-/// How Bullet sees the mesh's coordinates: scale * (point - origin).
-struct View {
-  double scale = 1;
-  Vec3 origin = Vec3::Zero();
-
-  btVector3 into(const Vec3& point) const { return bt_vector(scale * (point - origin)); }
-  Vec3 back(const btVector3& point) const { return vec3(point) / scale + origin; }
+/// In Bullet's numbers.
+struct View : BulletView {
+  btVector3 into(const Vec3& point) const { return bt_vector(BulletView::into(point)); }
+  Vec3 back(const btVector3& point) const { return BulletView::back(vec3(point)); }
 };
-
-double mean_edge(const TriangleMesh& mesh) {
-  double sum = 0;
-  for (std::size_t i = 0; i < mesh.size(); ++i) {
-    for (int k = 0; k < 3; ++k) sum += (mesh.corner(i, k) - mesh.corner(i, (k + 1) % 3)).norm();
-  }
-  return sum / (3 * static_cast<double>(mesh.size()));
-}
-
-View fitted_view(const TriangleMesh& mesh) {
-  const double edge = mean_edge(mesh);
-  return {edge > 0 ? 1 / edge : 1, mesh.bounds().center()};
-}
 
 /// The deepest of the contacts that Bullet reports, in Bullet's frame.
 class Deepest final : public btCollisionWorld::ContactResultCallback {
@@ -126,7 +111,7 @@ struct World {
 struct BulletDetector::Model {
   Model(const TriangleMesh& mesh, const Options& chosen)
       : options(chosen), bounds(mesh.bounds()), ids(mesh.ids().begin(), mesh.ids().end()) {
-    if (options.frame == Frame::fitted) view = fitted_view(mesh);
+    if (options.frame == Frame::fitted) view = {BulletView::fitted(mesh)};
     if (options.method == Method::callback) triangles = prepare(mesh);
     largest_coordinate =
         view.scale *

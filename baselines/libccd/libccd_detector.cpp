@@ -72,14 +72,14 @@ struct Penetration {
 /// One ball and one triangle at a time, as libccd sees them.
 class Pair {
  public:
-  Pair(Algorithm algorithm, double tolerance) : algorithm_(algorithm) {
+  explicit Pair(const LibccdDetector::Options& options) : algorithm_(options.algorithm) {
     CCD_INIT(&ccd_);
     ccd_.support1 = support_of_ball;
     ccd_.support2 = support_of_triangle;
     ccd_.center1 = center_of_ball;
     ccd_.center2 = center_of_triangle;
-    ccd_.max_iterations = 500;
-    ccd_.epa_tolerance = ccd_.mpr_tolerance = tolerance;
+    ccd_.max_iterations = options.iterations;
+    ccd_.epa_tolerance = ccd_.mpr_tolerance = options.tolerance;
   }
 
   bool intersect(double radius, std::array<Vec3, 3> corners) {
@@ -175,7 +175,7 @@ struct LibccdDetector::Model {
   }
 
   std::optional<Contact> nearest_within(const Vec3& center, double reach, Session& session) const {
-    Pair pair(options.algorithm, options.tolerance);
+    Pair pair(options);
     Nearest nearest{reach};
     Work tree_work;
     tree.for_each_near(center, reach, tree_work, [&](const PreparedTriangle& triangle) {
@@ -188,7 +188,7 @@ struct LibccdDetector::Model {
   }
 
   bool touches(const Vec3& center, double radius, Session& session) const {
-    Pair pair(options.algorithm, options.tolerance);
+    Pair pair(options);
     bool touching = false;
     Work tree_work;
     tree.for_each_near(center, radius, tree_work, [&](const PreparedTriangle& triangle) {
@@ -219,6 +219,7 @@ LibccdDetector LibccdDetector::build(const TriangleMesh& mesh, const Options& op
     throw std::invalid_argument("libccd+aabb: tolerance=" + std::to_string(options.tolerance) +
                                 " is not positive");
   }
+  if (options.iterations == 0) throw std::invalid_argument("libccd+aabb: iterations=0 lets GJK do nothing");
   return LibccdDetector(std::make_unique<Model>(mesh, options));
 }
 

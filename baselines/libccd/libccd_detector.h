@@ -21,14 +21,15 @@ class LibccdDetector {
   struct Options {
     Algorithm algorithm = Algorithm::gjk;
     Frame frame = Frame::fitted;
-    double tolerance = 1e-4;  ///< of EPA and MPR, libccd's own default; in radii when fitted
+    double tolerance = 1e-4;       ///< of EPA and MPR, libccd's own default; in radii when fitted
+    std::size_t iterations = 500;  ///< of GJK at most; libccd's own default is ULONG_MAX
   };
   struct Session {
     Work work;                 ///< boxes: our tree's; triangles: those libccd is asked about
     std::size_t given_up = 0;  ///< pairs that were stopped for taking too long
   };
 
-  /// Throws std::invalid_argument for a tolerance that is not positive.
+  /// Throws std::invalid_argument for a tolerance that is not positive, or no iterations.
   static LibccdDetector build(const TriangleMesh& mesh, const Options& options);
   static LibccdDetector build(const TriangleMesh& mesh) { return build(mesh, Options()); }
 

@@ -35,6 +35,7 @@ struct BenchOptions {
   Selectors selectors;
   std::string out;
   bool quick = false;
+  bool frontier = false;
   WorkerSelectors workers;
 };
 
@@ -180,6 +181,10 @@ void add_bench(CLI::App& program, ProgramContext& context) {
       program.add_subcommand("bench", "verify and time contestants on identical trajectories");
   add_selectors(*command, options->selectors);
   command->add_option("--out", options->out, "folder for results.csv and run.json")->type_name("DIR");
+  command
+      ->add_flag("--frontier", options->frontier,
+                 "every contestant over the options that trade accuracy for time (see the plot time_error)")
+      ->excludes("--detector");
   command->add_flag("--quick", options->quick, "fewer steps and repetitions");
   add_worker_selectors(*command, options->workers);
   command->allow_extras();
@@ -191,6 +196,10 @@ void add_bench(CLI::App& program, ProgramContext& context) {
       "--out results/today\n");
   command->final_callback([options, command, &context] {
     const BenchmarkFlags flags = parse_benchmark_flags(command->remaining());
+    if (options->frontier) {
+      for (const ContestantSpec& spec : context.roster.frontier())
+        options->selectors.detectors.push_back(spec.text());
+    }
     BenchRun run(context.roster, *options, flags, arguments_of(context));
     if (flags.list_tests) return run.list_cases();
     context.status = run.run();

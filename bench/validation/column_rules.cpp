@@ -133,6 +133,9 @@ constexpr std::array rules{
     measured("triangles_mean", Presence::optional),
     counted("exact_decisions", Presence::optional),
     ColumnRule{"decides_exactly", Presence::judged, &is_bit, "is not 0 or 1"},
+    counted("stored_missed", Presence::optional),
+    counted("stored_false_contacts", Presence::optional),
+    ranged("stored_max_distance_error_of_diagonal", Presence::optional),
 };
 
 }  // namespace
