@@ -36,7 +36,10 @@ ContestantInfo brute_force() {
   info.summary = "every triangle, every time: both papers' \"without grouping\"";
   info.accuracy = "exact";
   info.queries = queries_of<BruteForce>();
-  info.build = [](const TriangleMesh& mesh, const OptionValues&) { return contestant<BruteForce>(mesh, {}); };
+  info.options = {side_option()};
+  info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
+    return contestant<BruteForce>(mesh, {}, values);
+  };
   return info;
 }
 
@@ -46,9 +49,9 @@ ContestantInfo aabb_tree() {
   info.summary = "a plain binary tree of boxes in double precision: the reference";
   info.accuracy = "exact";
   info.queries = queries_of<AabbTree>();
-  info.options = {{"leaf_size", OptionKind::count, {}, "4", "triangles a leaf holds at most"}};
+  info.options = {{"leaf_size", OptionKind::count, {}, "4", "triangles a leaf holds at most"}, side_option()};
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
-    return contestant<AabbTree>(mesh, {values.count("leaf_size")});
+    return contestant<AabbTree>(mesh, {values.count("leaf_size")}, values);
   };
   return info;
 }
@@ -68,7 +71,8 @@ ContestantInfo grid_group() {
       choice("shape", shapes, "of the groups; scan only"),
       {"cell", OptionKind::length, {}, "0", "edge of a cell, direct: of the smallest; 0: choose"},
       {"groups", OptionKind::count, {}, "0", "scan with cell=0: aim at so many groups; 0: choose"},
-      {"bytes_per_triangle", OptionKind::number, {}, "400", "direct: what the structure may take"}};
+      {"bytes_per_triangle", OptionKind::number, {}, "400", "direct: what the structure may take"},
+      side_option()};
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
     GridGroup::Options options;
     options.lookup = chosen(values, "lookup", lookups);
@@ -76,7 +80,7 @@ ContestantInfo grid_group() {
     options.cell = values.length("cell", mesh);
     options.groups = values.count("groups");
     options.bytes_per_triangle = values.number("bytes_per_triangle");
-    return contestant<GridGroup>(mesh, options);
+    return contestant<GridGroup>(mesh, options, values);
   };
   return info;
 }
@@ -96,13 +100,14 @@ ContestantInfo sphere_cluster() {
        {},
        "0",
        "distance between centroids that share a sphere; 0: a sphere each"},
-      choice("precise", yes_or_no, "false: the published fast level alone, spheres for triangles")};
+      choice("precise", yes_or_no, "false: the published fast level alone, spheres for triangles"),
+      side_option()};
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
     SphereCluster::Options options;
     options.lookup = chosen(values, "lookup", lookups);
     options.clustering = values.length("clustering", mesh);
     options.precise = chosen(values, "precise", yes_or_no);
-    return contestant<SphereCluster>(mesh, options);
+    return contestant<SphereCluster>(mesh, options, values);
   };
   return info;
 }
