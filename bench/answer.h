@@ -20,6 +20,8 @@ struct Answer {
   double distance = 0;
   double point[3] = {0, 0, 0};
   double normal[3] = {0, 0, 0};
+  Side side = Side::unasked;
+  std::uint8_t unused[7] = {0, 0, 0, 0, 0, 0, 0};
 
   static Answer of(const Contact& contact, double fraction = 0) {
     return {1,
@@ -27,10 +29,11 @@ struct Answer {
             fraction,
             contact.distance,
             {contact.point.x(), contact.point.y(), contact.point.z()},
-            {contact.normal.x(), contact.normal.y(), contact.normal.z()}};
+            {contact.normal.x(), contact.normal.y(), contact.normal.z()},
+            contact.side};
   }
 };
-static_assert(std::is_trivially_copyable_v<Answer> && sizeof(Answer) == 72);
+static_assert(std::is_trivially_copyable_v<Answer> && sizeof(Answer) == 80);
 
 /// Folds answers, in order, into the number that ties timed answers to verified ones. A few integer
 /// operations, the same for every contestant, so that a timed loop cannot be optimised away and cannot answer
@@ -38,7 +41,8 @@ static_assert(std::is_trivially_copyable_v<Answer> && sizeof(Answer) == 72);
 class Checksum {
  public:
   void add(const Answer& answer) noexcept {
-    value_ = std::rotl(value_, 7) ^ (answer.found * 0x9e3779b97f4a7c15ULL + answer.triangle) ^
+    const std::uint64_t said = answer.found + 2 * static_cast<std::uint64_t>(answer.side);
+    value_ = std::rotl(value_, 7) ^ (said * 0x9e3779b97f4a7c15ULL + answer.triangle) ^
              std::bit_cast<std::uint64_t>(answer.distance) ^ std::bit_cast<std::uint64_t>(answer.fraction);
   }
   std::uint64_t value() const noexcept { return value_; }

@@ -1,0 +1,63 @@
+/// Any detector, with the side of the surface in its contacts. The detector itself is asked as before; what
+/// the side costs comes on top, once for each contact.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+#include "core/detector.h"
+#include "core/geometry/sphere_triangle_sweep.h"
+#include "core/sign/side_finder.h"
+
+namespace touchmark {
+
+template <Detector D>
+class Signed {
+ public:
+  using Options = typename D::Options;
+  struct Session : D::Session {
+    std::uint64_t counted = 0;  ///< sides that pseudonormals did not decide
+  };
+
+  static Signed build(const TriangleMesh& mesh, const Options& options) {
+    return Signed(D::build(mesh, options), SideFinder::build(mesh));
+  }
+
+  bool touches(const Probe& probe, Session& session) const noexcept requires AnswersTouches<D> {
+    return detector_.touches(probe, session);
+  }
+
+  std::optional<Contact> nearest(const Probe& probe, double reach,
+                                 Session& session) const noexcept requires AnswersNearest<D> {
+    std::optional<Contact> contact = detector_.nearest(probe, reach, session);
+    if (contact) contact->side = sides_.side(probe.center, *contact, detector_.accuracy(), session.counted);
+    return contact;
+  }
+
+  /// The side is that of the centre where the probe touches. The touch is only told to within a rounding, so
+  /// the contact's distance is not relied on.
+  std::optional<Impact> first_hit(const Sweep& sweep,
+                                  Session& session) const noexcept requires AnswersSweep<D> {
+    std::optional<Impact> impact = detector_.first_hit(sweep, session);
+    if (impact) {
+      constexpr Accuracy approximate{Guarantee::approximate, 0, 0, false};
+      impact->contact.side =
+          sides_.side(position_at(sweep, impact->fraction), impact->contact, approximate, session.counted);
+    }
+    return impact;
+  }
+
+  std::size_t bytes() const noexcept { return detector_.bytes() + sides_.bytes(); }
+  Accuracy accuracy() const noexcept { return detector_.accuracy(); }
+  const SideFinder& sides() const noexcept { return sides_; }
+
+ private:
+  Signed(D detector, SideFinder sides) : detector_(std::move(detector)), sides_(std::move(sides)) {}
+
+  D detector_;
+  SideFinder sides_;
+};
+
+}  // namespace touchmark
