@@ -14,21 +14,38 @@ bool touching(Query query, const Step& step, const Answer& answer) noexcept {
   return query != Query::nearest || answer.distance <= step.probe.radius;
 }
 
+const char* name_of(Side side) noexcept {
+  switch (side) {
+    case Side::unasked:
+      return "";
+    case Side::outside:
+      return "outside";
+    case Side::inside:
+      return "inside";
+    case Side::on_surface:
+      return "on_surface";
+    case Side::undecided:
+      return "undecided";
+  }
+  return "";
+}
+
 }  // namespace
 
-std::string_view answer_header(Query query) noexcept {
-  return query == Query::sweep
-             ? "step,touching,triangle,distance,point_x,point_y,point_z,normal_x,normal_y,normal_z,"
-               "fraction\n"
-             : "step,touching,triangle,distance,point_x,point_y,point_z,normal_x,normal_y,normal_z\n";
+std::string answer_header(Query query, bool with_side) {
+  std::string header = "step,touching,triangle,distance,point_x,point_y,point_z,normal_x,normal_y,normal_z";
+  if (query == Query::sweep) header += ",fraction";
+  if (with_side) header += ",side";
+  return header + "\n";
 }
 
 void append_answer_row(std::string& rows, Query query, std::size_t index, const Step& step,
-                       const Answer& answer) {
+                       const Answer& answer, bool with_side) {
   const auto out = std::back_inserter(rows);
   fmt::format_to(out, "{},{}", index, touching(query, step, answer) ? 1 : 0);
   if (query == Query::touches || answer.found == 0) {
-    rows += query == Query::sweep ? ",,,,,,,,,\n" : ",,,,,,,,\n";
+    rows += query == Query::sweep ? ",,,,,,,,," : ",,,,,,,,";
+    rows += with_side ? ",\n" : "\n";
     return;
   }
   rows += ',';
@@ -37,6 +54,7 @@ void append_answer_row(std::string& rows, Query query, std::size_t index, const 
   for (const double x : answer.point) fmt::format_to(out, ",{}", x);
   for (const double x : answer.normal) fmt::format_to(out, ",{}", x);
   if (query == Query::sweep) fmt::format_to(out, ",{}", answer.fraction);
+  if (with_side) fmt::format_to(out, ",{}", name_of(answer.side));
   rows += '\n';
 }
 

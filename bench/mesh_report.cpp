@@ -107,6 +107,7 @@ MeshReport report_on(const TriangleMesh& mesh) {
                                 static_cast<std::int64_t>(report.edges) +
                                 static_cast<std::int64_t>(report.triangles);
   if (report.closed && report.oriented) report.volume = signed_volume(mesh);
+  report.sides = SideFinder::build(mesh).surface();
   return report;
 }
 

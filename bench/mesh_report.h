@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/geometry/aabb.h"
+#include "core/sign/side_finder.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::bench {
@@ -34,6 +35,8 @@ struct MeshReport {
   std::optional<double> volume;  ///< closed and oriented meshes only; negative when oriented inwards
   double shortest_edge = 0, mean_edge = 0, longest_edge = 0;  ///< zero when there is no edge
   double worst_aspect_ratio = 0;  ///< longest edge over smallest height; zero when all are degenerate
+
+  SideFinder::Surface sides;  ///< how inside and outside would be told apart
 };
 
 MeshReport report_on(const TriangleMesh& mesh);

@@ -40,7 +40,10 @@ ContestantInfo brute_force() {
   info.summary = "every triangle, every time: both papers' \"without grouping\"";
   info.accuracy = "exact";
   info.queries = queries_of<BruteForce>();
-  info.build = [](const TriangleMesh& mesh, const OptionValues&) { return contestant<BruteForce>(mesh, {}); };
+  info.options = {side_option()};
+  info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
+    return contestant<BruteForce>(mesh, {}, values);
+  };
   return info;
 }
 
@@ -51,9 +54,11 @@ ContestantInfo aabb_tree() {
   info.accuracy = "exact";
   info.queries = queries_of<AabbTree>();
   info.options = {{"leaf_size", OptionKind::count, {}, "4", "triangles a leaf holds at most"},
-                  certified_option()};
+                  certified_option(),
+                  side_option()};
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
-    return contestant<AabbTree>(mesh, {values.count("leaf_size"), chosen(values, "certified", yes_or_no)});
+    return contestant<AabbTree>(mesh, {values.count("leaf_size"), chosen(values, "certified", yes_or_no)},
+                                values);
   };
   return info;
 }
@@ -74,7 +79,8 @@ ContestantInfo grid_group() {
       {"cell", OptionKind::length, {}, "0", "edge of a cell, direct: of the smallest; 0: choose"},
       {"groups", OptionKind::count, {}, "0", "scan with cell=0: aim at so many groups; 0: choose"},
       {"bytes_per_triangle", OptionKind::number, {}, "400", "direct: what the structure may take"},
-      certified_option()};
+      certified_option(),
+      side_option()};
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
     GridGroup::Options options;
     options.lookup = chosen(values, "lookup", lookups);
@@ -83,7 +89,7 @@ ContestantInfo grid_group() {
     options.groups = values.count("groups");
     options.bytes_per_triangle = values.number("bytes_per_triangle");
     options.certified = chosen(values, "certified", yes_or_no);
-    return contestant<GridGroup>(mesh, options);
+    return contestant<GridGroup>(mesh, options, values);
   };
   return info;
 }
@@ -104,14 +110,15 @@ ContestantInfo sphere_cluster() {
        "0",
        "distance between centroids that share a sphere; 0: a sphere each"},
       choice("precise", yes_or_no, "false: the published fast level alone, spheres for triangles"),
-      certified_option()};
+      certified_option(),
+      side_option()};
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
     SphereCluster::Options options;
     options.lookup = chosen(values, "lookup", lookups);
     options.clustering = values.length("clustering", mesh);
     options.precise = chosen(values, "precise", yes_or_no);
     options.certified = chosen(values, "certified", yes_or_no);
-    return contestant<SphereCluster>(mesh, options);
+    return contestant<SphereCluster>(mesh, options, values);
   };
   return info;
 }

@@ -8,12 +8,32 @@
 
 #include "bench/contestant.h"
 #include "bench/contestant_info.h"
+#include "core/sign/signed_detector.h"
 
 namespace touchmark::bench {
 
 template <Detector D>
 std::unique_ptr<Contestant> contestant(const TriangleMesh& mesh, const typename D::Options& options) {
   return std::make_unique<ContestantOf<D>>(D::build(mesh, options));
+}
+
+/// What a contestant may be asked besides contacts. On, the detector is wrapped; off, it is itself.
+inline const char* const side_key = "side";
+
+inline OptionInfo side_option() {
+  return {side_key, OptionKind::choice, {"off", "on"}, "off", "on: contacts tell inside from outside"};
+}
+
+inline bool asks_for_side(const OptionValues& values) {
+  const auto side = values.all().find(side_key);
+  return side != values.all().end() && side->second == "on";
+}
+
+/// The same with the option above.
+template <Detector D>
+std::unique_ptr<Contestant> contestant(const TriangleMesh& mesh, const typename D::Options& options,
+                                       const OptionValues& values) {
+  return asks_for_side(values) ? contestant<Signed<D>>(mesh, options) : contestant<D>(mesh, options);
 }
 
 /// A choice's names with what they stand for. The first one is the default.

@@ -25,6 +25,20 @@ const char* yes_or_no(bool value) { return value ? "yes" : "no"; }
 
 std::string coordinates(const Vec3& v) { return fmt::format("{} {} {}", v.x(), v.y(), v.z()); }
 
+const char* name_of(SideFinder::Way way) {
+  switch (way) {
+    case SideFinder::Way::pseudonormals:
+      return "pseudonormals";
+    case SideFinder::Way::crossings:
+      return "crossings";
+    case SideFinder::Way::winding_number:
+      return "winding_number";
+    case SideFinder::Way::none:
+      return "none";
+  }
+  return "";
+}
+
 std::string as_text(const MeshReport& report) {
   std::string text;
   const auto line = [&text](const char* what, const auto& value) {
@@ -50,6 +64,11 @@ std::string as_text(const MeshReport& report) {
   line("mean_edge", report.mean_edge);
   line("longest_edge", report.longest_edge);
   line("worst_aspect_ratio", report.worst_aspect_ratio);
+  line("sides_by", name_of(report.sides.way));
+  line("simple_triangles", report.sides.simple_triangles);
+  line("open_edges", report.sides.open_edges);
+  line("contrary_edges", report.sides.contrary_edges);
+  line("inside_out", yes_or_no(report.sides.inside_out));
   return text;
 }
 
@@ -77,6 +96,11 @@ std::string as_json(const std::string& mesh, const MeshReport& report) {
   json["mean_edge"] = report.mean_edge;
   json["longest_edge"] = report.longest_edge;
   json["worst_aspect_ratio"] = report.worst_aspect_ratio;
+  json["sides_by"] = name_of(report.sides.way);
+  json["simple_triangles"] = report.sides.simple_triangles;
+  json["open_edges"] = report.sides.open_edges;
+  json["contrary_edges"] = report.sides.contrary_edges;
+  json["inside_out"] = report.sides.inside_out;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -17,6 +17,7 @@
 #include "bench/interrupt.h"
 #include "bench/program.h"
 #include "bench/query_name.h"
+#include "bench/roster_options.h"
 #include "bench/scenes.h"
 #include "bench/selectors.h"
 #include "bench/standard_output.h"
@@ -102,10 +103,11 @@ void check_it_answers(const Built& built, Query query, const std::string& contes
   throw std::invalid_argument(fmt::format("{} does not answer --query {}", contestant, name_of(query)));
 }
 
-void write_rows(RowSink& sink, Query query, std::span<const Step> course, std::span<const Answer> answers) {
-  std::string rows(answer_header(query));
+void write_rows(RowSink& sink, Query query, std::span<const Step> course, std::span<const Answer> answers,
+                bool with_side) {
+  std::string rows = answer_header(query, with_side);
   for (std::size_t i = 0; i < course.size(); ++i) {
-    append_answer_row(rows, query, i, course[i], answers[i]);
+    append_answer_row(rows, query, i, course[i], answers[i], with_side);
     if (rows.size() < block_size) continue;
     check_for_interrupt();
     if (!sink.write(rows)) return;
@@ -132,7 +134,7 @@ void run_query(const QueryOptions& options, const Roster& roster) {
   } catch (const WorkerFailure& failure) {
     explain(failure, spec.text());
   }
-  write_rows(sink, query, course, stage.room().answers(course.size()));
+  write_rows(sink, query, course, stage.room().answers(course.size()), asks_for_side(spec.values));
 }
 
 }  // namespace
@@ -147,7 +149,8 @@ void add_query(CLI::App& program, ProgramContext& context) {
   add_worker_selectors(*command, options->workers);
   command->footer(
       "Example: touchmark query --mesh bunny --trajectory approach --detector grid-group --reach inf "
-      "--csv answers.csv\n");
+      "--csv answers.csv\n"
+      "With the option side=on (--detector grid-group:side=on) a last column tells inside from outside.\n");
   command->final_callback([options, &context] {
     watch_for_interrupts();
     try {

@@ -64,12 +64,102 @@ TEST(SideFinder, AgreesWithTheExactWindingNumberWhereSurfacesCrossAndTouch) {
 TEST(SideFinder, AgreesWithTheExactWindingNumberFarFromTheOriginTinyAndHuge) {
   for (const Named& solid : solids()) {
     for (const double scale : {1e-9, 1.0, 1e9}) {
-      for (const double shift : {0.0, 1e3, 1e9}) {
+      for (const double shift : {0.0, 1e9}) {
         const std::string name = solid.name + " * " + std::to_string(scale) + " + " + std::to_string(shift);
         expect_true_sides({name, moved(solid.mesh, scale, Vec3::Constant(shift * scale))}, 4, 3);
       }
     }
   }
+}
+
+TEST(SideFinder, BehindTheFacesIsInsideThoughTheMeshBeInsideOut) {
+  const SignedBruteForce room = SignedBruteForce::build(turned_over(bench::icosphere(2)), {});
+  EXPECT_TRUE(room.sides().surface().inside_out);
+  bench::Random random(4);
+  for (int i = 0; i < 200; ++i) {
+    const Vec3 direction = random.direction();
+    EXPECT_EQ(side_at(room, 0.9 * direction), Side::outside);
+    EXPECT_EQ(side_at(room, 1.1 * direction), Side::inside);
+  }
+}
+
+TEST(SideFinder, AShellTurnedAgainstTheRestIsUndecidedWithinAndTheRestIsNotDisturbed) {
+  const TriangleMesh ball = bench::icosphere(1);
+  const SignedBruteForce detector =
+      SignedBruteForce::build(together({ball, turned_over(moved(ball, 0.5, {3, 0, 0}))}), {});
+  EXPECT_FALSE(detector.sides().surface().inside_out);
+  EXPECT_EQ(side_at(detector, {0.1, 0.2, 0.3}), Side::inside);
+  EXPECT_EQ(side_at(detector, {1.5, 0, 0}), Side::outside);
+  EXPECT_EQ(side_at(detector, {2.4, 0, 0}), Side::outside);  // nearest is the shell turned over
+  EXPECT_EQ(side_at(detector, {3.1, 0, 0}), Side::undecided);
+}
+
+TEST(SideFinder, DecidesByPseudonormalsWhereNothingIsDifficult) {
+  const TriangleMesh mesh = bench::noisy_sphere(2000);
+  const SignedBruteForce detector = SignedBruteForce::build(mesh, {});
+  EXPECT_EQ(detector.sides().surface().way, SideFinder::Way::pseudonormals);
+  SignedBruteForce::Session session;
+  bench::Random random(5);
+  constexpr int count = 2000;
+  for (int i = 0; i < count; ++i)
+    detector.nearest({1.5 * random.unit() * random.direction(), 0}, infinity, session);
+  EXPECT_LT(session.counted, count / 20u);
+}
+
+TEST(SideFinder, PiecesOfAPolygonAreToldApart) {
+  const TriangleMesh cube = bench::cube();
+  const TriangleMesh squares{{cube.vertices().begin(), cube.vertices().end()},
+                             {cube.triangles().begin(), cube.triangles().end()},
+                             {0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 9, 9}};
+  const SignedBruteForce by_squares = SignedBruteForce::build(squares, {}),
+                         by_triangles = SignedBruteForce::build(cube, {});
+  bench::Random random(6);
+  for (const Vec3& point : telling_points(cube, random, 100))
+    ASSERT_EQ(side_at(by_squares, point), side_at(by_triangles, point)) << point.transpose();
+}
+
+TEST(SideFinder, MovingTheCentreByOneRoundingThroughAFaceChangesTheSide) {
+  const SignedBruteForce cube = SignedBruteForce::build(bench::cube(), {});
+  EXPECT_EQ(side_at(cube, {0.5, 0.1, 0.2}), Side::on_surface);
+  EXPECT_EQ(side_at(cube, {std::nextafter(0.5, 1), 0.1, 0.2}), Side::outside);
+  EXPECT_EQ(side_at(cube, {std::nextafter(0.5, 0), 0.1, 0.2}), Side::inside);
+}
+
+/// One that errs, and says so.
+class Mistaken {
+ public:
+  struct Options {};
+  struct Session {
+    Work work;
+  };
+  static Mistaken build(const TriangleMesh&, const Options&) { return {}; }
+  std::optional<Contact> nearest(const Probe& probe, double, Session&) const noexcept {
+    return Contact{probe.center, Vec3::UnitX(), 0, 0};
+  }
+  std::size_t bytes() const noexcept { return 0; }
+  Accuracy accuracy() const noexcept { return {Guarantee::approximate, 0, 0, false}; }
+};
+
+TEST(SideFinder, DoesNotTrustTheContactOfAnApproximateDetector) {
+  const TriangleMesh ball = bench::icosphere(2);
+  const auto detector = Signed<Mistaken>::build(ball, {});
+  const std::vector<bench::Triangle> triangles = triangles_of(ball);
+  Signed<Mistaken>::Session session;
+  bench::Random random(7);
+  for (const Vec3& point : telling_points(ball, random, 20))
+    ASSERT_EQ(detector.nearest({point, 0}, infinity, session)->side, truth(point, triangles));
+}
+
+TEST(SideFinder, ASweepTellsTheSideItTouchesFrom) {
+  const SignedBruteForce cube = SignedBruteForce::build(bench::cube(), {});
+  SignedBruteForce::Session session;
+  EXPECT_EQ(cube.first_hit({{2, 0.1, 0.2}, {-2, 0.1, 0.2}, 0.1}, session)->contact.side, Side::outside);
+  EXPECT_EQ(cube.first_hit({{0.1, 0.1, 0.2}, {2, 0.1, 0.2}, 0.1}, session)->contact.side, Side::inside);
+}
+
+TEST(SideFinder, WhoDoesNotAskIsNotTold) {
+  BruteForce::Session session;
+  EXPECT_EQ(BruteForce::build(bench::cube()).nearest({{1, 0, 0}, 0}, infinity, session)->side, Side::unasked);
 }
 
 }  // namespace
