@@ -131,6 +131,7 @@ constexpr std::array columns{
            [](Row row) { return row.work ? fmt::format("{}", row.work->total.exact_decisions) : ""; }},
     Column{"decides_exactly",
            [](Row row) { return row.accuracy ? fmt::format("{:d}", row.accuracy->decides_exactly) : ""; }},
+    Column{"wrong_side", count_of<&Tally::wrong_side>},
 };
 
 }  // namespace

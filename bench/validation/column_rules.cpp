@@ -133,6 +133,7 @@ constexpr std::array rules{
     measured("triangles_mean", Presence::optional),
     counted("exact_decisions", Presence::optional),
     ColumnRule{"decides_exactly", Presence::judged, &is_bit, "is not 0 or 1"},
+    counted("wrong_side", Presence::judged),
 };
 
 }  // namespace
