@@ -69,10 +69,11 @@ struct ResultRow {
   bool broke_its_word() const { return accuracy && tally && !keeps_its_word(*tally, *accuracy); }
 };
 
-/// How many answers found contact with the wrong distance, point or normal: at least so many, since one
-/// answer is counted under each of the three.
+/// How many answers found contact with the wrong distance, point, normal or side: at least so many, since one
+/// answer is counted under each of them.
 inline std::uint64_t answers_off(const Tally& tally) noexcept {
-  return std::max({tally.beyond_bound, tally.wrong_point, tally.wrong_normal}) + tally.malformed;
+  return std::max({tally.beyond_bound, tally.wrong_point, tally.wrong_normal, tally.wrong_side}) +
+         tally.malformed;
 }
 
 /// As claimed; empty where it is not known.

@@ -142,6 +142,7 @@ constexpr std::array columns{
            [](Row row) {
              return row.stored_tally ? exactly(row.stored_tally->max_distance_error_of_diagonal) : "";
            }},
+    Column{"wrong_side", count_of<&Tally::wrong_side>},
 };
 
 }  // namespace

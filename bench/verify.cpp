@@ -75,6 +75,11 @@ class Judge {
   std::vector<Truth> with_id(const Truth& truth, const Vec3& center, TriangleId id, double slack) const;
   std::vector<Truth> tied(const Truth& truth, const Vec3& center, double slack) const;
   void note_distance_error(double error, Tally& tally) const;
+  bool is_wrong(Side said, const Vec3& center) const {
+    if (said == Side::unasked || said == Side::undecided) return false;
+    const std::optional<Side> side = oracle_.side(center);
+    return side && *side != said;
+  }
 
   const Oracle& oracle_;
   const Accuracy& accuracy_;
@@ -210,7 +215,9 @@ void Judge::position(const Truth& truth, Query query, const Probe& probe, double
     case Verdict::right:
       break;
   }
-  if (has_fields) contact(truth, probe.center, answer, 0, tally);
+  if (!has_fields) return;
+  contact(truth, probe.center, answer, 0, tally);
+  if (is_wrong(answer.side, probe.center)) ++tally.wrong_side;
 }
 
 void Judge::sweep(const SweepTruth& truth, const Sweep& sweep, const Answer& answer, Tally& tally) const {
@@ -281,6 +288,7 @@ Tally& Tally::operator+=(const Tally& other) noexcept {
   wrong_point += other.wrong_point;
   wrong_normal += other.wrong_normal;
   malformed += other.malformed;
+  wrong_side += other.wrong_side;
   unresolved += other.unresolved;
   max_distance_error = std::max(max_distance_error, other.max_distance_error);
   max_distance_error_of_diagonal =
@@ -292,7 +300,7 @@ Tally& Tally::operator+=(const Tally& other) noexcept {
 }
 
 bool keeps_its_word(const Tally& tally, const Accuracy& accuracy) noexcept {
-  if (tally.malformed > 0) return false;
+  if (tally.malformed + tally.wrong_side > 0) return false;
   if (accuracy.guarantee == Guarantee::approximate) return true;
   if (tally.missed > 0) return false;
   if (accuracy.guarantee == Guarantee::conservative) return true;

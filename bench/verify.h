@@ -36,6 +36,8 @@ struct Tally {
   std::uint64_t wrong_normal = 0;  ///< normal not unit, or turned by more than the accuracy can explain
   std::uint64_t malformed =
       0;  ///< NaN or infinity in a field, a negative distance, a fraction outside [0, 1]
+  std::uint64_t wrong_side =
+      0;  ///< nearest only: inside, outside or on the surface where that is not so; not to say is not wrong
   std::uint64_t unresolved = 0;  ///< differs from the truth, but within the accuracy of the threshold
 
   double max_distance_error = 0;              ///< mesh units
@@ -49,7 +51,7 @@ struct Tally {
 };
 
 /// Does the tally agree with what the contestant claims? exact: no error of any kind. conservative: nothing
-/// missed or malformed. approximate: nothing malformed.
+/// missed or malformed. approximate: nothing malformed. Whoever tells a side must tell the right one.
 bool keeps_its_word(const Tally& tally, const Accuracy& accuracy) noexcept;
 
 /// Judges `touches` (against each probe's radius) or `nearest` (against `reach`; infinite is allowed). Step i

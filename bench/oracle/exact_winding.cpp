@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -99,6 +101,32 @@ std::optional<int> along_ray(const Vec3& p, std::span<const Triangle> triangles,
   return winding;
 }
 
+/// Sides that run one way cancel those that run back. (-0 and 0 are one place.)
+bool is_closed(std::span<const Triangle> triangles) {
+  using Place = std::array<double, 3>;
+  const auto place = [](const Vec3& v) { return Place{v.x() + 0.0, v.y() + 0.0, v.z() + 0.0}; };
+  std::map<std::pair<Place, Place>, int> balance;
+  for (const Triangle& t : triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Place a = place(t[i]), b = place(t[(i + 1) % 3]);
+      if (a < b) ++balance[{a, b}];
+      if (b < a) --balance[{b, a}];
+    }
+  }
+  return std::all_of(balance.begin(), balance.end(), [](const auto& edge) { return edge.second == 0; });
+}
+
+/// About the first corner; a closed surface has the same volume about any point.
+bool has_negative_volume(std::span<const Triangle> triangles) {
+  Grid grid;
+  for (const Triangle& t : triangles) grid.add(t);
+  const Vector origin = grid(triangles.front()[0]);
+  Integer six_volumes = 0;
+  for (const Triangle& t : triangles)
+    six_volumes += dot(grid(t[0]) - origin, cross(grid(t[1]) - origin, grid(t[2]) - origin));
+  return six_volumes < 0;
+}
+
 }  // namespace
 
 std::optional<int> winding_exactly(const Vec3& point, std::span<const Triangle> triangles) {
@@ -109,6 +137,20 @@ std::optional<int> winding_exactly(const Vec3& point, std::span<const Triangle> 
     const std::optional<int> winding = along_ray(point, triangles, draw(random));
     if (winding) return winding;
   }
+}
+
+ExactSides::ExactSides(const TriangleMesh& mesh) {
+  for (std::uint32_t t = 0; t < mesh.size(); ++t) triangles_.push_back(triangle_of(mesh, t));
+  closed_ = is_closed(triangles_);
+  inside_out_ = closed_ && has_negative_volume(triangles_);
+}
+
+Side ExactSides::side(const Vec3& point) const {
+  const std::optional<int> winding = winding_exactly(point, triangles_);
+  if (!winding) return Side::on_surface;
+  if (*winding == 0) return inside_out_ ? Side::inside : Side::outside;
+  if ((*winding < 0) != inside_out_) return Side::undecided;
+  return inside_out_ ? Side::outside : Side::inside;
 }
 
 }  // namespace touchmark::bench

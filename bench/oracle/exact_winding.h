@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "bench/oracle/triangle.h"
 
@@ -13,5 +14,22 @@ namespace touchmark::bench {
 /// Every edge must have as many triangles one way as the other; nothing where the point is on a triangle.
 /// Finite coordinates. Looks at every triangle.
 std::optional<int> winding_exactly(const Vec3& point, std::span<const Triangle> triangles);
+
+/// On which side of a mesh a point is, where that has one answer.
+class ExactSides {
+ public:
+  explicit ExactSides(const TriangleMesh& mesh);
+
+  /// Does every edge, by the places of its ends, have as many triangles one way as the other?
+  bool closed() const noexcept { return closed_; }
+  /// Of a closed mesh, for a finite point. By what core/sign/side_finder.h means: with a negative volume the
+  /// space all round is inside. Undecided where shells contradict each other.
+  Side side(const Vec3& point) const;
+
+ private:
+  std::vector<Triangle> triangles_;
+  bool closed_ = false;
+  bool inside_out_ = false;
+};
 
 }  // namespace touchmark::bench

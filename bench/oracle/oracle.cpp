@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <thread>
 
 #include "bench/oracle/exact_distance.h"
+#include "bench/oracle/exact_winding.h"
 #include "bench/oracle/interval_distance.h"
 #include "bench/oracle/parallel.h"
 #include "bench/oracle/triangle_tree.h"
@@ -73,6 +75,8 @@ struct Oracle::Structure {
   const TriangleMesh* mesh;
   unsigned threads;
   TriangleTree tree;
+  mutable std::once_flag sides_asked{};
+  mutable std::optional<ExactSides> sides = std::nullopt;  // made when first asked for
 
   Truth nearest(const Vec3& center, std::optional<std::uint32_t> hint) const;
   std::vector<Candidate> candidates(const Vec3& center, std::optional<std::uint32_t> hint) const;
@@ -175,6 +179,12 @@ bool Oracle::within(const Truth& truth, const Vec3& center, double radius) const
   if (normal && truth.high != radius) return truth.high < radius;
   if (normal && std::abs(truth.low) > 0x1p-90 * truth.high) return truth.low < 0;
   return compare_distance(center, triangle_of(mesh(), truth.triangle), radius) <= 0;
+}
+
+std::optional<Side> Oracle::side(const Vec3& center) const {
+  std::call_once(structure_->sides_asked, [&] { structure_->sides.emplace(mesh()); });
+  if (!structure_->sides->closed()) return std::nullopt;
+  return structure_->sides->side(center);
 }
 
 bool Oracle::within(std::uint32_t triangle, const Vec3& center, double radius) const {

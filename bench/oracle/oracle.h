@@ -64,6 +64,8 @@ class Oracle {
 
   /// The truth about `center` and this one triangle.
   Truth solve(const Vec3& center, std::uint32_t triangle) const;
+  /// On which side a finite point is; nothing where the mesh is not closed. Looks at every triangle.
+  std::optional<Side> side(const Vec3& center) const;
   /// Every triangle whose distance to `center` is at most `radius`, ascending. Exact.
   std::vector<std::uint32_t> all_within(const Vec3& center, double radius) const;
 

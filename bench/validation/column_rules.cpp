@@ -136,6 +136,7 @@ constexpr std::array rules{
     counted("stored_missed", Presence::optional),
     counted("stored_false_contacts", Presence::optional),
     ranged("stored_max_distance_error_of_diagonal", Presence::optional),
+    counted("wrong_side", Presence::judged),
 };
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
 /// One side of a triangle; sides with equal ends are shared edges.
-struct Side {
+struct TriangleSide {
   std::uint64_t ends;
   std::uint32_t triangle;
 };
@@ -26,12 +26,12 @@ std::uint64_t side_key(const TriangleMesh::Corners& corners, std::size_t k) noex
 }
 
 /// Sorted by ends, then triangle.
-std::vector<Side> sorted_sides(const TriangleMesh& mesh) {
-  std::vector<Side> sides;
+std::vector<TriangleSide> sorted_sides(const TriangleMesh& mesh) {
+  std::vector<TriangleSide> sides;
   sides.reserve(3 * mesh.size());
   for (std::uint32_t i = 0; i < mesh.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) sides.push_back({side_key(mesh.triangles()[i], k), i});
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+  std::sort(sides.begin(), sides.end(), [](const TriangleSide& a, const TriangleSide& b) {
     return a.ends != b.ends ? a.ends < b.ends : a.triangle < b.triangle;
   });
   return sides;
@@ -165,10 +165,10 @@ SphereClusters one_a_triangle(const TriangleMesh& mesh) {
 }  // namespace
 
 std::vector<std::uint32_t> breadth_first_order(const TriangleMesh& mesh) {
-  const std::vector<Side> sides = sorted_sides(mesh);
+  const std::vector<TriangleSide> sides = sorted_sides(mesh);
   const auto first_side = [&](std::uint64_t ends) {
     return std::lower_bound(sides.begin(), sides.end(), ends,
-                            [](const Side& side, std::uint64_t key) { return side.ends < key; });
+                            [](const TriangleSide& side, std::uint64_t key) { return side.ends < key; });
   };
   std::vector<bool> seen(mesh.size(), false);
   std::vector<bool> crossed(sides.size(), false);  // at an edge's first side: all its triangles are seen

@@ -42,6 +42,19 @@ TEST(AnswerRows, SweepTouchesWhenItHitsAndTellsWhere) {
   EXPECT_EQ(row(Query::sweep, 0, near_two()), "7,1,4,2,1,2,3,0,0.6,-0.8,0.25\n");
 }
 
+TEST(AnswerRows, TheSideComesLastWhereItIsAskedFor) {
+  Answer answer = near_two();
+  answer.side = Side::inside;
+  const Step step{{Vec3::Zero(), 2}, 10};
+  std::string rows;
+  append_answer_row(rows, Query::nearest, 7, step, answer, true);
+  append_answer_row(rows, Query::sweep, 7, step, answer, true);
+  append_answer_row(rows, Query::nearest, 7, step, {}, true);
+  EXPECT_EQ(rows, "7,1,4,2,1,2,3,0,0.6,-0.8,inside\n7,1,4,2,1,2,3,0,0.6,-0.8,0.25,inside\n7,0,,,,,,,,,\n");
+  for (const Query query : {Query::touches, Query::nearest, Query::sweep})
+    EXPECT_EQ(answer_header(query, true).substr(answer_header(query).size() - 1), ",side\n");
+}
+
 TEST(AnswerRows, TouchesTellsNothingElse) { EXPECT_EQ(row(Query::touches, 0, near_two()), "7,1,,,,,,,,\n"); }
 
 TEST(AnswerRows, NothingFoundLeavesTheRestEmpty) {

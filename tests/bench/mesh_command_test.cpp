@@ -41,6 +41,20 @@ TEST(MeshInfo, SaysTheSameInJson) {
       nlohmann::json::parse(run_touchmark({"mesh", "info", "soup:3", "--json"}).out)["volume"].is_null());
 }
 
+TEST(MeshInfo, SaysHowInsideIsToldFromOutside) {
+  const auto info = [](const char* mesh) {
+    return nlohmann::json::parse(run_touchmark({"mesh", "info", mesh, "--json"}).out);
+  };
+  const nlohmann::json cube = info("cube"), triangle = info("single-triangle"), doubled = info("doubled");
+  EXPECT_EQ(cube["sides_by"], "pseudonormals");
+  EXPECT_EQ(cube["simple_triangles"], 12);
+  EXPECT_EQ(cube["inside_out"], false);
+  EXPECT_EQ(triangle["sides_by"], "winding_number");
+  EXPECT_EQ(triangle["open_edges"], 3);
+  EXPECT_EQ(doubled["sides_by"], "crossings");
+  EXPECT_NE(run_touchmark({"mesh", "info", "cube"}).out.find("sides_by: pseudonormals\n"), std::string::npos);
+}
+
 TEST(MeshInfo, CountsAFilesPolygonsAsFaces) {
   const TemporaryFolder folder;
   const std::string path = folder.file("square.off", "OFF\n4 1 0\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n4 0 1 2 3\n");

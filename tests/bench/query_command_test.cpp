@@ -105,6 +105,21 @@ TEST(QueryCommand, SweepAppendsTheFractionOfTheWay) {
   EXPECT_NEAR(std::stod(cells[10]), 0.5, rounding);
 }
 
+TEST(QueryCommand, TellsTheSideInALastColumnWhereTheContestantIsAskedForIt) {
+  const TemporaryFolder folder;
+  const std::string path =
+      folder.file("path.csv", "x,y,z\n0.25,0.1,0.25\n0.25,0.1,0.75\n0.25,0.1,0.5\n9,9,9\n");
+  const Outcome outcome = run_touchmark(
+      {"query", "--detector", "grid-group:side=on", "--mesh", "cube", "--trajectory", path, "--reach", "1"});
+  const std::vector<std::string> lines = lines_of(outcome.out);
+  ASSERT_EQ(lines.size(), 5u) << outcome.err;
+  EXPECT_EQ(lines[0], header + ",side");
+  EXPECT_EQ(cells_of(lines[1]).at(10), "inside");
+  EXPECT_EQ(cells_of(lines[2]).at(10), "outside");
+  EXPECT_EQ(cells_of(lines[3]).at(10), "on_surface");
+  EXPECT_EQ(lines[4], "3,0,,,,,,,,,");
+}
+
 TEST(QueryCommand, AnswersAllOfALongCsvFile) {
   const TemporaryFolder folder;
   std::string rows = "x,y,z\n";

@@ -12,6 +12,7 @@
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
 #include "core/grid_group/grid_group.h"
+#include "core/sign/signed_detector.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 
 namespace {
@@ -100,6 +101,8 @@ TEST(NoAllocation, CountsAllocations) {
 TEST(NoAllocation, BruteForce) { expect_no_allocation<BruteForce>({}); }
 
 TEST(NoAllocation, AabbTree) { expect_no_allocation<AabbTree>({}); }
+
+TEST(NoAllocation, Signed) { expect_no_allocation<Signed<AabbTree>>({}); }
 
 TEST(NoAllocation, GridGroup) {
   for (const GridGroup::Shape shape : {GridGroup::Shape::cube, GridGroup::Shape::sphere}) {

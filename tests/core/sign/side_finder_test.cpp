@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "bench/oracle/exact_winding.h"
+#include "bench/oracle/oracle.h"
+#include "bench/verify.h"
 #include "core/brute_force/brute_force.h"
 #include "core/sign/signed_detector.h"
 #include "tests/core/sign/closed_meshes.h"
@@ -155,6 +157,32 @@ TEST(SideFinder, ASweepTellsTheSideItTouchesFrom) {
   SignedBruteForce::Session session;
   EXPECT_EQ(cube.first_hit({{2, 0.1, 0.2}, {-2, 0.1, 0.2}, 0.1}, session)->contact.side, Side::outside);
   EXPECT_EQ(cube.first_hit({{0.1, 0.1, 0.2}, {2, 0.1, 0.2}, 0.1}, session)->contact.side, Side::inside);
+}
+
+TEST(SideFinder, TheJudgeCatchesAWrongSideAndExcusesWhoDoesNotSay) {
+  const TriangleMesh cube = bench::cube();
+  const bench::Oracle oracle(cube, 1);
+  const std::array<Probe, 2> probes{{{{0.1, 0.2, 0.3}, 0}, {{0.7, 0.2, 0.3}, 0}}};
+  const std::vector<bench::Truth> truths = oracle.solve(std::span<const Probe>(probes));
+  const BruteForce detector = BruteForce::build(cube);
+  const auto judged = [&](Side first, Side second) {
+    std::vector<bench::Answer> answers;
+    for (const Probe& probe : probes) {
+      BruteForce::Session session;
+      answers.push_back(bench::Answer::of(*detector.nearest(probe, infinity, session)));
+    }
+    answers[0].side = first;
+    answers[1].side = second;
+    return bench::judge(oracle, truths, bench::Query::nearest, probes, infinity, answers,
+                        detector.accuracy());
+  };
+  EXPECT_EQ(judged(Side::inside, Side::outside).wrong_side, 0u);
+  EXPECT_EQ(judged(Side::undecided, Side::unasked).wrong_side, 0u);
+  EXPECT_EQ(judged(Side::inside, Side::inside).wrong_side, 1u);
+  EXPECT_EQ(judged(Side::on_surface, Side::inside).wrong_side, 2u);
+  EXPECT_TRUE(bench::keeps_its_word(judged(Side::inside, Side::outside), detector.accuracy()));
+  EXPECT_FALSE(
+      bench::keeps_its_word(judged(Side::outside, Side::outside), {Guarantee::approximate, 0, 0, false}));
 }
 
 TEST(SideFinder, WhoDoesNotAskIsNotTold) {
