@@ -38,6 +38,12 @@ Comparison::Comparison(const Roster& roster, const Workload& workload,
   }
 }
 
+void Comparison::skip(const ContestantSpec& spec, const std::string& status) {
+  for (ContestantProcess& process : processes_) {
+    if (process.spec().text() == spec.text()) process.give_up(status);
+  }
+}
+
 std::vector<ResultRow> Comparison::run(std::size_t course, Query query) {
   const std::string& trajectory = workload_.trajectories[course];
   std::deque<Case> cases;
@@ -47,24 +53,36 @@ std::vector<ResultRow> Comparison::run(std::size_t course, Query query) {
     }
   }
   Truths truths(oracle_, Course{query, workload_.courses[course]});
+  std::vector<Case*> together;
   for (Case& one : cases) {
-    check_for_interrupt();
-    progress_(trajectory, one.contestant());
-    one.introduce();
-    one.verify(truths);
+    verify(one, truths, trajectory);
+    if (turns_ == Turns::together) {
+      together.push_back(&one);
+    } else {
+      measure({&one}, trajectory, seed_ + course);
+      one.dismiss();
+    }
   }
-  if (effort_.repetitions > 0) measure(cases, trajectory, seed_ + course);
+  measure(together, trajectory, seed_ + course);
   std::vector<ResultRow> rows;
   for (Case& one : cases) rows.push_back(one.finish());
   return rows;
 }
 
-void Comparison::measure(std::deque<Case>& cases, const std::string& trajectory, std::uint64_t seed) {
+void Comparison::verify(Case& one, Truths& truths, const std::string& trajectory) {
+  check_for_interrupt();
+  progress_(trajectory, one.contestant());
+  one.introduce();
+  one.verify(truths);
+}
+
+void Comparison::measure(const std::vector<Case*>& cases, const std::string& trajectory, std::uint64_t seed) {
+  if (effort_.repetitions == 0) return;
   std::vector<Order> orders = orders_for(cases.size(), effort_);
   Random(seed).shuffle(orders);
   for (const Order& order : orders) {
     check_for_interrupt();
-    Case& one = cases[order.which];
+    Case& one = *cases[order.which];
     progress_(trajectory, one.contestant());
     (one.*order.measurement)();
   }
