@@ -133,6 +133,8 @@ void Case::latency_pass() {
   });
 }
 
+void Case::dismiss() { process_.end(); }
+
 ResultRow Case::finish() {
   // What was timed before things went wrong is not a result.
   if (!alive() || repetitions_ns_.empty()) return row_;

@@ -37,6 +37,8 @@ class Case {
   void repetition();
   void latency_pass();
 
+  /// Ends the contestant's process, which takes its memory. Asked again, it would be built again.
+  void dismiss();
   ResultRow finish();
 
  private:

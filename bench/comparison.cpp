@@ -54,19 +54,36 @@ Comparison::Comparison(const Roster& roster, const Workload& workload,
   }
 }
 
+void Comparison::skip(const ContestantSpec& spec, const std::string& status) {
+  for (ContestantProcess& process : processes_) {
+    if (process.spec().text() == spec.text()) process.give_up(status);
+  }
+}
+
 std::vector<ResultRow> Comparison::run(std::size_t course, Query query) {
   const std::string& trajectory = workload_.trajectories[course];
   std::deque<Case> cases;
-  Truths truths(oracle_, Course{query, workload_.courses[course]});
+  std::vector<const StoredScene*> stored;
   for (std::size_t i = 0; i < processes_.size(); ++i) {
     if (!filter_(trajectory, processes_[i].spec().text())) continue;
-    Case& one = cases.emplace_back(workload_, stage_, effort_, processes_[i], course, query);
-    check_for_interrupt();
-    progress_(trajectory, one.contestant());
-    one.introduce();
-    verify(one, stored_[i].get(), course, query, truths);
+    cases.emplace_back(workload_, stage_, effort_, processes_[i], course, query);
+    stored.push_back(stored_[i].get());
   }
-  if (effort_.repetitions > 0) measure(cases, trajectory, seed_ + course);
+  Truths truths(oracle_, Course{query, workload_.courses[course]});
+  std::vector<Case*> together;
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    check_for_interrupt();
+    progress_(trajectory, cases[i].contestant());
+    cases[i].introduce();
+    verify(cases[i], stored[i], course, query, truths);
+    if (turns_ == Turns::together) {
+      together.push_back(&cases[i]);
+    } else {
+      measure({&cases[i]}, trajectory, seed_ + course);
+      cases[i].dismiss();
+    }
+  }
+  measure(together, trajectory, seed_ + course);
   std::vector<ResultRow> rows;
   for (Case& one : cases) rows.push_back(one.finish());
   return rows;
@@ -80,12 +97,13 @@ void Comparison::verify(Case& one, const StoredScene* stored, std::size_t course
   one.verify(truths, &of_stored);
 }
 
-void Comparison::measure(std::deque<Case>& cases, const std::string& trajectory, std::uint64_t seed) {
+void Comparison::measure(const std::vector<Case*>& cases, const std::string& trajectory, std::uint64_t seed) {
+  if (effort_.repetitions == 0) return;
   std::vector<Order> orders = orders_for(cases.size(), effort_);
   Random(seed).shuffle(orders);
   for (const Order& order : orders) {
     check_for_interrupt();
-    Case& one = cases[order.which];
+    Case& one = *cases[order.which];
     progress_(trajectory, one.contestant());
     (one.*order.measurement)();
   }

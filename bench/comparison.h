@@ -27,6 +27,10 @@ using Progress = std::function<void(const std::string& trajectory, const std::st
 /// Which cases are wanted, by trajectory and contestant.
 using CaseFilter = std::function<bool(const std::string& trajectory, const std::string& contestant)>;
 
+/// together: all contestants are built before any is timed, and then timed in random order. one_by_one: each
+/// is built, verified, timed and ended before the next, where memory does not hold all of them.
+enum class Turns { together, one_by_one };
+
 class Comparison {
  public:
   /// `roster` and `workload` must outlive it. A contestant that cannot run becomes a row, not an error.
@@ -35,6 +39,9 @@ class Comparison {
 
   void set_progress(Progress progress) { progress_ = std::move(progress); }
   void set_filter(CaseFilter filter) { filter_ = std::move(filter); }
+  void set_turns(Turns turns) { turns_ = turns; }
+  /// Its rows get this status instead of results.
+  void skip(const ContestantSpec& spec, const std::string& status);
 
   /// The rows of one trajectory, in the contestants' order. Throws ResourceError or Interrupted.
   std::vector<ResultRow> run(std::size_t course, Query query);
@@ -43,12 +50,13 @@ class Comparison {
   const std::deque<ContestantProcess>& contestants() const noexcept { return processes_; }
 
  private:
-  void measure(std::deque<class Case>& cases, const std::string& trajectory, std::uint64_t seed);
   void verify(class Case& one, const StoredScene* stored, std::size_t course, Query query, Truths& truths);
+  void measure(const std::vector<class Case*>& cases, const std::string& trajectory, std::uint64_t seed);
 
   const Workload& workload_;
   Effort effort_;
   std::uint64_t seed_;
+  Turns turns_ = Turns::together;
   WorkerStage stage_;
   Oracle oracle_;
   std::deque<ContestantProcess> processes_;

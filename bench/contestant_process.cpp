@@ -23,9 +23,15 @@ ContestantProcess::ContestantProcess(const WorkerStage& stage, ContestantSpec sp
     : stage_(stage), spec_(std::move(spec)), program_(std::move(worker_program)) {}
 
 nlohmann::json ContestantProcess::ask(const nlohmann::json& order, std::chrono::milliseconds patience) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point start = Clock::now();
+  const auto count_time = [&] { busy_s_ += std::chrono::duration<double>(Clock::now() - start).count(); };
   try {
-    return process_->ask(order, patience);
+    nlohmann::json reply = process_->ask(order, patience);
+    count_time();
+    return reply;
   } catch (const WorkerFailure&) {
+    count_time();
     process_.reset();
     throw;
   }
@@ -50,6 +56,11 @@ void ContestantProcess::start() {
   failed_build_ = "refused: " + built_->refused;
   process_.reset();
   throw WorkerFailure(failed_build_);
+}
+
+void ContestantProcess::give_up(std::string status) {
+  end();
+  failed_build_ = std::move(status);
 }
 
 const Built& ContestantProcess::build() {

@@ -63,6 +63,13 @@ class ContestantProcess {
   Timed time(const Task& task, std::int64_t passes);
   Timed latency(const Task& task);
 
+  /// Seconds that all its workers were waited for, building included.
+  double busy_s() const noexcept { return busy_s_; }
+  /// Ends the worker. The next order starts one anew.
+  void end() { process_.reset(); }
+  /// From now on orders throw a WorkerFailure of this status.
+  void give_up(std::string status);
+
  private:
   void start();
   nlohmann::json order(const char* what, const Task& task, const nlohmann::json& more);
@@ -75,6 +82,7 @@ class ContestantProcess {
   Opened opened_;
   std::optional<Built> built_;
   std::string failed_build_;
+  double busy_s_ = 0;
 };
 
 }  // namespace touchmark::bench

@@ -111,6 +111,21 @@ std::string run_json(const RunDescription& run, const Workload& workload,
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
+std::string joined_run_json(const std::vector<std::string>& runs, bool finished) {
+  Json joined = Json::parse(runs.front());
+  Json meshes = Json::array();
+  for (const std::string& text : runs) {
+    const Json run = Json::parse(text);
+    Json mesh = run.at("mesh");
+    mesh["radius"] = run.at("radius");
+    mesh["reach"] = run.at("reach");
+    meshes.push_back(std::move(mesh));
+  }
+  joined["finished"] = finished;
+  joined["meshes"] = std::move(meshes);
+  return joined.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
 std::string new_run_id(const SystemInfo& system) {
   std::string id;
   std::copy_if(system.date.begin(), system.date.end(), std::back_inserter(id),

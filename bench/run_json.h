@@ -29,6 +29,10 @@ struct RunDescription {
 std::string run_json(const RunDescription& run, const Workload& workload,
                      const std::deque<ContestantProcess>& contestants);
 
+/// One for the rows of several meshes: the first of these texts of run_json (at least one), with `meshes`, a
+/// list of what each was about.
+std::string joined_run_json(const std::vector<std::string>& runs, bool finished);
+
 /// Date and time, and four digits that tell runs of one second apart.
 std::string new_run_id(const SystemInfo& system);
 

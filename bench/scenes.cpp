@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -12,6 +11,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "bench/available_memory.h"
 #include "bench/failures.h"
 #include "bench/generated_scenes.h"
 #include "bench/near_names.h"
@@ -47,16 +47,6 @@ std::uint64_t whole_number(const Request& request, std::string_view text, std::s
 const std::string& parameter(const Request& request, std::string_view form) {
   if (!request.parameter) throw request.refusal(fmt::format("its parameter is missing; write {}", form));
   return *request.parameter;
-}
-
-/// Bytes that can be taken now without swapping; nothing where the system does not say.
-std::optional<std::uint64_t> available_memory() {
-  std::ifstream meminfo("/proc/meminfo");
-  for (std::string line; std::getline(meminfo, line);) {
-    constexpr std::string_view label = "MemAvailable:";
-    if (line.starts_with(label)) return std::strtoull(line.c_str() + label.size(), nullptr, 10) * 1024;
-  }
-  return std::nullopt;
 }
 
 /// Before anything is taken, for closed meshes and soup alike: corners, up to three vertices each, a

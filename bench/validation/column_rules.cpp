@@ -50,7 +50,7 @@ bool is_options(std::string_view text) {
 
 bool is_status(std::string_view text) {
   constexpr std::array words{"ok", "unsupported", "timeout", "checksum mismatch"};
-  constexpr std::array beginnings{"refused: ", "crashed:"};
+  constexpr std::array beginnings{"refused: ", "crashed:", "skipped: "};
   const auto begins = [&](std::string_view begin) { return text.starts_with(begin) && text != begin; };
   return std::find(words.begin(), words.end(), text) != words.end() ||
          std::any_of(beginnings.begin(), beginnings.end(), begins);
@@ -94,8 +94,9 @@ constexpr std::array rules{
     ranged("max_distance_error_ulp", Presence::judged),
     ColumnRule{"max_normal_angle_deg", Presence::judged, &is_angle, "is not an angle from 0 to 180"},
     counted("unresolved", Presence::judged),
-    ColumnRule{"status", Presence::always, &is_status,
-               "is not ok, unsupported, timeout, checksum mismatch, refused: WHY or crashed:HOW"},
+    ColumnRule{
+        "status", Presence::always, &is_status,
+        "is not ok, unsupported, timeout, checksum mismatch, refused: WHY, skipped: WHY or crashed:HOW"},
     clocked("ns_per_query"),
     measured("ns_p50", Presence::timed),
     measured("ns_p90", Presence::timed),

@@ -147,9 +147,17 @@ void ResultsCheck::check_against_run() {
     const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
     if (field(column) != text) fault(column, fmt::format("is not run.json's {}", text));
   };
-  const nlohmann::json mesh = run_->value("mesh", nlohmann::json::object());
   expect("run_id", run_->value("run_id", nlohmann::json()));
   expect("query", run_->value("query", nlohmann::json()));
+  const nlohmann::json meshes = run_->value("meshes", nlohmann::json());
+  nlohmann::json mesh = run_->value("mesh", nlohmann::json());
+  if (meshes.is_array()) {
+    check_listed("mesh", meshes, "meshes");
+    mesh = nullptr;
+    for (const nlohmann::json& one : meshes) {
+      if (one.is_object() && one.value("name", nlohmann::json()) == field("mesh")) mesh = one;
+    }
+  }
   if (mesh.is_object()) {
     expect("mesh", mesh.value("name", nlohmann::json()));
     expect("triangles", mesh.value("triangles", nlohmann::json()));

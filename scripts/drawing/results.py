@@ -8,7 +8,8 @@ TEXT_COLUMNS = ["detector", "options", "mesh", "trajectory", "query", "guarantee
 NUMBER_COLUMNS = ["triangles", "steps", "radius", "missed", "false_contacts", "wrong_triangle", "unresolved", "beyond_bound",
                   "wrong_point", "wrong_normal", "malformed", "max_distance_error", "ns_p50", "ns_p90", "ns_p99", "ns_p999",
                   "ns_max", "update_rate_hz"]
-OPTIONAL_NUMBERS = ["ns_per_query", "ns_per_query_mad", "repetitions", "max_distance_error_of_diagonal"]
+OPTIONAL_NUMBERS = ["ns_per_query", "ns_per_query_mad", "repetitions", "max_distance_error_of_diagonal", "build_ms",
+                    "first_answer_ms", "bytes"]
 MAY_BE_INFINITE = ["radius", "max_distance_error", "max_distance_error_of_diagonal"]
 OPTIONAL_TEXTS = ["answers_checksum"]
 DONE = "ok"
@@ -45,7 +46,7 @@ class Run:
 
     def __init__(self, path, rows, about):
         folder = path.resolve().parent
-        self.rows = rows
+        self.path, self.rows = path, rows
         self.name = folder.name if path.name == "results.csv" else path.stem
         self.moment = str(about.get("date", "")), self.name
         self.machine = str(about.get("cpu") or folder.parent.name)

@@ -88,6 +88,37 @@ class MeshSize(Folders):
                          {"dragon": "dragon", "dragon:2": "dragon", "bunny": "", "torus:8x9@scale=2": "torus", "a.ply": ""})
 
 
+class Scaling(Folders):
+    HEADER = ["schema", "detector", "options", "trajectory", "quantity", "points", "exponent", "exponent_low", "exponent_high",
+              "factor", "family", "query", "least_triangles", "most_triangles"]
+
+    def scaled(self, *fits):
+        rows = [row(name, mesh=f"soup:{n}", triangles=n) for name in ("grid-group", "fcl:bv=rss") for n in (100, 10000)]
+        folder = self.run_of("a", *rows)
+        with open(folder / "scaling.csv", "w", newline="", encoding="utf-8") as file:
+            csv.writer(file).writerows([self.HEADER, *fits])
+        return folder
+
+    def fit(self, exponent, low="", high="", options="", detector="grid-group"):
+        return [1, detector, options, "slide", "ns_per_query", 2, exponent, low, high, 100, "soup", "nearest", 100, 10000]
+
+    def test_is_drawn_with_the_exponents_and_how_well_they_are_known(self):
+        folder = self.scaled(self.fit(0.125, 0.025, 0.225), self.fit(0.5, detector="fcl", options="bv=rss"))
+        self.plot(folder, "--only", "scaling")
+        picture = self.picture("scaling")
+        for text in ("0.12 ± 0.10  grid-group", "0.50  fcl:bv=rss", "Time of a query", "soup:100, soup:10000"):
+            self.assertIn(text, picture)
+        self.assertNotIn("Time to build", picture)
+
+    def test_is_left_out_where_nothing_was_fitted(self):
+        self.assertIn("scaling: left out", self.plot(self.scaled(), "--only", "scaling"))
+        self.assertIn("scaling: left out", self.plot(self.run_of("b", row()), "--only", "scaling"))
+
+    def test_refuses_a_table_that_is_none(self):
+        self.assertIn("scaling.csv: line 2: column exponent: 'steep' is not a number",
+                      self.refusal(self.scaled(self.fit("steep")), "--only", "scaling"))
+
+
 class Groups(Folders):
     SCAN = "grid-group:lookup=scan"
 

@@ -25,7 +25,17 @@ mkdir -p "$2/park-jang-2018"
 echo made-up >"$2/park-jang-2018/report.md"
 exit "${PAPERS_STATUS-0}"
 """
-VALIDATE = """#!/bin/bash
+PLOT = """#!/bin/bash
+mkdir -p "$1/plots"
+echo made-up >"$1/plots/scaling.png"
+"""
+PROGRAM = """#!/bin/bash
+if [ "$1" = scale ]; then
+  echo "scale ${*:4}" >>"$TEST_LOG"
+  mkdir -p "$3"
+  echo made-up >"$3/scaling.csv"
+  exit "${SCALE_STATUS-0}"
+fi
 echo "$1" >>"$TEST_LOG"
 [ -s "$2/results.csv" ] && [ -s "$2/README.md" ] && exit "${VALIDATE_STATUS-0}"
 """
@@ -39,7 +49,7 @@ class Record(unittest.TestCase):
         self.directory = pathlib.Path(temporary.name)
         self.root = self.directory / "repository"
         for path, text in (("scripts/bench", BENCH), ("scripts/papers", PAPERS),
-                           ("build/release/bin/touchmark", VALIDATE), ("core/code", "int x;\n"),
+                           ("scripts/plot", PLOT), ("build/release/bin/touchmark", PROGRAM), ("core/code", "int x;\n"),
                            (".gitignore", "/build/\n")):
             file = self.root / path
             file.parent.mkdir(parents=True, exist_ok=True)
@@ -94,6 +104,15 @@ class Record(unittest.TestCase):
         self.assertTrue(log[0].endswith("--detector grid-group --detector fcl:bv=obbrss"), log)
         self.assertEqual(log[2], "validate")
 
+    def test_adds_the_growth_with_the_mesh(self):
+        done = self.record("--scaling", "--only", "embree")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        [recording] = self.recordings()
+        for name in ("scaling.csv", "plots/scaling.png"):
+            self.assertTrue((recording / "scaling" / name).exists(), name)
+        log = (self.directory / "log").read_text(encoding="utf-8").splitlines()
+        self.assertEqual(log[1:], ["scale --detector embree", "validate"])
+
     def test_refuses_a_changed_tree(self):
         for path, text in (("core/code", "int y;\n"), ("core/new", ""), ("elsewhere/new", "")):
             file = self.root / path
@@ -123,6 +142,9 @@ class Record(unittest.TestCase):
             self.assertIn("nothing is recorded", done.stderr)
         done = self.record("--papers", PAPERS_STATUS="3")
         self.assertEqual(done.returncode, 3)
+        done = self.record("--scaling", SCALE_STATUS="1")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("nothing is recorded", done.stderr)
         self.expect_nothing_recorded()
 
     def test_refuses_what_it_does_not_know(self):
