@@ -9,8 +9,10 @@ NUMBER_COLUMNS = ["triangles", "steps", "radius", "missed", "false_contacts", "w
                   "wrong_point", "wrong_normal", "malformed", "max_distance_error", "ns_p50", "ns_p90", "ns_p99", "ns_p999",
                   "ns_max", "update_rate_hz"]
 OPTIONAL_NUMBERS = ["ns_per_query", "ns_per_query_mad", "repetitions", "max_distance_error_of_diagonal", "build_ms",
-                    "first_answer_ms", "bytes"]
-MAY_BE_INFINITE = ["radius", "max_distance_error", "max_distance_error_of_diagonal"]
+                    "first_answer_ms", "bytes", "stored_missed", "stored_false_contacts",
+                    "stored_max_distance_error_of_diagonal"]
+MAY_BE_INFINITE = ["radius", "max_distance_error", "max_distance_error_of_diagonal",
+                   "stored_max_distance_error_of_diagonal"]
 OPTIONAL_TEXTS = ["answers_checksum"]
 DONE = "ok"
 

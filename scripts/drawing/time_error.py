@@ -12,12 +12,13 @@ BAND = 0.16  # of a panel's height: where those are that are not wrong at all
 
 class Error:
     """A kind of error of all detectors: `values` by name, those up to `floor` go to the band at the foot; `most`: there
-    can be."""
+    can be. `stored`: the same by the scene as the detector's library stores it, where that is another one."""
 
-    def __init__(self, title, clean, values, floor, written, most=math.inf):
+    def __init__(self, title, clean, values, floor, written, most=math.inf, stored=None):
         self.title, self.clean, self.floor, self.written, self.most = title, clean, floor, written, most
         self.values = {name: value for name, value in values.items() if math.isfinite(value)}
-        self.shown = [value for value in self.values.values() if value > floor]
+        self.stored = {name: value for name, value in (stored or {}).items() if math.isfinite(value)}
+        self.shown = [value for value in [*self.values.values(), *self.stored.values()] if value > floor]
 
 
 def draw_time_error(plt, rows, source):
@@ -48,6 +49,8 @@ def draw_time_error(plt, rows, source):
     asked += ", ".join(map(shortened, trajectories))
     remarks = [error.clean for error in judged if not error.shown]
     remarks += [f"rounding: at most {ROUNDING:g} of the diagonal" for error in errors if error.floor]
+    if any(error.stored for error in errors):
+        remarks.append("bar under a mark: by the scene as that library stores it, in single precision")
     left_out = [shortened(name) for name in by_name if name not in complete]
     if left_out:
         remarks.append("not everywhere answered, so not shown: " + ", ".join(left_out))
@@ -61,7 +64,7 @@ def room_for_legend(names):
 
 
 def kinds_of_error(rows, by_name, complete):
-    contacts, distances = {}, {}
+    contacts, distances, stored_contacts, stored_distances = {}, {}, {}, {}
     relative = all(math.isfinite(row.max_distance_error_of_diagonal) for row in rows
                    if row.done and math.isfinite(row.max_distance_error))
     column = "max_distance_error_of_diagonal" if relative else "max_distance_error"
@@ -70,11 +73,15 @@ def kinds_of_error(rows, by_name, complete):
         judged, steps = finite(row.missed + row.false_contacts for row in mine), sum(finite(row.steps for row in mine))
         contacts[name] = sum(judged) / steps if judged and steps else math.nan
         distances[name] = max(finite(getattr(row, column) for row in mine), default=math.nan)
+        judged = finite(row.stored_missed + row.stored_false_contacts for row in mine)
+        stored_contacts[name] = sum(judged) / steps if judged and steps else math.nan
+        if relative:
+            stored_distances[name] = max(finite(row.stored_max_distance_error_of_diagonal for row in mine), default=math.nan)
     yield Error("Missed and false contacts, share of the steps (log scale)", "no contact was missed or falsely told",
-                contacts, 0, percent, most=1.3)
+                contacts, 0, percent, 1.3, stored_contacts)
     unit = "share of the box's diagonal" if relative else "mesh units"
     yield Error(f"Largest distance error, {unit} (log scale)", "distances differ by rounding at most", distances,
-                ROUNDING if relative else 0, lambda size: f"{size:.0e}".replace("e-0", "e-"))
+                ROUNDING if relative else 0, lambda size: f"{size:.0e}".replace("e-0", "e-"), stored=stored_distances)
 
 
 def percent(share):
@@ -103,6 +110,15 @@ def draw_panel(axes, error, times):
     for name, value in error.values.items():
         if value > error.floor:
             put(axes, name, times[name], value)
+            if name in error.stored:
+                put_stored(axes, name, times[name], value, max(error.stored[name], middle))
+
+
+def put_stored(axes, name, time, value, stored):
+    """Below the mark, tied to it: what is left of the error by the scene that is stored."""
+    axes.plot([time, time], [stored, value], color=detectors.colour(name), linewidth=0.8, linestyle=":", zorder=2)
+    axes.plot(time, stored, marker="_", color=detectors.colour(name), markersize=11, markeredgewidth=2, zorder=3,
+              clip_on=False)
 
 
 def put(axes, name, time, value):
