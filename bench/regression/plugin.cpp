@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -133,8 +134,11 @@ class DetectorOf final : public TouchmarkGateDetector {
   }
 
   void ask_again(const TouchmarkGatePass& pass) const noexcept {
-    constexpr std::size_t run_length = 20;
-    const auto period = static_cast<std::size_t>(run_length / std::min(pass.again, 1.) + 0.5);
+    const double share = std::min(pass.again, 1.);
+    // Shorter than 20 steps where the pass is: a share of it must remain one.
+    const double run = std::clamp(std::floor(share * static_cast<double>(pass.count)), 1., 20.);
+    const auto run_length = static_cast<std::size_t>(run);
+    const auto period = static_cast<std::size_t>(run / share + 0.5);
     Session session;
     Answers fold;
     for (std::size_t begin = 0; begin < pass.count; begin += period)

@@ -16,6 +16,10 @@ def span(interval):
     return f"{percent(interval.median)} [{100 * (interval.low - 1):+.1f}, {100 * (interval.high - 1):+.1f}]"
 
 
+def bounds(interval):
+    return f"{100 * (interval.low - 1):+.0f} to {100 * (interval.high - 1):+.0f} %"
+
+
 def lines_of_table(rows):
     widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
     for row in rows:
@@ -35,6 +39,8 @@ def words(case):
         said.append("SLOWER")
     elif case["time_verdict"] == judge.INCONCLUSIVE:
         said.append("time inconclusive: " + ", ".join(batch.finding for batch in case["batches"]))
+    elif case["time_verdict"] == judge.UNDECIDED:
+        said.append("time undecided within " + bounds(case["batches"][-1].head))
     elif "slow" in [batch.finding for batch in case["batches"]]:
         said.append("slower once, not again")
     batch = last_telling(case["batches"])

@@ -10,6 +10,10 @@ EQUAL = "equal"
 INJECTIONS = {EQUAL: (0, 0), "5 % slower": (0.05, 0), "15 % slower": (0.15, 0), "15 % faster": (0, 0.15)}
 
 
+# times: case to its judge.CaseTime
+Run = collections.namedtuple("Run", "verdict instructions times")
+
+
 class Trial:
     """One run of the gate's judgement of time and instructions."""
 
@@ -17,24 +21,17 @@ class Trial:
         self.driver, self.plugins, self.out, self.effort = driver, plugins, out, effort
 
     def run(self, seed, injection, ratios):
-        """ratios: case to its instructions, head over base; these cases are timed. Returns the verdict, that of time
-        for each case, the finding of its instructions and its batches."""
+        """ratios: case to its instructions, head over base; these cases are timed. Returns a Run."""
         head_again, base_again = injection
-        generator = numpy.random.default_rng(seed)
-        batches = collections.defaultdict(list)
-        verdicts, pending = {}, list(ratios)
-        for batch in range(judge.BATCHES):
-            times = measure.times(self.driver, self.plugins, self.out, seed * 10 + batch, pending, base_again=base_again,
-                                  head_again=head_again, **self.effort)
-            for case, taken in times.items():
-                limit = judge.time_limit(ratios.get(case))
-                batches[case].append(judge.judge_batch(taken, limit, generator))
-            verdicts = {case: judge.judge_time(found) for case, found in batches.items()}
-            pending = [case for case, verdict in verdicts.items() if verdict is None]
-            if not pending:
-                break
+
+        def take(batch, pending):
+            return measure.times(self.driver, self.plugins, self.out, seed * judge.BATCHES + batch, pending,
+                                 base_again=base_again, head_again=head_again, **self.effort)
+        limits = {case: judge.time_limit(ratio) for case, ratio in ratios.items()}
+        times = judge.judge_times(take, limits, numpy.random.default_rng(seed))
         findings = {case: judge.judge_instructions(ratio) for case, ratio in ratios.items()}
-        return judge.judge_all([], findings, verdicts)[0], verdicts, findings, batches
+        verdict, *_ = judge.judge_all([], findings, *judge.time_verdicts(times))
+        return Run(verdict, findings, times)
 
 
 def instruction_ratios(driver, plugin, wanted):
@@ -45,24 +42,27 @@ def instruction_ratios(driver, plugin, wanted):
             for kind, (head, base) in INJECTIONS.items()}
 
 
-def summary(kind, trials):
+def summary(kind, runs):
     """One row: what came out, over the runs and over the cases of all runs."""
-    runs = collections.Counter(verdict for verdict, *_ in trials)
-    cases = collections.Counter(verdict for _, verdicts, *_ in trials for verdict in verdicts.values())
-    told = collections.Counter(finding for _, _, findings, _ in trials[:1] for finding in findings.values())
-    medians = [found[0].head.median for *_, batches in trials for found in batches.values() if found]
-    faster = sum(1 for *_, batches in trials for found in batches.values()
-                 if report.last_telling(found).head.high < judge.TIME_FASTER)
-    low, middle, high = numpy.percentile(medians, [5, 50, 95])
-    total = sum(cases.values())
-    return (kind, str(len(trials)), str(runs[judge.PASS]), str(runs[judge.REGRESSION]), str(runs[judge.INCONCLUSIVE]),
-            f"{told['fail']} of {sum(told.values())}", f"{cases[judge.REGRESSION]} of {total}",
-            f"{cases[judge.INCONCLUSIVE]} of {total}", f"{faster} of {total}",
+    verdicts = collections.Counter(run.verdict for run in runs)
+    told = collections.Counter(runs[0].instructions.values())
+    times = [time for run in runs for time in run.times.values()]
+    cases = collections.Counter(time.verdict() for time in times)
+    first_slow = sum(time.batches[0].finding == "slow" for time in times)
+    off = sum(batch.finding == "off" for time in times for batch in time.batches)
+    batches = [len(time.batches) for time in times]
+    faster = sum(report.last_telling(time.batches).head.high < judge.TIME_FASTER for time in times)
+    low, middle, high = numpy.percentile([time.batches[0].head.median for time in times], [5, 50, 95])
+    return (kind, str(len(runs)), str(verdicts[judge.PASS]), str(verdicts[judge.REGRESSION]),
+            str(verdicts[judge.INCONCLUSIVE]), f"{told['fail']} of {sum(told.values())}",
+            f"{cases[judge.REGRESSION]} of {len(times)}", str(first_slow), str(faster), str(cases[judge.UNDECIDED]),
+            str(cases[judge.INCONCLUSIVE]), f"{off} of {sum(batches)}", f"{numpy.mean(batches):.1f}; {max(batches)}",
             f"{report.percent(middle)} [{report.percent(low)}, {report.percent(high)}]")
 
 
 HEADER = ("injected", "runs", "pass", "regression", "inconclusive", "cases failing by instructions",
-          "cases slower by time", "cases inconclusive", "cases faster by time", "median time [5 %, 95 %]")
+          "cases slower by time", "by one batch", "faster", "undecided", "inconclusive", "controls off",
+          "batches a case: mean; most", "median time of one batch [5 %, 95 %]")
 
 
 def markdown(rows):
