@@ -1,5 +1,7 @@
 #include "bench/gate/judge.h"
 
+#include <cmath>
+
 namespace touchmark::bench {
 
 std::string_view name_of(Verdict verdict) noexcept {
@@ -21,22 +23,24 @@ bool control_holds(const Batch& batch, double tolerance) noexcept {
 }
 
 Judgement judge(double baseline, double tolerance, const std::function<Batch()>& next_batch) {
+  constexpr int agreeing = 2;
+  const double limit = baseline * (1 + tolerance);
+  const double half_way = baseline * std::sqrt(1 + tolerance);
   Judgement judgement;
-  bool slower_before = false;
+  int slower = 0, in_doubt = 0;
   while (judgement.batches < most_batches) {
     judgement.batch = next_batch();
     ++judgement.batches;
     if (!control_holds(judgement.batch, tolerance)) continue;
     const RatioInterval& ratio = judgement.batch.ratio;
-    if (ratio.low <= baseline * (1 + tolerance)) {
-      judgement.verdict = ratio.high < baseline / (1 + tolerance) ? Verdict::faster : Verdict::pass;
-      return judgement;
-    }
-    if (slower_before) {
+    if (ratio.low > limit) {
+      if (++slower < agreeing) continue;
       judgement.verdict = Verdict::slower;
       return judgement;
     }
-    slower_before = true;
+    if (ratio.ratio > half_way && ++in_doubt < agreeing) continue;
+    judgement.verdict = ratio.high < baseline / (1 + tolerance) ? Verdict::faster : Verdict::pass;
+    return judgement;
   }
   return judgement;
 }

@@ -34,8 +34,10 @@ struct Judgement {
   int batches = 0;
 };
 
-/// Asks for one batch after the other, at most `most_batches`. One whose control holds and whose ratio's
-/// lower end is not above baseline * (1 + tolerance) is enough to pass; to be slower takes two.
+/// Asks for one batch after the other, at most `most_batches`, and counts those whose control holds. One
+/// whose ratio is nearer to the baseline than to the limit, baseline * (1 + tolerance), is enough to pass.
+/// Else, since where memory lies moves the times of a process, two must agree: slower, their ratios' lower
+/// ends above the limit, or no slower.
 Judgement judge(double baseline, double tolerance, const std::function<Batch()>& next_batch);
 
 inline constexpr int most_batches = 4;

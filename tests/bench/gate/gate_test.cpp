@@ -74,8 +74,17 @@ Judgement judged(std::vector<Batch> batches) {
 
 TEST(Judge, PassesOnOneGoodBatch) {
   EXPECT_EQ(judged({{equal, equal}}).verdict, Verdict::pass);
-  EXPECT_EQ(judged({{{1.3, 1.069, 1.5}, equal}}).verdict, Verdict::pass) << "the lower end decides";
+  EXPECT_EQ(judged({{{1.034, 0.9, 1.2}, equal}}).verdict, Verdict::pass);
   EXPECT_EQ(judged({{{0.8, 0.7, 0.9}, equal}}).verdict, Verdict::faster);
+}
+
+TEST(Judge, AsksAgainWhereTheRatioIsNearerToTheLimit) {
+  const Batch in_doubt{{1.3, 1.069, 1.5}, equal};  // the lower end decides, but it is not enough
+  EXPECT_EQ(judged({in_doubt, {equal, equal}}).verdict, Verdict::pass);
+  EXPECT_EQ(judged({in_doubt, in_doubt}).verdict, Verdict::pass);
+  EXPECT_EQ(judged({in_doubt, {slow, equal}, {slow, equal}}).verdict, Verdict::slower);
+  EXPECT_EQ(judged({{slow, equal}, in_doubt, {slow, noisy}, in_doubt}).verdict, Verdict::pass);
+  EXPECT_EQ(judged({{slow, equal}, in_doubt, {slow, noisy}, {slow, noisy}}).verdict, Verdict::inconclusive);
 }
 
 TEST(Judge, CallsSlowerOnlyWhatASecondBatchAgreesOn) {
