@@ -77,7 +77,8 @@ BaselineRow row_of(const Record& record) {
   row.ratio.ratio = row.ratio.low = row.ratio.high = record.ratio("ratio");
   if (record.has("ratio_low")) row.ratio.low = record.ratio("ratio_low");
   if (record.has("ratio_high")) row.ratio.high = record.ratio("ratio_high");
-  if (record.has("work_mean")) row.work = WorkResult{record.amount("work_mean"), record.count("work_max"), {}};
+  if (record.has("work_mean"))
+    row.work = WorkResult{record.amount("work_mean"), record.count("work_max"), {}};
   if (record.has("answers_checksum")) row.checksum = record.hash("answers_checksum");
   row.version = record.text("version");
   row.commit = record.text("commit");

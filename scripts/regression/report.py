@@ -41,9 +41,11 @@ def words(case):
         said.append("time inconclusive: " + ", ".join(batch.finding for batch in case["batches"]))
     elif case["time_verdict"] == judge.UNDECIDED:
         said.append("time undecided within " + bounds(case["batches"][-1].head))
+    elif case["time_verdict"] is None and case["batches"]:
+        said.append("time not believed")
     elif "slow" in [batch.finding for batch in case["batches"]]:
         said.append("slower once, not again")
-    batch = last_telling(case["batches"])
+    batch = last_telling(case["batches"]) if case["time_verdict"] else None
     if batch and batch.head.high < judge.TIME_FASTER:
         said.append("faster")
     elif case["instructions_finding"] == "faster":

@@ -15,7 +15,7 @@ RIVALS = ("embree", "bullet:method=callback", "bullet", "fcl")  # where the prog
 SCENE, TRAJECTORIES = "noisy-sphere:20000", ("slide", "approach", "jump")
 SECONDS = 30
 
-# ratios: rival to trajectory to its time over that of the faster of ours; commit: that the program was built from.
+# ratios: rival to trajectory to its median time over that of the faster of ours; commit: that the program was built from.
 # One of ratios and skipped, why there are none, is empty.
 Rivals = collections.namedtuple("Rivals", "commit ratios skipped")
 
@@ -67,7 +67,8 @@ def read(folder):
 
 
 def ratios(rows):
-    ns = {(name(row), row["trajectory"]): float(row["ns_per_query"]) for row in rows if row["status"] == "ok"}
+    """Of the median query, which hardly feels what else runs here."""
+    ns = {(name(row), row["trajectory"]): float(row["ns_p50"]) for row in rows if row["status"] == "ok"}
     found = {}
     for rival in dict.fromkeys(name(row) for row in rows if row["detector"] not in OURS):
         found[rival] = {trajectory: ns[rival, trajectory] / min(ns[one, trajectory] for one in OURS)
@@ -84,7 +85,7 @@ def lines(rivals, head):
     if rivals.skipped:
         return [f"RIVALS NOT MEASURED: {rivals.skipped}"]
     built = "" if rivals.commit and head.startswith(rivals.commit.partition("-")[0]) else f", built from {rivals.commit}"
-    told = [f"rivals' time over that of the faster of {' and '.join(OURS)} on {SCENE} (build/release{built}; a short "
+    told = [f"rivals' median time over that of the faster of {' and '.join(OURS)} on {SCENE} (build/release{built}; a short "
             "measurement, not judged):"]
     for rival, by_trajectory in rivals.ratios.items():
         told.append(f"  {rival:24}" + "  ".join(f"{trajectory} {ratio:.1f}" for trajectory, ratio in by_trajectory.items()))

@@ -268,6 +268,7 @@ class Report(unittest.TestCase):
         self.assertEqual(report.words(case(batches=[batch("slow"), batch("fine")])), "slower once, not again")
         self.assertEqual(report.words(case(batches=[batch("off")] * 3, time_verdict=judge.INCONCLUSIVE)),
                          "time inconclusive: off, off, off")
+        self.assertEqual(report.words(case(time_verdict=None)), "time not believed")
         self.assertEqual(report.words(case(batches=[judge.Batch(judge.Interval(0.9, 1, 1.2), EVEN, "wide")],
                                            time_verdict=judge.UNDECIDED)), "time undecided within -10 to +20 %")
 
@@ -514,7 +515,7 @@ class RivalsMeasured(unittest.TestCase):
     """By a program that is a few lines of shell."""
 
     LIST = "contestants: --detector NAME\n  grid-group\n      ours\n  sphere-cluster\n  fcl\n      a rival\nscenes\n  embree\n"
-    ROWS = ("detector,options,trajectory,status,ns_per_query\ngrid-group,,slide,ok,200\nsphere-cluster,,slide,ok,100\n"
+    ROWS = ("detector,options,trajectory,status,ns_p50\ngrid-group,,slide,ok,200\nsphere-cluster,,slide,ok,100\n"
             "fcl,,slide,ok,1500\nfcl,bv=rss,slide,crashed,\n")
 
     def measured(self, bench):
