@@ -2,26 +2,29 @@
 /// need not descend from the root.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "core/probe.h"
 #include "core/sphere_cluster/tree_layout.h"
 
 namespace touchmark::spheres {
 
-/// The blocks are kept as children of nodes of the point's own, so that their bounds are as good at the next
-/// ticks as they are in the tree. A block that is not listed was at least `rest` from `anchor`.
+/// The blocks are kept with the bounds that they have in the tree, as the children of one wide node. A block
+/// that is not listed was at least `rest` from `anchor`.
 struct NearBlocks {
-  static constexpr std::uint32_t groups = 4, capacity = groups * tree_width;
+  static constexpr std::uint32_t capacity = 64;
+  /// A node's worth may be written where one block is to be added.
+  static constexpr std::uint32_t room = capacity + tree_width;
 
-  Vec3 anchor = Vec3::Zero();  ///< in the tree's frame, as all lengths here
-  float rest = -1;             ///< nothing is known
+  Vec3 anchor = Vec3::Zero();  ///< in the mesh's frame
+  float rest = -1;             ///< in the tree's; nothing is known
   std::uint32_t count = 0;
-  std::array<float, capacity> bound;  ///< of the distance from the anchor
-  std::array<TreeNode, groups> nodes;
+  float ticks = 16;                         ///< for so many ticks ahead the next list is going to be
+  std::uint32_t pause = 0, last_pause = 0;  ///< ticks until a list is made again, after there were too many
+  alignas(64) float x[room], y[room], z[room], radius[room];
+  alignas(64) float normal_x[room], normal_y[room], normal_z[room], half[room];
+  alignas(64) TreeRef child[room];
 
   /// Everything nearer than `limit` is going to be added.
   void start(const Vec3& at, float limit) noexcept {
@@ -31,22 +34,13 @@ struct NearBlocks {
   }
   /// What was listed is not all there is.
   void forget() noexcept { rest = -1; }
-  /// When there is no room, the farthest block goes.
-  void add(const TreeNode& from, std::size_t child, float distance) noexcept {
-    std::uint32_t place = count;
-    if (count == capacity) {
-      place = static_cast<std::uint32_t>(std::max_element(bound.begin(), bound.end()) - bound.begin());
-      rest = std::min(rest, std::max(bound[place], distance));
-      if (!(distance < bound[place])) return;
-    } else {
-      ++count;
-    }
-    bound[place] = distance;
-    nodes[place / tree_width].copy(place % tree_width, from, child);
-  }
-  /// Clears the places after the last one in its node.
+  /// Puts what is infinitely far into the places that fill up the last eight.
   void finish() noexcept {
-    for (std::uint32_t i = count; i % tree_width != 0; ++i) nodes[i / tree_width].clear(i % tree_width);
+    for (std::uint32_t i = count; i % tree_width != 0; ++i) {
+      x[i] = y[i] = z[i] = radius[i] = normal_x[i] = normal_y[i] = normal_z[i] = 0;
+      half[i] = -std::numeric_limits<float>::infinity();
+      child[i] = {0};
+    }
   }
 };
 

@@ -201,27 +201,35 @@ bool SphereTree::is_far(const FilterPoint& point, const Vec3& center, double rea
   return true;
 }
 
-bool SphereTree::list_blocks(const Vec3& center, const FilterPoint& point, float distance, float ahead,
+/// For as many ticks ahead as there is room for blocks.
+bool SphereTree::list_blocks(const Vec3& center, const FilterPoint& point, float distance, float step,
                              Memory& memory, Work& work) const noexcept {
+  // With fewer ticks the listing costs more, with more the longer list does.
+  constexpr float fewest_ticks = 2, most_ticks = 16;
   constexpr std::uint32_t longest_pause = 255;
-  if (memory.pause > 0) {
-    --memory.pause;
+  spheres::NearBlocks& blocks = memory.blocks;
+  if (blocks.pause > 0) {
+    --blocks.pause;
     return false;
   }
-  spheres::NearBlocks& blocks = memory.blocks;
-  const float enough = distance + 2 * point.tau;
-  bool complete = false;
-  if (ahead <= static_cast<float>(farthest_in_grains * frame_.scale() * grain_)) {
-    blocks.start(center, distance + ahead);
-    avx2_ ? spheres::avx2::list_blocks(parts_, point, blocks, enough, work)
-          : spheres::portable::list_blocks(parts_, point, blocks, enough, work);
-    complete = blocks.rest > enough;
-    // The listing ended early, so what it left out may be anywhere.
-    if (!complete) blocks.forget();
+  for (;;) {
+    blocks.start(center, distance + blocks.ticks * step + 8 * point.tau);
+    if (avx2_ ? spheres::avx2::list_blocks(parts_, point, blocks, work)
+              : spheres::portable::list_blocks(parts_, point, blocks, work))
+      break;
+    if (blocks.ticks <= fewest_ticks) {
+      // What was left out may be anywhere.
+      blocks.forget();
+      blocks.last_pause = std::min(longest_pause, 2 * blocks.last_pause + 1);
+      blocks.pause = blocks.last_pause;
+      return false;
+    }
+    blocks.ticks = std::max(0.5F * blocks.ticks, fewest_ticks);
   }
-  memory.last_pause = complete ? 0 : std::min(longest_pause, 2 * memory.last_pause + 1);
-  memory.pause = memory.last_pause;
-  return complete;
+  blocks.last_pause = 0;
+  if (blocks.count <= spheres::NearBlocks::capacity / 2)
+    blocks.ticks = std::min(1.25F * blocks.ticks, most_ticks);
+  return true;
 }
 
 bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const noexcept {

@@ -29,8 +29,6 @@ class SphereTree {
     double nearest = std::numeric_limits<double>::infinity();  ///< triangle `last` was that far
     std::uint32_t last = 0;                                    ///< where it is kept
     spheres::NearBlocks blocks;
-    std::uint32_t pause = 0;  ///< ticks until blocks are listed again, after there were too many
-    std::uint32_t last_pause = 0;
   };
 
   struct Options {
@@ -74,7 +72,7 @@ class SphereTree {
   float descend(const FilterPoint& point, Visitor& visitor) const noexcept;
   template <class Visitor>
   float search_near(const FilterPoint& point, double moved, Visitor& visitor, Memory& memory) const noexcept;
-  bool list_blocks(const Vec3& center, const FilterPoint& point, float distance, float ahead, Memory& memory,
+  bool list_blocks(const Vec3& center, const FilterPoint& point, float distance, float step, Memory& memory,
                    Work& work) const noexcept;
 
   std::uint64_t number_ = 0;  ///< of this tree and its copies

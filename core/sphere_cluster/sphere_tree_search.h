@@ -40,13 +40,11 @@ inline float SphereTree::way(const Vec3& from, const Vec3& to, const FilterPoint
 template <class Visitor>
 float SphereTree::search_near(const FilterPoint& point, double moved, Visitor& visitor,
                               Memory& memory) const noexcept {
-  // So many ticks ahead: with fewer the listing costs more, with more the longer list does.
-  constexpr double ticks = 16;
   const float distance = std::sqrt(visitor.limit) + point.tau;
   float away = way(memory.blocks.anchor, visitor.center, point);
   if (!(distance + away < memory.blocks.rest)) {
-    const float ahead = static_cast<float>(frame_.scale() * ticks * moved) + 8 * point.tau;
-    if (!list_blocks(visitor.center, point, distance, ahead, memory, visitor.work))
+    const auto step = static_cast<float>(frame_.scale() * moved);
+    if (!list_blocks(visitor.center, point, distance, step, memory, visitor.work))
       return descend(point, visitor);
     away = 2 * point.tau;
   }

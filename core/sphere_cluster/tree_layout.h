@@ -33,17 +33,6 @@ struct alignas(64) TreeNode {
   float normal_x[tree_width], normal_y[tree_width], normal_z[tree_width], half[tree_width];
   TreeRef child[tree_width];
 
-  void copy(std::size_t to, const TreeNode& node, std::size_t from) noexcept {
-    x[to] = node.x[from];
-    y[to] = node.y[from];
-    z[to] = node.z[from];
-    radius[to] = node.radius[from];
-    normal_x[to] = node.normal_x[from];
-    normal_y[to] = node.normal_y[from];
-    normal_z[to] = node.normal_z[from];
-    half[to] = node.half[from];
-    child[to] = node.child[from];
-  }
   /// Puts nothing there, infinitely far away.
   void clear(std::size_t i) noexcept {
     x[i] = y[i] = z[i] = radius[i] = normal_x[i] = normal_y[i] = normal_z[i] = 0;

@@ -61,11 +61,25 @@ inline unsigned bits_of(WideBits mask) noexcept {
   return static_cast<unsigned>((mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8));
 }
 #endif
+/// Those of eight words whose bits are set, one after the other. Eight may be written.
+template <class Word>
+inline void pack(Word* to, const Word* from, unsigned chosen) noexcept {
+  for (; chosen != 0; chosen &= chosen - 1) *to++ = from[std::countr_zero(chosen)];
+}
 #include "core/sphere_cluster/tree_search.inl"
 
 }  // namespace portable
 
 #if TOUCHMARK_HAS_AVX2
+/// The places of the set bits of every byte, lowest first, a byte each.
+constexpr std::array<std::uint64_t, 256> places_of_bits() noexcept {
+  std::array<std::uint64_t, 256> all{};
+  for (std::size_t bits = 0; bits < 256; ++bits)
+    for (std::uint64_t place = 0, to = 0; place < 8; ++place)
+      if ((bits >> place & 1) != 0) all[bits] |= place << (8 * to++);
+  return all;
+}
+
 #pragma GCC push_options
 #pragma GCC target("avx2")
 namespace avx2 {
@@ -81,6 +95,15 @@ using WideBits [[gnu::vector_size(32)]] = int;
 inline Wide square_root(Wide x) noexcept { return _mm256_sqrt_ps(x); }
 inline unsigned bits_of(WideBits mask) noexcept {
   return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask)));
+}
+template <class Word>
+inline void pack(Word* to, const Word* from, unsigned chosen) noexcept {
+  static_assert(sizeof(Word) == 4);
+  static constexpr std::array<std::uint64_t, 256> places = places_of_bits();
+  const __m256i order =
+      _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(&places[chosen])));
+  const __m256i words = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_permutevar8x32_epi32(words, order));
 }
 #include "core/sphere_cluster/tree_search.inl"
 

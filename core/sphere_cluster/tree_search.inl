@@ -17,7 +17,8 @@ struct Point {
 
 /// Lower bounds of the squared distances to the children's slabbed spheres. The height over the slab and the
 /// excess beyond the radius are orthogonal, so their squares add up.
-inline Wide child_bounds(const TreeNode& node, std::size_t at, const Point& p) noexcept {
+template <class Children>
+inline Wide child_bounds(const Children& node, std::size_t at, const Point& p) noexcept {
   const Wide x = p.x - load(node.x + at), y = p.y - load(node.y + at), z = p.z - load(node.z + at);
   const Wide along =
       x * load(node.normal_x + at) + y * load(node.normal_y + at) + z * load(node.normal_z + at);
@@ -130,31 +131,53 @@ float descend(const TreeParts& tree, const FilterPoint& point, Visitor& visitor)
   return least_lane(unseen);
 }
 
-/// Lists the blocks within the list's rest, until the rest falls to `enough`.
-inline void list_blocks(const TreeParts& tree, const FilterPoint& point, NearBlocks& list, float enough,
+/// Which children are blocks, as bits.
+inline unsigned blocks_of(const TreeNode& node) noexcept {
+  unsigned blocks = 0;
+  for (std::size_t at = 0; at < tree_width; at += lanes) {
+    WideBits child;
+    std::memcpy(&child, node.child + at, sizeof child);
+    blocks |= bits_of(child < 0) << at;
+  }
+  return blocks;
+}
+
+/// Lists the blocks within the list's rest. False when there are too many.
+inline bool list_blocks(const TreeParts& tree, const FilterPoint& point, NearBlocks& list,
                         Work& work) noexcept {
   const Point p = spread(point);
+  const float limit = list.rest * list.rest * (1 + 0x1p-20F);
+  Wide unseen = Wide{} + farthest;
   std::array<std::uint32_t, most_waiting> waiting;
   std::size_t count = 1;
   waiting[0] = 0;
-  while (count > 0 && list.rest > enough) {
+  while (count > 0) {
     const TreeNode& node = tree.nodes[waiting[--count]];
-    for (std::uint32_t at = 0; at < tree_width; at += lanes) {
-      const Wide bounds = square_root(child_bounds(node, at, p));
-      for (unsigned near = bits_of(bounds <= list.rest); near != 0;) {
-        const std::uint32_t lane = take(near);
-        const TreeRef child = node.child[at + lane];
-        if (child.is_block()) {
-          list.add(node, at + lane, bounds[lane]);
-        } else {
-          prefetch(tree, child);
-          waiting[count++] = child.index();
-        }
-      }
-    }
+    const unsigned near = within([&](std::size_t at) { return child_bounds(node, at, p); }, limit, unseen);
     work.spheres += tree_width;
+    const unsigned blocks = near & blocks_of(node);
+    for (unsigned deeper = near & ~blocks; deeper != 0;) {
+      const TreeRef child = node.child[take(deeper)];
+      prefetch(tree, child);
+      waiting[count++] = child.index();
+    }
+    if (blocks == 0) continue;
+    const auto more = static_cast<std::uint32_t>(std::popcount(blocks));
+    if (list.count + more > NearBlocks::capacity) return false;
+    const std::uint32_t to = list.count;
+    pack(list.x + to, node.x, blocks);
+    pack(list.y + to, node.y, blocks);
+    pack(list.z + to, node.z, blocks);
+    pack(list.radius + to, node.radius, blocks);
+    pack(list.normal_x + to, node.normal_x, blocks);
+    pack(list.normal_y + to, node.normal_y, blocks);
+    pack(list.normal_z + to, node.normal_z, blocks);
+    pack(list.half + to, node.half, blocks);
+    pack(list.child + to, node.child, blocks);
+    list.count += more;
   }
   list.finish();
+  return true;
 }
 
 /// As descend, when every triangle within the visitor's limit is in a listed block. `moved`: from the list's
@@ -167,10 +190,9 @@ float search_listed(const TreeParts& tree, const FilterPoint& point, const NearB
   Wide unseen = Wide{} + farthest;
   std::array<std::uint32_t, NearBlocks::capacity> blocks;
   std::size_t block_count = 0;
-  for (std::uint32_t group = 0; group * tree_width < list.count; ++group) {
-    const TreeNode& node = list.nodes[group];
-    unsigned near = within([&](std::size_t at) { return child_bounds(node, at, p); }, limit, unseen);
-    while (near != 0) blocks[block_count++] = node.child[take(near)].index();
+  for (std::uint32_t first = 0; first < list.count; first += tree_width) {
+    unsigned near = within([&](std::size_t at) { return child_bounds(list, first + at, p); }, limit, unseen);
+    while (near != 0) blocks[block_count++] = list.child[first + take(near)].index();
     visitor.work.spheres += tree_width;
   }
   std::array<std::uint32_t, NearBlocks::capacity * tree_width> left;
