@@ -23,6 +23,7 @@ struct ProgramContext {
 /// final_callback that runs it. The list of them is in program.cpp.
 void add_bench(CLI::App& program, ProgramContext& context);
 void add_verify(CLI::App& program, ProgramContext& context);
+void add_stress(CLI::App& program, ProgramContext& context);
 void add_list(CLI::App& program, ProgramContext& context);
 void add_mesh(CLI::App& program, ProgramContext& context);
 void add_query(CLI::App& program, ProgramContext& context);

@@ -12,6 +12,7 @@
 #include "bench/numbers.h"
 #include "bench/query_name.h"
 #include "bench/results_csv.h"
+#include "bench/run_circumstances.h"
 #include "bench/tick_clock.h"
 
 namespace touchmark::bench {
@@ -46,12 +47,8 @@ Json trajectories_json(const Workload& workload) {
 
 Json contestants_json(const std::deque<ContestantProcess>& contestants) {
   Json json = Json::array();
-  for (const ContestantProcess& contestant : contestants) {
-    json.push_back({{"name", contestant.spec().name},
-                    {"written_options", contestant.spec().options},
-                    {"options", contestant.spec().values.all()},
-                    {"flushed_to_zero", contestant.opened().flushed_to_zero}});
-  }
+  for (const ContestantProcess& contestant : contestants)
+    json.push_back(contestant_json(contestant.spec(), contestant.opened().flushed_to_zero));
   return json;
 }
 
@@ -76,38 +73,49 @@ Json effort_json(const Effort& effort) {
 
 }  // namespace
 
-std::string run_json(const RunDescription& run, const Workload& workload,
-                     const std::deque<ContestantProcess>& contestants) {
+Json contestant_json(const ContestantSpec& spec, bool flushed_to_zero) {
+  return {{"name", spec.name},
+          {"written_options", spec.options},
+          {"options", spec.values.all()},
+          {"flushed_to_zero", flushed_to_zero}};
+}
+
+Json run_circumstances(const RunDescription& run) {
   const BuildInfo& build = build_info();
   std::vector<std::string> arguments = run.arguments;
   std::transform(arguments.begin(), arguments.end(), arguments.begin(), without_directories);
-  const Json json{{"schema", results_schema},
-                  {"run_id", run.run_id},
-                  {"date", run.system.date},
-                  {"finished", run.finished},
-                  {"version", build.version},
-                  {"commit", build.commit},
-                  {"compiler", build.compiler},
-                  {"flags", build.flags},
-                  {"build_type", build.build_type},
-                  {"native", build.native},
-                  {"cpu", run.system.cpu_model},
-                  {"cores", run.system.cores},
-                  {"governor", run.system.governor},
-                  {"load_average", run.system.load_average},
-                  {"workers_core", run.core ? Json(*run.core) : Json("any")},
-                  {"flushed_to_zero", run.flushed_to_zero},
-                  {"libraries", libraries()},
-                  {"seed", run.seed},
-                  {"command_line", arguments},
-                  {"mesh", mesh_json(workload)},
-                  {"query", name_of(run.query)},
-                  {"radius", number(workload.radius)},
-                  {"reach", workload.reach ? number(*workload.reach) : Json("radius")},
-                  {"trajectories", trajectories_json(workload)},
-                  {"clock", clock_json(contestants)},
-                  {"effort", effort_json(run.effort)},
-                  {"contestants", contestants_json(contestants)}};
+  return {{"schema", results_schema},
+          {"run_id", run.run_id},
+          {"date", run.system.date},
+          {"finished", run.finished},
+          {"version", build.version},
+          {"commit", build.commit},
+          {"compiler", build.compiler},
+          {"flags", build.flags},
+          {"build_type", build.build_type},
+          {"native", build.native},
+          {"cpu", run.system.cpu_model},
+          {"cores", run.system.cores},
+          {"governor", run.system.governor},
+          {"load_average", run.system.load_average},
+          {"workers_core", run.core ? Json(*run.core) : Json("any")},
+          {"flushed_to_zero", run.flushed_to_zero},
+          {"libraries", libraries()},
+          {"seed", run.seed},
+          {"command_line", arguments}};
+}
+
+std::string run_json(const RunDescription& run, const Workload& workload,
+                     const std::deque<ContestantProcess>& contestants) {
+  Json json = run_circumstances(run);
+  json["mesh"] = mesh_json(workload);
+  json["query"] = name_of(run.query);
+  json["radius"] = number(workload.radius);
+  json["reach"] = workload.reach ? number(*workload.reach) : Json("radius");
+  json["trajectories"] = trajectories_json(workload);
+  json["clock"] = clock_json(contestants);
+  json["effort"] = effort_json(run.effort);
+  json["contestants"] = contestants_json(contestants);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 

@@ -15,6 +15,7 @@
 #include "bench/validation/located_json.h"
 #include "bench/validation/results_check.h"
 #include "bench/validation/run_check.h"
+#include "bench/validation/stress_check.h"
 
 namespace touchmark::bench {
 namespace {
@@ -64,10 +65,12 @@ std::string check_json(const std::string& path, Faults& faults) {
   return "run";
 }
 
-/// The run.json beside a results.csv; its own faults are reported where it is checked itself.
+bool is_stress_csv(const fs::path& path) { return path.filename() == "stress.csv"; }
+
+/// The run.json beside a results.csv or stress.csv; its own faults are reported where it is checked itself.
 std::optional<LocatedJson> run_beside(const fs::path& path) {
   const fs::path beside = path.parent_path() / "run.json";
-  if (path.filename() != "results.csv" || !fs::exists(beside)) return std::nullopt;
+  if ((path.filename() != "results.csv" && !is_stress_csv(path)) || !fs::exists(beside)) return std::nullopt;
   Faults reported_elsewhere;
   std::optional<LocatedJson> run = read_located_json(beside, reported_elsewhere);
   return run && run->value.is_object() ? std::move(run) : std::nullopt;
@@ -76,12 +79,15 @@ std::optional<LocatedJson> run_beside(const fs::path& path) {
 std::string check_csv(const std::string& path, Faults& faults) {
   const CsvTable table = read_csv_table(path, faults);
   check_form(table, faults);
+  const std::optional<LocatedJson> run = run_beside(path);
+  const nlohmann::json* about = run ? &run->value : nullptr;
+  if (is_stress_csv(path)) {
+    check_stress(table, about, faults);
+    return fmt::format("stress, {} rows", table.records.size());
+  }
   const bool results =
       fs::path(path).filename() == "results.csv" || table.has("run_id") || table.has("answers_checksum");
-  if (results) {
-    const std::optional<LocatedJson> run = run_beside(path);
-    check_results(table, run ? &run->value : nullptr, faults);
-  }
+  if (results) check_results(table, about, faults);
   return fmt::format("{}, {} rows", results ? "results" : "another table, checked for its form only",
                      table.records.size());
 }
@@ -108,9 +114,9 @@ void add_validate(CLI::App& program, ProgramContext& context) {
   const auto paths = std::make_shared<std::vector<std::string>>();
   CLI::App* command = program.add_subcommand("validate", "check recorded results: CSV files and run.json");
   command
-      ->add_option(
-          "path", *paths,
-          "results.csv, run.json, or folders that hold some; other CSV files are checked for their form")
+      ->add_option("path", *paths,
+                   "results.csv, stress.csv, run.json, or folders that hold some; other CSV files are "
+                   "checked for their form")
       ->type_name("FILE|DIR")
       ->required();
   command->footer(

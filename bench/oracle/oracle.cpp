@@ -142,7 +142,10 @@ std::vector<Truth> Oracle::solve(std::span<const Probe> probes) const {
   in_parallel(probes.size(), threads(), [&](std::size_t begin, std::size_t end) {
     std::optional<std::uint32_t> hint;
     for (std::size_t i = begin; i < end; ++i) {
-      truths[i] = structure_->nearest(probes[i].center, hint);
+      // Several radii about one centre are one question.
+      truths[i] = i > begin && probes[i].center == probes[i - 1].center
+                      ? truths[i - 1]
+                      : structure_->nearest(probes[i].center, hint);
       if (truths[i].defined) hint = truths[i].triangle;
     }
   });

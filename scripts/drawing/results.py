@@ -52,8 +52,13 @@ class Run:
         self.name = folder.name if path.name == "results.csv" else path.stem
         self.moment = str(about.get("date", "")), self.name
         self.machine = str(about.get("cpu") or folder.parent.name)
-        facts = [about.get("cpu"), about.get("compiler"), "commit " + about["commit"] if about.get("commit") else ""]
-        self.source = ", ".join([self.name] + [str(fact) for fact in facts if fact])
+        self.source = source_of(self.name, about)
+
+
+def source_of(name, about):
+    """The line that says where numbers are from."""
+    facts = [about.get("cpu"), about.get("compiler"), "commit " + about["commit"] if about.get("commit") else ""]
+    return ", ".join([name] + [str(fact) for fact in facts if fact])
 
 
 def number(text, column, line):

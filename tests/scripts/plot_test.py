@@ -117,6 +117,21 @@ class Plot(unittest.TestCase):
         self.assertEqual(self.plot(self.directory / "results.csv", "--only", "latency", "--out", elsewhere).returncode, 0)
         self.assertTrue((elsewhere / "latency.png").exists())
 
+    def test_draws_a_stress_run_as_contestants_by_families(self):
+        fields = ("detector,options,family,query,status,probes,missed,false_contacts,wrong_triangle,beyond_bound,wrong_point,"
+                  "wrong_normal,malformed,crashes,timeouts,refusals,adversarial")
+        (self.directory / "stress.csv").write_text(
+            fields + "\ngrid-group,,needles,nearest,ok,90,0,0,0,0,0,0,0,0,0,0,1\n"
+            "fcl,bv=obb,needles,nearest,wrong,90,40,6,0,0,0,0,0,0,0,0,1\nfcl,bv=obb,caps,nearest,inexact,90,0,0,0,7,0,0,0,0,0,0,0\n"
+            "grid-group,,caps,nearest,crashed,0,0,0,0,0,0,0,0,1,0,0,0\n", encoding="utf-8")
+        done = self.plot()
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(self.pictures(), ["stress.png", "stress.svg"])
+        picture = (self.directory / "plots" / "stress.svg").read_text(encoding="utf-8")
+        for text in ("fcl:bv=obb", "needles", "<!-- 46 -->", "<!-- ~7 -->", "<!-- C -->", "270 answers",
+                     "180 of them at the edge"):
+            self.assertIn(text, picture)
+
     def test_says_where_the_numbers_are_from(self):
         self.write(GOOD)
         (self.directory / "run.json").write_text('{"cpu": "Abacus 3", "commit": "beef"}', encoding="utf-8")

@@ -51,6 +51,17 @@ class RunSchema(unittest.TestCase):
         for path in RECORDED:
             self.validator.validate(json.loads(path.read_text(encoding="utf-8")))
 
+    def test_accepts_what_the_program_writes_of_a_stress_run(self):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([PROGRAM, "stress", "--detector", "brute-force", "--family", "tangent", "--probes", "30", "--out",
+                            folder], capture_output=True, check=True)
+            run = json.loads((pathlib.Path(folder) / "run.json").read_text(encoding="utf-8"))
+        self.validator.validate(run)
+        self.assertTrue(self.accepted_by_program(run))
+        del run["families"]
+        self.assertFalse(self.validator.is_valid(run))
+        self.assertFalse(self.accepted_by_program(run))
+
     def test_accepts_what_the_program_writes(self):
         with tempfile.TemporaryDirectory() as folder:
             subprocess.run([PROGRAM, "bench", "--mesh", "icosphere:0", "--quick", "--steps", "10", "--trajectory", "slide",

@@ -15,17 +15,7 @@ struct NamedMesh {
   TriangleMesh mesh;
 };
 
-inline TriangleMesh mesh_of(const std::vector<HardCases::Corners>& triangles,
-                            std::vector<TriangleId> ids = {}) {
-  std::vector<Vec3> vertices;
-  std::vector<TriangleMesh::Corners> corners;
-  for (const HardCases::Corners& t : triangles) {
-    const auto first = static_cast<std::uint32_t>(vertices.size());
-    vertices.insert(vertices.end(), t.begin(), t.end());
-    corners.push_back({first, first + 1, first + 2});
-  }
-  return {std::move(vertices), std::move(corners), std::move(ids)};
-}
+using bench::mesh_of;
 
 /// An octahedron whose faces are divided into squares of `parts` and pushed out to the unit sphere: to its
 /// centre, the triangles of eight octants are exact mirror images.
