@@ -26,10 +26,11 @@ inline double enters(const Aabb& box, const Sweep& sweep, double widening, doubl
   constexpr double never = std::numeric_limits<double>::infinity();
   double enter = 0, leave = limit;
   for (int k = 0; k < 3; ++k) {
+    if (box.min[k] > box.max[k])
+      return never;  // an empty box, which an infinite widening would not leave empty
     const double way = sweep.to[k] - sweep.from[k];
     const double low = (box.min[k] - sweep.from[k]) - widening,
                  high = (box.max[k] - sweep.from[k]) + widening;
-    if (low > high) return never;  // an empty box
     if (way == 0) {
       if (low > 0 || high < 0) return never;
       continue;

@@ -123,7 +123,8 @@ Header parse_header(std::string_view bytes) {
       Element element;
       element.name = cursor.word_on_line();
       const std::int64_t count = parse_integer(cursor.word_on_line(), "an element's count", cursor);
-      if (count < 0) cursor.fail("element " + element.name + " has count " + std::to_string(count));
+      if (count < 0)
+        cursor.fail("element " + mesh_io::quoted(element.name) + " has count " + std::to_string(count));
       element.count = static_cast<std::size_t>(count);
       header.elements.push_back(std::move(element));
     } else if (keyword == "property") {
@@ -310,9 +311,9 @@ void check(const Header& header, std::size_t file_size) {
   for (const Element& element : header.elements) {
     const std::size_t least = least_bytes(element, header.format);
     if (element.count > file_size / least) {
-      throw MeshError("the header declares " + std::to_string(element.count) + " of element " + element.name +
-                      ", of at least " + std::to_string(least) + " bytes each; the file has " +
-                      std::to_string(file_size) + " bytes");
+      throw MeshError("the header declares " + std::to_string(element.count) + " of element " +
+                      mesh_io::quoted(element.name) + ", of at least " + std::to_string(least) +
+                      " bytes each; the file has " + std::to_string(file_size) + " bytes");
     }
     if (element.name == "vertex") {
       for (const std::string_view axis : {"x", "y", "z"}) {

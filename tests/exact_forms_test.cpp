@@ -1,0 +1,249 @@
+// Every exact form of core on meshes that detectors fail on: brute force is right by the oracle, the others
+// give its bits. Small and quick, so that it can be run against every mutant of core.
+#include "tests/exact_forms.h"
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "bench/oracle/oracle.h"
+#include "bench/verify.h"
+#include "tests/bench/oracle/hard_meshes.h"
+
+namespace touchmark {
+namespace {
+
+using bench::Answer;
+using bench::Oracle;
+using bench::Query;
+using bench::Step;
+using bench::Truth;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::vector<Answer> ask(bench::Contestant& detector, Query query, const std::vector<Step>& steps) {
+  std::vector<Answer> answers(steps.size());
+  std::vector<std::uint64_t> work(steps.size());
+  detector.answer({query, steps}, {0, steps.size()}, answers, work);
+  return answers;
+}
+
+/// The first answer that differs in any bit; none: their number.
+std::size_t first_difference(const std::vector<Answer>& a, const std::vector<Answer>& b) {
+  std::size_t i = 0;
+  while (i < a.size() && i < b.size() && std::memcmp(&a[i], &b[i], sizeof(Answer)) == 0) ++i;
+  return i;
+}
+
+/// Asks all forms the same, and judges the bits that they agree on.
+class Examination {
+ public:
+  explicit Examination(const TriangleMesh& mesh)
+      : mesh_(mesh), oracle_(mesh_, 1), forms_(exact_forms(mesh_)) {}
+
+  const Oracle& oracle() const { return oracle_; }
+
+  void ask_all(const std::string& what, Query query, const std::vector<Step>& steps) {
+    const std::vector<Answer> expected = ask(*forms_.front().detector, query, steps);
+    judge(what, query, steps, expected);
+    for (const ExactForm& form : forms_) {
+      const std::size_t at = first_difference(ask(*form.detector, query, steps), expected);
+      EXPECT_EQ(at, steps.size()) << form.name << " differs from brute force: " << what;
+    }
+  }
+
+ private:
+  void judge(const std::string& what, Query query, const std::vector<Step>& steps,
+             const std::vector<Answer>& answers) const {
+    const Accuracy accuracy = forms_.front().detector->accuracy();
+    bench::Tally tally;
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      const Probe& probe = steps[i].probe;
+      const std::span answer(&answers[i], 1);
+      if (query == Query::sweep) {
+        const std::vector<Sweep> sweep = {
+            {steps[i > 0 ? i - 1 : 0].probe.center, probe.center, probe.radius}};
+        tally += bench::judge(oracle_, oracle_.solve(sweep), sweep, answer, accuracy);
+      } else {
+        const std::vector<Truth> truth = {oracle_.solve(probe.center)};
+        tally += bench::judge(oracle_, truth, query, std::span(&probe, 1), steps[i].reach, answer, accuracy);
+      }
+    }
+    EXPECT_TRUE(bench::keeps_its_word(tally, accuracy))
+        << "brute force: " << what << ": " << tally.missed << " missed, " << tally.false_contacts
+        << " false, " << tally.wrong_triangle << " wrong triangle, " << tally.beyond_bound << " beyond, "
+        << tally.wrong_point << " point, " << tally.wrong_normal << " normal, " << tally.malformed
+        << " malformed";
+  }
+
+  TriangleMesh mesh_;
+  Oracle oracle_;
+  std::vector<ExactForm> forms_;
+};
+
+class ExactForms : public testing::TestWithParam<std::size_t> {
+ protected:
+  static const std::vector<NamedMesh>& meshes() {
+    static const std::vector<NamedMesh> all = hard_meshes();
+    return all;
+  }
+};
+
+/// As many steps as centres, each with the radius and the reach that belong to its distance.
+template <class RadiusAt, class ReachAt>
+std::vector<Step> steps_at(const std::vector<Vec3>& centers, const RadiusAt& radius, const ReachAt& reach) {
+  std::vector<Step> steps;
+  for (std::size_t i = 0; i < centers.size(); ++i) steps.push_back({{centers[i], radius(i)}, reach(i)});
+  return steps;
+}
+
+TEST_P(ExactForms, AreRightAndAgreeOnHardMeshes) {
+  const NamedMesh& named = meshes()[GetParam()];
+  SCOPED_TRACE(named.name);
+  Examination examination(named.mesh);
+  HardCases hard(7);
+  const std::vector<Vec3> centers = hard_points(named.mesh, hard, 60);
+  std::vector<double> distance;
+  for (const Vec3& center : centers) distance.push_back(examination.oracle().solve(center).high);
+  const double some = 0.01 * named.mesh.diagonal();
+  const auto constant = [](double value) { return [value](std::size_t) { return value; }; };
+  for (const double reach : {0.0, some, infinity}) {
+    examination.ask_all("nearest within " + std::to_string(reach), Query::nearest,
+                        steps_at(centers, constant(some), constant(reach)));
+  }
+  examination.ask_all("nearest at the very distance", Query::nearest,
+                      steps_at(centers, constant(some), [&](std::size_t i) { return distance[i]; }));
+  const auto ask_touches = [&](const char* what, auto radius) {
+    examination.ask_all(what, Query::touches, steps_at(centers, radius, constant(0)));
+  };
+  ask_touches("touches", constant(some));
+  ask_touches("touches at the very distance", [&](std::size_t i) { return distance[i]; });
+  ask_touches("touches an ulp short of it", [&](std::size_t i) { return std::nextafter(distance[i], 0); });
+  ask_touches("touches an ulp beyond", [&](std::size_t i) { return std::nextafter(distance[i], infinity); });
+  // Beyond that, sweeps are promised nothing: products of four differences leave the range of double.
+  if (named.mesh.diagonal() < 0x1p200)
+    examination.ask_all("sweep", Query::sweep, steps_at(centers, constant(some), constant(0)));
+}
+
+INSTANTIATE_TEST_SUITE_P(Meshes, ExactForms, testing::Range(std::size_t{0}, hard_meshes().size()),
+                         [](const testing::TestParamInfo<std::size_t>& mesh) {
+                           std::string name = hard_meshes()[mesh.param].name;
+                           for (char& c : name)
+                             if (c == ' ') c = '_';
+                           return name;
+                         });
+
+/// On vertices, edges and faces, where many triangles are equally near: the first of them is the answer, by
+/// whatever boxes and cells the others would be left out.
+TEST(ExactFormsInTies, GiveTheFirstOfTheNearest) {
+  const TriangleMesh sphere = octasphere(6).transformed(1, Vec3(0.1, 0.2, 0.3));
+  Examination examination(sphere);
+  HardCases hard(11);
+  std::vector<Vec3> centers;
+  for (std::uint32_t i = 0; i < sphere.size(); ++i) {
+    const Vec3 &a = sphere.corner(i, 0), &b = sphere.corner(i, 1);
+    const Vec3 middle(0.1, 0.2, 0.3);
+    centers.push_back(a);
+    centers.push_back(0.5 * (a + b));
+    centers.push_back(a + hard.magnitude(-12, 0) * (a - middle));
+    centers.push_back(0.5 * (a + b) + hard.magnitude(-12, 0) * (a - middle));
+  }
+  const auto reach = [](double value) { return [value](std::size_t) { return value; }; };
+  examination.ask_all("nearest at any reach", Query::nearest, steps_at(centers, reach(0), reach(infinity)));
+  examination.ask_all("nearest within 0.01", Query::nearest, steps_at(centers, reach(0), reach(0.01)));
+  examination.ask_all("nearest within nothing", Query::nearest, steps_at(centers, reach(0), reach(0)));
+}
+
+/// Seen along the line from its middle through a corner, a triangle is as near as its bounding sphere, and
+/// seen along an axis as its box: whether it is kept is up to the rounding of the bound.
+TEST(ExactFormsInLine, LoseNothingToTheRoundingOfABound) {
+  HardCases hard(19);
+  for (int triangle = 0; triangle < 30; ++triangle) {
+    const HardCases::Corners corners = hard.plain();
+    Examination examination(mesh_of({corners}));
+    const Vec3 middle = corners[0] + ((corners[1] - corners[0]) + (corners[2] - corners[0])) / 3;
+    std::vector<Vec3> centers;
+    std::vector<double> distance;
+    for (int i = 0; i < 30; ++i) {
+      const Vec3& corner = corners[hard.below(3)];
+      centers.push_back(corner + hard.magnitude(-3, 6) * (corner - middle));
+      distance.push_back(examination.oracle().solve(centers.back()).high);
+    }
+    const auto at = [&](std::size_t i) { return distance[i]; };
+    const auto beyond = [&](std::size_t i) { return std::nextafter(distance[i], infinity); };
+    examination.ask_all("nearest", Query::nearest, steps_at(centers, at, at));
+    examination.ask_all("nearest, an ulp beyond", Query::nearest, steps_at(centers, at, beyond));
+    examination.ask_all("touches", Query::touches, steps_at(centers, at, at));
+    examination.ask_all("touches, an ulp beyond", Query::touches, steps_at(centers, beyond, at));
+  }
+}
+
+/// A probe that slides, hovers, presses and leaves in small steps: what a session remembers is put to use.
+TEST(ExactFormsOnTheMove, AgreeAlongACoherentWay) {
+  for (const TriangleMesh& mesh : {octasphere(10), plate(12).transformed(0.1, Vec3::Zero())}) {
+    Examination examination(mesh);
+    const double radius = 0.02;
+    HardCases hard(13);
+    std::vector<Vec3> way;
+    Vec3 at(0.7, 0.5, 0.6);
+    for (int i = 0; i < 600; ++i) {
+      const Truth truth = examination.oracle().solve(at);
+      const double wish = radius * (1 + 1.5 * std::sin(0.05 * i));  // in contact and out of it, slowly
+      const Vec3 out = truth.direction.isZero(0) ? Vec3(Vec3::UnitZ()) : truth.direction;
+      at += 0.2 * (wish - truth.high) * out + 0.004 * Vec3(std::cos(0.01 * i), std::sin(0.013 * i), 0.3) +
+            1e-4 * hard.vector();
+      way.push_back(at);
+    }
+    const auto constant = [](double value) { return [value](std::size_t) { return value; }; };
+    for (const double reach : {radius, 4 * radius})
+      examination.ask_all("nearest on the move", Query::nearest,
+                          steps_at(way, constant(radius), constant(reach)));
+    examination.ask_all("touches on the move", Query::touches, steps_at(way, constant(radius), constant(0)));
+    examination.ask_all("sweeps on the move", Query::sweep, steps_at(way, constant(radius), constant(0)));
+  }
+}
+
+template <class D>
+struct Case {
+  std::string name;
+  typename D::Options options;
+};
+
+/// One session for two detectors, in turn.
+template <class D>
+void expect_no_harm_from_another_mesh(const Case<D>& form) {
+  const TriangleMesh one = octasphere(6), other = octasphere(6).transformed(1, Vec3(0.05, 0, 0));
+  const D first = D::build(one, form.options), second = D::build(other, form.options);
+  typename D::Session shared;
+  HardCases hard(17);
+  const double radius = 0.02;
+  Vec3 at(1.03, 0, 0);
+  for (int i = 0; i < 400; ++i) {
+    at = (1.035 + 0.03 * std::sin(0.3 * i)) * (at + 0.01 * hard.vector()).normalized();
+    const Probe probe{at, radius};
+    for (const D* detector : {&first, &second}) {
+      typename D::Session fresh, another;
+      ASSERT_EQ(detector->touches(probe, shared), detector->touches(probe, fresh)) << form.name << ' ' << i;
+      const auto contact = detector->nearest(probe, radius, shared),
+                 expected = detector->nearest(probe, radius, another);
+      ASSERT_EQ(contact.has_value(), expected.has_value()) << form.name << ' ' << i;
+      if (contact) {
+        ASSERT_EQ(contact->distance, expected->distance) << form.name << ' ' << i;
+      }
+    }
+  }
+}
+
+TEST(ExactFormsInTurn, TakeNoHarmFromTheSessionOfAnotherMesh) {
+  expect_no_harm_from_another_mesh<AabbTree>({"aabb-tree", {}});
+  expect_no_harm_from_another_mesh<GridGroup>({"grid-group, direct", {}});
+  expect_no_harm_from_another_mesh<SphereCluster>({"sphere-cluster, tree", {}});
+}
+
+}  // namespace
+}  // namespace touchmark

@@ -1,0 +1,79 @@
+#!/usr/bin/python3
+"""Writes a folder of seeds for each fuzz target: small files of every form that the readers know, whole and damaged.
+Argument: where the folders go.
+"""
+import pathlib
+import random
+import struct
+import sys
+
+VERTICES = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0.1, 0.2, 1e-9), (-1e300, 2.5, 4.9e-324)]
+FACES = [(0, 1, 2), (0, 1, 3), (1, 2, 3, 4)]
+
+
+def ply(form, index="vertex_indices", extra=""):
+    header = (f"ply\nformat {form} 1.0\ncomment seed\nelement vertex {len(VERTICES)}\nproperty double x\n"
+              f"property float64 y\nproperty double z\n{extra}element face {len(FACES)}\n"
+              f"property list uchar int {index}\nend_header\n")
+    if form == "ascii":
+        lines = [" ".join(map(repr, v)) + (" 7" if extra else "") for v in VERTICES]
+        lines += [" ".join(map(str, (len(f), *f))) for f in FACES]
+        return (header + "\n".join(lines) + "\n").encode()
+    order = "<" if "little" in form else ">"
+    body = b"".join(struct.pack(order + "3d", *v) + (b"\7" if extra else b"") for v in VERTICES)
+    body += b"".join(struct.pack(f"{order}B{len(f)}i", len(f), *f) for f in FACES)
+    return header.encode() + body
+
+
+def obj():
+    yield "".join(f"v {x} {y} {z}\n" for x, y, z in VERTICES) + "f 1 2 3\nf 1/1 2/2/2 -1//3\nf 1 2 3 \\\n4\n"
+    yield "# a comment\r\no thing\r\nv 0 0 0\r\nv 1 0 0 1.0\r\nv 0 1 0\r\nvt 0 0\r\nvn 0 0 1\r\ns off\r\nf -3 -2 -1\r\n"
+
+
+def off():
+    faces = "".join(f"{len(f)} {' '.join(map(str, f))}\n" for f in FACES)
+    vertices = "".join(f"{x} {y} {z}\n" for x, y, z in VERTICES)
+    yield f"OFF\n{len(VERTICES)} {len(FACES)} 0\n{vertices}{faces}"
+    yield "COFF # coloured\n3 1 0\n0 0 0 255 0 0\n1 0 0 0 255 0\n0 1 0 0 0 255\n3 0 1 2 0.5 0.5 0.5\n"
+
+
+def stl():
+    facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1e-9 0\nendloop\nendfacet\n"
+    yield f"solid a\n{facet}{facet}endsolid a\nsolid b\n{facet}endsolid\n".encode()
+    for start in (b"made", b"solid"):
+        corners = [0, 0, 1] + [c for v in VERTICES[:3] for c in v]
+        yield start.ljust(80, b"\0") + struct.pack("<I", 2) + 2 * (struct.pack("<12f", *corners) + b"\0\0")
+
+
+def damaged(text):
+    """Each half of it, and with one byte changed here and there."""
+    draw = random.Random(len(text))
+    yield text[:len(text) // 2]
+    yield text[:-1]
+    for _ in range(3):
+        at = draw.randrange(len(text))
+        yield text[:at] + bytes([draw.randrange(256)]) + text[at + 1:]
+
+
+def seeds():
+    forms = [ply("ascii"), ply("binary_little_endian"), ply("binary_big_endian"), ply("ascii", "vertex_index"),
+             ply("ascii", extra="property uchar red\n"), ply("binary_little_endian", extra="property uchar red\n")]
+    huge = [ply("ascii").replace(b"element face 3", b"element face 4294967295"),
+            ply("binary_little_endian").replace(b"element vertex 5", b"element vertex 2147483648")]
+    yield "ply", forms + huge
+    yield "obj", [text.encode() for text in obj()]
+    yield "off", [text.encode() for text in off()]
+    yield "stl", list(stl())
+
+
+def main():
+    folder = pathlib.Path(sys.argv[1])
+    for target, whole in seeds():
+        (folder / target).mkdir(parents=True, exist_ok=True)
+        texts = whole + [bad for text in whole for bad in damaged(text)]
+        for number, text in enumerate(texts):
+            (folder / target / f"{number:02}").write_bytes(text)
+
+
+if __name__ == "__main__":
+    main()
