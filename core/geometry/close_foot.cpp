@@ -39,7 +39,8 @@ CloseFoot at(const Vector& way, double error) noexcept {
   CloseFoot close;
   close.foot.distance = root(dot(way, way));
   close.foot.error = error;
-  close.foot.offset = -Vec3(way[0].rounded(), way[1].rounded(), way[2].rounded());
+  // A difference, so that no zero comes out negative.
+  close.foot.offset = Vec3::Zero() - Vec3(way[0].rounded(), way[1].rounded(), way[2].rounded());
   if (close.foot.distance.high > 0) close.foot.direction = close.foot.offset.normalized();
   return close;
 }
