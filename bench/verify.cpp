@@ -171,7 +171,7 @@ void Judge::contact(const Truth& truth, const Vec3& center, const Answer& answer
     for (const Truth& one : nearest)
       off = std::min(off, distance_interval(point, triangle_of(oracle_.mesh(), one.triangle)).lo);
     tally.max_point_error = std::max(tally.max_point_error, off);
-    const double nearness = std::abs((center - point).norm() - truth.high);
+    const double nearness = std::abs((center - point).stableNorm() - truth.high);
     if (off > bound + rounding || nearness > bound + rounding) ++tally.wrong_point;
   }
   if (reported_.normal) {

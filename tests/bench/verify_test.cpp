@@ -230,6 +230,23 @@ TEST_F(LyingDetector, IsJudgedAsFarAsItGot) {
   EXPECT_EQ(judge(oracle, truths, Query::nearest, probes, radius, {answers.data(), 17}, exact).judged, 17U);
 }
 
+TEST(Judge, MeasuresWhereSquaresUnderflowOrOverflow) {
+  for (const int exponent : {-1060, -560, 560, 1000}) {
+    const double unit = std::ldexp(1.0, exponent);
+    const TriangleMesh mesh({{0, 0, 0}, {2 * unit, 0, 0}, {0, 2 * unit, unit}}, {{0, 1, 2}});
+    const Oracle oracle(mesh);
+    const BruteForce detector = BruteForce::build(mesh);
+    BruteForce::Session session;
+    const std::vector<Probe> probes = {{unit * Vec3(0.5, 0.5, 1), 0}, {unit * Vec3(-1, -1, 0.5), 0}};
+    std::vector<Answer> answers;
+    for (const Probe& probe : probes)
+      answers.push_back(Answer::of(detector.nearest(probe, infinity, session).value()));
+    const Tally tally =
+        judge(oracle, oracle.solve(probes), Query::nearest, probes, infinity, answers, detector.accuracy());
+    EXPECT_EQ(counts(tally), Counts()) << "unit 2^" << exponent;
+  }
+}
+
 TEST_F(LyingDetector, TouchesNothingWithAProbeThatIsNoNumber) {
   const std::vector<Probe> bad = {{Vec3(nan, 0, 0), radius}, {Vec3(0, infinity, 0), radius}};
   const std::vector<Truth> none = oracle.solve(bad);
