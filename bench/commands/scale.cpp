@@ -49,7 +49,7 @@ const std::set<std::string> scaled_by_default{"aabb-tree",
 constexpr const char* default_sizes = "1k,10k,100k,1M,10M";
 constexpr const char* quick_sizes = "1k,10k,100k";
 constexpr std::chrono::milliseconds default_build_patience{600'000};
-/// What a contestant may take while it is built, by experience: more than any keeps.
+/// What a contestant may take while it is built: a guess, more than twice what the largest keeps.
 constexpr double bytes_per_triangle = 1500;
 
 struct ScaleOptions {
