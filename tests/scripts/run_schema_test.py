@@ -72,7 +72,8 @@ class RunSchema(unittest.TestCase):
         self.assertTrue(self.accepted_by_program(run))
 
     def test_means_the_same_to_the_program(self):
-        run = json.loads(RECORDED[0].read_text(encoding="utf-8"))
+        runs = [json.loads(path.read_text(encoding="utf-8")) for path in RECORDED]
+        run = next(run for run in runs if "mesh" in run)  # a stress run has families instead
         verdicts = set()
         for path, value in DAMAGED:
             damaged = copy.deepcopy(run)

@@ -24,6 +24,12 @@ class Gate : public testing::Test {
     const Outcome outcome = gate("spins", {"--write-baseline"});
     ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
   }
+  /// A baseline is not written from noise, which may pass.
+  void write_baseline_when_quiet() const {
+    Outcome outcome = gate("spins", {"--write-baseline"});
+    for (int again = 0; again < 20 && too_noisy(outcome); ++again) outcome = gate("spins", {"--write-baseline"});
+    ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  }
   Outcome gate(const std::string& detector, const std::vector<std::string>& more = {},
                const std::string& reference = "spins-steadily") const {
     std::vector<std::string> command{hostile,        "gate",
@@ -33,7 +39,7 @@ class Gate : public testing::Test {
                                      "--detector",   detector,
                                      "--reference",  reference,
                                      "--baseline",   folder_.file("baseline.csv"),
-                                     "--tolerance",  "10%",
+                                     "--tolerance",  tolerance_,
                                      "--rounds",     "15"};
     command.insert(command.end(), more.begin(), more.end());
     return run_program_at(command);
@@ -44,10 +50,12 @@ class Gate : public testing::Test {
   static bool too_noisy(const Outcome& outcome) { return outcome.status == 4; }
 
   TemporaryFolder folder_;
+  std::string tolerance_ = "90%";  ///< so wide that no noise matters to what is not about time
 };
 
 TEST_F(Gate, FailsWhatBecameSlowerAndPassesWhatDidNot) {
-  write_baseline();
+  tolerance_ = "10%";
+  write_baseline_when_quiet();
   const Outcome same = gate("spins");
   if (!too_noisy(same)) {
     EXPECT_EQ(same.status, 0) << same.out;
@@ -68,6 +76,7 @@ TEST_F(Gate, FailsWhatBecameSlowerAndPassesWhatDidNot) {
 }
 
 TEST_F(Gate, IsInconclusiveWhenTheReferenceDoesNotMeasureEqualToItself) {
+  tolerance_ = "10%";
   ::setenv("TOUCHMARK_TEST_COUNTER", folder_.file("counter").c_str(), 1);
   const Outcome outcome = gate("honest", {"--write-baseline"}, "moody");
   EXPECT_EQ(outcome.status, 4) << outcome.out << outcome.err;
