@@ -118,7 +118,7 @@ def plugin(source, folder, driver=False):
          f"-DTOUCHMARK_SOURCE={source}", f"-DTOUCHMARK_GATE_DRIVER={'ON' if driver else 'OFF'}", *launcher],
         ["cmake", "--build", build],
     )
-    environment = {**os.environ, "CCACHE_BASEDIR": str(ROOT)}
+    environment = {**os.environ, "CCACHE_BASEDIR": str(ROOT), "CCACHE_SLOPPINESS": "pch_defines,time_macros"}
     with open(log, "wb") as output:
         for step in steps:
             try:
