@@ -14,7 +14,7 @@ namespace {
 
 /// At most four points determine the smallest sphere in space.
 struct Support {
-  std::array<Vec3, 4> point;
+  std::array<Vec3, 4> point{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
   std::size_t size = 0;
 
   void add(const Vec3& p) noexcept { point[size++] = p; }
