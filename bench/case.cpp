@@ -97,8 +97,8 @@ void Case::judge(Truths& truths, Truths* stored) {
     row_.status = "checksum mismatch";
     return;
   }
-  row_.tally = truths.judge(windows_, answers, *row_.accuracy);
-  if (stored != nullptr) row_.stored_tally = stored->judge(windows_, answers, *row_.accuracy);
+  row_.tally = truths.judge(task_.query, windows_, answers, *row_.accuracy);
+  if (stored != nullptr) row_.stored_tally = stored->judge(task_.query, windows_, answers, *row_.accuracy);
 }
 
 void Case::expect_verified_answers(const Timed& timed) {

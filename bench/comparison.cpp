@@ -46,12 +46,16 @@ std::unique_ptr<const StoredScene> stored_scene(const ContestantInfo& info, cons
 Comparison::Comparison(const Roster& roster, const Workload& workload,
                        const std::vector<ContestantSpec>& contestants, const WorkerOptions& workers,
                        const Effort& effort, std::uint64_t seed)
-    : workload_(workload), effort_(effort), seed_(seed), stage_(workload, workers), oracle_(workload.mesh) {
+    : roster_(roster),
+      workload_(workload),
+      effort_(effort),
+      seed_(seed),
+      stage_(workload, workers),
+      oracle_(workload.mesh) {
   for (const ContestantSpec& spec : contestants) {
-    const ContestantInfo& info = roster.find(spec.name);
-    processes_.emplace_back(stage_, spec, info.worker_program(spec.values));
-    stored_.push_back(stored_scene(info, spec, workload.mesh));
+    processes_.emplace_back(stage_, spec, roster.find(spec.name).worker_program(spec.values));
   }
+  stored_.resize(processes_.size());
 }
 
 void Comparison::skip(const ContestantSpec& spec, const std::string& status) {
@@ -61,21 +65,35 @@ void Comparison::skip(const ContestantSpec& spec, const std::string& status) {
 }
 
 std::vector<ResultRow> Comparison::run(std::size_t course, Query query) {
+  Truths truths(oracle_, workload_.courses[course]);
+  return run(course, query, truths);
+}
+
+void Comparison::run_all(const std::vector<Query>& queries, std::vector<ResultRow>& rows) {
+  for (std::size_t course = 0; course < workload_.courses.size(); ++course) {
+    Truths truths(oracle_, workload_.courses[course]);
+    for (const Query query : queries) {
+      const std::vector<ResultRow> some = run(course, query, truths);
+      rows.insert(rows.end(), some.begin(), some.end());
+    }
+  }
+}
+
+std::vector<ResultRow> Comparison::run(std::size_t course, Query query, Truths& truths) {
   const std::string& trajectory = workload_.trajectories[course];
   std::deque<Case> cases;
-  std::vector<const StoredScene*> stored;
+  std::vector<std::size_t> whose;  // the process of each case
   for (std::size_t i = 0; i < processes_.size(); ++i) {
     if (!filter_(trajectory, processes_[i].spec().text())) continue;
     cases.emplace_back(workload_, stage_, effort_, processes_[i], course, query);
-    stored.push_back(stored_[i].get());
+    whose.push_back(i);
   }
-  Truths truths(oracle_, Course{query, workload_.courses[course]});
   std::vector<Case*> together;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     check_for_interrupt();
     progress_(trajectory, cases[i].contestant());
     cases[i].introduce();
-    verify(cases[i], stored[i], course, query, truths);
+    verify(cases[i], stored_by(whose[i]), course, truths);
     if (turns_ == Turns::together) {
       together.push_back(&cases[i]);
     } else {
@@ -89,11 +107,18 @@ std::vector<ResultRow> Comparison::run(std::size_t course, Query query) {
   return rows;
 }
 
-void Comparison::verify(Case& one, const StoredScene* stored, std::size_t course, Query query,
-                        Truths& truths) {
+const StoredScene* Comparison::stored_by(std::size_t process) {
+  std::optional<std::unique_ptr<const StoredScene>>& stored = stored_[process];
+  if (!stored) {
+    const ContestantSpec& spec = processes_[process].spec();
+    stored = stored_scene(roster_.find(spec.name), spec, workload_.mesh);
+  }
+  return stored->get();
+}
+
+void Comparison::verify(Case& one, const StoredScene* stored, std::size_t course, Truths& truths) {
   if (stored == nullptr) return one.verify(truths);
-  const std::vector<Step> steps = stored->course(workload_.courses[course]);
-  Truths of_stored(stored->oracle(), Course{query, steps});
+  Truths of_stored(stored->oracle(), stored->course(workload_.courses[course]));
   one.verify(truths, &of_stored);
 }
 

@@ -7,6 +7,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,13 +47,22 @@ class Comparison {
   /// The rows of one trajectory, in the contestants' order. Throws ResourceError or Interrupted.
   std::vector<ResultRow> run(std::size_t course, Query query);
 
+  /// All of them, appended to `rows` course by course, so that those finished before an exception are there.
+  /// What the oracle finds out about a course serves all queries.
+  void run_all(const std::vector<Query>& queries, std::vector<ResultRow>& rows);
+
   /// With what their workers said of themselves.
   const std::deque<ContestantProcess>& contestants() const noexcept { return processes_; }
 
  private:
-  void verify(class Case& one, const StoredScene* stored, std::size_t course, Query query, Truths& truths);
+  std::vector<ResultRow> run(std::size_t course, Query query, Truths& truths);
+  /// The scene as that process's library stores it, made when first asked for; null where it is the given
+  /// one.
+  const StoredScene* stored_by(std::size_t process);
+  void verify(class Case& one, const StoredScene* stored, std::size_t course, Truths& truths);
   void measure(const std::vector<class Case*>& cases, const std::string& trajectory, std::uint64_t seed);
 
+  const Roster& roster_;
   const Workload& workload_;
   Effort effort_;
   std::uint64_t seed_;
@@ -60,8 +70,7 @@ class Comparison {
   WorkerStage stage_;
   Oracle oracle_;
   std::deque<ContestantProcess> processes_;
-  std::vector<std::unique_ptr<const StoredScene>>
-      stored_;  ///< a process each; null: it stores what it is given
+  std::vector<std::optional<std::unique_ptr<const StoredScene>>> stored_;  ///< a process each
   Progress progress_ = [](const std::string&, const std::string&) {};
   CaseFilter filter_ = [](const std::string&, const std::string&) { return true; };
 };

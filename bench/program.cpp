@@ -13,7 +13,6 @@
 #include <fmt/format.h>
 
 #include "bench/build_info.h"
-#include "bench/commands/scale_command.h"
 #include "bench/near_names.h"
 #include "bench/standard_output.h"
 #include "core/triangle_mesh.h"

@@ -81,4 +81,17 @@ std::string verdict(const std::vector<ResultRow>& rows) {
   return line + '\n';
 }
 
+bool tell_faults(const std::vector<ResultRow>& rows,
+                 const std::function<std::string(const ResultRow&)>& where) {
+  bool faulty = false;
+  for (const ResultRow& row : rows) {
+    const bool mismatch = row.status == "checksum mismatch";
+    if (!mismatch && !row.broke_its_word()) continue;
+    faulty = true;
+    fmt::print(stderr, "touchmark: {} on {}: {}\n", row.contestant(), where(row),
+               mismatch ? "timed answers differ from verified ones" : "answers are not as exact as claimed");
+  }
+  return faulty;
+}
+
 }  // namespace touchmark::bench

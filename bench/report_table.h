@@ -1,6 +1,7 @@
 /// The comparison as people read it: a table a trajectory, and a line that says who won.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,5 +12,10 @@ namespace touchmark::bench {
 /// `rows` are those of one trajectory.
 std::string timing_table(const std::vector<ResultRow>& rows);
 std::string verdict(const std::vector<ResultRow>& rows);
+
+/// Says on stderr, a line each, which rows broke their word or were timed with other answers than the
+/// verified ones; `where` names a row beside its contestant. False when there are none.
+bool tell_faults(const std::vector<ResultRow>& rows,
+                 const std::function<std::string(const ResultRow&)>& where);
 
 }  // namespace touchmark::bench

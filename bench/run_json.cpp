@@ -105,6 +105,14 @@ Json run_circumstances(const RunDescription& run) {
           {"command_line", arguments}};
 }
 
+RunDescription begun_run(int argc, const char* const* argv) {
+  RunDescription run;
+  run.system = system_info();
+  run.run_id = new_run_id(run.system);
+  run.arguments = {argv + 1, argv + argc};
+  return run;
+}
+
 std::string run_json(const RunDescription& run, const Workload& workload,
                      const std::deque<ContestantProcess>& contestants) {
   Json json = run_circumstances(run);

@@ -26,6 +26,9 @@ struct RunDescription {
   bool finished = true;     ///< false after Ctrl-C
 };
 
+/// Of a run that begins now: an id, the system, and the command line without the program's name.
+RunDescription begun_run(int argc, const char* const* argv);
+
 std::string run_json(const RunDescription& run, const Workload& workload,
                      const std::deque<ContestantProcess>& contestants);
 

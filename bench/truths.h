@@ -1,4 +1,5 @@
-/// The truth about the steps of one course, computed once, when first needed, for all contestants.
+/// The truth about the steps of one course, computed once, when first needed, for all contestants and
+/// queries.
 #pragma once
 
 #include <cstddef>
@@ -14,27 +15,31 @@ namespace touchmark::bench {
 
 class Truths {
  public:
-  /// Both must outlive it.
-  Truths(const Oracle& oracle, const Course& course);
+  /// The oracle must outlive it.
+  Truths(const Oracle& oracle, std::span<const Step> steps);
 
-  /// `answers` are those of the windows' steps, one after the other. Throws Interrupted on Ctrl-C.
-  Tally judge(const std::vector<Window>& windows, std::span<const Answer> answers, const Accuracy& accuracy,
-              const Reported& reported = {});
+  /// `answers` to the query are those of the windows' steps, one after the other. Throws Interrupted on
+  /// Ctrl-C.
+  Tally judge(Query query, const std::vector<Window>& windows, std::span<const Answer> answers,
+              const Accuracy& accuracy, const Reported& reported = {});
 
  private:
-  void solve(const std::vector<Window>& windows);
-  Tally judge(Window window, std::span<const Answer> answers, const Accuracy& accuracy,
+  /// One of each a step.
+  template <class Question, class TruthType>
+  struct Asked {
+    std::vector<Question> questions;
+    std::vector<TruthType> truths;
+    std::vector<bool> known;
+
+    void solve(const Oracle& oracle, const std::vector<Window>& windows);
+  };
+  Tally judge(Query query, Window window, std::span<const Answer> answers, const Accuracy& accuracy,
               const Reported& reported) const;
 
   const Oracle& oracle_;
-  Query query_;
-  std::vector<Probe> probes_;
   std::vector<double> reaches_;
-  std::vector<Sweep> sweeps_;  // of query sweep only
-  std::vector<bool> known_;
-  // One a step, for one kind of query or the other.
-  std::vector<Truth> truths_;
-  std::vector<SweepTruth> sweep_truths_;
+  Asked<Probe, Truth> probes_;  // touches and nearest ask about the same
+  Asked<Sweep, SweepTruth> sweeps_;
 };
 
 }  // namespace touchmark::bench

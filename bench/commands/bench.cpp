@@ -47,15 +47,10 @@ Effort effort_for(const BenchOptions& options, const BenchmarkFlags& flags) {
   return effort;
 }
 
-std::vector<std::string> arguments_of(const ProgramContext& context) {
-  return {context.argv + 1, context.argv + context.argc};
-}
-
 /// The whole run, from the checked command line to the last row.
 class BenchRun {
  public:
-  BenchRun(const Roster& roster, const BenchOptions& options, const BenchmarkFlags& flags,
-           std::vector<std::string> arguments);
+  BenchRun(const ProgramContext& context, const BenchOptions& options, const BenchmarkFlags& flags);
 
   /// An exit status. Throws ResourceError.
   int run();
@@ -64,12 +59,10 @@ class BenchRun {
  private:
   void run_trajectory(std::size_t course);
   void save(bool finished) const;
-  int status() const;
   bool wanted(const std::string& trajectory, const std::string& contestant) const {
     return flags_.wanted(contestant + "/" + trajectory);
   }
 
-  const Roster& roster_;
   BenchmarkFlags flags_;
   Selection selection_;
   std::optional<ResultsFolder> folder_;
@@ -89,17 +82,13 @@ Workload workload_for(const BenchOptions& options, const Selection& selection) {
                        options.quick ? 5000 : 20000);
 }
 
-BenchRun::BenchRun(const Roster& roster, const BenchOptions& options, const BenchmarkFlags& flags,
-                   std::vector<std::string> arguments)
-    : roster_(roster),
-      flags_(flags),
-      selection_(check(options.selectors, roster)),
+BenchRun::BenchRun(const ProgramContext& context, const BenchOptions& options, const BenchmarkFlags& flags)
+    : flags_(flags),
+      selection_(check(options.selectors, context.roster)),
+      description_(begun_run(context.argc, context.argv)),
       workload_(workload_for(options, selection_)) {
   if (!options.out.empty() && !flags.list_tests) folder_.emplace(options.out);
-  description_.system = system_info();
-  description_.run_id = new_run_id(description_.system);
   description_.flushed_to_zero = restore_denormals();
-  description_.arguments = std::move(arguments);
   description_.query = selection_.queries.front();
   description_.seed = selection_.seed;
   description_.effort = effort_for(options, flags);
@@ -107,7 +96,7 @@ BenchRun::BenchRun(const Roster& roster, const BenchOptions& options, const Benc
   WorkerOptions workers = worker_options(options.workers);
   workers.flags = flags.forwarded;
   workers.core = description_.core;
-  comparison_.emplace(roster, workload_, selection_.contestants, workers, description_.effort,
+  comparison_.emplace(context.roster, workload_, selection_.contestants, workers, description_.effort,
                       selection_.seed);
   comparison_->set_filter([this](const std::string& trajectory, const std::string& contestant) {
     return wanted(trajectory, contestant);
@@ -144,18 +133,6 @@ void BenchRun::run_trajectory(std::size_t course) {
   out_.finish();
 }
 
-int BenchRun::status() const {
-  int status = exit_done;
-  for (const ResultRow& row : rows_) {
-    const bool mismatch = row.status == "checksum mismatch";
-    if (!mismatch && !row.broke_its_word()) continue;
-    status = exit_check_failed;
-    fmt::print(stderr, "touchmark: {} on {}: {}\n", row.contestant(), row.trajectory,
-               mismatch ? "timed answers differ from verified ones" : "answers are not as exact as claimed");
-  }
-  return status;
-}
-
 int BenchRun::run() {
   watch_for_interrupts();
   out_.write(fmt::format("{}: {} triangles, {} within {:.6g}, radius {:.6g}\n", workload_.mesh_name,
@@ -170,7 +147,8 @@ int BenchRun::run() {
     return exit_interrupted;
   }
   save(true);
-  return status();
+  return tell_faults(rows_, [](const ResultRow& row) { return row.trajectory; }) ? exit_check_failed
+                                                                                 : exit_done;
 }
 
 }  // namespace
@@ -200,7 +178,7 @@ void add_bench(CLI::App& program, ProgramContext& context) {
       for (const ContestantSpec& spec : context.roster.frontier())
         options->selectors.detectors.push_back(spec.text());
     }
-    BenchRun run(context.roster, *options, flags, arguments_of(context));
+    BenchRun run(context, *options, flags);
     if (flags.list_tests) return run.list_cases();
     context.status = run.run();
   });

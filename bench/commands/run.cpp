@@ -108,10 +108,7 @@ Workload SweepRun::planned_workload(const SweepScene& scene) const {
 }
 
 RunDescription SweepRun::description_of(const SweepScene& scene) const {
-  RunDescription description;
-  description.system = system_info();
-  description.run_id = new_run_id(description.system);
-  description.arguments = {context_.argv + 1, context_.argv + context_.argc};
+  RunDescription description = begun_run(context_.argc, context_.argv);
   description.query = scene.query;
   description.seed = scene.seed;
   description.effort = effort_;

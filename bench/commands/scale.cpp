@@ -16,7 +16,6 @@
 #include <fmt/format.h>
 
 #include "bench/available_memory.h"
-#include "bench/commands/scale_command.h"
 #include "bench/comparison.h"
 #include "bench/floating_point.h"
 #include "bench/interrupt.h"
@@ -89,7 +88,6 @@ class ScaleRun {
   void note_too_much(const Comparison& comparison, const std::vector<ResultRow>& rows);
   Turns turns_for(const Workload& workload) const;
   void save(bool finished) const;
-  int status() const;
 
   /// The smallest mesh that was too much for a contestant.
   struct TooMuch {
@@ -120,6 +118,7 @@ ScaleRun::ScaleRun(const ProgramContext& context, const ScaleOptions& options)
       meshes_(meshes_of_sizes(options.selectors.meshes.empty() ? std::vector<std::string>{"noisy-sphere"}
                                                                : options.selectors.meshes,
                               options.sizes, options.quick ? quick_sizes : default_sizes)),
+      description_(begun_run(context.argc, context.argv)),
       workers_(worker_options(options.workers)) {
   // A name that is wrong should not be found out after the smaller meshes.
   for (const std::string& mesh : meshes_) {
@@ -127,10 +126,7 @@ ScaleRun::ScaleRun(const ProgramContext& context, const ScaleOptions& options)
   }
   if (!options.out.empty()) folder_.emplace(options.out);
   if (options.workers.timeout.empty()) workers_.build_patience = default_build_patience;
-  description_.system = system_info();
-  description_.run_id = new_run_id(description_.system);
   description_.flushed_to_zero = restore_denormals();
-  description_.arguments = {context.argv + 1, context.argv + context.argc};
   description_.query = selection_.queries.front();
   description_.seed = selection_.seed;
   if (options.quick) description_.effort = quick_effort;
@@ -212,30 +208,20 @@ void ScaleRun::save(bool finished) const {
   folder_->write_file("scaling.csv", scaling_csv(growth_of(rows_)));
 }
 
-int ScaleRun::status() const {
-  int status = exit_done;
-  for (const ResultRow& row : rows_) {
-    const bool mismatch = row.status == "checksum mismatch";
-    if (!mismatch && !row.broke_its_word()) continue;
-    status = exit_check_failed;
-    fmt::print(stderr, "touchmark: {} on {}, {}: {}\n", row.contestant(), row.mesh, row.trajectory,
-               mismatch ? "timed answers differ from verified ones" : "answers are not as exact as claimed");
-  }
-  return status;
-}
-
 int ScaleRun::run() {
   watch_for_interrupts();
-  int status = exit_done;
+  bool interrupted = false;
   try {
     for (const std::string& mesh : meshes_) run_mesh(mesh);
   } catch (const Interrupted&) {
-    status = exit_interrupted;
+    interrupted = true;
     progress_.clear();
     fmt::print(stderr, "touchmark: interrupted; the rows of {} finished meshes are kept\n", runs_.size());
   }
   out_.write(growth_table(growth_of(rows_)));
-  return status == exit_done ? this->status() : status;
+  if (interrupted) return exit_interrupted;
+  const auto where = [](const ResultRow& row) { return row.mesh + ", " + row.trajectory; };
+  return tell_faults(rows_, where) ? exit_check_failed : exit_done;
 }
 
 }  // namespace

@@ -76,12 +76,10 @@ StressRequest request_of(const StressOptions& options, const Roster& roster) {
 class StressCommand {
  public:
   StressCommand(const ProgramContext& context, const StressOptions& options)
-      : run_(context.roster, request_of(options, context.roster)) {
+      : run_(context.roster, request_of(options, context.roster)),
+        description_(begun_run(context.argc, context.argv)) {
     if (!options.out.empty()) folder_.emplace(options.out);
-    description_.system = system_info();
-    description_.run_id = new_run_id(description_.system);
     description_.flushed_to_zero = restore_denormals();
-    description_.arguments = {context.argv + 1, context.argv + context.argc};
     description_.seed = run_.request().seed;
   }
 

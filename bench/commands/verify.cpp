@@ -92,12 +92,7 @@ void VerifyRun::verify_mesh(const std::string& mesh) {
   comparison.set_progress([&](const std::string& trajectory, const std::string& contestant) {
     progress_.show(fmt::format("{}, {}: {}", workload.mesh_name, trajectory, contestant));
   });
-  for (std::size_t course = 0; course < workload.courses.size(); ++course) {
-    for (const Query query : selection_.queries) {
-      const std::vector<ResultRow> rows = comparison.run(course, query);
-      rows_.insert(rows_.end(), rows.begin(), rows.end());
-    }
-  }
+  comparison.run_all(selection_.queries, rows_);
 }
 
 int VerifyRun::report(bool finished) {

@@ -58,7 +58,7 @@ class PairedBatches::Contender {
     const OutputRoom& room = batches_.stage_.room();
     const std::size_t count = steps_in(windows);
     checksum_ = answered.checksum;
-    if (!keeps_its_word(truths.judge(windows, room.answers(count), accuracy_), accuracy_)) {
+    if (!keeps_its_word(truths.judge(task_.query, windows, room.answers(count), accuracy_), accuracy_)) {
       fail("gives wrong answers (touchmark verify says which)");
     }
     return {checksum_, summarize_work(room.work(count), answered.work)};
@@ -125,7 +125,7 @@ Batch PairedBatches::measure() {
   for (Contender& contender : contenders) contender.build();
   auto& [detector, reference, control] = contenders;
   if (steps_ == 0) choose_steps(detector, reference);
-  Truths truths(oracle_, Course{pair_.query, workload_.courses[pair_.course]});
+  Truths truths(oracle_, workload_.courses[pair_.course]);
   answers_ = detector.answer(steps_, truths);
   reference.answer(steps_, truths);
   control.answer(steps_, truths);

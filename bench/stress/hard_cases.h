@@ -7,25 +7,22 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <random>
 #include <utility>
 #include <vector>
 
+#include "bench/random.h"
 #include "core/probe.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::bench {
 
-class HardCases {
+class HardCases : public Random {
  public:
   using Corners = std::array<Vec3, 3>;
-
-  explicit HardCases(std::uint64_t seed) : random_(seed) {}
+  using Random::Random;
 
   /// In [0, 1).
-  double fraction() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
-  double between(double low, double high) { return low + (high - low) * fraction(); }
-  std::size_t below(std::size_t size) { return static_cast<std::size_t>(random_() % size); }
+  double fraction() { return unit(); }
   /// 10^e for e uniform in [low, high].
   double magnitude(double low, double high) { return std::pow(10.0, between(low, high)); }
   Vec3 vector() { return {between(-1, 1), between(-1, 1), between(-1, 1)}; }
@@ -118,8 +115,6 @@ class HardCases {
 
  private:
   double whole() { return static_cast<double>(below(7)) - 3; }
-
-  std::mt19937_64 random_;
 };
 
 /// These triangles with corners of their own.

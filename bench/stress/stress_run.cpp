@@ -66,12 +66,7 @@ void StressRun::run_workload(const Family& family, const Workload& workload, con
     for (const ResultRow& row : rows) add(family, row, row.trajectory == workload.trajectories.front());
   };
   try {
-    for (std::size_t course = 0; course < workload.courses.size(); ++course) {
-      for (const Query query : request_.queries) {
-        const std::vector<ResultRow> some = comparison.run(course, query);
-        rows.insert(rows.end(), some.begin(), some.end());
-      }
-    }
+    comparison.run_all(request_.queries, rows);
   } catch (const Interrupted&) {
     keep();
     throw;

@@ -18,6 +18,19 @@ std::string CsvTable::field(const CsvRecord& record, const std::string& column) 
   return at < header.size() && at < record.fields.size() ? record.fields[at] : "";
 }
 
+bool begins_with_columns(const CsvTable& table, const std::vector<std::string_view>& names,
+                         std::size_t at_least, Faults& faults) {
+  const std::size_t given = table.header.size();
+  for (std::size_t i = 0; i < std::max(at_least, std::min(given, names.size())); ++i) {
+    const std::string found = i < given ? table.header[i] : "";
+    if (found == names[i]) continue;
+    faults.push_back(
+        {table.path, 1, fmt::format("header, column {}", i + 1), found, fmt::format("is not {}", names[i])});
+    return false;
+  }
+  return true;
+}
+
 CsvTable read_csv_table(const std::string& path, Faults& faults) {
   CsvTable table{path, {}, {}};
   CsvReader reader(path);

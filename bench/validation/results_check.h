@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -30,6 +31,11 @@ struct CsvTable {
 /// Reads a whole file. A file that is not CSV gives what comes before the fault. Throws std::invalid_argument
 /// when it cannot be opened.
 CsvTable read_csv_table(const std::string& path, Faults& faults);
+
+/// Does the header begin with these names, as far as it goes, and at least with so many of them? The first
+/// that is another becomes a fault.
+bool begins_with_columns(const CsvTable& table, const std::vector<std::string_view>& names,
+                         std::size_t at_least, Faults& faults);
 
 /// Any CSV file: a header of different names, and as many fields in each record.
 void check_form(const CsvTable& table, Faults& faults);

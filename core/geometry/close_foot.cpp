@@ -29,15 +29,9 @@ Vector cross(const Vector& a, const Vector& b) noexcept {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-DoubleDouble root(DoubleDouble square) noexcept {
-  if (!(square.high > 0)) return {};
-  const double first = std::sqrt(square.high);
-  return two_sum(first, (square - two_product(first, first)).high / (2 * first));
-}
-
 CloseFoot at(const Vector& way, double error) noexcept {
   CloseFoot close;
-  close.foot.distance = root(dot(way, way));
+  close.foot.distance = square_root(dot(way, way));
   close.foot.error = error;
   // A difference, so that no zero comes out negative.
   close.foot.offset = Vec3::Zero() - Vec3(way[0].rounded(), way[1].rounded(), way[2].rounded());

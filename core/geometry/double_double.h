@@ -3,6 +3,8 @@
 /// (1971). Finite inputs below 1e290.
 #pragma once
 
+#include <cmath>
+
 namespace touchmark {
 
 struct DoubleDouble {
@@ -51,6 +53,14 @@ inline DoubleDouble operator/(DoubleDouble a, DoubleDouble b) noexcept {
   const double first = a.high / b.high;
   const DoubleDouble rest = a - b * DoubleDouble{first, 0};
   return two_sum(first, rest.high / b.high);
+}
+
+/// One step of Newton's method from the root in double: within 2^-100 of it. 0 of what is not above 0.
+inline DoubleDouble square_root(DoubleDouble square) noexcept {
+  if (!(square.high > 0)) return {};
+  const double first = std::sqrt(square.high);
+  const DoubleDouble rest = square - two_product(first, first);
+  return two_sum(first, rest.high / (2 * first));
 }
 
 }  // namespace touchmark

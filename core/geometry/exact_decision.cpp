@@ -81,10 +81,7 @@ DoubleDouble root(const Scaled& numerator, const Scaled& denominator, int expone
     square.fraction = square.fraction + square.fraction;
     --square.exponent;
   }
-  // One step of Newton's method from the root in double.
-  const double first = std::sqrt(square.fraction.high);
-  const DoubleDouble rest = square.fraction - two_product(first, first);
-  const DoubleDouble fraction = two_sum(first, rest.high / (2 * first));
+  const DoubleDouble fraction = square_root(square.fraction);
   const int scale = square.exponent / 2 + exponent;
   const double high = std::ldexp(fraction.high, scale);
   return {high, std::isinf(high) ? 0 : std::ldexp(fraction.low, scale)};

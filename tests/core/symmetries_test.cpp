@@ -158,7 +158,7 @@ TEST(Symmetries, AnotherOrderOfTheTrianglesChangesNoBitOfADistance) {
     HardCases hard(91);
     std::vector<TriangleMesh::Corners> triangles(scene.mesh.triangles().begin(),
                                                  scene.mesh.triangles().end());
-    for (std::size_t i = triangles.size(); i > 1; --i) std::swap(triangles[i - 1], triangles[hard.below(i)]);
+    hard.shuffle(triangles);
     const TriangleMesh mesh({scene.mesh.vertices().begin(), scene.mesh.vertices().end()},
                             std::move(triangles));
     for_every_form([&](const char* name, const auto& form) {
