@@ -31,7 +31,7 @@
 namespace touchmark::bench {
 namespace {
 
-struct Options {
+struct GateOptions {
   Selectors selectors;
   std::string reference = "aabb-tree", baseline, tolerance = "7%", report;
   std::size_t rounds = GateEffort{}.rounds;
@@ -50,7 +50,7 @@ double checked_tolerance(const std::string& text) {
 
 class Gate {
  public:
-  Gate(const Roster& roster, const Options& options);
+  Gate(const Roster& roster, const GateOptions& options);
   int run();
 
  private:
@@ -65,7 +65,7 @@ class Gate {
   void report() const;
 
   const Roster& roster_;
-  const Options& options_;
+  const GateOptions& options_;
   Selection selection_;
   ContestantSpec reference_;
   double tolerance_;
@@ -79,7 +79,7 @@ class Gate {
   int status_ = exit_done;
 };
 
-Workload workload_for(const Options& options, const Selection& selection) {
+Workload workload_for(const GateOptions& options, const Selection& selection) {
   const std::string mesh =
       options.selectors.meshes.empty() ? default_scene() : options.selectors.meshes.front();
   const std::vector<std::string>& named = options.selectors.trajectories;
@@ -87,7 +87,7 @@ Workload workload_for(const Options& options, const Selection& selection) {
                        named.empty() ? std::vector<std::string>{"slide"} : named, 5000);
 }
 
-WorkerOptions workers_for(const Options& options) {
+WorkerOptions workers_for(const GateOptions& options) {
   WorkerOptions workers = worker_options(options.workers);
   workers.core = core_for_workers();
   workers.calibrate_clock = false;
@@ -95,13 +95,13 @@ WorkerOptions workers_for(const Options& options) {
 }
 
 /// An absent file is none yet for those who write it.
-Baseline baseline_for(const Options& options) {
+Baseline baseline_for(const GateOptions& options) {
   std::error_code ignored;
   if (options.write_baseline && !std::filesystem::exists(options.baseline, ignored)) return {};
   return Baseline::read(options.baseline);
 }
 
-Selection checked(const Options& options, const Roster& roster) {
+Selection checked(const GateOptions& options, const Roster& roster) {
   if (options.selectors.detectors.empty())
     throw std::invalid_argument("--detector is missing: what is gated?");
   if (options.rounds < 5 || options.rounds > 1000) {
@@ -110,7 +110,7 @@ Selection checked(const Options& options, const Roster& roster) {
   return check(options.selectors, roster);
 }
 
-Gate::Gate(const Roster& roster, const Options& options)
+Gate::Gate(const Roster& roster, const GateOptions& options)
     : roster_(roster),
       options_(options),
       selection_(checked(options, roster)),
@@ -278,7 +278,7 @@ int Gate::run() {
 }  // namespace
 
 void add_gate(CLI::App& program, ProgramContext& context) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<GateOptions>();
   CLI::App* command = program.add_subcommand(
       "gate", "fail when a detector has become slower, against a reference measured in the same run");
   add_selectors(*command, options->selectors);

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct MergeOptions {
   std::vector<std::string> paths;
   std::string out, manifest, machine;
   bool accuracy_only = false;
@@ -53,7 +53,7 @@ void keep_machine(std::vector<FoundJob>& jobs, const std::string& machine) {
     throw std::invalid_argument(fmt::format("--machine \"{}\": no job is from there", machine));
 }
 
-void merge(const Options& options) {
+void merge(const MergeOptions& options) {
   std::optional<Manifest> manifest;
   if (!options.manifest.empty()) manifest = Manifest::read(options.manifest);
   std::vector<FoundJob> jobs = jobs_of(options.paths);
@@ -73,7 +73,7 @@ void merge(const Options& options) {
 }  // namespace
 
 void add_merge(CLI::App& program, ProgramContext&) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<MergeOptions>();
   CLI::App* command = program.add_subcommand("merge", "make one results CSV of the jobs of a sweep");
   command->add_option("dir", options->paths, "folders of touchmark run")->type_name("DIR")->required();
   command->add_option("--out", options->out, "the CSV file")->type_name("FILE")->required();

@@ -21,13 +21,13 @@
 namespace touchmark::bench {
 namespace {
 
-struct Options {
+struct ChoiSungOptions {
   std::string mesh, levels;
   std::string clustering = fmt::format("{}%", choi_sung_clustering_percent);
   PaperOptions common{"results/papers/choi-sung-2017", "0.5%", "", "1", false};
 };
 
-ChoiSungSettings checked(const Options& options, const TriangleMesh& mesh) {
+ChoiSungSettings checked(const ChoiSungOptions& options, const TriangleMesh& mesh) {
   const bool quick = options.common.quick;
   ChoiSungSettings settings;
   settings.levels = static_cast<int>(checked_number("--levels", options.levels, 1, 5, 3));
@@ -61,7 +61,7 @@ FrontierSettings frontier_settings(const ChoiSungSettings& settings, const Trian
 
 class Run {
  public:
-  Run(const Options& options, PaperMesh mesh)
+  Run(const ChoiSungOptions& options, PaperMesh mesh)
       : mesh_(std::move(mesh)),
         settings_(checked(options, mesh_.mesh)),
         frontier_(frontier_settings(settings_, mesh_.mesh, options.common.quick)),
@@ -124,7 +124,7 @@ class Run {
 }  // namespace
 
 void add_paper_choi_sung(CLI::App& paper_command, ProgramContext& context) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ChoiSungOptions>();
   CLI::App* command = paper_command.add_subcommand(
       "choi-sung-2017", "subdivision and sphere clustering: Tables 1 to 3 and what the figures show");
   command

@@ -23,13 +23,13 @@
 namespace touchmark::bench {
 namespace {
 
-struct Options {
+struct ParkJangOptions {
   std::vector<std::string> meshes;
   std::string most_groups;
   PaperOptions common{"results/papers/park-jang-2018", "0.1%", "", "1", false};
 };
 
-ParkJangSettings checked(const Options& options) {
+ParkJangSettings checked(const ParkJangOptions& options) {
   const bool quick = options.common.quick;
   ParkJangSettings settings;
   settings.steps = checked_number("--steps", options.common.steps, 1, 1'000'000, quick ? 20 : 200);
@@ -97,7 +97,7 @@ class GroupPictures {
   Vec3 hip_;
 };
 
-int run(const Options& options) {
+int run(const ParkJangOptions& options) {
   const ParkJangSettings settings = checked(options);
   const std::vector<PaperMesh> meshes = park_jang_meshes(options.meshes, options.common.quick);
   const ResultsFolder folder(options.common.out);
@@ -128,7 +128,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_paper_park_jang(CLI::App& paper_command, ProgramContext& context) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ParkJangOptions>();
   CLI::App* command = paper_command.add_subcommand(
       "park-jang-2018", "time against the number of groups, cubes and spheres (Fig. 7)");
   command

@@ -23,7 +23,7 @@
 namespace touchmark::bench {
 namespace {
 
-struct Options {
+struct PlanOptions {
   std::vector<std::string> meshes, trajectories, detectors, queries, radii, reaches, seeds;
   std::string steps, effort = "full", out;
   bool normalize = false;
@@ -49,7 +49,7 @@ std::vector<std::string> or_else(std::vector<std::string> given, std::vector<std
 
 class Planner {
  public:
-  Planner(const Roster& roster, const Options& options)
+  Planner(const Roster& roster, const PlanOptions& options)
       : roster_(roster), options_(options), queries_(checked_queries(options.queries)) {
     effort_named(options.effort);
     manifest_.version = build_info().version;
@@ -67,7 +67,7 @@ class Planner {
   void add_scene(SweepScene scene, const std::vector<ContestantSpec>& contestants);
 
   const Roster& roster_;
-  const Options& options_;
+  const PlanOptions& options_;
   std::vector<Query> queries_;
   Manifest manifest_;
   std::set<std::string> ids_;
@@ -125,7 +125,7 @@ void Planner::add_scene(SweepScene scene, const std::vector<ContestantSpec>& con
   if (!scene.jobs.empty()) manifest_.scenes.push_back(std::move(scene));
 }
 
-void run(const Roster& roster, const Options& options) {
+void run(const Roster& roster, const PlanOptions& options) {
   const Manifest manifest = Planner(roster, options).plan();
   if (options.out.empty()) {
     StandardOutput out;
@@ -142,7 +142,7 @@ void run(const Roster& roster, const Options& options) {
 }  // namespace
 
 void add_plan(CLI::App& program, ProgramContext& context) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<PlanOptions>();
   CLI::App* command =
       program.add_subcommand("plan",
                              "write down a sweep: every mesh, trajectory, query and parameter with "

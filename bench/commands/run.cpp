@@ -27,7 +27,7 @@
 namespace touchmark::bench {
 namespace {
 
-struct Options {
+struct RunOptions {
   std::string manifest, shard = "1/1", out;
   WorkerSelectors workers;
 };
@@ -51,7 +51,7 @@ Shard checked_shard(const std::string& text) {
 
 class SweepRun {
  public:
-  SweepRun(const ProgramContext& context, const Options& options)
+  SweepRun(const ProgramContext& context, const RunOptions& options)
       : context_(context),
         options_(options),
         manifest_(Manifest::read(options.manifest)),
@@ -73,7 +73,7 @@ class SweepRun {
   RunDescription description_of(const SweepScene& scene) const;
 
   const ProgramContext& context_;
-  const Options& options_;
+  const RunOptions& options_;
   Manifest manifest_;
   Shard shard_;
   Effort effort_;
@@ -168,7 +168,7 @@ int SweepRun::run() {
 }  // namespace
 
 void add_run(CLI::App& program, ProgramContext& context) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RunOptions>();
   CLI::App* command = program.add_subcommand("run", "run one shard of a planned sweep");
   command->add_option("--manifest", options->manifest, "what touchmark plan wrote")
       ->type_name("FILE")

@@ -24,7 +24,7 @@
 namespace touchmark::bench {
 namespace {
 
-struct Options {
+struct TuneOptions {
   std::string mesh, rate, levels, threshold = "1%";
   std::vector<std::string> methods, clusterings;
   PaperOptions common{"", "0.5%", "", "1", false};
@@ -52,7 +52,7 @@ std::vector<double> checked_clusterings(const std::vector<std::string>& texts, c
   return distances;
 }
 
-FrontierSettings checked(const Options& options, const TriangleMesh& mesh) {
+FrontierSettings checked(const TuneOptions& options, const TriangleMesh& mesh) {
   const bool quick = options.common.quick;
   FrontierSettings settings;
   settings.methods = checked_methods(options.methods);
@@ -82,8 +82,8 @@ std::string table_of(const FrontierResult& result, double diagonal, double rate)
   return table.text();
 }
 
-std::string description(const char* which, const std::optional<FrontierPoint>& point, const Options& options,
-                        double diagonal) {
+std::string description(const char* which, const std::optional<FrontierPoint>& point,
+                        const TuneOptions& options, double diagonal) {
   if (!point) return fmt::format("{}: none holds {} Hz\n", which, options.rate);
   std::string text = fmt::format(
       "{}: {} level {}, {}, mean error {:.4f} % of the box diagonal, 99 of 100 queries within {:.4g} us\n",
@@ -100,7 +100,7 @@ std::string description(const char* which, const std::optional<FrontierPoint>& p
   return text;
 }
 
-int run(const Options& options) {
+int run(const TuneOptions& options) {
   const double rate = checked_positive("--rate", options.rate);
   const TriangleMesh mesh = load_scene(options.mesh);
   const FrontierSettings settings = checked(options, mesh);
@@ -130,7 +130,7 @@ int run(const Options& options) {
 }  // namespace
 
 void add_tune(CLI::App& program, ProgramContext& context) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<TuneOptions>();
   CLI::App* command = program.add_subcommand(
       "tune", "the subdivision level and clustering that hold a rate at the least geometric error");
   command->add_option("--mesh,mesh", options->mesh, "a scene (touchmark list) or a mesh file")
