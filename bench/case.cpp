@@ -126,11 +126,18 @@ void Case::latency_pass() {
   attempt([&] {
     const Timed timed = process_.latency(task_);
     expect_verified_answers(timed);
-    std::vector<double>& ns = latencies_ns_.emplace_back();
-    for (const std::uint64_t ticks : stage_.room().ticks(row_.steps)) {
-      ns.push_back(static_cast<double>(ticks) * process_.opened().ns_per_tick);
-    }
+    latencies_ns_.push_back(in_ns(stage_.room().ticks(row_.steps)));
+    if (process_.build().prepares) prepared_ns_.push_back(in_ns(stage_.room().prepare_ticks(row_.steps)));
   });
+}
+
+std::vector<double> Case::in_ns(std::span<const std::uint64_t> ticks) const {
+  std::vector<double> ns;
+  ns.reserve(ticks.size());
+  for (const std::uint64_t step : ticks) {
+    ns.push_back(static_cast<double>(step) * process_.opened().ns_per_tick);
+  }
+  return ns;
 }
 
 void Case::dismiss() { process_.end(); }
@@ -145,6 +152,7 @@ ResultRow Case::finish() {
                                      median(repetitions_cpu_ns_),
                                      repetitions_ns_.size()};
   if (!latencies_ns_.empty()) row_.latency = summarize_latency(median_per_step(latencies_ns_), windows_);
+  if (!prepared_ns_.empty()) row_.prepare = summarize_latency(median_per_step(prepared_ns_), windows_);
   row_.clock_cost_ns = process_.opened().clock_cost_ns;
   return row_;
 }

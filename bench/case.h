@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,7 @@ class Case {
  private:
   template <class Action>
   void attempt(Action action);
+  std::vector<double> in_ns(std::span<const std::uint64_t> ticks) const;
   void expect_verified_answers(const Timed& timed);
   void judge(Truths& truths, Truths* stored);
 
@@ -59,6 +61,7 @@ class Case {
   std::vector<double> repetitions_ns_;
   std::vector<double> repetitions_cpu_ns_;
   std::vector<std::vector<double>> latencies_ns_;
+  std::vector<std::vector<double>> prepared_ns_;
 };
 
 }  // namespace touchmark::bench

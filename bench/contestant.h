@@ -58,8 +58,13 @@ class Contestant {
   /// The same answers folded into the checksum, and nothing else: the loop that is timed from outside.
   virtual void replay(const Course& course, Window window, Checksum& checksum) noexcept = 0;
   /// The same, with the clock read once a step: the ticks each step took, one clock reading included.
+  /// What the detector prepares between steps is clocked apart, into `prepare_ticks` of the same size; empty
+  /// will do for one that does not.
   virtual void replay_clocked(const Course& course, Window window, Checksum& checksum,
-                              std::span<std::uint64_t> ticks) noexcept = 0;
+                              std::span<std::uint64_t> ticks,
+                              std::span<std::uint64_t> prepare_ticks) noexcept = 0;
+  /// Is the detector told to prepare after each step? That is in all other times, and in the work.
+  virtual bool prepares() const noexcept = 0;
 };
 
 /// What a type of detector declares.
@@ -72,8 +77,11 @@ std::vector<Query> queries_of() {
   return queries;
 }
 
-template <Detector D>
-class ContestantOf final : public Contestant {
+/// Whether a detector's `prepare` is called after each answer.
+enum class Idle { wasted, used };
+
+template <Detector D, Idle idle = Idle::wasted>
+requires(idle == Idle::wasted || Prepares<D>) class ContestantOf final : public Contestant {
  public:
   explicit ContestantOf(D detector) : detector_(std::move(detector)) { session_.emplace(); }
 
@@ -100,6 +108,7 @@ class ContestantOf final : public Contestant {
       for (std::size_t i = 0; i < window.size(); ++i) {
         const std::uint64_t before = session_->work.total();
         answers[i] = ask(course.steps, window.begin + i);
+        prepare();
         work[i] = session_->work.total() - before;
       }
     });
@@ -108,14 +117,18 @@ class ContestantOf final : public Contestant {
   void replay(const Course& course, Window window, Checksum& checksum) noexcept override {
     with_query(course.query, [&](auto ask) {
       Checksum sum = checksum;
-      for (std::size_t i = window.begin; i < window.end; ++i) sum.add(ask(course.steps, i));
+      for (std::size_t i = window.begin; i < window.end; ++i) {
+        sum.add(ask(course.steps, i));
+        prepare();
+      }
       checksum = sum;
     });
   }
 
-  void replay_clocked(const Course& course, Window window, Checksum& checksum,
-                      std::span<std::uint64_t> ticks) noexcept override {
+  void replay_clocked(const Course& course, Window window, Checksum& checksum, std::span<std::uint64_t> ticks,
+                      std::span<std::uint64_t> prepare_ticks) noexcept override {
     assert(ticks.size() == window.size());
+    assert(idle == Idle::wasted || prepare_ticks.size() == window.size());
     with_query(course.query, [&](auto ask) {
       Checksum sum = checksum;
       std::uint64_t before = TickClock::now();
@@ -124,12 +137,22 @@ class ContestantOf final : public Contestant {
         const std::uint64_t after = TickClock::now();
         ticks[i] = after - before;
         before = after;
+        if constexpr (idle == Idle::used) {
+          prepare();
+          before = TickClock::now();
+          prepare_ticks[i] = before - after;
+        }
       }
       checksum = sum;
     });
   }
 
+  bool prepares() const noexcept override { return idle == Idle::used; }
+
  private:
+  void prepare() noexcept {
+    if constexpr (idle == Idle::used) detector_.prepare(*session_);
+  }
   /// Calls visit(ask) with the ask(steps, i) -> Answer of this query.
   template <class Visitor>
   void with_query(Query query, Visitor&& visit) noexcept {

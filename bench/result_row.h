@@ -56,6 +56,7 @@ struct ResultRow {
   std::optional<Tally> stored_tally;  ///< the same by the mesh that its library keeps, where that is another
   std::optional<ThroughputResult> throughput;
   std::optional<LatencySummary> latency;
+  std::optional<LatencySummary> prepare;  ///< between steps, where the contestant does that
   double clock_cost_ns = 0;
   std::optional<double> build_ms;
   std::optional<double> first_answer_ms;  ///< build and first query

@@ -45,6 +45,11 @@ std::string latency_of(const ResultRow& row) {
   return row.latency ? rounded((*row.latency).*Member) : "";
 }
 
+template <auto Member>
+std::string prepare_of(const ResultRow& row) {
+  return row.prepare ? rounded((*row.prepare).*Member) : "";
+}
+
 template <std::size_t Deadline>
 std::string misses_of(const ResultRow& row) {
   return row.latency ? fmt::format("{}", row.latency->deadlines[Deadline].misses) : "";
@@ -143,6 +148,9 @@ constexpr std::array columns{
              return row.stored_tally ? exactly(row.stored_tally->max_distance_error_of_diagonal) : "";
            }},
     Column{"wrong_side", count_of<&Tally::wrong_side>},
+    Column{"prepare_ns_p50", prepare_of<&LatencySummary::p50>},
+    Column{"prepare_ns_p999", prepare_of<&LatencySummary::p999>},
+    Column{"prepare_ns_max", prepare_of<&LatencySummary::max>},
 };
 
 }  // namespace

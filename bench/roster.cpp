@@ -30,6 +30,7 @@ namespace touchmark::bench {
 namespace {
 
 const Names<bool> yes_or_no{{"true", true}, {"false", false}};
+const Names<bool> no_or_yes{{"false", false}, {"true", true}};
 
 OptionInfo certified_option() {
   return choice("certified", yes_or_no, "false: contact as doubles have it, to measure what certainty costs");
@@ -112,6 +113,8 @@ ContestantInfo sphere_cluster() {
        "distance between centroids that share a sphere; 0: a sphere each"},
       choice("precise", yes_or_no, "false: the published fast level alone, spheres for triangles"),
       certified_option(),
+      choice("prepare", no_or_yes,
+             "true: list triangles for the next step in the idle rest of a tick, clocked apart"),
       side_option()};
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
     SphereCluster::Options options;
@@ -119,7 +122,8 @@ ContestantInfo sphere_cluster() {
     options.clustering = values.length("clustering", mesh);
     options.precise = chosen(values, "precise", yes_or_no);
     options.certified = chosen(values, "certified", yes_or_no);
-    return contestant<SphereCluster>(mesh, options, values);
+    return chosen(values, "prepare", no_or_yes) ? contestant<SphereCluster, Idle::used>(mesh, options, values)
+                                                : contestant<SphereCluster>(mesh, options, values);
   };
   return info;
 }

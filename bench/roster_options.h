@@ -12,9 +12,9 @@
 
 namespace touchmark::bench {
 
-template <Detector D>
+template <Detector D, Idle idle = Idle::wasted>
 std::unique_ptr<Contestant> contestant(const TriangleMesh& mesh, const typename D::Options& options) {
-  return std::make_unique<ContestantOf<D>>(D::build(mesh, options));
+  return std::make_unique<ContestantOf<D, idle>>(D::build(mesh, options));
 }
 
 /// What a contestant may be asked besides contacts. On, the detector is wrapped; off, it is itself.
@@ -30,10 +30,11 @@ inline bool asks_for_side(const OptionValues& values) {
 }
 
 /// The same with the option above.
-template <Detector D>
+template <Detector D, Idle idle = Idle::wasted>
 std::unique_ptr<Contestant> contestant(const TriangleMesh& mesh, const typename D::Options& options,
                                        const OptionValues& values) {
-  return asks_for_side(values) ? contestant<Signed<D>>(mesh, options) : contestant<D>(mesh, options);
+  return asks_for_side(values) ? contestant<Signed<D>, idle>(mesh, options)
+                               : contestant<D, idle>(mesh, options);
 }
 
 /// A choice's names with what they stand for. The first one is the default.

@@ -82,15 +82,16 @@ void from_json(const nlohmann::json& json, WorkloadLayout& layout) {
 }
 
 std::size_t OutputRoom::bytes_for(std::size_t steps) noexcept {
-  return steps * (sizeof(Answer) + sizeof(std::uint64_t));
+  return steps * (sizeof(Answer) + 2 * sizeof(std::uint64_t));
 }
 
 OutputRoom::OutputRoom(std::span<std::byte> bytes, std::size_t steps) {
   assert(bytes.size() >= bytes_for(steps));
-  // Both are plain bytes (see answer.h), and the mapping is page-aligned.
+  // All are plain bytes (see answer.h), and the mapping is page-aligned.
   auto* answers = reinterpret_cast<Answer*>(bytes.data());
   answers_ = {answers, steps};
   work_ = {reinterpret_cast<std::uint64_t*>(bytes.data() + steps * sizeof(Answer)), steps};
+  prepare_ticks_ = {work_.data() + steps, steps};
 }
 
 WorkloadLayout layout_of(const TriangleMesh& mesh, const std::vector<std::vector<Step>>& courses) {

@@ -30,7 +30,7 @@ struct WorkloadLayout {
 void to_json(nlohmann::json& json, const WorkloadLayout& layout);
 void from_json(const nlohmann::json& json, WorkloadLayout& layout);
 
-/// Where one order's results go. Answers and work, or ticks: a step needs one or the other.
+/// Where one order's results go. Answers and work, or two kinds of ticks: a step needs one or the other.
 class OutputRoom {
  public:
   static std::size_t bytes_for(std::size_t steps) noexcept;
@@ -39,10 +39,14 @@ class OutputRoom {
   std::span<Answer> answers(std::size_t steps) const noexcept { return answers_.first(steps); }
   std::span<std::uint64_t> work(std::size_t steps) const noexcept { return work_.first(steps); }
   std::span<std::uint64_t> ticks(std::size_t steps) const noexcept { return work_.first(steps); }
+  std::span<std::uint64_t> prepare_ticks(std::size_t steps) const noexcept {
+    return prepare_ticks_.first(steps);
+  }
 
  private:
   std::span<Answer> answers_;
   std::span<std::uint64_t> work_;
+  std::span<std::uint64_t> prepare_ticks_;
 };
 
 /// The program's side: fills the input. Throws ResourceError when memory is short.

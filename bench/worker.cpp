@@ -136,6 +136,7 @@ nlohmann::json Worker::build(const std::string& spec_text) {
   for (const Query query : all_queries) {
     if (contestant_->answers(query)) built.queries.push_back(query);
   }
+  built.prepares = contestant_->prepares();
   return built;
 }
 
@@ -192,12 +193,16 @@ nlohmann::json Worker::latency(const Task& task) {
   const Course course = course_of(task);
   const std::vector<Window> windows = windows_of(task);
   const std::span<std::uint64_t> ticks = room_->ticks(steps_in(windows));
-  std::fill(ticks.begin(), ticks.end(), 0);  // no page fault inside a timed step
+  const std::span<std::uint64_t> prepare_ticks = room_->prepare_ticks(ticks.size());
+  // No page fault inside a timed step.
+  std::fill(ticks.begin(), ticks.end(), 0);
+  std::fill(prepare_ticks.begin(), prepare_ticks.end(), 0);
   Checksum checksum;
   std::size_t done = 0;
   const Clock::time_point start = Clock::now();
   for (const Window& window : windows) {
-    contestant_->replay_clocked(course, window, checksum, ticks.subspan(done, window.size()));
+    contestant_->replay_clocked(course, window, checksum, ticks.subspan(done, window.size()),
+                                prepare_ticks.subspan(done, window.size()));
     done += window.size();
   }
   return Timed{ns_since(start) / static_cast<double>(done), 0, checksum.value(), true};

@@ -47,7 +47,8 @@ void to_json(nlohmann::json& json, const Built& built) {
           {"relative", bits(built.accuracy.relative)},
           {"absolute", bits(built.accuracy.absolute)},
           {"decides_exactly", built.accuracy.decides_exactly},
-          {"queries", queries}};
+          {"queries", queries},
+          {"prepares", built.prepares}};
 }
 
 void from_json(const nlohmann::json& json, Built& built) {
@@ -61,6 +62,7 @@ void from_json(const nlohmann::json& json, Built& built) {
   for (const nlohmann::json& query : json.at("queries")) {
     built.queries.push_back(static_cast<Query>(query.get<std::uint32_t>()));
   }
+  json.at("prepares").get_to(built.prepares);
 }
 
 void to_json(nlohmann::json& json, const Answered& answered) {

@@ -41,6 +41,7 @@ struct Built {
   std::uint64_t heap_bytes = 0;  ///< growth of the heap
   Accuracy accuracy;
   std::vector<Query> queries;
+  bool prepares = false;
 };
 
 /// Reply to "answer": answers and work lie in the output room, from a fresh session.

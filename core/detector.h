@@ -102,4 +102,13 @@ concept AnswersSweep = Detector<D> &&
   noexcept->std::same_as<std::optional<Impact>>;
 };
 
+/// Can use the idle rest of a servo tick: `prepare` does ahead what the next query would else have to do
+/// first. It never changes an answer, does a bounded amount of work, and may be called or not after any
+/// query.
+template <class D>
+concept Prepares = Detector<D> && requires(const D& detector, typename D::Session& session) {
+  { detector.prepare(session) }
+  noexcept->std::same_as<void>;
+};
+
 }  // namespace touchmark

@@ -69,7 +69,7 @@ void InterleavedTiming::turn(Entry& entry, double least_turn_ns) const {
 void InterleavedTiming::clock_steps(Entry& entry) const {
   std::vector<std::uint64_t> ticks(course_.steps.size());
   Checksum checksum;
-  entry.contestant->replay_clocked(course_, {0, course_.steps.size()}, checksum, ticks);
+  entry.contestant->replay_clocked(course_, {0, course_.steps.size()}, checksum, ticks, {});
   std::vector<double> ns;
   ns.reserve(ticks.size());
   for (const std::uint64_t step : ticks)

@@ -138,6 +138,9 @@ constexpr std::array rules{
     counted("stored_false_contacts", Presence::optional),
     ranged("stored_max_distance_error_of_diagonal", Presence::optional),
     counted("wrong_side", Presence::judged),
+    measured("prepare_ns_p50", Presence::optional),
+    measured("prepare_ns_p999", Presence::optional),
+    measured("prepare_ns_max", Presence::optional),
 };
 
 }  // namespace

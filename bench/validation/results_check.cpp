@@ -40,6 +40,8 @@ constexpr std::array ascending{
     std::pair{"spheres_mean", "work_mean"},
     std::pair{"boxes_mean", "work_mean"},
     std::pair{"triangles_mean", "work_mean"},
+    std::pair{"prepare_ns_p50", "prepare_ns_p999"},
+    std::pair{"prepare_ns_p999", "prepare_ns_max"},
 };
 
 bool is_ok(const CsvTable& table, const CsvRecord& record) { return table.field(record, "status") == "ok"; }

@@ -49,6 +49,8 @@ class Signed {
     return impact;
   }
 
+  void prepare(Session& session) const noexcept requires Prepares<D> { detector_.prepare(session); }
+
   std::size_t bytes() const noexcept { return detector_.bytes() + sides_.bytes(); }
   Accuracy accuracy() const noexcept { return detector_.accuracy(); }
   const SideFinder& sides() const noexcept { return sides_; }

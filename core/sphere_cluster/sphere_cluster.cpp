@@ -47,6 +47,10 @@ std::optional<Impact> SphereCluster::first_hit(const Sweep& sweep, Session& sess
   return tree_.first_hit(sweep, session.memory, session.work);
 }
 
+void SphereCluster::prepare(Session& session) const noexcept {
+  if (options_.precise && options_.lookup == Lookup::tree) tree_.list_ahead(session.memory, session.work);
+}
+
 Accuracy SphereCluster::accuracy() const noexcept {
   if (options_.precise) return options_.certified ? certified : uncertified;
   return {Guarantee::conservative, kernel_relative_error, fast_.error_bound()};

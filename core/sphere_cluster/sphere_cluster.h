@@ -42,6 +42,10 @@ class SphereCluster {
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept;
 
+  /// After `nearest`, with a tree: sees to it that the triangles near the point are listed for a next tick
+  /// that moves no farther than twice as far as this one. Work is bounded as a query's is.
+  void prepare(Session& session) const noexcept;
+
   std::size_t bytes() const noexcept;
   /// precise: exact. Else conservative: contacts come early, by at most `absolute`.
   Accuracy accuracy() const noexcept;

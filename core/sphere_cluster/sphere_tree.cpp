@@ -19,6 +19,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// before that is used.
 constexpr double farthest_in_grains = 4;
 
+/// The next tick may be this much longer than the last one without a list being made in it.
+constexpr float ticks_prepared = 2;
+
 constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
 
 /// Keeps the least candidate; the limit follows it.
@@ -201,19 +204,25 @@ bool SphereTree::is_far(const FilterPoint& point, const Vec3& center, double rea
   return true;
 }
 
-/// For as many ticks ahead as there is room for blocks.
-bool SphereTree::list_blocks(const Vec3& center, const FilterPoint& point, float distance, float step,
-                             Memory& memory, Work& work) const noexcept {
+/// For as many ticks ahead as there is room for blocks, about a place ahead: a point that goes on as it moved
+/// comes to it and then leaves it.
+bool SphereTree::list_blocks(const Vec3& center, const Vec3& move, float distance, Memory& memory,
+                             Work& work) const noexcept {
   // With fewer ticks the listing costs more, with more the longer list does.
   constexpr float fewest_ticks = 2, most_ticks = 16;
+  constexpr double ahead = 0.5;  // of the ticks
   constexpr std::uint32_t longest_pause = 255;
   spheres::NearBlocks& blocks = memory.blocks;
   if (blocks.pause > 0) {
     --blocks.pause;
     return false;
   }
+  const auto step = static_cast<float>(frame_.scale() * move.norm());
   for (;;) {
-    blocks.start(center, distance + blocks.ticks * step + 8 * point.tau);
+    Vec3 anchor = center + ahead * double{blocks.ticks} * move;
+    if (!can_search(anchor)) anchor = center;
+    const FilterPoint point = frame_.point(anchor);
+    blocks.start(anchor, distance + blocks.ticks * step + 8 * point.tau);
     if (avx2_ ? spheres::avx2::list_blocks(parts_, point, blocks, work)
               : spheres::portable::list_blocks(parts_, point, blocks, work))
       break;
@@ -276,13 +285,14 @@ std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Mem
   float unseen = 0;
   if (near) {
     show(memory.last, visitor);
-    unseen = search_near(point, moved, visitor, memory);
+    unseen = search_near(point, visitor, memory);
   } else {
     const double most = distances_.at_most(point) * unit_;
     if (most < reach) visitor.limit = frame_.limit((most + error) * (most + error));
     unseen = descend(point, visitor);
   }
   const double distance = std::sqrt(visitor.best.squared_distance);
+  memory.move = center - memory.center;
   memory.center = center;
   memory.nearest = distance;
   memory.last = visitor.kept_at;
@@ -297,6 +307,19 @@ std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Mem
   if (distance > reach) return std::nullopt;
   return contact_at(parts_.triangles[visitor.kept_at], center,
                     {visitor.offset, visitor.best.squared_distance}, id(visitor.best.index));
+}
+
+void SphereTree::list_ahead(Memory& memory, Work& work) const noexcept {
+  const bool near = memory.tree == number_ && memory.nearest < infinity;
+  const double moved = memory.move.norm();
+  if (!near || !(moved <= farthest_in_grains * grain_) || memory.blocks.pause > 0) return;
+  const FilterPoint point = frame_.point(memory.center);
+  const float distance = static_cast<float>(frame_.scale() * memory.nearest) + 2 * point.tau;
+  // A tick's move counts twice: so much farther may the nearest be, and so much farther is the list's anchor.
+  const float two_moves = static_cast<float>(2 * frame_.scale() * moved);
+  const float away = way(memory.blocks.anchor, memory.center, point);
+  if (distance + away + ticks_prepared * two_moves < memory.blocks.rest) return;
+  list_blocks(memory.center, memory.move, distance, memory, work);
 }
 
 std::optional<Contact> SphereTree::nearest_tie(const Vec3& center, double distance, double reach,

@@ -27,6 +27,7 @@ class SphereTree {
     Vec3 center = Vec3::Zero();  ///< where the point was
     double free = -1;            ///< no triangle was nearer, all rounding included; -1: nothing is known
     double nearest = std::numeric_limits<double>::infinity();  ///< triangle `last` was that far
+    Vec3 move = Vec3::Zero();                                  ///< by which the point had moved then
     std::uint32_t last = 0;                                    ///< where it is kept
     spheres::NearBlocks blocks;
   };
@@ -42,6 +43,7 @@ class SphereTree {
   bool touches(const Probe& probe, Memory& memory, Work& work) const noexcept;
   std::optional<Contact> nearest(const Vec3& center, double reach, Memory& memory, Work& work) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, Memory& memory, Work& work) const noexcept;
+  void list_ahead(Memory& memory, Work& work) const noexcept;
   std::size_t bytes() const noexcept;
 
  private:
@@ -71,8 +73,8 @@ class SphereTree {
   template <class Visitor>
   float descend(const FilterPoint& point, Visitor& visitor) const noexcept;
   template <class Visitor>
-  float search_near(const FilterPoint& point, double moved, Visitor& visitor, Memory& memory) const noexcept;
-  bool list_blocks(const Vec3& center, const FilterPoint& point, float distance, float step, Memory& memory,
+  float search_near(const FilterPoint& point, Visitor& visitor, Memory& memory) const noexcept;
+  bool list_blocks(const Vec3& center, const Vec3& move, float distance, Memory& memory,
                    Work& work) const noexcept;
 
   std::uint64_t number_ = 0;  ///< of this tree and its copies

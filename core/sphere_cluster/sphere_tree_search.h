@@ -38,15 +38,14 @@ inline float SphereTree::way(const Vec3& from, const Vec3& to, const FilterPoint
 
 /// From the blocks listed, when they are all that can be within the limit; lists them anew when they are not.
 template <class Visitor>
-float SphereTree::search_near(const FilterPoint& point, double moved, Visitor& visitor,
-                              Memory& memory) const noexcept {
+float SphereTree::search_near(const FilterPoint& point, Visitor& visitor, Memory& memory) const noexcept {
   const float distance = std::sqrt(visitor.limit) + point.tau;
   float away = way(memory.blocks.anchor, visitor.center, point);
   if (!(distance + away < memory.blocks.rest)) {
-    const auto step = static_cast<float>(frame_.scale() * moved);
-    if (!list_blocks(visitor.center, point, distance, step, memory, visitor.work))
+    if (!list_blocks(visitor.center, visitor.center - memory.center, distance, memory, visitor.work))
       return descend(point, visitor);
-    away = 2 * point.tau;
+    away = way(memory.blocks.anchor, visitor.center, point);
+    if (!(distance + away < memory.blocks.rest)) return descend(point, visitor);
   }
   return avx2_ ? spheres::avx2::search_listed(parts_, point, memory.blocks, away, visitor)
                : spheres::portable::search_listed(parts_, point, memory.blocks, away, visitor);

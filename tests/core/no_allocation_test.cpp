@@ -83,6 +83,7 @@ void expect_no_allocation(const typename D::Options& options) {
     if constexpr (AnswersNearest<D>) {
       answered += detector.nearest(probe, 0.01, session).has_value();
       answered += detector.nearest(probe, infinity, session).has_value();
+      if constexpr (Prepares<D>) detector.prepare(session);
     }
     if constexpr (AnswersSweep<D>) {
       answered += detector.first_hit({positions[i - 1], positions[i], 0.01}, session).has_value();

@@ -1,6 +1,8 @@
 #include "core/sphere_cluster/sphere_cluster.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -15,6 +17,7 @@ namespace {
 using Lookup = SphereCluster::Lookup;
 
 static_assert(AnswersTouches<SphereCluster> && AnswersNearest<SphereCluster> && AnswersSweep<SphereCluster>);
+static_assert(Prepares<SphereCluster>);
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -126,6 +129,7 @@ TEST(SphereCluster, EqualsBruteForceOnACoherentWay) {
                     oracle.nearest({center, 0}, reach, oracle_session));
         const Probe probe{center, 0.1 * scene.size};
         EXPECT_EQ(detector.touches(probe, used), oracle.touches(probe, oracle_session));
+        if (step % 5 < 2) detector.prepare(used);
         if (HasFailure()) return;
       }
     }
@@ -167,6 +171,40 @@ TEST(SphereCluster, EqualsBruteForceWhereMoreIsNearThanASessionRemembers) {
       }
     }
   }
+}
+
+/// The most that one query looked at on a steady way over a bumpy sphere, once it has begun.
+std::uint64_t most_work_on_a_way(bool prepares, std::vector<Contact>& contacts) {
+  const SphereCluster detector = SphereCluster::build(test::bumpy_sphere(60, 1e-3, 53));
+  SphereCluster::Session session;
+  std::uint64_t most = 0;
+  for (int step = 0; step < 2000; ++step) {
+    const double turn = 5e-4 * step;
+    const Vec3 center = 1.001 * Vec3(std::cos(turn), std::sin(turn) * 0.8, std::sin(turn) * 0.6);
+    const std::uint64_t before = session.work.total();
+    contacts.push_back(detector.nearest({center, 0}, 0.05, session).value());
+    if (step > 1) most = std::max(most, session.work.total() - before);
+    if (prepares) detector.prepare(session);
+  }
+  return most;
+}
+
+TEST(SphereCluster, PreparingTakesTheListingOutOfTheQueries) {
+  std::vector<Contact> unprepared, prepared;
+  const std::uint64_t without = most_work_on_a_way(false, unprepared);
+  const std::uint64_t with = most_work_on_a_way(true, prepared);
+  EXPECT_LT(2 * with, without) << "a listing goes down from the root, a query looks at a list";
+  for (std::size_t i = 0; i < prepared.size(); ++i) expect_same(prepared[i], unprepared[i]);
+}
+
+TEST(SphereCluster, PreparesNothingWhereNothingIsNear) {
+  const SphereCluster detector = SphereCluster::build(test::bumpy_sphere(10, 0, 59));
+  SphereCluster::Session session;
+  detector.prepare(session);
+  EXPECT_FALSE(detector.nearest({{5, 0, 0}, 0}, 0.5, session));
+  const std::uint64_t before = session.work.total();
+  detector.prepare(session);
+  EXPECT_EQ(session.work.total(), before);
 }
 
 TEST(SphereCluster, ASessionMayGoFromOneDetectorToTheNext) {
