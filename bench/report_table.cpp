@@ -81,6 +81,22 @@ std::string verdict(const std::vector<ResultRow>& rows) {
   return line + '\n';
 }
 
+std::string work_table(const std::vector<ResultRow>& rows) {
+  TextTable table(
+      {"looked at a step", "cells", "spheres", "boxes", "triangles", "of all", "most", "exact decisions"});
+  for (const ResultRow& row : rows) {
+    if (!row.work) continue;
+    const auto steps = static_cast<double>(row.steps);
+    const auto a_step = [&](std::uint64_t total) { return figure(static_cast<double>(total) / steps); };
+    const Work& work = row.work->total;
+    const double share = static_cast<double>(work.triangles) / steps / static_cast<double>(row.triangles);
+    table.add({row.contestant(), a_step(work.cells), a_step(work.spheres), a_step(work.boxes),
+               a_step(work.triangles), figure(100 * share) + " %", count(row.work->max),
+               count(work.exact_decisions)});
+  }
+  return table.text();
+}
+
 bool tell_faults(const std::vector<ResultRow>& rows,
                  const std::function<std::string(const ResultRow&)>& where) {
   bool faulty = false;

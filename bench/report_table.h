@@ -12,6 +12,9 @@ namespace touchmark::bench {
 /// `rows` are those of one trajectory.
 std::string timing_table(const std::vector<ResultRow>& rows);
 std::string verdict(const std::vector<ResultRow>& rows);
+/// What a step looked at on average, and at most; the rest of the mesh was skipped. Of most rivals only the
+/// triangles are seen that they hand to a callback.
+std::string work_table(const std::vector<ResultRow>& rows);
 
 /// Says on stderr, a line each, which rows broke their word or were timed with other answers than the
 /// verified ones; `where` names a row beside its contestant. False when there are none.

@@ -36,6 +36,7 @@ struct BenchOptions {
   std::string out;
   bool quick = false;
   bool frontier = false;
+  bool work = false;
   WorkerSelectors workers;
 };
 
@@ -71,6 +72,7 @@ class BenchRun {
   std::optional<Comparison> comparison_;
   ProgressLine progress_;
   StandardOutput out_;
+  bool shows_work_;
   std::vector<ResultRow> rows_;
 };
 
@@ -86,7 +88,8 @@ BenchRun::BenchRun(const ProgramContext& context, const BenchOptions& options, c
     : flags_(flags),
       selection_(check(options.selectors, context.roster)),
       description_(begun_run(context.argc, context.argv)),
-      workload_(workload_for(options, selection_)) {
+      workload_(workload_for(options, selection_)),
+      shows_work_(options.work) {
   if (!options.out.empty() && !flags.list_tests) folder_.emplace(options.out);
   description_.flushed_to_zero = restore_denormals();
   description_.query = selection_.queries.front();
@@ -130,6 +133,7 @@ void BenchRun::run_trajectory(std::size_t course) {
   progress_.clear();
   out_.write(fmt::format("\n{} ({} steps)\n{}{}", workload_.trajectories[course],
                          workload_.courses[course].size(), timing_table(rows), verdict(rows)));
+  if (shows_work_) out_.write('\n' + work_table(rows));
   out_.finish();
 }
 
@@ -163,6 +167,7 @@ void add_bench(CLI::App& program, ProgramContext& context) {
       ->add_flag("--frontier", options->frontier,
                  "every contestant over the options that trade accuracy for time (see the plot time_error)")
       ->excludes("--detector");
+  command->add_flag("--work", options->work, "also what a step looked at, and so what it skipped");
   command->add_flag("--quick", options->quick, "fewer steps and repetitions");
   add_worker_selectors(*command, options->workers);
   command->allow_extras();

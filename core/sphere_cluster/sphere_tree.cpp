@@ -310,9 +310,9 @@ std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Mem
 }
 
 void SphereTree::list_ahead(Memory& memory, Work& work) const noexcept {
-  const bool near = memory.tree == number_ && memory.nearest < infinity;
+  if (memory.tree != number_ || !(memory.nearest < infinity) || memory.blocks.pause > 0) return;
   const double moved = memory.move.norm();
-  if (!near || !(moved <= farthest_in_grains * grain_) || memory.blocks.pause > 0) return;
+  if (!(moved <= farthest_in_grains * grain_)) return;
   const FilterPoint point = frame_.point(memory.center);
   const float distance = static_cast<float>(frame_.scale() * memory.nearest) + 2 * point.tau;
   // A tick's move counts twice: so much farther may the nearest be, and so much farther is the list's anchor.

@@ -4,6 +4,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <string>
 #include <thread>
 #include <vector>
@@ -115,6 +116,28 @@ TEST(Bench, SameSeedSameAnswersAnotherSeedOthers) {
   const std::string first = checksum("7");
   EXPECT_EQ(checksum("7"), first);
   EXPECT_NE(checksum("8"), first);
+}
+
+TEST(Bench, ShowsWhatAStepLookedAtWhenAsked) {
+  const std::vector<std::string> command{"bench",
+                                         "--mesh",
+                                         "icosphere:0",
+                                         "--quick",
+                                         "--steps",
+                                         "10",
+                                         "--trajectory",
+                                         "slide",
+                                         "--detector",
+                                         "brute-force",
+                                         "--benchmark_min_time=0.001"};
+  const Outcome without = run_touchmark(command);
+  EXPECT_EQ(without.out.find("looked at"), std::string::npos) << without.out;
+  std::vector<std::string> with = command;
+  with.emplace_back("--work");
+  const Outcome shown = run_touchmark(with);
+  // Brute force looks at all of the icosahedron's triangles and at nothing else.
+  EXPECT_TRUE(std::regex_search(shown.out, std::regex("brute-force +0 +0 +0 +20 +100 % +20 +0\n")))
+      << shown.out;
 }
 
 TEST(Bench, ListsItsCasesAndFiltersThem) {
