@@ -62,7 +62,8 @@ TEST(Bench, LeavesOneRowAContestantAndTrajectoryAndARunJson) {
     const std::vector<std::string> row = split_csv(csv[i]);
     ASSERT_EQ(row.size(), header.size());
     constexpr int of_stored_scene = 3;  // these two store what they are given
-    EXPECT_EQ(std::count(row.begin(), row.end(), ""), of_stored_scene + i % 2)
+    constexpr int of_prepare = 3;       // and prepare nothing
+    EXPECT_EQ(std::count(row.begin(), row.end(), ""), of_stored_scene + of_prepare + i % 2)
         << "besides, only brute-force's options are empty";
     EXPECT_EQ(row[0], "1");
     EXPECT_EQ(row[3], i % 2 == 1 ? "" : "lookup=scan,shape=sphere");
@@ -116,6 +117,26 @@ TEST(Bench, SameSeedSameAnswersAnotherSeedOthers) {
   const std::string first = checksum("7");
   EXPECT_EQ(checksum("7"), first);
   EXPECT_NE(checksum("8"), first);
+}
+
+TEST(Bench, ClocksPreparingApart) {
+  const TemporaryFolder folder;
+  const Outcome finished =
+      run_touchmark({"bench", "--mesh", "icosphere:3", "--quick", "--steps", "200", "--trajectory", "slide",
+                     "--detector", "sphere-cluster:prepare=true", "--detector", "sphere-cluster", "--out",
+                     folder.path(), "--benchmark_min_time=0.001"});
+  EXPECT_EQ(finished.status, 0) << finished.err;
+  EXPECT_EQ(run_touchmark({"validate", folder.path()}).status, 0);
+  const std::vector<std::string> csv = lines_of(content_of(folder.file("results.csv")));
+  const std::vector<std::string> header = split_csv(csv.at(0));
+  const auto field = [&](std::size_t row, const char* name) {
+    const auto column = std::find(header.begin(), header.end(), name);
+    return split_csv(csv.at(row)).at(static_cast<std::size_t>(column - header.begin()));
+  };
+  EXPECT_GT(std::stod(field(1, "prepare_ns_p50")), 0);
+  EXPECT_GE(std::stod(field(1, "prepare_ns_max")), std::stod(field(1, "prepare_ns_p999")));
+  EXPECT_EQ(field(2, "prepare_ns_p50"), "");
+  EXPECT_EQ(field(1, "answers_checksum"), field(2, "answers_checksum"));
 }
 
 TEST(Bench, ShowsWhatAStepLookedAtWhenAsked) {
