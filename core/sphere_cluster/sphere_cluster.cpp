@@ -28,14 +28,14 @@ SphereCluster SphereCluster::build(const TriangleMesh& mesh, const Options& opti
   return detector;
 }
 
-bool SphereCluster::touches(const Probe& probe, Session& session) const noexcept {
+bool SphereCluster::look_for_touch(const Probe& probe, Session& session) const noexcept {
   if (!options_.precise) return fast_.touches(probe, session.work);
   if (options_.lookup == Lookup::scan) return scan_.touches(probe, session.work);
   return tree_.touches(probe, session.memory, session.work);
 }
 
-std::optional<Contact> SphereCluster::nearest(const Probe& probe, double reach,
-                                              Session& session) const noexcept {
+std::optional<Contact> SphereCluster::look_for_nearest(const Probe& probe, double reach,
+                                                       Session& session) const noexcept {
   if (!options_.precise) return fast_.nearest(probe.center, reach, session.work);
   if (options_.lookup == Lookup::scan) return scan_.nearest(probe.center, reach, session.work);
   return tree_.nearest(probe.center, reach, session.memory, session.work);
@@ -45,10 +45,6 @@ std::optional<Impact> SphereCluster::first_hit(const Sweep& sweep, Session& sess
   if (!options_.precise) return fast_.first_hit(sweep, session.work);
   if (options_.lookup == Lookup::scan) return scan_.first_hit(sweep, session.work);
   return tree_.first_hit(sweep, session.memory, session.work);
-}
-
-void SphereCluster::prepare(Session& session) const noexcept {
-  if (options_.precise && options_.lookup == Lookup::tree) tree_.list_ahead(session.memory, session.work);
 }
 
 Accuracy SphereCluster::accuracy() const noexcept {

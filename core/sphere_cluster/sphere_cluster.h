@@ -38,13 +38,21 @@ class SphereCluster {
   static SphereCluster build(const TriangleMesh& mesh, const Options& options);
   static SphereCluster build(const TriangleMesh& mesh) { return build(mesh, Options()); }
 
-  bool touches(const Probe& probe, Session& session) const noexcept;
-  std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept;
+  // Inline as far as free space: there a query is a few comparisons, less than a call.
+  bool touches(const Probe& probe, Session& session) const noexcept {
+    return !tree_.surely_free(probe.center, probe.radius, session.memory) && look_for_touch(probe, session);
+  }
+  std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept {
+    if (tree_.surely_free(probe.center, reach, session.memory)) return std::nullopt;
+    return look_for_nearest(probe, reach, session);
+  }
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept;
 
   /// After `nearest`, with a tree: sees to it that the triangles near the point are listed for a next tick
   /// that moves no farther than twice as far as this one. Work is bounded as a query's is.
-  void prepare(Session& session) const noexcept;
+  void prepare(Session& session) const noexcept {
+    if (tree_.is_near(session.memory)) tree_.list_ahead(session.memory, session.work);
+  }
 
   std::size_t bytes() const noexcept;
   /// precise: exact. Else conservative: contacts come early, by at most `absolute`.
@@ -56,6 +64,9 @@ class SphereCluster {
   double tightness() const noexcept { return tightness_; }
 
  private:
+  bool look_for_touch(const Probe& probe, Session& session) const noexcept;
+  std::optional<Contact> look_for_nearest(const Probe& probe, double reach, Session& session) const noexcept;
+
   Options options_;
   SphereClusters clusters_;
   double tightness_ = 0;

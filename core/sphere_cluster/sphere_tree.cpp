@@ -187,12 +187,6 @@ double SphereTree::free_within(float unseen, double shown, double slack) const n
   return std::min(std::sqrt(frame_.squared(unseen)), shown * (1 - 0x1p-40)) - slack;
 }
 
-/// The distance changes by no more than the point moves.
-bool SphereTree::surely_free(const Vec3& center, double reach, const Memory& memory) const noexcept {
-  const double room = memory.free - reach;
-  return room > 0 && (center - memory.center).squaredNorm() < room * room;
-}
-
 /// The same by what was sampled, which then is what is known of the place.
 bool SphereTree::is_far(const FilterPoint& point, const Vec3& center, double reach, double slack,
                         Memory& memory) const noexcept {
@@ -246,7 +240,6 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
   const double radius = probe.radius;
   if (!(radius >= 0)) return false;
   claim(memory);
-  if (surely_free(center, radius, memory)) return false;
   if (!can_search(center)) return nearest_without(center, radius, work).has_value();
   const double rounding = slack(center), error = error_from(rounding);
   const double moved = (center - memory.center).norm();
@@ -273,7 +266,6 @@ std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Mem
                                            Work& work) const noexcept {
   if (!(reach >= 0)) return std::nullopt;
   claim(memory);
-  if (surely_free(center, reach, memory)) return std::nullopt;
   if (!can_search(center)) return nearest_without(center, reach, work);
   const double rounding = slack(center);
   const FilterPoint point = frame_.point(center);
@@ -310,9 +302,8 @@ std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Mem
 }
 
 void SphereTree::list_ahead(Memory& memory, Work& work) const noexcept {
-  if (memory.tree != number_ || !(memory.nearest < infinity) || memory.blocks.pause > 0) return;
   const double moved = memory.move.norm();
-  if (!(moved <= farthest_in_grains * grain_)) return;
+  if (!(moved <= farthest_in_grains * grain_) || memory.blocks.pause > 0) return;
   const FilterPoint point = frame_.point(memory.center);
   const float distance = static_cast<float>(frame_.scale() * memory.nearest) + 2 * point.tau;
   // A tick's move counts twice: so much farther may the nearest be, and so much farther is the list's anchor.

@@ -40,9 +40,21 @@ class SphereTree {
   SphereTree() = default;
   SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters, const Options& options);
 
+  /// Is it known, without looking, that no triangle is within reach? The distance changes by no more than the
+  /// point moves. Of a tree that holds nothing, nothing is known.
+  bool surely_free(const Vec3& center, double reach, const Memory& memory) const noexcept {
+    const double room = memory.free - reach;
+    return memory.tree == number_ && room > 0 && (center - memory.center).squaredNorm() < room * room;
+  }
+  // Both look, even where it is surely free.
   bool touches(const Probe& probe, Memory& memory, Work& work) const noexcept;
   std::optional<Contact> nearest(const Vec3& center, double reach, Memory& memory, Work& work) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, Memory& memory, Work& work) const noexcept;
+  /// Did the last query find a triangle?
+  bool is_near(const Memory& memory) const noexcept {
+    return memory.tree == number_ && memory.nearest < std::numeric_limits<double>::infinity();
+  }
+  /// Where it is near: lists what a next query may need.
   void list_ahead(Memory& memory, Work& work) const noexcept;
   std::size_t bytes() const noexcept;
 
@@ -53,7 +65,6 @@ class SphereTree {
   double slack(const Vec3& center) const noexcept;
   static double error_from(double slack) noexcept;
   double free_within(float unseen, double shown, double slack) const noexcept;
-  bool surely_free(const Vec3& center, double reach, const Memory& memory) const noexcept;
   bool is_far(const FilterPoint& point, const Vec3& center, double reach, double slack,
               Memory& memory) const noexcept;
   /// From a point of the mesh's frame to another, in the tree's, at least.

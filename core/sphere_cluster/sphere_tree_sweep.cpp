@@ -36,8 +36,10 @@ struct SweepVisitor {
 // The way is cut into parts, each in a ball about its middle. What can touch the probe on a part is within
 // the part's half length and the radius of that middle.
 std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, Work& work) const noexcept {
-  if (const std::optional<Contact> start = nearest(sweep.from, sweep.radius, memory, work))
-    return Impact{0, *start};
+  if (!surely_free(sweep.from, sweep.radius, memory)) {
+    if (const std::optional<Contact> start = nearest(sweep.from, sweep.radius, memory, work))
+      return Impact{0, *start};
+  }
   SweepVisitor visitor{parts_, sweep, sweep.from, 0};
   if (!can_search(sweep.from) || !can_search(sweep.to)) {
     show_all(visitor);
