@@ -23,6 +23,11 @@ foreach(library gmp assimp fcl ccd bullet bullet-float64)
   endif()
 endforeach()
 
+get_property(rival_versions GLOBAL PROPERTY TOUCHMARK_RIVAL_VERSIONS)
+foreach(version IN LISTS rival_versions)
+  string(APPEND TOUCHMARK_VERSIONS_FOUND ", ${version}")
+endforeach()
+
 set(generated ${CMAKE_CURRENT_BINARY_DIR}/include/bench/generated)
 configure_file(configuration.h.in ${generated}/configuration.h @ONLY)
 add_custom_target(touchmark_commit

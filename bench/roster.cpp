@@ -16,6 +16,9 @@
 #include "baselines/bullet/bullet_detector.h"
 #include "baselines/bullet/view.h"
 #endif
+#if TOUCHMARK_WITH_CGAL
+#include "baselines/cgal/cgal_detector.h"
+#endif
 #if TOUCHMARK_WITH_EMBREE
 #include "baselines/embree/embree_detector.h"
 #endif
@@ -250,6 +253,31 @@ ContestantInfo embree() {
   return info;
 }
 
+ContestantInfo cgal() {
+  ContestantInfo info;
+  info.name = "cgal";
+  info.summary = "CGAL: closest point over its AABB tree";
+#if TOUCHMARK_WITH_CGAL
+  using baselines::CgalDetector;
+  using Kernel = CgalDetector::Kernel;
+  using Hint = CgalDetector::Hint;
+  static const Names<Kernel> kernels{
+      {"epick", Kernel::epick}, {"simple", Kernel::simple}, {"epeck", Kernel::epeck}};
+  static const Names<Hint> hints{{"none", Hint::none}, {"last", Hint::last}, {"bounded", Hint::bounded}};
+  info.accuracy = "approximate; kernel=epeck: exact";
+  info.queries = queries_of<CgalDetector>();
+  info.options = {
+      choice("kernel", kernels,
+             "simple: doubles throughout; epick: exact predicates; epeck: exact points, too"),
+      choice("hint", hints,
+             "where a search starts: CGAL's own, at the last triangle, or that within the reach")};
+  info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
+    return contestant<CgalDetector>(mesh, {chosen(values, "kernel", kernels), chosen(values, "hint", hints)});
+  };
+#endif
+  return info;
+}
+
 // Each rival in the form most programs use and in its best fair one; see baselines/NAME/README.md.
 const std::vector<std::string> compared_by_default{"brute-force",
                                                    "aabb-tree",
@@ -268,7 +296,8 @@ const std::vector<std::string> compared_by_default{"brute-force",
                                                    "bullet:method=callback,frame=fitted",
                                                    "libccd+aabb",
                                                    "libccd+aabb:algorithm=mpr",
-                                                   "embree"};
+                                                   "embree",
+                                                   "cgal:kernel=simple,hint=bounded"};
 
 // What verify runs besides: every other exact form, and the rivals' forms that answer differently.
 const std::vector<std::string> verified_besides{"grid-group:cell=1%",
@@ -280,7 +309,9 @@ const std::vector<std::string> verified_besides{"grid-group:cell=1%",
                                                 "fcl:bv=kios,method=traverse,narrow=exact",
                                                 "bullet:frame=fitted",
                                                 "bullet:precision=float,method=callback",
-                                                "embree:geometry=triangle"};
+                                                "embree:geometry=triangle",
+                                                "cgal",
+                                                "cgal:kernel=epeck,hint=bounded"};
 
 // Each contestant over what trades its accuracy for its time.
 const std::vector<std::string> over_accuracy{"aabb-tree",
@@ -314,14 +345,16 @@ const std::vector<std::string> over_accuracy{"aabb-tree",
                                              "libccd+aabb:algorithm=mpr,tolerance=1e-2",
                                              "libccd+aabb:algorithm=mpr",
                                              "libccd+aabb:algorithm=mpr,tolerance=1e-8",
-                                             "embree"};
+                                             "embree",
+                                             "cgal:kernel=simple,hint=bounded",
+                                             "cgal:kernel=epeck,hint=bounded"};
 
 }  // namespace
 
 const Roster& roster() {
-  static const Roster all(
-      {brute_force(), aabb_tree(), grid_group(), sphere_cluster(), fcl(), bullet(), libccd(), embree()},
-      compared_by_default, verified_besides, over_accuracy);
+  static const Roster all({brute_force(), aabb_tree(), grid_group(), sphere_cluster(), fcl(), bullet(),
+                           libccd(), embree(), cgal()},
+                          compared_by_default, verified_besides, over_accuracy);
   return all;
 }
 

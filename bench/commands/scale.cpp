@@ -44,7 +44,7 @@ const std::set<std::string> scaled_by_default{"aabb-tree",
                                               "fcl:bv=aabb,method=distance,narrow=exact",
                                               "bullet:method=callback,frame=fitted",
                                               "embree",
-                                              "cgal"};
+                                              "cgal:kernel=simple,hint=bounded"};
 constexpr const char* default_sizes = "1k,10k,100k,1M,10M";
 constexpr const char* quick_sizes = "1k,10k,100k";
 constexpr std::chrono::milliseconds default_build_patience{600'000};

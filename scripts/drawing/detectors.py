@@ -34,6 +34,7 @@ KNOWN_FILLINGS = {
     "fcl:bv=obbrss": "none",
     "fcl:bv=aabb,method=distance,narrow=exact": "bottom",
     "libccd+aabb:algorithm=mpr": "none",
+    "cgal:kernel=simple,hint=bounded": "bottom",
 }
 
 
