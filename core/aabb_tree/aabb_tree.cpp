@@ -150,11 +150,41 @@ AabbTree AabbTree::build(const TriangleMesh& mesh, const Options& options) {
     throw std::invalid_argument("the leaf size must be 1 to 255, not " + std::to_string(options.leaf_size));
   }
   AabbTree tree;
+  tree.options_ = options;
+  tree.connectivity_ = Connectivity(mesh);
   tree.certified_ = options.certified;
   tree.triangles_ = prepare(mesh);
   tree.ids_.assign(mesh.ids().begin(), mesh.ids().end());
   Builder(tree, options.leaf_size).build();
   return tree;
+}
+
+/// Of a query, as the surface area heuristic has it: how often a node is looked into times what is in it.
+double AabbTree::expected_cost() const noexcept {
+  double cost = 0;
+  for (const Node& node : nodes_) cost += half_area(node.box) * std::max(node.count, 2U);
+  const double all = half_area(bounds());
+  return all > 0 ? cost / all : 0;
+}
+
+void AabbTree::update(const TriangleMesh& mesh) {
+  connectivity_.expect(mesh);
+  if (cost_as_built_ == 0) cost_as_built_ = expected_cost();
+  // Children come after their parents.
+  for (std::size_t i = nodes_.size(); i-- > 0;) {
+    Node& node = nodes_[i];
+    Aabb box;
+    if (node.count == 0) {
+      box = nodes_[node.first].box;
+      box.extend(nodes_[node.first + 1].box);
+    }
+    for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
+      if (has_moved(triangles_[k], mesh)) triangles_[k] = prepare(mesh, triangles_[k].index);
+      for (const Vec3& corner : triangles_[k].corner) box.extend(corner);
+    }
+    node.box = box;
+  }
+  if (!(expected_cost() <= most_growth * cost_as_built_)) *this = build(mesh, options_);
 }
 
 double AabbTree::lower_bound(const Aabb& box, const Vec3& center, double slack) noexcept {

@@ -13,6 +13,7 @@
 #include "core/geometry/aabb.h"
 #include "core/geometry/certified_nearest.h"
 #include "core/geometry/point_triangle.h"
+#include "core/mesh_update.h"
 
 namespace touchmark {
 
@@ -30,6 +31,9 @@ class AabbTree {
   /// Throws std::invalid_argument for a leaf size out of range.
   static AabbTree build(const TriangleMesh& mesh, const Options& options);
   static AabbTree build(const TriangleMesh& mesh) { return build(mesh, Options()); }
+  /// See the concept Updates. The boxes follow their triangles; where they would make queries dearer by more
+  /// than `most_growth`, the tree is built anew.
+  void update(const TriangleMesh& mesh);
 
   bool touches(const Probe& probe, Session& session) const noexcept;
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept;
@@ -69,14 +73,19 @@ class AabbTree {
   };
   /// Splits halve from `halving_level` on, so 32 more levels reach a single triangle of 2^32.
   static constexpr std::size_t halving_level = 48, most_levels = halving_level + 34;
+  static constexpr double most_growth = 2;  ///< of expected_cost
 
   class Builder;
 
   /// What the distance of a triangle in the box cannot fall below, as the kernel computes it.
   static double lower_bound(const Aabb& box, const Vec3& center, double slack) noexcept;
   const Aabb& bounds() const noexcept { return nodes_.front().box; }
+  double expected_cost() const noexcept;
   TriangleId id(std::uint32_t index) const noexcept { return ids_.empty() ? index : ids_[index]; }
 
+  Options options_;
+  Connectivity connectivity_;
+  double cost_as_built_ = 0;  ///< 0: not asked for yet
   bool certified_ = true;
   std::vector<Node> nodes_;
   std::vector<PreparedTriangle> triangles_;  ///< in the order of the leaves

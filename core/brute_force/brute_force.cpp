@@ -10,10 +10,18 @@ namespace touchmark {
 
 BruteForce BruteForce::build(const TriangleMesh& mesh, const Options&) {
   BruteForce detector;
+  detector.connectivity_ = Connectivity(mesh);
   detector.bounds_ = mesh.bounds();
   detector.triangles_ = prepare(mesh);
   detector.ids_.assign(mesh.ids().begin(), mesh.ids().end());
   return detector;
+}
+
+void BruteForce::update(const TriangleMesh& mesh) {
+  connectivity_.expect(mesh);
+  bounds_ = mesh.bounds();
+  for (PreparedTriangle& triangle : triangles_)
+    if (has_moved(triangle, mesh)) triangle = prepare(mesh, triangle.index);
 }
 
 bool BruteForce::touches(const Probe& probe, Session& session) const noexcept {

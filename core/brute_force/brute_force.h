@@ -9,6 +9,7 @@
 #include "core/detector.h"
 #include "core/geometry/aabb.h"
 #include "core/geometry/point_triangle.h"
+#include "core/mesh_update.h"
 
 namespace touchmark {
 
@@ -20,6 +21,8 @@ class BruteForce {
   };
 
   static BruteForce build(const TriangleMesh& mesh, const Options& options = {});
+  /// See the concept Updates.
+  void update(const TriangleMesh& mesh);
 
   bool touches(const Probe& probe, Session& session) const noexcept;
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept;
@@ -31,6 +34,7 @@ class BruteForce {
  private:
   TriangleId id(std::uint32_t index) const noexcept { return ids_.empty() ? index : ids_[index]; }
 
+  Connectivity connectivity_;
   Aabb bounds_;
   std::vector<PreparedTriangle> triangles_;
   std::vector<TriangleId> ids_;

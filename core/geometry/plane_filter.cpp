@@ -21,6 +21,16 @@ FilterFrame FilterFrame::around(const Aabb& bounds) noexcept {
   return frame;
 }
 
+bool FilterFrame::widen(const Aabb& bounds) noexcept {
+  // A frame around a box has an extent of 1 to 2, and so a radius of 0.5 to 1.8.
+  constexpr double largest_radius = 2, least_extent = 0.5;
+  const Vec3 farthest = (bounds.min - origin_).cwiseAbs().cwiseMax((bounds.max - origin_).cwiseAbs());
+  const double radius = scale_ * farthest.norm();
+  if (!(radius <= largest_radius) || !(scale_ * bounds.extent().maxCoeff() >= least_extent)) return false;
+  radius_ = std::max(radius_, radius);
+  return true;
+}
+
 TrianglePlanes planes_of(const PreparedTriangle& triangle, const FilterFrame& frame) noexcept {
   TrianglePlanes planes{};
   if (triangle.normal.isZero(0)) return planes;

@@ -59,6 +59,10 @@ class FilterFrame {
   /// overflow nor vanish? A box of zero extent does not fit.
   static bool fits(const Aabb& bounds) noexcept;
 
+  /// From now on it serves a mesh of this box as well. False, and nothing changes, where the box is not about
+  /// as large as the one the frame is around, or elsewhere.
+  bool widen(const Aabb& bounds) noexcept;
+
   /// Is the point close enough for single precision (2^20 extents)? A NaN is not.
   bool covers(const Vec3& center) const noexcept {
     const Vec3 p = to_frame(center);
@@ -89,6 +93,8 @@ class FilterFrame {
   }
   const Vec3& origin() const noexcept { return origin_; }
   double scale() const noexcept { return scale_; }
+  /// Of a ball about the frame's middle that holds the mesh, in the frame.
+  double radius() const noexcept { return radius_; }
 
   /// u = 2^-24. The point, the normal and the offset are rounded once each, the three products once, the
   /// three sums once: at most 6u(|x||n| + |offset|). Two more u, the kernel's own slack (2^-46) included.

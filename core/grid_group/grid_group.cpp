@@ -33,6 +33,8 @@ TriangleMesh first_triangle(const TriangleMesh& mesh) {
 GridGroup GridGroup::build(const TriangleMesh& mesh, const Options& options) {
   check(options);
   GridGroup detector;
+  detector.options_ = options;
+  detector.connectivity_ = Connectivity(mesh);
   if (mesh.bounds().extent().isZero(0)) {
     detector.form_ = BruteForce::build(first_triangle(mesh));
   } else if (!FilterFrame::fits(mesh.bounds())) {
@@ -44,6 +46,11 @@ GridGroup GridGroup::build(const TriangleMesh& mesh, const Options& options) {
         grid::DirectGrid::build(mesh, {options.cell, options.bytes_per_triangle, options.certified});
   }
   return detector;
+}
+
+void GridGroup::update(const TriangleMesh& mesh) {
+  connectivity_.expect(mesh);
+  *this = build(mesh, options_);
 }
 
 bool GridGroup::touches(const Probe& probe, Session& session) const noexcept {

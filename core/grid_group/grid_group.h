@@ -19,6 +19,7 @@
 #include "core/detector.h"
 #include "core/grid_group/direct_grid.h"
 #include "core/grid_group/scan_grid.h"
+#include "core/mesh_update.h"
 
 namespace touchmark {
 
@@ -44,6 +45,9 @@ class GridGroup {
   static GridGroup build(const TriangleMesh& mesh, const Options& options);
   static GridGroup build(const TriangleMesh& mesh) { return build(mesh, Options()); }
 
+  /// See the concept Updates. Everything is built anew.
+  void update(const TriangleMesh& mesh);
+
   bool touches(const Probe& probe, Session& session) const noexcept;
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept;
@@ -59,6 +63,8 @@ class GridGroup {
   bool coarsened() const noexcept;
 
  private:
+  Options options_;
+  Connectivity connectivity_;
   /// BruteForce serves the meshes whose extent is zero or whose squares leave the range of double.
   std::variant<BruteForce, grid::ScanGrid, grid::DirectGrid> form_;
 };

@@ -9,6 +9,7 @@
 
 #include "core/detector.h"
 #include "core/geometry/sphere_triangle_sweep.h"
+#include "core/mesh_update.h"
 #include "core/sign/side_finder.h"
 
 namespace touchmark {
@@ -23,6 +24,12 @@ class Signed {
 
   static Signed build(const TriangleMesh& mesh, const Options& options) {
     return Signed(D::build(mesh, options), SideFinder::build(mesh));
+  }
+
+  /// The sides are found anew.
+  void update(const TriangleMesh& mesh) requires Updates<D> {
+    detector_.update(mesh);
+    sides_ = SideFinder::build(mesh);
   }
 
   bool touches(const Probe& probe, Session& session) const noexcept requires AnswersTouches<D> {

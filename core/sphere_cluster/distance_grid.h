@@ -16,6 +16,7 @@
 #include <Eigen/Core>
 
 #include "core/geometry/plane_filter.h"
+#include "core/probe.h"
 
 namespace touchmark::spheres {
 
@@ -63,11 +64,24 @@ class DistanceGrid {
   /// A lattice to be filled for so many triangles whose box this is, in the frame.
   DistanceGrid(const Eigen::Vector3f& min, const Eigen::Vector3f& max, std::size_t triangles);
 
-  /// distance_at(x, y, z, most) bounds the distance at a point of the frame, which is at most `most`, each
+  /// distance_at(place, most) bounds the distance at a point of the frame, which is at most `most`, each
   /// bound within 2^-23. Where it gives up, by a negative one, so does the rest of the grid: nothing is known
   /// there.
   template <class DistanceAt>
   void fill(const DistanceAt& distance_at);
+  /// After a part of the mesh has moved, within the lattice's box: fills anew where that can have been
+  /// nearest or can be. Asks may_have_changed(place, distance) whether any of it was or is within the
+  /// distance.
+  template <class DistanceAt, class MayHaveChanged>
+  void refill(const DistanceAt& distance_at, const MayHaveChanged& may_have_changed);
+
+  bool empty() const noexcept { return fine_steps_.empty(); }
+  /// Is this box within that of the lattice?
+  bool holds(const Eigen::Vector3f& min, const Eigen::Vector3f& max) const noexcept {
+    for (int k = 0; k < 3; ++k)
+      if (min[k] < fine_.min(k) || max[k] > fine_.max(k)) return false;
+    return true;
+  }
 
   /// No part of the mesh is nearer than this. May be negative.
   float at_least(const FilterPoint& point) const noexcept;
@@ -88,6 +102,23 @@ class DistanceGrid {
   static float length(float x, float y, float z) noexcept {
     return std::sqrt(squared(x) + squared(y) + squared(z));
   }
+  /// Room for the roundings of two samples' places.
+  static constexpr double rounding = 0x1p-20;
+  /// From the middle of a coarse cube to that of an eighth of it.
+  double to_eighth() const noexcept { return 0.5 * std::sqrt(3.0) * fine_.edge() + rounding; }
+  static Vec3 middle(const SampleLattice& lattice, std::uint32_t x, std::uint32_t y,
+                     std::uint32_t z) noexcept {
+    return {lattice.middle(0, x), lattice.middle(1, y), lattice.middle(2, z)};
+  }
+  /// Bounds the distance in the middle of a coarse cube from above, by what is known.
+  double most_at(std::uint32_t cube) const noexcept {
+    const Step steps = coarse_steps_[cube];
+    return steps == most_steps ? std::numeric_limits<double>::infinity()
+                               : static_cast<double>(steps) * static_cast<double>(step_);
+  }
+  template <class DistanceAt, class IsWanted>
+  void fill_cubes(const DistanceAt& distance_at, const IsWanted& is_wanted);
+
   Step steps_in(double distance) const noexcept {
     return static_cast<Step>(std::clamp(distance / static_cast<double>(step_), 0.0, double{most_steps}));
   }
@@ -125,44 +156,70 @@ inline float DistanceGrid::at_most(const FilterPoint& p) const noexcept {
 }
 
 /// Away from the surface the eight samples of a coarse cube are what its own leaves of them.
-template <class DistanceAt>
-void DistanceGrid::fill(const DistanceAt& distance_at) {
+template <class DistanceAt, class IsWanted>
+void DistanceGrid::fill_cubes(const DistanceAt& distance_at, const IsWanted& is_wanted) {
   // Then even a point at the corner of a fine cube is known to be half a cube away.
   constexpr double far_in_edges = 2.5;
-  // Room for the roundings of two samples' places.
-  constexpr double rounding = 0x1p-20;
   const double far = far_in_edges * fine_.edge();
-  const double to_next = coarse_.edge() + rounding,
-               to_eighth = 0.5 * std::sqrt(3.0) * fine_.edge() + rounding;
-  const auto sample = [&](const SampleLattice& lattice, std::uint32_t x, std::uint32_t y, std::uint32_t z,
-                          double most) -> Interval {
-    return distance_at(lattice.middle(0, x), lattice.middle(1, y), lattice.middle(2, z), most);
-  };
-  coarse_steps_.assign(coarse_.size(), most_steps);
-  fine_steps_.assign(fine_.size(), 0);
+  const double to_next = coarse_.edge() + rounding;
   double before_row = std::numeric_limits<double>::infinity();
   for (std::uint32_t z = 0; z < coarse_.count(2); ++z) {
     double before = before_row;
     for (std::uint32_t y = 0; y < coarse_.count(1); ++y) {
       double first = 0;
       for (std::uint32_t x = 0; x < coarse_.count(0); ++x) {
-        const Interval distance = sample(coarse_, x, y, z, before + to_next);
-        if (distance.least < 0) return;
-        before = distance.most;
-        if (x == 0) first = distance.most;
-        coarse_steps_[coarse_.index(x, y, z)] = steps_in(distance.most + step_);
-        for (std::uint32_t eighth = 0; eighth < 8; ++eighth) {
-          const std::uint32_t i = 2 * x + (eighth & 1), j = 2 * y + (eighth >> 1 & 1),
-                              k = 2 * z + (eighth >> 2);
-          const double least = distance.least > far ? distance.least - to_eighth
-                                                    : sample(fine_, i, j, k, distance.most + to_eighth).least;
-          fine_steps_[fine_.index(i, j, k)] = steps_in(least);
+        const std::uint32_t cube = coarse_.index(x, y, z);
+        if (is_wanted(cube)) {
+          const Interval distance = distance_at(middle(coarse_, x, y, z), before + to_next);
+          if (distance.least < 0) return;
+          before = distance.most;
+          coarse_steps_[cube] = steps_in(distance.most + step_);
+          for (std::uint32_t eighth = 0; eighth < 8; ++eighth) {
+            const std::uint32_t i = 2 * x + (eighth & 1), j = 2 * y + (eighth >> 1 & 1),
+                                k = 2 * z + (eighth >> 2);
+            const double least = distance.least > far
+                                     ? distance.least - to_eighth()
+                                     : distance_at(middle(fine_, i, j, k), distance.most + to_eighth()).least;
+            fine_steps_[fine_.index(i, j, k)] = steps_in(least);
+          }
+        } else {
+          before = most_at(cube);
         }
+        if (x == 0) first = before;
       }
       before = first;
       if (y == 0) before_row = first;
     }
   }
+}
+
+template <class DistanceAt>
+void DistanceGrid::fill(const DistanceAt& distance_at) {
+  coarse_steps_.assign(coarse_.size(), most_steps);
+  fine_steps_.assign(fine_.size(), 0);
+  fill_cubes(distance_at, [](std::uint32_t) { return true; });
+}
+
+/// Where all that moved was and is farther than the mesh was, bounds from below and from above stay true: of
+/// the middle, and with room for the way there and back of its eighths.
+template <class DistanceAt, class MayHaveChanged>
+void DistanceGrid::refill(const DistanceAt& distance_at, const MayHaveChanged& may_have_changed) {
+  std::vector<bool> changed(coarse_.size(), false);
+  for (std::uint32_t z = 0; z < coarse_.count(2); ++z) {
+    for (std::uint32_t y = 0; y < coarse_.count(1); ++y) {
+      for (std::uint32_t x = 0; x < coarse_.count(0); ++x) {
+        const std::uint32_t cube = coarse_.index(x, y, z);
+        if (!may_have_changed(middle(coarse_, x, y, z), most_at(cube) + 2 * to_eighth())) continue;
+        changed[cube] = true;
+        coarse_steps_[cube] = most_steps;
+        for (std::uint32_t eighth = 0; eighth < 8; ++eighth) {
+          fine_steps_[fine_.index(2 * x + (eighth & 1), 2 * y + (eighth >> 1 & 1), 2 * z + (eighth >> 2))] =
+              0;
+        }
+      }
+    }
+  }
+  fill_cubes(distance_at, [&](std::uint32_t cube) { return changed[cube]; });
 }
 
 }  // namespace touchmark::spheres

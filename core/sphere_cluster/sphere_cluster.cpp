@@ -16,6 +16,7 @@ SphereCluster SphereCluster::build(const TriangleMesh& mesh, const Options& opti
   }
   SphereCluster detector;
   detector.options_ = options;
+  detector.connectivity_ = Connectivity(mesh);
   detector.clusters_ = cluster_spheres(mesh, options.clustering, options.order);
   detector.tightness_ = average_tightness(mesh, detector.clusters_);
   if (!options.precise) {
@@ -26,6 +27,12 @@ SphereCluster SphereCluster::build(const TriangleMesh& mesh, const Options& opti
     detector.tree_ = SphereTree(mesh, detector.clusters_, {options.portable, options.certified});
   }
   return detector;
+}
+
+void SphereCluster::update(const TriangleMesh& mesh) {
+  connectivity_.expect(mesh);
+  const bool has_tree = options_.precise && options_.lookup == Lookup::tree;
+  if (!has_tree || !tree_.update(mesh)) *this = build(mesh, options_);
 }
 
 bool SphereCluster::look_for_touch(const Probe& probe, Session& session) const noexcept {

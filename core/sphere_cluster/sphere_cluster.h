@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/detector.h"
+#include "core/mesh_update.h"
 #include "core/sphere_cluster/clustering.h"
 #include "core/sphere_cluster/fast_level.h"
 #include "core/sphere_cluster/sphere_scan.h"
@@ -38,6 +39,10 @@ class SphereCluster {
   static SphereCluster build(const TriangleMesh& mesh, const Options& options);
   static SphereCluster build(const TriangleMesh& mesh) { return build(mesh, Options()); }
 
+  /// See the concept Updates. The hierarchy follows its triangles, and is built anew where the mesh has
+  /// become of another size or place; the scan and the fast level always are.
+  void update(const TriangleMesh& mesh);
+
   // Inline as far as free space: there a query is a few comparisons, less than a call.
   bool touches(const Probe& probe, Session& session) const noexcept {
     return !tree_.surely_free(probe.center, probe.radius, session.memory) && look_for_touch(probe, session);
@@ -58,7 +63,8 @@ class SphereCluster {
   /// precise: exact. Else conservative: contacts come early, by at most `absolute`.
   Accuracy accuracy() const noexcept;
 
-  /// The clustered spheres, for drawing and for the paper's tables.
+  /// The clustered spheres, for drawing and for the paper's tables; of the mesh that was built, not of
+  /// updates where the hierarchy followed.
   const SphereClusters& clusters() const noexcept { return clusters_; }
   /// The paper's measure of how closely they fit; see average_tightness.
   double tightness() const noexcept { return tightness_; }
@@ -68,6 +74,7 @@ class SphereCluster {
   std::optional<Contact> look_for_nearest(const Probe& probe, double reach, Session& session) const noexcept;
 
   Options options_;
+  Connectivity connectivity_;
   SphereClusters clusters_;
   double tightness_ = 0;
   // Only the one that the options ask for is filled.

@@ -46,24 +46,6 @@ struct NearestVisitor {
   }
 };
 
-/// Is content with a triangle that is nearly nearest.
-struct RoughVisitor {
-  static constexpr double enough = 0.64;  ///< of the squared distance
-
-  const TreeParts& tree;
-  const FilterFrame& frame;
-  const Vec3& center;
-  float limit;
-  Work work{};
-  double squared = std::numeric_limits<double>::infinity();
-
-  bool wants(std::uint32_t) const noexcept { return true; }
-  void take(std::uint32_t, const Offset& found) noexcept {
-    squared = std::min(squared, found.squared);
-    limit = std::min(limit, frame.limit(enough * squared));
-  }
-};
-
 /// Is content with any triangle within the radius. What doubles leave open is decided exactly at once.
 struct TouchVisitor {
   const TreeParts& tree;
@@ -112,14 +94,6 @@ std::uint64_t next_number() noexcept {
   return ++last;
 }
 
-double mean_block_radius(const TreeParts& parts) noexcept {
-  double sum = 0;
-  for (const spheres::TreeNode& node : parts.nodes)
-    for (std::size_t i = 0; i < spheres::tree_width; ++i)
-      if (node.child[i].is_block()) sum += node.radius[i];
-  return sum / static_cast<double>(parts.blocks.size());
-}
-
 }  // namespace
 
 SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters, const Options& options)
@@ -137,33 +111,19 @@ SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters,
   frame_ = FilterFrame::around(mesh.bounds());
   parts_ = spheres::build_tree(mesh, clusters, frame_);
   unit_ = 1 / frame_.scale();
-  grain_ = mean_block_radius(parts_) / frame_.scale();
+  grain_ = mean_block_radius() / frame_.scale();
   fill_distances();
 }
 
-void SphereTree::fill_distances() {
-  // Two roundings of a sample's place in the mesh's frame, measured in the tree's: of a mesh so far from 0
-  // that they count, nothing is known beforehand.
-  const double rounding =
-      std::numeric_limits<double>::epsilon() * frame_.origin().lpNorm<1>() * frame_.scale();
-  if (!(rounding < 0x1p-24)) return;
-  // Where the hierarchy is a poor fit, the samples may cost no more than the hierarchy did.
-  constexpr std::uint64_t most_work_a_triangle = 1024;
-  const std::uint64_t most_work = most_work_a_triangle * parts_.triangles.size();
-  Work work;
-  const Vec3 min = frame_.to_frame(bounds_.min), max = frame_.to_frame(bounds_.max);
-  distances_ = spheres::DistanceGrid(min.cast<float>(), max.cast<float>(), parts_.triangles.size());
-  distances_.fill([&](float x, float y, float z, double most) {
-    if (work.total() > most_work) return spheres::DistanceGrid::Interval{-1, -1};
-    const Vec3 center = frame_.origin() + Vec3(x, y, z) / frame_.scale();
-    const double reach = most / frame_.scale();
-    RoughVisitor visitor{parts_, frame_, center, frame_.limit(reach * reach)};
-    const float unseen = descend(frame_.point(center), visitor);
-    work += visitor.work;
-    const double found = std::sqrt(visitor.squared) * frame_.scale();
-    return spheres::DistanceGrid::Interval{std::min<double>(std::sqrt(unseen), found), std::min(found, most)};
-  });
+double SphereTree::mean_block_radius() const noexcept {
+  double sum = 0;
+  for (const spheres::TreeNode& node : parts_.nodes)
+    for (std::size_t i = 0; i < spheres::tree_width; ++i)
+      if (node.child[i].is_block()) sum += node.radius[i];
+  return sum / static_cast<double>(parts_.blocks.size());
 }
+
+void SphereTree::renew() noexcept { number_ = next_number(); }
 
 void SphereTree::claim(Memory& memory) const noexcept {
   if (memory.tree == number_) return;

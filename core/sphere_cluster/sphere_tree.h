@@ -16,6 +16,7 @@
 #include "core/sphere_cluster/distance_grid.h"
 #include "core/sphere_cluster/near_blocks.h"
 #include "core/sphere_cluster/tree_layout.h"
+#include "core/sphere_cluster/tree_refit.h"
 
 namespace touchmark {
 
@@ -39,6 +40,11 @@ class SphereTree {
 
   SphereTree() = default;
   SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters, const Options& options);
+
+  /// The same triangles, some of them elsewhere. What memories hold of before is not believed any more. False
+  /// where the mesh is now of another size or at another place: nothing has changed then, and the tree is to
+  /// be built anew.
+  bool update(const TriangleMesh& mesh);
 
   /// Is it known, without looking, that no triangle is within reach? The distance changes by no more than the
   /// point moves. Of a tree that holds nothing, nothing is known.
@@ -74,7 +80,13 @@ class SphereTree {
                                      Work& work) const noexcept;
   std::optional<Contact> nearest_without(const Vec3& center, double reach, Work& work) const noexcept;
 
+  double mean_block_radius() const noexcept;
+  void renew() noexcept;
   void fill_distances();
+  void refill_distances(const spheres::MovedTriangles& moved);
+  /// Bounds the distance at a place of the frame, which is at most `most`, to about a fifth; negative when
+  /// too much work was done already.
+  spheres::DistanceGrid::Interval sample(const Vec3& place, double most, Work& work) const;
 
   // Visitors: see sphere_tree_search.h.
   template <class Visitor>
@@ -94,7 +106,7 @@ class SphereTree {
   Aabb bounds_;
   FilterFrame frame_;
   bool certified_ = true;
-  double radius_ = 0;  ///< half the mesh's diagonal
+  double radius_ = 0;  ///< of a ball about the frame's origin that holds the mesh
   double unit_ = 1;    ///< of the frame, in mesh units
   double grain_ = 0;   ///< the mean radius of a block
   spheres::TreeParts parts_;

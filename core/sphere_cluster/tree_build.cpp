@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 
-#include <Eigen/Geometry>
-
-#include "core/sphere_cluster/tree_bounds.h"
+#include "core/sphere_cluster/tree_fill.h"
 #include "core/sphere_cluster/tree_split.h"
 
 namespace touchmark::spheres {
@@ -16,7 +13,7 @@ namespace {
 class Builder {
  public:
   Builder(const TriangleMesh& mesh, const SphereClusters& clusters, const FilterFrame& frame)
-      : mesh_(mesh), frame_(frame), splitter_(mesh, clusters, frame) {}
+      : mesh_(mesh), frame_(frame), splitter_(mesh, clusters, frame), bound_(frame) {}
 
   TreeParts build() {
     TreeParts parts;
@@ -37,7 +34,7 @@ class Builder {
     const std::size_t count = split_into(range, children);
     for (std::size_t i = count; i < tree_width; ++i) parts_->nodes[index].clear(i);
     for (std::size_t i = 0; i < count; ++i) {
-      place(parts_->nodes[index], i, bound(children[i]));
+      set_child(parts_->nodes[index], i, bound(children[i]));
       const TreeRef child = children[i].size() <= tree_width
                                 ? TreeRef{add_block(children[i]) | TreeRef::block_bit}
                                 : TreeRef{add_node(children[i])};
@@ -71,18 +68,11 @@ class Builder {
   }
 
   SlabbedSphere bound(const TriangleRange& range) {
-    corners_.clear();
-    Vec3 normal = Vec3::Zero();
     for (std::uint32_t i = range.begin; i < range.end; ++i) {
-      std::array<Vec3, 3> v;
-      for (int k = 0; k < 3; ++k) {
-        v[static_cast<std::size_t>(k)] =
-            frame_.scale() * (mesh_.corner(splitter_.triangle(i), k) - frame_.origin());
-        corners_.push_back(v[static_cast<std::size_t>(k)]);
-      }
-      normal += (v[1] - v[0]).cross(v[2] - v[0]);
+      const std::uint32_t triangle = splitter_.triangle(i);
+      bound_.add(mesh_.corner(triangle, 0), mesh_.corner(triangle, 1), mesh_.corner(triangle, 2));
     }
-    return bound_points(corners_, normal);
+    return bound_.bound();
   }
 
   std::uint32_t add_block(const TriangleRange& range) {
@@ -91,34 +81,17 @@ class Builder {
     std::fill(std::begin(block.offset[0]), std::end(block.offset[0]), std::numeric_limits<float>::max());
     for (std::uint32_t i = 0; i < range.size(); ++i) {
       parts_->triangles.push_back(prepare(mesh_, splitter_.triangle(range.begin + i)));
-      const TrianglePlanes planes = planes_of(parts_->triangles.back(), frame_);
-      for (int k = 0; k < 4; ++k) {
-        block.x[k][i] = planes.x[k];
-        block.y[k][i] = planes.y[k];
-        block.z[k][i] = planes.z[k];
-        block.offset[k][i] = planes.offset[k];
-      }
+      set_triangle(block, i, planes_of(parts_->triangles.back(), frame_));
     }
     parts_->blocks.push_back(block);
     return index;
-  }
-
-  static void place(TreeNode& node, std::size_t i, const SlabbedSphere& bound) {
-    node.x[i] = bound.center.x();
-    node.y[i] = bound.center.y();
-    node.z[i] = bound.center.z();
-    node.radius[i] = bound.radius;
-    node.normal_x[i] = bound.normal.x();
-    node.normal_y[i] = bound.normal.y();
-    node.normal_z[i] = bound.normal.z();
-    node.half[i] = bound.half;
   }
 
   const TriangleMesh& mesh_;
   const FilterFrame& frame_;
   TriangleSplitter splitter_;
   TreeParts* parts_ = nullptr;
-  std::vector<Vec3> corners_;
+  BoundOfTriangles bound_;
 };
 
 }  // namespace

@@ -37,10 +37,10 @@ struct Grid {
       : brute(BruteForce::build(mesh, {})), frame(FilterFrame::around(mesh.bounds())) {
     const Vec3 low = frame.to_frame(mesh.bounds().min), high = frame.to_frame(mesh.bounds().max);
     grid = DistanceGrid(low.cast<float>(), high.cast<float>(), mesh.size());
-    grid.fill([&](float x, float y, float z, double most) {
+    grid.fill([&](const Vec3& place, double most) {
       if (samples++ == most_samples) return DistanceGrid::Interval{-1, -1};
       const double distance =
-          frame.scale() * distance_to(brute, frame.origin() + Vec3(x, y, z) / frame.scale());
+          frame.scale() * distance_to(brute, frame.origin() + place / frame.scale());
       EXPECT_LE(distance, most);
       return DistanceGrid::Interval{least * distance, distance};
     });
