@@ -14,6 +14,7 @@
 #include "baselines/reach.h"
 #include "core/geometry/point_triangle.h"
 #include "core/geometry/sphere_triangle_sweep.h"
+#include "core/mesh_update.h"
 
 namespace touchmark::baselines {
 namespace {
@@ -110,12 +111,10 @@ struct World {
 
 struct BulletDetector::Model {
   Model(const TriangleMesh& mesh, const Options& chosen)
-      : options(chosen), bounds(mesh.bounds()), ids(mesh.ids().begin(), mesh.ids().end()) {
+      : options(chosen), connectivity(mesh), ids(mesh.ids().begin(), mesh.ids().end()) {
     if (options.frame == Frame::fitted) view = {BulletView::fitted(mesh)};
     if (options.method == Method::callback) triangles = prepare(mesh);
-    largest_coordinate =
-        view.scale *
-        (bounds.min - view.origin).cwiseAbs().cwiseMax((bounds.max - view.origin).cwiseAbs()).maxCoeff();
+    set_bounds(mesh);
     vertices.reserve(mesh.vertices().size());
     corners_of_bullet.reserve(3 * mesh.size());
     for (const Vec3& vertex : mesh.vertices()) vertices.push_back(view.into(vertex));
@@ -128,6 +127,25 @@ struct BulletDetector::Model {
     // A quantised node keeps 21 bits for the triangle, and more of them crash it.
     constexpr std::size_t quantisable = std::size_t{1} << (31 - MAX_NUM_PARTS_IN_BITS);
     shape = std::make_unique<btBvhTriangleMeshShape>(arrays.get(), mesh.size() <= quantisable);
+  }
+
+  void set_bounds(const TriangleMesh& mesh) {
+    bounds = mesh.bounds();
+    largest_coordinate =
+        view.scale *
+        (bounds.min - view.origin).cwiseAbs().cwiseMax((bounds.max - view.origin).cwiseAbs()).maxCoeff();
+  }
+
+  void update(const TriangleMesh& mesh) {
+    set_bounds(mesh);
+    for (PreparedTriangle& triangle : triangles)
+      if (has_moved(triangle, mesh)) triangle = prepare(mesh, triangle.index);
+    for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i] = view.into(mesh.vertices()[i]);
+    btVector3 low, high;
+    arrays->calculateAabbBruteForce(low, high);
+    shape->refitTree(low, high);
+    // A hierarchy that is not quantised stays as it was, without a word.
+    if (!shape->usesQuantizedAabbCompression()) shape->buildOptimizedBvh();
   }
 
   TriangleId id(std::size_t triangle) const {
@@ -150,6 +168,7 @@ struct BulletDetector::Model {
   }
 
   Options options;
+  Connectivity connectivity;
   Aabb bounds;
   std::vector<TriangleId> ids;
   View view;
@@ -285,7 +304,7 @@ struct BulletDetector::Queries {
   }
 };
 
-BulletDetector::BulletDetector(std::unique_ptr<const Model> model) noexcept : model_(std::move(model)) {}
+BulletDetector::BulletDetector(std::unique_ptr<Model> model) noexcept : model_(std::move(model)) {}
 BulletDetector::BulletDetector(BulletDetector&&) noexcept = default;
 BulletDetector& BulletDetector::operator=(BulletDetector&&) noexcept = default;
 BulletDetector::~BulletDetector() = default;
@@ -297,6 +316,11 @@ BulletDetector BulletDetector::build(const TriangleMesh& mesh, const Options& op
                     " triangles or vertices are more than " + std::to_string(most));
   }
   return BulletDetector(std::make_unique<Model>(mesh, options));
+}
+
+void BulletDetector::update(const TriangleMesh& mesh) {
+  model_->connectivity.expect(mesh);
+  model_->update(mesh);
 }
 
 bool BulletDetector::touches(const Probe& probe, Session& session) const noexcept {

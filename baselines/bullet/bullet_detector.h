@@ -47,6 +47,8 @@ class BulletDetector {
   /// Throws MeshError for more than 2^31 - 1 triangles or vertices.
   static BulletDetector build(const TriangleMesh& mesh, const Options& options);
   static BulletDetector build(const TriangleMesh& mesh) { return build(mesh, Options{}); }
+  /// See the concept Updates. Bullet refits its hierarchy; with frame fitted the one fitted first stays.
+  void update(const TriangleMesh& mesh);
 
   BulletDetector(BulletDetector&&) noexcept;
   BulletDetector& operator=(BulletDetector&&) noexcept;
@@ -63,10 +65,10 @@ class BulletDetector {
  private:
   struct Model;
   struct Queries;
-  explicit BulletDetector(std::unique_ptr<const Model> model) noexcept;
+  explicit BulletDetector(std::unique_ptr<Model> model) noexcept;
   Session::State& state(Session& session) const;
 
-  std::unique_ptr<const Model> model_;
+  std::unique_ptr<Model> model_;
 };
 
 }  // namespace touchmark::baselines

@@ -12,6 +12,7 @@
 
 #include "baselines/reach.h"
 #include "core/geometry/point_triangle.h"
+#include "core/mesh_update.h"
 
 namespace touchmark::baselines {
 namespace {
@@ -46,7 +47,8 @@ struct Frame {
 
 struct EmbreeDetector::Model {
   explicit Model(const TriangleMesh& mesh)
-      : triangles(prepare(mesh)),
+      : connectivity(mesh),
+        triangles(prepare(mesh)),
         ids(mesh.ids().begin(), mesh.ids().end()),
         bounds(mesh.bounds()),
         frame(bounds) {}
@@ -59,11 +61,13 @@ struct EmbreeDetector::Model {
 
   TriangleId id(std::uint32_t index) const noexcept { return ids.empty() ? index : ids[index]; }
 
+  Connectivity connectivity;
   std::vector<PreparedTriangle> triangles;
   std::vector<TriangleId> ids;
   Aabb bounds;
   Frame frame;
   bool warm = true;
+  Geometry geometry = Geometry::user;
   std::atomic<std::ptrdiff_t> taken{0};  // bytes
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
@@ -75,6 +79,13 @@ namespace {
   throw MeshError("Embree failed with error " + std::to_string(static_cast<int>(rtcGetDeviceError(device))));
 }
 
+void set_vertices(float* to, const TriangleMesh& mesh, const Frame& frame) {
+  for (const Vec3& v : mesh.vertices()) {
+    const Vec3 p = frame.into(v);
+    for (int k = 0; k < 3; ++k) *to++ = static_cast<float>(p[k]);
+  }
+}
+
 RTCGeometry triangle_geometry(RTCDevice device, const TriangleMesh& mesh, const Frame& frame) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
@@ -82,10 +93,7 @@ RTCGeometry triangle_geometry(RTCDevice device, const TriangleMesh& mesh, const 
   auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
       geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), mesh.size()));
   if (vertices == nullptr || indices == nullptr) fail(device);
-  for (const Vec3& v : mesh.vertices()) {
-    const Vec3 p = frame.into(v);
-    for (int k = 0; k < 3; ++k) *vertices++ = static_cast<float>(p[k]);
-  }
+  set_vertices(vertices, mesh, frame);
   for (const TriangleMesh::Corners& corners : mesh.triangles())
     indices = std::copy(corners.begin(), corners.end(), indices);
   return geometry;
@@ -162,20 +170,34 @@ struct EmbreeCallbacks {
   }
 };
 
-EmbreeDetector::EmbreeDetector(std::unique_ptr<const Model> model) noexcept : model_(std::move(model)) {}
+EmbreeDetector::EmbreeDetector(std::unique_ptr<Model> model) noexcept : model_(std::move(model)) {}
 EmbreeDetector::EmbreeDetector(EmbreeDetector&&) noexcept = default;
 EmbreeDetector& EmbreeDetector::operator=(EmbreeDetector&&) noexcept = default;
 EmbreeDetector::~EmbreeDetector() = default;
 
+namespace {
+
+void commit(RTCScene scene, RTCDevice device) {
+  rtcCommitScene(scene);
+  const RTCError error = rtcGetDeviceError(device);
+  if (error != RTC_ERROR_NONE)
+    throw MeshError("Embree failed with error " + std::to_string(static_cast<int>(error)));
+}
+
+}  // namespace
+
 EmbreeDetector EmbreeDetector::build(const TriangleMesh& mesh, const Options& options) {
   auto model = std::make_unique<Model>(mesh);
   model->warm = options.warm;
+  model->geometry = options.geometry;
   // One thread, as everybody else builds with; and the caller's floating-point modes stay as they are.
   model->device = rtcNewDevice("threads=1,set_affinity=0");
   if (model->device == nullptr) fail(nullptr);
   rtcSetDeviceMemoryMonitorFunction(model->device, EmbreeCallbacks::monitor, &model->taken);
   model->scene = rtcNewScene(model->device);
-  rtcSetSceneFlags(model->scene, RTC_SCENE_FLAG_ROBUST);
+  const bool refits = options.quality == Quality::refit;
+  rtcSetSceneFlags(model->scene,
+                   refits ? RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC : RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(
       model->scene, options.quality == Quality::high ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM);
   RTCGeometry geometry = nullptr;
@@ -187,14 +209,30 @@ EmbreeDetector EmbreeDetector::build(const TriangleMesh& mesh, const Options& op
     rtcSetGeometryUserData(geometry, model.get());
     rtcSetGeometryBoundsFunction(geometry, EmbreeCallbacks::bounds_of, nullptr);
   }
+  if (refits) rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_REFIT);
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(model->scene, geometry);
   rtcReleaseGeometry(geometry);
-  rtcCommitScene(model->scene);
-  const RTCError error = rtcGetDeviceError(model->device);
-  if (error != RTC_ERROR_NONE)
-    throw MeshError("Embree failed with error " + std::to_string(static_cast<int>(error)));
+  commit(model->scene, model->device);
   return EmbreeDetector(std::move(model));
+}
+
+void EmbreeDetector::update(const TriangleMesh& mesh) {
+  Model& model = *model_;
+  model.connectivity.expect(mesh);
+  for (PreparedTriangle& triangle : model.triangles)
+    if (has_moved(triangle, mesh)) triangle = prepare(mesh, triangle.index);
+  model.bounds = mesh.bounds();
+  model.frame = Frame(model.bounds);
+  RTCGeometry geometry = rtcGetGeometry(model.scene, 0);
+  // The other one is asked for its boxes again.
+  if (model.geometry == Geometry::triangle) {
+    set_vertices(static_cast<float*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0)), mesh,
+                 model.frame);
+    rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
+  }
+  rtcCommitGeometry(geometry);
+  commit(model.scene, model.device);
 }
 
 std::optional<Contact> EmbreeDetector::nearest(const Probe& probe, double reach,

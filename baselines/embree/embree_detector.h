@@ -14,8 +14,8 @@ class EmbreeDetector {
  public:
   /// triangle: Embree's triangle geometry. user: user geometry with boxes of our own, rounded outward.
   enum class Geometry { triangle, user };
-  /// Embree's build quality.
-  enum class Quality { medium, high };
+  /// Embree's build quality; refit: medium, in a scene of the kind that follows its geometry by refitting.
+  enum class Quality { medium, high, refit };
 
   struct Options {
     Geometry geometry = Geometry::user;
@@ -30,6 +30,8 @@ class EmbreeDetector {
   /// Throws MeshError when Embree has no memory for the mesh or cannot be started.
   static EmbreeDetector build(const TriangleMesh& mesh, const Options& options);
   static EmbreeDetector build(const TriangleMesh& mesh) { return build(mesh, Options()); }
+  /// See the concept Updates. Embree builds its hierarchy anew, or with quality refit refits it.
+  void update(const TriangleMesh& mesh);
 
   EmbreeDetector(EmbreeDetector&&) noexcept;
   EmbreeDetector& operator=(EmbreeDetector&&) noexcept;
@@ -45,9 +47,9 @@ class EmbreeDetector {
  private:
   friend struct EmbreeCallbacks;
   struct Model;
-  explicit EmbreeDetector(std::unique_ptr<const Model> model) noexcept;
+  explicit EmbreeDetector(std::unique_ptr<Model> model) noexcept;
 
-  std::unique_ptr<const Model> model_;
+  std::unique_ptr<Model> model_;
 };
 
 }  // namespace touchmark::baselines

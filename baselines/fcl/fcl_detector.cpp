@@ -20,6 +20,7 @@
 
 #include "baselines/reach.h"
 #include "core/geometry/point_triangle.h"
+#include "core/mesh_update.h"
 
 namespace touchmark::baselines {
 namespace {
@@ -208,19 +209,23 @@ FclDetector::Session::State& FclDetector::Session::state() {
 
 struct FclDetector::Model {
   Options options;
+  Connectivity connectivity;
   Aabb bounds;
   double largest_coordinate = 0;
   std::vector<TriangleId> ids;
   std::vector<PreparedTriangle> triangles;  ///< narrow exact only
 
   Model(const TriangleMesh& mesh, const Options& chosen)
-      : options(chosen),
-        bounds(mesh.bounds()),
-        largest_coordinate(bounds.min.cwiseAbs().cwiseMax(bounds.max.cwiseAbs()).maxCoeff()),
-        ids(mesh.ids().begin(), mesh.ids().end()) {
+      : options(chosen), connectivity(mesh), ids(mesh.ids().begin(), mesh.ids().end()) {
+    set_bounds(mesh);
     if (options.narrow == Narrow::exact) triangles = prepare(mesh);
   }
   virtual ~Model() = default;
+  void set_bounds(const TriangleMesh& mesh) {
+    bounds = mesh.bounds();
+    largest_coordinate = bounds.min.cwiseAbs().cwiseMax(bounds.max.cwiseAbs()).maxCoeff();
+  }
+  virtual void replace_vertices(const TriangleMesh& mesh) = 0;
   virtual bool touches(const Probe& probe, Session& session) const = 0;
   virtual std::optional<Contact> nearest(const Vec3& center, double reach, Session& session) const = 0;
   virtual std::size_t hierarchy_bytes() const = 0;
@@ -255,6 +260,20 @@ struct FclDetector::ModelOf : FclDetector::Model {
     for (const int status : {begun, added, ended}) {
       if (status != fcl::BVH_OK)
         throw MeshError("FCL refuses the mesh with status " + std::to_string(status));
+    }
+    hierarchy.computeLocalAABB();
+  }
+
+  void replace_vertices(const TriangleMesh& mesh) override {
+    const std::vector<Vec3> vertices(mesh.vertices().begin(), mesh.vertices().end());
+    const int begun = hierarchy.beginReplaceModel();
+    const int replaced = hierarchy.replaceSubModel(vertices);
+    // From the leaves up FCL adds volumes, and the sums of all but boxes do not hold what their parts hold.
+    const bool from_leaves = options.bv == Volume::aabb;
+    const int ended = hierarchy.endReplaceModel(true, from_leaves);
+    for (const int status : {begun, replaced, ended}) {
+      if (status != fcl::BVH_OK)
+        throw MeshError("FCL refuses the vertices with status " + std::to_string(status));
     }
     hierarchy.computeLocalAABB();
   }
@@ -400,7 +419,7 @@ struct FclDetector::ModelOf : FclDetector::Model {
   fcl::BVHModel<Bounds> hierarchy;
 };
 
-FclDetector::FclDetector(std::unique_ptr<const Model> model) noexcept : model_(std::move(model)) {}
+FclDetector::FclDetector(std::unique_ptr<Model> model) noexcept : model_(std::move(model)) {}
 FclDetector::FclDetector(FclDetector&&) noexcept = default;
 FclDetector& FclDetector::operator=(FclDetector&&) noexcept = default;
 FclDetector::~FclDetector() = default;
@@ -426,6 +445,14 @@ FclDetector FclDetector::build(const TriangleMesh& mesh, const Options& options)
       return FclDetector(std::make_unique<ModelOf<fcl::AABBd>>(mesh, options));
   }
   throw std::invalid_argument("fcl: no such bv");
+}
+
+void FclDetector::update(const TriangleMesh& mesh) {
+  model_->connectivity.expect(mesh);
+  model_->set_bounds(mesh);
+  for (PreparedTriangle& triangle : model_->triangles)
+    if (has_moved(triangle, mesh)) triangle = prepare(mesh, triangle.index);
+  model_->replace_vertices(mesh);
 }
 
 bool FclDetector::touches(const Probe& probe, Session& session) const noexcept {

@@ -49,6 +49,8 @@ class FclDetector {
   /// triangles or vertices.
   static FclDetector build(const TriangleMesh& mesh, const Options& options);
   static FclDetector build(const TriangleMesh& mesh) { return build(mesh, Options{}); }
+  /// See the concept Updates. FCL replaces its vertices and refits its hierarchy.
+  void update(const TriangleMesh& mesh);
 
   FclDetector(FclDetector&&) noexcept;
   FclDetector& operator=(FclDetector&&) noexcept;
@@ -66,9 +68,9 @@ class FclDetector {
   struct Model;
   template <class Volume>
   struct ModelOf;
-  explicit FclDetector(std::unique_ptr<const Model> model) noexcept;
+  explicit FclDetector(std::unique_ptr<Model> model) noexcept;
 
-  std::unique_ptr<const Model> model_;
+  std::unique_ptr<Model> model_;
 };
 
 }  // namespace touchmark::baselines

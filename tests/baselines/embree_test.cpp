@@ -1,5 +1,6 @@
 #include <limits>
 #include <random>
+#include <stdexcept>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -100,6 +101,39 @@ TEST(Embree, AProbeThatIsNotANumberTouchesNothing) {
   const Vec3 nan = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
   EXPECT_FALSE(embree.nearest({nan, 1}, infinity, session));
   EXPECT_FALSE(embree.touches({nan, 1}, session));
+}
+
+/// There and back again, from one session, against brute force on the mesh as it is then.
+TEST(Embree, FollowsVerticesThatMove) {
+  const TriangleMesh mesh = soup(1, 0);
+  std::vector<Vec3> vertices(mesh.vertices().begin(), mesh.vertices().end());
+  for (std::size_t i = 0; i < vertices.size(); i += 2) vertices[i] += Vec3(0.1, 0.3, -0.2);
+  const TriangleMesh other(vertices, {mesh.triangles().begin(), mesh.triangles().end()});
+  for (const EmbreeDetector::Options& form : std::vector<EmbreeDetector::Options>{
+           {},
+           {EmbreeDetector::Geometry::triangle, EmbreeDetector::Quality::medium, true},
+           {EmbreeDetector::Geometry::user, EmbreeDetector::Quality::refit, true},
+           {EmbreeDetector::Geometry::triangle, EmbreeDetector::Quality::refit, false}}) {
+    EmbreeDetector detector = EmbreeDetector::build(mesh, form);
+    EmbreeDetector::Session session;
+    for (const TriangleMesh* now : {&mesh, &other, &mesh, &other}) {
+      detector.update(*now);
+      const BruteForce reference = BruteForce::build(*now);
+      BruteForce::Session brute;
+      Random random(21);
+      for (int i = 0; i < 200; ++i) {
+        const Probe probe{1.2 * random.point(), 0.1};
+        const auto contact = detector.nearest(probe, 0.3, session),
+                   expected = reference.nearest(probe, 0.3, brute);
+        ASSERT_EQ(contact.has_value(), expected.has_value()) << i;
+        if (!contact) continue;
+        EXPECT_NEAR(contact->distance, expected->distance, 0);
+        EXPECT_EQ(contact->triangle, expected->triangle);
+        EXPECT_EQ(detector.touches(probe, session), reference.touches(probe, brute));
+      }
+    }
+    EXPECT_THROW(detector.update(TriangleMesh({{0, 0, 0}}, {{0, 0, 0}})), std::invalid_argument);
+  }
 }
 
 }  // namespace

@@ -65,4 +65,16 @@ inline TriangleMesh soup(std::uint32_t triangles, std::uint64_t seed) {
   return TriangleMesh(std::move(vertices), std::move(corners));
 }
 
+/// The same triangles, one corner of the box pushed in and everything shifted a little.
+inline TriangleMesh moved(const TriangleMesh& mesh) {
+  std::vector<Vec3> vertices(mesh.vertices().begin(), mesh.vertices().end());
+  for (Vec3& v : vertices) {
+    v += Vec3(0.01, 0, 0.02);
+    if (v.x() > 0.3 && v.y() > 0.3) v.z() += 0.4;
+  }
+  return {std::move(vertices),
+          {mesh.triangles().begin(), mesh.triangles().end()},
+          {mesh.ids().begin(), mesh.ids().end()}};
+}
+
 }  // namespace touchmark::baselines
