@@ -14,6 +14,7 @@
 #include "bench/answer.h"
 #include "bench/tick_clock.h"
 #include "core/detector.h"
+#include "core/mesh_update.h"
 
 namespace touchmark::bench {
 
@@ -55,6 +56,11 @@ class Contestant {
   /// The answer to each step of the window and the total work it took; both spans have the window's size.
   virtual void answer(const Course& course, Window window, std::span<Answer> answers,
                       std::span<std::uint64_t> work) noexcept = 0;
+  /// Can it follow a mesh whose vertices move? Only then may it be asked to; the session stays.
+  virtual bool updates() const noexcept { return false; }
+  /// See the concept Updates. Throws what the detector's update throws.
+  virtual void update(const TriangleMesh& mesh) { static_cast<void>(mesh); }
+
   /// The same answers folded into the checksum, and nothing else: the loop that is timed from outside.
   virtual void replay(const Course& course, Window window, Checksum& checksum) noexcept = 0;
   /// The same, with the clock read once a step: the ticks each step took, one clock reading included.
@@ -99,6 +105,10 @@ requires(idle == Idle::wasted || Prepares<D>) class ContestantOf final : public 
   Accuracy accuracy() const noexcept override { return detector_.accuracy(); }
   std::size_t bytes() const noexcept override { return detector_.bytes(); }
   void forget() override { session_.emplace(); }
+  bool updates() const noexcept override { return Updates<D>; }
+  void update([[maybe_unused]] const TriangleMesh& mesh) override {
+    if constexpr (Updates<D>) detector_.update(mesh);
+  }
   Work work() const noexcept override { return session_->work; }
 
   void answer(const Course& course, Window window, std::span<Answer> answers,

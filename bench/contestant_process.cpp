@@ -97,4 +97,16 @@ Timed ContestantProcess::latency(const Task& task) {
   return order("latency", task, nlohmann::json::object());
 }
 
+Updated ContestantProcess::update(const Deformation& deformation) {
+  start();
+  return ask({{"order", "update"}, {"contestant", spec_.text()}, {"deformation", deformation}},
+             stage_.options().build_patience);
+}
+
+void ContestantProcess::rebuild(const Deformation& deformation) {
+  start();
+  ask({{"order", "rebuild"}, {"contestant", spec_.text()}, {"deformation", deformation}},
+      stage_.options().build_patience);
+}
+
 }  // namespace touchmark::bench

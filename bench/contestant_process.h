@@ -11,6 +11,7 @@
 
 #include "bench/contestant_info.h"
 #include "bench/shared_workload.h"
+#include "bench/update/deformation.h"
 #include "bench/worker_process.h"
 #include "bench/worker_protocol.h"
 #include "bench/workload.h"
@@ -62,6 +63,9 @@ class ContestantProcess {
   Timed first_pass(const Task& task);
   Timed time(const Task& task, std::int64_t passes);
   Timed latency(const Task& task);
+  /// The detector follows the mesh as it is deformed; or, built anew, is that of the deformed mesh.
+  Updated update(const Deformation& deformation);
+  void rebuild(const Deformation& deformation);
 
   /// Seconds that all its workers were waited for, building included.
   double busy_s() const noexcept { return busy_s_; }

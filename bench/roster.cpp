@@ -237,12 +237,14 @@ ContestantInfo embree() {
   using Geometry = EmbreeDetector::Geometry;
   using Quality = EmbreeDetector::Quality;
   static const Names<Geometry> geometries{{"user", Geometry::user}, {"triangle", Geometry::triangle}};
-  static const Names<Quality> qualities{{"medium", Quality::medium}, {"high", Quality::high}};
+  static const Names<Quality> qualities{
+      {"medium", Quality::medium}, {"high", Quality::high}, {"refit", Quality::refit}};
   info.accuracy = "exact";
   info.queries = queries_of<EmbreeDetector>();
   info.options = {
       choice("geometry", geometries, "user: boxes of our own, rounded outward; triangle: Embree's"),
-      choice("quality", qualities, "Embree's build quality"),
+      choice("quality", qualities,
+             "Embree's; refit: updates refit the hierarchy instead of building it anew"),
       choice("warm", yes_or_no, "start from the distance of the session's last triangle")};
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
     return contestant<EmbreeDetector>(

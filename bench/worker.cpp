@@ -15,11 +15,13 @@
 
 #include "bench/floating_point.h"
 #include "bench/line_channel.h"
+#include "bench/median.h"
 #include "bench/query_name.h"
 #include "bench/shared_memory.h"
 #include "bench/shared_workload.h"
 #include "bench/throughput.h"
 #include "bench/tick_clock.h"
+#include "bench/update/deformation.h"
 #include "bench/windows.h"
 #include "bench/worker_protocol.h"
 
@@ -55,6 +57,8 @@ class Worker {
     if (what == "open") return open(order.at("layout"), order.at("calibrate_clock"));
     if (what == "build") return build(order.at("contestant"));
     if (contestant_ == nullptr) throw std::logic_error("nothing is built");
+    if (what == "update") return update(order.at("contestant"), order.at("deformation"));
+    if (what == "rebuild") return rebuild(order.at("contestant"), order.at("deformation"));
     const Task task = order.at("task");
     if (what == "first") return first(task);
     if (what == "calibrate") return calibrate(task, order.at("budget_ns"));
@@ -68,6 +72,8 @@ class Worker {
  private:
   nlohmann::json open(const WorkloadLayout& layout, bool with_clock);
   nlohmann::json build(const std::string& spec);
+  nlohmann::json update(const std::string& spec, const Deformation& deformation);
+  nlohmann::json rebuild(const std::string& spec, const Deformation& deformation);
   nlohmann::json first(const Task& task);
   nlohmann::json calibrate(const Task& task, double budget_ns);
   nlohmann::json answer(const Task& task);
@@ -85,6 +91,7 @@ class Worker {
   const Roster& roster_;
   SharedMemory input_;
   SharedMemory output_;
+  WorkloadLayout layout_;
   std::optional<OutputRoom> room_;
   std::optional<TriangleMesh> mesh_;
   std::vector<std::vector<Step>> courses_;
@@ -94,6 +101,7 @@ class Worker {
 nlohmann::json Worker::open(const WorkloadLayout& layout, bool with_clock) {
   Opened opened;
   opened.flushed_to_zero = restore_denormals();
+  layout_ = layout;
   mesh_ = read_mesh(input_.bytes(), layout);
   courses_ = read_courses(input_.bytes(), layout);
   room_.emplace(output_.bytes(), layout.longest_course());
@@ -146,6 +154,48 @@ Timed Worker::timed_replay(const Course& course, const std::vector<Window>& wind
   for (const Window& window : windows) contestant_->replay(course, window, checksum);
   const double elapsed = ns_since(start);
   return {elapsed / static_cast<double>(steps_in(windows)), 0, checksum.value(), true};
+}
+
+nlohmann::json Worker::update(const std::string& spec_text, const Deformation& deformation) {
+  constexpr std::size_t fewest_rounds = 3, most_rounds = 25;
+  constexpr double enough_ns = 1e9;
+  Updated updated;
+  updated.supported = contestant_->updates();
+  if (!updated.supported) return updated;
+  const ContestantSpec spec = roster_.parse(spec_text);
+  const TriangleMesh rest = read_mesh(input_.bytes(), layout_), moved = deformed(rest, deformation);
+  const auto timed_update = [&](const TriangleMesh& mesh) {
+    const Clock::time_point start = Clock::now();
+    contestant_->update(mesh);
+    return ns_since(start);
+  };
+  std::vector<double> builds, updates, ratios;
+  try {
+    contestant_->update(rest);
+    const Clock::time_point start = Clock::now();
+    while (builds.size() < fewest_rounds || (builds.size() < most_rounds && ns_since(start) < enough_ns)) {
+      const double there = timed_update(moved), back = timed_update(rest);
+      const Clock::time_point before = Clock::now();
+      std::unique_ptr<Contestant> anew = roster_.build(spec, moved);
+      builds.push_back(ns_since(before));
+      updates.insert(updates.end(), {there, back});
+      ratios.push_back(0.5 * (there + back) / builds.back());
+    }
+    contestant_->update(moved);
+  } catch (const std::exception& error) {
+    updated.refused = error.what();
+    return updated;
+  }
+  updated.rounds = builds.size();
+  updated.build_ms = median(builds) / 1e6;
+  updated.update_ms = median(updates) / 1e6;
+  updated.update_over_build = median(ratios);
+  return updated;
+}
+
+nlohmann::json Worker::rebuild(const std::string& spec, const Deformation& deformation) {
+  contestant_ = roster_.build(roster_.parse(spec), deformed(read_mesh(input_.bytes(), layout_), deformation));
+  return nlohmann::json::object();
 }
 
 nlohmann::json Worker::first(const Task& task) {

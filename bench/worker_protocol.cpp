@@ -95,4 +95,19 @@ void from_json(const nlohmann::json& json, Timed& timed) {
   json.at("steady").get_to(timed.steady);
 }
 
+void to_json(nlohmann::json& json, const Updated& updated) {
+  json = {{"supported", updated.supported}, {"refused", updated.refused},
+          {"rounds", updated.rounds},       {"build_ms", updated.build_ms},
+          {"update_ms", updated.update_ms}, {"update_over_build", updated.update_over_build}};
+}
+
+void from_json(const nlohmann::json& json, Updated& updated) {
+  json.at("supported").get_to(updated.supported);
+  json.at("refused").get_to(updated.refused);
+  json.at("rounds").get_to(updated.rounds);
+  json.at("build_ms").get_to(updated.build_ms);
+  json.at("update_ms").get_to(updated.update_ms);
+  json.at("update_over_build").get_to(updated.update_over_build);
+}
+
 }  // namespace touchmark::bench

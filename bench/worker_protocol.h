@@ -59,6 +59,19 @@ struct Timed {
   bool steady = true;  ///< every pass gave the same checksum
 };
 
+/// Reply to "update": the detector follows the deformed mesh now. Updates, there and back, and builds of the
+/// deformed mesh took turns before; medians over the rounds.
+struct Updated {
+  bool supported = false;
+  std::string refused;  ///< the message of what update threw
+  std::size_t rounds = 0;
+  double build_ms = 0;
+  double update_ms = 0;
+  double update_over_build = 0;  ///< within a round
+};
+
+void to_json(nlohmann::json& json, const Updated& updated);
+void from_json(const nlohmann::json& json, Updated& updated);
 void to_json(nlohmann::json& json, const Task& task);
 void from_json(const nlohmann::json& json, Task& task);
 void to_json(nlohmann::json& json, const Opened& opened);
