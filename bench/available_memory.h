@@ -1,11 +1,21 @@
+/// Whether there is room, asked before memory is taken.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 namespace touchmark::bench {
 
-/// Bytes that can be taken now without swapping; nothing where the system does not say.
+/// Bytes that can be taken now without swapping and within the process's own limit (ulimit -v), which so is a
+/// budget that anybody can state; nothing where the system does not say.
 std::optional<std::uint64_t> available_memory();
+
+/// Throws ResourceError("WHAT need about N MB of memory, and M MB are available") where there is less. Any
+/// number of bytes, infinity too.
+void require_memory(std::string_view what, double bytes);
+
+/// How a contestant's refusal begins that is for want of memory.
+inline constexpr std::string_view no_memory = "no memory: ";
 
 }  // namespace touchmark::bench

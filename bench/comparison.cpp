@@ -3,6 +3,9 @@
 #include <optional>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "bench/available_memory.h"
 #include "bench/case.h"
 #include "bench/interrupt.h"
 #include "bench/random.h"
@@ -41,13 +44,21 @@ std::unique_ptr<const StoredScene> stored_scene(const ContestantInfo& info, cons
   }
 }
 
+/// Before the oracle takes it for its boxes and triangles, and the workers for their copy.
+const Workload& with_room(const Workload& workload) {
+  constexpr double bytes_a_triangle = 270;
+  require_memory(fmt::format("the oracle's {} triangles", workload.mesh.size()),
+                 bytes_a_triangle * static_cast<double>(workload.mesh.size()));
+  return workload;
+}
+
 }  // namespace
 
 Comparison::Comparison(const Roster& roster, const Workload& workload,
                        const std::vector<ContestantSpec>& contestants, const WorkerOptions& workers,
                        const Effort& effort, std::uint64_t seed)
     : roster_(roster),
-      workload_(workload),
+      workload_(with_room(workload)),
       effort_(effort),
       seed_(seed),
       stage_(workload, workers),

@@ -1,10 +1,23 @@
 #include "bench/contestant_process.h"
 
+#include <cstdio>
 #include <utility>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 namespace touchmark::bench {
+namespace {
+
+/// On stderr, in place of a progress line that may be there.
+void pass_on(const std::vector<std::string>& remarks, const std::string& contestant) {
+  const char* const over_progress = isatty(STDERR_FILENO) != 0 ? "\r\x1b[K" : "";
+  for (const std::string& text : remarks)
+    fmt::print(stderr, "{}touchmark: {}: {}\n", over_progress, contestant, text);
+}
+
+}  // namespace
 
 WorkerStage::WorkerStage(const Workload& workload, WorkerOptions options)
     : options_(std::move(options)),
@@ -46,8 +59,12 @@ void ContestantProcess::start() {
     opened_ =
         ask({{"order", "open"}, {"layout", stage_.layout()}, {"calibrate_clock", options.calibrate_clock}},
             options.build_patience);
-    const Built built = ask({{"order", "build"}, {"contestant", spec_.text()}}, options.build_patience);
-    if (!built_) built_ = built;
+    const nlohmann::json reply =
+        ask({{"order", "build"}, {"contestant", spec_.text()}}, options.build_patience);
+    if (!built_) {
+      built_ = reply.get<Built>();
+      pass_on(reply.at("remarks").get<std::vector<std::string>>(), spec_.text());
+    }
   } catch (const WorkerFailure& failure) {
     failed_build_ = failure.what();
     throw;

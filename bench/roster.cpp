@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "bench/roster_options.h"
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
@@ -68,6 +70,20 @@ ContestantInfo aabb_tree() {
   return info;
 }
 
+/// Whether cells or groups are fewer than asked for, to keep within memory.
+std::string remark_on(const GridGroup& detector, const GridGroup::Options& options, std::size_t triangles) {
+  if (options.cell > 0 && detector.cell() > 1.01 * options.cell) {
+    return fmt::format("cells of {} would take more memory than they may; the smallest is {}", options.cell,
+                       detector.cell());
+  }
+  if (options.bytes_per_triangle != GridGroup::Options().bytes_per_triangle && detector.coarsened() &&
+      options.lookup == GridGroup::Lookup::direct) {
+    return fmt::format("within {} bytes a triangle {} of {} have a group, the others are searched for",
+                       options.bytes_per_triangle, detector.groups(), triangles);
+  }
+  return "";
+}
+
 ContestantInfo grid_group() {
   static const Names<GridGroup::Lookup> lookups{{"direct", GridGroup::Lookup::direct},
                                                 {"scan", GridGroup::Lookup::scan}};
@@ -81,7 +97,11 @@ ContestantInfo grid_group() {
   info.options = {
       choice("lookup", lookups, "direct: the probe's own cell; scan: every group, as published"),
       choice("shape", shapes, "of the groups; scan only"),
-      {"cell", OptionKind::length, {}, "0", "edge of a cell, direct: of the smallest; 0: choose"},
+      {"cell",
+       OptionKind::length,
+       {},
+       "0",
+       "edge of a cell, direct: of the smallest; larger where memory is short; 0: choose"},
       {"groups", OptionKind::count, {}, "0", "scan with cell=0: aim at so many groups; 0: choose"},
       {"bytes_per_triangle", OptionKind::number, {}, "400", "direct: what the structure may take"},
       certified_option(),
@@ -94,7 +114,11 @@ ContestantInfo grid_group() {
     options.groups = values.count("groups");
     options.bytes_per_triangle = values.number("bytes_per_triangle");
     options.certified = chosen(values, "certified", yes_or_no);
-    return contestant<GridGroup>(mesh, options, values);
+    const bool direct = options.lookup == GridGroup::Lookup::direct;
+    require_memory_for(mesh, direct ? options.bytes_per_triangle : least_bytes_per_triangle);
+    return contestant<GridGroup>(mesh, options, values, [&](const GridGroup& detector) {
+      return remark_on(detector, options, mesh.size());
+    });
   };
   return info;
 }

@@ -9,10 +9,8 @@
 #include <string_view>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "bench/available_memory.h"
-#include "bench/failures.h"
 #include "bench/generated_scenes.h"
 #include "bench/near_names.h"
 #include "bench/numbers.h"
@@ -49,21 +47,28 @@ const std::string& parameter(const Request& request, std::string_view form) {
   return *request.parameter;
 }
 
-/// Before anything is taken, for closed meshes and soup alike: corners, up to three vertices each, a
-/// transformed copy.
-void require_memory(const Request& request, std::uint64_t triangles, std::uint64_t vertices) {
-  const std::uint64_t needed = 2 * (triangles * sizeof(TriangleMesh::Corners) + vertices * sizeof(Vec3));
-  const std::optional<std::uint64_t> available = available_memory();
-  if (!available || needed <= *available) return;
-  throw ResourceError(
-      fmt::format("mesh \"{}\": {} triangles need about {} MB of memory, and {} MB are available",
-                  request.whole, triangles, needed >> 20, *available >> 20));
+/// For closed meshes and soup alike: corners, up to three vertices each, a transformed copy.
+void require_memory_for(const Request& request, std::uint64_t triangles, std::uint64_t vertices) {
+  require_memory(
+      fmt::format("mesh \"{}\": {} triangles", request.whole, triangles),
+      static_cast<double>(2 * (triangles * sizeof(TriangleMesh::Corners) + vertices * sizeof(Vec3))));
+}
+
+/// A file is read whole, and its mesh takes about as much again.
+TriangleMesh load_file(const fs::path& file) {
+  std::error_code ignored;
+  if (fs::is_regular_file(file, ignored)) {
+    const std::uintmax_t size = fs::file_size(file, ignored);
+    if (!ignored)
+      require_memory(fmt::format("mesh {}: {} bytes", file.string(), size), 2 * static_cast<double>(size));
+  }
+  return touchmark::load_mesh(file);
 }
 
 TriangleMesh make_icosphere(const Request& request) {
   const std::uint64_t levels = whole_number(request, parameter(request, "icosphere:N"), "N", 0, 11);
   const std::uint64_t triangles = std::uint64_t{20} << (2 * levels);
-  require_memory(request, 4 * triangles, triangles / 2);  // the edges are sorted on the way
+  require_memory_for(request, 4 * triangles, triangles / 2);  // the edges are sorted on the way
   return icosphere(static_cast<unsigned>(levels));
 }
 
@@ -78,21 +83,21 @@ TriangleMesh make_torus(const Request& request) {
   if (triangles > most_generated_triangles) {
     throw request.refusal(fmt::format("{} triangles, more than {}", triangles, most_generated_triangles));
   }
-  require_memory(request, triangles, triangles / 2);
+  require_memory_for(request, triangles, triangles / 2);
   return torus(static_cast<std::uint32_t>(around), static_cast<std::uint32_t>(along));
 }
 
 TriangleMesh make_noisy_sphere(const Request& request) {
   const std::string& text = parameter(request, "noisy-sphere:TRIANGLES");
   const std::uint64_t triangles = whole_number(request, text, "TRIANGLES", 6, most_generated_triangles);
-  require_memory(request, triangles, triangles / 2);
+  require_memory_for(request, triangles, triangles / 2);
   return noisy_sphere(triangles);
 }
 
 TriangleMesh make_soup(const Request& request) {
   const std::string& text = parameter(request, "soup:N");
   const std::uint64_t triangles = whole_number(request, text, "N", 1, most_generated_triangles);
-  require_memory(request, triangles, 3 * triangles);
+  require_memory_for(request, triangles, 3 * triangles);
   return soup(triangles);
 }
 
@@ -120,7 +125,7 @@ TriangleMesh make_bunny(const Request& request) {
   if (file.empty()) {
     throw request.refusal(fmt::format("{} is not there; install the package glmark2-data", bunny_files[0]));
   }
-  return touchmark::load_mesh(file);
+  return load_file(file);
 }
 
 /// ${TOUCHMARK_DATA:-${XDG_CACHE_HOME:-~/.cache}/touchmark}, where scripts/setup puts what it fetches.
@@ -147,7 +152,7 @@ TriangleMesh make_dragon(const Request& request) {
     throw request.refusal(
         fmt::format("{} is not there; fetch it with scripts/setup --dragon", file.string()));
   }
-  return touchmark::load_mesh(file);
+  return load_file(file);
 }
 
 bool always() { return true; }
@@ -275,9 +280,8 @@ TriangleMesh load_unmodified(Request& request) {
   }
   std::error_code ignored;
   const bool looks_like_a_path = request.name.find_first_of("/.") != std::string::npos;
-  if (fs::exists(request.name, ignored)) return touchmark::load_mesh(request.name);
-  if (looks_like_a_path && request.name.find('@') == std::string::npos)
-    return touchmark::load_mesh(request.name);
+  if (fs::exists(request.name, ignored)) return load_file(request.name);
+  if (looks_like_a_path && request.name.find('@') == std::string::npos) return load_file(request.name);
   refuse_unknown(request);
 }
 

@@ -4,11 +4,15 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include "bench/atomic_file.h"
+#include "bench/available_memory.h"
 #include "bench/csv_reader.h"
 
 namespace touchmark::bench {
@@ -102,11 +106,22 @@ void append(std::string& line, double value) {
   line.append(text.data(), written.ptr);
 }
 
+/// A step takes about four times its row, here and in the workers.
+void require_memory_for(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (!error)
+    require_memory("trajectory " + path + ": " + std::to_string(size) + " bytes",
+                   4 * static_cast<double>(size));
+}
+
 }  // namespace
 
 Trajectory read_trajectory(const std::string& path, std::size_t most) {
   CsvReader file(path);
   const Columns columns = read_header(file);
+  if (most == 0) require_memory_for(path);
   Trajectory trajectory{path, {}, {}, {}};
   std::vector<std::string> row;
   while ((most == 0 || trajectory.size() < most) && file.next(row)) {

@@ -4,19 +4,24 @@
 #include <chrono>
 #include <exception>
 #include <memory>
+#include <new>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <malloc.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/available_memory.h"
+#include "bench/failures.h"
 #include "bench/floating_point.h"
 #include "bench/line_channel.h"
 #include "bench/median.h"
 #include "bench/query_name.h"
+#include "bench/remarks.h"
 #include "bench/shared_memory.h"
 #include "bench/shared_workload.h"
 #include "bench/throughput.h"
@@ -55,7 +60,12 @@ class Worker {
   nlohmann::json obey(const nlohmann::json& order) {
     const std::string what = order.at("order");
     if (what == "open") return open(order.at("layout"), order.at("calibrate_clock"));
-    if (what == "build") return build(order.at("contestant"));
+    if (what == "build") {
+      take_remarks();
+      nlohmann::json reply = build(order.at("contestant"));
+      reply["remarks"] = take_remarks();
+      return reply;
+    }
     if (contestant_ == nullptr) throw std::logic_error("nothing is built");
     if (what == "update") return update(order.at("contestant"), order.at("deformation"));
     if (what == "rebuild") return rebuild(order.at("contestant"), order.at("deformation"));
@@ -74,6 +84,7 @@ class Worker {
   nlohmann::json build(const std::string& spec);
   nlohmann::json update(const std::string& spec, const Deformation& deformation);
   nlohmann::json rebuild(const std::string& spec, const Deformation& deformation);
+  nlohmann::json refused(std::string why);
   nlohmann::json first(const Task& task);
   nlohmann::json calibrate(const Task& task, double budget_ns);
   nlohmann::json answer(const Task& task);
@@ -130,10 +141,12 @@ nlohmann::json Worker::build(const std::string& spec_text) {
     // A short build is repeated, since the first one pays for page faults that have nothing to do with it.
     constexpr double short_build_ns = 20e6;
     while (times_ns.size() < 5 && times_ns.front() < short_build_ns) times_ns.push_back(timed_build(spec));
+  } catch (const std::bad_alloc&) {
+    return refused(fmt::format("{}all of it is taken", no_memory));
+  } catch (const ResourceError& error) {
+    return refused(fmt::format("{}{}", no_memory, error.what()));
   } catch (const std::exception& error) {
-    contestant_.reset();
-    built.refused = error.what();
-    return built;
+    return refused(error.what());
   }
   std::nth_element(times_ns.begin(), times_ns.begin() + static_cast<std::ptrdiff_t>(times_ns.size() / 2),
                    times_ns.end());
@@ -145,6 +158,13 @@ nlohmann::json Worker::build(const std::string& spec_text) {
     if (contestant_->answers(query)) built.queries.push_back(query);
   }
   built.prepares = contestant_->prepares();
+  return built;
+}
+
+nlohmann::json Worker::refused(std::string why) {
+  contestant_.reset();
+  Built built;
+  built.refused = std::move(why);
   return built;
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/available_memory.h"
 #include "bench/commands/mesh_commands.h"
 #include "bench/mesh_report.h"
 #include "bench/program.h"
@@ -20,6 +21,9 @@ struct InfoOptions {
   bool normalize = false;
   bool json = false;
 };
+
+/// What report_on takes for a triangle.
+constexpr double bytes_reported_on = 400;
 
 const char* yes_or_no(bool value) { return value ? "yes" : "no"; }
 
@@ -111,7 +115,10 @@ void add_info(CLI::App& mesh_command) {
   command->add_flag("--json", options->json, "as JSON");
   command->footer("Example: touchmark mesh info bunny@normalize\n");
   command->final_callback([options] {
-    const MeshReport report = report_on(load_mesh(options->mesh, options->normalize));
+    const TriangleMesh mesh = load_mesh(options->mesh, options->normalize);
+    require_memory(fmt::format("edges and sides of {} triangles", mesh.size()),
+                   bytes_reported_on * static_cast<double>(mesh.size()));
+    const MeshReport report = report_on(mesh);
     StandardOutput out;
     out.write(options->json ? as_json(options->mesh, report) : as_text(report));
     out.finish();

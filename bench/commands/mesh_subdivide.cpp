@@ -1,4 +1,5 @@
 /// `touchmark mesh subdivide`: a finer mesh into a file.
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -13,6 +14,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/available_memory.h"
 #include "bench/commands/mesh_commands.h"
 #include "bench/mesh_writer.h"
 #include "bench/numbers.h"
@@ -91,10 +93,33 @@ void warn_of_seams(const SubdivideOptions& options, const TriangleMesh& coarse) 
              seams, options.mesh);
 }
 
+/// What a triangle takes while it is made: 50 million take about 4 GB.
+constexpr double bytes_a_triangle = 86;
+
+/// Where every edge splits, what comes of it is known beforehand; elsewhere it may come to what there is room
+/// for. Too many for a mesh are refused by subdivide itself.
+void keep_within_memory(SubdivisionOptions& options, std::size_t triangles) {
+  const bool by_faces = options.method == SubdivisionMethod::catmull_clark ||
+                        options.method == SubdivisionMethod::catmull_clark_linear;
+  if (by_faces || options.threshold == 0) {
+    const double fine = static_cast<double>(triangles) * std::pow(4.0, options.levels) * (by_faces ? 1.5 : 1);
+    if (fine <= static_cast<double>(options.max_triangles))
+      require_memory(fmt::format("{:.0f} triangles after level {}", fine, options.levels),
+                     bytes_a_triangle * fine);
+    return;
+  }
+  const std::optional<std::uint64_t> available = available_memory();
+  if (!available) return;
+  const double most = static_cast<double>(*available) / bytes_a_triangle;
+  if (most < static_cast<double>(options.max_triangles))
+    options.max_triangles = static_cast<std::size_t>(most);
+}
+
 void subdivide_into_file(const SubdivideOptions& options) {
   Request request = check(options);
   const TriangleMesh coarse = load_mesh(options.mesh, options.normalize);
   request.subdivision.threshold = request.threshold.in_mesh_units(coarse);
+  keep_within_memory(request.subdivision, coarse.size());
   warn_of_seams(options, coarse);
   const TriangleMesh fine = subdivide(coarse, request.subdivision);
   write_mesh(fine, options.output);

@@ -12,6 +12,7 @@
 
 #include "bench/answer_rows.h"
 #include "bench/atomic_file.h"
+#include "bench/available_memory.h"
 #include "bench/contestant_process.h"
 #include "bench/failures.h"
 #include "bench/interrupt.h"
@@ -91,7 +92,9 @@ WorkerOptions patient(const WorkerSelectors& selectors) {
 [[noreturn]] void explain(const WorkerFailure& failure, const std::string& contestant) {
   const std::string_view what = failure.what();
   if (what.starts_with(refusal_mark)) {
-    throw std::invalid_argument(fmt::format("{}: {}", contestant, what.substr(refusal_mark.size())));
+    const std::string_view why = what.substr(refusal_mark.size());
+    if (why.starts_with(no_memory)) throw ResourceError(fmt::format("{}: {}", contestant, why));
+    throw std::invalid_argument(fmt::format("{}: {}", contestant, why));
   }
   throw ResourceError(fmt::format("{} did not answer: {}", contestant, what));
 }

@@ -51,7 +51,9 @@ class CellTreeBuilder {
       ++cells_.top_levels_;
     cells_.links_.assign(std::size_t{1} << (3 * cells_.top_levels_), 0);
     least_edge_ = options_.smallest > 0 ? options_.smallest : 0.25 * mean_size();
-    least_edge_ = std::max(least_edge_, cells_.unit_ * 4);
+    const double finest = cells_.unit_ * 4;
+    cells_.coarsened_ = least_edge_ < finest;
+    least_edge_ = std::max(least_edge_, finest);
   }
 
   double size_of(const PreparedTriangle& t) const {

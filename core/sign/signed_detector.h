@@ -60,6 +60,7 @@ class Signed {
 
   std::size_t bytes() const noexcept { return detector_.bytes() + sides_.bytes(); }
   Accuracy accuracy() const noexcept { return detector_.accuracy(); }
+  const D& detector() const noexcept { return detector_; }
   const SideFinder& sides() const noexcept { return sides_; }
 
  private:
