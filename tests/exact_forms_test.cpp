@@ -159,6 +159,27 @@ TEST(ExactFormsInTies, GiveTheFirstOfTheNearest) {
   examination.ask_all("nearest within nothing", Query::nearest, steps_at(centers, reach(0), reach(0)));
 }
 
+/// Standing on the surface, going through it and going along it. A sweep of less than nothing was once taken
+/// for one of nothing, where its gap drowned in rounding.
+TEST(ExactFormsBelowZero, TouchNothing) {
+  const TriangleMesh sphere = octasphere(6).transformed(1, Vec3(0.1, 0.2, 0.3));
+  std::vector<Vec3> centers;
+  for (std::uint32_t i = 0; i < sphere.size(); i += 7) {
+    centers.push_back(sphere.corner(i, 0));
+    centers.push_back(sphere.corner(i, 1));
+    centers.push_back(3 * sphere.corner(i, 2));
+    centers.push_back(-sphere.corner(i, 2));
+  }
+  for (const ExactForm& form : exact_forms(sphere)) {
+    for (const double length : {-1e-300, -0x1p-60, -1.0, -infinity, std::nan("")}) {
+      const auto constant = [&](std::size_t) { return length; };
+      for (const Query query : {Query::touches, Query::nearest, Query::sweep})
+        for (const Answer& answer : ask(*form.detector, query, steps_at(centers, constant, constant)))
+          EXPECT_EQ(answer.found, 0) << form.name << ", " << length;
+    }
+  }
+}
+
 /// Seen along the line from its middle through a corner, a triangle is as near as its bounding sphere, and
 /// seen along an axis as its box: whether it is kept is up to the rounding of the bound.
 TEST(ExactFormsInLine, LoseNothingToTheRoundingOfABound) {

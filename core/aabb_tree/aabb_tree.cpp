@@ -195,24 +195,27 @@ bool AabbTree::touches(const Probe& probe, Session& session) const noexcept {
   if (!(probe.radius >= 0)) return false;
   const double difference = largest_difference(bounds(), probe.center);
   const double error = certified_ ? distance_error(difference) : 0, slack = culling_slack(difference);
-  if (std::isinf(error)) return nearest(probe, probe.radius, session).has_value();
+  Work& work = session.work;
+  if (std::isinf(error)) return all().touches(probe, work);
+  const std::uint64_t most = most_work(work);
   std::array<Waiting, most_levels> waiting;
   std::size_t count = 0;
   waiting[count++] = {lower_bound(nodes_[0].box, probe.center, slack), 0};
   while (count > 0) {
+    if (work.boxes + work.triangles > most) return all().touches(probe, work);
     const Waiting next = waiting[--count];
     if (!(next.bound <= probe.radius + error)) continue;
     const Node& node = nodes_[next.node];
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      ++session.work.triangles;
+      ++work.triangles;
       const double distance = std::sqrt(squared_distance(triangles_[i], probe.center));
-      if (certified_ ? is_within(triangles_[i], distance, probe.center, probe.radius, error,
-                                 session.work.exact_decisions)
-                     : distance <= probe.radius)
+      if (certified_
+              ? is_within(triangles_[i], distance, probe.center, probe.radius, error, work.exact_decisions)
+              : distance <= probe.radius)
         return true;
     }
     if (node.count > 0) continue;
-    session.work.boxes += 2;
+    work.boxes += 2;
     Waiting near{lower_bound(nodes_[node.first].box, probe.center, slack), node.first};
     Waiting far{lower_bound(nodes_[node.first + 1].box, probe.center, slack), node.first + 1};
     if (far.bound < near.bound) std::swap(near, far);
@@ -227,14 +230,13 @@ std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Sessi
   if (!(reach >= 0)) return std::nullopt;
   const double difference = largest_difference(bounds(), center);
   const double error = certified_ ? distance_error(difference) : 0, slack = culling_slack(difference);
-  if (std::isinf(error)) {
-    session.work.triangles += triangles_.size();
-    return nearest_of_all(triangles_, bounds(), center, reach, ids_, session.work.exact_decisions);
-  }
+  Work& work = session.work;
+  if (std::isinf(error)) return all().nearest(center, reach, work);
+  const std::uint64_t most = most_work(work);
   Candidate best;
   std::uint32_t kept_at = 0;
   const auto consider = [&](std::uint32_t i) {
-    ++session.work.triangles;
+    ++work.triangles;
     const Candidate candidate{squared_distance(triangles_[i], center), triangles_[i].index};
     if (!(candidate < best)) return;
     best = candidate;
@@ -246,6 +248,7 @@ std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Sessi
   std::size_t count = 0;
   waiting[count++] = {lower_bound(nodes_[0].box, center, slack), 0};
   while (count > 0) {
+    if (work.boxes + work.triangles > most) return all().nearest(center, reach, work);
     const Waiting next = waiting[--count];
     if (!(next.bound <= limit)) continue;
     const Node& node = nodes_[next.node];
@@ -254,7 +257,7 @@ std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Sessi
       limit = std::min(limit, std::sqrt(best.squared_distance));
       continue;
     }
-    session.work.boxes += 2;
+    work.boxes += 2;
     Waiting near{lower_bound(nodes_[node.first].box, center, slack), node.first};
     Waiting far{lower_bound(nodes_[node.first + 1].box, center, slack), node.first + 1};
     if (far.bound < near.bound) std::swap(near, far);
@@ -266,15 +269,21 @@ std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Sessi
   const double distance = std::sqrt(best.squared_distance);
   if (certified_ && !is_certain(distance, reach, error) &&
       !is_certain_on(triangles_[kept_at], distance, center, reach, error)) {
-    return nearest_of_ties(
-        center, distance, reach, error, ids_, session.work.exact_decisions,
-        [&](double within, const auto& visit) { for_each_near(center, within, session.work, visit); });
+    return nearest_of_ties(center, distance, reach, error, ids_, work.exact_decisions,
+                           [&](double within, const auto& visit) {
+                             if (search_near(center, within, work, most, visit)) return;
+                             work.triangles += triangles_.size();
+                             std::for_each(triangles_.begin(), triangles_.end(), visit);
+                           });
   }
   if (distance > reach) return std::nullopt;
   return contact_on(triangles_[kept_at], center, id(best.index));
 }
 
 std::optional<Impact> AabbTree::first_hit(const Sweep& sweep, Session& session) const noexcept {
+  if (!(sweep.radius >= 0)) return std::nullopt;
+  Work& work = session.work;
+  const std::uint64_t most = most_work(work);
   const double widening = sweep_widening(
       sweep, std::max(largest_difference(bounds(), sweep.from), largest_difference(bounds(), sweep.to)));
   HitCandidate first;
@@ -283,8 +292,9 @@ std::optional<Impact> AabbTree::first_hit(const Sweep& sweep, Session& session) 
   std::size_t count = 0;
   waiting[count++] = 0;
   while (count > 0) {
+    if (work.boxes + work.triangles > most) return all().first_hit(sweep, work);
     const Node& node = nodes_[waiting[--count]];
-    ++session.work.boxes;
+    ++work.boxes;
     const double limit = std::min(first.fraction, 1.0);
     if (!(enters(node.box, sweep, widening, limit) <= limit)) continue;
     if (node.count == 0) {
@@ -292,7 +302,7 @@ std::optional<Impact> AabbTree::first_hit(const Sweep& sweep, Session& session) 
       waiting[count++] = node.first;
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      ++session.work.triangles;
+      ++work.triangles;
       const std::optional<double> fraction = sweep_hit(triangles_[i], sweep, std::min(first.fraction, 1.0));
       const HitCandidate candidate{fraction.value_or(infinity), triangles_[i].index};
       if (!fraction || !(candidate < first)) continue;

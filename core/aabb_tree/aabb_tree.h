@@ -12,6 +12,7 @@
 #include "core/detector.h"
 #include "core/geometry/aabb.h"
 #include "core/geometry/certified_nearest.h"
+#include "core/geometry/every_triangle.h"
 #include "core/geometry/point_triangle.h"
 #include "core/mesh_update.h"
 
@@ -46,11 +47,20 @@ class AabbTree {
   /// phase for libraries that have none. Misses no triangle whose computed distance is at most the reach.
   template <class Visit>
   void for_each_near(const Vec3& center, double reach, Work& work, const Visit& visit) const noexcept {
+    search_near(center, reach, work, any_work, visit);
+  }
+
+ private:
+  /// Until `work` has more than `most` boxes and triangles. Returns whether it got through.
+  template <class Visit>
+  bool search_near(const Vec3& center, double reach, Work& work, std::uint64_t most,
+                   const Visit& visit) const noexcept {
     const double slack = culling_slack(largest_difference(bounds(), center));
     std::array<std::uint32_t, most_levels> waiting;
     std::size_t count = 0;
     waiting[count++] = 0;
     while (count > 0) {
+      if (work.boxes + work.triangles > most) return false;
       const Node& node = nodes_[waiting[--count]];
       ++work.boxes;
       if (lower_bound(node.box, center, slack) > reach) continue;
@@ -62,9 +72,9 @@ class AabbTree {
       work.triangles += node.count;
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i) visit(triangles_[i]);
     }
+    return true;
   }
 
- private:
   struct Node {
     Aabb box;
     std::uint32_t first =
@@ -81,6 +91,10 @@ class AabbTree {
   static double lower_bound(const Aabb& box, const Vec3& center, double slack) noexcept;
   const Aabb& bounds() const noexcept { return nodes_.front().box; }
   double expected_cost() const noexcept;
+  EveryTriangle all() const noexcept { return {triangles_, bounds(), ids_, certified_}; }
+  std::uint64_t most_work(const Work& work) const noexcept {
+    return work.boxes + work.triangles + most_work_before_all(triangles_.size());
+  }
   TriangleId id(std::uint32_t index) const noexcept { return ids_.empty() ? index : ids_[index]; }
 
   Options options_;

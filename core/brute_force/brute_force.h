@@ -8,6 +8,7 @@
 
 #include "core/detector.h"
 #include "core/geometry/aabb.h"
+#include "core/geometry/every_triangle.h"
 #include "core/geometry/point_triangle.h"
 #include "core/mesh_update.h"
 
@@ -32,7 +33,7 @@ class BruteForce {
   Accuracy accuracy() const noexcept { return certified; }
 
  private:
-  TriangleId id(std::uint32_t index) const noexcept { return ids_.empty() ? index : ids_[index]; }
+  EveryTriangle all() const noexcept { return {triangles_, bounds_, ids_}; }
 
   Connectivity connectivity_;
   Aabb bounds_;

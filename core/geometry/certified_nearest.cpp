@@ -21,7 +21,8 @@ double scale_for(double difference) noexcept {
 /// By kernel distances of a copy scaled by a power of two.
 std::optional<Contact> nearest_at_any_scale(std::span<const PreparedTriangle> triangles, const Aabb& bounds,
                                             const Vec3& center, double reach, std::span<const TriangleId> ids,
-                                            std::uint64_t& exact_decisions) noexcept {
+                                            Work& work) noexcept {
+  work.triangles += 2 * triangles.size();
   const double scale = scale_for(largest_difference(bounds, center));
   const Vec3 point = scale * center;
   const auto distance_to = [&](const PreparedTriangle& t) {
@@ -35,7 +36,7 @@ std::optional<Contact> nearest_at_any_scale(std::span<const PreparedTriangle> tr
   NearestOfTies ties(center);
   for (const PreparedTriangle& triangle : triangles)
     if (distance_to(triangle) <= limit) ties.consider(triangle);
-  return ties.contact(reach, ids, exact_decisions);
+  return ties.contact(reach, ids, work.exact_decisions);
 }
 
 }  // namespace
@@ -88,12 +89,13 @@ std::optional<Contact> NearestOfTies::contact(double reach, std::span<const Tria
 
 std::optional<Contact> nearest_of_all(std::span<const PreparedTriangle> triangles, const Aabb& bounds,
                                       const Vec3& center, double reach, std::span<const TriangleId> ids,
-                                      std::uint64_t& exact_decisions) noexcept {
+                                      Work& work) noexcept {
   if (!center.allFinite() || !(reach >= 0)) return std::nullopt;
   const double error = distance_error(bounds, center);
   if (std::isinf(error)) {
-    return nearest_at_any_scale(triangles, bounds, center, reach, ids, exact_decisions);
+    return nearest_at_any_scale(triangles, bounds, center, reach, ids, work);
   }
+  work.triangles += triangles.size();
   Candidate best;
   const PreparedTriangle* nearest = nullptr;
   for (const PreparedTriangle& triangle : triangles) {
@@ -104,8 +106,9 @@ std::optional<Contact> nearest_of_all(std::span<const PreparedTriangle> triangle
   }
   const double distance = std::sqrt(best.squared_distance);
   if (!is_certain(distance, reach, error) && !is_certain_on(*nearest, distance, center, reach, error)) {
+    work.triangles += triangles.size();
     return nearest_of_ties(
-        center, distance, reach, error, ids, exact_decisions,
+        center, distance, reach, error, ids, work.exact_decisions,
         [&](double, const auto& visit) { std::for_each(triangles.begin(), triangles.end(), visit); });
   }
   if (distance > reach) return std::nullopt;

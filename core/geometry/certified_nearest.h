@@ -35,6 +35,7 @@
 #include <optional>
 #include <span>
 
+#include "core/detector.h"
 #include "core/geometry/aabb.h"
 #include "core/geometry/close_foot.h"
 #include "core/geometry/exact_decision.h"
@@ -123,9 +124,9 @@ template <class ForEachNear>
 
 /// The same answer by a look at every triangle, for any finite numbers: where distance_error is infinite they
 /// are measured as scaled by a power of two. `bounds` are the triangles'; nothing for a centre that is not
-/// finite.
+/// finite. Every look at a triangle is counted: two, where the least computed distance does not tell.
 std::optional<Contact> nearest_of_all(std::span<const PreparedTriangle> triangles, const Aabb& bounds,
                                       const Vec3& center, double reach, std::span<const TriangleId> ids,
-                                      std::uint64_t& exact_decisions) noexcept;
+                                      Work& work) noexcept;
 
 }  // namespace touchmark

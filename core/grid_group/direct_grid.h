@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/detector.h"
+#include "core/geometry/every_triangle.h"
 #include "core/grid_group/box_tree.h"
 #include "core/grid_group/cell_tree.h"
 #include "core/grid_group/groups.h"
@@ -65,6 +66,8 @@ class DirectGrid {
     double squared_lower = 0;
     float tau = 0;     ///< the filter's, at the centre
     double error = 0;  ///< of a computed distance there
+    std::uint64_t spent = 0;
+    bool gave_up = false;  ///< after as much work as all triangles would have been
   };
   Located locate(const Vec3& center, double reach, DirectMemory& memory, Work& work) const noexcept;
   void remember(const Vec3& center, float tau, double lower, double upper,
@@ -73,12 +76,14 @@ class DirectGrid {
   /// For probes so far away that single precision tells the triangles no longer apart.
   std::optional<Contact> far_nearest(const Vec3& center, double reach, Work& work) const noexcept;
   std::optional<Impact> far_first_hit(const Sweep& sweep, Work& work) const noexcept;
+  std::optional<Impact> first_hit_of_all(const Sweep& sweep, DirectMemory& memory, Work& work) const noexcept;
   /// The impact of a sweep whose first hit is known.
   std::optional<Impact> impact_on(const Sweep& sweep, double fraction, std::uint32_t place,
                                   DirectMemory& memory, Work& work) const noexcept;
   /// What `nearest` answers where rounding could tell.
   std::optional<Contact> nearest_tie(const Vec3& center, double distance, double reach, double error,
-                                     Work& work) const noexcept;
+                                     std::uint64_t spent, Work& work) const noexcept;
+  EveryTriangle all() const noexcept { return {store_.exact, bounds_, store_.ids, certified_}; }
 
   std::uint64_t serial_ = 0;  ///< tells this grid from all others
   Aabb bounds_;

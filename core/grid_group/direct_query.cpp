@@ -17,10 +17,12 @@ bool moved_less(const DirectMemory& memory, const Vec3& center, double by) noexc
   return by > 0 && (center - memory.center).squaredNorm() < by * by * shy;
 }
 
-/// Calls visit(triangle) for every triangle that the filter does not put beyond the distance.
+/// Calls visit(triangle) for every triangle that the filter does not put beyond the distance. False when it
+/// has tested more than `most` triangles and boxes before the end.
 template <class Visit>
-void for_each_near(const TriangleStore& store, const BoxTree& tree, const Vec3& center, double distance,
-                   Work& work, const Visit& visit) noexcept {
+bool for_each_near(const TriangleStore& store, const BoxTree& tree, const Vec3& center, double distance,
+                   std::uint64_t most, Work& work, const Visit& visit) noexcept {
+  const std::uint64_t before = work.boxes + work.triangles;
   const FilterPoint point = store.frame.point(center);
   const float limit = store.frame.limit(distance * distance);
   BoxStack stack;
@@ -30,6 +32,7 @@ void for_each_near(const TriangleStore& store, const BoxTree& tree, const Vec3& 
   };
   open(static_cast<std::uint32_t>(tree.levels()) - 1, 0);
   while (!stack.empty()) {
+    if (work.boxes + work.triangles - before > most) return false;
     const BoxStack::Entry next = stack.pop();
     if (next.level > 0) {
       open(next.level - 1, next.index);
@@ -44,6 +47,7 @@ void for_each_near(const TriangleStore& store, const BoxTree& tree, const Vec3& 
         visit(store.exact[at + static_cast<std::uint32_t>(std::countr_zero(left))]);
     }
   }
+  return true;
 }
 
 }  // namespace
@@ -102,21 +106,25 @@ DirectGrid::Located DirectGrid::locate(const Vec3& center, double reach, DirectM
     start = {false, next, serving(next, search.point(), work)};
   }
   double squared_lower = reach * reach;
+  bool gave_up = false;
   if (start.group != nullptr) {
     squared_lower = store_.frame.squared(search.consider_group(groups_.members(*start.group)));
   } else {
     search.consider(start.place);
-    search.consider_tree(tree_);
+    gave_up = !search.consider_tree(tree_, most_work_before_all(store_.size()));
   }
   work.triangles += search.triangles();
   work.boxes += search.boxes();
+  if (gave_up) return {.gave_up = true};
   if (!search.found()) {
     remember(center, search.point().tau, std::sqrt(squared_lower), std::numeric_limits<double>::infinity(),
              memory);
     return {};
   }
   memory.place = search.place();
-  return {&store_.exact[search.place()], search.offset(), squared_lower, search.point().tau, search.error()};
+  return {
+      &store_.exact[search.place()],      search.offset(), squared_lower, search.point().tau, search.error(),
+      search.triangles() + search.boxes()};
 }
 
 bool DirectGrid::touches(const Probe& probe, DirectMemory& memory, Work& work) const noexcept {
@@ -124,12 +132,13 @@ bool DirectGrid::touches(const Probe& probe, DirectMemory& memory, Work& work) c
   if (!store_.frame.covers(probe.center)) return far_nearest(probe.center, probe.radius, work).has_value();
   if (memory.owner == serial_ && moved_less(memory, probe.center, probe.radius - memory.upper)) return true;
   const Located located = locate(probe.center, probe.radius, memory, work);
+  if (located.gave_up) return all().touches(probe, work);
   if (located.triangle == nullptr) return false;
   const double distance = std::sqrt(located.offset.squared);
   const bool touching =
       !certified_ || std::abs(distance - probe.radius) > located.error
           ? distance <= probe.radius
-          : nearest_tie(probe.center, distance, probe.radius, located.error, work).has_value();
+          : nearest_tie(probe.center, distance, probe.radius, located.error, located.spent, work).has_value();
   const double lower = touching ? distance : std::min(std::sqrt(located.squared_lower), distance);
   remember(probe.center, located.tau, lower, distance, memory);
   return touching;
@@ -140,6 +149,7 @@ std::optional<Contact> DirectGrid::nearest(const Vec3& center, double reach, Dir
   if (!(reach >= 0)) return std::nullopt;
   if (!store_.frame.covers(center)) return far_nearest(center, reach, work);
   const Located located = locate(center, reach, memory, work);
+  if (located.gave_up) return all().nearest(center, reach, work);
   if (located.triangle == nullptr) return std::nullopt;
   const Contact contact = contact_at(*located.triangle, center, located.offset, store_.id(memory.place));
   const bool within = contact.distance <= reach;
@@ -149,25 +159,28 @@ std::optional<Contact> DirectGrid::nearest(const Vec3& center, double reach, Dir
   if (certified_ && !is_certain(contact.distance, reach, located.error)) {
     const double error = distance_error(bounds_, center);
     if (!is_certain_on(*located.triangle, contact.distance, center, reach, error))
-      return nearest_tie(center, contact.distance, reach, error, work);
+      return nearest_tie(center, contact.distance, reach, error, located.spent, work);
   }
   if (!within) return std::nullopt;
   return contact;
 }
 
 std::optional<Contact> DirectGrid::nearest_tie(const Vec3& center, double distance, double reach,
-                                               double error, Work& work) const noexcept {
-  return nearest_of_ties(
-      center, distance, reach, error, store_.ids, work.exact_decisions,
-      [&](double within, const auto& visit) { for_each_near(store_, tree_, center, within, work, visit); });
+                                               double error, std::uint64_t spent, Work& work) const noexcept {
+  const std::uint64_t most = left_of(most_work_before_all(store_.size()), spent);
+  return nearest_of_ties(center, distance, reach, error, store_.ids, work.exact_decisions,
+                         [&](double within, const auto& visit) {
+                           if (for_each_near(store_, tree_, center, within, most, work, visit)) return;
+                           work.triangles += store_.size();
+                           std::for_each(store_.exact.begin(), store_.exact.end(), visit);
+                         });
 }
 
 std::optional<Contact> DirectGrid::far_nearest(const Vec3& center, double reach, Work& work) const noexcept {
   const double box_distance = std::sqrt(bounds_.squared_distance(center));
   ++work.boxes;
   if (box_distance - distance_error(bounds_, center) > reach) return std::nullopt;
-  work.triangles += store_.exact.size();
-  return nearest_of_all(store_.exact, bounds_, center, reach, store_.ids, work.exact_decisions);
+  return nearest_of_all(store_.exact, bounds_, center, reach, store_.ids, work);
 }
 
 }  // namespace touchmark::grid

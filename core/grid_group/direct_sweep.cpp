@@ -42,10 +42,13 @@ class SweepSearch {
     }
   }
 
-  void consider_tree(const BoxTree& tree, Work& work) noexcept {
+  /// False when it has tested more than `most` triangles and boxes before the end.
+  bool consider_tree(const BoxTree& tree, std::uint64_t most, Work& work) noexcept {
+    const std::uint64_t before = work.boxes + work.triangles;
     BoxStack stack;
     visit(tree, static_cast<std::uint32_t>(tree.levels()) - 1, 0, stack, work);
     while (!stack.empty()) {
+      if (work.boxes + work.triangles - before > most) return false;
       const BoxStack::Entry next = stack.pop();
       // The bound may have been rounded up to single precision.
       if (static_cast<double>(next.bound) > limit() * (1 + 0x1p-22)) continue;
@@ -55,6 +58,7 @@ class SweepSearch {
         consider_block(next.index, work);
       }
     }
+    return true;
   }
 
  private:
@@ -130,8 +134,8 @@ std::optional<Impact> DirectGrid::first_hit(const Sweep& sweep, DirectMemory& me
   // Where a group is valid is convex: it serves the way between two points that it serves.
   if (start.group != nullptr && serving(start.place, store_.frame.point(sweep.to), work) != nullptr) {
     search.consider_group(groups_.members(*start.group), work);
-  } else {
-    search.consider_tree(tree_, work);
+  } else if (!search.consider_tree(tree_, most_work_before_all(store_.size()), work)) {
+    return first_hit_of_all(sweep, memory, work);
   }
   if (!search.found()) return std::nullopt;
   memory.place = search.place();
@@ -143,6 +147,12 @@ std::optional<Impact> DirectGrid::far_first_hit(const Sweep& sweep, Work& work) 
       std::max(largest_difference(bounds_, sweep.from), largest_difference(bounds_, sweep.to));
   ++work.boxes;
   if (enters(bounds_, sweep, sweep_widening(sweep, difference), 1) > 1) return std::nullopt;
+  DirectMemory memory;
+  return first_hit_of_all(sweep, memory, work);
+}
+
+std::optional<Impact> DirectGrid::first_hit_of_all(const Sweep& sweep, DirectMemory& memory,
+                                                   Work& work) const noexcept {
   HitCandidate first;
   std::uint32_t first_place = 0;
   for (std::uint32_t place = 0; place < store_.size(); ++place) {
@@ -154,7 +164,6 @@ std::optional<Impact> DirectGrid::far_first_hit(const Sweep& sweep, Work& work) 
   }
   work.triangles += store_.size();
   if (!(first.fraction <= 1)) return std::nullopt;
-  DirectMemory memory;
   return impact_on(sweep, first.fraction, first_place, memory, work);
 }
 

@@ -10,6 +10,7 @@
 #include <limits>
 #include <span>
 
+#include "core/geometry/every_triangle.h"
 #include "core/grid_group/box_tree.h"
 #include "core/grid_group/exact_offset.h"
 #include "core/grid_group/group_filter.h"
@@ -57,11 +58,13 @@ class NearestSearch {
   /// A guess at the nearest member, by the filter alone.
   std::uint32_t closest_of(std::span<const std::uint32_t> members) noexcept;
 
-  /// Visits the tree nearest first.
-  void consider_tree(const BoxTree& tree) noexcept {
+  /// Visits the tree nearest first. False when it has tested more than `most` triangles and boxes before the
+  /// end.
+  bool consider_tree(const BoxTree& tree, std::uint64_t most = any_work) noexcept {
     BoxStack stack;
     visit(tree, static_cast<std::uint32_t>(tree.levels()) - 1, 0, stack);
     while (!stack.empty()) {
+      if (triangles_ + boxes_ > most) return false;
       const BoxStack::Entry next = stack.pop();
       if (next.bound > limit_) continue;
       if (next.level > 0) {
@@ -70,6 +73,7 @@ class NearestSearch {
         consider_block(next.index);
       }
     }
+    return true;
   }
 
  private:

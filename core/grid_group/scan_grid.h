@@ -1,4 +1,5 @@
-/// Park & Jang's detector as published: groups in no order, every one tested by every query.
+/// Park & Jang's detector as published: groups in no order, every one tested by every query. Only a query
+/// that would look at more than there are triangles looks at those instead: a triangle is in many groups.
 #pragma once
 
 #include <cstddef>
@@ -9,6 +10,7 @@
 
 #include "core/detector.h"
 #include "core/geometry/aabb.h"
+#include "core/geometry/every_triangle.h"
 #include "core/geometry/point_triangle.h"
 #include "core/geometry/smallest_sphere.h"
 #include "core/grid_group/uniform_cells.h"
@@ -48,9 +50,14 @@ class ScanGrid {
  private:
   void enclose(const TriangleMesh& mesh, Shape shape);
   /// Calls visit(triangle) for the members of every group that holds the point when enlarged by `reach`,
-  /// until visit returns true. Counts the work.
+  /// until visit returns true, or the next group would bring the total beyond `most`: then it returns false.
   template <class Visit>
-  void search(const Vec3& center, double reach, Work& work, const Visit& visit) const noexcept;
+  bool search(const Vec3& center, double reach, Work& work, std::uint64_t most,
+              const Visit& visit) const noexcept;
+  std::uint64_t most_work(const Work& work) const noexcept {
+    return work.total() + most_work_before_all(triangles_.size());
+  }
+  EveryTriangle all() const noexcept { return {triangles_, bounds_, ids_}; }
   template <class Visit>
   bool search_members(std::size_t group, Work& work, const Visit& visit) const noexcept;
   TriangleId id(std::uint32_t triangle) const noexcept { return ids_.empty() ? triangle : ids_[triangle]; }

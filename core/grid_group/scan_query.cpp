@@ -54,56 +54,64 @@ bool ScanGrid::search_members(std::size_t group, Work& work, const Visit& visit)
 }
 
 template <class Visit>
-void ScanGrid::search(const Vec3& center, double reach, Work& work, const Visit& visit) const noexcept {
+bool ScanGrid::search(const Vec3& center, double reach, Work& work, std::uint64_t most,
+                      const Visit& visit) const noexcept {
   // The kernel may call near what is this much farther.
   const double by = reach + culling_slack(largest_difference(bounds_, center));
   const auto scan = [&](const auto& shapes) {
+    std::uint64_t left = left_of(most, work.total());
     for (std::size_t group = 0; group < shapes.size(); ++group) {
-      if (holds(shapes[group], center, by) && search_members(group, work, visit)) {
-        work.cells += group + 1;
-        return;
-      }
+      ++work.cells;
+      if (left-- == 0) return false;
+      if (!holds(shapes[group], center, by)) continue;
+      const std::size_t more = members(group).size();
+      if (more > left) return false;
+      left -= more;
+      if (search_members(group, work, visit)) return true;
     }
-    work.cells += shapes.size();
+    return true;
   };
-  boxes_.empty() ? scan(spheres_) : scan(boxes_);
+  return boxes_.empty() ? scan(spheres_) : scan(boxes_);
 }
 
 bool ScanGrid::touches(const Probe& probe, Work& work) const noexcept {
   const Vec3& center = probe.center;
   if (!(probe.radius >= 0)) return false;
   const double error = distance_error(bounds_, center);
-  if (std::isinf(error)) return nearest(center, probe.radius, work).has_value();
+  if (std::isinf(error)) return all().touches(probe, work);
   bool touching = false;
-  search(center, probe.radius + error, work, [&](const PreparedTriangle& triangle) {
+  const auto visit = [&](const PreparedTriangle& triangle) {
     const double distance = std::sqrt(squared_distance(triangle, center));
     return touching = is_within(triangle, distance, center, probe.radius, error, work.exact_decisions);
-  });
+  };
+  if (!search(center, probe.radius + error, work, most_work(work), visit)) return all().touches(probe, work);
   return touching;
 }
 
 std::optional<Contact> ScanGrid::nearest(const Vec3& center, double reach, Work& work) const noexcept {
   if (!(reach >= 0)) return std::nullopt;
   const double error = distance_error(bounds_, center);
-  if (std::isinf(error)) {
-    work.triangles += triangles_.size();
-    return nearest_of_all(triangles_, bounds_, center, reach, ids_, work.exact_decisions);
-  }
+  if (std::isinf(error)) return all().nearest(center, reach, work);
+  const std::uint64_t most = most_work(work);
   Candidate best;
-  search(center, reach + error, work, [&](const PreparedTriangle& triangle) {
+  const auto consider = [&](const PreparedTriangle& triangle) {
     best = std::min(best, Candidate{squared_distance(triangle, center), triangle.index});
     return false;
-  });
+  };
+  if (!search(center, reach + error, work, most, consider)) return all().nearest(center, reach, work);
   if (best.index >= triangles_.size()) return std::nullopt;
   const double distance = std::sqrt(best.squared_distance);
   if (!is_certain(distance, reach, error) &&
       !is_certain_on(triangles_[best.index], distance, center, reach, error)) {
     return nearest_of_ties(center, distance, reach, error, ids_, work.exact_decisions,
                            [&](double within, const auto& visit) {
-                             search(center, within, work, [&](const PreparedTriangle& triangle) {
+                             const auto show = [&](const PreparedTriangle& triangle) {
                                visit(triangle);
                                return false;
-                             });
+                             };
+                             if (search(center, within, work, most, show)) return;
+                             work.triangles += triangles_.size();
+                             std::for_each(triangles_.begin(), triangles_.end(), show);
                            });
   }
   if (distance > reach) return std::nullopt;
@@ -111,22 +119,29 @@ std::optional<Contact> ScanGrid::nearest(const Vec3& center, double reach, Work&
 }
 
 std::optional<Impact> ScanGrid::first_hit(const Sweep& sweep, Work& work) const noexcept {
+  if (!(sweep.radius >= 0)) return std::nullopt;
   const double difference =
       std::max(largest_difference(bounds_, sweep.from), largest_difference(bounds_, sweep.to));
   const double by = sweep_widening(sweep, difference);
   HitCandidate first;
   const auto scan = [&](const auto& shapes) {
-    work.cells += shapes.size();
+    std::uint64_t left = most_work_before_all(triangles_.size());
     for (std::size_t group = 0; group < shapes.size(); ++group) {
+      ++work.cells;
+      if (left-- == 0) return false;
       if (!passes(shapes[group], sweep, by)) continue;
+      const std::size_t more = members(group).size();
+      if (more > left) return false;
+      left -= more;
       search_members(group, work, [&](const PreparedTriangle& triangle) {
         const std::optional<double> hit = sweep_hit(triangle, sweep, std::min(first.fraction, 1.0));
         if (hit) first = std::min(first, HitCandidate{*hit, triangle.index});
         return false;
       });
     }
+    return true;
   };
-  boxes_.empty() ? scan(spheres_) : scan(boxes_);
+  if (!(boxes_.empty() ? scan(spheres_) : scan(boxes_))) return all().first_hit(sweep, work);
   if (first.index >= triangles_.size()) return std::nullopt;
   // Touching at the start, which is decided exactly: of all the triangles there the nearest one counts.
   if (const auto start = nearest(sweep.from, sweep.radius, work)) return Impact{0, *start};

@@ -69,7 +69,7 @@ bool SphereScan::touches(const Probe& probe, Work& work) const noexcept {
   const Vec3& center = probe.center;
   if (!(probe.radius >= 0)) return false;
   const double error = distance_error(bounds_, center);
-  if (std::isinf(error)) return nearest(center, probe.radius, work).has_value();
+  if (std::isinf(error)) return all().touches(probe, work);
   std::size_t tested = 0;
   const bool touching = for_each_met(center, probe.radius + error, [&](std::size_t sphere) noexcept {
     tested = sphere;
@@ -87,10 +87,7 @@ bool SphereScan::touches(const Probe& probe, Work& work) const noexcept {
 std::optional<Contact> SphereScan::nearest(const Vec3& center, double reach, Work& work) const noexcept {
   if (!(reach >= 0)) return std::nullopt;
   const double error = distance_error(bounds_, center);
-  if (std::isinf(error)) {
-    work.triangles += triangles_.size();
-    return nearest_of_all(triangles_, bounds_, center, reach, ids_, work.exact_decisions);
-  }
+  if (std::isinf(error)) return all().nearest(center, reach, work);
   Best best;
   for_each_met(center, reach + error, [&](std::size_t sphere) noexcept {
     search(sphere, center, best, work);
@@ -116,9 +113,12 @@ std::optional<Contact> SphereScan::nearest(const Vec3& center, double reach, Wor
   return contact_on(triangles_[best.kept_at], center, id(best.candidate.index));
 }
 
+/// The spheres that the way meets hold the triangles near its start, too: one look at the spheres is enough.
 std::optional<Impact> SphereScan::first_hit(const Sweep& sweep, Work& work) const noexcept {
-  if (const std::optional<Contact> start = nearest(sweep.from, sweep.radius, work)) return Impact{0, *start};
-  const double reach = sweep.radius + sweep_slack(sweep);
+  if (!(sweep.radius >= 0)) return std::nullopt;
+  const double error = distance_error(bounds_, sweep.from);
+  if (std::isinf(error)) return all().first_hit(sweep, work);
+  const double reach = sweep.radius + std::max(sweep_slack(sweep), error);
   const auto outside = [&](std::size_t i) noexcept {
     const double grown = grown_radius(radius_[i], reach);
     const double squared = squared_distance_to_way(sweep, 1, {x_[i], y_[i], z_[i]});
@@ -126,18 +126,28 @@ std::optional<Impact> SphereScan::first_hit(const Sweep& sweep, Work& work) cons
   };
   HitCandidate first;
   std::size_t kept_at = 0;
+  Best at_start;
   for_each_held(x_.size(), outside, [&](std::size_t sphere) noexcept {
+    search(sphere, sweep.from, at_start, work);
     for (std::size_t i = first_[sphere]; i < first_[sphere + 1]; ++i) {
       const auto fraction = sweep_hit(triangles_[i], sweep, std::min(first.fraction, 1.0));
       if (!fraction || !(HitCandidate{*fraction, triangles_[i].index} < first)) continue;
       first = {*fraction, triangles_[i].index};
       kept_at = i;
     }
-    work.triangles += first_[sphere + 1] - first_[sphere];
     return false;
   });
   work.spheres += x_.size();
   if (first.index >= triangles_.size()) return std::nullopt;
+  const double distance = std::sqrt(at_start.candidate.squared_distance);
+  const PreparedTriangle& nearest_one = triangles_[at_start.kept_at];
+  if (is_certain(distance, sweep.radius, error) ||
+      is_certain_on(nearest_one, distance, sweep.from, sweep.radius, error)) {
+    if (distance <= sweep.radius)
+      return Impact{0, contact_on(nearest_one, sweep.from, id(at_start.candidate.index))};
+  } else if (const std::optional<Contact> start = nearest(sweep.from, sweep.radius, work)) {
+    return Impact{0, *start};
+  }
   return Impact{first.fraction,
                 contact_on(triangles_[kept_at], position_at(sweep, first.fraction), id(first.index))};
 }

@@ -10,6 +10,7 @@
 
 #include "core/detector.h"
 #include "core/geometry/aabb.h"
+#include "core/geometry/every_triangle.h"
 #include "core/geometry/point_triangle.h"
 #include "core/sphere_cluster/clustering.h"
 
@@ -32,6 +33,7 @@ class SphereScan {
     std::size_t kept_at = 0;
   };
 
+  EveryTriangle all() const noexcept { return {triangles_, bounds_, ids_}; }
   TriangleId id(std::uint32_t index) const noexcept { return ids_.empty() ? index : ids_[index]; }
   void search(std::size_t sphere, const Vec3& center, Best& best, Work& work) const noexcept;
 

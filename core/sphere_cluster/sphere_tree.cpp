@@ -161,7 +161,7 @@ bool SphereTree::is_far(const FilterPoint& point, const Vec3& center, double rea
 /// For as many ticks ahead as there is room for blocks, about a place ahead: a point that goes on as it moved
 /// comes to it and then leaves it.
 bool SphereTree::list_blocks(const Vec3& center, const Vec3& move, float distance, Memory& memory,
-                             Work& work) const noexcept {
+                             std::uint64_t most, Work& work) const noexcept {
   // With fewer ticks the listing costs more, with more the longer list does.
   constexpr float fewest_ticks = 2, most_ticks = 16;
   constexpr double ahead = 0.5;  // of the ticks
@@ -177,8 +177,8 @@ bool SphereTree::list_blocks(const Vec3& center, const Vec3& move, float distanc
     if (!can_search(anchor)) anchor = center;
     const FilterPoint point = frame_.point(anchor);
     blocks.start(anchor, distance + blocks.ticks * step + 8 * point.tau);
-    if (avx2_ ? spheres::avx2::list_blocks(parts_, point, blocks, work)
-              : spheres::portable::list_blocks(parts_, point, blocks, work))
+    if (avx2_ ? spheres::avx2::list_blocks(parts_, point, most, blocks, work)
+              : spheres::portable::list_blocks(parts_, point, most, blocks, work))
       break;
     if (blocks.ticks <= fewest_ticks) {
       // What was left out may be anywhere.
@@ -211,9 +211,14 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
   if (visitor.kept_at == nowhere) {
     const FilterPoint point = frame_.point(center);
     if (is_far(point, center, radius, rounding, memory)) return false;
-    unseen = descend(point, visitor);
+    unseen = descend(point, visitor, most_work());
   }
   work += visitor.work;
+  if (unseen == spheres::gave_up) {
+    memory.free = -1;
+    memory.nearest = infinity;
+    return all().touches(probe, work);
+  }
   const bool touching = visitor.kept_at != nowhere;
   memory.center = center;
   memory.free = touching ? -1 : free_within(unseen, visitor.least, rounding);
@@ -222,8 +227,8 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
   return touching;
 }
 
-std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Memory& memory,
-                                           Work& work) const noexcept {
+std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Memory& memory, Work& work,
+                                           bool* gives_up) const noexcept {
   if (!(reach >= 0)) return std::nullopt;
   claim(memory);
   if (!can_search(center)) return nearest_without(center, reach, work);
@@ -237,11 +242,19 @@ std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Mem
   float unseen = 0;
   if (near) {
     show(memory.last, visitor);
-    unseen = search_near(point, visitor, memory);
+    unseen = search_near(point, visitor, memory, most_work());
   } else {
     const double most = distances_.at_most(point) * unit_;
     if (most < reach) visitor.limit = frame_.limit((most + error) * (most + error));
-    unseen = descend(point, visitor);
+    unseen = descend(point, visitor, most_work());
+  }
+  if (unseen == spheres::gave_up) {
+    work += visitor.work;
+    memory.free = -1;
+    memory.nearest = infinity;
+    if (gives_up == nullptr) return all().nearest(center, reach, work);
+    *gives_up = true;
+    return std::nullopt;
   }
   const double distance = std::sqrt(visitor.best.squared_distance);
   memory.move = center - memory.center;
@@ -254,7 +267,8 @@ std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Mem
   if (certified_ && !is_certain(distance, reach, error)) {
     const double least_error = distance_error(bounds_, center);
     if (!is_certain_on(parts_.triangles[visitor.kept_at], distance, center, reach, least_error))
-      return nearest_tie(center, distance, reach, least_error, work);
+      return nearest_tie(center, distance, reach, least_error, left_of(most_work(), visitor.work.total()),
+                         gives_up, work);
   }
   if (distance > reach) return std::nullopt;
   return contact_at(parts_.triangles[visitor.kept_at], center,
@@ -270,25 +284,29 @@ void SphereTree::list_ahead(Memory& memory, Work& work) const noexcept {
   const float two_moves = static_cast<float>(2 * frame_.scale() * moved);
   const float away = way(memory.blocks.anchor, memory.center, point);
   if (distance + away + ticks_prepared * two_moves < memory.blocks.rest) return;
-  list_blocks(memory.center, memory.move, distance, memory, work);
+  Work spent;
+  list_blocks(memory.center, memory.move, distance, memory, most_work(), spent);
+  work += spent;
 }
 
 std::optional<Contact> SphereTree::nearest_tie(const Vec3& center, double distance, double reach,
-                                               double error, Work& work) const noexcept {
-  return nearest_of_ties(center, distance, reach, error, ids_, work.exact_decisions,
-                         [&](double within, const auto& visit) {
-                           TieVisitor<std::decay_t<decltype(visit)>> visitor{
-                               parts_, center, frame_.limit(within * within), visit};
-                           descend(frame_.point(center), visitor);
-                           work += visitor.work;
-                         });
+                                               double error, std::uint64_t most, bool* gives_up,
+                                               Work& work) const noexcept {
+  return nearest_of_ties(
+      center, distance, reach, error, ids_, work.exact_decisions, [&](double within, const auto& visit) {
+        TieVisitor<std::decay_t<decltype(visit)>> visitor{parts_, center, frame_.limit(within * within),
+                                                          visit};
+        const bool gave_up = descend(frame_.point(center), visitor, most) == spheres::gave_up;
+        if (gave_up && gives_up == nullptr) show_all(visitor);
+        if (gave_up && gives_up != nullptr) *gives_up = true;
+        work += visitor.work;
+      });
 }
 
 /// Where the hierarchy does not serve.
 std::optional<Contact> SphereTree::nearest_without(const Vec3& center, double reach,
                                                    Work& work) const noexcept {
-  work.triangles += parts_.triangles.size();
-  return nearest_of_all(parts_.triangles, bounds_, center, reach, ids_, work.exact_decisions);
+  return nearest_of_all(parts_.triangles, bounds_, center, reach, ids_, work);
 }
 
 std::size_t SphereTree::bytes() const noexcept {

@@ -10,6 +10,7 @@
 
 #include "core/detector.h"
 #include "core/geometry/aabb.h"
+#include "core/geometry/every_triangle.h"
 #include "core/geometry/plane_filter.h"
 #include "core/geometry/point_triangle.h"
 #include "core/sphere_cluster/clustering.h"
@@ -54,7 +55,10 @@ class SphereTree {
   }
   // Both look, even where it is surely free.
   bool touches(const Probe& probe, Memory& memory, Work& work) const noexcept;
-  std::optional<Contact> nearest(const Vec3& center, double reach, Memory& memory, Work& work) const noexcept;
+  /// Where `gives_up` points somewhere, a search that looked at as much as all triangles are ends there, with
+  /// that set and no answer.
+  std::optional<Contact> nearest(const Vec3& center, double reach, Memory& memory, Work& work,
+                                 bool* gives_up = nullptr) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, Memory& memory, Work& work) const noexcept;
   /// Did the last query find a triangle?
   bool is_near(const Memory& memory) const noexcept {
@@ -77,7 +81,9 @@ class SphereTree {
   float way(const Vec3& from, const Vec3& to, const FilterPoint& at) const noexcept;
 
   std::optional<Contact> nearest_tie(const Vec3& center, double distance, double reach, double error,
-                                     Work& work) const noexcept;
+                                     std::uint64_t most, bool* gives_up, Work& work) const noexcept;
+  EveryTriangle all() const noexcept { return {parts_.triangles, bounds_, ids_, certified_}; }
+  std::uint64_t most_work() const noexcept { return most_work_before_all(parts_.triangles.size()); }
   std::optional<Contact> nearest_without(const Vec3& center, double reach, Work& work) const noexcept;
 
   double mean_block_radius() const noexcept;
@@ -94,10 +100,11 @@ class SphereTree {
   template <class Visitor>
   void show_all(Visitor& visitor) const noexcept;
   template <class Visitor>
-  float descend(const FilterPoint& point, Visitor& visitor) const noexcept;
+  float descend(const FilterPoint& point, Visitor& visitor, std::uint64_t most) const noexcept;
   template <class Visitor>
-  float search_near(const FilterPoint& point, Visitor& visitor, Memory& memory) const noexcept;
-  bool list_blocks(const Vec3& center, const Vec3& move, float distance, Memory& memory,
+  float search_near(const FilterPoint& point, Visitor& visitor, Memory& memory,
+                    std::uint64_t most) const noexcept;
+  bool list_blocks(const Vec3& center, const Vec3& move, float distance, Memory& memory, std::uint64_t most,
                    Work& work) const noexcept;
 
   std::uint64_t number_ = 0;  ///< of this tree and its copies

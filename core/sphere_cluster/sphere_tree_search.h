@@ -27,9 +27,9 @@ void SphereTree::show_all(Visitor& visitor) const noexcept {
 }
 
 template <class Visitor>
-float SphereTree::descend(const FilterPoint& point, Visitor& visitor) const noexcept {
-  return avx2_ ? spheres::avx2::descend(parts_, point, visitor)
-               : spheres::portable::descend(parts_, point, visitor);
+float SphereTree::descend(const FilterPoint& point, Visitor& visitor, std::uint64_t most) const noexcept {
+  return avx2_ ? spheres::avx2::descend(parts_, point, most, visitor)
+               : spheres::portable::descend(parts_, point, most, visitor);
 }
 
 inline float SphereTree::way(const Vec3& from, const Vec3& to, const FilterPoint& at) const noexcept {
@@ -38,17 +38,18 @@ inline float SphereTree::way(const Vec3& from, const Vec3& to, const FilterPoint
 
 /// From the blocks listed, when they are all that can be within the limit; lists them anew when they are not.
 template <class Visitor>
-float SphereTree::search_near(const FilterPoint& point, Visitor& visitor, Memory& memory) const noexcept {
+float SphereTree::search_near(const FilterPoint& point, Visitor& visitor, Memory& memory,
+                              std::uint64_t most) const noexcept {
   const float distance = std::sqrt(visitor.limit) + point.tau;
   float away = way(memory.blocks.anchor, visitor.center, point);
   if (!(distance + away < memory.blocks.rest)) {
-    if (!list_blocks(visitor.center, visitor.center - memory.center, distance, memory, visitor.work))
-      return descend(point, visitor);
+    if (!list_blocks(visitor.center, visitor.center - memory.center, distance, memory, most, visitor.work))
+      return descend(point, visitor, most);
     away = way(memory.blocks.anchor, visitor.center, point);
-    if (!(distance + away < memory.blocks.rest)) return descend(point, visitor);
+    if (!(distance + away < memory.blocks.rest)) return descend(point, visitor, most);
   }
-  return avx2_ ? spheres::avx2::search_listed(parts_, point, memory.blocks, away, visitor)
-               : spheres::portable::search_listed(parts_, point, memory.blocks, away, visitor);
+  return avx2_ ? spheres::avx2::search_listed(parts_, point, memory.blocks, away, most, visitor)
+               : spheres::portable::search_listed(parts_, point, memory.blocks, away, most, visitor);
 }
 
 }  // namespace touchmark

@@ -36,26 +36,29 @@ struct SweepVisitor {
 // The way is cut into parts, each in a ball about its middle. What can touch the probe on a part is within
 // the part's half length and the radius of that middle.
 std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, Work& work) const noexcept {
+  if (!(sweep.radius >= 0)) return std::nullopt;
+  if (!can_search(sweep.from) || !can_search(sweep.to)) return all().first_hit(sweep, work);
+  const std::uint64_t before = work.total();
   if (!surely_free(sweep.from, sweep.radius, memory)) {
-    if (const std::optional<Contact> start = nearest(sweep.from, sweep.radius, memory, work))
-      return Impact{0, *start};
+    bool gave_up = false;
+    const std::optional<Contact> start = nearest(sweep.from, sweep.radius, memory, work, &gave_up);
+    if (gave_up) return all().first_hit(sweep, work);
+    if (start) return Impact{0, *start};
   }
+  const double length = (sweep.to - sweep.from).norm();
+  const double reach = sweep.radius + sweep_slack(sweep);
+  if (surely_free(sweep.from, reach + length, memory)) return std::nullopt;
+  const std::uint64_t most = left_of(most_work(), work.total() - before);
   SweepVisitor visitor{parts_, sweep, sweep.from, 0};
-  if (!can_search(sweep.from) || !can_search(sweep.to)) {
+  constexpr double most_parts = 256;
+  const double parts = std::clamp(std::ceil(length / (2 * std::max(sweep.radius, grain_))), 1.0, most_parts);
+  const double ball = reach + 0.5 * length / parts * (1 + 0x1p-40);
+  for (double part = 0; part < parts && !(visitor.first.fraction < part / parts); ++part) {
+    visitor.center = position_at(sweep, (part + 0.5) / parts);
+    visitor.limit = frame_.limit(ball * ball);
+    if (descend(frame_.point(visitor.center), visitor, most) != spheres::gave_up) continue;
     show_all(visitor);
-  } else {
-    const double length = (sweep.to - sweep.from).norm();
-    const double reach = sweep.radius + sweep_slack(sweep);
-    if (surely_free(sweep.from, reach + length, memory)) return std::nullopt;
-    constexpr double most_parts = 256;
-    const double parts =
-        std::clamp(std::ceil(length / (2 * std::max(sweep.radius, grain_))), 1.0, most_parts);
-    const double ball = reach + 0.5 * length / parts * (1 + 0x1p-40);
-    for (double part = 0; part < parts && !(visitor.first.fraction < part / parts); ++part) {
-      visitor.center = position_at(sweep, (part + 0.5) / parts);
-      visitor.limit = frame_.limit(ball * ball);
-      descend(frame_.point(visitor.center), visitor);
-    }
+    break;
   }
   work += visitor.work;
   if (visitor.first.index >= parts_.triangles.size()) return std::nullopt;

@@ -41,7 +41,7 @@ spheres::DistanceGrid::Interval SphereTree::sample(const Vec3& place, double mos
   const Vec3 center = frame_.origin() + place / frame_.scale();
   const double reach = most / frame_.scale();
   RoughVisitor visitor{parts_, frame_, center, frame_.limit(reach * reach)};
-  const float unseen = descend(frame_.point(center), visitor);
+  const float unseen = descend(frame_.point(center), visitor, any_work);
   work += visitor.work;
   const double found = std::sqrt(visitor.squared) * frame_.scale();
   return {std::min<double>(std::sqrt(unseen), found), std::min(found, most)};

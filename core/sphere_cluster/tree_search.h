@@ -31,6 +31,9 @@ struct Waiting {
 /// Seven siblings wait at each level.
 inline constexpr std::size_t most_waiting = TriangleSplitter::deepest * tree_width;
 
+/// What a search returns that gave up, in place of a bound.
+inline constexpr float gave_up = -1;
+
 /// More than any bound of what is there.
 inline constexpr float farthest = std::numeric_limits<float>::max();
 

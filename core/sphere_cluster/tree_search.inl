@@ -86,9 +86,11 @@ inline void show(const TreeParts& tree, std::uint32_t at, Visitor& visitor) noex
 }
 
 /// Shows the visitor every triangle that may be within its limit, nearest volumes first. Returns a lower
-/// bound of the squared distance to what it was not shown.
+/// bound of the squared distance to what it was not shown, or gave_up when the visitor's work has come to
+/// more than `most` before the end.
 template <class Visitor>
-float descend(const TreeParts& tree, const FilterPoint& point, Visitor& visitor) noexcept {
+float descend(const TreeParts& tree, const FilterPoint& point, std::uint64_t most,
+              Visitor& visitor) noexcept {
   const Point p = spread(point);
   Wide unseen = Wide{} + farthest;
   std::array<Waiting, most_waiting> waiting;
@@ -100,6 +102,7 @@ float descend(const TreeParts& tree, const FilterPoint& point, Visitor& visitor)
       unseen = smaller(unseen, Wide{} + next.bound);
       continue;
     }
+    if (visitor.work.spheres + visitor.work.triangles > most) return gave_up;
     const std::uint32_t index = next.ref.index();
     if (next.ref.is_block()) {
       const TriangleBlock& block = tree.blocks[index];
@@ -142,8 +145,8 @@ inline unsigned blocks_of(const TreeNode& node) noexcept {
   return blocks;
 }
 
-/// Lists the blocks within the list's rest. False when there are too many.
-inline bool list_blocks(const TreeParts& tree, const FilterPoint& point, NearBlocks& list,
+/// Lists the blocks within the list's rest. False when there are too many, or after `most` spheres.
+inline bool list_blocks(const TreeParts& tree, const FilterPoint& point, std::uint64_t most, NearBlocks& list,
                         Work& work) noexcept {
   const Point p = spread(point);
   const float limit = list.rest * list.rest * (1 + 0x1p-20F);
@@ -152,6 +155,7 @@ inline bool list_blocks(const TreeParts& tree, const FilterPoint& point, NearBlo
   std::size_t count = 1;
   waiting[0] = 0;
   while (count > 0) {
+    if (work.spheres > most) return false;
     const TreeNode& node = tree.nodes[waiting[--count]];
     const unsigned near = within([&](std::size_t at) { return child_bounds(node, at, p); }, limit, unseen);
     work.spheres += tree_width;
@@ -184,7 +188,7 @@ inline bool list_blocks(const TreeParts& tree, const FilterPoint& point, NearBlo
 /// anchor. In passes, so that no call and no branch on what was found interrupts the wide arithmetic.
 template <class Visitor>
 float search_listed(const TreeParts& tree, const FilterPoint& point, const NearBlocks& list, float moved,
-                    Visitor& visitor) noexcept {
+                    std::uint64_t most, Visitor& visitor) noexcept {
   const Point p = spread(point);
   const float limit = visitor.limit;
   Wide unseen = Wide{} + farthest;
@@ -195,6 +199,8 @@ float search_listed(const TreeParts& tree, const FilterPoint& point, const NearB
     while (near != 0) blocks[block_count++] = list.child[first + take(near)].index();
     visitor.work.spheres += tree_width;
   }
+  visitor.work.triangles += block_count * tree_width;
+  if (visitor.work.spheres + visitor.work.triangles > most) return gave_up;
   std::array<std::uint32_t, NearBlocks::capacity * tree_width> left;
   std::size_t left_count = 0;
   for (std::size_t i = 0; i < block_count; ++i) {
@@ -202,7 +208,6 @@ float search_listed(const TreeParts& tree, const FilterPoint& point, const NearB
     unsigned near = within([&](std::size_t at) { return triangle_bounds(block, at, p); }, limit, unseen);
     while (near != 0) left[left_count++] = blocks[i] * tree_width + take(near);
   }
-  visitor.work.triangles += block_count * tree_width;
   for (std::size_t k = 0; k < left_count; ++k) show(tree, left[k], visitor);
   const float rest = std::max(list.rest - moved, 0.0F);
   return std::min(rest * rest, least_lane(unseen));

@@ -1,0 +1,63 @@
+#include "core/geometry/every_triangle.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/certified_nearest.h"
+#include "core/geometry/sphere_triangle_sweep.h"
+
+namespace touchmark {
+bool EveryTriangle::touches(const Probe& probe, Work& work) const noexcept {
+  if (!(probe.radius >= 0)) return false;
+  const double error = certified ? distance_error(bounds, probe.center) : 0;
+  if (std::isinf(error)) return nearest(probe.center, probe.radius, work).has_value();
+  std::uint64_t tested = 0;
+  const bool touching =
+      std::any_of(triangles.begin(), triangles.end(), [&](const PreparedTriangle& triangle) {
+        ++tested;
+        const double distance = std::sqrt(squared_distance(triangle, probe.center));
+        if (!certified) return distance <= probe.radius;
+        return is_within(triangle, distance, probe.center, probe.radius, error, work.exact_decisions);
+      });
+  work.triangles += tested;
+  return touching;
+}
+
+std::optional<Contact> EveryTriangle::nearest(const Vec3& center, double reach, Work& work) const noexcept {
+  return certified ? nearest_of_all(triangles, bounds, center, reach, ids, work)
+                   : nearest_as_computed(center, reach, work);
+}
+
+std::optional<Impact> EveryTriangle::first_hit(const Sweep& sweep, Work& work) const noexcept {
+  if (!(sweep.radius >= 0)) return std::nullopt;
+  HitCandidate first;
+  const PreparedTriangle* hit = nullptr;
+  for (const PreparedTriangle& triangle : triangles) {
+    const std::optional<double> fraction = sweep_hit(triangle, sweep, std::min(first.fraction, 1.0));
+    if (!fraction || !(HitCandidate{*fraction, triangle.index} < first)) continue;
+    first = {*fraction, triangle.index};
+    hit = &triangle;
+  }
+  work.triangles += triangles.size();
+  if (hit == nullptr) return std::nullopt;
+  // Touching at the start, which is decided exactly: of all the triangles there the nearest one counts.
+  if (const auto start = nearest(sweep.from, sweep.radius, work)) return Impact{0, *start};
+  return Impact{first.fraction, contact_on(*hit, position_at(sweep, first.fraction), id(first.index))};
+}
+
+std::optional<Contact> EveryTriangle::nearest_as_computed(const Vec3& center, double reach,
+                                                          Work& work) const noexcept {
+  Candidate best;
+  const PreparedTriangle* nearest = nullptr;
+  for (const PreparedTriangle& triangle : triangles) {
+    const Candidate candidate{squared_distance(triangle, center), triangle.index};
+    if (!(candidate < best)) continue;
+    best = candidate;
+    nearest = &triangle;
+  }
+  work.triangles += triangles.size();
+  if (nearest == nullptr || std::sqrt(best.squared_distance) > reach) return std::nullopt;
+  return contact_on(*nearest, center, id(best.index));
+}
+
+}  // namespace touchmark

@@ -1,0 +1,142 @@
+// What a step looks at is counted, and in the worst case at most twice what brute force looks at, and a
+// little.
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "tests/bench/oracle/hard_meshes.h"
+#include "tests/exact_forms.h"
+
+namespace touchmark {
+namespace {
+
+using bench::Answer;
+using bench::Query;
+using bench::Step;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr Query all_queries[] = {Query::touches, Query::nearest, Query::sweep};
+
+/// All triangles in one place, but for a few that make the box large.
+TriangleMesh clump() {
+  HardCases hard(31);
+  std::vector<HardCases::Corners> triangles;
+  for (int i = 0; i < 300; ++i)
+    triangles.push_back({1e-6 * hard.vector(), 1e-6 * hard.vector(), 1e-6 * hard.vector()});
+  for (int i = 0; i < 4; ++i) triangles.push_back(hard.plain());
+  return mesh_of(triangles);
+}
+
+/// One triangle spans whatever cells the small ones are sorted into.
+TriangleMesh under_a_blanket() {
+  HardCases hard(32);
+  std::vector<HardCases::Corners> triangles = {{Vec3(-9, -9, 0), Vec3(9, -9, 0), Vec3(0, 9, 0)}};
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 at = hard.vector();
+    triangles.push_back({at, at + 0.01 * hard.vector(), at + 0.01 * hard.vector()});
+  }
+  return mesh_of(triangles);
+}
+
+/// Large triangles through one point: no two have boxes apart.
+TriangleMesh star() {
+  HardCases hard(33);
+  std::vector<HardCases::Corners> triangles;
+  for (int i = 0; i < 300; ++i) {
+    const HardCases::Corners t = hard.plain();
+    triangles.push_back({t[0], t[1], -0.5 * (t[0] + t[1])});
+  }
+  return mesh_of(triangles);
+}
+
+std::vector<NamedMesh> hostile_meshes() {
+  std::vector<NamedMesh> meshes = hard_meshes();
+  meshes.push_back({"larger octasphere", octasphere(8)});
+  meshes.push_back({"clump", clump()});
+  meshes.push_back({"under a blanket", under_a_blanket()});
+  meshes.push_back({"star", star()});
+  const HardCases::Corners one = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+  meshes.push_back({"one triangle", mesh_of({one})});
+  meshes.push_back({"one triangle, again and again", mesh_of(std::vector<HardCases::Corners>(300, one))});
+  return meshes;
+}
+
+std::vector<Step> hostile_steps(const TriangleMesh& mesh) {
+  HardCases hard(34);
+  std::vector<Step> steps;
+  for (const Vec3& center : hard_points(mesh, hard, 40))
+    for (const double length : {0.0, 0.01 * mesh.diagonal(), mesh.diagonal(), infinity})
+      steps.push_back({{center, length}, length});
+  return steps;
+}
+
+const char* name_of(Query query) {
+  return query == Query::touches ? "touches" : query == Query::nearest ? "nearest" : "sweep";
+}
+
+struct Asked {
+  std::vector<Answer> answers;
+  std::vector<std::uint64_t> work;  ///< of each step
+};
+
+Asked ask(bench::Contestant& detector, Query query, const std::vector<Step>& steps) {
+  Asked asked{std::vector<Answer>(steps.size()), std::vector<std::uint64_t>(steps.size())};
+  detector.forget();
+  detector.answer({query, steps}, {0, steps.size()}, asked.answers, asked.work);
+  return asked;
+}
+
+/// By how much a form looks at more than twice what brute force does, at most, and where.
+struct Worst {
+  std::int64_t beyond = std::numeric_limits<std::int64_t>::min();
+  std::string where;
+};
+
+/// Also that giving a search up changes no answer.
+std::map<std::string, Worst> worst_of_all() {
+  std::map<std::string, Worst> worst;
+  for (const NamedMesh& named : hostile_meshes()) {
+    const std::vector<Step> steps = hostile_steps(named.mesh);
+    const std::vector<ExactForm> forms = exact_forms(named.mesh);
+    for (const Query query : all_queries) {
+      const Asked brute_force = ask(*forms.front().detector, query, steps);
+      for (const ExactForm& form : forms) {
+        Worst& so_far = worst[form.name + ", " + name_of(query)];
+        const Asked asked = ask(*form.detector, query, steps);
+        for (std::size_t i = 0; i < steps.size(); ++i) {
+          const std::string where = named.name + ", step " + std::to_string(i);
+          EXPECT_EQ(std::memcmp(&asked.answers[i], &brute_force.answers[i], sizeof(Answer)), 0)
+              << form.name << ", " << name_of(query) << ": " << where;
+          // It looks at all triangles, unless one that touches comes first; again at the start of a sweep
+          // that touches something; and once more where rounding could tell the nearest.
+          const std::uint64_t least = std::max<std::uint64_t>(brute_force.work[i], named.mesh.size());
+          const auto beyond = static_cast<std::int64_t>(asked.work[i]) - static_cast<std::int64_t>(2 * least);
+          if (beyond > so_far.beyond)
+            so_far = {beyond,
+                      where + ": " + std::to_string(asked.work[i]) + " against " + std::to_string(least)};
+        }
+      }
+    }
+  }
+  return worst;
+}
+
+TEST(WorstCaseWork, IsAtMostTwiceBruteForceAndALittle) {
+  // Nodes and blocks hold eight, lists of blocks and groups 64: so much may be looked at before anything else
+  // is thought of, by the search and, in a sweep, by that at its start.
+  constexpr std::int64_t little = 256;
+  for (const auto& [form, found] : worst_of_all()) {
+    if (found.beyond > 0) std::printf("%-48s %6ld  %s\n", form.c_str(), found.beyond, found.where.c_str());
+    EXPECT_LE(found.beyond, little) << form << ": " << found.where;
+  }
+}
+
+}  // namespace
+}  // namespace touchmark
