@@ -27,7 +27,8 @@ class Gate : public testing::Test {
   /// A baseline is not written from noise, which may pass.
   void write_baseline_when_quiet() const {
     Outcome outcome = gate("spins", {"--write-baseline"});
-    for (int again = 0; again < 20 && too_noisy(outcome); ++again) outcome = gate("spins", {"--write-baseline"});
+    for (int again = 0; again < 20 && too_noisy(outcome); ++again)
+      outcome = gate("spins", {"--write-baseline"});
     ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
   }
   Outcome gate(const std::string& detector, const std::vector<std::string>& more = {},

@@ -39,8 +39,7 @@ struct Grid {
     grid = DistanceGrid(low.cast<float>(), high.cast<float>(), mesh.size());
     grid.fill([&](const Vec3& place, double most) {
       if (samples++ == most_samples) return DistanceGrid::Interval{-1, -1};
-      const double distance =
-          frame.scale() * distance_to(brute, frame.origin() + place / frame.scale());
+      const double distance = frame.scale() * distance_to(brute, frame.origin() + place / frame.scale());
       EXPECT_LE(distance, most);
       return DistanceGrid::Interval{least * distance, distance};
     });
