@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -58,9 +59,12 @@ Columns read_header(CsvReader& file) {
   return columns;
 }
 
-/// What a message shows of a field: enough to recognise it.
+/// What a message shows of a field: enough to recognise it, and nothing that a terminal would obey.
 std::string shown(std::string_view text) {
-  return "'" + std::string(text.substr(0, 40)) + (text.size() > 40 ? "..." : "") + "'";
+  std::string begin(text.substr(0, 40));
+  for (char& c : begin)
+    if (std::isprint(static_cast<unsigned char>(c)) == 0) c = '?';
+  return "'" + begin + (text.size() > 40 ? "..." : "") + "'";
 }
 
 double number(const CsvReader& file, const std::string& field, const char* column) {

@@ -19,6 +19,14 @@ double largest_difference(const PreparedTriangle& triangle, const Vec3& point) n
   return largest;
 }
 
+/// By how much the direction to a nearest point may be off, as an angle, when the distance is off by `error`:
+/// a point of the triangle that is no farther than distance + error lies within the root of
+/// 2 distance error + error^2 of the nearest one. The foot itself is rounded by no more than the error again.
+double direction_error(double distance, double error) noexcept {
+  const double relative = 2 * error / distance;
+  return 2 * epsilon + std::sqrt(relative * (2 + relative));
+}
+
 /// How far ball and triangle are apart, along the way: a convex function.
 class Gap {
  public:
@@ -39,6 +47,8 @@ class Gap {
 
     /// At the start as for a probe that stands there, on the way within the error.
     bool touching() const noexcept { return gap <= (at_start ? 0 : error); }
+    /// So far into it that the touch was before.
+    bool deep() const noexcept { return !at_start && gap < -error; }
     /// Even falling as steeply as it can, from `back` before here to `ahead` of it, it stays apart. So does
     /// a NaN.
     bool apart_within(double back, double ahead) const noexcept {
@@ -52,9 +62,17 @@ class Gap {
     const Contact contact = contact_on(triangle_, position, 0);
     const double kernel_error = kernel_relative_error * largest_difference(triangle_, position);
     const double slope = contact.normal.dot(way_);
-    const double slope_error = length_ * (2 * epsilon + kernel_error / contact.distance);
+    const double slope_error = length_ * direction_error(contact.distance, kernel_error);
     return {!(fraction > 0), contact.distance - sweep_.radius, kernel_error + position_error_, slope,
             slope_error};
+  }
+
+  /// After a fraction where it falls: no earlier one than this is told as a touch. The steepest tangent there
+  /// bounds it from below, and it counts as a touch at its own error, which is larger elsewhere by no more
+  /// than what the way adds to M.
+  double earliest(double fraction, const Sample& there) const noexcept {
+    const double told = 3 * there.error + 2 * kernel_relative_error * length_;
+    return fraction - (there.gap - told) / (there.slope - there.slope_error);
   }
 
  private:
@@ -64,6 +82,15 @@ class Gap {
   double length_;
   double position_error_;
 };
+
+/// Between a fraction where the two are apart and one where they touch: the first touch, by halving.
+double first_touch(const Gap& gap, double apart, double touching) noexcept {
+  while (touching - apart > epsilon) {
+    const double middle = std::midpoint(apart, touching);
+    (gap.at(middle).touching() ? touching : apart) = middle;
+  }
+  return touching;
+}
 
 /// Where the slope drowns in rounding: looks for the least gap by comparing gaps alone, in thirds, and if
 /// that is a touch for the first one by halving. `apart` is a fraction where the two are apart.
@@ -83,11 +110,7 @@ std::optional<double> search(const Gap& gap, double apart) noexcept {
     (at_left.gap < at_right.gap ? high : low) = at_left.gap < at_right.gap ? right : left;
   }
   if (!touched) return std::nullopt;
-  while (touching - apart > epsilon) {
-    const double middle = std::midpoint(apart, touching);
-    (gap.at(middle).touching() ? touching : apart) = middle;
-  }
-  return touching;
+  return first_touch(gap, apart, touching);
 }
 
 }  // namespace
@@ -102,20 +125,23 @@ std::optional<double> sweep_hit(const PreparedTriangle& triangle, const Sweep& s
   // Grazing makes Newton's steps halve instead of square the error: this many exhaust a double's digits.
   constexpr int most_steps = 64;
   const Gap gap(triangle, sweep);
-  double fraction = 0;
-  for (int step = 0; step < most_steps && fraction <= limit; ++step) {
+  const auto within_limit = [&](std::optional<double> found) {
+    return found && *found <= limit ? found : std::nullopt;
+  };
+  double fraction = 0, before = 0;  // nothing touches up to `before`
+  for (int step = 0; step < most_steps; ++step) {
     const Gap::Sample here = gap.at(fraction);
-    if (here.touching()) return fraction;
-    if (here.apart_within(0, 1 - fraction)) return std::nullopt;
+    if (here.touching()) return within_limit(here.deep() ? first_touch(gap, before, fraction) : fraction);
+    if (here.apart_within(fraction - before, 1 - fraction)) return std::nullopt;
     if (!(here.slope < -2 * here.slope_error)) break;
-    // Where the tangent meets zero. The slope's error takes it past the touch by the kernel's error at most.
+    if (gap.earliest(fraction, here) > limit) return std::nullopt;
+    // Where the tangent meets zero: no later than the touch, but for the slope's error.
     const double next = std::min(fraction - here.gap / here.slope, 1.0);
     if (!(next > fraction)) break;
+    before = fraction;
     fraction = next;
   }
-  if (fraction > limit) return std::nullopt;
-  const std::optional<double> found = search(gap, fraction);
-  return found && *found <= limit ? found : std::nullopt;
+  return within_limit(search(gap, before));
 }
 
 }  // namespace touchmark

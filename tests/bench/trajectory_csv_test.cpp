@@ -85,6 +85,7 @@ TEST_F(TrajectoryCsv, NamesTheLineAndColumnOfWhatIsWrong) {
   EXPECT_EQ(complaint("x,y,z,y\n1,2,3,4\n"), "path.csv:1: the header names column y twice");
   EXPECT_EQ(complaint("x,y,z\n"), "path.csv:1: no row follows the header");
   EXPECT_EQ(complaint("x,y,z\n1,2,3\n1,two,3\n"), "path.csv:3: column y: 'two' is not a number");
+  EXPECT_EQ(complaint("x,y,z\n1,\x1b[2J,3\n"), "path.csv:2: column y: '?[2J' is not a number");
   EXPECT_EQ(complaint("x,y,z\n1,2,\n"), "path.csv:2: column z: '' is not a number");
   EXPECT_EQ(complaint("x,y,z\n1,2,3 4\n"), "path.csv:2: column z: '3 4' is not a number");
   EXPECT_EQ(complaint("x,y,z\n0x1,2,3\n"), "path.csv:2: column x: '0x1' is not a number");

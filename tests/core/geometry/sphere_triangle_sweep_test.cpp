@@ -92,6 +92,34 @@ TEST(SphereTriangleSweep, ASliverThinnerThanTheStepIsNotMissed) {
   EXPECT_NEAR(*hit, 0.5, 1e-14);
 }
 
+/// From so far away that the nearest point may be told anywhere on a third of the triangle, within the
+/// rounding of its distance: what direction it is in says little of where the way leads.
+TEST(SphereTriangleSweep, AFarBarePointGoesThroughAHugeSliver) {
+  const PreparedTriangle sliver =
+      prepare({-0x1.0000000000002p+1, -0x1.1c37937d8deep+53, 0x1.06243162a38e4p-10},
+              {0x1.1c37937e08p+53, 0x1.000000007a12p+53, -0x1.6a09e6bdd9f86p-1},
+              {0x1.12e0ac7ebdca7p-30, 0x1.e848ep+19, -0x1.0000002af31ddp+0}, 0);
+  const Sweep sweep{{0x1.6a09e667f3bcdp-1, -0x1.999999999999ap-4, 0x1p+53},
+                    {0x1.7af4c4a80aaa1p+51, -0x1.2cfb7a8668681p+48, -0x1.771232cf1a905p+11},
+                    0};
+  EXPECT_TRUE(sweep_hit(sliver, sweep, 1));
+}
+
+/// Along a needle nearly the way's whole length long a small error of the slope is a large one of the way.
+TEST(SphereTriangleSweep, AlongANeedleTheTouchIsNotToldTooLate) {
+  const PreparedTriangle needle = prepare({1000, 1, 1e6}, {0.75, 0.75, -0x1p+53}, {2, 4, -1}, 0);
+  const Sweep sweep{{0x1.d0badef8018p+39, -0x1.65a0bbfe8p+31, -0x1.c72811f9eb6p+52},
+                    {-0.1, -0.75, -0x1.0624dd2f1a9fcp-10},
+                    0x1.215a116872afbp+13};
+  const auto hit = sweep_hit(needle, sweep, 1);
+  ASSERT_TRUE(hit);
+  const double distance = contact_on(needle, position_at(sweep, *hit), 0).distance;
+  // The kernel's error at both places, and the position's.
+  const double tolerance = 2 * kernel_relative_error * 0x1p+54 + 2 * position_error(sweep);
+  EXPECT_GE(distance, sweep.radius - tolerance);
+  EXPECT_LE(distance, sweep.radius + tolerance);
+}
+
 TEST(SphereTriangleSweep, NotANumberHitsNothing) {
   const double nan = std::nan("");
   EXPECT_FALSE(sweep_hit(triangle, {{nan, 0, 0}, {1, 1, 1}, 1}, 1));
