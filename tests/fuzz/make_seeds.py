@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Writes a folder of seeds for each fuzz target: small files of every form that the readers know, whole and damaged.
-Argument: where the folders go.
+"""Writes a folder of seeds for each fuzz target: small files of every form that the readers know, whole and damaged,
+and scripts for the detectors' target. Argument: where the folders go.
 """
 import pathlib
 import random
@@ -45,6 +45,20 @@ def stl():
         yield start.ljust(80, b"\0") + struct.pack("<I", 2) + 2 * (struct.pack("<12f", *corners) + b"\0\0")
 
 
+def trajectory():
+    yield "x,y,z\n0,0,0\n1e-9,2,3\n"
+    yield '\ufefftime_s,"x",y,z,radius,more\r\n0,1,2,3,0.5,"a ""b"", c"\r\n0.001,1,2,3,0,\r\n'
+
+
+def detectors():
+    """Bytes as script.h reads them: an arbitrary choice of them is as good as any other."""
+    draw = random.Random(1)
+    for length in (16, 40, 64, 64, 100, 100, 160, 160, 220, 220):
+        yield bytes(draw.randrange(256) for _ in range(length))
+    for length in (60, 100, 140, 180):  # whole numbers in the natural scale
+        yield bytes(draw.choice((0, 0, 1, 2, 3, 4, 33, 34)) for _ in range(length))
+
+
 def damaged(text):
     """Each half of it, and with one byte changed here and there."""
     draw = random.Random(len(text))
@@ -64,13 +78,15 @@ def seeds():
     yield "obj", [text.encode() for text in obj()]
     yield "off", [text.encode() for text in off()]
     yield "stl", list(stl())
+    yield "trajectory", [text.encode() for text in trajectory()]
+    yield "detectors", list(detectors())
 
 
 def main():
     folder = pathlib.Path(sys.argv[1])
     for target, whole in seeds():
         (folder / target).mkdir(parents=True, exist_ok=True)
-        texts = whole + [bad for text in whole for bad in damaged(text)]
+        texts = whole + ([] if target == "detectors" else [bad for text in whole for bad in damaged(text)])
         for number, text in enumerate(texts):
             (folder / target / f"{number:02}").write_bytes(text)
 

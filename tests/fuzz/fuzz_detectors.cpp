@@ -1,0 +1,139 @@
+// Every exact form of every detector on a mesh and probes out of the bytes: brute force keeps its word by the
+// oracle, the others give its bits. Radii and reaches are the very distance, an ulp to each side of it, or
+// anything.
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "bench/oracle/oracle.h"
+#include "bench/verify.h"
+#include "tests/exact_forms.h"
+#include "tests/fuzz/script.h"
+#include "tests/fuzz/target.h"
+
+namespace touchmark::fuzz {
+namespace {
+
+using bench::Answer;
+using bench::Query;
+using bench::Step;
+using bench::Truth;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double read_length(Script& script, double distance) {
+  switch (script.below(8)) {
+    case 0:
+    case 1:
+      return distance;
+    case 2:
+      return std::nextafter(distance, 0);
+    case 3:
+      return std::nextafter(distance, infinity);
+    case 4:
+      return infinity;
+    case 5:
+      return std::numeric_limits<double>::quiet_NaN();
+    case 6:
+      return script.number() * script.magnitude();
+    default:
+      return script.number() * distance;
+  }
+}
+
+/// One way through one mesh, with what is asked at each step and the truth there.
+struct Course {
+  TriangleMesh mesh;
+  bench::Oracle oracle;
+  std::vector<Step> steps;
+  std::vector<Truth> truths;
+
+  Course(TriangleMesh given, Script& script) : mesh(std::move(given)), oracle(mesh, 1) {
+    for (std::size_t left = 1 + script.below(8); left > 0; --left) {
+      const Vec3 center = read_center(script, mesh);
+      truths.push_back(oracle.solve(center));
+      const double radius = read_length(script, truths.back().high),
+                   reach = read_length(script, truths.back().high);
+      steps.push_back({{center, radius}, reach});
+    }
+  }
+};
+
+std::vector<Answer> ask(bench::Contestant& detector, Query query, const std::vector<Step>& steps) {
+  std::vector<Answer> answers(steps.size());
+  std::vector<std::uint64_t> work(steps.size());
+  detector.answer({query, steps}, {0, steps.size()}, answers, work);
+  return answers;
+}
+
+const char* name_of(Query query) {
+  return query == Query::touches ? "touches" : query == Query::nearest ? "nearest" : "sweep";
+}
+
+/// Sweeps are promised nothing where fourth powers of lengths leave the range of double.
+bool powers_fit(const Course& course, std::size_t step) {
+  const auto fits = [&](const Vec3& center) {
+    const double difference = largest_difference(course.mesh.bounds(), center);
+    return difference > 1e-75 && difference < 1e75;
+  };
+  return fits(course.steps[step].probe.center) && fits(course.steps[step > 0 ? step - 1 : 0].probe.center) &&
+         course.mesh.bounds().extent().maxCoeff() < 1e75;
+}
+
+void judge(const Course& course, Query query, std::size_t step, const Answer& answer,
+           const Accuracy& accuracy) {
+  const Probe& probe = course.steps[step].probe;
+  bench::Tally tally;
+  if (query == Query::sweep) {
+    const std::vector<Sweep> sweep = {
+        {course.steps[step > 0 ? step - 1 : 0].probe.center, probe.center, probe.radius}};
+    tally = bench::judge(course.oracle, course.oracle.solve(sweep), sweep, std::span(&answer, 1), accuracy);
+  } else {
+    tally = bench::judge(course.oracle, std::span(&course.truths[step], 1), query, std::span(&probe, 1),
+                         course.steps[step].reach, std::span(&answer, 1), accuracy);
+  }
+  if (bench::keeps_its_word(tally, accuracy)) return;
+  fail(std::string("brute force, ") + name_of(query) + " at step " + std::to_string(step) + ": " +
+       std::to_string(tally.missed) + " missed, " + std::to_string(tally.false_contacts) + " false, " +
+       std::to_string(tally.wrong_triangle) + " wrong triangle, " + std::to_string(tally.beyond_bound) +
+       " beyond, " + std::to_string(tally.wrong_point) + " point, " + std::to_string(tally.wrong_normal) +
+       " normal, " + std::to_string(tally.malformed) + " malformed");
+}
+
+void examine(const Course& course) {
+  const std::vector<ExactForm> forms = exact_forms(course.mesh);
+  bench::Contestant& reference = *forms.front().detector;
+  for (const Query query : {Query::nearest, Query::touches, Query::sweep}) {
+    const std::vector<Answer> expected = ask(reference, query, course.steps);
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      if (query != Query::sweep || powers_fit(course, i))
+        judge(course, query, i, expected[i], reference.accuracy());
+    for (const ExactForm& form : forms) {
+      const std::vector<Answer> answers = ask(*form.detector, query, course.steps);
+      for (std::size_t i = 0; i < answers.size(); ++i) {
+        if (query == Query::sweep && !powers_fit(course, i)) continue;
+        if (std::memcmp(&answers[i], &expected[i], sizeof(Answer)) == 0) continue;
+        fail(form.name + " differs from brute force, " + name_of(query) + " at step " + std::to_string(i));
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace touchmark::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace touchmark;
+  fuzz::Script script({data, size});
+  std::optional<fuzz::Course> course;
+  try {
+    course.emplace(fuzz::read_mesh(script), script);
+  } catch (const MeshError&) {
+    return 0;
+  }
+  fuzz::examine(*course);
+  return 0;
+}
