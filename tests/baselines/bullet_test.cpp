@@ -11,6 +11,7 @@
 
 #include "baselines/bullet/bullet_detector.h"
 #include "core/brute_force/brute_force.h"
+#include "tests/baselines/follows.h"
 #include "tests/baselines/meshes.h"
 
 namespace touchmark::baselines {
@@ -317,30 +318,13 @@ TEST(BulletTraps, ASweepStopsEarlyButIsNotMissed) {
   EXPECT_GT(earliest, 1e-3);
 }
 
-/// There and back again, from one session, against brute force on the mesh as it is then.
 TEST(Bullet, FollowsVerticesThatMove) {
   const TriangleMesh mesh = bumps(12), other = moved(mesh);
   for (const BulletDetector::Options& form : std::vector<BulletDetector::Options>{
            {BulletDetector::Method::callback, BulletDetector::Frame::mesh},
            {BulletDetector::Method::callback, BulletDetector::Frame::fitted}}) {
+    expect_to_follow<BulletDetector>(mesh, other, form);
     BulletDetector detector = BulletDetector::build(mesh, form);
-    BulletDetector::Session session;
-    for (const TriangleMesh* now : {&mesh, &other, &mesh, &other}) {
-      detector.update(*now);
-      const BruteForce reference = BruteForce::build(*now);
-      BruteForce::Session brute;
-      Random random(21);
-      for (int i = 0; i < 200; ++i) {
-        const Probe probe{1.2 * random.point(), 0.1};
-        const auto contact = detector.nearest(probe, 0.3, session),
-                   expected = reference.nearest(probe, 0.3, brute);
-        ASSERT_EQ(contact.has_value(), expected.has_value()) << i;
-        if (!contact) continue;
-        EXPECT_NEAR(contact->distance, expected->distance, 0);
-        EXPECT_EQ(contact->triangle, expected->triangle);
-        EXPECT_EQ(detector.touches(probe, session), reference.touches(probe, brute));
-      }
-    }
     EXPECT_THROW(detector.update(bumps(11)), std::invalid_argument);
   }
 }

@@ -8,6 +8,7 @@
 
 #include "baselines/embree/embree_detector.h"
 #include "core/brute_force/brute_force.h"
+#include "tests/baselines/follows.h"
 
 namespace touchmark::baselines {
 namespace {
@@ -103,7 +104,6 @@ TEST(Embree, AProbeThatIsNotANumberTouchesNothing) {
   EXPECT_FALSE(embree.touches({nan, 1}, session));
 }
 
-/// There and back again, from one session, against brute force on the mesh as it is then.
 TEST(Embree, FollowsVerticesThatMove) {
   const TriangleMesh mesh = soup(1, 0);
   std::vector<Vec3> vertices(mesh.vertices().begin(), mesh.vertices().end());
@@ -114,25 +114,7 @@ TEST(Embree, FollowsVerticesThatMove) {
            {EmbreeDetector::Geometry::triangle, EmbreeDetector::Quality::medium, true},
            {EmbreeDetector::Geometry::user, EmbreeDetector::Quality::refit, true},
            {EmbreeDetector::Geometry::triangle, EmbreeDetector::Quality::refit, false}}) {
-    EmbreeDetector detector = EmbreeDetector::build(mesh, form);
-    EmbreeDetector::Session session;
-    for (const TriangleMesh* now : {&mesh, &other, &mesh, &other}) {
-      detector.update(*now);
-      const BruteForce reference = BruteForce::build(*now);
-      BruteForce::Session brute;
-      Random random(21);
-      for (int i = 0; i < 200; ++i) {
-        const Probe probe{1.2 * random.point(), 0.1};
-        const auto contact = detector.nearest(probe, 0.3, session),
-                   expected = reference.nearest(probe, 0.3, brute);
-        ASSERT_EQ(contact.has_value(), expected.has_value()) << i;
-        if (!contact) continue;
-        EXPECT_NEAR(contact->distance, expected->distance, 0);
-        EXPECT_EQ(contact->triangle, expected->triangle);
-        EXPECT_EQ(detector.touches(probe, session), reference.touches(probe, brute));
-      }
-    }
-    EXPECT_THROW(detector.update(TriangleMesh({{0, 0, 0}}, {{0, 0, 0}})), std::invalid_argument);
+    expect_to_follow<EmbreeDetector>(mesh, other, form);
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "baselines/fcl/fcl_detector.h"
 #include "core/brute_force/brute_force.h"
+#include "tests/baselines/follows.h"
 #include "tests/baselines/meshes.h"
 
 namespace touchmark::baselines {
@@ -293,7 +294,6 @@ TEST(Fcl, ThreadsWithASessionEachGiveTheSameBits) {
   for (const auto& mine : got) EXPECT_EQ(mine, expected);
 }
 
-/// There and back again, from one session, against brute force on the mesh as it is then.
 TEST(Fcl, FollowsVerticesThatMove) {
   const TriangleMesh mesh = bumps(12), other = moved(mesh);
   for (const FclDetector::Options& form : std::vector<FclDetector::Options>{
@@ -301,24 +301,8 @@ TEST(Fcl, FollowsVerticesThatMove) {
            {FclDetector::Volume::aabb, FclDetector::Method::traverse, FclDetector::Narrow::exact},
            {FclDetector::Volume::kios, FclDetector::Method::traverse, FclDetector::Narrow::exact},
            {FclDetector::Volume::obbrss, FclDetector::Method::distance, FclDetector::Narrow::exact}}) {
+    expect_to_follow<FclDetector>(mesh, other, form);
     FclDetector detector = FclDetector::build(mesh, form);
-    FclDetector::Session session;
-    for (const TriangleMesh* now : {&mesh, &other, &mesh, &other}) {
-      detector.update(*now);
-      const BruteForce reference = BruteForce::build(*now);
-      BruteForce::Session brute;
-      Random random(21);
-      for (int i = 0; i < 200; ++i) {
-        const Probe probe{1.2 * random.point(), 0.1};
-        const auto contact = detector.nearest(probe, 0.3, session),
-                   expected = reference.nearest(probe, 0.3, brute);
-        ASSERT_EQ(contact.has_value(), expected.has_value()) << i;
-        if (!contact) continue;
-        EXPECT_NEAR(contact->distance, expected->distance, 0);
-        EXPECT_EQ(contact->triangle, expected->triangle);
-        EXPECT_EQ(detector.touches(probe, session), reference.touches(probe, brute));
-      }
-    }
     EXPECT_THROW(detector.update(bumps(11)), std::invalid_argument);
   }
 }
