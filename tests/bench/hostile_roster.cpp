@@ -3,6 +3,7 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -23,6 +24,9 @@ namespace {
   for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
 }
 
+/// What the answers so far have cost, in the nanoseconds that their contestants claim to need.
+std::atomic<std::int64_t> spent_ns = 0;
+
 /// BruteForce, with something that happens to each answer of `nearest`.
 template <class Misdeed>
 class Misbehaving {
@@ -35,6 +39,7 @@ class Misbehaving {
     return Misbehaving(BruteForce::build(mesh));
   }
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept {
+    spent_ns += Misdeed::cost_ns();
     return Misdeed::at_answer(detector_.nearest(probe, reach, session));
   }
   std::size_t bytes() const noexcept { return detector_.bytes(); }
@@ -48,6 +53,7 @@ class Misbehaving {
 struct Honest {
   static void at_build() {}
   static std::optional<Contact> at_answer(std::optional<Contact> contact) { return contact; }
+  static std::int64_t cost_ns() { return 10000; }
 };
 struct Aborts : Honest {
   static std::optional<Contact> at_answer(const std::optional<Contact>&) { std::abort(); }
@@ -93,38 +99,28 @@ struct Fickle : Honest {
   }
 };
 
-/// So slow as the test says: that many turns of a loop an answer.
-struct Spins : Honest {
-  static std::optional<Contact> at_answer(std::optional<Contact> contact) {
-    static const int turns = std::atoi(environment("TOUCHMARK_TEST_SPIN", "1000"));
-    for (volatile int i = 0; i < turns;) i = i + 1;
-    return contact;
-  }
-  static const char* environment(const char* name, const char* otherwise) {
-    const char* value = std::getenv(name);
-    return value != nullptr ? value : otherwise;
-  }
-};
-/// As fast as Spins is without being told.
-struct SpinsSteadily : Honest {
-  static std::optional<Contact> at_answer(std::optional<Contact> contact) {
-    for (volatile int i = 0; i < 1000;) i = i + 1;
-    return contact;
+const char* environment(const char* name, const char* otherwise) {
+  const char* value = std::getenv(name);
+  return value != nullptr ? value : otherwise;
+}
+
+/// As slow as the test says.
+struct Paced : Honest {
+  static std::int64_t cost_ns() {
+    static const int cost = std::atoi(environment("TOUCHMARK_TEST_COST_NS", "10000"));
+    return cost;
   }
 };
 /// Slower by another process: each build, counted in a file, adds to it.
 struct Moody : Honest {
   static void at_build() {
-    std::FILE* const file = std::fopen(Spins::environment("TOUCHMARK_TEST_COUNTER", "/dev/null"), "ab");
+    std::FILE* const file = std::fopen(environment("TOUCHMARK_TEST_COUNTER", "/dev/null"), "ab");
     if (file == nullptr) return;
     std::fputc('x', file);
     builds() = std::ftell(file);
     std::fclose(file);
   }
-  static std::optional<Contact> at_answer(std::optional<Contact> contact) {
-    for (volatile long i = 0; i < 1000 * builds();) i = i + 1;
-    return contact;
-  }
+  static std::int64_t cost_ns() { return 10000 * builds(); }
   static long& builds() {
     static long count = 1;
     return count;
@@ -157,6 +153,8 @@ ContestantInfo contestant(std::string name) {
 
 }  // namespace
 
+std::int64_t hostile_ns() noexcept { return spent_ns; }
+
 const Roster& hostile_roster() {
   static const Roster all(
       {contestant<Misbehaving<Honest>>("honest"), contestant<Misbehaving<Aborts>>("aborts"),
@@ -165,8 +163,8 @@ const Roster& hostile_roster() {
        contestant<Misbehaving<Exits>>("exits"), contestant<Misbehaving<Hangs>>("hangs"),
        contestant<Misbehaving<HangsAtBuild>>("hangs-at-build"), contestant<Misbehaving<Refuses>>("refuses"),
        contestant<Misbehaving<Lies>>("lies"), contestant<Misbehaving<Fickle>>("fickle"),
-       contestant<TouchesOnly>("touches-only"), contestant<Misbehaving<Spins>>("spins"),
-       contestant<Misbehaving<SpinsSteadily>>("spins-steadily"), contestant<Misbehaving<Moody>>("moody")},
+       contestant<TouchesOnly>("touches-only"), contestant<Misbehaving<Paced>>("paced"),
+       contestant<Misbehaving<Moody>>("moody")},
       {"honest"});
   return all;
 }
