@@ -66,11 +66,16 @@ inline float least_lane(Wide values) noexcept {
   return least;
 }
 
+inline void prefetch_lines(const void* start, std::size_t size) noexcept {
+  for (std::size_t line = 0; line < size; line += 64)
+    __builtin_prefetch(static_cast<const char*>(start) + line);
+}
+
 /// A node's lines, or as many of a block.
 inline void prefetch(const TreeParts& tree, TreeRef ref) noexcept {
-  const auto* const start = ref.is_block() ? reinterpret_cast<const char*>(&tree.blocks[ref.index()])
-                                           : reinterpret_cast<const char*>(&tree.nodes[ref.index()]);
-  for (std::size_t line = 0; line < sizeof(TreeNode); line += 64) __builtin_prefetch(start + line);
+  const void* const start = ref.is_block() ? static_cast<const void*>(&tree.blocks[ref.index()])
+                                           : static_cast<const void*>(&tree.nodes[ref.index()]);
+  prefetch_lines(start, sizeof(TreeNode));
 }
 
 /// Takes the lowest bit off.
@@ -196,7 +201,11 @@ float search_listed(const TreeParts& tree, const FilterPoint& point, const NearB
   std::size_t block_count = 0;
   for (std::uint32_t first = 0; first < list.count; first += tree_width) {
     unsigned near = within([&](std::size_t at) { return child_bounds(list, first + at, p); }, limit, unseen);
-    while (near != 0) blocks[block_count++] = list.child[first + take(near)].index();
+    while (near != 0) {
+      const TreeRef child = list.child[first + take(near)];
+      prefetch(tree, child);
+      blocks[block_count++] = child.index();
+    }
     visitor.work.spheres += tree_width;
   }
   visitor.work.triangles += block_count * tree_width;
@@ -206,7 +215,11 @@ float search_listed(const TreeParts& tree, const FilterPoint& point, const NearB
   for (std::size_t i = 0; i < block_count; ++i) {
     const TriangleBlock& block = tree.blocks[blocks[i]];
     unsigned near = within([&](std::size_t at) { return triangle_bounds(block, at, p); }, limit, unseen);
-    while (near != 0) left[left_count++] = blocks[i] * tree_width + take(near);
+    while (near != 0) {
+      const std::uint32_t at = blocks[i] * tree_width + take(near);
+      prefetch_lines(&tree.triangles[at], sizeof(PreparedTriangle));
+      left[left_count++] = at;
+    }
   }
   for (std::size_t k = 0; k < left_count; ++k) show(tree, left[k], visitor);
   const float rest = std::max(list.rest - moved, 0.0F);
