@@ -197,30 +197,31 @@ float search_listed(const TreeParts& tree, const FilterPoint& point, const NearB
   const Point p = spread(point);
   const float limit = visitor.limit;
   Wide unseen = Wide{} + farthest;
-  std::array<std::uint32_t, NearBlocks::capacity> blocks;
+  // What the filters let through is packed, not looped over: how much that is no branch predictor knows.
+  std::array<TreeRef, NearBlocks::room> blocks;
   std::size_t block_count = 0;
   for (std::uint32_t first = 0; first < list.count; first += tree_width) {
-    unsigned near = within([&](std::size_t at) { return child_bounds(list, first + at, p); }, limit, unseen);
-    while (near != 0) {
-      const TreeRef child = list.child[first + take(near)];
-      prefetch(tree, child);
-      blocks[block_count++] = child.index();
-    }
+    const unsigned near =
+        within([&](std::size_t at) { return child_bounds(list, first + at, p); }, limit, unseen);
+    pack(blocks.data() + block_count, list.child + first, near);
+    block_count += static_cast<std::size_t>(std::popcount(near));
     visitor.work.spheres += tree_width;
   }
   visitor.work.triangles += block_count * tree_width;
   if (visitor.work.spheres + visitor.work.triangles > most) return gave_up;
-  std::array<std::uint32_t, NearBlocks::capacity * tree_width> left;
+  for (std::size_t i = 0; i < block_count; ++i) prefetch(tree, blocks[i]);
+  std::array<std::uint32_t, NearBlocks::room * tree_width> left;
   std::size_t left_count = 0;
   for (std::size_t i = 0; i < block_count; ++i) {
-    const TriangleBlock& block = tree.blocks[blocks[i]];
-    unsigned near = within([&](std::size_t at) { return triangle_bounds(block, at, p); }, limit, unseen);
-    while (near != 0) {
-      const std::uint32_t at = blocks[i] * tree_width + take(near);
-      prefetch_lines(&tree.triangles[at], sizeof(PreparedTriangle));
-      left[left_count++] = at;
-    }
+    const TriangleBlock& block = tree.blocks[blocks[i].index()];
+    const unsigned near = within([&](std::size_t at) { return triangle_bounds(block, at, p); }, limit, unseen);
+    alignas(32) std::array<std::uint32_t, tree_width> places;
+    for (std::uint32_t k = 0; k < tree_width; ++k) places[k] = blocks[i].index() * tree_width + k;
+    pack(left.data() + left_count, places.data(), near);
+    left_count += static_cast<std::size_t>(std::popcount(near));
   }
+  for (std::size_t k = 0; k < left_count; ++k)
+    prefetch_lines(&tree.triangles[left[k]], sizeof(PreparedTriangle));
   for (std::size_t k = 0; k < left_count; ++k) show(tree, left[k], visitor);
   const float rest = std::max(list.rest - moved, 0.0F);
   return std::min(rest * rest, least_lane(unseen));
