@@ -126,6 +126,8 @@ ContestantInfo grid_group() {
 ContestantInfo sphere_cluster() {
   static const Names<SphereCluster::Lookup> lookups{{"tree", SphereCluster::Lookup::tree},
                                                     {"scan", SphereCluster::Lookup::scan}};
+  static const Names<Simd> widths{
+      {"avx512", Simd::avx512}, {"avx2", Simd::avx2}, {"portable", Simd::portable}};
   ContestantInfo info;
   info.name = "sphere-cluster";
   info.summary = "triangles in clustered bounding spheres, after Choi & Sung 2017";
@@ -142,6 +144,7 @@ ContestantInfo sphere_cluster() {
       certified_option(),
       choice("prepare", no_or_yes,
              "true: list triangles for the next step in the idle rest of a tick, clocked apart"),
+      choice("simd", widths, "tree: no wider instructions than these, nor than the processor's"),
       side_option()};
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
     SphereCluster::Options options;
@@ -149,6 +152,7 @@ ContestantInfo sphere_cluster() {
     options.clustering = values.length("clustering", mesh);
     options.precise = chosen(values, "precise", yes_or_no);
     options.certified = chosen(values, "certified", yes_or_no);
+    options.widest = chosen(values, "simd", widths);
     return chosen(values, "prepare", no_or_yes) ? contestant<SphereCluster, Idle::used>(mesh, options, values)
                                                 : contestant<SphereCluster>(mesh, options, values);
   };

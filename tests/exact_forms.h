@@ -40,7 +40,8 @@ inline std::vector<ExactForm> exact_forms(const TriangleMesh& mesh) {
   add("sphere-cluster, scan, clustered",
       Cluster::build(mesh, {.clustering = some, .lookup = Cluster::Lookup::scan}));
   add("sphere-cluster, tree", Cluster::build(mesh));
-  add("sphere-cluster, tree, portable", Cluster::build(mesh, {.portable = true}));
+  add("sphere-cluster, tree, portable", Cluster::build(mesh, {.widest = Simd::portable}));
+  add("sphere-cluster, tree, avx2", Cluster::build(mesh, {.widest = Simd::avx2}));
   add("sphere-cluster, tree, clustered", Cluster::build(mesh, {.clustering = some}));
   return forms;
 }

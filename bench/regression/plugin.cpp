@@ -159,7 +159,9 @@ Built built(const touchmark::TriangleMesh& mesh, const typename D::Options& opti
 
 template <class Options>
 void make_portable(Options& options) {
-  if constexpr (requires { options.portable; }) {
+  if constexpr (requires { options.widest; }) {
+    options.widest = decltype(options.widest)::portable;
+  } else if constexpr (requires { options.portable; }) {
     options.portable = true;
   } else {
     throw std::invalid_argument("this core has no portable form");

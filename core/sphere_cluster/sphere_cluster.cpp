@@ -24,7 +24,7 @@ SphereCluster SphereCluster::build(const TriangleMesh& mesh, const Options& opti
   } else if (options.lookup == Lookup::scan) {
     detector.scan_ = SphereScan(mesh, detector.clusters_);
   } else {
-    detector.tree_ = SphereTree(mesh, detector.clusters_, {options.portable, options.certified});
+    detector.tree_ = SphereTree(mesh, detector.clusters_, {options.widest, options.certified});
   }
   return detector;
 }

@@ -26,8 +26,8 @@ class SphereCluster {
     Lookup lookup = Lookup::tree;
     bool precise = true;  ///< false: the fast level alone; spheres answer in place of their triangles
     VisitOrder order = VisitOrder::breadth_first;  ///< in which triangles are clustered
-    bool certified = true;  ///< false, tree only: as doubles have it, to measure what certainty costs
-    bool portable = false;  ///< tree: forgo the processor's wider instructions; slower, the same bits
+    bool certified = true;       ///< false, tree only: as doubles have it, to measure what certainty costs
+    Simd widest = Simd::avx512;  ///< tree: forgo wider instructions than these; the same bits
   };
   struct Session {
     Work work;

@@ -98,7 +98,7 @@ std::uint64_t next_number() noexcept {
 
 SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters, const Options& options)
     : number_(next_number()),
-      avx2_(!options.portable && spheres::processor_has_avx2()),
+      simd_(std::min(options.widest, widest_simd())),
       searchable_(FilterFrame::fits(mesh.bounds())),
       bounds_(mesh.bounds()),
       certified_(options.certified),
@@ -177,8 +177,8 @@ bool SphereTree::list_blocks(const Vec3& center, const Vec3& move, float distanc
     if (!can_search(anchor)) anchor = center;
     const FilterPoint point = frame_.point(anchor);
     blocks.start(anchor, distance + blocks.ticks * step + 8 * point.tau);
-    if (avx2_ ? spheres::avx2::list_blocks(parts_, point, most, blocks, work)
-              : spheres::portable::list_blocks(parts_, point, most, blocks, work))
+    if (simd_ == Simd::portable ? spheres::portable::list_blocks(parts_, point, most, blocks, work)
+                                : spheres::avx2::list_blocks(parts_, point, most, blocks, work))
       break;
     if (blocks.ticks <= fewest_ticks) {
       // What was left out may be anywhere.

@@ -16,6 +16,7 @@
 #include "core/sphere_cluster/clustering.h"
 #include "core/sphere_cluster/distance_grid.h"
 #include "core/sphere_cluster/near_blocks.h"
+#include "core/sphere_cluster/simd.h"
 #include "core/sphere_cluster/tree_layout.h"
 #include "core/sphere_cluster/tree_refit.h"
 
@@ -35,8 +36,8 @@ class SphereTree {
   };
 
   struct Options {
-    bool portable = false;  ///< forgo the processor's wider instructions: slower, the same bits
-    bool certified = true;  ///< false: contact as doubles have it
+    Simd widest = Simd::avx512;  ///< no wider instructions; what the processor lacks is not used
+    bool certified = true;       ///< false: contact as doubles have it
   };
 
   SphereTree() = default;
@@ -108,7 +109,7 @@ class SphereTree {
                    Work& work) const noexcept;
 
   std::uint64_t number_ = 0;  ///< of this tree and its copies
-  bool avx2_ = false;
+  Simd simd_ = Simd::portable;
   bool searchable_ = false;  ///< else the mesh does not fit the frame, and every triangle is looked at
   Aabb bounds_;
   FilterFrame frame_;

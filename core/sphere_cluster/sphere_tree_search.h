@@ -18,7 +18,8 @@ namespace touchmark {
 template <class Visitor>
 void SphereTree::show(std::uint32_t at, Visitor& visitor) const noexcept {
   ++visitor.work.triangles;
-  avx2_ ? spheres::avx2::show(parts_, at, visitor) : spheres::portable::show(parts_, at, visitor);
+  simd_ == Simd::portable ? spheres::portable::show(parts_, at, visitor)
+                          : spheres::avx2::show(parts_, at, visitor);
 }
 
 template <class Visitor>
@@ -28,8 +29,14 @@ void SphereTree::show_all(Visitor& visitor) const noexcept {
 
 template <class Visitor>
 float SphereTree::descend(const FilterPoint& point, Visitor& visitor, std::uint64_t most) const noexcept {
-  return avx2_ ? spheres::avx2::descend(parts_, point, most, visitor)
-               : spheres::portable::descend(parts_, point, most, visitor);
+  switch (simd_) {
+    case Simd::avx512:
+      return spheres::avx512::descend(parts_, point, most, visitor);
+    case Simd::avx2:
+      return spheres::avx2::descend(parts_, point, most, visitor);
+    default:
+      return spheres::portable::descend(parts_, point, most, visitor);
+  }
 }
 
 inline float SphereTree::way(const Vec3& from, const Vec3& to, const FilterPoint& at) const noexcept {
@@ -48,8 +55,14 @@ float SphereTree::search_near(const FilterPoint& point, Visitor& visitor, Memory
     away = way(memory.blocks.anchor, visitor.center, point);
     if (!(distance + away < memory.blocks.rest)) return descend(point, visitor, most);
   }
-  return avx2_ ? spheres::avx2::search_listed(parts_, point, memory.blocks, away, most, visitor)
-               : spheres::portable::search_listed(parts_, point, memory.blocks, away, most, visitor);
+  switch (simd_) {
+    case Simd::avx512:
+      return spheres::avx512::search_listed(parts_, point, memory.blocks, away, most, visitor);
+    case Simd::avx2:
+      return spheres::avx2::search_listed(parts_, point, memory.blocks, away, most, visitor);
+    default:
+      return spheres::portable::search_listed(parts_, point, memory.blocks, away, most, visitor);
+  }
 }
 
 }  // namespace touchmark

@@ -19,6 +19,7 @@
 #include "core/geometry/point_triangle.h"
 #include "core/geometry/point_triangle_avx2.h"
 #include "core/sphere_cluster/near_blocks.h"
+#include "core/sphere_cluster/simd.h"
 #include "core/sphere_cluster/tree_layout.h"
 #include "core/sphere_cluster/tree_split.h"
 
@@ -69,6 +70,13 @@ template <class Word>
 inline void pack(Word* to, const Word* from, unsigned chosen) noexcept {
   for (; chosen != 0; chosen &= chosen - 1) *to++ = from[std::countr_zero(chosen)];
 }
+/// Those that are at most the limit, as bits; `unseen` falls to the least of the others.
+inline unsigned split(Wide bounds, float limit, Wide& unseen) noexcept {
+  const WideBits is_near = bounds <= limit;
+  const Wide kept = is_near ? unseen : bounds;
+  unseen = unseen < kept ? unseen : kept;
+  return bits_of(is_near);
+}
 #include "core/sphere_cluster/tree_search.inl"
 
 }  // namespace portable
@@ -108,15 +116,45 @@ inline void pack(Word* to, const Word* from, unsigned chosen) noexcept {
   const __m256i words = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_permutevar8x32_epi32(words, order));
 }
+inline unsigned split(Wide bounds, float limit, Wide& unseen) noexcept {
+  const WideBits is_near = bounds <= limit;
+  const Wide kept = is_near ? unseen : bounds;
+  unseen = unseen < kept ? unseen : kept;
+  return bits_of(is_near);
+}
 #include "core/sphere_cluster/tree_search.inl"
 
 }  // namespace avx2
 #pragma GCC pop_options
 
-inline bool processor_has_avx2() noexcept { return __builtin_cpu_supports("avx2") != 0; }
+#pragma GCC push_options
+#pragma GCC target("avx2,avx512f,avx512vl,avx512dq")
+namespace avx512 {
+
+using avx2::kernel, avx2::lanes, avx2::square_root, avx2::Wide, avx2::WideBits;
+
+inline unsigned bits_of(WideBits mask) noexcept {
+  return _mm256_movepi32_mask(reinterpret_cast<__m256i>(mask));
+}
+template <class Word>
+inline void pack(Word* to, const Word* from, unsigned chosen) noexcept {
+  static_assert(sizeof(Word) == 4);
+  const __m256i words = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
+                      _mm256_maskz_compress_epi32(static_cast<__mmask8>(chosen), words));
+}
+inline unsigned split(Wide bounds, float limit, Wide& unseen) noexcept {
+  const __mmask8 is_near = _mm256_cmp_ps_mask(bounds, _mm256_set1_ps(limit), _CMP_LE_OQ);
+  unseen = _mm256_mask_min_ps(unseen, static_cast<__mmask8>(~is_near), unseen, bounds);
+  return is_near;
+}
+#include "core/sphere_cluster/tree_search.inl"
+
+}  // namespace avx512
+#pragma GCC pop_options
 #else
 namespace avx2 = portable;
-inline bool processor_has_avx2() noexcept { return false; }
+namespace avx512 = portable;
 #endif
 
 }  // namespace touchmark::spheres

@@ -1,5 +1,5 @@
 // The search itself, written once and included once an instruction set (tree_search.h), in a namespace that
-// defines Wide, a vector of `lanes` floats, and its square_root and bits_of. The same operations in the same
+// defines Wide, a vector of `lanes` floats, and its square_root, bits_of, split and pack. The same operations in the same
 // order, so that both visit the same nodes and give the same bits.
 
 inline Wide load(const float* from) noexcept {
@@ -51,12 +51,7 @@ inline Point spread(const FilterPoint& p) noexcept {
 template <class Bounds>
 inline unsigned within(const Bounds& bounds_at, float limit, Wide& unseen) noexcept {
   unsigned near = 0;
-  for (std::size_t at = 0; at < tree_width; at += lanes) {
-    const Wide bounds = bounds_at(at);
-    const WideBits is_near = bounds <= limit;
-    near |= bits_of(is_near) << at;
-    unseen = smaller(unseen, is_near ? unseen : bounds);
-  }
+  for (std::size_t at = 0; at < tree_width; at += lanes) near |= split(bounds_at(at), limit, unseen) << at;
   return near;
 }
 

@@ -126,7 +126,7 @@ TEST(CertifiedNearest, SphereClusterDecidesAsTheOracleDoes) {
   for (const NamedMesh& mesh : meshes()) {
     const Exam exam(mesh, 40);
     exam.examine(SphereCluster::build(mesh.mesh), "tree");
-    exam.examine(SphereCluster::build(mesh.mesh, {.portable = true}), "portable tree");
+    exam.examine(SphereCluster::build(mesh.mesh, {.widest = Simd::portable}), "portable tree");
     exam.examine(SphereCluster::build(mesh.mesh, {.lookup = Lookup::scan}), "scan");
   }
 }

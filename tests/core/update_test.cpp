@@ -151,7 +151,7 @@ TEST(Update, GivesTheBitsOfBruteForceOnTheMeshAsItIsNow) {
     expect_bits_of_brute_force<BruteForce>(film, {}, "brute-force, " + scene.name);
     expect_bits_of_brute_force<AabbTree>(film, {}, "aabb-tree, " + scene.name);
     expect_bits_of_brute_force<SphereCluster>(film, {}, "sphere-cluster, " + scene.name);
-    expect_bits_of_brute_force<SphereCluster>(film, {.portable = true}, "portable, " + scene.name);
+    expect_bits_of_brute_force<SphereCluster>(film, {.widest = Simd::portable}, "portable, " + scene.name);
     expect_bits_of_brute_force<GridGroup>(film, {}, "grid-group, " + scene.name);
   }
 }

@@ -23,11 +23,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<SphereCluster::Options> exact_forms(double size) {
-  return {{0, Lookup::scan, true},
-          {0.1 * size, Lookup::scan, true},
-          {0, Lookup::tree, true},
-          {0, Lookup::tree, true, VisitOrder::mesh, true},
-          {0.1 * size, Lookup::tree, true}};
+  return {{0, Lookup::scan, true}, {0.1 * size, Lookup::scan, true},
+          {0, Lookup::tree, true}, {.order = VisitOrder::mesh, .widest = Simd::portable},
+          {.widest = Simd::avx2},  {0.1 * size, Lookup::tree, true}};
 }
 
 /// Bit for bit; NaN equals NaN (a contact at infinite distance has no point).
@@ -56,7 +54,10 @@ void expect_same(const std::optional<Impact>& a, const std::optional<Impact>& b)
 
 std::string label(const test::NamedMesh& scene, const SphereCluster::Options& options) {
   return scene.name + (options.lookup == Lookup::scan ? ", scan" : ", tree") + ", clustering " +
-         std::to_string(options.clustering) + (options.portable ? ", portable" : "");
+         std::to_string(options.clustering) +
+         (options.widest == Simd::portable ? ", portable"
+          : options.widest == Simd::avx2   ? ", avx2"
+                                           : "");
 }
 
 TEST(SphereCluster, FindsTheNearestOfTwoTriangles) {
