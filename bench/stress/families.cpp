@@ -49,6 +49,8 @@ constexpr std::array list{
     Family{"empty-mesh", "a mesh without a triangle, which is to be refused", false, &stress::empty_mesh},
     Family{"motions", "every trajectory of the comparison on ordinary and thin meshes", false,
            &stress::motions},
+    Family{"ordinary", "balls of every size anywhere about small meshes, other ones with each seed", false,
+           &stress::ordinary},
 };
 
 }  // namespace

@@ -293,6 +293,17 @@ TEST(Families, MotionsAreAllThatThereAre) {
     EXPECT_EQ(std::set<std::string>(workload.trajectories.begin(), workload.trajectories.end()), names);
 }
 
+TEST(Families, OrdinaryProbesAreBothInContactAndNot) {
+  for (const Workload& workload : made("ordinary")) {
+    const Oracle oracle(workload.mesh);
+    std::size_t touching = 0;
+    for (const Step& step : workload.courses.front())
+      touching += oracle.within(truth_at(oracle, step), step.probe.center, step.probe.radius) ? 1 : 0;
+    EXPECT_GT(touching, workload.courses.front().size() / 10) << workload.mesh_name;
+    EXPECT_LT(touching, workload.courses.front().size() * 9 / 10) << workload.mesh_name;
+  }
+}
+
 TEST(Families, AnUnknownNameIsToldTheNearest) {
   try {
     family_named("neadles");

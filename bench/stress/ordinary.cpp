@@ -1,0 +1,62 @@
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "bench/generated_scenes.h"
+#include "bench/stress/hard_cases.h"
+#include "bench/stress/makers.h"
+#include "bench/stress/questions.h"
+
+namespace touchmark::bench::stress {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Triangles of every size from a hundredth of the box to all of it, others with each seed.
+TriangleMesh scattered(HardCases& random, std::size_t triangles) {
+  std::vector<HardCases::Corners> list;
+  while (list.size() < triangles) {
+    const Vec3 place = random.vector();
+    const double size = random.magnitude(-2, 0);
+    list.push_back(
+        {place + size * random.vector(), place + size * random.vector(), place + size * random.vector()});
+  }
+  return mesh_of(list);
+}
+
+/// A point of the box made larger by a tenth, or within a hundredth of the diagonal of the surface.
+Vec3 somewhere(HardCases& random, const TriangleMesh& mesh) {
+  if (random.below(2) == 0)
+    return mesh.bounds().center() + 0.6 * random.vector().cwiseProduct(mesh.bounds().extent());
+  const std::size_t i = random.below(mesh.size());
+  double a = random.fraction(), b = random.fraction();
+  if (a + b > 1) a = 1 - a, b = 1 - b;
+  const Vec3& corner = mesh.corner(i, 0);
+  const Vec3 on = corner + a * (mesh.corner(i, 1) - corner) + b * (mesh.corner(i, 2) - corner);
+  return on + 0.01 * mesh.diagonal() * random.vector();
+}
+
+}  // namespace
+
+std::vector<Workload> ordinary(std::uint64_t seed, std::size_t probes) {
+  HardCases random(seed);
+  std::vector<NamedMesh> meshes;
+  meshes.push_back({"noisy-sphere", noisy_sphere(200).transformed(random.magnitude(-1, 1), random.vector())});
+  meshes.push_back({"torus", torus(12, 8).transformed(random.magnitude(-1, 1), random.vector())});
+  meshes.push_back({"scattered", scattered(random, 100)});
+  const std::size_t each = share_of(probes, meshes.size());
+  std::vector<Workload> workloads;
+  for (NamedMesh& mesh : meshes) {
+    std::vector<Step> course;
+    for (std::size_t i = 0; i < each; ++i) {
+      const double radius = random.magnitude(-4, -1) * mesh.mesh.diagonal();
+      // As far as they reach, then without end.
+      course.push_back({{somewhere(random, mesh.mesh), radius}, i < each / 2 ? radius : infinity});
+    }
+    workloads.push_back(about(std::move(mesh), "anywhere", std::move(course)));
+  }
+  return workloads;
+}
+
+}  // namespace touchmark::bench::stress
