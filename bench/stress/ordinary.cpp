@@ -42,9 +42,9 @@ Vec3 somewhere(HardCases& random, const TriangleMesh& mesh) {
 std::vector<Workload> ordinary(std::uint64_t seed, std::size_t probes) {
   HardCases random(seed);
   std::vector<NamedMesh> meshes;
-  meshes.push_back({"noisy-sphere", noisy_sphere(200).transformed(random.magnitude(-1, 1), random.vector())});
-  meshes.push_back({"torus", torus(12, 8).transformed(random.magnitude(-1, 1), random.vector())});
-  meshes.push_back({"scattered", scattered(random, 100)});
+  meshes.push_back({"noisy-sphere", noisy_sphere(80).transformed(random.magnitude(-1, 1), random.vector())});
+  meshes.push_back({"torus", torus(8, 5).transformed(random.magnitude(-1, 1), random.vector())});
+  meshes.push_back({"scattered", scattered(random, 60)});
   const std::size_t each = share_of(probes, meshes.size());
   std::vector<Workload> workloads;
   for (NamedMesh& mesh : meshes) {

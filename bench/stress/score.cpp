@@ -48,8 +48,10 @@ void Score::add(const ResultRow& row, bool of_another_mesh) {
   meshes += of_another_mesh ? 1 : 0;
   if (row.accuracy) guarantee = guarantee_name(row);
   if (row.tally) tally += *row.tally;
-  if (row.tally && row.throughput)
+  if (row.tally && row.throughput) {
     ns_ += row.throughput->ns_per_query * static_cast<double>(row.tally->judged);
+    timed_ += row.tally->judged;
+  }
   timeouts += row.status == "timeout" ? 1 : 0;
   refusals += row.status.starts_with("refused") ? 1 : 0;
   unsupported += row.status == "unsupported" ? 1 : 0;
@@ -68,8 +70,8 @@ Standing Score::standing() const noexcept {
 }
 
 std::optional<double> Score::ns_per_query() const {
-  if (tally.judged == 0) return std::nullopt;
-  return ns_ / static_cast<double>(tally.judged);
+  if (timed_ == 0) return std::nullopt;
+  return ns_ / static_cast<double>(timed_);
 }
 
 }  // namespace touchmark::bench

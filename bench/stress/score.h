@@ -32,7 +32,7 @@ class Score {
 
   std::string contestant() const { return options.empty() ? detector : detector + ":" + options; }
   Standing standing() const noexcept;
-  /// Mean over the answers, roughly; nothing where none was judged.
+  /// Mean over the answers that were timed, roughly; nothing where none was.
   std::optional<double> ns_per_query() const;
 
   std::string detector;
@@ -51,6 +51,7 @@ class Score {
 
  private:
   double ns_ = 0;
+  std::uint64_t timed_ = 0;
 };
 
 }  // namespace touchmark::bench
