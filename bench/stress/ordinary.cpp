@@ -1,5 +1,5 @@
-#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <utility>
 
@@ -12,6 +12,11 @@ namespace touchmark::bench::stress {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// More often few than many.
+std::uint32_t some(HardCases& random, double least, double most) {
+  return static_cast<std::uint32_t>(random.magnitude(std::log10(least), std::log10(most + 1)));
+}
 
 /// Triangles of every size from a hundredth of the box to all of it, others with each seed.
 TriangleMesh scattered(HardCases& random, std::size_t triangles) {
@@ -42,9 +47,12 @@ Vec3 somewhere(HardCases& random, const TriangleMesh& mesh) {
 std::vector<Workload> ordinary(std::uint64_t seed, std::size_t probes) {
   HardCases random(seed);
   std::vector<NamedMesh> meshes;
-  meshes.push_back({"noisy-sphere", noisy_sphere(80).transformed(random.magnitude(-1, 1), random.vector())});
-  meshes.push_back({"torus", torus(8, 5).transformed(random.magnitude(-1, 1), random.vector())});
-  meshes.push_back({"scattered", scattered(random, 60)});
+  const auto moved = [&](const TriangleMesh& mesh) {
+    return mesh.transformed(random.magnitude(-1, 1), random.vector());
+  };
+  meshes.push_back({"noisy-sphere", moved(noisy_sphere(some(random, 6, 100)))});
+  meshes.push_back({"torus", moved(torus(some(random, 3, 10), some(random, 3, 6)))});
+  meshes.push_back({"scattered", scattered(random, some(random, 1, 100))});
   const std::size_t each = share_of(probes, meshes.size());
   std::vector<Workload> workloads;
   for (NamedMesh& mesh : meshes) {
