@@ -125,9 +125,7 @@ TEST_P(ExactForms, AreRightAndAgreeOnHardMeshes) {
   ask_touches("touches at the very distance", [&](std::size_t i) { return distance[i]; });
   ask_touches("touches an ulp short of it", [&](std::size_t i) { return std::nextafter(distance[i], 0); });
   ask_touches("touches an ulp beyond", [&](std::size_t i) { return std::nextafter(distance[i], infinity); });
-  // Beyond that, sweeps are promised nothing: products of four differences leave the range of double.
-  if (named.mesh.diagonal() < 0x1p200)
-    examination.ask_all("sweep", Query::sweep, steps_at(centers, constant(some), constant(0)));
+  examination.ask_all("sweep", Query::sweep, steps_at(centers, constant(some), constant(0)));
 }
 
 INSTANTIATE_TEST_SUITE_P(Meshes, ExactForms, testing::Range(std::size_t{0}, hard_meshes().size()),
@@ -201,6 +199,45 @@ TEST(ExactFormsInLine, LoseNothingToTheRoundingOfABound) {
     examination.ask_all("nearest, an ulp beyond", Query::nearest, steps_at(centers, at, beyond));
     examination.ask_all("touches", Query::touches, steps_at(centers, at, at));
     examination.ask_all("touches, an ulp beyond", Query::touches, steps_at(centers, beyond, at));
+  }
+}
+
+/// Through triangles whose fourth powers leave the range of double, and whose squares do, up to numbers that
+/// have lost digits: the fractions are those at scale 1, where it is a power of two that they are scaled by.
+TEST(ExactFormsAtAnyScale, SweepAlike) {
+  HardCases hard(23);
+  std::vector<HardCases::Corners> triangles;
+  for (int i = 0; i < 40; ++i) triangles.push_back(i % 4 == 0 ? hard.needle() : hard.plain());
+  const TriangleMesh mesh = mesh_of(triangles);
+  std::vector<Vec3> way;
+  for (int i = 0; i < 60; ++i) way.push_back(i % 5 == 0 ? Vec3(1e3 * hard.vector()) : hard.vector());
+  const auto asked_of = [&](double scale) {
+    std::vector<Step> steps;
+    for (std::size_t i = 0; i < way.size(); ++i) steps.push_back({{scale * way[i], 0.01 * scale}, 0});
+    return steps;
+  };
+  const std::vector<Answer> plain = ask(*exact_forms(mesh).front().detector, Query::sweep, asked_of(1));
+  std::size_t hits = 0;
+  for (const Answer& answer : plain) hits += answer.found != 0 && answer.fraction > 0 ? 1 : 0;
+  EXPECT_GT(hits, way.size() / 4);
+  for (const double scale : {1e80, 1e100, 1e140, 1e200, 1e300, 1e-45, 1e-80, 1e-100, 1e-140, 1e-200, 1e-300,
+                             0x1p-1040, 0x1p300, 0x1p500, 0x1p1000, 0x1p-300, 0x1p-500, 0x1p-900}) {
+    SCOPED_TRACE(scale);
+    Examination examination(mesh.transformed(scale, Vec3::Zero()));
+    examination.ask_all("sweep", Query::sweep, asked_of(scale));
+    int exponent = 0;
+    if (std::frexp(scale, &exponent) != 0.5 || exponent < -1000) continue;
+    const ExactForm reference = std::move(exact_forms(mesh.transformed(scale, Vec3::Zero())).front());
+    const std::vector<Answer> scaled = ask(*reference.detector, Query::sweep, asked_of(scale));
+    for (std::size_t i = 0; i < scaled.size(); ++i) {
+      EXPECT_EQ(scaled[i].found, plain[i].found) << "step " << i;
+      EXPECT_EQ(scaled[i].fraction, plain[i].fraction) << "step " << i;
+      EXPECT_EQ(scaled[i].triangle, plain[i].triangle) << "step " << i;
+      // At the start it is known better where doubles do not do.
+      if (plain[i].fraction > 0) {
+        EXPECT_EQ(scaled[i].distance, scale * plain[i].distance) << "step " << i;
+      }
+    }
   }
 }
 

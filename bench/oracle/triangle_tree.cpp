@@ -24,6 +24,14 @@ double length_below(const Vec3& excess) noexcept {
   return std::min(excess.maxCoeff(), std::numeric_limits<double>::max()) * down;
 }
 
+/// The same rounded up.
+double length_above(const Vec3& excess) noexcept {
+  const double squared = excess.squaredNorm();
+  if (squared > 0x1p-900) return std::sqrt(squared) * up;
+  constexpr double root_of_three = 1.7320508075688774;
+  return excess.maxCoeff() * (root_of_three * up) + std::numeric_limits<double>::denorm_min();
+}
+
 std::uint32_t leaves(std::uint32_t triangles) noexcept {
   return triangles / leaf_size + (triangles % leaf_size != 0);
 }
@@ -39,7 +47,7 @@ double distance_below(const Box& box, const Vec3& from, const Vec3& to) noexcept
   const double apart = length_below((box.min - high).cwiseMax(low - box.max).cwiseMax(0));
   // A slanting way's own box says little: measure to a ball around the box instead.
   const Vec3 center = 0.5 * box.min + 0.5 * box.max;
-  const double radius = ((box.max - center).cwiseMax(center - box.min)).norm() * up;
+  const double radius = length_above((box.max - center).cwiseMax(center - box.min));
   const Interval to_center = segment_distance_interval(from, to, {center, center, center});
   const double from_ball = (to_center.lo - radius) * down;
   return from_ball > apart ? from_ball : apart;

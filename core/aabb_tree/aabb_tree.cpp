@@ -284,8 +284,9 @@ std::optional<Impact> AabbTree::first_hit(const Sweep& sweep, Session& session) 
   if (!(sweep.radius >= 0)) return std::nullopt;
   Work& work = session.work;
   const std::uint64_t most = most_work(work);
-  const double widening = sweep_widening(
-      sweep, std::max(largest_difference(bounds(), sweep.from), largest_difference(bounds(), sweep.to)));
+  const double difference = largest_difference(bounds(), sweep);
+  if (!fourth_powers_fit(difference)) return all().first_hit(sweep, work);
+  const double widening = sweep_widening(sweep, difference);
   HitCandidate first;
   std::uint32_t kept_at = 0;
   std::array<std::uint32_t, most_levels> waiting;

@@ -1,7 +1,6 @@
 #include "core/geometry/certified_nearest.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <compare>
 
@@ -10,29 +9,19 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// A power of two that brings the difference near 1, or as near as the range of doubles lets it.
-double scale_for(double difference) noexcept {
-  constexpr int most = 1000;
-  if (!(difference > 0)) return 1;
-  const int exponent = std::isinf(difference) ? most : std::ilogb(difference);
-  return std::ldexp(1.0, std::clamp(-exponent, -most, most));
-}
-
 /// By kernel distances of a copy scaled by a power of two.
 std::optional<Contact> nearest_at_any_scale(std::span<const PreparedTriangle> triangles, const Aabb& bounds,
                                             const Vec3& center, double reach, std::span<const TriangleId> ids,
                                             Work& work) noexcept {
   work.triangles += 2 * triangles.size();
-  const double scale = scale_for(largest_difference(bounds, center));
+  const double scale = unit_for(largest_difference(bounds, center));
   const Vec3 point = scale * center;
-  const auto distance_to = [&](const PreparedTriangle& t) {
-    const std::array<Vec3, 3> corner = {scale * t.corner[0], scale * t.corner[1], scale * t.corner[2]};
-    return std::sqrt(squared_distance({corner, t.normal, t.index}, point));
+  const auto distance_to = [&](const PreparedTriangle& triangle) {
+    return std::sqrt(squared_distance(scaled(triangle, scale), point));
   };
   double least = infinity;
   for (const PreparedTriangle& triangle : triangles) least = std::min(least, distance_to(triangle));
-  const Aabb scaled = {scale * bounds.min, scale * bounds.max};
-  const double limit = least + distance_error(scaled, point);
+  const double limit = least + distance_error({scale * bounds.min, scale * bounds.max}, point);
   NearestOfTies ties(center);
   for (const PreparedTriangle& triangle : triangles)
     if (distance_to(triangle) <= limit) ties.consider(triangle);
@@ -40,6 +29,13 @@ std::optional<Contact> nearest_at_any_scale(std::span<const PreparedTriangle> tr
 }
 
 }  // namespace
+
+double unit_for(double largest_difference) noexcept {
+  constexpr int most = 1000;
+  if (!(largest_difference > 0)) return 1;
+  const int exponent = std::isinf(largest_difference) ? most : std::ilogb(largest_difference);
+  return std::ldexp(1.0, std::clamp(-exponent, -most, most));
+}
 
 CloseFoot NearestOfTies::foot_of(const PreparedTriangle& triangle) noexcept {
   if (const std::optional<CloseFoot> close = close_foot(triangle.corner, center_)) return *close;
@@ -96,14 +92,7 @@ std::optional<Contact> nearest_of_all(std::span<const PreparedTriangle> triangle
     return nearest_at_any_scale(triangles, bounds, center, reach, ids, work);
   }
   work.triangles += triangles.size();
-  Candidate best;
-  const PreparedTriangle* nearest = nullptr;
-  for (const PreparedTriangle& triangle : triangles) {
-    const Candidate candidate{squared_distance(triangle, center), triangle.index};
-    if (!(candidate < best)) continue;
-    best = candidate;
-    nearest = &triangle;
-  }
+  const auto [nearest, best] = nearest_as_computed(triangles, center);
   const double distance = std::sqrt(best.squared_distance);
   if (!is_certain(distance, reach, error) && !is_certain_on(*nearest, distance, center, reach, error)) {
     work.triangles += triangles.size();

@@ -30,10 +30,16 @@ std::optional<Contact> EveryTriangle::nearest(const Vec3& center, double reach, 
 
 std::optional<Impact> EveryTriangle::first_hit(const Sweep& sweep, Work& work) const noexcept {
   if (!(sweep.radius >= 0)) return std::nullopt;
+  const double difference = largest_difference(bounds, sweep);
+  const bool fits = fourth_powers_fit(difference);
+  const double unit = fits ? 1 : unit_for(difference);
+  const Sweep in_unit = {unit * sweep.from, unit * sweep.to, unit * sweep.radius};
   HitCandidate first;
   const PreparedTriangle* hit = nullptr;
   for (const PreparedTriangle& triangle : triangles) {
-    const std::optional<double> fraction = sweep_hit(triangle, sweep, std::min(first.fraction, 1.0));
+    const double limit = std::min(first.fraction, 1.0);
+    const std::optional<double> fraction =
+        fits ? sweep_hit(triangle, sweep, limit) : sweep_hit(scaled(triangle, unit), in_unit, limit);
     if (!fraction || !(HitCandidate{*fraction, triangle.index} < first)) continue;
     first = {*fraction, triangle.index};
     hit = &triangle;
@@ -42,22 +48,18 @@ std::optional<Impact> EveryTriangle::first_hit(const Sweep& sweep, Work& work) c
   if (hit == nullptr) return std::nullopt;
   // Touching at the start, which is decided exactly: of all the triangles there the nearest one counts.
   if (const auto start = nearest(sweep.from, sweep.radius, work)) return Impact{0, *start};
-  return Impact{first.fraction, contact_on(*hit, position_at(sweep, first.fraction), id(first.index))};
+  Contact contact = contact_on(scaled(*hit, unit), position_at(in_unit, first.fraction), id(first.index));
+  contact.point /= unit;
+  contact.distance /= unit;
+  return Impact{first.fraction, contact};
 }
 
 std::optional<Contact> EveryTriangle::nearest_as_computed(const Vec3& center, double reach,
                                                           Work& work) const noexcept {
-  Candidate best;
-  const PreparedTriangle* nearest = nullptr;
-  for (const PreparedTriangle& triangle : triangles) {
-    const Candidate candidate{squared_distance(triangle, center), triangle.index};
-    if (!(candidate < best)) continue;
-    best = candidate;
-    nearest = &triangle;
-  }
+  const auto [triangle, candidate] = touchmark::nearest_as_computed(triangles, center);
   work.triangles += triangles.size();
-  if (nearest == nullptr || std::sqrt(best.squared_distance) > reach) return std::nullopt;
-  return contact_on(*nearest, center, id(best.index));
+  if (triangle == nullptr || std::sqrt(candidate.squared_distance) > reach) return std::nullopt;
+  return contact_on(*triangle, center, id(candidate.index));
 }
 
 }  // namespace touchmark

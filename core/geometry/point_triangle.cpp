@@ -150,6 +150,20 @@ double squared_distance(const PreparedTriangle& triangle, const Vec3& point) noe
   return offset_from(triangle, point).squared;
 }
 
+NearestAsComputed nearest_as_computed(std::span<const PreparedTriangle> triangles,
+                                      const Vec3& point) noexcept {
+  NearestAsComputed nearest;
+  for (const PreparedTriangle& triangle : triangles) {
+    const Candidate candidate{squared_distance(triangle, point), triangle.index};
+    if (candidate < nearest.candidate) nearest = {&triangle, candidate};
+  }
+  return nearest;
+}
+
+PreparedTriangle scaled(const PreparedTriangle& t, double scale) noexcept {
+  return {{scale * t.corner[0], scale * t.corner[1], scale * t.corner[2]}, t.normal, t.index};
+}
+
 Contact contact_on(const PreparedTriangle& triangle, const Vec3& point, TriangleId id) noexcept {
   return contact_at(triangle, point, offset_from(triangle, point), id);
 }

@@ -58,6 +58,17 @@ struct Candidate {
   }
 };
 
+/// The least Candidate of these triangles, in any order, and whose it is; null where there are none.
+struct NearestAsComputed {
+  const PreparedTriangle* triangle = nullptr;
+  Candidate candidate;
+};
+NearestAsComputed nearest_as_computed(std::span<const PreparedTriangle> triangles,
+                                      const Vec3& point) noexcept;
+
+/// The same triangle in another unit. `scale` is a power of two, so that nothing rounds.
+PreparedTriangle scaled(const PreparedTriangle& triangle, double scale) noexcept;
+
 /// The vector from a triangle's nearest point to the query point, and its squared length.
 struct Offset {
   Vec3 vector;

@@ -123,9 +123,9 @@ class SweepSearch {
 std::optional<Impact> DirectGrid::first_hit(const Sweep& sweep, DirectMemory& memory,
                                             Work& work) const noexcept {
   if (!(sweep.radius >= 0)) return std::nullopt;
+  const double difference = largest_difference(bounds_, sweep);
+  if (!fourth_powers_fit(difference)) return all().first_hit(sweep, work);
   if (!(store_.frame.covers(sweep.from) && store_.frame.covers(sweep.to))) return far_first_hit(sweep, work);
-  const double difference =
-      std::max(largest_difference(bounds_, sweep.from), largest_difference(bounds_, sweep.to));
   const double widening = sweep_widening(sweep, difference);
   const double farthest = (sweep.to - sweep.from).norm() * (1 + 0x1p-40) + widening;
   const Start start = start_at(sweep.from, store_.frame.point(sweep.from), farthest, memory, work);
@@ -143,10 +143,9 @@ std::optional<Impact> DirectGrid::first_hit(const Sweep& sweep, DirectMemory& me
 }
 
 std::optional<Impact> DirectGrid::far_first_hit(const Sweep& sweep, Work& work) const noexcept {
-  const double difference =
-      std::max(largest_difference(bounds_, sweep.from), largest_difference(bounds_, sweep.to));
   ++work.boxes;
-  if (enters(bounds_, sweep, sweep_widening(sweep, difference), 1) > 1) return std::nullopt;
+  if (enters(bounds_, sweep, sweep_widening(sweep, largest_difference(bounds_, sweep)), 1) > 1)
+    return std::nullopt;
   DirectMemory memory;
   return first_hit_of_all(sweep, memory, work);
 }

@@ -120,8 +120,8 @@ std::optional<Contact> ScanGrid::nearest(const Vec3& center, double reach, Work&
 
 std::optional<Impact> ScanGrid::first_hit(const Sweep& sweep, Work& work) const noexcept {
   if (!(sweep.radius >= 0)) return std::nullopt;
-  const double difference =
-      std::max(largest_difference(bounds_, sweep.from), largest_difference(bounds_, sweep.to));
+  const double difference = largest_difference(bounds_, sweep);
+  if (!fourth_powers_fit(difference)) return all().first_hit(sweep, work);
   const double by = sweep_widening(sweep, difference);
   HitCandidate first;
   const auto scan = [&](const auto& shapes) {

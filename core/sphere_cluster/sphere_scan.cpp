@@ -117,7 +117,8 @@ std::optional<Contact> SphereScan::nearest(const Vec3& center, double reach, Wor
 std::optional<Impact> SphereScan::first_hit(const Sweep& sweep, Work& work) const noexcept {
   if (!(sweep.radius >= 0)) return std::nullopt;
   const double error = distance_error(bounds_, sweep.from);
-  if (std::isinf(error)) return all().first_hit(sweep, work);
+  if (std::isinf(error) || !fourth_powers_fit(largest_difference(bounds_, sweep)))
+    return all().first_hit(sweep, work);
   const double reach = sweep.radius + std::max(sweep_slack(sweep), error);
   const auto outside = [&](std::size_t i) noexcept {
     const double grown = grown_radius(radius_[i], reach);
