@@ -48,4 +48,9 @@ void require_memory(std::string_view what, double bytes) {
                                   bytes / megabyte, *available >> 20U));
 }
 
+void require_memory_for_triangles(std::size_t count, double bytes_each) {
+  require_memory(fmt::format("{} triangles at {} bytes each", count, bytes_each),
+                 bytes_each * static_cast<double>(count));
+}
+
 }  // namespace touchmark::bench

@@ -1,6 +1,7 @@
 /// Whether there is room, asked before memory is taken.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -14,6 +15,12 @@ std::optional<std::uint64_t> available_memory();
 /// Throws ResourceError("WHAT need about N MB of memory, and M MB are available") where there is less. Any
 /// number of bytes, infinity too.
 void require_memory(std::string_view what, double bytes);
+
+/// The same for "N triangles at B bytes each".
+void require_memory_for_triangles(std::size_t count, double bytes_each);
+
+/// Any detector keeps a copy of the triangles, and a structure over them.
+inline constexpr double least_bytes_per_triangle = 150;
 
 /// How a contestant's refusal begins that is for want of memory.
 inline constexpr std::string_view no_memory = "no memory: ";

@@ -150,6 +150,10 @@ std::vector<ContestantSpec> Roster::thorough_set() const {
   return specs;
 }
 
+void Roster::require_memory_for(const ContestantSpec& spec, std::size_t triangles) const {
+  require_memory_for_triangles(triangles, find(spec.name).bytes_per_triangle(spec.values));
+}
+
 std::unique_ptr<Contestant> Roster::build(const ContestantSpec& spec, const TriangleMesh& mesh) const {
   const ContestantInfo& contestant = find(spec.name);
   if (!contestant.built()) throw std::invalid_argument(contestant.name + " is not built into this program");

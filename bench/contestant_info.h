@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/available_memory.h"
 #include "bench/contestant.h"
 #include "bench/stored_scene.h"
 #include "core/triangle_mesh.h"
@@ -59,6 +60,10 @@ struct ContestantInfo {
   std::vector<OptionInfo> options;
   /// Throws std::invalid_argument or MeshError for options or a mesh it refuses. Empty: not built in.
   BuildContestant build;
+  /// What it surely takes, and so must be there before it is built.
+  std::function<double(const OptionValues&)> bytes_per_triangle = [](const OptionValues&) {
+    return least_bytes_per_triangle;
+  };
   /// Which program beside this one runs it.
   std::function<std::string(const OptionValues&)> worker_program = [](const OptionValues&) {
     return std::string(default_worker_program);
@@ -98,6 +103,9 @@ class Roster {
   std::vector<ContestantSpec> thorough_set() const;
   /// Every contestant over the options that trade accuracy for time.
   std::vector<ContestantSpec> frontier() const;
+  /// Throws ResourceError where there is less memory than the contestant takes for so many triangles. For
+  /// what builds it, to be asked before a clock starts: the answer comes from the system.
+  void require_memory_for(const ContestantSpec& spec, std::size_t triangles) const;
   /// Throws what the contestant's build throws, or std::invalid_argument when it is not built in.
   std::unique_ptr<Contestant> build(const ContestantSpec& spec, const TriangleMesh& mesh) const;
 

@@ -114,11 +114,12 @@ ContestantInfo grid_group() {
     options.groups = values.count("groups");
     options.bytes_per_triangle = values.number("bytes_per_triangle");
     options.certified = chosen(values, "certified", yes_or_no);
-    const bool direct = options.lookup == GridGroup::Lookup::direct;
-    require_memory_for(mesh, direct ? options.bytes_per_triangle : least_bytes_per_triangle);
     return contestant<GridGroup>(mesh, options, values, [&](const GridGroup& detector) {
       return remark_on(detector, options, mesh.size());
     });
+  };
+  info.bytes_per_triangle = [](const OptionValues& values) {
+    return values.text("lookup") == "direct" ? values.number("bytes_per_triangle") : least_bytes_per_triangle;
   };
   return info;
 }

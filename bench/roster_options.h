@@ -1,14 +1,13 @@
 /// How roster.cpp ties the names of options on the command line to values of a detector's Options.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
-#include "bench/available_memory.h"
 #include "bench/contestant.h"
 #include "bench/contestant_info.h"
 #include "bench/remarks.h"
@@ -16,19 +15,9 @@
 
 namespace touchmark::bench {
 
-/// Throws ResourceError when so much for each triangle is more than there is.
-inline void require_memory_for(const TriangleMesh& mesh, double bytes_per_triangle) {
-  require_memory(fmt::format("{} triangles at {} bytes each", mesh.size(), bytes_per_triangle),
-                 bytes_per_triangle * static_cast<double>(mesh.size()));
-}
-
-/// Any of them keeps a copy of the triangles, and a structure over them.
-inline constexpr double least_bytes_per_triangle = 150;
-
-template <Detector D, Idle idle = Idle::wasted>
+template <Detector D>
 std::unique_ptr<Contestant> contestant(const TriangleMesh& mesh, const typename D::Options& options) {
-  require_memory_for(mesh, least_bytes_per_triangle);
-  return std::make_unique<ContestantOf<D, idle>>(D::build(mesh, options));
+  return std::make_unique<ContestantOf<D>>(D::build(mesh, options));
 }
 
 /// What a contestant may be asked besides contacts. On, the detector is wrapped; off, it is itself.
@@ -43,29 +32,23 @@ inline bool asks_for_side(const OptionValues& values) {
   return side != values.all().end() && side->second == "on";
 }
 
-/// The same with the option above.
+/// The same with the option above, and with what `remark_on(detector)` has to say of it, unless that is
+/// empty.
 template <Detector D, Idle idle = Idle::wasted>
 std::unique_ptr<Contestant> contestant(const TriangleMesh& mesh, const typename D::Options& options,
-                                       const OptionValues& values) {
-  return asks_for_side(values) ? contestant<Signed<D>, idle>(mesh, options)
-                               : contestant<D, idle>(mesh, options);
-}
-
-/// And with what `remark_on(detector)` has to say of it, unless that is empty.
-template <Detector D, class RemarkOn>
-std::unique_ptr<Contestant> contestant(const TriangleMesh& mesh, const typename D::Options& options,
-                                       const OptionValues& values, const RemarkOn& remark_on) {
-  const auto say = [&](const D& detector) {
-    if (std::string text = remark_on(detector); !text.empty()) remark(std::move(text));
+                                       const OptionValues& values,
+                                       const std::function<std::string(const D&)>& remark_on = nullptr) {
+  const auto with = [&]<Detector Built>(Built detector) -> std::unique_ptr<Contestant> {
+    const D* plain;
+    if constexpr (std::is_same_v<Built, D>) {
+      plain = &detector;
+    } else {
+      plain = &detector.detector();
+    }
+    if (std::string text = remark_on ? remark_on(*plain) : ""; !text.empty()) remark(std::move(text));
+    return std::make_unique<ContestantOf<Built, idle>>(std::move(detector));
   };
-  if (asks_for_side(values)) {
-    Signed<D> detector = Signed<D>::build(mesh, options);
-    say(detector.detector());
-    return std::make_unique<ContestantOf<Signed<D>>>(std::move(detector));
-  }
-  D detector = D::build(mesh, options);
-  say(detector);
-  return std::make_unique<ContestantOf<D>>(std::move(detector));
+  return asks_for_side(values) ? with(Signed<D>::build(mesh, options)) : with(D::build(mesh, options));
 }
 
 /// A choice's names with what they stand for. The first one is the default.

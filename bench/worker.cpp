@@ -124,6 +124,7 @@ nlohmann::json Worker::open(const WorkloadLayout& layout, bool with_clock) {
 
 double Worker::timed_build(const ContestantSpec& spec) {
   contestant_.reset();
+  roster_.require_memory_for(spec, mesh_->size());
   const Clock::time_point start = Clock::now();
   contestant_ = roster_.build(spec, *mesh_);
   return ns_since(start);
@@ -192,6 +193,7 @@ nlohmann::json Worker::update(const std::string& spec_text, const Deformation& d
   std::vector<double> builds, updates, ratios;
   try {
     contestant_->update(rest);
+    roster_.require_memory_for(spec, moved.size());
     const Clock::time_point start = Clock::now();
     while (builds.size() < fewest_rounds || (builds.size() < most_rounds && ns_since(start) < enough_ns)) {
       const double there = timed_update(moved), back = timed_update(rest);
@@ -214,7 +216,10 @@ nlohmann::json Worker::update(const std::string& spec_text, const Deformation& d
 }
 
 nlohmann::json Worker::rebuild(const std::string& spec, const Deformation& deformation) {
-  contestant_ = roster_.build(roster_.parse(spec), deformed(read_mesh(input_.bytes(), layout_), deformation));
+  const ContestantSpec parsed = roster_.parse(spec);
+  const TriangleMesh moved = deformed(read_mesh(input_.bytes(), layout_), deformation);
+  roster_.require_memory_for(parsed, moved.size());
+  contestant_ = roster_.build(parsed, moved);
   return nlohmann::json::object();
 }
 

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "bench/available_memory.h"
 #include "bench/failures.h"
 #include "bench/interrupt.h"
 #include "bench/papers/paper_course.h"
@@ -94,6 +95,7 @@ class Experiment {
  private:
   void measure_surface(std::string_view method, int level, const TriangleMesh& mesh) {
     narrate_(fmt::format("{} level {}: {} triangles", method, level, mesh.size()));
+    require_memory_for_triangles(mesh.size(), least_bytes_per_triangle);
     SurfaceMeasures surface{std::string(method), level, mesh.size(), mean_triangle_area(mesh)};
     const double volume = absolute_volume(mesh, volume_center(original_));
     if (level == 0) original_volume_ = volume;

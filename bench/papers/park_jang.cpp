@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/available_memory.h"
 #include "bench/failures.h"
 #include "bench/interrupt.h"
 #include "bench/papers/paper_course.h"
@@ -29,6 +30,7 @@ class MeshExperiment {
 
   /// Throws Interrupted; the rows so far can be taken nevertheless.
   void run() {
+    require_memory_for_triangles(mesh_.mesh.size(), least_bytes_per_triangle);
     add("ungrouped", 0, 0, contestant<BruteForce>(mesh_.mesh, {}));
     for (const auto shape : {GridGroup::Shape::cube, GridGroup::Shape::sphere}) add_counts(shape);
     GridGroup direct = GridGroup::build(mesh_.mesh);

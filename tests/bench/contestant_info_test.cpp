@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "bench/failures.h"
+
 namespace touchmark::bench {
 namespace {
 
@@ -15,6 +17,7 @@ Roster small_roster() {
                   {"cell", OptionKind::length, {}, "0", ""},
                   {"groups", OptionKind::count, {}, "0", ""},
                   {"bytes", OptionKind::number, {}, "1.5", ""}};
+  grid.bytes_per_triangle = [](const OptionValues& values) { return values.number("bytes"); };
   grid.build = [](const TriangleMesh&, const OptionValues&) { return nullptr; };
   ContestantInfo absent;
   absent.name = "absent";
@@ -69,6 +72,13 @@ TEST(Roster, RefusesWhatIsNotKeyEqualsValueOrComesTwice) {
   EXPECT_EQ(error_of("grid-group:cube"), "grid-group: \"cube\" is not key=value");
   EXPECT_EQ(error_of("grid-group:"), "grid-group: \"\" is not key=value");
   EXPECT_EQ(error_of("grid-group:cell=1,cell=1"), "grid-group: cell is given twice");
+}
+
+TEST(Roster, RefusesAContestantThatTakesMoreMemoryThanThereIs) {
+  const Roster roster = small_roster();
+  const ContestantSpec frugal = roster.parse("grid-group"), greedy = roster.parse("grid-group:bytes=1e30");
+  EXPECT_NO_THROW(roster.require_memory_for(frugal, 1000));
+  EXPECT_THROW(roster.require_memory_for(greedy, 1000), ResourceError);
 }
 
 TEST(Roster, LeavesOutOfTheDefaultSetWhatIsNotBuilt) {
