@@ -114,6 +114,7 @@ class FilterFrame {
 TrianglePlanes planes_of(const PreparedTriangle& triangle, const FilterFrame& frame) noexcept;
 
 inline Lanes greater_of(Lanes a, Lanes b) noexcept { return a > b ? a : b; }
+inline Lanes lesser_of(Lanes a, Lanes b) noexcept { return a < b ? a : b; }
 
 inline Lanes square_root(Lanes a) noexcept {
 #ifdef __SSE2__

@@ -6,12 +6,6 @@
 #include <Eigen/Geometry>
 
 namespace touchmark::grid {
-namespace {
-
-Lanes lesser_of(Lanes a, Lanes b) noexcept { return a < b ? a : b; }
-
-}  // namespace
-
 Footprint::Footprint(const PreparedTriangle& triangle, const FilterFrame& frame) noexcept
     : normal(triangle.normal) {
   for (std::size_t i = 0; i < 3; ++i) corner[i] = frame.to_frame(triangle.corner[i]);

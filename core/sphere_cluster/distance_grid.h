@@ -162,33 +162,32 @@ void DistanceGrid::fill_cubes(const DistanceAt& distance_at, const IsWanted& is_
   constexpr double far_in_edges = 2.5;
   const double far = far_in_edges * fine_.edge();
   const double to_next = coarse_.edge() + rounding;
-  double before_row = std::numeric_limits<double>::infinity();
+  double before = std::numeric_limits<double>::infinity();
+  // To and fro, so that each cube is next to the one before.
+  bool back = false;
   for (std::uint32_t z = 0; z < coarse_.count(2); ++z) {
-    double before = before_row;
-    for (std::uint32_t y = 0; y < coarse_.count(1); ++y) {
-      double first = 0;
-      for (std::uint32_t x = 0; x < coarse_.count(0); ++x) {
+    for (std::uint32_t row = 0; row < coarse_.count(1); ++row, back = !back) {
+      const std::uint32_t y = z % 2 == 0 ? row : coarse_.count(1) - 1 - row;
+      for (std::uint32_t place = 0; place < coarse_.count(0); ++place) {
+        const std::uint32_t x = back ? coarse_.count(0) - 1 - place : place;
         const std::uint32_t cube = coarse_.index(x, y, z);
-        if (is_wanted(cube)) {
-          const Interval distance = distance_at(middle(coarse_, x, y, z), before + to_next);
-          if (distance.least < 0) return;
-          before = distance.most;
-          coarse_steps_[cube] = steps_in(distance.most + step_);
-          for (std::uint32_t eighth = 0; eighth < 8; ++eighth) {
-            const std::uint32_t i = 2 * x + (eighth & 1), j = 2 * y + (eighth >> 1 & 1),
-                                k = 2 * z + (eighth >> 2);
-            const double least = distance.least > far
-                                     ? distance.least - to_eighth()
-                                     : distance_at(middle(fine_, i, j, k), distance.most + to_eighth()).least;
-            fine_steps_[fine_.index(i, j, k)] = steps_in(least);
-          }
-        } else {
+        if (!is_wanted(cube)) {
           before = most_at(cube);
+          continue;
         }
-        if (x == 0) first = before;
+        const Interval distance = distance_at(middle(coarse_, x, y, z), before + to_next);
+        if (distance.least < 0) return;
+        before = distance.most;
+        coarse_steps_[cube] = steps_in(distance.most + step_);
+        for (std::uint32_t eighth = 0; eighth < 8; ++eighth) {
+          const std::uint32_t i = 2 * x + (eighth & 1), j = 2 * y + (eighth >> 1 & 1),
+                              k = 2 * z + (eighth >> 2);
+          const double least = distance.least > far
+                                   ? distance.least - to_eighth()
+                                   : distance_at(middle(fine_, i, j, k), distance.most + to_eighth()).least;
+          fine_steps_[fine_.index(i, j, k)] = steps_in(least);
+        }
       }
-      before = first;
-      if (y == 0) before_row = first;
     }
   }
 }

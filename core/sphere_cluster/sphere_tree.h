@@ -91,9 +91,13 @@ class SphereTree {
   void renew() noexcept;
   void fill_distances();
   void refill_distances(const spheres::MovedTriangles& moved);
+  struct Sampling {
+    Work work;
+    std::uint32_t near = 0;  ///< a triangle near the last place, and so perhaps the next
+  };
   /// Bounds the distance at a place of the frame, which is at most `most`, to about a fifth; negative when
   /// too much work was done already.
-  spheres::DistanceGrid::Interval sample(const Vec3& place, double most, Work& work) const;
+  spheres::DistanceGrid::Interval sample(const Vec3& place, double most, Sampling& sampling) const;
 
   // Visitors: see sphere_tree_search.h.
   template <class Visitor>

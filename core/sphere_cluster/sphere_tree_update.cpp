@@ -19,10 +19,13 @@ struct RoughVisitor {
   float limit;
   Work work{};
   double squared = std::numeric_limits<double>::infinity();
+  std::uint32_t kept_at = std::numeric_limits<std::uint32_t>::max();
 
-  bool wants(std::uint32_t) const noexcept { return true; }
-  void take(std::uint32_t, const Offset& found) noexcept {
-    squared = std::min(squared, found.squared);
+  bool wants(std::uint32_t at) const noexcept { return at != kept_at; }
+  void take(std::uint32_t at, const Offset& found) noexcept {
+    if (!(found.squared < squared)) return;
+    squared = found.squared;
+    kept_at = at;
     limit = std::min(limit, frame.limit(enough * squared));
   }
 };
@@ -34,15 +37,17 @@ Aabb in_frame(const FilterFrame& frame, const Aabb& box) {
 
 }  // namespace
 
-spheres::DistanceGrid::Interval SphereTree::sample(const Vec3& place, double most, Work& work) const {
+spheres::DistanceGrid::Interval SphereTree::sample(const Vec3& place, double most, Sampling& sampling) const {
   // Where the hierarchy is a poor fit, the samples may cost no more than the hierarchy did.
   constexpr std::uint64_t most_work_a_triangle = 1024;
-  if (work.total() > most_work_a_triangle * parts_.triangles.size()) return {-1, -1};
+  if (sampling.work.total() > most_work_a_triangle * parts_.triangles.size()) return {-1, -1};
   const Vec3 center = frame_.origin() + place / frame_.scale();
   const double reach = most / frame_.scale();
   RoughVisitor visitor{parts_, frame_, center, frame_.limit(reach * reach)};
+  show(sampling.near, visitor);
   const float unseen = descend(frame_.point(center), visitor, any_work);
-  work += visitor.work;
+  sampling.near = visitor.kept_at;
+  sampling.work += visitor.work;
   const double found = std::sqrt(visitor.squared) * frame_.scale();
   return {std::min<double>(std::sqrt(unseen), found), std::min(found, most)};
 }
@@ -55,8 +60,8 @@ void SphereTree::fill_distances() {
   if (!(rounding < 0x1p-24)) return;
   const Aabb box = in_frame(frame_, bounds_);
   distances_ = spheres::DistanceGrid(box.min.cast<float>(), box.max.cast<float>(), parts_.triangles.size());
-  Work work;
-  distances_.fill([&](const Vec3& place, double most) { return sample(place, most, work); });
+  Sampling sampling;
+  distances_.fill([&](const Vec3& place, double most) { return sample(place, most, sampling); });
 }
 
 void SphereTree::refill_distances(const spheres::MovedTriangles& moved) {
@@ -67,8 +72,8 @@ void SphereTree::refill_distances(const spheres::MovedTriangles& moved) {
     return fill_distances();
   std::vector<Aabb> boxes;
   for (const Aabb& one : moved.boxes) boxes.push_back(in_frame(frame_, one));
-  Work work;
-  distances_.refill([&](const Vec3& place, double most) { return sample(place, most, work); },
+  Sampling sampling;
+  distances_.refill([&](const Vec3& place, double most) { return sample(place, most, sampling); },
                     [&](const Vec3& place, double most) {
                       return std::any_of(boxes.begin(), boxes.end(), [&](const Aabb& one) {
                         return one.squared_distance(place) <= most * most;

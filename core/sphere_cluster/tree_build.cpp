@@ -13,7 +13,7 @@ namespace {
 class Builder {
  public:
   Builder(const TriangleMesh& mesh, const SphereClusters& clusters, const FilterFrame& frame)
-      : mesh_(mesh), frame_(frame), splitter_(mesh, clusters, frame), bound_(frame) {}
+      : mesh_(mesh), frame_(frame), splitter_(mesh, clusters, frame), bound_(mesh, frame) {}
 
   TreeParts build() {
     TreeParts parts;
@@ -46,8 +46,12 @@ class Builder {
   /// Splits the range that is most likely to be looked into, again and again.
   std::size_t split_into(TriangleRange range, std::array<TriangleRange, tree_width>& children) {
     std::array<float, tree_width> area;
+    // Of a range that is a block already nobody asks.
+    const auto area_of = [&](const TriangleRange& r) {
+      return r.size() > tree_width ? splitter_.area(r) : 0.0F;
+    };
     children[0] = range;
-    area[0] = splitter_.area(range);
+    area[0] = area_of(range);
     std::size_t count = 1;
     while (count < tree_width) {
       std::size_t widest = count;
@@ -57,8 +61,8 @@ class Builder {
       const auto [left, right] = splitter_.split(children[widest]);
       children[widest] = left;
       children[count] = right;
-      area[widest] = splitter_.area(left);
-      area[count] = splitter_.area(right);
+      area[widest] = area_of(left);
+      area[count] = area_of(right);
       ++count;
     }
     // In the splitter's order, so that the last block is the one that need not be full.
@@ -68,10 +72,7 @@ class Builder {
   }
 
   SlabbedSphere bound(const TriangleRange& range) {
-    for (std::uint32_t i = range.begin; i < range.end; ++i) {
-      const std::uint32_t triangle = splitter_.triangle(i);
-      bound_.add(mesh_.corner(triangle, 0), mesh_.corner(triangle, 1), mesh_.corner(triangle, 2));
-    }
+    for (std::uint32_t i = range.begin; i < range.end; ++i) bound_.add(splitter_.triangle(i));
     return bound_.bound();
   }
 

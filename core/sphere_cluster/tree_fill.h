@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -10,29 +12,40 @@
 #include "core/geometry/plane_filter.h"
 #include "core/sphere_cluster/tree_bounds.h"
 #include "core/sphere_cluster/tree_layout.h"
+#include "core/triangle_mesh.h"
 
 namespace touchmark::spheres {
 
 /// Bounds the triangles added since the last bound(). To be kept: it keeps its memory.
 class BoundOfTriangles {
  public:
-  explicit BoundOfTriangles(const FilterFrame& frame) : frame_(frame) {}
+  BoundOfTriangles(const TriangleMesh& mesh, const FilterFrame& frame)
+      : mesh_(mesh), frame_(frame), added_(mesh.vertices().size(), 0) {}
 
-  void add(const Vec3& a, const Vec3& b, const Vec3& c) {
-    const std::array<Vec3, 3> v = {frame_.to_frame(a), frame_.to_frame(b), frame_.to_frame(c)};
-    corners_.insert(corners_.end(), v.begin(), v.end());
+  void add(std::uint32_t triangle) {
+    std::array<Vec3, 3> v;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t vertex = mesh_.triangles()[triangle][k];
+      v[k] = frame_.to_frame(mesh_.vertices()[vertex]);
+      if (std::exchange(added_[vertex], bounds_) != bounds_) points_.add(v[k]);
+    }
     normal_ += (v[1] - v[0]).cross(v[2] - v[0]);
   }
   SlabbedSphere bound() {
-    const SlabbedSphere found = bound_points(corners_, normal_);
-    corners_.clear();
+    const SlabbedSphere found = bound_points(points_, normal_);
+    points_.clear();
     normal_ = Vec3::Zero();
+    ++bounds_;
     return found;
   }
 
  private:
+  const TriangleMesh& mesh_;
   const FilterFrame& frame_;
-  std::vector<Vec3> corners_;
+  /// Triangles share their vertices: which bound a vertex was last added to, the first being 1.
+  std::vector<std::uint32_t> added_;
+  std::uint32_t bounds_ = 1;
+  PointList points_;
   Vec3 normal_ = Vec3::Zero();
 };
 

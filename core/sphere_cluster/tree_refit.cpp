@@ -19,7 +19,7 @@ class Refit {
       : parts_(parts),
         mesh_(mesh),
         frame_(frame),
-        bound_(frame),
+        bound_(mesh, frame),
         block_moved_(parts.blocks.size(), false),
         nodes_(parts.nodes.size()) {}
 
@@ -74,10 +74,7 @@ class Refit {
   }
 
   SlabbedSphere bound_of(const Below& range) {
-    for (std::uint32_t i = range.begin; i < range.end; ++i) {
-      const std::array<Vec3, 3>& v = parts_.triangles[i].corner;
-      bound_.add(v[0], v[1], v[2]);
-    }
+    for (std::uint32_t i = range.begin; i < range.end; ++i) bound_.add(parts_.triangles[i].index);
     return bound_.bound();
   }
 

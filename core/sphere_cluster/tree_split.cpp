@@ -1,138 +1,205 @@
 #include "core/sphere_cluster/tree_split.h"
 
 #include <algorithm>
-#include <array>
+#include <cstring>
 #include <limits>
 
 #include "core/sphere_cluster/tree_layout.h"
-#include "core/sphere_cluster/triangle_spheres.h"
 
 namespace touchmark::spheres {
 namespace {
 
-constexpr std::size_t bins = 16;
+constexpr std::size_t bins_an_axis = 16;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-template <class Box>
-void extend(Box& box, const Box& other) noexcept {
-  box.min = box.min.min(other.min);
-  box.max = box.max.max(other.max);
+Lanes all(float x) noexcept { return Lanes{x, x, x, x}; }
+
+/// Of a box; in any order of the axes.
+float half_area(Lanes min, Lanes max) noexcept {
+  const Lanes d = greater_of(max - min, Lanes{});
+  const Lanes faces = d * __builtin_shufflevector(d, d, 1, 2, 0, 3);
+  return faces[0] + faces[1] + faces[2];
 }
 
-template <class Box>
-float half_area(const Box& box) noexcept {
-  const Eigen::Array3f d = (box.max - box.min).max(0);
-  return d.x() * d.y() + d.y() * d.z() + d.z() * d.x();
+/// Which bins the numbers are in; what rounding puts beyond the last is in the last.
+LaneBits bins_of(Lanes key, Lanes origin, Lanes scale) noexcept {
+  constexpr float within_the_last = static_cast<float>(bins_an_axis) - 0.5F;
+  return __builtin_convertvector(lesser_of((key - origin) * scale, all(within_the_last)), LaneBits);
 }
+int bin_of(float key, float origin, float scale) noexcept {
+  constexpr float within_the_last = static_cast<float>(bins_an_axis) - 0.5F;
+  return static_cast<int>(std::min((key - origin) * scale, within_the_last));
+}
+
+/// The triangles of a bin, or of several.
+struct Bin {
+  Lanes min = all(infinity), max = all(-infinity);
+  std::uint32_t count = 0;
+
+  void add(const Bin& other) noexcept {
+    min = lesser_of(min, other.min);
+    max = greater_of(max, other.max);
+    count += other.count;
+  }
+  /// Blocks times the chance that a search meets them.
+  float cost() const noexcept {
+    return half_area(min, max) * static_cast<float>((count + tree_width - 1) / tree_width);
+  }
+};
 
 }  // namespace
 
 TriangleSplitter::TriangleSplitter(const TriangleMesh& mesh, const SphereClusters& clusters,
                                    const FilterFrame& frame) {
-  const auto local = [&](const Vec3& v) -> Eigen::Array3f {
-    return (frame.scale() * (v - frame.origin())).cast<float>().array();
+  const auto local = [&](const Vec3& point) {
+    const Vec3 p = frame.to_frame(point);
+    return std::array{static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
   };
   items_.reserve(mesh.size());
-  for (std::size_t cluster = 0; cluster < clusters.size(); ++cluster)
-    for (const std::uint32_t triangle : clusters.triangles_of(cluster)) {
-      const Eigen::Array3f a = local(mesh.corner(triangle, 0)), b = local(mesh.corner(triangle, 1)),
-                           c = local(mesh.corner(triangle, 2));
-      items_.push_back({local(clusters.spheres[cluster].center),
-                        local(centroid(mesh, triangle)),
-                        {a.min(b).min(c), a.max(b).max(c)},
-                        triangle});
+  const bool clustered = clusters.size() < mesh.size();
+  for (std::uint32_t cluster = 0; cluster < clusters.size(); ++cluster) {
+    if (clustered) {
+      const std::array<float, 3> center = local(clusters.spheres[cluster].center);
+      cluster_keys_.push_back(2 * Lanes{center[0], center[1], center[2], 0});
     }
+    for (const std::uint32_t triangle : clusters.triangles_of(cluster)) {
+      const std::array<float, 3> a = local(mesh.corner(triangle, 0)), b = local(mesh.corner(triangle, 1)),
+                                 c = local(mesh.corner(triangle, 2));
+      Item item{{}, triangle, {}, cluster};
+      for (std::size_t k = 0; k < 3; ++k) {
+        item.min[k] = std::min({a[k], b[k], c[k]});
+        item.max[k] = std::max({a[k], b[k], c[k]});
+      }
+      items_.push_back(item);
+    }
+  }
+}
+
+TriangleSplitter::Box TriangleSplitter::box_of(const Item& item) noexcept {
+  static_assert(sizeof(Item) == 2 * sizeof(Lanes));
+  constexpr LaneBits coordinates = {-1, -1, -1, 0};
+  std::array<LaneBits, 2> corner;
+  std::memcpy(corner.data(), &item, sizeof corner);
+  return {reinterpret_cast<Lanes>(corner[0] & coordinates), reinterpret_cast<Lanes>(corner[1] & coordinates)};
+}
+
+Lanes TriangleSplitter::key_of(const Item& item, Key key) const noexcept {
+  if (key == Key::cluster) return cluster_keys_[item.cluster];
+  const Box box = box_of(item);
+  return box.min + box.max;
+}
+
+float TriangleSplitter::key_of(const Item& item, Key key, int axis) const noexcept {
+  if (key == Key::cluster) return cluster_keys_[item.cluster][axis];
+  return item.min[static_cast<std::size_t>(axis)] + item.max[static_cast<std::size_t>(axis)];
 }
 
 float TriangleSplitter::area(const TriangleRange& range) const noexcept {
-  Box box = items_[range.begin].box;
-  for (std::uint32_t i = range.begin + 1; i < range.end; ++i) extend(box, items_[i].box);
-  return half_area(box);
+  Box all = box_of(items_[range.begin]);
+  for (std::uint32_t i = range.begin + 1; i < range.end; ++i) {
+    const Box box = box_of(items_[i]);
+    all = {lesser_of(all.min, box.min), greater_of(all.max, box.max)};
+  }
+  return half_area(all.min, all.max);
 }
 
-/// Of one of an item's points, over the range.
-TriangleSplitter::Box TriangleSplitter::spread(const TriangleRange& range, Point point) const noexcept {
-  Box box{items_[range.begin].*point, items_[range.begin].*point};
-  for (std::uint32_t i = range.begin + 1; i < range.end; ++i)
-    extend(box, Box{items_[i].*point, items_[i].*point});
-  return box;
-}
-
-/// Left of the place whatever is less along the axis.
-void TriangleSplitter::part_at(const TriangleRange& range, std::uint32_t place, Point point, int axis) {
-  std::nth_element(items_.begin() + range.begin, items_.begin() + place, items_.begin() + range.end,
-                   [&](const Item& a, const Item& b) {
-                     const float x = (a.*point)[axis], y = (b.*point)[axis];
-                     return x != y ? x < y : a.triangle < b.triangle;
-                   });
+/// Of the keys.
+TriangleSplitter::Box TriangleSplitter::spread(const TriangleRange& range, Key key) const noexcept {
+  Box all{key_of(items_[range.begin], key), key_of(items_[range.begin], key)};
+  for (std::uint32_t i = range.begin + 1; i < range.end; ++i) {
+    const Lanes at = key_of(items_[i], key);
+    all = {lesser_of(all.min, at), greater_of(all.max, at)};
+  }
+  return all;
 }
 
 /// The cheapest of the places between two bins; nothing when all of the range is in one bin.
-std::optional<TriangleSplitter::Cut> TriangleSplitter::cheapest_cut(const TriangleRange& range, Point point,
-                                                                    const Box& box) const noexcept {
-  const Eigen::Array3f extent = box.max - box.min;
-  const Eigen::Array3f scale =
-      (extent > 0).select(static_cast<float>(bins) * (1 - 0x1p-20F) / extent, Eigen::Array3f::Zero());
-  struct Bin {
-    Box box{Eigen::Array3f::Constant(infinity), Eigen::Array3f::Constant(-infinity)};
-    std::uint32_t count = 0;
-
-    void add(const Bin& other) noexcept {
-      extend(box, other.box);
-      count += other.count;
-    }
-    /// Blocks times the chance that a search meets them.
-    float cost() const noexcept {
-      return half_area(box) * static_cast<float>((count + tree_width - 1) / tree_width);
-    }
-  };
-  std::array<std::array<Bin, bins>, 3> bin;
+std::optional<TriangleSplitter::Cut> TriangleSplitter::cheapest_cut(const TriangleRange& range, Key key,
+                                                                    const Bins& bins) const noexcept {
+  std::array<std::array<Bin, bins_an_axis>, 3> bin;
   for (std::uint32_t i = range.begin; i < range.end; ++i) {
-    const Eigen::Array3f at = (items_[i].*point - box.min) * scale;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const float along = at[static_cast<Eigen::Index>(axis)];
-      bin[axis][std::min(static_cast<std::size_t>(along), bins - 1)].add({items_[i].box, 1});
-    }
+    const LaneBits at = bins_of(key_of(items_[i], key), bins.origin, bins.scale);
+    const Box box = box_of(items_[i]);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      bin[axis][static_cast<std::size_t>(at[axis])].add({box.min, box.max, 1});
   }
   std::optional<Cut> cheapest;
   float least = infinity;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    std::array<float, bins> right_cost;
+    std::array<float, bins_an_axis> right_cost;
     Bin right;
-    for (std::size_t b = bins - 1; b > 0; --b) {
+    for (std::size_t b = bins_an_axis - 1; b > 0; --b) {
       right.add(bin[axis][b]);
       right_cost[b] = right.count > 0 ? right.cost() : infinity;
     }
     Bin left;
-    for (std::size_t b = 1; b < bins; ++b) {
+    for (std::size_t b = 1; b < bins_an_axis; ++b) {
       left.add(bin[axis][b - 1]);
       if (left.count == 0 || !(left.cost() + right_cost[b] < least)) continue;
       least = left.cost() + right_cost[b];
-      cheapest = {static_cast<int>(axis), left.count};
+      cheapest = {static_cast<int>(axis), b, left.count};
     }
   }
   return cheapest;
 }
 
+/// Left of the place whatever is less along the axis: by its bin, and then the few that are one too many on a
+/// side.
+void TriangleSplitter::part_at(const TriangleRange& range, std::uint32_t place, Key key, const Bins& bins,
+                               const Cut& cut) {
+  const float origin = bins.origin[cut.axis], scale = bins.scale[cut.axis];
+  const auto first = items_.begin() + range.begin, last = items_.begin() + range.end,
+             at = items_.begin() + place;
+  auto middle = std::partition(first, last, [&](const Item& item) {
+    return bin_of(key_of(item, key, cut.axis), origin, scale) < static_cast<int>(cut.bin);
+  });
+  const auto less = [&](const Item& a, const Item& b) {
+    const float x = key_of(a, key, cut.axis), y = key_of(b, key, cut.axis);
+    return x != y ? x < y : a.triangle < b.triangle;
+  };
+  for (; middle > at; --middle) std::iter_swap(std::max_element(first, middle, less), middle - 1);
+  for (; middle < at; ++middle) std::iter_swap(std::min_element(middle, last, less), middle);
+}
+
+/// The same for any place.
+void TriangleSplitter::halve(const TriangleRange& range, std::uint32_t place, Key key, int axis) {
+  std::nth_element(items_.begin() + range.begin, items_.begin() + place, items_.begin() + range.end,
+                   [&](const Item& a, const Item& b) {
+                     const float x = key_of(a, key, axis), y = key_of(b, key, axis);
+                     return x != y ? x < y : a.triangle < b.triangle;
+                   });
+}
+
 std::pair<TriangleRange, TriangleRange> TriangleSplitter::split(const TriangleRange& range) {
-  Point point = &Item::key;
-  Box box = spread(range, point);
-  if (!((box.max - box.min).maxCoeff() > 0)) {
-    point = &Item::center;
-    box = spread(range, point);
+  const auto is_spread = [](const Box& box) {
+    const Lanes extent = box.max - box.min;
+    return extent[0] > 0 || extent[1] > 0 || extent[2] > 0;
+  };
+  Key key = cluster_keys_.empty() ? Key::triangle : Key::cluster;
+  Box box = spread(range, key);
+  if (key == Key::cluster && !is_spread(box)) {
+    key = Key::triangle;
+    box = spread(range, key);
   }
-  std::optional<Cut> cut;
-  if (range.depth < most_uneven_splits) cut = cheapest_cut(range, point, box);
-  if (!cut) {
-    Eigen::Index longest = 0;
-    (box.max - box.min).maxCoeff(&longest);
-    cut = {static_cast<int>(longest), range.size() / 2};
-  }
+  const Lanes extent = box.max - box.min;
+  // A little less than whole bins, so that the last number is in the last bin.
+  const Lanes per_extent = all(static_cast<float>(bins_an_axis) * (1 - 0x1p-20F)) / extent;
+  const Bins bins{box.min, extent > Lanes{} ? per_extent : Lanes{}};
   // Whole blocks on the left.
-  const std::uint32_t blocks = (cut->left + tree_width / 2) / tree_width;
-  const std::uint32_t most = (range.size() - 1) / tree_width;
-  const std::uint32_t place = range.begin + tree_width * std::clamp(blocks, 1U, most);
-  part_at(range, place, point, cut->axis);
+  const auto place_of = [&](std::uint32_t left) {
+    const std::uint32_t blocks = (left + tree_width / 2) / tree_width;
+    const std::uint32_t most = (range.size() - 1) / tree_width;
+    return range.begin + tree_width * std::clamp(blocks, 1U, most);
+  };
+  std::optional<Cut> cut;
+  if (range.depth < most_uneven_splits) cut = cheapest_cut(range, key, bins);
+  const std::uint32_t place = place_of(cut ? cut->left : range.size() / 2);
+  if (cut) {
+    part_at(range, place, key, bins, *cut);
+  } else {
+    const int longer = extent[1] > extent[0] ? 1 : 0;
+    halve(range, place, key, extent[2] > extent[longer] ? 2 : longer);
+  }
   return {{range.begin, place, range.depth + 1}, {place, range.end, range.depth + 1}};
 }
 

@@ -1,6 +1,7 @@
 /// Splits ranges of triangles for the hierarchy, by the surface area heuristic over bins.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -37,27 +38,40 @@ class TriangleSplitter {
   std::pair<TriangleRange, TriangleRange> split(const TriangleRange& range);
 
  private:
+  /// In the frame; the last lane is 0.
   struct Box {
-    Eigen::Array3f min, max;
+    Lanes min, max;
   };
+  /// A triangle's box, and between its corners what would be padding.
   struct Item {
-    Eigen::Array3f key;     // the cluster's centre
-    Eigen::Array3f center;  // the triangle's
-    Box box;
+    std::array<float, 3> min;
     std::uint32_t triangle;
+    std::array<float, 3> max;
+    std::uint32_t cluster;
   };
-
-  using Point = Eigen::Array3f Item::*;
+  /// By what triangles are told apart: the middle of the cluster or of the triangle's own box, times two.
+  enum class Key { cluster, triangle };
+  /// Left of bin `bin` along the axis.
   struct Cut {
     int axis;
-    std::uint32_t left;  // triangles
+    std::size_t bin;
+    std::uint32_t left;  ///< triangles
+  };
+  /// Cuts a box in bins along each axis.
+  struct Bins {
+    Lanes origin, scale;
   };
 
-  Box spread(const TriangleRange& range, Point point) const noexcept;
-  void part_at(const TriangleRange& range, std::uint32_t place, Point point, int axis);
-  std::optional<Cut> cheapest_cut(const TriangleRange& range, Point point, const Box& box) const noexcept;
+  static Box box_of(const Item& item) noexcept;
+  Lanes key_of(const Item& item, Key key) const noexcept;
+  float key_of(const Item& item, Key key, int axis) const noexcept;
+  Box spread(const TriangleRange& range, Key key) const noexcept;
+  std::optional<Cut> cheapest_cut(const TriangleRange& range, Key key, const Bins& bins) const noexcept;
+  void part_at(const TriangleRange& range, std::uint32_t place, Key key, const Bins& bins, const Cut& cut);
+  void halve(const TriangleRange& range, std::uint32_t place, Key key, int axis);
 
   std::vector<Item> items_;
+  std::vector<Lanes> cluster_keys_;  ///< empty when every triangle is its own cluster
 };
 
 }  // namespace touchmark::spheres
