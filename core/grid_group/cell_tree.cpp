@@ -9,6 +9,16 @@
 
 namespace touchmark::grid {
 
+CellTree::Leaf CellTree::nearest_to(const TriangleStore& store, const BoxTree& tree, const Vec3& middle,
+                                    std::uint32_t hint) {
+  const Vec3 center = store.frame.origin() + middle / store.frame.scale();
+  NearestSearch search(store, center, std::numeric_limits<double>::infinity());
+  search.consider(hint);
+  search.consider_tree(tree);
+  const double distance = store.frame.scale() * std::sqrt(search.offset().squared);
+  return {search.place(), static_cast<float>(distance * (1 - rounded_down_by) - rounded_down_to)};
+}
+
 /// Level by level, so that what memory there is goes evenly around.
 class CellTreeBuilder {
  public:
@@ -17,7 +27,7 @@ class CellTreeBuilder {
 
   CellTree build() {
     set_up_cube();
-    const auto root = static_cast<std::uint32_t>(cells_.links_.size());
+    const auto root = cells_.root_ = static_cast<std::uint32_t>(cells_.links_.size());
     cells_.links_.push_back(0);
     std::vector<Open> level = {{Vec3::Zero(), root, 0}};
     for (unsigned depth = 0; !level.empty(); ++depth) level = refine(level, depth);
@@ -90,12 +100,7 @@ class CellTreeBuilder {
   }
 
   CellTree::Leaf nearest_to(const Open& cell) const {
-    const Vec3 center = store_.frame.origin() + cell.middle / store_.frame.scale();
-    NearestSearch search(store_, center, std::numeric_limits<double>::infinity());
-    search.consider(cell.hint);
-    search.consider_tree(tree_);
-    const double distance = store_.frame.scale() * std::sqrt(search.offset().squared);
-    return {search.place(), static_cast<float>(distance * (1 - 0x1p-20) - 0x1p-30)};
+    return CellTree::nearest_to(store_, tree_, cell.middle, cell.hint);
   }
 
   /// Near the surface, down to the size of the triangles there.
@@ -133,6 +138,33 @@ class CellTreeBuilder {
   double least_edge_ = 0;
   CellTree cells_;
 };
+
+void CellTree::update(const TriangleStore& store, const BoxTree& tree, const std::vector<Aabb>& moved) {
+  struct Open {
+    Vec3 middle;
+    std::uint32_t link;
+    double quarter;  ///< of its edge
+  };
+  std::vector<Open> open = {{Vec3::Zero(), links_[root_], 0.5 * half_}};
+  while (!open.empty()) {
+    const Open cell = open.back();
+    open.pop_back();
+    if ((cell.link & is_leaf) == 0) {
+      for (std::uint32_t i = 0; i < 8; ++i) {
+        const Vec3 side(i & 1u ? 1 : -1, i & 2u ? 1 : -1, i & 4u ? 1 : -1);
+        open.push_back({cell.middle + cell.quarter * side, links_[cell.link + i], 0.5 * cell.quarter});
+      }
+      continue;
+    }
+    Leaf& leaf = leaves_[cell.link & ~is_leaf];
+    const double distance =
+        (static_cast<double>(leaf.distance) + 2 * rounded_down_to) * (1 + 2 * rounded_down_by);
+    const bool may_differ = std::any_of(moved.begin(), moved.end(), [&](const Aabb& box) {
+      return box.squared_distance(cell.middle) <= distance * distance;
+    });
+    if (may_differ) leaf = nearest_to(store, tree, cell.middle, leaf.place);
+  }
+}
 
 CellTree CellTree::build(const TriangleStore& store, const BoxTree& tree, const CellOptions& options) {
   return CellTreeBuilder(store, tree, options).build();

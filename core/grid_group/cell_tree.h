@@ -32,6 +32,10 @@ class CellTree {
  public:
   static CellTree build(const TriangleStore& store, const BoxTree& tree, const CellOptions& options);
 
+  /// After the triangles in these boxes of the frame moved within them: looks anew for what is nearest to the
+  /// cells that one of them can have been or be nearest to. The cells stay.
+  void update(const TriangleStore& store, const BoxTree& tree, const std::vector<Aabb>& moved);
+
   bool holds(const Vec3& in_frame) const noexcept {
     return std::abs(in_frame.x()) < half_ && std::abs(in_frame.y()) < half_ && std::abs(in_frame.z()) < half_;
   }
@@ -68,6 +72,11 @@ class CellTree {
     float distance;
   };
 
+  /// So much a distance is rounded down, relatively and besides.
+  static constexpr double rounded_down_by = 0x1p-20, rounded_down_to = 0x1p-30;
+
+  static Leaf nearest_to(const TriangleStore& store, const BoxTree& tree, const Vec3& middle,
+                         std::uint32_t hint);
   std::uint32_t unit(double along) const noexcept {
     return static_cast<std::uint32_t>(static_cast<std::int32_t>((along + half_) * units_per_length_));
   }
@@ -78,6 +87,7 @@ class CellTree {
   unsigned top_levels_ = 0;
   std::vector<std::uint32_t> links_;  ///< the top table, then eight a node: the first of a node, or a leaf
   std::vector<Leaf> leaves_;
+  std::uint32_t root_ = 0;  ///< link of the whole cube
   double smallest_edge_ = 0;
   bool coarsened_ = false;
 };

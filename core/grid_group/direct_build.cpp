@@ -38,14 +38,31 @@ DirectGrid DirectGrid::build(const TriangleMesh& mesh, const DirectOptions& opti
   grid.store_ = TriangleStore::build(mesh);
   grid.tree_ = BoxTree(grid.store_);
   const FilterFrame& frame = grid.store_.frame;
-  const std::size_t most = bytes_for(mesh, options.bytes_per_triangle);
-  const auto left = [&] { return most - std::min(most, grid.bytes()); };
+  grid.most_bytes_ = bytes_for(mesh, options.bytes_per_triangle);
+  const auto left = [&] { return grid.most_bytes_ - std::min(grid.most_bytes_, grid.bytes()); };
 
   grid.cells_ = CellTree::build(grid.store_, grid.tree_, {options.cell * frame.scale(), left() / 4});
   GroupBuilder builder(grid.store_, grid.tree_, lead_for(mesh, frame), left());
   grid.groups_ = builder.build();
   grid.coarsened_ = grid.cells_.coarsened() || builder.ran_out();
   return grid;
+}
+
+bool DirectGrid::update(const TriangleMesh& mesh) {
+  if (!FilterFrame::fits(mesh.bounds()) || !store_.frame.widen(mesh.bounds())) return false;
+  serial_ = next_serial();
+  bounds_ = mesh.bounds();
+  const std::vector<Aabb> moved = store_.move(mesh);
+  if (moved.empty()) return true;
+  tree_ = BoxTree(store_);
+  cells_.update(store_, tree_, moved);
+  // The old groups make room for the new ones.
+  const std::size_t taken = bytes() - groups_.bytes();
+  GroupBuilder builder(store_, tree_, lead_for(mesh, store_.frame),
+                       most_bytes_ - std::min(most_bytes_, taken));
+  groups_ = builder.rebuild(groups_, moved);
+  coarsened_ = coarsened_ || builder.ran_out();
+  return true;
 }
 
 std::size_t DirectGrid::bytes() const noexcept {

@@ -36,6 +36,11 @@ class DirectGrid {
   /// The mesh's box must fit the filter's frame (FilterFrame::fits).
   static DirectGrid build(const TriangleMesh& mesh, const DirectOptions& options);
 
+  /// The mesh's same triangles, some elsewhere. What memories hold of before is not believed any more. False
+  /// where the mesh is now of another size or at another place: nothing has changed then, and the grid is to
+  /// be built anew.
+  bool update(const TriangleMesh& mesh);
+
   bool touches(const Probe& probe, DirectMemory& memory, Work& work) const noexcept;
   std::optional<Contact> nearest(const Vec3& center, double reach, DirectMemory& memory,
                                  Work& work) const noexcept;
@@ -91,6 +96,7 @@ class DirectGrid {
   BoxTree tree_;
   Groups groups_;
   CellTree cells_;
+  std::size_t most_bytes_ = 0;
   bool coarsened_ = false;
   bool certified_ = true;
 };

@@ -50,7 +50,8 @@ GridGroup GridGroup::build(const TriangleMesh& mesh, const Options& options) {
 
 void GridGroup::update(const TriangleMesh& mesh) {
   connectivity_.expect(mesh);
-  *this = build(mesh, options_);
+  auto* direct = std::get_if<grid::DirectGrid>(&form_);
+  if (direct == nullptr || !direct->update(mesh)) *this = build(mesh, options_);
 }
 
 bool GridGroup::touches(const Probe& probe, Session& session) const noexcept {

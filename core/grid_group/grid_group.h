@@ -45,7 +45,8 @@ class GridGroup {
   static GridGroup build(const TriangleMesh& mesh, const Options& options);
   static GridGroup build(const TriangleMesh& mesh) { return build(mesh, Options()); }
 
-  /// See the concept Updates. Everything is built anew.
+  /// See the concept Updates. Direct: groups and cells near what moved are made anew, unless the mesh has
+  /// become of another size or place; the scan is built anew.
   void update(const TriangleMesh& mesh);
 
   bool touches(const Probe& probe, Session& session) const noexcept;

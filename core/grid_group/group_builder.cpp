@@ -18,6 +18,16 @@ constexpr double first_height = 1.0, least_height = 0.2, shrinking = 0.6;
 /// it.
 constexpr std::size_t most_near = 1024;
 
+/// About a triangle's ball. Its footprint grown is within 1.6 radii, its size below 1.65, so the highest
+/// prism within 3.25; and no point of that is farther than 2.25 from the triangle. What is nearest there
+/// comes into 5.5.
+constexpr double reach_in_radii = 6;
+static_assert(growth <= 0.3 && first_height <= 1);
+
+Vec3 middle_of(const TriangleBall& ball) noexcept {
+  return {static_cast<double>(ball.x), static_cast<double>(ball.y), static_cast<double>(ball.z)};
+}
+
 Lanes load(const std::vector<float>& numbers, std::size_t at) noexcept {
   Lanes lanes;
   std::memcpy(&lanes, &numbers[at], sizeof lanes);
@@ -36,18 +46,53 @@ bool apart(const EightBoxes& boxes, std::size_t child, const Aabb& box) noexcept
 
 bool reaches(const TriangleBall& ball, const Aabb& box) noexcept {
   const double radius = static_cast<double>(ball.radius) * (1 + 0x1p-20) + 0x1p-20;
-  return box.padded(radius).contains(
-      Vec3(static_cast<double>(ball.x), static_cast<double>(ball.y), static_cast<double>(ball.z)));
+  return box.padded(radius).contains(middle_of(ball));
 }
 
 }  // namespace
 
-Groups GroupBuilder::build() {
+void GroupBuilder::start() {
   groups_.groups_.resize(store_.size());
   groups_.members_.reserve(std::min(most_bytes_ / sizeof(std::uint32_t), std::size_t{24} * store_.size()));
+}
+
+Groups GroupBuilder::build() {
+  start();
   for (std::uint32_t place = 0; place < store_.size() && !ran_out_; ++place) add_group(place);
   groups_.members_.shrink_to_fit();
   return std::move(groups_);
+}
+
+/// What can be nearest in a prism is within its farthest() of it: triangles whose prism what moved does not
+/// come so near to keep their members.
+Groups GroupBuilder::rebuild(const Groups& groups, const std::vector<Aabb>& moved) {
+  start();
+  for (std::uint32_t place = 0; place < store_.size() && !ran_out_; ++place) {
+    const TriangleBall& ball = store_.balls[place];
+    const double around = reach_in_radii * static_cast<double>(ball.radius) + 2 * lead_;
+    const Aabb box = Aabb{middle_of(ball), middle_of(ball)}.padded(around);
+    const bool changes = std::any_of(moved.begin(), moved.end(), [&](const Aabb& one) {
+      return (one.min.array() <= box.max.array()).all() && (box.min.array() <= one.max.array()).all();
+    });
+    if (changes) {
+      add_group(place);
+    } else {
+      keep_group(groups, place);
+    }
+  }
+  groups_.members_.shrink_to_fit();
+  return std::move(groups_);
+}
+
+void GroupBuilder::keep_group(const Groups& groups, std::uint32_t place) {
+  Group kept = groups.of(place);
+  if (kept.count == 0) return;
+  const std::size_t stored = Groups::rounded_up(kept.count);
+  const auto from = groups.members_.begin() + kept.first;
+  kept.first = static_cast<std::uint32_t>(groups_.members_.size());
+  groups_.members_.insert(groups_.members_.end(), from, from + static_cast<std::ptrdiff_t>(stored));
+  groups_.groups_[place] = kept;
+  ++groups_.count_;
 }
 
 void GroupBuilder::add_group(std::uint32_t place) {

@@ -21,11 +21,15 @@ class GroupBuilder {
       : store_(store), tree_(tree), lead_(lead), most_bytes_(most_bytes) {}
 
   Groups build();
+  /// Of the triangles of these groups, after some moved within these boxes of the frame.
+  Groups rebuild(const Groups& groups, const std::vector<Aabb>& moved);
   /// Did the bytes run out?
   bool ran_out() const noexcept { return ran_out_; }
 
  private:
+  void start();
   void add_group(std::uint32_t place);
+  void keep_group(const Groups& groups, std::uint32_t place);
   /// Leaves the members of the highest prism with no more than many, or of the lowest; none when the mesh is
   /// too dense there. Returns the prism's height.
   double find_members(const Footprint& footprint);

@@ -9,6 +9,8 @@
 
 #include <Eigen/Geometry>
 
+#include "core/mesh_update.h"
+
 namespace touchmark::grid {
 namespace {
 
@@ -104,6 +106,25 @@ TriangleStore TriangleStore::build(const TriangleMesh& mesh) {
   store.planes.resize(whole, infinitely_far());
   store.ids.assign(mesh.ids().begin(), mesh.ids().end());
   return store;
+}
+
+std::vector<Aabb> TriangleStore::move(const TriangleMesh& mesh) {
+  // Neighbours in the order share a box of what moved.
+  constexpr std::uint32_t triangles_a_box = 512;
+  std::vector<Aabb> boxes;
+  for (std::uint32_t first = 0; first < size(); first += triangles_a_box) {
+    Aabb box;
+    for (std::uint32_t place = first; place < std::min(first + triangles_a_box, size()); ++place) {
+      if (!has_moved(exact[place], mesh)) continue;
+      for (const Vec3& corner : exact[place].corner) box.extend(frame.to_frame(corner));
+      exact[place] = prepare(mesh, exact[place].index);
+      for (const Vec3& corner : exact[place].corner) box.extend(frame.to_frame(corner));
+      planes[place] = planes_of(exact[place], frame);
+      balls[place] = ball_around(exact[place], frame);
+    }
+    if (!box.empty()) boxes.push_back(box);
+  }
+  return boxes;
 }
 
 std::size_t TriangleStore::bytes() const noexcept {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/geometry/aabb.h"
 #include "core/geometry/plane_filter.h"
 #include "core/geometry/point_triangle.h"
 #include "core/triangle_mesh.h"
@@ -45,6 +46,9 @@ struct TriangleStore {
 
   /// The mesh's box must fit (FilterFrame::fits).
   static TriangleStore build(const TriangleMesh& mesh);
+  /// The mesh's same triangles where they are now, in the frame as it is; places stay. Returns boxes, in the
+  /// frame, each of which holds some triangles that moved, as they were and as they are.
+  std::vector<Aabb> move(const TriangleMesh& mesh);
 
   std::uint32_t size() const noexcept { return static_cast<std::uint32_t>(exact.size()); }
   TriangleId id(std::uint32_t place) const noexcept {
