@@ -87,6 +87,8 @@ std::string remark_on(const GridGroup& detector, const GridGroup::Options& optio
 ContestantInfo grid_group() {
   static const Names<GridGroup::Lookup> lookups{{"direct", GridGroup::Lookup::direct},
                                                 {"scan", GridGroup::Lookup::scan}};
+  static const Names<GridGroup::Making> makings{{"whole", GridGroup::Making::whole},
+                                                {"lazy", GridGroup::Making::lazy}};
   static const Names<GridGroup::Shape> shapes{{"cube", GridGroup::Shape::cube},
                                               {"sphere", GridGroup::Shape::sphere}};
   ContestantInfo info;
@@ -105,6 +107,7 @@ ContestantInfo grid_group() {
       {"groups", OptionKind::count, {}, "0", "scan with cell=0: aim at so many groups; 0: choose"},
       {"bytes_per_triangle", OptionKind::number, {}, "400", "direct: what the structure may take"},
       certified_option(),
+      choice("build", makings, "lazy: groups and cells are made by the first queries that want them"),
       side_option()};
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
     GridGroup::Options options;
@@ -114,6 +117,7 @@ ContestantInfo grid_group() {
     options.groups = values.count("groups");
     options.bytes_per_triangle = values.number("bytes_per_triangle");
     options.certified = chosen(values, "certified", yes_or_no);
+    options.making = chosen(values, "build", makings);
     return contestant<GridGroup>(mesh, options, values, [&](const GridGroup& detector) {
       return remark_on(detector, options, mesh.size());
     });

@@ -13,6 +13,13 @@ struct FloatBox {
   std::array<float, 3> min = {infinity, infinity, infinity};
   std::array<float, 3> max = {-infinity, -infinity, -infinity};
 
+  /// By as much as rounding to the nearest may have taken off.
+  void round_outward() noexcept {
+    for (std::size_t k = 0; k < 3; ++k) {
+      min[k] = std::nextafter(min[k], -infinity);
+      max[k] = std::nextafter(max[k], infinity);
+    }
+  }
   void extend(const FloatBox& other) noexcept {
     for (std::size_t k = 0; k < 3; ++k) {
       min[k] = std::min(min[k], other.min[k]);
@@ -21,14 +28,15 @@ struct FloatBox {
   }
 };
 
+/// Of corners rounded to the nearest float.
 FloatBox box_of(const PreparedTriangle& triangle, const FilterFrame& frame) noexcept {
   FloatBox box;
   for (const Vec3& corner : triangle.corner) {
     const Vec3 p = frame.scale() * (corner - frame.origin());
     for (std::size_t k = 0; k < 3; ++k) {
       const auto rounded = static_cast<float>(p[static_cast<int>(k)]);
-      box.min[k] = std::min(box.min[k], std::nextafter(rounded, -infinity));
-      box.max[k] = std::max(box.max[k], std::nextafter(rounded, infinity));
+      box.min[k] = std::min(box.min[k], rounded);
+      box.max[k] = std::max(box.max[k], rounded);
     }
   }
   return box;
@@ -38,6 +46,7 @@ std::vector<FloatBox> block_boxes(const TriangleStore& store) {
   std::vector<FloatBox> boxes(store.planes.size() / TriangleStore::block_size);
   for (std::uint32_t i = 0; i < store.size(); ++i)
     boxes[i / TriangleStore::block_size].extend(box_of(store.exact[i], store.frame));
+  for (FloatBox& box : boxes) box.round_outward();
   return boxes;
 }
 

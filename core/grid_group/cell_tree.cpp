@@ -15,8 +15,25 @@ CellTree::Leaf CellTree::nearest_to(const TriangleStore& store, const BoxTree& t
   NearestSearch search(store, center, std::numeric_limits<double>::infinity());
   search.consider(hint);
   search.consider_tree(tree);
-  const double distance = store.frame.scale() * std::sqrt(search.offset().squared);
-  return {search.place(), static_cast<float>(distance * (1 - rounded_down_by) - rounded_down_to)};
+  return {search.place(), rounded_down(store.frame.scale() * std::sqrt(search.offset().squared))};
+}
+
+bool CellTree::settle(const Vec3& in_frame, const TriangleStore& store, const BoxTree& tree,
+                      Work& work) const noexcept {
+  const Place at = place_of(in_frame);
+  const Leaf rough = leaves_.at(at.leaf);
+  if (!std::signbit(rough.distance)) return false;
+  // A tick's work is bounded: where that is not enough, what is known will do.
+  constexpr std::uint64_t most = 4096;
+  NearestSearch search(store, store.frame.origin() + at.middle / store.frame.scale(),
+                       std::numeric_limits<double>::infinity());
+  search.consider(rough.place);
+  const bool found = search.consider_tree(tree, most);
+  work.triangles += search.triangles();
+  work.boxes += search.boxes();
+  const float least = found ? rounded_down(store.frame.scale() * std::sqrt(search.offset().squared)) : 0;
+  leaves_.set(at.leaf, {search.place(), std::max(least, std::abs(rough.distance))});
+  return true;
 }
 
 /// Level by level, so that what memory there is goes evenly around.
@@ -27,9 +44,10 @@ class CellTreeBuilder {
 
   CellTree build() {
     set_up_cube();
+    cells_.rough_ = options_.rough;
     const auto root = cells_.root_ = static_cast<std::uint32_t>(cells_.links_.size());
     cells_.links_.push_back(0);
-    std::vector<Open> level = {{Vec3::Zero(), root, 0}};
+    std::vector<Open> level = {{Vec3::Zero(), root, {0, 0}}};
     for (unsigned depth = 0; !level.empty(); ++depth) level = refine(level, depth);
     fill_top(root);
     cells_.links_.shrink_to_fit();
@@ -42,7 +60,7 @@ class CellTreeBuilder {
   struct Open {
     Vec3 middle;
     std::uint32_t link;
-    std::uint32_t hint;  ///< place of a triangle that is probably near
+    CellTree::Leaf rough;  ///< a triangle that is probably near, and how far the mesh is at least
   };
 
   void set_up_cube() {
@@ -82,25 +100,31 @@ class CellTreeBuilder {
     cells_.smallest_edge_ = edge;
     std::vector<Open> next;
     for (const Open& cell : open) {
-      const CellTree::Leaf leaf = nearest_to(cell);
-      if (level < cells_.top_levels_ || (wants_children(leaf, edge) && fits_children(next.size()))) {
+      // Where leaves are settled later, what the parent knows says which cells those are.
+      const bool rough = options_.rough && level >= cells_.top_levels_ && !wants_children(cell.rough, edge);
+      const CellTree::Leaf leaf = rough ? cell.rough : nearest_to(cell);
+      if (level < cells_.top_levels_ ||
+          (!rough && wants_children(leaf, edge) && fits_children(next.size()))) {
         const auto node = static_cast<std::uint32_t>(cells_.links_.size());
         cells_.links_[cell.link] = node;
         cells_.links_.resize(cells_.links_.size() + 8);
+        // The distance changes by no more than the way to a child's middle.
+        const double way = 0.25 * std::sqrt(3.0) * edge;
+        const float least = std::max(CellTree::rounded_down(static_cast<double>(leaf.distance) - way), 0.0F);
         for (std::uint32_t i = 0; i < 8; ++i) {
           const Vec3 side(i & 1u ? 1 : -1, i & 2u ? 1 : -1, i & 4u ? 1 : -1);
-          next.push_back({cell.middle + 0.25 * edge * side, node + i, leaf.place});
+          next.push_back({cell.middle + 0.25 * edge * side, node + i, {leaf.place, least}});
         }
       } else {
         cells_.links_[cell.link] = CellTree::is_leaf | static_cast<std::uint32_t>(cells_.leaves_.size());
-        cells_.leaves_.push_back(leaf);
+        cells_.leaves_.add({leaf.place, rough ? -leaf.distance : std::max(leaf.distance, 0.0F)});
       }
     }
     return next;
   }
 
   CellTree::Leaf nearest_to(const Open& cell) const {
-    return CellTree::nearest_to(store_, tree_, cell.middle, cell.hint);
+    return CellTree::nearest_to(store_, tree_, cell.middle, cell.rough.place);
   }
 
   /// Near the surface, down to the size of the triangles there.
@@ -156,13 +180,15 @@ void CellTree::update(const TriangleStore& store, const BoxTree& tree, const std
       }
       continue;
     }
-    Leaf& leaf = leaves_[cell.link & ~is_leaf];
+    const std::uint32_t number = cell.link & ~is_leaf;
+    const Leaf leaf = leaves_.at(number);
     const double distance =
-        (static_cast<double>(leaf.distance) + 2 * rounded_down_to) * (1 + 2 * rounded_down_by);
+        (static_cast<double>(std::abs(leaf.distance)) + 2 * rounded_down_to) * (1 + 2 * rounded_down_by);
     const bool may_differ = std::any_of(moved.begin(), moved.end(), [&](const Aabb& box) {
       return box.squared_distance(cell.middle) <= distance * distance;
     });
-    if (may_differ) leaf = nearest_to(store, tree, cell.middle, leaf.place);
+    if (!may_differ) continue;
+    leaves_.set(number, rough_ ? Leaf{leaf.place, -0.0F} : nearest_to(store, tree, cell.middle, leaf.place));
   }
 }
 

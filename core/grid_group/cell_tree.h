@@ -5,11 +5,13 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "core/detector.h"
 #include "core/geometry/aabb.h"
 #include "core/grid_group/box_tree.h"
 #include "core/grid_group/triangle_store.h"
@@ -19,6 +21,7 @@ namespace touchmark::grid {
 struct CellOptions {
   double smallest = 0;  ///< edge, in the frame; 0: as the triangles are
   std::size_t most_bytes = 0;
+  bool rough = false;  ///< leaves hold what their parents know, until settled
 };
 
 /// The triangle nearest to a cell's middle, and how far it is: what a query starts from.
@@ -41,6 +44,62 @@ class CellTree {
   }
   /// Of the cell that a point of the cube lies in.
   Cell at(const Vec3& in_frame) const noexcept {
+    const Place place = place_of(in_frame);
+    const Leaf leaf = leaves_.at(place.leaf);
+    return {place.middle, static_cast<double>(std::abs(leaf.distance)), leaf.place};
+  }
+  /// Finds what is nearest to the middle of that cell, where that is not known yet; else false. Any thread
+  /// may meanwhile read or settle the same.
+  bool settle(const Vec3& in_frame, const TriangleStore& store, const BoxTree& tree,
+              Work& work) const noexcept;
+
+  std::size_t cells() const noexcept { return leaves_.size(); }
+  double smallest_edge() const noexcept { return smallest_edge_; }
+  bool coarsened() const noexcept { return coarsened_; }
+  std::size_t bytes() const noexcept { return links_.capacity() * sizeof(std::uint32_t) + leaves_.bytes(); }
+
+ private:
+  friend class CellTreeBuilder;
+  static constexpr unsigned most_levels = 24;
+  static constexpr std::uint32_t is_leaf = 1u << 31;
+
+  struct alignas(8) Leaf {
+    std::uint32_t place;
+    float distance;  ///< its sign: what the parent knows
+  };
+  /// Whose numbers may be read and set at once.
+  class Leaves {
+   public:
+    Leaves() = default;
+    Leaves(const Leaves& other) {
+      leaves_.reserve(other.size());
+      for (std::uint32_t i = 0; i < other.size(); ++i) leaves_.push_back(other.at(i));
+    }
+    Leaves& operator=(const Leaves& other) { return *this = Leaves(other); }
+    Leaves(Leaves&&) noexcept = default;
+    Leaves& operator=(Leaves&&) noexcept = default;
+    ~Leaves() = default;
+
+    void add(const Leaf& leaf) { leaves_.push_back(leaf); }
+    void shrink_to_fit() { leaves_.shrink_to_fit(); }
+    Leaf at(std::uint32_t i) const noexcept {
+      return std::atomic_ref(leaves_[i]).load(std::memory_order_relaxed);
+    }
+    void set(std::uint32_t i, const Leaf& leaf) const noexcept {
+      std::atomic_ref(leaves_[i]).store(leaf, std::memory_order_relaxed);
+    }
+    std::size_t size() const noexcept { return leaves_.size(); }
+    std::size_t bytes() const noexcept { return leaves_.capacity() * sizeof(Leaf); }
+
+   private:
+    mutable std::vector<Leaf> leaves_;
+  };
+
+  struct Place {
+    Vec3 middle;
+    std::uint32_t leaf;
+  };
+  Place place_of(const Vec3& in_frame) const noexcept {
     const std::array<std::uint32_t, 3> at = {unit(in_frame.x()), unit(in_frame.y()), unit(in_frame.z())};
     unsigned shift = most_levels - top_levels_;
     std::uint32_t link =
@@ -49,32 +108,17 @@ class CellTree {
       --shift;
       link = links_[link + ((at[0] >> shift & 1u) | (at[1] >> shift & 1u) << 1 | (at[2] >> shift & 1u) << 2)];
     }
-    const Leaf& leaf = leaves_[link & ~is_leaf];
     const double edge = unit_ * (1u << shift);
     const auto middle = [&](std::uint32_t along) { return ((along >> shift) + 0.5) * edge - half_; };
-    return {{middle(at[0]), middle(at[1]), middle(at[2])}, static_cast<double>(leaf.distance), leaf.place};
+    return {{middle(at[0]), middle(at[1]), middle(at[2])}, link & ~is_leaf};
   }
-
-  std::size_t cells() const noexcept { return leaves_.size(); }
-  double smallest_edge() const noexcept { return smallest_edge_; }
-  bool coarsened() const noexcept { return coarsened_; }
-  std::size_t bytes() const noexcept {
-    return links_.capacity() * sizeof(std::uint32_t) + leaves_.capacity() * sizeof(Leaf);
-  }
-
- private:
-  friend class CellTreeBuilder;
-  static constexpr unsigned most_levels = 24;
-  static constexpr std::uint32_t is_leaf = 1u << 31;
-
-  struct Leaf {
-    std::uint32_t place;
-    float distance;
-  };
 
   /// So much a distance is rounded down, relatively and besides.
   static constexpr double rounded_down_by = 0x1p-20, rounded_down_to = 0x1p-30;
 
+  static float rounded_down(double distance) noexcept {
+    return static_cast<float>(distance * (1 - rounded_down_by) - rounded_down_to);
+  }
   static Leaf nearest_to(const TriangleStore& store, const BoxTree& tree, const Vec3& middle,
                          std::uint32_t hint);
   std::uint32_t unit(double along) const noexcept {
@@ -86,7 +130,8 @@ class CellTree {
   double units_per_length_ = 0;
   unsigned top_levels_ = 0;
   std::vector<std::uint32_t> links_;  ///< the top table, then eight a node: the first of a node, or a leaf
-  std::vector<Leaf> leaves_;
+  Leaves leaves_;
+  bool rough_ = false;
   std::uint32_t root_ = 0;  ///< link of the whole cube
   double smallest_edge_ = 0;
   bool coarsened_ = false;

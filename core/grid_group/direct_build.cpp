@@ -41,9 +41,11 @@ DirectGrid DirectGrid::build(const TriangleMesh& mesh, const DirectOptions& opti
   grid.most_bytes_ = bytes_for(mesh, options.bytes_per_triangle);
   const auto left = [&] { return grid.most_bytes_ - std::min(grid.most_bytes_, grid.bytes()); };
 
-  grid.cells_ = CellTree::build(grid.store_, grid.tree_, {options.cell * frame.scale(), left() / 4});
-  GroupBuilder builder(grid.store_, grid.tree_, lead_for(mesh, frame), left());
-  grid.groups_ = builder.build();
+  grid.cells_ =
+      CellTree::build(grid.store_, grid.tree_, {options.cell * frame.scale(), left() / 4, options.grows});
+  grid.lead_ = lead_for(mesh, frame);
+  GroupBuilder builder(grid.store_, grid.tree_, grid.lead_, left());
+  grid.groups_ = options.grows ? builder.unmade() : builder.build();
   grid.coarsened_ = grid.cells_.coarsened() || builder.ran_out();
   return grid;
 }
@@ -58,11 +60,29 @@ bool DirectGrid::update(const TriangleMesh& mesh) {
   cells_.update(store_, tree_, moved);
   // The old groups make room for the new ones.
   const std::size_t taken = bytes() - groups_.bytes();
-  GroupBuilder builder(store_, tree_, lead_for(mesh, store_.frame),
-                       most_bytes_ - std::min(most_bytes_, taken));
+  lead_ = lead_for(mesh, store_.frame);
+  GroupBuilder builder(store_, tree_, lead_, most_bytes_ - std::min(most_bytes_, taken));
   groups_ = builder.rebuild(groups_, moved);
   coarsened_ = coarsened_ || builder.ran_out();
   return true;
+}
+
+void DirectGrid::grow_one(std::uint32_t near, std::uint32_t start, const Vec3& center,
+                          Work& work) const noexcept {
+  if (groups_.waits(near)) return make_group(near, work);
+  if (groups_.waits(start)) return make_group(start, work);
+  const Vec3 in_frame = store_.frame.to_frame(center);
+  if (cells_.holds(in_frame)) cells_.settle(in_frame, store_, tree_, work);
+}
+
+void DirectGrid::make_group(std::uint32_t place, Work& work) const noexcept {
+  // A tick's work is bounded: what lies among so many boxes has no group.
+  constexpr std::uint64_t most_boxes = 4096;
+  if (!groups_.claim(place)) return;
+  GroupFinder finder(store_, tree_, lead_, {.sharing = 0, .most_boxes = most_boxes});
+  const GroupFinder::Found found = finder.find(place);
+  groups_.put(place, found.members, found.height, found.margin);
+  work += finder.take_work();
 }
 
 std::size_t DirectGrid::bytes() const noexcept {

@@ -19,6 +19,7 @@ struct DirectOptions {
   double cell = 0;                  ///< edge of the smallest cell, mesh units; 0: choose
   double bytes_per_triangle = 400;  ///< the whole structure
   bool certified = true;            ///< false: as doubles have it
+  bool grows = false;               ///< groups are made by the first queries that miss them, one a query
 };
 
 /// What one haptic point remembers between ticks. Forgetting it changes no answer.
@@ -45,6 +46,10 @@ class DirectGrid {
   std::optional<Contact> nearest(const Vec3& center, double reach, DirectMemory& memory,
                                  Work& work) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, DirectMemory& memory, Work& work) const noexcept;
+
+  /// Where groups grow, a query looks at no more boxes and triangles than this besides those that answer it;
+  /// a sweep at twice as many, for it may ask what is nearest to its start.
+  static constexpr std::uint64_t most_growth_in_a_query = 10'000;
 
   std::size_t bytes() const noexcept;
   std::size_t groups() const noexcept { return groups_.count(); }
@@ -75,6 +80,13 @@ class DirectGrid {
     bool gave_up = false;  ///< after as much work as all triangles would have been
   };
   Located locate(const Vec3& center, double reach, DirectMemory& memory, Work& work) const noexcept;
+  /// After a query that no group served: where groups grow, makes that of one of the places or looks closer
+  /// at the cell of this centre, what is still to be done.
+  void grow(std::uint32_t near, std::uint32_t start, const Vec3& center, Work& work) const noexcept {
+    if (groups_.grows()) grow_one(near, start, center, work);
+  }
+  void grow_one(std::uint32_t near, std::uint32_t start, const Vec3& center, Work& work) const noexcept;
+  void make_group(std::uint32_t place, Work& work) const noexcept;
   void remember(const Vec3& center, float tau, double lower, double upper,
                 DirectMemory& memory) const noexcept;
 
@@ -96,6 +108,7 @@ class DirectGrid {
   BoxTree tree_;
   Groups groups_;
   CellTree cells_;
+  double lead_ = 0;  ///< see GroupFinder
   std::size_t most_bytes_ = 0;
   bool coarsened_ = false;
   bool certified_ = true;

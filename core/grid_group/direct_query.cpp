@@ -112,6 +112,7 @@ DirectGrid::Located DirectGrid::locate(const Vec3& center, double reach, DirectM
   } else {
     search.consider(start.place);
     gave_up = !search.consider_tree(tree_, most_work_before_all(store_.size()));
+    if (!gave_up) grow(search.found() ? search.place() : start.place, start.place, center, work);
   }
   work.triangles += search.triangles();
   work.boxes += search.boxes();

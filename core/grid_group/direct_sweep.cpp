@@ -136,6 +136,8 @@ std::optional<Impact> DirectGrid::first_hit(const Sweep& sweep, DirectMemory& me
     search.consider_group(groups_.members(*start.group), work);
   } else if (!search.consider_tree(tree_, most_work_before_all(store_.size()), work)) {
     return first_hit_of_all(sweep, memory, work);
+  } else {
+    grow(search.found() ? search.place() : start.place, start.place, sweep.from, work);
   }
   if (!search.found()) return std::nullopt;
   memory.place = search.place();

@@ -20,6 +20,9 @@ void check(const GridGroup::Options& options) {
   if (!options.certified && options.lookup == GridGroup::Lookup::scan) {
     throw std::invalid_argument("grid-group: certified=false is for lookup=direct, not for scan");
   }
+  if (options.making == GridGroup::Making::lazy && options.lookup == GridGroup::Lookup::scan) {
+    throw std::invalid_argument("grid-group: build=lazy is for lookup=direct, not for scan");
+  }
 }
 
 /// Where all corners coincide every triangle is the same point, so the first stands for all.
@@ -42,8 +45,8 @@ GridGroup GridGroup::build(const TriangleMesh& mesh, const Options& options) {
   } else if (options.lookup == Lookup::scan) {
     detector.form_ = grid::ScanGrid::build(mesh, {options.shape, options.cell, options.groups});
   } else {
-    detector.form_ =
-        grid::DirectGrid::build(mesh, {options.cell, options.bytes_per_triangle, options.certified});
+    detector.form_ = grid::DirectGrid::build(
+        mesh, {options.cell, options.bytes_per_triangle, options.certified, options.making == Making::lazy});
   }
   return detector;
 }

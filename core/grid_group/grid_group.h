@@ -27,6 +27,11 @@ class GridGroup {
  public:
   using Shape = grid::Shape;
   enum class Lookup { scan, direct };
+  /// Of the groups, direct only. Answers are the same.
+  enum class Making {
+    whole,  ///< all in build()
+    lazy    ///< each by the first query that misses it, one a query at most, which takes a few microseconds
+  };
   struct Options {
     Shape shape = Shape::cube;  ///< of the groups; scan only
     Lookup lookup = Lookup::direct;
@@ -35,6 +40,7 @@ class GridGroup {
     double bytes_per_triangle =
         400;                ///< direct: what the structure may take, mesh copy included (200 at least)
     bool certified = true;  ///< false, direct only: as doubles have it, to measure what certainty costs
+    Making making = Making::whole;
   };
   struct Session {
     Work work;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +17,8 @@ namespace touchmark::grid {
 /// the filter's frame; nowhere when there are no members.
 struct Group {
   std::uint32_t first = 0;  ///< member
-  std::uint32_t count = 0;  ///< of members
+  std::uint16_t count = 0;  ///< of members
+  mutable std::uint16_t state = 0;
   float height = -1;
   float margin = -1;
 
@@ -27,29 +29,69 @@ struct Group {
   }
 };
 
-/// By place in the TriangleStore.
+/// By place in the TriangleStore. Those that are not made yet may be made while others are read, by any
+/// thread, each by one: it claims the group, and puts it. Nothing waits and nothing takes memory then.
 class Groups {
  public:
   /// More than many only where a lower prism would not help.
   static constexpr std::size_t many_members = 32, most_members = 64;
 
-  const Group& of(std::uint32_t place) const noexcept { return groups_[place]; }
+  Groups() = default;
+  /// None is made, and there is room for so many members.
+  Groups(std::size_t places, std::size_t members);
+  /// Copies what is made; what is being made meanwhile is not.
+  Groups(const Groups& other);
+  Groups& operator=(const Groups& other) { return *this = Groups(other); }
+  Groups(Groups&&) noexcept = default;
+  Groups& operator=(Groups&&) noexcept = default;
+  ~Groups() = default;
+
+  /// One without members where it is not made yet.
+  const Group& of(std::uint32_t place) const noexcept {
+    const Group& group = groups_[place];
+    return is_made(group) ? group : none;
+  }
   std::span<const std::uint32_t> members(const Group& group) const noexcept {
     return {members_.data() + group.first, group.count};
   }
   /// Behind the members lie copies of the last, up to a multiple of eight.
   static constexpr std::size_t rounded_up(std::size_t members) { return (members + 7) / 8 * 8; }
+
+  bool waits(std::uint32_t place) const noexcept {
+    return std::atomic_ref(groups_[place].state).load(std::memory_order_relaxed) == unmade;
+  }
+  /// Is it the caller who has to put it?
+  bool claim(std::uint32_t place) const noexcept {
+    std::uint16_t expected = unmade;
+    return waits(place) && std::atomic_ref(groups_[place].state)
+                               .compare_exchange_strong(expected, in_making, std::memory_order_relaxed);
+  }
+  /// Members with their copies behind them. Without any where there is no room for them.
+  void put(std::uint32_t place, std::span<const std::uint32_t> members, float height,
+           float margin) const noexcept;
+
+  bool grows() const noexcept { return grows_; }
   /// Of the groups that have members.
-  std::size_t count() const noexcept { return count_; }
+  std::size_t count() const noexcept { return std::atomic_ref(count_).load(std::memory_order_relaxed); }
   std::size_t bytes() const noexcept {
     return groups_.capacity() * sizeof(Group) + members_.capacity() * sizeof(std::uint32_t);
   }
 
  private:
   friend class GroupBuilder;
-  std::vector<Group> groups_;
-  std::vector<std::uint32_t> members_;
-  std::size_t count_ = 0;
+  static constexpr std::uint16_t made = 0, unmade = 1, in_making = 2;
+  static const Group none;
+
+  static bool is_made(const Group& group) noexcept {
+    return std::atomic_ref(group.state).load(std::memory_order_acquire) == made;
+  }
+
+  bool grows_ = false;
+  // What is not made belongs to nobody but who has claimed it.
+  mutable std::vector<Group> groups_;
+  mutable std::vector<std::uint32_t> members_;
+  mutable std::size_t taken_ = 0;  ///< of members_, where it grows
+  mutable std::size_t count_ = 0;
 };
 
 }  // namespace touchmark::grid

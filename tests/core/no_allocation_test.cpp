@@ -114,6 +114,7 @@ TEST(NoAllocation, GridGroup) {
       expect_no_allocation<GridGroup>(options);
     }
   }
+  expect_no_allocation<GridGroup>({.making = GridGroup::Making::lazy});
 }
 
 TEST(NoAllocation, SphereCluster) {
