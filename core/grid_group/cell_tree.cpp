@@ -25,8 +25,8 @@ bool CellTree::settle(const Vec3& in_frame, const TriangleStore& store, const Bo
   if (!std::signbit(rough.distance)) return false;
   // A tick's work is bounded: where that is not enough, what is known will do.
   constexpr std::uint64_t most = 4096;
-  NearestSearch search(store, store.frame.origin() + at.middle / store.frame.scale(),
-                       std::numeric_limits<double>::infinity());
+  const Vec3 center = store.frame.origin() + at.middle / store.frame.scale();
+  NearestSearch search(store, center, std::numeric_limits<double>::infinity());
   search.consider(rough.place);
   const bool found = search.consider_tree(tree, most);
   work.triangles += search.triangles();
