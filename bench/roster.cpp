@@ -10,6 +10,7 @@
 
 #include "bench/roster_options.h"
 #include "core/aabb_tree/aabb_tree.h"
+#include "core/aabb_tree/float_tree.h"
 #include "core/brute_force/brute_force.h"
 #include "core/grid_group/grid_group.h"
 #include "core/sphere_cluster/sphere_cluster.h"
@@ -54,18 +55,37 @@ ContestantInfo brute_force() {
   return info;
 }
 
+enum class Precision { double_precision, single_precision };
+
 ContestantInfo aabb_tree() {
+  static const Names<Precision> precisions{{"double", Precision::double_precision},
+                                           {"float", Precision::single_precision}};
+  const auto in_floats = [](const OptionValues& values) {
+    return chosen(values, "precision", precisions) == Precision::single_precision;
+  };
   ContestantInfo info;
   info.name = "aabb-tree";
-  info.summary = "a plain binary tree of boxes in double precision: the reference";
-  info.accuracy = "exact";
+  info.summary = "a plain binary tree of boxes: the reference";
+  info.accuracy = "exact; precision=float: approximate";
   info.queries = queries_of<AabbTree>();
   info.options = {{"leaf_size", OptionKind::count, {}, "4", "triangles a leaf holds at most"},
+                  choice("precision", precisions,
+                         "float: mesh, boxes, kernel and distances in single precision; touches and nearest, "
+                         "no side, nothing certified"),
                   certified_option(),
                   side_option()};
-  info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
-    return contestant<AabbTree>(mesh, {values.count("leaf_size"), chosen(values, "certified", yes_or_no)},
-                                values);
+  info.build = [=](const TriangleMesh& mesh, const OptionValues& values) {
+    const std::size_t leaf_size = values.count("leaf_size");
+    if (in_floats(values)) {
+      if (asks_for_side(values)) throw std::invalid_argument("aabb-tree: precision=float tells no side");
+      return contestant<FloatTree>(mesh, {leaf_size});
+    }
+    return contestant<AabbTree>(mesh, {leaf_size, chosen(values, "certified", yes_or_no)}, values);
+  };
+  info.storing = [=](const TriangleMesh& mesh, const OptionValues& values) -> std::optional<Storing> {
+    if (!in_floats(values)) return std::nullopt;
+    const FloatFrame frame = FloatFrame::around(mesh.bounds());
+    return stored_in_single_precision(frame.scale, frame.origin);
   };
   return info;
 }
@@ -335,7 +355,8 @@ const std::vector<std::string> compared_by_default{"brute-force",
                                                    "cgal:kernel=simple,hint=bounded"};
 
 // What verify runs besides: every other exact form, and the rivals' forms that answer differently.
-const std::vector<std::string> verified_besides{"grid-group:cell=1%",
+const std::vector<std::string> verified_besides{"aabb-tree:precision=float",
+                                                "grid-group:cell=1%",
                                                 "sphere-cluster:clustering=2%",
                                                 "sphere-cluster:lookup=scan,clustering=2%",
                                                 "sphere-cluster:lookup=scan,clustering=2%,precise=false",
@@ -351,6 +372,7 @@ const std::vector<std::string> verified_besides{"grid-group:cell=1%",
 // Each contestant over what trades its accuracy for its time.
 const std::vector<std::string> over_accuracy{"aabb-tree",
                                              "aabb-tree:certified=false",
+                                             "aabb-tree:precision=float",
                                              "grid-group",
                                              "grid-group:certified=false",
                                              "grid-group:cell=0.5%",

@@ -51,6 +51,7 @@ class AabbTree {
   }
 
  private:
+  friend class FloatTree;  // the same tree, rounded
   /// Until `work` has more than `most` boxes and triangles. Returns whether it got through.
   template <class Visit>
   bool search_near(const Vec3& center, double reach, Work& work, std::uint64_t most,
