@@ -1,6 +1,8 @@
 #include "bench/contestant_process.h"
 
 #include <cstdio>
+#include <set>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,8 +12,11 @@
 namespace touchmark::bench {
 namespace {
 
-/// On stderr, in place of a progress line that may be there.
+/// On stderr, in place of a progress line that may be there. Of each contestant once a run, however many
+/// meshes it is built of.
 void pass_on(const std::vector<std::string>& remarks, const std::string& contestant) {
+  static std::set<std::string> told;
+  if (remarks.empty() || !told.insert(contestant).second) return;
   const char* const over_progress = isatty(STDERR_FILENO) != 0 ? "\r\x1b[K" : "";
   for (const std::string& text : remarks)
     fmt::print(stderr, "{}touchmark: {}: {}\n", over_progress, contestant, text);
