@@ -1,0 +1,135 @@
+// The distance that `nearest` reports is within 16 u M of the true one (u = 2^-53, M the largest coordinate
+// difference between the centre and the triangle's corners): over the worst triangles there are, and by
+// climbing from each towards greater error. The analysis is in core/geometry/certified_nearest.h; it allows
+// 14.8.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <type_traits>
+
+#include <gtest/gtest.h>
+
+#include "bench/oracle/exact_distance.h"
+#include "bench/oracle/oracle.h"
+#include "core/aabb_tree/aabb_tree.h"
+#include "core/brute_force/brute_force.h"
+#include "core/geometry/aabb.h"
+#include "core/geometry/every_triangle.h"
+#include "core/grid_group/grid_group.h"
+#include "core/sphere_cluster/sphere_cluster.h"
+#include "tests/bench/oracle/hard_triangles.h"
+
+namespace touchmark {
+namespace {
+
+using bench::mesh_of;
+
+constexpr double unit_roundoff = 0x1p-53;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// |d - d*| / (u M).
+double error_in_roundings(const HardCase& c) {
+  const PreparedTriangle triangle = prepare(c.triangle[0], c.triangle[1], c.triangle[2], 0);
+  Aabb bounds;
+  for (const Vec3& corner : c.triangle) bounds.extend(corner);
+  Work work;
+  const std::optional<Contact> contact =
+      EveryTriangle{{&triangle, 1}, bounds, {}}.nearest(c.point, infinity, work);
+  const bench::ExactNearest exact = bench::nearest_exactly(c.point, {&c.triangle, 1});
+  const double unit = unit_roundoff * c.largest_difference();
+  if (!contact || !(unit > 0)) return 0;
+  return std::abs((contact->distance - exact.high) - exact.low) / unit;
+}
+
+/// The same but for a little more or less in one place, or in all of them.
+HardCase nudged(const HardCase& c, HardCases& hard) {
+  HardCase other = c;
+  const double size = hard.magnitude(-17, -1) * c.largest_difference();
+  const std::size_t one = hard.below(5);
+  for (std::size_t i = 0; i < 3; ++i)
+    if (one == i || one == 4) other.triangle[i] += size * hard.vector();
+  if (one >= 3) other.point += size * hard.vector();
+  return other;
+}
+
+class CertifiedBound : public testing::TestWithParam<HardFamily> {};
+
+TEST_P(CertifiedBound, IsKeptEvenUphill) {
+  constexpr int climbs = 40, steps = 150;
+  HardCases hard(50);
+  double worst = 0;
+  for (int climb = 0; climb < climbs; ++climb) {
+    HardCase at = placed(GetParam(), hard, climb);
+    double height = error_in_roundings(at);
+    for (int step = 0; step < steps; ++step) {
+      const HardCase next = nudged(at, hard);
+      const double error = error_in_roundings(next);
+      ASSERT_LE(error, 16) << "climb " << climb << ", step " << step;
+      if (error < height) continue;
+      height = error;
+      at = next;
+    }
+    worst = std::max(worst, height);
+  }
+  RecordProperty("worst_error_in_roundings", std::to_string(worst));
+}
+
+/// Two triangles exactly as far from a centre, on its diagonal: the coordinates of the one are those of the
+/// other in turn, so that they are summed in another order; or one of them nearer by a few units in the last
+/// place.
+struct NearTie {
+  TriangleMesh mesh;
+  Vec3 center;
+};
+
+NearTie near_tie(HardCases& hard) {
+  const double away = hard.magnitude(0, 6), along = 4 * hard.vector().x();
+  const Vec3 center = Vec3::Constant(along), place = center + away * hard.vector();
+  HardCases::Corners one, other;
+  for (std::size_t i = 0; i < 3; ++i) {
+    one[i] = place + hard.vector();
+    other[i] = {one[i].y(), one[i].z(), one[i].x()};
+  }
+  double& last = other[hard.below(3)][static_cast<int>(hard.below(3))];
+  for (std::size_t ulps = hard.below(3); ulps > 0; --ulps)
+    last = std::nextafter(last, hard.below(2) == 0 ? infinity : -infinity);
+  return {hard.below(2) == 0 ? mesh_of({one, other}) : mesh_of({other, one}), center};
+}
+
+/// Doubles name one that is nearest but for rounding; all detectors name the same one.
+TEST(NearTies, NameATriangleThatIsNearestButForRounding) {
+  HardCases hard(52);
+  int nearest = 0, asked = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const NearTie tie = near_tie(hard);
+    const bench::Oracle oracle(tie.mesh, 1);
+    const bench::Truth truth = oracle.solve(tie.center);
+    const auto ask = [&](const auto& detector) {
+      typename std::decay_t<decltype(detector)>::Session session;
+      return detector.nearest({tie.center, 0}, infinity, session);
+    };
+    const std::optional<Contact> contact = ask(BruteForce::build(tie.mesh));
+    ASSERT_TRUE(contact);
+    for (const auto& other : {ask(AabbTree::build(tie.mesh)), ask(GridGroup::build(tie.mesh)),
+                              ask(SphereCluster::build(tie.mesh))}) {
+      ASSERT_TRUE(other);
+      ASSERT_EQ(other->triangle, contact->triangle) << i;
+      ASSERT_EQ(other->distance, contact->distance) << i;
+    }
+    const bench::Truth named = oracle.solve(tie.center, contact->triangle);
+    const double unit = unit_roundoff * std::max(named.largest_difference, truth.largest_difference);
+    ASSERT_LE((named.high - truth.high) + (named.low - truth.low), 2 * 16 * unit) << i;
+    ASSERT_LE(std::abs((contact->distance - truth.high) - truth.low), 16 * unit) << i;
+    nearest += contact->triangle == truth.triangle ? 1 : 0;
+    ++asked;
+  }
+  RecordProperty("named_an_exactly_nearest", std::to_string(nearest) + " of " + std::to_string(asked));
+}
+
+INSTANTIATE_TEST_SUITE_P(Nearest, CertifiedBound, testing::ValuesIn(hard_families()),
+                         [](const auto& family) { return family.param.name; });
+
+}  // namespace
+}  // namespace touchmark
