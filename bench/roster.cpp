@@ -55,14 +55,9 @@ ContestantInfo brute_force() {
   return info;
 }
 
-enum class Precision { double_precision, single_precision };
-
 ContestantInfo aabb_tree() {
-  static const Names<Precision> precisions{{"double", Precision::double_precision},
-                                           {"float", Precision::single_precision}};
-  const auto in_floats = [](const OptionValues& values) {
-    return chosen(values, "precision", precisions) == Precision::single_precision;
-  };
+  static const Names<bool> precisions{{"double", false}, {"float", true}};
+  const auto in_floats = [](const OptionValues& values) { return chosen(values, "precision", precisions); };
   ContestantInfo info;
   info.name = "aabb-tree";
   info.summary = "a plain binary tree of boxes: the reference";
