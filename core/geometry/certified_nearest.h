@@ -25,7 +25,7 @@
 ///   square root of a square is exact.)
 /// - beside an edge: (1 + 2 cos + 3.5 sin) u |w| <= 5.1 sqrt(3) u M, and those 5;
 /// - off a corner: 3.5 sqrt(3) u M.
-/// The worst found by climbing, over 5 million triangles and centres, is WORST u M.
+/// The worst found by climbing, over 5 million triangles and centres, is 8.0 u M (certified_bound_test).
 /// Two searches may find different triangles, but both distances are within this of the true least one.
 #pragma once
 
