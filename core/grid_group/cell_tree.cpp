@@ -18,11 +18,33 @@ CellTree::Leaf CellTree::nearest_to(const TriangleStore& store, const BoxTree& t
   return {search.place(), rounded_down(store.frame.scale() * std::sqrt(search.offset().squared))};
 }
 
+CellTree::Leaves::Leaves(const Leaves& other) {
+  for (std::uint32_t i = 0; i < other.size(); ++i) add(other.at(i), other.is_rough(i));
+  shrink_to_fit();
+}
+
+void CellTree::Leaves::add(const Leaf& leaf, bool rough) {
+  if (rough && rough_.empty()) rough_.resize(leaves_.size(), 0);
+  leaves_.push_back(leaf);
+  if (rough || !rough_.empty()) rough_.push_back(rough ? 1 : 0);
+}
+
+void CellTree::Leaves::shrink_to_fit() {
+  leaves_.shrink_to_fit();
+  rough_.shrink_to_fit();
+}
+
+void CellTree::Leaves::set(std::uint32_t i, const Leaf& leaf, bool rough) const noexcept {
+  std::atomic_ref(leaves_[i].place).store(leaf.place, std::memory_order_relaxed);
+  std::atomic_ref(leaves_[i].distance).store(leaf.distance, std::memory_order_relaxed);
+  if (!rough_.empty()) std::atomic_ref(rough_[i]).store(rough ? 1 : 0, std::memory_order_relaxed);
+}
+
 bool CellTree::settle(const Vec3& in_frame, const TriangleStore& store, const BoxTree& tree,
                       Work& work) const noexcept {
   const Place at = place_of(in_frame);
+  if (!leaves_.is_rough(at.leaf)) return false;
   const Leaf rough = leaves_.at(at.leaf);
-  if (!std::signbit(rough.distance)) return false;
   // A tick's work is bounded: where that is not enough, what is known will do.
   constexpr std::uint64_t most = 4096;
   const Vec3 center = store.frame.origin() + at.middle / store.frame.scale();
@@ -32,7 +54,7 @@ bool CellTree::settle(const Vec3& in_frame, const TriangleStore& store, const Bo
   work.triangles += search.triangles();
   work.boxes += search.boxes();
   const float least = found ? rounded_down(store.frame.scale() * std::sqrt(search.offset().squared)) : 0;
-  leaves_.set(at.leaf, {search.place(), std::max(least, std::abs(rough.distance))});
+  leaves_.set(at.leaf, {search.place(), std::max(least, rough.distance)}, false);
   return true;
 }
 
@@ -117,7 +139,7 @@ class CellTreeBuilder {
         }
       } else {
         cells_.links_[cell.link] = CellTree::is_leaf | static_cast<std::uint32_t>(cells_.leaves_.size());
-        cells_.leaves_.add({leaf.place, rough ? -leaf.distance : std::max(leaf.distance, 0.0F)});
+        cells_.leaves_.add(leaf, rough);
       }
     }
     return next;
@@ -183,12 +205,13 @@ void CellTree::update(const TriangleStore& store, const BoxTree& tree, const std
     const std::uint32_t number = cell.link & ~is_leaf;
     const Leaf leaf = leaves_.at(number);
     const double distance =
-        (static_cast<double>(std::abs(leaf.distance)) + 2 * rounded_down_to) * (1 + 2 * rounded_down_by);
+        (static_cast<double>(leaf.distance) + 2 * rounded_down_to) * (1 + 2 * rounded_down_by);
     const bool may_differ = std::any_of(moved.begin(), moved.end(), [&](const Aabb& box) {
       return box.squared_distance(cell.middle) <= distance * distance;
     });
     if (!may_differ) continue;
-    leaves_.set(number, rough_ ? Leaf{leaf.place, -0.0F} : nearest_to(store, tree, cell.middle, leaf.place));
+    leaves_.set(number, rough_ ? Leaf{leaf.place, 0} : nearest_to(store, tree, cell.middle, leaf.place),
+                rough_);
   }
 }
 

@@ -46,7 +46,7 @@ class CellTree {
   Cell at(const Vec3& in_frame) const noexcept {
     const Place place = place_of(in_frame);
     const Leaf leaf = leaves_.at(place.leaf);
-    return {place.middle, static_cast<double>(std::abs(leaf.distance)), leaf.place};
+    return {place.middle, static_cast<double>(leaf.distance), leaf.place};
   }
   /// Finds what is nearest to the middle of that cell, where that is not known yet; else false. Any thread
   /// may meanwhile read or settle the same.
@@ -63,36 +63,38 @@ class CellTree {
   static constexpr unsigned most_levels = 24;
   static constexpr std::uint32_t is_leaf = 1u << 31;
 
-  struct alignas(8) Leaf {
+  struct Leaf {
     std::uint32_t place;
-    float distance;  ///< its sign: what the parent knows
+    float distance;
   };
-  /// Whose numbers may be read and set at once.
+  /// What is known of each, which any thread may read and set at any time: of one whose place is the new one
+  /// and whose distance is the old one both are true.
   class Leaves {
    public:
     Leaves() = default;
-    Leaves(const Leaves& other) {
-      leaves_.reserve(other.size());
-      for (std::uint32_t i = 0; i < other.size(); ++i) leaves_.push_back(other.at(i));
-    }
+    Leaves(const Leaves& other);
     Leaves& operator=(const Leaves& other) { return *this = Leaves(other); }
     Leaves(Leaves&&) noexcept = default;
     Leaves& operator=(Leaves&&) noexcept = default;
     ~Leaves() = default;
 
-    void add(const Leaf& leaf) { leaves_.push_back(leaf); }
-    void shrink_to_fit() { leaves_.shrink_to_fit(); }
+    /// Rough: what its parent knows.
+    void add(const Leaf& leaf, bool rough);
+    void shrink_to_fit();
     Leaf at(std::uint32_t i) const noexcept {
-      return std::atomic_ref(leaves_[i]).load(std::memory_order_relaxed);
+      return {std::atomic_ref(leaves_[i].place).load(std::memory_order_relaxed),
+              std::atomic_ref(leaves_[i].distance).load(std::memory_order_relaxed)};
     }
-    void set(std::uint32_t i, const Leaf& leaf) const noexcept {
-      std::atomic_ref(leaves_[i]).store(leaf, std::memory_order_relaxed);
+    bool is_rough(std::uint32_t i) const noexcept {
+      return !rough_.empty() && std::atomic_ref(rough_[i]).load(std::memory_order_relaxed) != 0;
     }
+    void set(std::uint32_t i, const Leaf& leaf, bool rough) const noexcept;
     std::size_t size() const noexcept { return leaves_.size(); }
-    std::size_t bytes() const noexcept { return leaves_.capacity() * sizeof(Leaf); }
+    std::size_t bytes() const noexcept { return leaves_.capacity() * sizeof(Leaf) + rough_.capacity(); }
 
    private:
     mutable std::vector<Leaf> leaves_;
+    mutable std::vector<std::uint8_t> rough_;  ///< empty where none ever was
   };
 
   struct Place {

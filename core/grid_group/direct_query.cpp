@@ -100,7 +100,7 @@ DirectGrid::Located DirectGrid::locate(const Vec3& center, double reach, DirectM
   if (start.beyond) return {};
   NearestSearch search(store_, center, point, reach);
   // A cell's triangle may be a neighbour of the one that is needed.
-  for (int hop = 0; hop < 2 && start.group == nullptr && groups_.of(start.place).count > 0; ++hop) {
+  for (int hop = 0; hop < 2 && start.group == nullptr && groups_.of(start.place).count() > 0; ++hop) {
     const std::uint32_t next = search.closest_of(groups_.members(groups_.of(start.place)));
     if (next == start.place) break;
     start = {false, next, serving(next, search.point(), work)};

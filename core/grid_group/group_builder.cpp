@@ -32,7 +32,7 @@ Groups GroupBuilder::rebuild(const Groups& groups, const std::vector<Aabb>& move
     for (std::uint32_t place = 0; place < store_.size(); ++place) {
       if (groups.waits(place) || changes(place, moved)) continue;
       const Group& kept = groups.of(place);
-      all.put(place, groups.members(kept), kept.height, kept.margin);
+      all.put(place, groups.members(kept), kept.height(), kept.margin());
     }
     return all;
   }
@@ -42,7 +42,7 @@ Groups GroupBuilder::rebuild(const Groups& groups, const std::vector<Aabb>& move
       add(place, finder_.find(place));
     } else {
       const Group& kept = groups.of(place);
-      add(place, {groups.members(kept), kept.height, kept.margin});
+      add(place, {groups.members(kept), kept.height(), kept.margin()});
     }
   }
   groups_.members_.shrink_to_fit();
@@ -68,11 +68,8 @@ void GroupBuilder::add(std::uint32_t place, const GroupFinder::Found& found) {
     ran_out_ = true;
     return;
   }
-  Group& group = groups_.groups_[place];
-  group.first = static_cast<std::uint32_t>(groups_.members_.size());
-  group.count = static_cast<std::uint16_t>(count);
-  group.height = found.height;
-  group.margin = found.margin;
+  groups_.groups_[place] = {static_cast<std::uint32_t>(groups_.members_.size()), count, found.height,
+                            found.margin};
   groups_.members_.insert(groups_.members_.end(), found.members.data(), found.members.data() + stored);
   ++groups_.count_;
 }

@@ -15,18 +15,32 @@ namespace touchmark::grid {
 
 /// Valid from `height` under the triangle's plane to `height` over it, up to `margin` beyond its sides, in
 /// the filter's frame; nowhere when there are no members.
-struct Group {
-  std::uint32_t first = 0;  ///< member
-  std::uint16_t count = 0;  ///< of members
-  mutable std::uint16_t state = 0;
-  float height = -1;
-  float margin = -1;
+class Group {
+ public:
+  Group() = default;
+  Group(std::uint32_t first, std::size_t count, float height, float margin) noexcept
+      : first_(first), count_(static_cast<std::uint16_t>(count)), height_(height), margin_(margin) {}
+
+  std::size_t count() const noexcept {  ///< of members
+    return std::atomic_ref(count_).load(std::memory_order_acquire);
+  }
+  float height() const noexcept { return std::atomic_ref(height_).load(std::memory_order_acquire); }
+  float margin() const noexcept { return margin_; }  ///< where there are members
 
   /// Is the point with these values of the triangle's planes surely where the group is valid?
   bool serves(Lanes values, float tau) const noexcept {
     const float beside = std::max(values[1], std::max(values[2], values[3]));
-    return std::abs(values[0]) + tau <= height && beside + tau <= margin;
+    return std::abs(values[0]) + tau <= height() && beside + tau <= margin_;
   }
+
+ private:
+  friend class Groups;
+  std::uint32_t first_ = 0;  ///< member
+  // Whoever sees the count sees the first member, and whoever sees the height sees all.
+  mutable std::uint16_t count_ = 0;
+  mutable std::uint16_t state_ = 0;
+  mutable float height_ = -1;
+  float margin_ = -1;
 };
 
 /// By place in the TriangleStore. Those that are not made yet may be made while others are read, by any
@@ -47,23 +61,21 @@ class Groups {
   ~Groups() = default;
 
   /// One without members where it is not made yet.
-  const Group& of(std::uint32_t place) const noexcept {
-    const Group& group = groups_[place];
-    return is_made(group) ? group : none;
-  }
+  const Group& of(std::uint32_t place) const noexcept { return groups_[place]; }
   std::span<const std::uint32_t> members(const Group& group) const noexcept {
-    return {members_.data() + group.first, group.count};
+    const std::size_t count = group.count();
+    return {members_.data() + group.first_, count};
   }
   /// Behind the members lie copies of the last, up to a multiple of eight.
   static constexpr std::size_t rounded_up(std::size_t members) { return (members + 7) / 8 * 8; }
 
   bool waits(std::uint32_t place) const noexcept {
-    return std::atomic_ref(groups_[place].state).load(std::memory_order_relaxed) == unmade;
+    return std::atomic_ref(groups_[place].state_).load(std::memory_order_relaxed) == unmade;
   }
   /// Is it the caller who has to put it?
   bool claim(std::uint32_t place) const noexcept {
     std::uint16_t expected = unmade;
-    return waits(place) && std::atomic_ref(groups_[place].state)
+    return waits(place) && std::atomic_ref(groups_[place].state_)
                                .compare_exchange_strong(expected, in_making, std::memory_order_relaxed);
   }
   /// Members with their copies behind them. Without any where there is no room for them.
@@ -79,12 +91,7 @@ class Groups {
 
  private:
   friend class GroupBuilder;
-  static constexpr std::uint16_t made = 0, unmade = 1, in_making = 2;
-  static const Group none;
-
-  static bool is_made(const Group& group) noexcept {
-    return std::atomic_ref(group.state).load(std::memory_order_acquire) == made;
-  }
+  static constexpr std::uint16_t made = 0, unmade = 1, in_making = 2;  ///< states of a group
 
   bool grows_ = false;
   // What is not made belongs to nobody but who has claimed it.
