@@ -62,12 +62,6 @@ void DirectGrid::remember(const Vec3& center, float tau, double lower, double up
   memory.upper = upper + slack;
 }
 
-const Group* DirectGrid::serving(std::uint32_t place, const FilterPoint& point, Work& work) const noexcept {
-  ++work.cells;
-  const Group& group = groups_.of(place);
-  return group.serves(plane_values(store_.planes[place], point), point.tau) ? &group : nullptr;
-}
-
 DirectGrid::Start DirectGrid::start_at(const Vec3& center, const FilterPoint& point, double reach,
                                        DirectMemory& memory, Work& work) const noexcept {
   const bool remembers = memory.owner == serial_;
