@@ -42,12 +42,13 @@ void CellTree::Leaves::set(std::uint32_t i, const Leaf& leaf, bool rough) const 
 
 bool CellTree::settle(const Vec3& in_frame, const TriangleStore& store, const BoxTree& tree,
                       Work& work) const noexcept {
-  const Place at = place_of(in_frame);
+  const Units units_at = units(in_frame);
+  const Found at = find(units_at);
   if (!leaves_.is_rough(at.leaf)) return false;
   const Leaf rough = leaves_.at(at.leaf);
   // A tick's work is bounded: where that is not enough, what is known will do.
   constexpr std::uint64_t most = 4096;
-  const Vec3 center = store.frame.origin() + at.middle / store.frame.scale();
+  const Vec3 center = store.frame.origin() + middle(units_at, at.shift) / store.frame.scale();
   NearestSearch search(store, center, std::numeric_limits<double>::infinity());
   search.consider(rough.place);
   const bool found = search.consider_tree(tree, most);

@@ -44,9 +44,10 @@ class CellTree {
   }
   /// Of the cell that a point of the cube lies in.
   Cell at(const Vec3& in_frame) const noexcept {
-    const Place place = place_of(in_frame);
-    const Leaf leaf = leaves_.at(place.leaf);
-    return {place.middle, static_cast<double>(leaf.distance), leaf.place};
+    const Units at = units(in_frame);
+    const Found found = find(at);
+    const Leaf leaf = leaves_.at(found.leaf);
+    return {middle(at, found.shift), static_cast<double>(leaf.distance), leaf.place};
   }
   /// Finds what is nearest to the middle of that cell, where that is not known yet; else false. Any thread
   /// may meanwhile read or settle the same.
@@ -97,12 +98,15 @@ class CellTree {
     mutable std::vector<std::uint8_t> rough_;  ///< empty where none ever was
   };
 
-  struct Place {
-    Vec3 middle;
+  using Units = std::array<std::uint32_t, 3>;  ///< numbers of a cell of the last possible level
+  struct Found {
     std::uint32_t leaf;
+    unsigned shift;  ///< of its level
   };
-  Place place_of(const Vec3& in_frame) const noexcept {
-    const std::array<std::uint32_t, 3> at = {unit(in_frame.x()), unit(in_frame.y()), unit(in_frame.z())};
+  Units units(const Vec3& in_frame) const noexcept {
+    return {unit(in_frame.x()), unit(in_frame.y()), unit(in_frame.z())};
+  }
+  Found find(const Units& at) const noexcept {
     unsigned shift = most_levels - top_levels_;
     std::uint32_t link =
         links_[((at[2] >> shift << top_levels_ | at[1] >> shift) << top_levels_) | at[0] >> shift];
@@ -110,9 +114,12 @@ class CellTree {
       --shift;
       link = links_[link + ((at[0] >> shift & 1u) | (at[1] >> shift & 1u) << 1 | (at[2] >> shift & 1u) << 2)];
     }
+    return {link & ~is_leaf, shift};
+  }
+  Vec3 middle(const Units& at, unsigned shift) const noexcept {
     const double edge = unit_ * (1u << shift);
     const auto middle = [&](std::uint32_t along) { return ((along >> shift) + 0.5) * edge - half_; };
-    return {{middle(at[0]), middle(at[1]), middle(at[2])}, link & ~is_leaf};
+    return {middle(at[0]), middle(at[1]), middle(at[2])};
   }
 
   /// So much a distance is rounded down, relatively and besides.
