@@ -189,8 +189,13 @@ void examine_in_processes(const ContestantSpec& spec, const Exam& exam, const Ju
   }
 }
 
-/// Those that change neither where is looked nor how: each is tried beside the defaults of all others.
-bool stands_alone(const OptionInfo& option) { return option.key == "side" || option.key == "certified"; }
+/// Those that do not change where is looked, or go with the defaults of others only: each value is tried
+/// beside the defaults of all others.
+bool stands_alone(const OptionInfo& option) {
+  for (const char* key : {"side", "certified", "build", "simd", "precision"})
+    if (option.key == key) return true;
+  return false;
+}
 
 /// The default, and every combination of choices; a length is tried at its default and at 3 % of the
 /// diagonal.
@@ -207,8 +212,11 @@ std::vector<ContestantSpec> every_option(const ContestantInfo& info) {
         longer.push_back(text + (text == info.name ? ":" : ",") + option.key + "=" + value);
     texts = longer;
   }
-  for (const OptionInfo& option : info.options)
-    if (stands_alone(option)) texts.push_back(info.name + ":" + option.key + "=" + option.choices.back());
+  for (const OptionInfo& option : info.options) {
+    if (!stands_alone(option)) continue;
+    for (const std::string& value : option.choices)
+      if (value != option.default_value) texts.push_back(info.name + ":" + option.key + "=" + value);
+  }
   std::vector<ContestantSpec> specs;
   for (const std::string& text : texts) specs.push_back(roster().parse(text));
   return specs;
