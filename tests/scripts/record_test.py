@@ -36,6 +36,12 @@ if [ "$1" = scale ]; then
   echo made-up >"$3/scaling.csv"
   exit "${SCALE_STATUS-0}"
 fi
+if [ "$1" = update ]; then
+  echo "update ${*:4}" >>"$TEST_LOG"
+  mkdir -p "$3"
+  echo made-up >"$3/update.csv"
+  exit "${UPDATE_STATUS-0}"
+fi
 echo "$1" >>"$TEST_LOG"
 [ -s "$2/results.csv" ] && [ -s "$2/README.md" ] && exit "${VALIDATE_STATUS-0}"
 """
@@ -113,6 +119,17 @@ class Record(unittest.TestCase):
         log = (self.directory / "log").read_text(encoding="utf-8").splitlines()
         self.assertEqual(log[1:], ["scale --detector embree", "validate"])
 
+    def test_records_other_comparisons_beside_the_default_one(self):
+        done = self.record("--beside", "touches", "unlimited", "update")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        [recording] = self.recordings()
+        for path in ("results.csv", "touches/results.csv", "unlimited/run.json", "update/update.csv"):
+            self.assertTrue((recording / path).exists(), path)
+        log = (self.directory / "log").read_text(encoding="utf-8").splitlines()
+        self.assertIn("/touches --query touches --detector aabb-tree", log[1])
+        self.assertIn("/unlimited --reach inf --detector aabb-tree", log[2])
+        self.assertEqual(log[3:], ["update ", "validate"])
+
     def test_refuses_a_changed_tree(self):
         for path, text in (("core/code", "int y;\n"), ("core/new", ""), ("elsewhere/new", "")):
             file = self.root / path
@@ -142,13 +159,15 @@ class Record(unittest.TestCase):
             self.assertIn("nothing is recorded", done.stderr)
         done = self.record("--papers", PAPERS_STATUS="3")
         self.assertEqual(done.returncode, 3)
+        done = self.record("--beside", "update", UPDATE_STATUS="1")
+        self.assertEqual(done.returncode, 1)
         done = self.record("--scaling", SCALE_STATUS="1")
         self.assertEqual(done.returncode, 1)
         self.assertIn("nothing is recorded", done.stderr)
         self.expect_nothing_recorded()
 
     def test_refuses_what_it_does_not_know(self):
-        for words in (["--fast"], ["--only"], ["--only", "--papers"], ["here"]):
+        for words in (["--fast"], ["--only"], ["--only", "--papers"], ["--beside"], ["--beside", "everything"], ["here"]):
             done = self.record(*words)
             self.assertEqual(done.returncode, 2, words)
         self.expect_nothing_recorded()
