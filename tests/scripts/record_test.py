@@ -123,6 +123,7 @@ class Record(unittest.TestCase):
         done = self.record("--beside", "touches", "unlimited", "update")
         self.assertEqual(done.returncode, 0, done.stderr)
         [recording] = self.recordings()
+        self.assertTrue(recording.name.endswith(self.git("rev-parse", "--short=7", "HEAD")), recording.name)
         for path in ("results.csv", "touches/results.csv", "unlimited/run.json", "update/update.csv"):
             self.assertTrue((recording / path).exists(), path)
         log = (self.directory / "log").read_text(encoding="utf-8").splitlines()
