@@ -9,16 +9,13 @@
 
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/geometry/certified_nearest.h"
+#include "core/geometry/point_triangle_kernel.h"
 
 namespace touchmark {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float unit_roundoff = std::numeric_limits<float>::epsilon() / 2;
-
-bool precedes(const Eigen::Vector3f& a, const Eigen::Vector3f& b) noexcept {
-  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
-}
 
 }  // namespace
 
@@ -50,22 +47,6 @@ FloatTree FloatTree::build(const TriangleMesh& mesh, const Options& options) {
   return tree;
 }
 
-// The kernel's three functions are those of core/geometry/point_triangle.cpp, in floats.
-
-FloatTree::Offset FloatTree::from_segment(const Point& p, const Point& q, const Point& to_p,
-                                          const Point& to_q, float pp, float qq) noexcept {
-  const bool p_first = pp < qq || (pp == qq && precedes(p, q));
-  const Point& near = p_first ? to_p : to_q;
-  const float near_squared = p_first ? pp : qq;
-  const Point edge = p_first ? Point(q - p) : Point(p - q);
-  const float along = near.dot(edge);
-  if (!(along > 0)) return {near, near_squared};
-  const Point across = near - std::min(along / edge.squaredNorm(), 1.0F) * edge;
-  const float squared = across.squaredNorm();
-  if (squared < near_squared) return {across, squared};
-  return {near, near_squared};
-}
-
 bool FloatTree::surely_over_face(const Triangle& t, const std::array<Point, 3>& to,
                                  const std::array<float, 3>& squared) noexcept {
   constexpr float roundings = 8 * unit_roundoff;
@@ -80,20 +61,7 @@ bool FloatTree::surely_over_face(const Triangle& t, const std::array<Point, 3>& 
 }
 
 FloatTree::Offset FloatTree::offset_from(const Triangle& t, const Point& point) noexcept {
-  const std::array<Point, 3> to = {point - t.corner[0], point - t.corner[1], point - t.corner[2]};
-  const std::array<float, 3> squared = {to[0].squaredNorm(), to[1].squaredNorm(), to[2].squaredNorm()};
-  if (surely_over_face(t, to, squared)) {
-    const auto near = std::min_element(squared.begin(), squared.end()) - squared.begin();
-    const float height = to[static_cast<std::size_t>(near)].dot(t.normal);
-    return {height * t.normal, height * height};
-  }
-  Offset best = from_segment(t.corner[0], t.corner[1], to[0], to[1], squared[0], squared[1]);
-  for (std::size_t i = 1; i < 3; ++i) {
-    const std::size_t j = i == 2 ? 0 : i + 1;
-    const Offset other = from_segment(t.corner[i], t.corner[j], to[i], to[j], squared[i], squared[j]);
-    if (other.squared < best.squared) best = other;
-  }
-  return best;
+  return kernel::offset_from(t, point, surely_over_face);
 }
 
 /// As culling_slack.

@@ -20,6 +20,7 @@
 
 #include "core/detector.h"
 #include "core/geometry/aabb.h"
+#include "core/geometry/point_triangle.h"
 #include "core/probe.h"
 #include "core/triangle_mesh.h"
 
@@ -66,13 +67,8 @@ class FloatTree {
     Point min, max;
     std::uint32_t first, count;  ///< as in AabbTree
   };
-  struct Offset {
-    Point vector;
-    float squared;
-  };
+  using Offset = OffsetIn<float>;
 
-  static Offset from_segment(const Point& p, const Point& q, const Point& to_p, const Point& to_q, float pp,
-                             float qq) noexcept;
   static bool surely_over_face(const Triangle& t, const std::array<Point, 3>& to,
                                const std::array<float, 3>& squared) noexcept;
   static Offset offset_from(const Triangle& t, const Point& point) noexcept;

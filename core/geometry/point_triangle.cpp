@@ -7,35 +7,12 @@
 
 #include "core/geometry/double_double.h"
 #include "core/geometry/exact_decision.h"
+#include "core/geometry/point_triangle_kernel.h"
 
 namespace touchmark {
 namespace {
 
 constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
-
-/// Which of two ends to measure a segment from must not depend on the order in which a triangle names them.
-bool precedes(const Vec3& a, const Vec3& b) noexcept {
-  if (a.x() != b.x()) return a.x() < b.x();
-  if (a.y() != b.y()) return a.y() < b.y();
-  return a.z() < b.z();
-}
-
-/// From the segment between corners p and q, evaluated from the end nearer to the point; `to_p` and `to_q`
-/// run from the ends to the point, `pp` and `qq` are their squared lengths.
-Offset from_segment(const Vec3& p, const Vec3& q, const Vec3& to_p, const Vec3& to_q, double pp,
-                    double qq) noexcept {
-  const bool p_first = pp < qq || (pp == qq && precedes(p, q));
-  const Vec3& near = p_first ? to_p : to_q;
-  const double near_squared = p_first ? pp : qq;
-  const Vec3 edge = p_first ? Vec3(q - p) : Vec3(p - q);
-  const double along = near.dot(edge);
-  if (!(along > 0)) return {near, near_squared};
-  // At most half way but for rounding; the ends of an edge that is short for its distance are equally near.
-  const Vec3 across = near - std::min(along / edge.squaredNorm(), 1.0) * edge;
-  const double squared = across.squaredNorm();
-  if (squared < near_squared) return {across, squared};
-  return {near, near_squared};
-}
 
 /// Inside the prism over the triangle by more than the rounding of the three tests?
 bool surely_over_face(const PreparedTriangle& t, const std::array<Vec3, 3>& to,
@@ -129,21 +106,7 @@ std::vector<PreparedTriangle> prepare(const TriangleMesh& mesh) {
 }
 
 Offset offset_from(const PreparedTriangle& t, const Vec3& point) noexcept {
-  const std::array<Vec3, 3> to = {point - t.corner[0], point - t.corner[1], point - t.corner[2]};
-  const std::array<double, 3> squared = {to[0].squaredNorm(), to[1].squaredNorm(), to[2].squaredNorm()};
-  if (surely_over_face(t, to, squared)) {
-    std::size_t near = squared[1] < squared[0] ? 1 : 0;
-    if (squared[2] < squared[near]) near = 2;
-    const double height = to[near].dot(t.normal);
-    return {height * t.normal, height * height};
-  }
-  Offset best = from_segment(t.corner[0], t.corner[1], to[0], to[1], squared[0], squared[1]);
-  for (std::size_t i = 1; i < 3; ++i) {
-    const std::size_t j = i == 2 ? 0 : i + 1;
-    const Offset other = from_segment(t.corner[i], t.corner[j], to[i], to[j], squared[i], squared[j]);
-    if (other.squared < best.squared) best = other;
-  }
-  return best;
+  return kernel::offset_from(t, point, surely_over_face);
 }
 
 double squared_distance(const PreparedTriangle& triangle, const Vec3& point) noexcept {

@@ -70,10 +70,12 @@ NearestAsComputed nearest_as_computed(std::span<const PreparedTriangle> triangle
 PreparedTriangle scaled(const PreparedTriangle& triangle, double scale) noexcept;
 
 /// The vector from a triangle's nearest point to the query point, and its squared length.
-struct Offset {
-  Vec3 vector;
-  double squared;
+template <class Scalar>
+struct OffsetIn {
+  Eigen::Matrix<Scalar, 3, 1> vector;
+  Scalar squared;
 };
+using Offset = OffsetIn<double>;
 
 /// `squared` is squared_distance(triangle, point).
 Offset offset_from(const PreparedTriangle& triangle, const Vec3& point) noexcept;
