@@ -10,12 +10,14 @@
 namespace touchmark::grid {
 
 CellTree::Leaf CellTree::nearest_to(const TriangleStore& store, const BoxTree& tree, const Vec3& middle,
-                                    std::uint32_t hint) {
+                                    std::uint32_t hint, std::uint64_t most, Work& work) noexcept {
   const Vec3 center = store.frame.origin() + middle / store.frame.scale();
   NearestSearch search(store, center, std::numeric_limits<double>::infinity());
   search.consider(hint);
-  search.consider_tree(tree);
-  return {search.place(), rounded_down(store.frame.scale() * std::sqrt(search.offset().squared))};
+  const bool found = search.consider_tree(tree, most);
+  work.triangles += search.triangles();
+  work.boxes += search.boxes();
+  return {search.place(), found ? rounded_down(store.frame.scale() * std::sqrt(search.offset().squared)) : 0};
 }
 
 CellTree::Leaves::Leaves(const Leaves& other) {
@@ -48,14 +50,9 @@ bool CellTree::settle(const Vec3& in_frame, const TriangleStore& store, const Bo
   const Leaf rough = leaves_.at(at.leaf);
   // A tick's work is bounded: where that is not enough, what is known will do.
   constexpr std::uint64_t most = 4096;
-  const Vec3 center = store.frame.origin() + middle(units_at, at.shift) / store.frame.scale();
-  NearestSearch search(store, center, std::numeric_limits<double>::infinity());
-  search.consider(rough.place);
-  const bool found = search.consider_tree(tree, most);
-  work.triangles += search.triangles();
-  work.boxes += search.boxes();
-  const float least = found ? rounded_down(store.frame.scale() * std::sqrt(search.offset().squared)) : 0;
-  leaves_.set(at.leaf, {search.place(), std::max(least, rough.distance)}, false);
+  Leaf leaf = nearest_to(store, tree, middle(units_at, at.shift), rough.place, most, work);
+  leaf.distance = std::max(leaf.distance, rough.distance);
+  leaves_.set(at.leaf, leaf, false);
   return true;
 }
 
@@ -147,7 +144,8 @@ class CellTreeBuilder {
   }
 
   CellTree::Leaf nearest_to(const Open& cell) const {
-    return CellTree::nearest_to(store_, tree_, cell.middle, cell.rough.place);
+    Work unreported;
+    return CellTree::nearest_to(store_, tree_, cell.middle, cell.rough.place, any_work, unreported);
   }
 
   /// Near the surface, down to the size of the triangles there.
@@ -211,8 +209,10 @@ void CellTree::update(const TriangleStore& store, const BoxTree& tree, const std
       return box.squared_distance(cell.middle) <= distance * distance;
     });
     if (!may_differ) continue;
-    leaves_.set(number, rough_ ? Leaf{leaf.place, 0} : nearest_to(store, tree, cell.middle, leaf.place),
-                rough_);
+    Work unreported;
+    const Leaf known =
+        rough_ ? Leaf{leaf.place, 0} : nearest_to(store, tree, cell.middle, leaf.place, any_work, unreported);
+    leaves_.set(number, known, rough_);
   }
 }
 

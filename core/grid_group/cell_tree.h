@@ -128,8 +128,10 @@ class CellTree {
   static float rounded_down(double distance) noexcept {
     return static_cast<float>(distance * (1 - rounded_down_by) - rounded_down_to);
   }
+  /// `hint` is tried first. Where testing `most` triangles and boxes is not enough, the nearest of those and
+  /// no distance.
   static Leaf nearest_to(const TriangleStore& store, const BoxTree& tree, const Vec3& middle,
-                         std::uint32_t hint);
+                         std::uint32_t hint, std::uint64_t most, Work& work) noexcept;
   std::uint32_t unit(double along) const noexcept {
     return static_cast<std::uint32_t>(static_cast<std::int32_t>((along + half_) * units_per_length_));
   }
