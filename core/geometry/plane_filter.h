@@ -113,6 +113,7 @@ class FilterFrame {
 /// kernel.
 TrianglePlanes planes_of(const PreparedTriangle& triangle, const FilterFrame& frame) noexcept;
 
+inline Lanes broadcast(float x) noexcept { return Lanes{x, x, x, x}; }
 inline Lanes greater_of(Lanes a, Lanes b) noexcept { return a > b ? a : b; }
 inline Lanes lesser_of(Lanes a, Lanes b) noexcept { return a < b ? a : b; }
 
@@ -129,10 +130,7 @@ struct PointLanes {
   Lanes x, y, z, tau;
 
   explicit PointLanes(const FilterPoint& p) noexcept
-      : x(Lanes{p.x, p.x, p.x, p.x}),
-        y(Lanes{p.y, p.y, p.y, p.y}),
-        z(Lanes{p.z, p.z, p.z, p.z}),
-        tau(Lanes{p.tau, p.tau, p.tau, p.tau}) {}
+      : x(broadcast(p.x)), y(broadcast(p.y)), z(broadcast(p.z)), tau(broadcast(p.tau)) {}
 };
 
 /// Values of one triangle's planes.

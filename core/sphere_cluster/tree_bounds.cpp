@@ -9,11 +9,12 @@ namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-Lanes all(float x) noexcept { return Lanes{x, x, x, x}; }
 float least_lane(Lanes v) noexcept { return std::min(std::min(v[0], v[1]), std::min(v[2], v[3])); }
 float greatest_lane(Lanes v) noexcept { return std::max(std::max(v[0], v[1]), std::max(v[2], v[3])); }
 
-Point4 spread(const Eigen::Vector3f& p) noexcept { return {all(p.x()), all(p.y()), all(p.z())}; }
+Point4 spread(const Eigen::Vector3f& p) noexcept {
+  return {broadcast(p.x()), broadcast(p.y()), broadcast(p.z())};
+}
 Point4 operator-(const Point4& a, const Point4& b) noexcept { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 Lanes dot(const Point4& a, const Point4& b) noexcept { return a.x * b.x + a.y * b.y + a.z * b.z; }
 Point4 cross(const Point4& a, const Point4& b) noexcept {
@@ -38,7 +39,7 @@ struct Farthest {
 
 Farthest farthest_from(const Eigen::Vector3f& center, const PointList& points) noexcept {
   const Point4 from = spread(center);
-  Lanes most = all(-1);
+  Lanes most = broadcast(-1);
   LaneBits at = {0, 0, 0, 0};
   int i = 0;
   for (const Point4& p : points.fours()) {
@@ -82,7 +83,7 @@ SlabbedSphere bound_points(const PointList& points, const Vec3& mean_normal) noe
   const Point4 axis = spread(normal);
   Eigen::Vector3f center = central_point(points);
   Point4 from = spread(center);
-  Lanes low = all(infinity), high = all(-infinity);
+  Lanes low = broadcast(infinity), high = broadcast(-infinity);
   for (const Point4& p : points.fours()) {
     const Lanes along = dot(axis, p - from);
     low = lesser_of(low, along);

@@ -12,8 +12,6 @@ namespace {
 constexpr std::size_t bins_an_axis = 16;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-Lanes all(float x) noexcept { return Lanes{x, x, x, x}; }
-
 /// Of a box; in any order of the axes.
 float half_area(Lanes min, Lanes max) noexcept {
   const Lanes d = greater_of(max - min, Lanes{});
@@ -24,7 +22,7 @@ float half_area(Lanes min, Lanes max) noexcept {
 /// Which bins the numbers are in; what rounding puts beyond the last is in the last.
 LaneBits bins_of(Lanes key, Lanes origin, Lanes scale) noexcept {
   constexpr float within_the_last = static_cast<float>(bins_an_axis) - 0.5F;
-  return __builtin_convertvector(lesser_of((key - origin) * scale, all(within_the_last)), LaneBits);
+  return __builtin_convertvector(lesser_of((key - origin) * scale, broadcast(within_the_last)), LaneBits);
 }
 int bin_of(float key, float origin, float scale) noexcept {
   constexpr float within_the_last = static_cast<float>(bins_an_axis) - 0.5F;
@@ -33,7 +31,7 @@ int bin_of(float key, float origin, float scale) noexcept {
 
 /// The triangles of a bin, or of several.
 struct Bin {
-  Lanes min = all(infinity), max = all(-infinity);
+  Lanes min = broadcast(infinity), max = broadcast(-infinity);
   std::uint32_t count = 0;
 
   void add(const Bin& other) noexcept {
@@ -183,7 +181,7 @@ std::pair<TriangleRange, TriangleRange> TriangleSplitter::split(const TriangleRa
   }
   const Lanes extent = box.max - box.min;
   // A little less than whole bins, so that the last number is in the last bin.
-  const Lanes per_extent = all(static_cast<float>(bins_an_axis) * (1 - 0x1p-20F)) / extent;
+  const Lanes per_extent = broadcast(static_cast<float>(bins_an_axis) * (1 - 0x1p-20F)) / extent;
   const Bins bins{box.min, extent > Lanes{} ? per_extent : Lanes{}};
   // Whole blocks on the left.
   const auto place_of = [&](std::uint32_t left) {
