@@ -67,13 +67,9 @@ Place Surface::random_place(Random& random) const {
   const auto found = std::upper_bound(weight_up_to_.begin(), weight_up_to_.end(), at);
   const auto last = static_cast<std::ptrdiff_t>(mesh_.size()) - 1;
   const auto triangle = static_cast<std::uint32_t>(std::min(found - weight_up_to_.begin(), last));
-  double u = random.unit(), v = random.unit();
-  if (u + v > 1) {
-    u = 1 - u;
-    v = 1 - v;
-  }
-  const Vec3& origin = mesh_.corner(triangle, 0);
-  return {origin + u * (mesh_.corner(triangle, 1) - origin) + v * (mesh_.corner(triangle, 2) - origin),
+  const double u = random.unit(), v = random.unit();
+  return {place_in_triangle(mesh_.corner(triangle, 0), mesh_.corner(triangle, 1), mesh_.corner(triangle, 2),
+                            u, v),
           normal_of(mesh_, triangle)};
 }
 

@@ -76,12 +76,11 @@ class HardCases : public Random {
       case 2:
         b = 1 - a;  // another
         break;
-      default:
-        if (a + b > 1) a = 1 - a, b = 1 - b;
+      default:  // anywhere
+        break;
     }
     const std::size_t first = below(3);
-    const Vec3& o = t[first];
-    const Vec3 on = o + a * (t[(first + 1) % 3] - o) + b * (t[(first + 2) % 3] - o);
+    const Vec3 on = place_in_triangle(t[first], t[(first + 1) % 3], t[(first + 2) % 3], a, b);
     switch (below(4)) {
       case 0:
         return on;
@@ -102,9 +101,8 @@ class HardCases : public Random {
                       e.x() * f.y() - e.y() * f.x());
     const double length = normal.norm();
     if (!(length > 0)) return point_about(t);
-    double a = fraction(), b = below(3) == 0 ? 0 : fraction();
-    if (a + b > 1) a = 1 - a, b = 1 - b;
-    return t[0] + a * e + b * f + (magnitude(-17, 1) / length) * normal;
+    const double a = fraction(), b = below(3) == 0 ? 0 : fraction();
+    return place_in_triangle(t[0], t[1], t[2], a, b) + (magnitude(-17, 1) / length) * normal;
   }
 
   Corners shuffled(Corners t) {

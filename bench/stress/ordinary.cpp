@@ -35,10 +35,8 @@ Vec3 somewhere(HardCases& random, const TriangleMesh& mesh) {
   if (random.below(2) == 0)
     return mesh.bounds().center() + 0.6 * random.vector().cwiseProduct(mesh.bounds().extent());
   const std::size_t i = random.below(mesh.size());
-  double a = random.fraction(), b = random.fraction();
-  if (a + b > 1) a = 1 - a, b = 1 - b;
-  const Vec3& corner = mesh.corner(i, 0);
-  const Vec3 on = corner + a * (mesh.corner(i, 1) - corner) + b * (mesh.corner(i, 2) - corner);
+  const double a = random.fraction(), b = random.fraction();
+  const Vec3 on = place_in_triangle(mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2), a, b);
   return on + 0.01 * mesh.diagonal() * random.vector();
 }
 

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "bench/random.h"
+
 namespace touchmark {
 namespace {
 
@@ -51,9 +53,8 @@ TEST(TriangleBox, NeverMissesAPointOfTheTriangleInTheBox) {
     for (int round = 0; round < 20000; ++round) {
       const std::array<Vec3, 3> corner = {point(random) + shift, point(random) + shift,
                                           point(random) + shift};
-      double a = std::abs(number(random)), b = std::abs(number(random));
-      if (a + b > 1) a = 1 - a, b = 1 - b;
-      const Vec3 inside = corner[0] + a * (corner[1] - corner[0]) + b * (corner[2] - corner[0]);
+      const double a = std::abs(number(random)), b = std::abs(number(random));
+      const Vec3 inside = bench::place_in_triangle(corner[0], corner[1], corner[2], a, b);
       const Vec3 half = round % 2 == 0 ? Vec3::Zero() : Vec3(1e-3 * point(random).cwiseAbs());
       ASSERT_TRUE(overlaps(corner, {inside - half, inside + half}));
     }
