@@ -27,6 +27,11 @@ struct Aabb {
   bool contains(const Vec3& point) const noexcept {
     return (point.array() >= min.array()).all() && (point.array() <= max.array()).all();
   }
+  /// Is the gap between the boxes at most this along every axis? Never one to an empty box. By differences,
+  /// which lose nothing far from the origin.
+  bool comes_within(double gap, const Aabb& other) const noexcept {
+    return ((min - other.max).array() <= gap).all() && ((other.min - max).array() <= gap).all();
+  }
   /// The vector from the box to the point, zero inside.
   Vec3 excess(const Vec3& point) const noexcept {
     return (min - point).cwiseMax(point - max).cwiseMax(Vec3::Zero());

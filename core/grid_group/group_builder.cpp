@@ -53,10 +53,9 @@ bool GroupBuilder::changes(std::uint32_t place, const std::vector<Aabb>& moved) 
   const TriangleBall& ball = store_.balls[place];
   const double around = GroupFinder::reach_in_radii * static_cast<double>(ball.radius) + 2 * lead_;
   const Vec3 middle(static_cast<double>(ball.x), static_cast<double>(ball.y), static_cast<double>(ball.z));
-  const Aabb box = Aabb{middle, middle}.padded(around);
-  return std::any_of(moved.begin(), moved.end(), [&](const Aabb& one) {
-    return (one.min.array() <= box.max.array()).all() && (box.min.array() <= one.max.array()).all();
-  });
+  const Aabb at_middle{middle, middle};
+  return std::any_of(moved.begin(), moved.end(),
+                     [&](const Aabb& one) { return one.comes_within(around, at_middle); });
 }
 
 void GroupBuilder::add(std::uint32_t place, const GroupFinder::Found& found) {

@@ -22,11 +22,6 @@ Aabb box_of(const Corners& t) noexcept {
   return box;
 }
 
-/// By differences, which lose nothing far from the origin.
-bool are_near(const Aabb& a, const Aabb& b, double gap) noexcept {
-  return ((a.min - b.max).array() <= gap).all() && ((b.min - a.max).array() <= gap).all();
-}
-
 bool has_sharp_corner(const Corners& t) noexcept {
   for (std::size_t s = 0; s < 3; ++s) {
     const Vec3 u = t[(s + 1) % 3] - t[s], v = t[(s + 2) % 3] - t[s];
@@ -144,7 +139,7 @@ std::vector<bool> clear_faces(const Pseudonormals& normals, const TriangleTree& 
     const Corners corners = corners_of(normals, f);
     if (has_sharp_corner(corners)) clear[f] = false;
     const Aabb box = box_of(corners);
-    const auto is_near = [&](const Aabb& other) { return are_near(box, other, gap); };
+    const auto is_near = [&](const Aabb& other) { return box.comes_within(gap, other); };
     tree.visit(is_near, [&](const TriangleTree::Item& item) {
       const std::uint32_t g = face_of[item.index];
       if (g == Pseudonormals::no_face || g <= f || !is_near(box_of(item.corner))) return;
