@@ -69,6 +69,7 @@ void Case::introduce() {
       row_.status = "unsupported";
       return;
     }
+    process_.unmake();
     row_.first_answer_ms = built.build_ms + process_.first(task_).ns_per_query / 1e6;
     const double ns = std::max(process_.calibrate(task_, effort_.pass_budget_ns / 4).ns_per_query, 1.0);
     task_.steps = static_cast<std::size_t>(
@@ -82,6 +83,7 @@ void Case::introduce() {
 
 void Case::verify(Truths& truths, Truths* stored) {
   attempt([&] {
+    process_.unmake();
     const Answered answered = process_.answer(task_);
     row_.checksum = answered.checksum;
     row_.work = summarize_work(stage_.room().work(row_.steps), answered.work);
@@ -107,6 +109,7 @@ void Case::expect_verified_answers(const Timed& timed) {
 
 void Case::first_pass() {
   attempt([&] {
+    process_.unmake();
     const Timed timed = process_.first_pass(task_);
     first_pass_ns_ = timed.ns_per_query;
     expect_verified_answers(timed);

@@ -34,6 +34,8 @@ class Case {
   /// the truths of the scene as the contestant's library stores it.
   void verify(Truths& truths, Truths* stored = nullptr);
 
+  /// With a fresh session, after others used the caches; what makes parts of itself later is built anew just
+  /// before, so that making them is in it.
   void first_pass();
   void repetition();
   void latency_pass();

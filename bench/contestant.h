@@ -49,6 +49,8 @@ class Contestant {
   virtual bool answers(Query query) const noexcept = 0;
   virtual Accuracy accuracy() const noexcept = 0;
   virtual std::size_t bytes() const noexcept = 0;
+  /// See the concept MakesLater.
+  virtual bool makes_later() const noexcept = 0;
   /// A fresh session, its work counters at zero.
   virtual void forget() = 0;
   virtual Work work() const noexcept = 0;
@@ -104,6 +106,10 @@ requires(idle == Idle::wasted || Prepares<D>) class ContestantOf final : public 
   }
   Accuracy accuracy() const noexcept override { return detector_.accuracy(); }
   std::size_t bytes() const noexcept override { return detector_.bytes(); }
+  bool makes_later() const noexcept override {
+    if constexpr (MakesLater<D>) return detector_.makes_later();
+    return false;
+  }
   void forget() override { session_.emplace(); }
   bool updates() const noexcept override { return Updates<D>; }
   void update([[maybe_unused]] const TriangleMesh& mesh) override {

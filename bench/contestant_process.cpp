@@ -64,8 +64,7 @@ void ContestantProcess::start() {
     opened_ =
         ask({{"order", "open"}, {"layout", stage_.layout()}, {"calibrate_clock", options.calibrate_clock}},
             options.build_patience);
-    const nlohmann::json reply =
-        ask({{"order", "build"}, {"contestant", spec_.text()}}, options.build_patience);
+    const nlohmann::json reply = order_build();
     if (!built_) {
       built_ = reply.get<Built>();
       pass_on(reply.at("remarks").get<std::vector<std::string>>(), spec_.text());
@@ -85,13 +84,26 @@ void ContestantProcess::give_up(std::string status) {
   failed_build_ = std::move(status);
 }
 
+nlohmann::json ContestantProcess::order_build() {
+  asked_ = false;
+  return ask({{"order", "build"}, {"contestant", spec_.text()}}, stage_.options().build_patience);
+}
+
 const Built& ContestantProcess::build() {
   start();
   return *built_;
 }
 
+void ContestantProcess::unmake() {
+  start();
+  if (!built_->makes_later || !asked_) return;
+  const Built again = order_build().get<Built>();
+  if (!again.refused.empty()) throw WorkerFailure("refused: " + again.refused);
+}
+
 nlohmann::json ContestantProcess::order(const char* what, const Task& task, const nlohmann::json& more) {
   start();
+  asked_ = true;
   nlohmann::json order{{"order", what}, {"task", task}};
   order.update(more);
   return ask(order, stage_.options().order_patience);

@@ -57,6 +57,9 @@ class ContestantProcess {
 
   // All throw WorkerFailure, whose what() is the status for the row, ResourceError or Interrupted.
   const Built& build();
+  /// Where the detector makes parts of itself later, builds it anew if it was asked anything since: all is to
+  /// be made again. Elsewhere that would change nothing, and nothing is done.
+  void unmake();
   Timed first(const Task& task);
   Timed calibrate(const Task& task, double budget_ns);
   Answered answer(const Task& task);
@@ -76,6 +79,7 @@ class ContestantProcess {
 
  private:
   void start();
+  nlohmann::json order_build();
   nlohmann::json order(const char* what, const Task& task, const nlohmann::json& more);
   nlohmann::json ask(const nlohmann::json& order, std::chrono::milliseconds patience);
 
@@ -85,6 +89,7 @@ class ContestantProcess {
   std::unique_ptr<WorkerProcess> process_;
   Opened opened_;
   std::optional<Built> built_;
+  bool asked_ = false;  ///< since it was built
   std::string failed_build_;
   double busy_s_ = 0;
 };

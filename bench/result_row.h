@@ -21,7 +21,7 @@ struct ThroughputResult {
   double ns_per_query = 0;             ///< median of the repetitions
   double ns_per_query_min = 0;         ///< least
   double ns_per_query_mad = 0;         ///< median absolute deviation from the median
-  double ns_per_query_first_pass = 0;  ///< fresh session, other contestants having used the caches meanwhile
+  double ns_per_query_first_pass = 0;  ///< fresh session; see Case::first_pass
   double cpu_ns_per_query = 0;         ///< median; without what other processes took of the core
   std::size_t repetitions = 0;
 };

@@ -132,6 +132,7 @@ double Worker::timed_build(const ContestantSpec& spec) {
 
 nlohmann::json Worker::build(const std::string& spec_text) {
   const ContestantSpec spec = roster_.parse(spec_text);
+  if (!mesh_) mesh_ = read_mesh(input_.bytes(), layout_);
   Built built;
   const std::uint64_t heap_before = heap_in_use();
   std::vector<double> times_ns;
@@ -159,6 +160,7 @@ nlohmann::json Worker::build(const std::string& spec_text) {
     if (contestant_->answers(query)) built.queries.push_back(query);
   }
   built.prepares = contestant_->prepares();
+  built.makes_later = contestant_->makes_later();
   return built;
 }
 
@@ -174,7 +176,7 @@ Timed Worker::timed_replay(const Course& course, const std::vector<Window>& wind
   const Clock::time_point start = Clock::now();
   for (const Window& window : windows) contestant_->replay(course, window, checksum);
   const double elapsed = ns_since(start);
-  return {elapsed / static_cast<double>(steps_in(windows)), 0, checksum.value(), true};
+  return {elapsed / static_cast<double>(steps_in(windows)), 0, checksum.value(), true, {}};
 }
 
 nlohmann::json Worker::update(const std::string& spec_text, const Deformation& deformation) {
@@ -256,12 +258,15 @@ nlohmann::json Worker::answer(const Task& task) {
 
 nlohmann::json Worker::first_pass(const Task& task) {
   contestant_->forget();
-  return timed_replay(course_of(task), windows_of(task));
+  Timed timed = timed_replay(course_of(task), windows_of(task));
+  timed.work = contestant_->work();
+  return timed;
 }
 
 nlohmann::json Worker::time(const Task& task, std::int64_t passes) {
   const Throughput throughput = measure_throughput(*contestant_, course_of(task), windows_of(task), passes);
-  return Timed{throughput.ns_per_query, throughput.cpu_ns_per_query, throughput.checksum, throughput.steady};
+  return Timed{
+      throughput.ns_per_query, throughput.cpu_ns_per_query, throughput.checksum, throughput.steady, {}};
 }
 
 nlohmann::json Worker::latency(const Task& task) {
@@ -280,7 +285,7 @@ nlohmann::json Worker::latency(const Task& task) {
                                 prepare_ticks.subspan(done, window.size()));
     done += window.size();
   }
-  return Timed{ns_since(start) / static_cast<double>(done), 0, checksum.value(), true};
+  return Timed{ns_since(start) / static_cast<double>(done), 0, checksum.value(), true, {}};
 }
 
 }  // namespace

@@ -12,6 +12,24 @@ namespace {
 std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
 double from_bits(const nlohmann::json& json) { return std::bit_cast<double>(json.get<std::uint64_t>()); }
 
+nlohmann::json work_json(const Work& work) {
+  return {{"cells", work.cells},
+          {"spheres", work.spheres},
+          {"boxes", work.boxes},
+          {"triangles", work.triangles},
+          {"exact_decisions", work.exact_decisions}};
+}
+
+Work work_from(const nlohmann::json& json) {
+  Work work;
+  json.at("cells").get_to(work.cells);
+  json.at("spheres").get_to(work.spheres);
+  json.at("boxes").get_to(work.boxes);
+  json.at("triangles").get_to(work.triangles);
+  json.at("exact_decisions").get_to(work.exact_decisions);
+  return work;
+}
+
 }  // namespace
 
 void to_json(nlohmann::json& json, const Task& task) {
@@ -48,7 +66,8 @@ void to_json(nlohmann::json& json, const Built& built) {
           {"absolute", bits(built.accuracy.absolute)},
           {"decides_exactly", built.accuracy.decides_exactly},
           {"queries", queries},
-          {"prepares", built.prepares}};
+          {"prepares", built.prepares},
+          {"makes_later", built.makes_later}};
 }
 
 void from_json(const nlohmann::json& json, Built& built) {
@@ -63,29 +82,24 @@ void from_json(const nlohmann::json& json, Built& built) {
     built.queries.push_back(static_cast<Query>(query.get<std::uint32_t>()));
   }
   json.at("prepares").get_to(built.prepares);
+  json.at("makes_later").get_to(built.makes_later);
 }
 
 void to_json(nlohmann::json& json, const Answered& answered) {
-  const Work& work = answered.work;
-  json = {{"checksum", answered.checksum}, {"cells", work.cells},
-          {"spheres", work.spheres},       {"boxes", work.boxes},
-          {"triangles", work.triangles},   {"exact_decisions", work.exact_decisions}};
+  json = {{"checksum", answered.checksum}, {"work", work_json(answered.work)}};
 }
 
 void from_json(const nlohmann::json& json, Answered& answered) {
   json.at("checksum").get_to(answered.checksum);
-  json.at("cells").get_to(answered.work.cells);
-  json.at("spheres").get_to(answered.work.spheres);
-  json.at("boxes").get_to(answered.work.boxes);
-  json.at("triangles").get_to(answered.work.triangles);
-  json.at("exact_decisions").get_to(answered.work.exact_decisions);
+  answered.work = work_from(json.at("work"));
 }
 
 void to_json(nlohmann::json& json, const Timed& timed) {
   json = {{"ns_per_query", timed.ns_per_query},
           {"cpu_ns_per_query", timed.cpu_ns_per_query},
           {"checksum", timed.checksum},
-          {"steady", timed.steady}};
+          {"steady", timed.steady},
+          {"work", work_json(timed.work)}};
 }
 
 void from_json(const nlohmann::json& json, Timed& timed) {
@@ -93,6 +107,7 @@ void from_json(const nlohmann::json& json, Timed& timed) {
   json.at("cpu_ns_per_query").get_to(timed.cpu_ns_per_query);
   json.at("checksum").get_to(timed.checksum);
   json.at("steady").get_to(timed.steady);
+  timed.work = work_from(json.at("work"));
 }
 
 void to_json(nlohmann::json& json, const Updated& updated) {

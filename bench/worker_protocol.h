@@ -33,7 +33,7 @@ struct Opened {
   bool flushed_to_zero = false;  ///< a library had switched denormal numbers off; the worker switched them on
 };
 
-/// Reply to "build".
+/// Reply to "build", which may be ordered again.
 struct Built {
   std::string refused;  ///< the message of what build threw; empty when it built
   double build_ms = 0;
@@ -42,6 +42,7 @@ struct Built {
   Accuracy accuracy;
   std::vector<Query> queries;
   bool prepares = false;
+  bool makes_later = false;  ///< parts of itself, by the first queries
 };
 
 /// Reply to "answer": answers and work lie in the output room, from a fresh session.
@@ -57,6 +58,7 @@ struct Timed {
   double cpu_ns_per_query = 0;  ///< of "time" only
   std::uint64_t checksum = 0;
   bool steady = true;  ///< every pass gave the same checksum
+  Work work;           ///< of "first_pass" only, of all steps
 };
 
 /// Reply to "update": the detector follows the deformed mesh now. Updates, there and back, and builds of the

@@ -111,4 +111,11 @@ concept Prepares = Detector<D> && requires(const D& detector, typename D::Sessio
   noexcept->std::same_as<void>;
 };
 
+/// May leave parts of itself to the first queries that want them, which then cost more and answer the same.
+template <class D>
+concept MakesLater = Detector<D> && requires(const D& detector) {
+  { detector.makes_later() }
+  noexcept->std::same_as<bool>;
+};
+
 }  // namespace touchmark

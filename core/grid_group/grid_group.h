@@ -61,6 +61,7 @@ class GridGroup {
 
   std::size_t bytes() const noexcept;
   Accuracy accuracy() const noexcept;
+  bool makes_later() const noexcept { return options_.making == Making::lazy; }
 
   /// Scan: groups tested by every query. Direct: triangles that have one.
   std::size_t groups() const noexcept;

@@ -60,6 +60,7 @@ class Signed {
 
   std::size_t bytes() const noexcept { return detector_.bytes() + sides_.bytes(); }
   Accuracy accuracy() const noexcept { return detector_.accuracy(); }
+  bool makes_later() const noexcept requires MakesLater<D> { return detector_.makes_later(); }
   const D& detector() const noexcept { return detector_; }
   const SideFinder& sides() const noexcept { return sides_; }
 

@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "core/brute_force/brute_force.h"
+#include "core/grid_group/grid_group.h"
 
 namespace touchmark::bench {
 namespace {
@@ -151,6 +152,15 @@ ContestantInfo contestant(std::string name) {
   return info;
 }
 
+ContestantInfo makes_later() {
+  ContestantInfo info = contestant<GridGroup>("makes-later");
+  info.build = [](const TriangleMesh& mesh, const OptionValues&) -> std::unique_ptr<Contestant> {
+    return std::make_unique<ContestantOf<GridGroup>>(
+        GridGroup::build(mesh, {.making = GridGroup::Making::lazy}));
+  };
+  return info;
+}
+
 }  // namespace
 
 std::int64_t hostile_ns() noexcept { return spent_ns; }
@@ -164,7 +174,7 @@ const Roster& hostile_roster() {
        contestant<Misbehaving<HangsAtBuild>>("hangs-at-build"), contestant<Misbehaving<Refuses>>("refuses"),
        contestant<Misbehaving<Lies>>("lies"), contestant<Misbehaving<Fickle>>("fickle"),
        contestant<TouchesOnly>("touches-only"), contestant<Misbehaving<Paced>>("paced"),
-       contestant<Misbehaving<Moody>>("moody")},
+       contestant<Misbehaving<Moody>>("moody"), makes_later()},
       {"honest"});
   return all;
 }
