@@ -4,8 +4,10 @@ import datetime
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import tempfile
+import time
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -14,11 +16,21 @@ BENCH = """#!/bin/bash
 echo "$*" >>"$TEST_LOG"
 [ "${BENCH_STATUS-0}" = 0 ] || exit "$BENCH_STATUS"
 while [ "$1" != --out ]; do shift; done
+if [ -n "${BENCH_HANGS-}" ]; then
+  # As the program does it, which writes what it has when it is told to end, whatever became of its script.
+  (
+    trap 'sleep 0.5; mkdir -p "$2"; echo late >"$2/results.csv"; touch "$TEST_LOG.ended"; exit' TERM INT
+    touch "$TEST_LOG.begun"
+    while :; do sleep 0.05; done
+  ) &
+  wait
+fi
 mkdir -p "$2/plots"
 cp "$TEST_RUN" "$2/run.json"
 echo made-up >"$2/results.csv"
 echo made-up >"$2/plots/latency.png"
 """
+SETUP = "#!/bin/bash\n"
 PAPERS = """#!/bin/bash
 echo "papers $*" >>"$TEST_LOG"
 mkdir -p "$2/park-jang-2018"
@@ -54,7 +66,7 @@ class Record(unittest.TestCase):
         self.addCleanup(temporary.cleanup)
         self.directory = pathlib.Path(temporary.name)
         self.root = self.directory / "repository"
-        for path, text in (("scripts/bench", BENCH), ("scripts/papers", PAPERS),
+        for path, text in (("scripts/bench", BENCH), ("scripts/papers", PAPERS), ("scripts/setup", SETUP),
                            ("scripts/plot", PLOT), ("build/release/bin/touchmark", PROGRAM), ("core/code", "int x;\n"),
                            (".gitignore", "/build/\n")):
             file = self.root / path
@@ -75,11 +87,13 @@ class Record(unittest.TestCase):
         self.git("add", "-A")
         self.git("commit", "-q", "-m", "x")
 
+    def environment(self, **variables):
+        return {**os.environ, "TEST_LOG": str(self.directory / "log"), "TEST_RUN": str(RUN),
+                "TOUCHMARK_CPUINFO": str(self.directory / "cpuinfo"), "TOUCHMARK_CORES": "2", **variables}
+
     def record(self, *words, **variables):
-        environment = {**os.environ, "TEST_LOG": str(self.directory / "log"), "TEST_RUN": str(RUN),
-                       "TOUCHMARK_CPUINFO": str(self.directory / "cpuinfo"), "TOUCHMARK_CORES": "2", **variables}
         return subprocess.run([self.root / "scripts" / "record", *words], capture_output=True, text=True, check=False,
-                              cwd=self.directory, stdin=subprocess.DEVNULL, env=environment)
+                              cwd=self.directory, stdin=subprocess.DEVNULL, env=self.environment(**variables))
 
     def recordings(self):
         return sorted((self.root / "results").glob("*/*"))
@@ -166,6 +180,27 @@ class Record(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("nothing is recorded", done.stderr)
         self.expect_nothing_recorded()
+
+    def test_leaves_nothing_when_it_is_interrupted_while_the_program_writes(self):
+        begun, ended = self.directory / "log.begun", self.directory / "log.ended"
+        # From a terminal the whole group is told, by a supervisor the script alone.
+        for number, tell, status in ((signal.SIGINT, os.killpg, 130), (signal.SIGTERM, os.kill, 143)):
+            with subprocess.Popen([self.root / "scripts" / "record"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                                  text=True, cwd=self.directory, stdin=subprocess.DEVNULL, start_new_session=True,
+                                  # Else an interrupt stays ignored where these tests run in the background.
+                                  preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+                                  env=self.environment(BENCH_HANGS="yes")) as process:
+                while not begun.exists():
+                    self.assertIsNone(process.poll(), "it ended by itself")
+                    time.sleep(0.02)
+                tell(process.pid, number)
+                said = process.communicate()[1]
+            self.assertEqual(process.returncode, status, said)
+            self.assertIn("nothing is recorded", said)
+            self.assertTrue(ended.exists(), "it did not wait for the program")
+            self.expect_nothing_recorded()
+            begun.unlink()
+            ended.unlink()
 
     def test_refuses_what_it_does_not_know(self):
         for words in (["--fast"], ["--only"], ["--only", "--papers"], ["--beside"], ["--beside", "everything"], ["here"]):
