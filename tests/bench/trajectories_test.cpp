@@ -9,7 +9,7 @@
 
 #include "bench/mesh_edges.h"
 #include "bench/random.h"
-#include "core/brute_force/brute_force.h"
+#include "core/aabb_tree/aabb_tree.h"
 
 namespace touchmark::bench {
 namespace {
@@ -77,8 +77,8 @@ TriangleMesh doubled() {
 }
 
 std::vector<double> distances(const Trajectory& path, const TriangleMesh& mesh) {
-  const BruteForce detector = BruteForce::build(mesh);
-  BruteForce::Session session;
+  const AabbTree detector = AabbTree::build(mesh);
+  AabbTree::Session session;
   std::vector<double> all;
   for (const Vec3& p : path.positions) all.push_back(detector.nearest({p, 0}, infinity, session)->distance);
   return all;
