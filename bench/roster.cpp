@@ -148,6 +148,8 @@ ContestantInfo sphere_cluster() {
                                                     {"scan", SphereCluster::Lookup::scan}};
   static const Names<Simd> widths{
       {"avx512", Simd::avx512}, {"avx2", Simd::avx2}, {"portable", Simd::portable}};
+  static const Names<SphereCluster::Making> makings{{"whole", SphereCluster::Making::whole},
+                                                    {"lazy", SphereCluster::Making::lazy}};
   ContestantInfo info;
   info.name = "sphere-cluster";
   info.summary = "triangles in clustered bounding spheres, after Choi & Sung 2017";
@@ -162,6 +164,8 @@ ContestantInfo sphere_cluster() {
        "distance between centroids that share a sphere; 0: a sphere each"},
       choice("precise", yes_or_no, "false: the published fast level alone, spheres for triangles"),
       certified_option(),
+      choice("build", makings,
+             "tree; lazy: distances all around are sampled by the first queries that want them"),
       choice("prepare", no_or_yes,
              "true: list triangles for the next step in the idle rest of a tick, clocked apart"),
       choice("simd", widths, "tree: no wider instructions than these, nor than the processor's"),
@@ -173,6 +177,7 @@ ContestantInfo sphere_cluster() {
     options.precise = chosen(values, "precise", yes_or_no);
     options.certified = chosen(values, "certified", yes_or_no);
     options.widest = chosen(values, "simd", widths);
+    options.making = chosen(values, "build", makings);
     return chosen(values, "prepare", no_or_yes) ? contestant<SphereCluster, Idle::used>(mesh, options, values)
                                                 : contestant<SphereCluster>(mesh, options, values);
   };

@@ -2,7 +2,8 @@
 /// is near is searched no farther than it has to be.
 ///
 /// The distance at p is that at a sampled point c, give or take |p - c|: it changes by no more than the point
-/// moves. Any sample will do, so it does not matter which cell rounding takes a point to be in.
+/// moves. Any sample will do, so it does not matter which cell rounding takes a point to be in. All samples
+/// are taken at once, or each when something is first asked of its place.
 #pragma once
 
 #include <algorithm>
@@ -17,6 +18,7 @@
 
 #include "core/geometry/plane_filter.h"
 #include "core/probe.h"
+#include "core/sphere_cluster/shared_bytes.h"
 
 namespace touchmark::spheres {
 
@@ -69,9 +71,16 @@ class DistanceGrid {
   /// there.
   template <class DistanceAt>
   void fill(const DistanceAt& distance_at);
-  /// After a part of the mesh has moved, within the lattice's box: fills anew where that can have been
-  /// nearest or can be. Asks may_have_changed(place, distance) whether any of it was or is within the
-  /// distance.
+  /// Leaves all of that to sample_near.
+  void fill_later();
+  bool is_filled_later() const noexcept { return !wanted_.empty(); }
+  /// Where that was left to be done: takes a sample that says more of the point, by one call of distance_at.
+  /// False where there is none, or nothing was left. Any thread may, at any time; what it finds is the same.
+  template <class DistanceAt>
+  bool sample_near(const FilterPoint& point, const DistanceAt& distance_at) const;
+  /// After a part of the mesh has moved, within the lattice's box: fills anew, or leaves it to sample_near as
+  /// before, where that can have been nearest or can be. Asks may_have_changed(place, distance) whether any
+  /// of it was or is within the distance.
   template <class DistanceAt, class MayHaveChanged>
   void refill(const DistanceAt& distance_at, const MayHaveChanged& may_have_changed);
 
@@ -87,11 +96,12 @@ class DistanceGrid {
   float at_least(const FilterPoint& point) const noexcept;
   /// Some part of the mesh is this near, or infinity.
   float at_most(const FilterPoint& point) const noexcept;
-  std::size_t bytes() const noexcept { return fine_steps_.capacity() + coarse_steps_.capacity(); }
+  std::size_t bytes() const noexcept { return fine_steps_.bytes() + coarse_steps_.bytes() + wanted_.bytes(); }
 
  private:
   using Step = std::uint8_t;
   static constexpr Step most_steps = 255;
+  static constexpr std::uint8_t all_eighths = 255;
 
   /// More than all roundings between two points of the lattice's box: the frame's coordinates are below 2,
   /// and tau is at least 4 u of them (plane_filter.h), u = 2^-24. The point and its coordinates are rounded
@@ -104,6 +114,9 @@ class DistanceGrid {
   }
   /// Room for the roundings of two samples' places.
   static constexpr double rounding = 0x1p-20;
+  /// Away from the surface the eight samples of a coarse cube are what its own leaves of them: then even a
+  /// point at the corner of a fine cube is known to be half a cube away.
+  bool is_far(double distance) const noexcept { return distance > 2.5 * fine_.edge(); }
   /// From the middle of a coarse cube to that of an eighth of it.
   double to_eighth() const noexcept { return 0.5 * std::sqrt(3.0) * fine_.edge() + rounding; }
   static Vec3 middle(const SampleLattice& lattice, std::uint32_t x, std::uint32_t y,
@@ -118,15 +131,24 @@ class DistanceGrid {
   }
   template <class DistanceAt, class IsWanted>
   void fill_cubes(const DistanceAt& distance_at, const IsWanted& is_wanted);
+  /// What a sample in the middle of a coarse cube says of it and, where that is far, of its eighths: x, y, z
+  /// say which it is.
+  void keep(std::uint32_t x, std::uint32_t y, std::uint32_t z, const Interval& distance) const noexcept;
+  std::uint32_t eighth_of(std::uint32_t x, std::uint32_t y, std::uint32_t z,
+                          std::uint32_t eighth) const noexcept {
+    return fine_.index(2 * x + (eighth & 1), 2 * y + (eighth >> 1 & 1), 2 * z + (eighth >> 2));
+  }
 
   Step steps_in(double distance) const noexcept {
     return static_cast<Step>(std::clamp(distance / static_cast<double>(step_), 0.0, double{most_steps}));
   }
 
   SampleLattice coarse_, fine_;
-  float step_ = 1;                  ///< a power of two: multiples are exact
-  std::vector<Step> fine_steps_;    ///< the distance is at least so many steps
-  std::vector<Step> coarse_steps_;  ///< and at most so many; the last: nothing is known
+  float step_ = 1;            ///< a power of two: multiples are exact
+  SharedBytes fine_steps_;    ///< the distance is at least so many steps
+  SharedBytes coarse_steps_;  ///< and at most so many; the last: nothing is known
+  /// Of a coarse cube whose samples are taken later: bits of the eighths of which nothing is known yet.
+  SharedBytes wanted_;
 };
 
 // Beyond the lattice's box, which is convex and holds the mesh, its nearest point q sees p and every point m
@@ -155,12 +177,16 @@ inline float DistanceGrid::at_most(const FilterPoint& p) const noexcept {
          roundings_in_tau * p.tau;
 }
 
-/// Away from the surface the eight samples of a coarse cube are what its own leaves of them.
+inline void DistanceGrid::keep(std::uint32_t x, std::uint32_t y, std::uint32_t z,
+                               const Interval& distance) const noexcept {
+  coarse_steps_.set(coarse_.index(x, y, z), steps_in(distance.most + step_));
+  if (!is_far(distance.least)) return;
+  const Step least = steps_in(distance.least - to_eighth());
+  for (std::uint32_t eighth = 0; eighth < 8; ++eighth) fine_steps_.set(eighth_of(x, y, z, eighth), least);
+}
+
 template <class DistanceAt, class IsWanted>
 void DistanceGrid::fill_cubes(const DistanceAt& distance_at, const IsWanted& is_wanted) {
-  // Then even a point at the corner of a fine cube is known to be half a cube away.
-  constexpr double far_in_edges = 2.5;
-  const double far = far_in_edges * fine_.edge();
   const double to_next = coarse_.edge() + rounding;
   double before = std::numeric_limits<double>::infinity();
   // To and fro, so that each cube is next to the one before.
@@ -178,14 +204,13 @@ void DistanceGrid::fill_cubes(const DistanceAt& distance_at, const IsWanted& is_
         const Interval distance = distance_at(middle(coarse_, x, y, z), before + to_next);
         if (distance.least < 0) return;
         before = distance.most;
-        coarse_steps_[cube] = steps_in(distance.most + step_);
+        keep(x, y, z, distance);
+        if (is_far(distance.least)) continue;
         for (std::uint32_t eighth = 0; eighth < 8; ++eighth) {
-          const std::uint32_t i = 2 * x + (eighth & 1), j = 2 * y + (eighth >> 1 & 1),
-                              k = 2 * z + (eighth >> 2);
-          const double least = distance.least > far
-                                   ? distance.least - to_eighth()
-                                   : distance_at(middle(fine_, i, j, k), distance.most + to_eighth()).least;
-          fine_steps_[fine_.index(i, j, k)] = steps_in(least);
+          const Vec3 place_of_eighth =
+              middle(fine_, 2 * x + (eighth & 1), 2 * y + (eighth >> 1 & 1), 2 * z + (eighth >> 2));
+          const double least = distance_at(place_of_eighth, distance.most + to_eighth()).least;
+          fine_steps_.set(eighth_of(x, y, z, eighth), steps_in(least));
         }
       }
     }
@@ -194,9 +219,38 @@ void DistanceGrid::fill_cubes(const DistanceAt& distance_at, const IsWanted& is_
 
 template <class DistanceAt>
 void DistanceGrid::fill(const DistanceAt& distance_at) {
-  coarse_steps_.assign(coarse_.size(), most_steps);
-  fine_steps_.assign(fine_.size(), 0);
+  coarse_steps_ = SharedBytes(coarse_.size(), most_steps);
+  fine_steps_ = SharedBytes(fine_.size(), 0);
   fill_cubes(distance_at, [](std::uint32_t) { return true; });
+}
+
+inline void DistanceGrid::fill_later() {
+  coarse_steps_ = SharedBytes(coarse_.size(), most_steps);
+  fine_steps_ = SharedBytes(fine_.size(), 0);
+  wanted_ = SharedBytes(coarse_.size(), all_eighths);
+}
+
+/// Of a coarse cube first the middle, then, where that is near, the middle of the eighth.
+template <class DistanceAt>
+bool DistanceGrid::sample_near(const FilterPoint& p, const DistanceAt& distance_at) const {
+  if (wanted_.empty()) return false;
+  const std::uint32_t i = fine_.place(0, p.x), j = fine_.place(1, p.y), k = fine_.place(2, p.z);
+  const std::uint32_t x = i / 2, y = j / 2, z = k / 2, cube = coarse_.index(x, y, z);
+  const std::uint8_t wanted = wanted_[cube];
+  const auto bit = static_cast<std::uint8_t>(1U << ((i & 1) | (j & 1) << 1 | (k & 1) << 2));
+  if ((wanted & bit) == 0) return false;
+  if (wanted == all_eighths && coarse_steps_[cube] == most_steps) {
+    const Interval distance = distance_at(middle(coarse_, x, y, z), std::numeric_limits<double>::infinity());
+    if (distance.least >= 0) keep(x, y, z, distance);
+    // Where nothing was found out nothing more is asked for.
+    if (distance.least < 0 || is_far(distance.least)) wanted_.clear(cube, all_eighths);
+    return distance.least >= 0;
+  }
+  const double least = distance_at(middle(fine_, i, j, k), most_at(cube) + to_eighth()).least;
+  wanted_.clear(cube, bit);
+  if (least < 0) return false;
+  fine_steps_.set(fine_.index(i, j, k), steps_in(least));
+  return true;
 }
 
 /// Where all that moved was and is farther than the mesh was, bounds from below and from above stay true: of
@@ -210,15 +264,13 @@ void DistanceGrid::refill(const DistanceAt& distance_at, const MayHaveChanged& m
         const std::uint32_t cube = coarse_.index(x, y, z);
         if (!may_have_changed(middle(coarse_, x, y, z), most_at(cube) + 2 * to_eighth())) continue;
         changed[cube] = true;
-        coarse_steps_[cube] = most_steps;
-        for (std::uint32_t eighth = 0; eighth < 8; ++eighth) {
-          fine_steps_[fine_.index(2 * x + (eighth & 1), 2 * y + (eighth >> 1 & 1), 2 * z + (eighth >> 2))] =
-              0;
-        }
+        coarse_steps_.set(cube, most_steps);
+        for (std::uint32_t eighth = 0; eighth < 8; ++eighth) fine_steps_.set(eighth_of(x, y, z, eighth), 0);
+        if (is_filled_later()) wanted_.set(cube, all_eighths);
       }
     }
   }
-  fill_cubes(distance_at, [&](std::uint32_t cube) { return changed[cube]; });
+  if (!is_filled_later()) fill_cubes(distance_at, [&](std::uint32_t cube) { return changed[cube]; });
 }
 
 }  // namespace touchmark::spheres

@@ -11,9 +11,11 @@ SphereCluster SphereCluster::build(const TriangleMesh& mesh, const Options& opti
     throw std::invalid_argument("sphere-cluster: clustering is " + std::to_string(options.clustering) +
                                 ", not a finite distance of at least 0");
   }
-  if (!options.certified && (options.lookup == Lookup::scan || !options.precise)) {
+  const bool has_tree = options.lookup == Lookup::tree && options.precise;
+  if (!has_tree && !options.certified)
     throw std::invalid_argument("sphere-cluster: certified=false is for lookup=tree with precise=true");
-  }
+  if (!has_tree && options.making == Making::lazy)
+    throw std::invalid_argument("sphere-cluster: build=lazy is for lookup=tree with precise=true");
   SphereCluster detector;
   detector.options_ = options;
   detector.connectivity_ = Connectivity(mesh);
@@ -24,7 +26,8 @@ SphereCluster SphereCluster::build(const TriangleMesh& mesh, const Options& opti
   } else if (options.lookup == Lookup::scan) {
     detector.scan_ = SphereScan(mesh, detector.clusters_);
   } else {
-    detector.tree_ = SphereTree(mesh, detector.clusters_, {options.widest, options.certified});
+    detector.tree_ = SphereTree(mesh, detector.clusters_,
+                                {options.widest, options.certified, options.making == Making::lazy});
   }
   return detector;
 }

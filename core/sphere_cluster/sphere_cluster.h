@@ -21,6 +21,11 @@ class SphereCluster {
     scan,  ///< as published: every sphere, then the triangles of those that the probe meets
     tree   ///< a hierarchy over them, nearest first
   };
+  /// Of what a tree knows of distances from places all around, tree only. Answers are the same.
+  enum class Making {
+    whole,  ///< all in build()
+    lazy    ///< of a place by the first query there that wants it, by one search that the query needs not
+  };
   struct Options {
     double clustering = 0;  ///< distance between centroids that share a sphere, mesh units; 0: a sphere each
     Lookup lookup = Lookup::tree;
@@ -28,14 +33,15 @@ class SphereCluster {
     VisitOrder order = VisitOrder::breadth_first;  ///< in which triangles are clustered
     bool certified = true;       ///< false, tree only: as doubles have it, to measure what certainty costs
     Simd widest = Simd::avx512;  ///< tree: forgo wider instructions than these; the same bits
+    Making making = Making::whole;
   };
   struct Session {
     Work work;
     SphereTree::Memory memory;
   };
 
-  /// Throws std::invalid_argument for a clustering distance that is negative, infinite or not a number, and
-  /// for certified = false where nothing is certified: with a scan or the fast level.
+  /// Throws std::invalid_argument for a clustering distance that is negative, infinite or not a number; and
+  /// with a scan or the fast level for certified = false, where nothing is certified, and for lazy making.
   static SphereCluster build(const TriangleMesh& mesh, const Options& options);
   static SphereCluster build(const TriangleMesh& mesh) { return build(mesh, Options()); }
 
@@ -60,6 +66,7 @@ class SphereCluster {
   }
 
   std::size_t bytes() const noexcept;
+  bool makes_later() const noexcept { return options_.making == Making::lazy; }
   /// precise: exact. Else conservative: contacts come early, by at most `absolute`.
   Accuracy accuracy() const noexcept;
 

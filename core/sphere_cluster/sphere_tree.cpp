@@ -103,6 +103,7 @@ SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters,
       bounds_(mesh.bounds()),
       certified_(options.certified),
       radius_(0.5 * mesh.diagonal()),
+      samples_later_(options.samples_later),
       ids_(mesh.ids().begin(), mesh.ids().end()) {
   if (!searchable_) {
     parts_.triangles = prepare(mesh);
@@ -147,11 +148,16 @@ double SphereTree::free_within(float unseen, double shown, double slack) const n
   return std::min(std::sqrt(frame_.squared(unseen)), shown * (1 - 0x1p-40)) - slack;
 }
 
-/// The same by what was sampled, which then is what is known of the place.
+/// The same by what was sampled, or is now, which then is what is known of the place.
 bool SphereTree::is_far(const FilterPoint& point, const Vec3& center, double reach, double slack,
-                        Memory& memory) const noexcept {
-  const double free = distances_.at_least(point) * unit_ - slack;
-  if (!(free > reach)) return false;
+                        Memory& memory, Work& work) const noexcept {
+  double free = distances_.at_least(point) * unit_ - slack;
+  if (!(free > reach)) {
+    // With a reach as long as the mesh no sample helps.
+    if (!samples_later_ || !(reach < radius_) || !sample_near(point, memory.last, work)) return false;
+    free = distances_.at_least(point) * unit_ - slack;
+    if (!(free > reach)) return false;
+  }
   memory.center = center;
   memory.free = free;
   memory.nearest = std::numeric_limits<double>::infinity();
@@ -210,7 +216,7 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
   if (memory.nearest - moved <= radius) show(memory.last, visitor);
   if (visitor.kept_at == nowhere) {
     const FilterPoint point = frame_.point(center);
-    if (is_far(point, center, radius, rounding, memory)) return false;
+    if (is_far(point, center, radius, rounding, memory, work)) return false;
     unseen = descend(point, visitor, most_work());
   }
   work += visitor.work;
@@ -236,7 +242,7 @@ std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Mem
   const FilterPoint point = frame_.point(center);
   const double moved = memory.nearest < infinity ? (center - memory.center).norm() : infinity;
   const bool near = moved <= farthest_in_grains * grain_ && memory.nearest + moved <= reach;
-  if (!near && is_far(point, center, reach, rounding, memory)) return std::nullopt;
+  if (!near && is_far(point, center, reach, rounding, memory, work)) return std::nullopt;
   const double error = error_from(rounding);
   NearestVisitor visitor{parts_, frame_, center, frame_.limit((reach + error) * (reach + error))};
   float unseen = 0;

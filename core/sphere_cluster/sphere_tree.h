@@ -38,6 +38,7 @@ class SphereTree {
   struct Options {
     Simd widest = Simd::avx512;  ///< no wider instructions; what the processor lacks is not used
     bool certified = true;       ///< false: contact as doubles have it
+    bool samples_later = false;  ///< distances are sampled by the first queries that want them
   };
 
   SphereTree() = default;
@@ -76,8 +77,8 @@ class SphereTree {
   double slack(const Vec3& center) const noexcept;
   static double error_from(double slack) noexcept;
   double free_within(float unseen, double shown, double slack) const noexcept;
-  bool is_far(const FilterPoint& point, const Vec3& center, double reach, double slack,
-              Memory& memory) const noexcept;
+  bool is_far(const FilterPoint& point, const Vec3& center, double reach, double slack, Memory& memory,
+              Work& work) const noexcept;
   /// From a point of the mesh's frame to another, in the tree's, at least.
   float way(const Vec3& from, const Vec3& to, const FilterPoint& at) const noexcept;
 
@@ -92,12 +93,15 @@ class SphereTree {
   void fill_distances();
   void refill_distances(const spheres::MovedTriangles& moved);
   struct Sampling {
-    Work work;
+    std::uint64_t most;      ///< work, of all samples together
     std::uint32_t near = 0;  ///< a triangle near the last place, and so perhaps the next
+    Work work{};
   };
   /// Bounds the distance at a place of the frame, which is at most `most`, to about a fifth; negative when
-  /// too much work was done already.
-  spheres::DistanceGrid::Interval sample(const Vec3& place, double most, Sampling& sampling) const;
+  /// that is too much work.
+  spheres::DistanceGrid::Interval sample(const Vec3& place, double most, Sampling& sampling) const noexcept;
+  std::uint64_t most_work_of_samples() const noexcept;
+  bool sample_near(const FilterPoint& point, std::uint32_t near, Work& work) const noexcept;
 
   // Visitors: see sphere_tree_search.h.
   template <class Visitor>
@@ -122,6 +126,7 @@ class SphereTree {
   double unit_ = 1;    ///< of the frame, in mesh units
   double grain_ = 0;   ///< the mean radius of a block
   spheres::TreeParts parts_;
+  bool samples_later_ = false;
   spheres::DistanceGrid distances_;
   std::vector<TriangleId> ids_;  ///< by mesh index; empty when they are the same
 };

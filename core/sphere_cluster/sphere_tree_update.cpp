@@ -1,4 +1,4 @@
-// The sampled distances, at first and after the triangles moved.
+// The sampled distances: at first, later, and after the triangles moved.
 #include <algorithm>
 #include <cmath>
 
@@ -37,19 +37,34 @@ Aabb in_frame(const FilterFrame& frame, const Aabb& box) {
 
 }  // namespace
 
-spheres::DistanceGrid::Interval SphereTree::sample(const Vec3& place, double most, Sampling& sampling) const {
-  // Where the hierarchy is a poor fit, the samples may cost no more than the hierarchy did.
+/// Where the hierarchy is a poor fit, the samples may cost no more than the hierarchy did.
+std::uint64_t SphereTree::most_work_of_samples() const noexcept {
   constexpr std::uint64_t most_work_a_triangle = 1024;
-  if (sampling.work.total() > most_work_a_triangle * parts_.triangles.size()) return {-1, -1};
+  return most_work_a_triangle * parts_.triangles.size();
+}
+
+spheres::DistanceGrid::Interval SphereTree::sample(const Vec3& place, double most,
+                                                   Sampling& sampling) const noexcept {
+  constexpr spheres::DistanceGrid::Interval unknown{-1, -1};
+  if (sampling.work.total() > sampling.most) return unknown;
   const Vec3 center = frame_.origin() + place / frame_.scale();
   const double reach = most / frame_.scale();
   RoughVisitor visitor{parts_, frame_, center, frame_.limit(reach * reach)};
   show(sampling.near, visitor);
-  const float unseen = descend(frame_.point(center), visitor, any_work);
-  sampling.near = visitor.kept_at;
+  const float unseen = descend(frame_.point(center), visitor, sampling.most);
   sampling.work += visitor.work;
+  if (unseen == spheres::gave_up) return unknown;
+  sampling.near = visitor.kept_at;
   const double found = std::sqrt(visitor.squared) * frame_.scale();
   return {std::min<double>(std::sqrt(unseen), found), std::min(found, most)};
+}
+
+bool SphereTree::sample_near(const FilterPoint& point, std::uint32_t near, Work& work) const noexcept {
+  Sampling sampling{most_work(), near};
+  const bool sampled = distances_.sample_near(
+      point, [&](const Vec3& place, double most) { return sample(place, most, sampling); });
+  work += sampling.work;
+  return sampled;
 }
 
 void SphereTree::fill_distances() {
@@ -60,7 +75,8 @@ void SphereTree::fill_distances() {
   if (!(rounding < 0x1p-24)) return;
   const Aabb box = in_frame(frame_, bounds_);
   distances_ = spheres::DistanceGrid(box.min.cast<float>(), box.max.cast<float>(), parts_.triangles.size());
-  Sampling sampling;
+  if (samples_later_) return distances_.fill_later();
+  Sampling sampling{most_work_of_samples()};
   distances_.fill([&](const Vec3& place, double most) { return sample(place, most, sampling); });
 }
 
@@ -72,7 +88,7 @@ void SphereTree::refill_distances(const spheres::MovedTriangles& moved) {
     return fill_distances();
   std::vector<Aabb> boxes;
   for (const Aabb& one : moved.boxes) boxes.push_back(in_frame(frame_, one));
-  Sampling sampling;
+  Sampling sampling{most_work_of_samples()};
   distances_.refill([&](const Vec3& place, double most) { return sample(place, most, sampling); },
                     [&](const Vec3& place, double most) {
                       return std::any_of(boxes.begin(), boxes.end(), [&](const Aabb& one) {

@@ -119,6 +119,7 @@ TEST(NoAllocation, GridGroup) {
 
 TEST(NoAllocation, SphereCluster) {
   using Lookup = SphereCluster::Lookup;
+  expect_no_allocation<SphereCluster>({.making = SphereCluster::Making::lazy});
   for (const double clustering : {0.0, 0.1}) {
     expect_no_allocation<SphereCluster>({clustering, Lookup::scan, true});
     expect_no_allocation<SphereCluster>({clustering, Lookup::scan, false});
