@@ -233,17 +233,13 @@ std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Sessi
   Work& work = session.work;
   if (std::isinf(error)) return all().nearest(center, reach, work);
   const std::uint64_t most = most_work(work);
-  Candidate best;
-  std::uint32_t kept_at = 0;
+  NearestSoFar so_far(error);
   const auto consider = [&](std::uint32_t i) {
     ++work.triangles;
-    const Candidate candidate{squared_distance(triangles_[i], center), triangles_[i].index};
-    if (!(candidate < best)) return;
-    best = candidate;
-    kept_at = i;
+    so_far.take({squared_distance(triangles_[i], center), triangles_[i].index}, i);
   };
   if (session.last < triangles_.size()) consider(session.last);
-  double limit = std::min(reach + error, std::sqrt(best.squared_distance));
+  double limit = std::min(reach, std::sqrt(so_far.best().squared_distance)) + error;
   std::array<Waiting, most_levels> waiting;
   std::size_t count = 0;
   waiting[count++] = {lower_bound(nodes_[0].box, center, slack), 0};
@@ -254,7 +250,7 @@ std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Sessi
     const Node& node = nodes_[next.node];
     if (node.count > 0) {
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i) consider(i);
-      limit = std::min(limit, std::sqrt(best.squared_distance));
+      limit = std::min(limit, std::sqrt(so_far.best().squared_distance) + error);
       continue;
     }
     work.boxes += 2;
@@ -264,11 +260,10 @@ std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Sessi
     waiting[count++] = far;
     waiting[count++] = near;
   }
-  if (best.index >= triangles_.size()) return std::nullopt;
-  session.last = kept_at;
-  const double distance = std::sqrt(best.squared_distance);
-  if (certified_ && !is_certain(distance, reach, error) &&
-      !is_certain_on(triangles_[kept_at], distance, center, reach, error)) {
+  if (!so_far.found()) return std::nullopt;
+  session.last = so_far.at();
+  const double distance = std::sqrt(so_far.best().squared_distance);
+  if (certified_ && !is_certain_first(so_far, triangles_, distance, center, reach, error)) {
     return nearest_of_ties(center, distance, reach, error, ids_, work.exact_decisions,
                            [&](double within, const auto& visit) {
                              if (search_near(center, within, work, most, visit)) return;
@@ -277,7 +272,7 @@ std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Sessi
                            });
   }
   if (distance > reach) return std::nullopt;
-  return contact_on(triangles_[kept_at], center, id(best.index));
+  return contact_on(triangles_[so_far.at()], center, id(so_far.best().index));
 }
 
 std::optional<Impact> AabbTree::first_hit(const Sweep& sweep, Session& session) const noexcept {

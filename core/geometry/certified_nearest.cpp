@@ -4,6 +4,8 @@
 #include <cmath>
 #include <compare>
 
+#include "core/geometry/shared_feature.h"
+
 namespace touchmark {
 namespace {
 
@@ -25,7 +27,7 @@ std::optional<Contact> nearest_at_any_scale(std::span<const PreparedTriangle> tr
   NearestOfTies ties(center);
   for (const PreparedTriangle& triangle : triangles)
     if (distance_to(triangle) <= limit) ties.consider(triangle);
-  return ties.contact(reach, ids, work.exact_decisions);
+  return ties.contact(reach, infinity, ids, work.exact_decisions);
 }
 
 }  // namespace
@@ -49,7 +51,7 @@ void NearestOfTies::consider(const PreparedTriangle& triangle) noexcept {
   if (nearest_ != nullptr) {
     std::partial_ordering order = compare(foot.foot, foot_.foot);
     if (order == std::partial_ordering::unordered) {
-      if (on_same_feature(foot, foot_)) {
+      if (on_same_feature(foot, foot_) || have_same_corners(triangle.corner, nearest_->corner)) {
         order = std::partial_ordering::equivalent;
       } else {
         order = compare_exactly(triangle.corner, nearest_->corner, center_);
@@ -70,17 +72,20 @@ bool NearestOfTies::is_within(double reach) noexcept {
   return within_exactly(nearest_->corner, center_, reach);
 }
 
-std::optional<Contact> NearestOfTies::contact(double reach, std::span<const TriangleId> ids,
+std::optional<Contact> NearestOfTies::contact(double reach, double error, std::span<const TriangleId> ids,
                                               std::uint64_t& exact_decisions) noexcept {
   if (nearest_ == nullptr) return std::nullopt;
   const bool within = is_within(reach);
   if (exactly_) ++exact_decisions;
   if (!within) return std::nullopt;
+  const TriangleId id = ids.empty() ? nearest_->index : ids[nearest_->index];
+  // The same bits as where the search was certain of this triangle at once.
+  const double computed = std::sqrt(squared_distance(*nearest_, center_));
+  if (is_certain_on(*nearest_, computed, center_, reach, error)) return contact_on(*nearest_, center_, id);
   const Foot& foot = foot_.foot;
   const bool coincident = foot.direction.isZero(0);
   return Contact{center_ - foot.offset, coincident ? face_normal(*nearest_) : foot.direction,
-                 std::min(foot.distance.rounded(), reach),
-                 ids.empty() ? nearest_->index : ids[nearest_->index]};
+                 std::min(foot.distance.rounded(), reach), id};
 }
 
 std::optional<Contact> nearest_of_all(std::span<const PreparedTriangle> triangles, const Aabb& bounds,
@@ -92,16 +97,19 @@ std::optional<Contact> nearest_of_all(std::span<const PreparedTriangle> triangle
     return nearest_at_any_scale(triangles, bounds, center, reach, ids, work);
   }
   work.triangles += triangles.size();
-  const auto [nearest, best] = nearest_as_computed(triangles, center);
-  const double distance = std::sqrt(best.squared_distance);
-  if (!is_certain(distance, reach, error) && !is_certain_on(*nearest, distance, center, reach, error)) {
+  NearestSoFar so_far(error);
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    so_far.take({squared_distance(triangles[i], center), triangles[i].index}, static_cast<std::uint32_t>(i));
+  const PreparedTriangle& nearest = triangles[so_far.at()];
+  const double distance = std::sqrt(so_far.best().squared_distance);
+  if (!is_certain_first(so_far, triangles, distance, center, reach, error)) {
     work.triangles += triangles.size();
     return nearest_of_ties(
         center, distance, reach, error, ids, work.exact_decisions,
         [&](double, const auto& visit) { std::for_each(triangles.begin(), triangles.end(), visit); });
   }
   if (distance > reach) return std::nullopt;
-  return contact_on(*nearest, center, ids.empty() ? best.index : ids[best.index]);
+  return contact_on(nearest, center, ids.empty() ? nearest.index : ids[nearest.index]);
 }
 
 }  // namespace touchmark

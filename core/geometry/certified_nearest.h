@@ -10,10 +10,25 @@
 ///   radius it decides, else whole numbers do. Some triangle touches exactly if one of those says so.
 /// - `nearest` keeps the triangle of the least computed distance, d. Every true distance is at least
 ///   d - error / 2 and this one's at most d + error / 2; so where d and the reach are farther apart than the
-///   error, d decides whether any triangle is within reach, although another one may be nearer by a rounding.
-///   Where they are not, or where d is within the error of zero but not negligible, a true nearest one is
-///   among those whose computed distance is at most d + error. Of these the exactly nearest is found,
-///   the first of the mesh where several are, and it alone is compared with the reach.
+///   error, d decides whether any triangle is within reach. Where they are not, or where d is within the
+///   error of zero but not negligible, a true nearest one is among those whose computed distance is at most
+///   d + error. Of these the exactly nearest is found, the first of the mesh where several are, and it alone
+///   is compared with the reach.
+///
+/// Which triangle is named is exact, too. With D the true distances, a nearest one j has D_j <= D_best, and
+/// the kernel's is at most 48 u M above the true distance and 14 u M below (point_triangle.h, m <= sqrt(3)
+/// M):
+///   d_j <= D_j + 48 u M <= D_best + 48 u M <= d + 62 u M < d + error.
+/// So every search looks at all triangles of computed distances up to d + error, and remembers those that it
+/// was shown (nearest_so_far.h): where there is none besides the best, that is the one to name. It is, too,
+/// where all of them have its very d and share the corner or edge, surely nearest to the centre, that it is
+/// the distance of: they are exactly as far, and of equal candidates the first is kept (shared_feature.h).
+/// Else the exactly nearest of them is found as above. The contact then is the kernel's on the triangle to be
+/// named where that is certain, so that it does not matter how many a search has remembered in vain.
+///
+/// What is to be shown is within the padding of every search: boxes are asked for d + error; single precision
+/// (plane_filter.h, spheres and boxes alike) leaves room for 2^-23 of M and more; scans look at all within
+/// the reach and the error; and a group leaves out what loses by 8192 u in its frame, whose M is below 4.
 ///
 /// So the reported distance is within 16 u M, M now of the nearest triangle: there is a step from the edge to
 /// the face and a slide along an edge, each across the offset, in the kernel's error of 48 u M. Where the
@@ -26,7 +41,6 @@
 /// - beside an edge: (1 + 2 cos + 3.5 sin) u |w| <= 5.1 sqrt(3) u M, and those 5;
 /// - off a corner: 3.5 sqrt(3) u M.
 /// The worst found by climbing, over 5 million triangles and centres, is 8.0 u M (certified_bound_test).
-/// Two searches may find different triangles, but both distances are within this of the true least one.
 #pragma once
 
 #include <algorithm>
@@ -40,6 +54,7 @@
 #include "core/geometry/aabb.h"
 #include "core/geometry/close_foot.h"
 #include "core/geometry/exact_decision.h"
+#include "core/geometry/nearest_so_far.h"
 #include "core/geometry/point_triangle.h"
 #include "core/probe.h"
 
@@ -94,6 +109,14 @@ inline bool is_certain_on(const PreparedTriangle& triangle, double distance, con
   return distance > error || distance <= roundings * largest;
 }
 
+/// And is the triangle of the least computed distance the one to name?
+inline bool is_certain_first(const NearestSoFar& so_far, std::span<const PreparedTriangle> triangles,
+                             double distance, const Vec3& center, double reach, double error) noexcept {
+  return (is_certain(distance, reach, error) ||
+          is_certain_on(triangles[so_far.at()], distance, center, reach, error)) &&
+         so_far.is_surely_first(triangles, center, error);
+}
+
 /// Is this triangle, at this computed distance, within the radius? Exact.
 inline bool is_within(const PreparedTriangle& triangle, double distance, const Vec3& center, double radius,
                       double error, std::uint64_t& exact_decisions) noexcept {
@@ -108,9 +131,9 @@ class NearestOfTies {
   explicit NearestOfTies(const Vec3& center) noexcept : center_(center) {}
 
   void consider(const PreparedTriangle& triangle) noexcept;
-  /// Nothing when even that one is beyond the reach. `ids` by the mesh's order, empty where they are the
-  /// same. Counts one decision if any took whole numbers.
-  std::optional<Contact> contact(double reach, std::span<const TriangleId> ids,
+  /// Nothing when even that one is beyond the reach. The kernel's, where that is certain by the error. `ids`
+  /// by the mesh's order, empty where they are the same. Counts one decision if any took whole numbers.
+  std::optional<Contact> contact(double reach, double error, std::span<const TriangleId> ids,
                                  std::uint64_t& exact_decisions) noexcept;
 
  private:
@@ -123,7 +146,8 @@ class NearestOfTies {
   bool exactly_ = false;
 };
 
-/// What `nearest` answers where is_certain says no. for_each_near(limit, visit) calls visit(triangle) for
+/// What `nearest` answers where is_certain says no, or the nearest as computed is not surely the first of the
+/// nearest. for_each_near(limit, visit) calls visit(triangle) for
 /// every triangle whose computed distance is at most the limit, and for others as it pleases.
 template <class ForEachNear>
 [[gnu::noinline, gnu::cold]] std::optional<Contact> nearest_of_ties(
@@ -134,7 +158,7 @@ template <class ForEachNear>
   for_each_near(limit, [&](const PreparedTriangle& triangle) {
     if (std::sqrt(squared_distance(triangle, center)) <= limit) ties.consider(triangle);
   });
-  return ties.contact(reach, ids, exact_decisions);
+  return ties.contact(reach, error, ids, exact_decisions);
 }
 
 /// The same answer by a look at every triangle, for any finite numbers: where distance_error is infinite they

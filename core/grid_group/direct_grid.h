@@ -83,9 +83,12 @@ class DirectGrid {
     float tau = 0;     ///< the filter's, at the centre
     double error = 0;  ///< of a computed distance there
     std::uint64_t spent = 0;
-    bool gave_up = false;  ///< after as much work as all triangles would have been
+    bool gave_up = false;      ///< after as much work as all triangles would have been
+    bool surely_first = true;  ///< of the nearest; `contact` only
   };
-  Located locate(const Vec3& center, double reach, DirectMemory& memory, Work& work) const noexcept;
+  enum class Sought { touch, contact };
+  Located locate(const Vec3& center, double reach, Sought sought, DirectMemory& memory,
+                 Work& work) const noexcept;
   /// After a query that no group served: where groups grow, makes that of one of the places or looks closer
   /// at the cell of this centre, what is still to be done.
   void grow(std::uint32_t near, std::uint32_t start, const Vec3& center, Work& work) const noexcept {

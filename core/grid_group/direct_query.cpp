@@ -87,7 +87,7 @@ DirectGrid::Start DirectGrid::start_at(const Vec3& center, const FilterPoint& po
   return {false, cell.place, serving(cell.place, point, work)};
 }
 
-DirectGrid::Located DirectGrid::locate(const Vec3& center, double reach, DirectMemory& memory,
+DirectGrid::Located DirectGrid::locate(const Vec3& center, double reach, Sought sought, DirectMemory& memory,
                                        Work& work) const noexcept {
   const FilterPoint point = store_.frame.point(center);
   Start start = start_at(center, point, reach, memory, work);
@@ -117,16 +117,21 @@ DirectGrid::Located DirectGrid::locate(const Vec3& center, double reach, DirectM
     return {};
   }
   memory.place = search.place();
-  return {
-      &store_.exact[search.place()],      search.offset(), squared_lower, search.point().tau, search.error(),
-      search.triangles() + search.boxes()};
+  return {&store_.exact[search.place()],
+          search.offset(),
+          squared_lower,
+          search.point().tau,
+          search.error(),
+          search.triangles() + search.boxes(),
+          false,
+          sought == Sought::touch || search.is_surely_first()};
 }
 
 bool DirectGrid::touches(const Probe& probe, DirectMemory& memory, Work& work) const noexcept {
   if (!(probe.radius >= 0)) return false;
   if (!store_.frame.covers(probe.center)) return far_nearest(probe.center, probe.radius, work).has_value();
   if (memory.owner == serial_ && moved_less(memory, probe.center, probe.radius - memory.upper)) return true;
-  const Located located = locate(probe.center, probe.radius, memory, work);
+  const Located located = locate(probe.center, probe.radius, Sought::touch, memory, work);
   if (located.gave_up) return all().touches(probe, work);
   if (located.triangle == nullptr) return false;
   const double distance = std::sqrt(located.offset.squared);
@@ -143,7 +148,7 @@ std::optional<Contact> DirectGrid::nearest(const Vec3& center, double reach, Dir
                                            Work& work) const noexcept {
   if (!(reach >= 0)) return std::nullopt;
   if (!store_.frame.covers(center)) return far_nearest(center, reach, work);
-  const Located located = locate(center, reach, memory, work);
+  const Located located = locate(center, reach, Sought::contact, memory, work);
   if (located.gave_up) return all().nearest(center, reach, work);
   if (located.triangle == nullptr) return std::nullopt;
   const Contact contact = contact_at(*located.triangle, center, located.offset, store_.id(memory.place));
@@ -151,9 +156,9 @@ std::optional<Contact> DirectGrid::nearest(const Vec3& center, double reach, Dir
   const double lower =
       within ? contact.distance : std::min(std::sqrt(located.squared_lower), contact.distance);
   remember(center, located.tau, lower, contact.distance, memory);
-  if (certified_ && !is_certain(contact.distance, reach, located.error)) {
+  if (certified_ && !(located.surely_first && is_certain(contact.distance, reach, located.error))) {
     const double error = distance_error(bounds_, center);
-    if (!is_certain_on(*located.triangle, contact.distance, center, reach, error))
+    if (!located.surely_first || !is_certain_on(*located.triangle, contact.distance, center, reach, error))
       return nearest_tie(center, contact.distance, reach, error, located.spent, work);
   }
   if (!within) return std::nullopt;

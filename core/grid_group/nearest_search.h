@@ -11,6 +11,7 @@
 #include <span>
 
 #include "core/geometry/every_triangle.h"
+#include "core/geometry/nearest_so_far.h"
 #include "core/grid_group/box_tree.h"
 #include "core/grid_group/exact_offset.h"
 #include "core/grid_group/group_filter.h"
@@ -31,7 +32,8 @@ class NearestSearch {
         center_(center),
         point_(point),
         error_(store.frame.kernel_error(point_.tau)),
-        limit_(store.frame.limit((reach + error_) * (reach + error_))) {}
+        limit_(store.frame.limit((reach + error_) * (reach + error_))),
+        so_far_(error_) {}
 
   bool found() const noexcept { return found_; }
   std::uint32_t place() const noexcept { return place_; }  ///< of the nearest
@@ -41,6 +43,8 @@ class NearestSearch {
     if (known_) return offset_;
     return over_face_ ? offset_over_face(triangle, center_) : exact_offset(triangle, center_);
   }
+  /// Of the nearest ones, is it surely the first? When there is one.
+  bool is_surely_first() const noexcept { return so_far_.is_surely_first(store_.exact, center_, error_); }
   const FilterPoint& point() const noexcept { return point_; }
   double error() const noexcept { return error_; }                 ///< of a computed distance
   std::uint64_t triangles() const noexcept { return triangles_; }  ///< tested
@@ -98,13 +102,11 @@ class NearestSearch {
   void decide(std::uint32_t place) noexcept {
     const PreparedTriangle& triangle = store_.exact[place];
     const Offset offset = exact_offset(triangle, center_);
-    const Candidate candidate{offset.squared, triangle.index};
-    if (!(candidate < best_)) return;
-    best_ = candidate;
+    if (!so_far_.take({offset.squared, triangle.index}, place)) return;
     offset_ = offset;
     place_ = place;
     found_ = known_ = true;
-    limit_ = std::min(limit_, store_.frame.limit(candidate.squared_distance));
+    limit_ = std::min(limit_, store_.frame.limit(offset.squared));
   }
   std::uint64_t without_far_balls(std::uint64_t left, std::span<const std::uint32_t> members) const noexcept;
   /// Is it, by its ball, farther than the limit?
@@ -116,10 +118,10 @@ class NearestSearch {
   double error_;
   float limit_;
   bool found_ = false;
-  bool known_ = false;      ///< offset_, and best_ with it
+  bool known_ = false;      ///< offset_, and so_far_ with it
   bool over_face_ = false;  ///< is the point surely over the face of the triangle found?
   std::uint32_t place_ = 0;
-  Candidate best_;
+  NearestSoFar so_far_;
   Offset offset_{Vec3::Zero(), 0};
   std::uint64_t triangles_ = 0;
   std::uint64_t boxes_ = 0;

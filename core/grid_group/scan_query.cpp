@@ -93,16 +93,15 @@ std::optional<Contact> ScanGrid::nearest(const Vec3& center, double reach, Work&
   const double error = distance_error(bounds_, center);
   if (std::isinf(error)) return all().nearest(center, reach, work);
   const std::uint64_t most = most_work(work);
-  Candidate best;
+  NearestSoFar so_far(error);
   const auto consider = [&](const PreparedTriangle& triangle) {
-    best = std::min(best, Candidate{squared_distance(triangle, center), triangle.index});
+    so_far.take({squared_distance(triangle, center), triangle.index}, triangle.index);
     return false;
   };
   if (!search(center, reach + error, work, most, consider)) return all().nearest(center, reach, work);
-  if (best.index >= triangles_.size()) return std::nullopt;
-  const double distance = std::sqrt(best.squared_distance);
-  if (!is_certain(distance, reach, error) &&
-      !is_certain_on(triangles_[best.index], distance, center, reach, error)) {
+  if (!so_far.found()) return std::nullopt;
+  const double distance = std::sqrt(so_far.best().squared_distance);
+  if (!is_certain_first(so_far, triangles_, distance, center, reach, error)) {
     return nearest_of_ties(center, distance, reach, error, ids_, work.exact_decisions,
                            [&](double within, const auto& visit) {
                              const auto show = [&](const PreparedTriangle& triangle) {
@@ -115,7 +114,7 @@ std::optional<Contact> ScanGrid::nearest(const Vec3& center, double reach, Work&
                            });
   }
   if (distance > reach) return std::nullopt;
-  return contact_on(triangles_[best.index], center, id(best.index));
+  return contact_on(triangles_[so_far.at()], center, id(so_far.at()));
 }
 
 std::optional<Impact> ScanGrid::first_hit(const Sweep& sweep, Work& work) const noexcept {

@@ -46,11 +46,10 @@ SphereScan::SphereScan(const TriangleMesh& mesh, const SphereClusters& clusters)
   for (const std::uint32_t triangle : clusters.members) triangles_.push_back(prepare(mesh, triangle));
 }
 
-void SphereScan::search(std::size_t sphere, const Vec3& center, Best& best, Work& work) const noexcept {
-  for (std::size_t i = first_[sphere]; i < first_[sphere + 1]; ++i) {
-    const Candidate candidate{squared_distance(triangles_[i], center), triangles_[i].index};
-    if (candidate < best.candidate) best = {candidate, i};
-  }
+void SphereScan::search(std::size_t sphere, const Vec3& center, NearestSoFar& so_far,
+                        Work& work) const noexcept {
+  for (std::uint32_t i = first_[sphere]; i < first_[sphere + 1]; ++i)
+    so_far.take({squared_distance(triangles_[i], center), triangles_[i].index}, i);
   work.triangles += first_[sphere + 1] - first_[sphere];
 }
 
@@ -88,16 +87,15 @@ std::optional<Contact> SphereScan::nearest(const Vec3& center, double reach, Wor
   if (!(reach >= 0)) return std::nullopt;
   const double error = distance_error(bounds_, center);
   if (std::isinf(error)) return all().nearest(center, reach, work);
-  Best best;
+  NearestSoFar so_far(error);
   for_each_met(center, reach + error, [&](std::size_t sphere) noexcept {
-    search(sphere, center, best, work);
+    search(sphere, center, so_far, work);
     return false;
   });
   work.spheres += x_.size();
-  if (best.candidate.index >= triangles_.size()) return std::nullopt;
-  const double distance = std::sqrt(best.candidate.squared_distance);
-  if (!is_certain(distance, reach, error) &&
-      !is_certain_on(triangles_[best.kept_at], distance, center, reach, error)) {
+  if (!so_far.found()) return std::nullopt;
+  const double distance = std::sqrt(so_far.best().squared_distance);
+  if (!is_certain_first(so_far, triangles_, distance, center, reach, error)) {
     return nearest_of_ties(center, distance, reach, error, ids_, work.exact_decisions,
                            [&](double within, const auto& visit) {
                              work.spheres += x_.size();
@@ -110,7 +108,7 @@ std::optional<Contact> SphereScan::nearest(const Vec3& center, double reach, Wor
                            });
   }
   if (distance > reach) return std::nullopt;
-  return contact_on(triangles_[best.kept_at], center, id(best.candidate.index));
+  return contact_on(triangles_[so_far.at()], center, id(so_far.best().index));
 }
 
 /// The spheres that the way meets hold the triangles near its start, too: one look at the spheres is enough.
@@ -127,7 +125,7 @@ std::optional<Impact> SphereScan::first_hit(const Sweep& sweep, Work& work) cons
   };
   HitCandidate first;
   std::size_t kept_at = 0;
-  Best at_start;
+  NearestSoFar at_start(error);
   for_each_held(x_.size(), outside, [&](std::size_t sphere) noexcept {
     search(sphere, sweep.from, at_start, work);
     for (std::size_t i = first_[sphere]; i < first_[sphere + 1]; ++i) {
@@ -140,12 +138,10 @@ std::optional<Impact> SphereScan::first_hit(const Sweep& sweep, Work& work) cons
   });
   work.spheres += x_.size();
   if (first.index >= triangles_.size()) return std::nullopt;
-  const double distance = std::sqrt(at_start.candidate.squared_distance);
-  const PreparedTriangle& nearest_one = triangles_[at_start.kept_at];
-  if (is_certain(distance, sweep.radius, error) ||
-      is_certain_on(nearest_one, distance, sweep.from, sweep.radius, error)) {
+  const double distance = std::sqrt(at_start.best().squared_distance);
+  if (is_certain_first(at_start, triangles_, distance, sweep.from, sweep.radius, error)) {
     if (distance <= sweep.radius)
-      return Impact{0, contact_on(nearest_one, sweep.from, id(at_start.candidate.index))};
+      return Impact{0, contact_on(triangles_[at_start.at()], sweep.from, id(at_start.best().index))};
   } else if (const std::optional<Contact> start = nearest(sweep.from, sweep.radius, work)) {
     return Impact{0, *start};
   }

@@ -11,6 +11,7 @@
 #include "core/detector.h"
 #include "core/geometry/aabb.h"
 #include "core/geometry/every_triangle.h"
+#include "core/geometry/nearest_so_far.h"
 #include "core/geometry/point_triangle.h"
 #include "core/sphere_cluster/clustering.h"
 
@@ -27,15 +28,9 @@ class SphereScan {
   std::size_t bytes() const noexcept;
 
  private:
-  /// The least candidate so far and where its triangle is kept.
-  struct Best {
-    Candidate candidate;
-    std::size_t kept_at = 0;
-  };
-
   EveryTriangle all() const noexcept { return {triangles_, bounds_, ids_}; }
   TriangleId id(std::uint32_t index) const noexcept { return ids_.empty() ? index : ids_[index]; }
-  void search(std::size_t sphere, const Vec3& center, Best& best, Work& work) const noexcept;
+  void search(std::size_t sphere, const Vec3& center, NearestSoFar& so_far, Work& work) const noexcept;
 
   /// Calls found(i) for every sphere i that reaches within `reach` of the centre, until it returns true.
   template <class Found>

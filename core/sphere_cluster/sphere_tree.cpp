@@ -30,19 +30,20 @@ struct NearestVisitor {
   const FilterFrame& frame;
   const Vec3& center;
   float limit;
-  Work work{};
-  Candidate best{};
-  Vec3 offset{};
-  std::uint32_t kept_at = nowhere;
+  NearestSoFar so_far;
+  Work work;
+  Vec3 offset;  ///< to the nearest so far
 
-  bool wants(std::uint32_t at) const noexcept { return at != kept_at; }
+  /// Not an aggregate, whose initialization would clear all of what is yet to be written.
+  NearestVisitor(const TreeParts& parts, const FilterFrame& tree_frame, const Vec3& point, float first_limit,
+                 double error) noexcept
+      : tree(parts), frame(tree_frame), center(point), limit(first_limit), so_far(error) {}
+
+  bool wants(std::uint32_t at) const noexcept { return at != so_far.at(); }
   void take(std::uint32_t at, const Offset& found) noexcept {
-    const Candidate candidate{found.squared, tree.triangles[at].index};
-    if (!(candidate < best)) return;
-    best = candidate;
+    if (!so_far.take({found.squared, tree.triangles[at].index}, at)) return;
     offset = found.vector;
-    kept_at = at;
-    limit = std::min(limit, frame.limit(best.squared_distance));
+    limit = std::min(limit, frame.limit(found.squared));
   }
 };
 
@@ -244,7 +245,7 @@ std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Mem
   const bool near = moved <= farthest_in_grains * grain_ && memory.nearest + moved <= reach;
   if (!near && is_far(point, center, reach, rounding, memory, work)) return std::nullopt;
   const double error = error_from(rounding);
-  NearestVisitor visitor{parts_, frame_, center, frame_.limit((reach + error) * (reach + error))};
+  NearestVisitor visitor(parts_, frame_, center, frame_.limit((reach + error) * (reach + error)), error);
   float unseen = 0;
   if (near) {
     show(memory.last, visitor);
@@ -262,23 +263,25 @@ std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Mem
     *gives_up = true;
     return std::nullopt;
   }
-  const double distance = std::sqrt(visitor.best.squared_distance);
+  const NearestSoFar& so_far = visitor.so_far;
+  const double distance = std::sqrt(so_far.best().squared_distance);
   memory.move = center - memory.center;
   memory.center = center;
   memory.nearest = distance;
-  memory.last = visitor.kept_at;
+  memory.last = so_far.at();
   memory.free = free_within(unseen, distance, rounding);
   work += visitor.work;
-  if (visitor.kept_at == nowhere) return std::nullopt;
-  if (certified_ && !is_certain(distance, reach, error)) {
+  if (!so_far.found()) return std::nullopt;
+  if (certified_ &&
+      !(is_certain(distance, reach, error) && so_far.is_surely_first(parts_.triangles, center, error))) {
     const double least_error = distance_error(bounds_, center);
-    if (!is_certain_on(parts_.triangles[visitor.kept_at], distance, center, reach, least_error))
+    if (!is_certain_first(so_far, parts_.triangles, distance, center, reach, least_error))
       return nearest_tie(center, distance, reach, least_error, left_of(most_work(), visitor.work.total()),
                          gives_up, work);
   }
   if (distance > reach) return std::nullopt;
-  return contact_at(parts_.triangles[visitor.kept_at], center,
-                    {visitor.offset, visitor.best.squared_distance}, id(visitor.best.index));
+  return contact_at(parts_.triangles[so_far.at()], center, {visitor.offset, so_far.best().squared_distance},
+                    id(so_far.best().index));
 }
 
 void SphereTree::list_ahead(Memory& memory, Work& work) const noexcept {

@@ -112,6 +112,7 @@ TEST(NearTies, NameATriangleThatIsNearestButForRounding) {
     };
     const std::optional<Contact> contact = ask(BruteForce::build(tie.mesh));
     ASSERT_TRUE(contact);
+    ASSERT_EQ(contact->triangle, truth.triangle) << i;
     for (const auto& other : {ask(AabbTree::build(tie.mesh)), ask(GridGroup::build(tie.mesh)),
                               ask(SphereCluster::build(tie.mesh))}) {
       ASSERT_TRUE(other);

@@ -1,0 +1,77 @@
+/// The nearest, as computed, of the triangles that a search looks at, and those that rounding may have put
+/// behind it: see certified_nearest.h.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "core/geometry/point_triangle.h"
+#include "core/probe.h"
+
+namespace touchmark {
+
+class NearestSoFar {
+ public:
+  /// `error` is at least the distance_error of the query, M 2^-45 or more: what is not farther than the
+  /// nearest by more than that is to be remembered. 0: nothing is.
+  explicit NearestSoFar(double error) noexcept : closeness_(0x1p47 * error * error) {}
+
+  bool found() const noexcept { return at_ != nowhere; }
+  const Candidate& best() const noexcept { return best_; }
+  std::uint32_t at() const noexcept { return at_; }  ///< where it is kept
+
+  /// Triangles may come in any order, and more than once. Is it the nearest now, and was not before?
+  bool take(const Candidate& candidate, std::uint32_t at) noexcept {
+    const double squared = candidate.squared_distance;
+    if (squared > limit_) return false;
+    if (squared + closeness_ < best_.squared_distance) {
+      rival_count_ = 0;
+    } else {
+      if (at == at_) return false;
+      if (rival_count_ == most_rivals) make_room();
+      if (!(candidate < best_)) {
+        rivals_[rival_count_++] = {squared, at};
+        return false;
+      }
+      rivals_[rival_count_++] = {best_.squared_distance, at_};
+    }
+    best_ = candidate;
+    at_ = at;
+    limit_ = squared + closeness_;
+    return true;
+  }
+
+  /// Is it surely a nearest one and, of those that are exactly as near, the first? Of those taken, kept in
+  /// `triangles`. `error` as above.
+  bool is_surely_first(std::span<const PreparedTriangle> triangles, const Vec3& center,
+                       double error) const noexcept {
+    return rival_count_ == 0 || beats_rivals(triangles, center, error);
+  }
+
+ private:
+  struct Rival {
+    double squared_distance;
+    std::uint32_t at;
+  };
+  static constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::uint32_t most_rivals = 16;  ///< about a corner there are some more than six triangles
+
+  [[gnu::cold]] void make_room() noexcept;
+  bool beats_rivals(std::span<const PreparedTriangle> triangles, const Vec3& center,
+                    double error) const noexcept;
+
+  /// Of the squares of distances d that are apart by at most the error E: (d + E)^2 - d^2 = E (2 d + E), and
+  /// d <= sqrt(3) M.
+  double closeness_;
+  double limit_ = std::numeric_limits<double>::infinity();  ///< farther than the best by that
+  Candidate best_;
+  std::uint32_t at_ = nowhere;
+  std::uint32_t rival_count_ = 0;
+  bool too_many_ = false;  ///< some were forgotten
+  std::array<Rival, most_rivals> rivals_;
+};
+
+}  // namespace touchmark
