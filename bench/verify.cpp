@@ -75,6 +75,12 @@ class Judge {
   std::vector<Truth> with_id(const Truth& truth, const Vec3& center, TriangleId id, double slack) const;
   std::vector<Truth> tied(const Truth& truth, const Vec3& center, double slack) const;
   void note_distance_error(double error, Tally& tally) const;
+  /// Does it name another than the first of the nearest, and claims not to?
+  bool is_misnamed(const Truth& truth, const Answer& answer) const {
+    if (!accuracy_.names_exactly || !reported_.triangle || !std::isfinite(truth.high)) return false;
+    const auto ids = oracle_.mesh().ids();
+    return answer.triangle != (ids.empty() ? truth.triangle : ids[truth.triangle]);
+  }
   bool is_wrong(Side said, const Vec3& center) const {
     if (said == Side::unasked || said == Side::undecided) return false;
     const std::optional<Side> side = oracle_.side(center);
@@ -216,7 +222,9 @@ void Judge::position(const Truth& truth, Query query, const Probe& probe, double
       break;
   }
   if (!has_fields) return;
+  const std::uint64_t wrong_before = tally.wrong_triangle;
   contact(truth, probe.center, answer, 0, tally);
+  if (tally.wrong_triangle == wrong_before && is_misnamed(truth, answer)) ++tally.wrong_triangle;
   if (is_wrong(answer.side, probe.center)) ++tally.wrong_side;
 }
 

@@ -29,9 +29,9 @@ struct Tally {
   std::uint64_t judged = 0;          ///< answers looked at
   std::uint64_t missed = 0;          ///< contact not reported, or (sweep) reported after it had been made
   std::uint64_t false_contacts = 0;  ///< contact reported where there is none (sweep: not yet)
-  std::uint64_t wrong_triangle =
-      0;                           ///< not one of the nearest within the accuracy, or no triangle of the mesh
-  std::uint64_t beyond_bound = 0;  ///< distance off by more than the accuracy allows
+  std::uint64_t wrong_triangle = 0;  ///< not one of the nearest within the accuracy, no triangle of the mesh,
+                                     ///< or not the very one that a contestant claims to name
+  std::uint64_t beyond_bound = 0;    ///< distance off by more than the accuracy allows
   std::uint64_t wrong_point = 0;   ///< point off its triangle, or not the one nearest to the centre, likewise
   std::uint64_t wrong_normal = 0;  ///< normal not unit, or turned by more than the accuracy can explain
   std::uint64_t malformed =

@@ -65,6 +65,7 @@ void to_json(nlohmann::json& json, const Built& built) {
           {"relative", bits(built.accuracy.relative)},
           {"absolute", bits(built.accuracy.absolute)},
           {"decides_exactly", built.accuracy.decides_exactly},
+          {"names_exactly", built.accuracy.names_exactly},
           {"queries", queries},
           {"prepares", built.prepares},
           {"makes_later", built.makes_later}};
@@ -76,7 +77,8 @@ void from_json(const nlohmann::json& json, Built& built) {
   json.at("bytes").get_to(built.bytes);
   json.at("heap_bytes").get_to(built.heap_bytes);
   built.accuracy = {static_cast<Guarantee>(json.at("guarantee").get<int>()), from_bits(json.at("relative")),
-                    from_bits(json.at("absolute")), json.at("decides_exactly").get<bool>()};
+                    from_bits(json.at("absolute")), json.at("decides_exactly").get<bool>(),
+                    json.at("names_exactly").get<bool>()};
   built.queries.clear();
   for (const nlohmann::json& query : json.at("queries")) {
     built.queries.push_back(static_cast<Query>(query.get<std::uint32_t>()));

@@ -22,12 +22,14 @@ enum class Guarantee { exact, conservative, approximate };
 /// nearest triangle's vertices. Approximate detectors state what they know: infinity where they know nothing.
 /// Whether there is a contact may be off by as much, unless `decides_exactly`: then `touches` and `nearest`
 /// compare the true distance with the radius and the reach. The touch of a sweep is never told better than
-/// within kernel_relative_error.
+/// within kernel_relative_error. `names_exactly`: the triangle that `nearest` names is an exactly nearest
+/// one, and of several the one of the lowest id; else it is one within the bound.
 struct Accuracy {
   Guarantee guarantee = Guarantee::exact;
   double relative = 0;
   double absolute = 0;
   bool decides_exactly = false;
+  bool names_exactly = false;
 };
 
 /// Forty-eight roundings of the largest coordinate difference: what the kernel of
@@ -36,7 +38,7 @@ inline constexpr double kernel_relative_error = 48 * (std::numeric_limits<double
 
 /// What core/geometry/certified_nearest.h makes of it.
 inline constexpr Accuracy certified = {Guarantee::exact, 16 * (std::numeric_limits<double>::epsilon() / 2), 0,
-                                       true};
+                                       true, true};
 
 /// What the kernel alone makes of it: contact within rounding of the threshold is told either way.
 inline constexpr Accuracy uncertified = {Guarantee::exact, kernel_relative_error, 0, false};

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/oracle/oracle.h"
+#include "bench/stress/near_ties.h"
 #include "bench/verify.h"
 #include "tests/bench/oracle/hard_meshes.h"
 
@@ -155,6 +156,35 @@ TEST(ExactFormsInTies, GiveTheFirstOfTheNearest) {
   examination.ask_all("nearest at any reach", Query::nearest, steps_at(centers, reach(0), reach(infinity)));
   examination.ask_all("nearest within 0.01", Query::nearest, steps_at(centers, reach(0), reach(0.01)));
   examination.ask_all("nearest within nothing", Query::nearest, steps_at(centers, reach(0), reach(0)));
+}
+
+/// Where rounding puts another triangle first: beside bisectors, over the borders between the corners, edges
+/// and faces of a closed surface, and where exact ties round apart.
+TEST(ExactFormsInNearTies, NameTheFirstOfTheExactlyNearest) {
+  HardCases hard(29);
+  std::vector<HardCases::Corners> soup;
+  for (int i = 0; i < 40; ++i) soup.push_back(i % 4 == 0 ? hard.needle() : hard.plain());
+  for (const TriangleMesh& mesh :
+       {bench::turned_images(hard, 12), mesh_of(soup), octasphere(4).transformed(1, Vec3(0.1, 0.2, 0.3))}) {
+    Examination examination(mesh);
+    std::vector<Vec3> centers;
+    while (centers.size() < 400) {
+      centers.push_back(bench::on_the_diagonal(hard));
+      const Vec3 from = hard.magnitude(-1, 0.5) * hard.vector(), to = from + 0.3 * hard.vector();
+      const Vec3 place = bench::where_the_nearest_changes(examination.oracle(), from, to);
+      for (const Vec3& neighbour : bench::with_neighbours(place, hard)) centers.push_back(neighbour);
+    }
+    std::vector<double> distance;
+    for (const Vec3& center : centers) distance.push_back(examination.oracle().solve(center).high);
+    const auto constant = [](double value) { return [value](std::size_t) { return value; }; };
+    examination.ask_all("nearest at any reach", Query::nearest,
+                        steps_at(centers, constant(0), constant(infinity)));
+    examination.ask_all("nearest well within reach", Query::nearest,
+                        steps_at(centers, constant(0), [&](std::size_t i) { return 2 * distance[i]; }));
+    examination.ask_all("sweeps", Query::sweep,
+                        steps_at(
+                            centers, [&](std::size_t i) { return 2 * distance[i]; }, constant(0)));
+  }
 }
 
 /// Standing on the surface, going through it and going along it. A sweep of less than nothing was once taken

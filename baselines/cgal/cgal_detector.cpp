@@ -240,7 +240,11 @@ std::size_t CgalDetector::bytes() const noexcept {
 }
 
 Accuracy CgalDetector::accuracy() const noexcept {
-  if (model_->options.kernel == Kernel::epeck) return certified;
+  if (model_->options.kernel == Kernel::epeck) {
+    Accuracy accuracy = certified;
+    accuracy.names_exactly = false;  // of ties it names any
+    return accuracy;
+  }
   return {Guarantee::approximate, std::numeric_limits<double>::infinity(), 0};
 }
 

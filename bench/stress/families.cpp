@@ -51,6 +51,9 @@ constexpr std::array list{
            &stress::motions},
     Family{"ordinary", "balls of every size anywhere about small meshes, other ones with each seed", false,
            &stress::ordinary},
+    Family{"near-ties",
+           "two or more triangles as far but for rounding: turned images, and where the nearest changes",
+           false, &stress::near_ties},
 };
 
 }  // namespace

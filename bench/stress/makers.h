@@ -38,6 +38,9 @@ std::vector<Workload> not_a_number(std::uint64_t seed, std::size_t probes);
 // motions.cpp
 std::vector<Workload> motions(std::uint64_t seed, std::size_t probes);
 
+// near_ties.cpp
+std::vector<Workload> near_ties(std::uint64_t seed, std::size_t probes);
+
 // ordinary.cpp
 std::vector<Workload> ordinary(std::uint64_t seed, std::size_t probes);
 
