@@ -308,10 +308,11 @@ TEST_P(Conformance, OursKeepTheirWordAndTheExactOnesGiveTheBitsOfBruteForce) {
 /// it.
 TEST_P(Conformance, RivalsThatClaimExactnessKeepTheirWord) {
   const Exam exam(GetParam());
+  Verdicts verdicts(exam);
   for (const ContestantSpec& spec : roster().default_set()) {
     if (is_ours(roster().find(spec.name))) continue;
     const auto judged = [&](std::size_t i, const Accuracy& accuracy, const std::vector<Answer>& answers) {
-      const Tally tally = exam.judge_answers(i, answers, accuracy);
+      const Tally tally = verdicts.on(i, answers, accuracy);
       const std::string finding =
           fmt::format("{}, {}: {}", spec.text(), exam.parts()[i].name, summary(tally));
       if (accuracy.guarantee == Guarantee::exact) {
