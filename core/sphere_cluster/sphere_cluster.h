@@ -24,7 +24,7 @@ class SphereCluster {
   /// Of what a tree knows of distances from places all around, tree only. Answers are the same.
   enum class Making {
     whole,  ///< all in build()
-    lazy    ///< of a place by the first query there that wants it, by one search that the query needs not
+    lazy    ///< of a place by the first query there that wants it, by two rough searches at most
   };
   struct Options {
     double clustering = 0;  ///< distance between centroids that share a sphere, mesh units; 0: a sphere each

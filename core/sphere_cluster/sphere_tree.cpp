@@ -149,20 +149,31 @@ double SphereTree::free_within(float unseen, double shown, double slack) const n
   return std::min(std::sqrt(frame_.squared(unseen)), shown * (1 - 0x1p-40)) - slack;
 }
 
-/// The same by what was sampled, or is now, which then is what is known of the place.
-bool SphereTree::is_far(const FilterPoint& point, const Vec3& center, double reach, double slack,
-                        Memory& memory, Work& work) const noexcept {
-  double free = distances_.at_least(point) * unit_ - slack;
-  if (!(free > reach)) {
-    // With a reach as long as the mesh no sample helps.
-    if (!samples_later_ || !(reach < radius_) || !sample_near(point, memory.last, work)) return false;
-    free = distances_.at_least(point) * unit_ - slack;
-    if (!(free > reach)) return false;
-  }
+/// The same by what was sampled, which then is what is known of the place.
+[[gnu::always_inline]] inline bool SphereTree::is_far(const FilterPoint& point, const Vec3& center,
+                                                      double reach, double slack,
+                                                      Memory& memory) const noexcept {
+  const double free = distances_.at_least(point) * unit_ - slack;
+  if (!(free > reach)) return false;
   memory.center = center;
   memory.free = free;
   memory.nearest = std::numeric_limits<double>::infinity();
   return true;
+}
+
+/// And when the place has its samples, two at most.
+bool SphereTree::is_far_once_sampled(const FilterPoint& point, const Vec3& center, double reach, double slack,
+                                     Memory& memory, Work& work) const noexcept {
+  // With a reach as long as the mesh no sample helps.
+  if (!(reach < radius_)) return false;
+  Sampling sampling{most_work(), memory.last};
+  bool is_known_far = false;
+  while (!is_known_far && distances_.sample_near(point, [&](const Vec3& place, double most) {
+    return sample(place, most, sampling);
+  }))
+    is_known_far = is_far(point, center, reach, slack, memory);
+  work += sampling.work;
+  return is_known_far;
 }
 
 /// For as many ticks ahead as there is room for blocks, about a place ahead: a point that goes on as it moved
@@ -217,7 +228,9 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
   if (memory.nearest - moved <= radius) show(memory.last, visitor);
   if (visitor.kept_at == nowhere) {
     const FilterPoint point = frame_.point(center);
-    if (is_far(point, center, radius, rounding, memory, work)) return false;
+    if (is_far(point, center, radius, rounding, memory) ||
+        (samples_later_ && is_far_once_sampled(point, center, radius, rounding, memory, work)))
+      return false;
     unseen = descend(point, visitor, most_work());
   }
   work += visitor.work;
@@ -243,7 +256,9 @@ std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Mem
   const FilterPoint point = frame_.point(center);
   const double moved = memory.nearest < infinity ? (center - memory.center).norm() : infinity;
   const bool near = moved <= farthest_in_grains * grain_ && memory.nearest + moved <= reach;
-  if (!near && is_far(point, center, reach, rounding, memory, work)) return std::nullopt;
+  if (!near && (is_far(point, center, reach, rounding, memory) ||
+                (samples_later_ && is_far_once_sampled(point, center, reach, rounding, memory, work))))
+    return std::nullopt;
   const double error = error_from(rounding);
   NearestVisitor visitor(parts_, frame_, center, frame_.limit((reach + error) * (reach + error)), error);
   float unseen = 0;

@@ -77,8 +77,10 @@ class SphereTree {
   double slack(const Vec3& center) const noexcept;
   static double error_from(double slack) noexcept;
   double free_within(float unseen, double shown, double slack) const noexcept;
-  bool is_far(const FilterPoint& point, const Vec3& center, double reach, double slack, Memory& memory,
-              Work& work) const noexcept;
+  bool is_far(const FilterPoint& point, const Vec3& center, double reach, double slack,
+              Memory& memory) const noexcept;
+  [[gnu::noinline]] bool is_far_once_sampled(const FilterPoint& point, const Vec3& center, double reach,
+                                             double slack, Memory& memory, Work& work) const noexcept;
   /// From a point of the mesh's frame to another, in the tree's, at least.
   float way(const Vec3& from, const Vec3& to, const FilterPoint& at) const noexcept;
 
@@ -101,7 +103,6 @@ class SphereTree {
   /// that is too much work.
   spheres::DistanceGrid::Interval sample(const Vec3& place, double most, Sampling& sampling) const noexcept;
   std::uint64_t most_work_of_samples() const noexcept;
-  bool sample_near(const FilterPoint& point, std::uint32_t near, Work& work) const noexcept;
 
   // Visitors: see sphere_tree_search.h.
   template <class Visitor>

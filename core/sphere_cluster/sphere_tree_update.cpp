@@ -59,14 +59,6 @@ spheres::DistanceGrid::Interval SphereTree::sample(const Vec3& place, double mos
   return {std::min<double>(std::sqrt(unseen), found), std::min(found, most)};
 }
 
-bool SphereTree::sample_near(const FilterPoint& point, std::uint32_t near, Work& work) const noexcept {
-  Sampling sampling{most_work(), near};
-  const bool sampled = distances_.sample_near(
-      point, [&](const Vec3& place, double most) { return sample(place, most, sampling); });
-  work += sampling.work;
-  return sampled;
-}
-
 void SphereTree::fill_distances() {
   // Two roundings of a sample's place in the mesh's frame, measured in the tree's: of a mesh so far from 0
   // that they count, nothing is known beforehand.
