@@ -115,7 +115,7 @@ class Verdicts {
   };
   static bool same(const Accuracy& a, const Accuracy& b) {
     return a.guarantee == b.guarantee && a.relative == b.relative && a.absolute == b.absolute &&
-           a.decides_exactly == b.decides_exactly;
+           a.decides_exactly == b.decides_exactly && a.names_exactly == b.names_exactly;
   }
   static bool same(const std::vector<Answer>& a, const std::vector<Answer>& b) {
     return std::memcmp(a.data(), b.data(), a.size() * sizeof(Answer)) == 0;
