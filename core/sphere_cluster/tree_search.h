@@ -70,13 +70,6 @@ template <class Word>
 inline void pack(Word* to, const Word* from, unsigned chosen) noexcept {
   for (; chosen != 0; chosen &= chosen - 1) *to++ = from[std::countr_zero(chosen)];
 }
-/// Those that are at most the limit, as bits; `unseen` falls to the least of the others.
-inline unsigned split(Wide bounds, float limit, Wide& unseen) noexcept {
-  const WideBits is_near = bounds <= limit;
-  const Wide kept = is_near ? unseen : bounds;
-  unseen = unseen < kept ? unseen : kept;
-  return bits_of(is_near);
-}
 #include "core/sphere_cluster/tree_search.inl"
 
 }  // namespace portable
@@ -116,12 +109,6 @@ inline void pack(Word* to, const Word* from, unsigned chosen) noexcept {
   const __m256i words = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_permutevar8x32_epi32(words, order));
 }
-inline unsigned split(Wide bounds, float limit, Wide& unseen) noexcept {
-  const WideBits is_near = bounds <= limit;
-  const Wide kept = is_near ? unseen : bounds;
-  unseen = unseen < kept ? unseen : kept;
-  return bits_of(is_near);
-}
 #include "core/sphere_cluster/tree_search.inl"
 
 }  // namespace avx2
@@ -143,6 +130,7 @@ inline void pack(Word* to, const Word* from, unsigned chosen) noexcept {
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
                       _mm256_maskz_compress_epi32(static_cast<__mmask8>(chosen), words));
 }
+/// As tree_search.inl has it, by instructions of its own.
 inline unsigned split(Wide bounds, float limit, Wide& unseen) noexcept {
   const __mmask8 is_near = _mm256_cmp_ps_mask(bounds, _mm256_set1_ps(limit), _CMP_LE_OQ);
   unseen = _mm256_mask_min_ps(unseen, static_cast<__mmask8>(~is_near), unseen, bounds);

@@ -1,6 +1,6 @@
 // The search itself, written once and included once an instruction set (tree_search.h), in a namespace that
-// defines Wide, a vector of `lanes` floats, and its square_root, bits_of, split and pack. The same operations in the same
-// order, so that both visit the same nodes and give the same bits.
+// defines Wide, a vector of `lanes` floats, and its square_root, bits_of and pack, and may define split. The
+// same operations in the same order, so that all visit the same nodes and give the same bits.
 
 inline Wide load(const float* from) noexcept {
   Wide values;
@@ -45,6 +45,16 @@ inline Wide triangle_bounds(const TriangleBlock& block, std::size_t at, const Po
 
 inline Point spread(const FilterPoint& p) noexcept {
   return {Wide{} + p.x, Wide{} + p.y, Wide{} + p.z, Wide{} + p.tau};
+}
+
+/// Those that are at most the limit, as bits; `unseen` falls to the least of the others. A template, so that
+/// an instruction set's own one goes before it.
+template <class Float>
+inline unsigned split(Wide bounds, Float limit, Wide& unseen) noexcept {
+  const WideBits is_near = bounds <= limit;
+  const Wide kept = is_near ? unseen : bounds;
+  unseen = unseen < kept ? unseen : kept;
+  return bits_of(is_near);
 }
 
 /// Those of eight bounds that are at most the limit, as bits; `unseen` falls to the least of the others.
