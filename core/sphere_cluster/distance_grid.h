@@ -134,9 +134,13 @@ class DistanceGrid {
   /// What a sample in the middle of a coarse cube says of it and, where that is far, of its eighths: x, y, z
   /// say which it is.
   void keep(std::uint32_t x, std::uint32_t y, std::uint32_t z, const Interval& distance) const noexcept;
-  std::uint32_t eighth_of(std::uint32_t x, std::uint32_t y, std::uint32_t z,
-                          std::uint32_t eighth) const noexcept {
-    return fine_.index(2 * x + (eighth & 1), 2 * y + (eighth >> 1 & 1), 2 * z + (eighth >> 2));
+  using Cube = std::array<std::uint32_t, 3>;
+  /// Which fine cube an eighth of a coarse one is.
+  static Cube eighth_of(std::uint32_t x, std::uint32_t y, std::uint32_t z, std::uint32_t eighth) noexcept {
+    return {2 * x + (eighth & 1), 2 * y + (eighth >> 1 & 1), 2 * z + (eighth >> 2)};
+  }
+  void keep_fine(const Cube& cube, Step steps) const noexcept {
+    fine_steps_.set(fine_.index(cube[0], cube[1], cube[2]), steps);
   }
 
   Step steps_in(double distance) const noexcept {
@@ -182,7 +186,7 @@ inline void DistanceGrid::keep(std::uint32_t x, std::uint32_t y, std::uint32_t z
   coarse_steps_.set(coarse_.index(x, y, z), steps_in(distance.most + step_));
   if (!is_far(distance.least)) return;
   const Step least = steps_in(distance.least - to_eighth());
-  for (std::uint32_t eighth = 0; eighth < 8; ++eighth) fine_steps_.set(eighth_of(x, y, z, eighth), least);
+  for (std::uint32_t eighth = 0; eighth < 8; ++eighth) keep_fine(eighth_of(x, y, z, eighth), least);
 }
 
 template <class DistanceAt, class IsWanted>
@@ -207,10 +211,10 @@ void DistanceGrid::fill_cubes(const DistanceAt& distance_at, const IsWanted& is_
         keep(x, y, z, distance);
         if (is_far(distance.least)) continue;
         for (std::uint32_t eighth = 0; eighth < 8; ++eighth) {
-          const Vec3 place_of_eighth =
-              middle(fine_, 2 * x + (eighth & 1), 2 * y + (eighth >> 1 & 1), 2 * z + (eighth >> 2));
+          const Cube cube_of_eighth = eighth_of(x, y, z, eighth);
+          const Vec3 place_of_eighth = middle(fine_, cube_of_eighth[0], cube_of_eighth[1], cube_of_eighth[2]);
           const double least = distance_at(place_of_eighth, distance.most + to_eighth()).least;
-          fine_steps_.set(eighth_of(x, y, z, eighth), steps_in(least));
+          keep_fine(cube_of_eighth, steps_in(least));
         }
       }
     }
@@ -249,7 +253,7 @@ bool DistanceGrid::sample_near(const FilterPoint& p, const DistanceAt& distance_
   const double least = distance_at(middle(fine_, i, j, k), most_at(cube) + to_eighth()).least;
   wanted_.clear(cube, bit);
   if (least < 0) return false;
-  fine_steps_.set(fine_.index(i, j, k), steps_in(least));
+  keep_fine({i, j, k}, steps_in(least));
   return true;
 }
 
@@ -265,7 +269,7 @@ void DistanceGrid::refill(const DistanceAt& distance_at, const MayHaveChanged& m
         if (!may_have_changed(middle(coarse_, x, y, z), most_at(cube) + 2 * to_eighth())) continue;
         changed[cube] = true;
         coarse_steps_.set(cube, most_steps);
-        for (std::uint32_t eighth = 0; eighth < 8; ++eighth) fine_steps_.set(eighth_of(x, y, z, eighth), 0);
+        for (std::uint32_t eighth = 0; eighth < 8; ++eighth) keep_fine(eighth_of(x, y, z, eighth), 0);
         if (is_filled_later()) wanted_.set(cube, all_eighths);
       }
     }
