@@ -29,15 +29,17 @@ Vector cross(const Vector& a, const Vector& b) noexcept {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-CloseFoot at(const Vector& way, double error) noexcept {
+CloseFoot at(const Vector& way, DoubleDouble distance, double error) noexcept {
   CloseFoot close;
-  close.foot.distance = square_root(dot(way, way));
+  close.foot.distance = distance;
   close.foot.error = error;
   // A difference, so that no zero comes out negative.
   close.foot.offset = Vec3::Zero() - Vec3(way[0].rounded(), way[1].rounded(), way[2].rounded());
   if (close.foot.distance.high > 0) close.foot.direction = close.foot.offset.normalized();
   return close;
 }
+
+CloseFoot at(const Vector& way, double error) noexcept { return at(way, square_root(dot(way, way)), error); }
 
 CloseFoot at_corner(const Vector& w, const Vec3& corner, double m) noexcept {
   CloseFoot close = at(w, 0x1p-98 * m);
@@ -78,16 +80,86 @@ CloseFoot on_face(const Vector& w, const Vector& normal, double m) noexcept {
   return close;
 }
 
+/// The sign of a d - b c, exactly: the sixteen products of their halves, as a sum of doubles of which no two
+/// overlap (Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates",
+/// 1997, section 2.4). Nothing where a product might underflow.
+std::optional<int> sign_of_determinant(DoubleDouble a, DoubleDouble b, DoubleDouble c,
+                                       DoubleDouble d) noexcept {
+  constexpr double least = 0x1p-400;
+  for (const DoubleDouble& x : {a, b, c, d})
+    for (const double half : {x.high, x.low})
+      if (half != 0 && std::abs(half) < least) return std::nullopt;
+  std::array<double, 16> sum;  // least first
+  std::size_t count = 0;
+  const auto add = [&](double term) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const DoubleDouble both = two_sum(term, sum[i]);
+      sum[i] = both.low;
+      term = both.high;
+    }
+    sum[count++] = term;
+  };
+  const auto add_product = [&](DoubleDouble x, DoubleDouble y) {
+    for (const double x_half : {x.high, x.low}) {
+      for (const double y_half : {y.high, y.low}) {
+        const DoubleDouble product = two_product(x_half, y_half);
+        add(product.low);
+        add(product.high);
+      }
+    }
+  };
+  add_product(a, d);
+  add_product(-b, c);
+  while (count > 0 && sum[count - 1] == 0) --count;
+  if (count == 0) return 0;
+  return sum[count - 1] > 0 ? 1 : -1;
+}
+
+/// The face is across a coordinate axis, and that sees it turn counter-clockwise (1) or clockwise (-1).
+struct Level {
+  std::size_t axis;
+  int sense;
+
+  std::size_t x() const noexcept { return (axis + 1) % 3; }
+  std::size_t y() const noexcept { return (axis + 2) % 3; }
+};
+
+/// Nothing where the face is oblique or has no area.
+std::optional<Level> level_of(const TriangleCorners& triangle) noexcept {
+  for (Level level{0, 0}; level.axis < 3; ++level.axis) {
+    const auto k = static_cast<Eigen::Index>(level.axis);
+    if (triangle[0][k] != triangle[1][k] || triangle[0][k] != triangle[2][k]) continue;
+    const Vector u = difference(triangle[1], triangle[0]), v = difference(triangle[2], triangle[0]);
+    level.sense = sign_of_determinant(u[level.x()], u[level.y()], v[level.x()], v[level.y()]).value_or(0);
+    if (level.sense != 0) return level;
+  }
+  return std::nullopt;
+}
+
+/// The height over it is a coordinate, and exact.
+CloseFoot on_level_face(const Vector& w, std::size_t axis) noexcept {
+  Vector way{};
+  way[axis] = w[axis];
+  return at(way, w[axis].high < 0 ? -w[axis] : w[axis], 0);
+}
+
 enum class OverFace { yes, no, unknown };
 
-OverFace over_face(const Corners& w, const Vector& normal, double m) noexcept {
+OverFace over_face(const Corners& w, const Vector& normal, const std::optional<Level>& level,
+                   double m) noexcept {
   const double uncertain = 0x1p-93 * (m * m) * (m * m);  // 320 m^4 v of error
   bool known = true;
   for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
     // The normal of the side in the plane, (w_j - w_i) x (0 - w_i), is w_i x w_j.
-    const double side = dot(cross(w[i], w[(i + 1) % 3]), normal).high;
+    const double side = dot(cross(w[i], w[j]), normal).high;
     if (side < -uncertain) return OverFace::no;
-    known = known && side > uncertain;
+    if (side > uncertain) continue;
+    const std::optional<int> sign =
+        level ? sign_of_determinant(w[i][level->x()], w[i][level->y()], w[j][level->x()], w[j][level->y()])
+              : std::nullopt;
+    if (sign && *sign * level->sense < 0) return OverFace::no;
+    known = known && sign.has_value();
   }
   return known ? OverFace::yes : OverFace::unknown;
 }
@@ -119,8 +191,10 @@ std::optional<CloseFoot> close_foot(const TriangleCorners& triangle, const Vec3&
   const Corners w = {difference(triangle[0], point), difference(triangle[1], point),
                      difference(triangle[2], point)};
   const Vector normal = cross(difference(triangle[1], triangle[0]), difference(triangle[2], triangle[0]));
-  const OverFace over = over_face(w, normal, m);
+  const std::optional<Level> level = level_of(triangle);
+  const OverFace over = over_face(w, normal, level, m);
   if (over == OverFace::unknown) return std::nullopt;
+  if (over == OverFace::yes && level) return on_level_face(w[0], level->axis);
   std::optional<CloseFoot> close =
       over == OverFace::yes ? on_face(w[0], normal, m) : on_border(triangle, w, m);
   if (close && !(close->foot.error <= 0x1p-60 * m)) return std::nullopt;

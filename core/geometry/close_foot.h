@@ -19,7 +19,8 @@ struct CloseFoot {
 /// Nothing where 106 bits do not tell which corner, edge or face is nearest, or where the error of the
 /// distance might exceed 2^-60 of the largest coordinate difference between the point and the corners: beside
 /// the borders between two of them, for needles and what has no area, and where that difference is below
-/// 2^-132, above 2^232 or no number. A call takes about twenty times as long as the kernel.
+/// 2^-132, above 2^232 or no number. Over a face across a coordinate axis, its border included, the distance
+/// is exact. A call takes about twenty times as long as the kernel.
 std::optional<CloseFoot> close_foot(const TriangleCorners& triangle, const Vec3& point) noexcept;
 
 /// Is it on one corner, or one edge, that both have? Then the distances are equal.

@@ -137,6 +137,10 @@ std::partial_ordering compare(const Foot& a, const Foot& b) noexcept {
   const double error = a.error + b.error;
   // Where one is infinite so is its error, and the difference may be no number.
   if (std::isinf(error)) return std::partial_ordering::unordered;
+  if (error == 0) {
+    const std::partial_ordering order = a.distance.high <=> b.distance.high;
+    return order != 0 ? order : a.distance.low <=> b.distance.low;
+  }
   const double difference = (a.distance.high - b.distance.high) + (a.distance.low - b.distance.low);
   return std::abs(difference) > error ? difference <=> 0 : std::partial_ordering::unordered;
 }

@@ -165,8 +165,34 @@ TEST(CertifiedNearest, OnTheSurfaceButForRoundingNeedsNoExactDecision) {
   }
   detector.nearest({{1.3, 2.4, 1e-14}, 0}, 0.5, session);
   EXPECT_EQ(session.work.exact_decisions, 0U);
-  detector.nearest({{1.3, 2.4, 1e-14}, 0}, 1e-14, session);
+}
+
+TEST(CertifiedNearest, ReachesAFaceAtExactlyItsDistance) {
+  AabbTree::Session session;
+  const AabbTree level = AabbTree::build(plate(6));
+  EXPECT_TRUE(level.nearest({{1.3, 2.4, 1e-14}, 0}, 1e-14, session));
+  EXPECT_FALSE(level.nearest({{1.3, 2.4, 1e-14}, 0}, std::nextafter(1e-14, 0), session));
+  EXPECT_EQ(session.work.exact_decisions, 0U) << "that height is a coordinate";
+  const AabbTree oblique = AabbTree::build(TriangleMesh({{0, 0, 0}, {8, 0, 6}, {0, 9, 0}}, {{0, 1, 2}}));
+  EXPECT_TRUE(oblique.nearest({{-1, 2, 5.5}, 0}, 5, session));
   EXPECT_EQ(session.work.exact_decisions, 1U);
+  EXPECT_FALSE(oblique.nearest({{-1, 2, 5.5}, 0}, std::nextafter(5, 0), session));
+}
+
+TEST(CertifiedNearest, OverABorderOfLevelFacesNamesTheFirstWithoutWholeNumbers) {
+  const TriangleMesh mesh = plate(6);
+  const AabbTree detector = AabbTree::build(mesh);
+  const bench::Oracle oracle(mesh);
+  AabbTree::Session session;
+  for (int i = 1; i < 100; ++i) {
+    const double x = 0.06 * i;
+    for (const Vec3& center : {Vec3(x, x, 0.3), Vec3(x, 3, 0.3), Vec3(2, x, -0.7)}) {
+      const auto contact = detector.nearest({center, 0}, 1, session);
+      ASSERT_TRUE(contact);
+      EXPECT_EQ(contact->triangle, oracle.solve(center).triangle) << i;
+    }
+  }
+  EXPECT_EQ(session.work.exact_decisions, 0U);
 }
 
 /// Sheared, so that no point is exactly as far from two faces.

@@ -50,6 +50,31 @@ TEST_P(CloseFeet, OfTheSameFeatureAreTies) {
   }
 }
 
+TEST_P(CloseFeet, OverLevelFacesAreExact) {
+  HardCases hard(83);
+  int on_border = 0;
+  for (int i = 0; i < 4000; ++i) {
+    Corners t = GetParam().triangle(hard);
+    const Eigen::Index axis = i % 3;
+    const auto k = static_cast<std::size_t>(i / 3 % 3);
+    for (const std::size_t other : {(k + 1) % 3, (k + 2) % 3}) t[other][axis] = t[k][axis];
+    // Over the middle of a side, or beside it by a rounding; anywhere else.
+    Vec3 point = i % 2 == 0 ? Vec3(0.5 * (t[0] + t[1])) : hard.point_about(t);
+    point[axis] = hard.point_about(t)[axis];
+    const std::optional<CloseFoot> close = close_foot(t, point);
+    if (!close || close->feature) continue;
+    const bench::ExactNearest truth = bench::nearest_exactly(point, {&t, 1});
+    if (i % 2 == 0) ++on_border;
+    ASSERT_EQ(close->foot.error, 0) << i;
+    ASSERT_EQ(close->foot.distance.high, truth.high) << i;
+    ASSERT_EQ(close->foot.distance.low, truth.low) << i;
+    ASSERT_EQ(compare_exactly(t, {t[2], t[0], t[1]}, point), std::strong_ordering::equal);
+  }
+  if (GetParam().name == "plain") {
+    EXPECT_GT(on_border, 400);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Families, CloseFeet, testing::ValuesIn(hard_families()),
                          [](const auto& family) { return family.param.name; });
 
@@ -66,11 +91,38 @@ TEST(CloseFoot, TellsNearlyAlwaysWhatIsNearestToAPlainTriangle) {
 }
 
 TEST(CloseFoot, DoesNotTellOnABorderOrWithoutAnArea) {
-  const Corners triangle = {Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
-  EXPECT_FALSE(close_foot(triangle, {1, 0, 1}));   // over an edge: face or edge?
+  const Corners triangle = {Vec3(0, 0, 0), Vec3(4, 0, 4), Vec3(0, 4, 0)};
+  EXPECT_FALSE(close_foot(triangle, {1, 0, 3}));   // over an edge: face or edge?
   EXPECT_FALSE(close_foot(triangle, {0, -1, 0}));  // beside a corner: corner or edge?
   EXPECT_FALSE(close_foot({Vec3(0, 0, 0), Vec3(1, 1, 1), Vec3(2, 2, 2)}, {1, 0, 0}));
   EXPECT_TRUE(close_foot(triangle, {1, 1, 1}));
+}
+
+TEST(CloseFoot, TellsOverTheBorderOfALevelFaceWhateverItRoundsTo) {
+  // 0.3 and 0.1 are no multiples of each other's last place: no difference of theirs is a double.
+  const Corners lower = {Vec3(0.1, 0.1, 0.7), Vec3(3.3, 0.1, 0.7), Vec3(3.3, 3.3, 0.7)};
+  const Corners upper = {Vec3(0.1, 0.1, 0.7), Vec3(3.3, 3.3, 0.7), Vec3(0.1, 3.3, 0.7)};
+  for (const double x : {0.3, 1.0 / 3, 2.2, 3.1}) {
+    const std::optional<CloseFoot> a = close_foot(lower, {x, x, 0.3}), b = close_foot(upper, {x, x, 0.3});
+    ASSERT_TRUE(a && b) << x;
+    EXPECT_TRUE(compare(a->foot, b->foot) == 0) << x;
+    EXPECT_EQ(a->foot.distance.high, 0.7 - 0.3) << x;
+    // A rounding beside the border one of them is nearer, by less than 106 bits: nothing is known.
+    const double beyond = std::nextafter(x, 4);
+    const std::optional<CloseFoot> over = close_foot(lower, {beyond, x, 0.3});
+    const std::optional<CloseFoot> beside = close_foot(upper, {beyond, x, 0.3});
+    ASSERT_TRUE(over && beside) << x;
+    EXPECT_FALSE(over->feature) << x;
+    EXPECT_TRUE(beside->feature) << x;
+    EXPECT_TRUE(compare_exactly(lower, upper, {beyond, x, 0.3}) < 0) << x;
+    EXPECT_FALSE(compare(over->foot, beside->foot) > 0) << x;
+  }
+}
+
+TEST(CloseFoot, HasNoLevelFaceWithoutAnArea) {
+  const Corners collinear = {Vec3(0, 0, 1), Vec3(1, 1, 1), Vec3(3, 3, 1)};
+  EXPECT_FALSE(close_foot(collinear, {2, 0, 1}));
+  EXPECT_FALSE(close_foot(collinear, {1, 1, 3}));
 }
 
 TEST(CloseFoot, DoesNotTellWhereDoubleDoublesLoseTheirLowerHalves) {
