@@ -145,6 +145,14 @@ class Record(unittest.TestCase):
         self.assertIn("/unlimited --reach inf --detector aabb-tree", log[2])
         self.assertEqual(log[3:], ["update ", "validate"])
 
+    def test_leaves_the_contestants_of_a_frontier_to_the_program(self):
+        done = self.record("--beside", "frontier")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        [recording] = self.recordings()
+        self.assertTrue((recording / "frontier" / "results.csv").exists())
+        log = (self.directory / "log").read_text(encoding="utf-8").splitlines()
+        self.assertTrue(log[1].endswith("/frontier --frontier"), log)
+
     def test_refuses_a_changed_tree(self):
         for path, text in (("core/code", "int y;\n"), ("core/new", ""), ("elsewhere/new", "")):
             file = self.root / path
