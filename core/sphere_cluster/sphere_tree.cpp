@@ -89,6 +89,16 @@ struct TieVisitor {
   void take(std::uint32_t, const Offset&) const noexcept {}
 };
 
+/// Wants nothing: a search for it brings what it looks at nearer to the processor.
+struct FetchVisitor {
+  const Vec3& center;
+  float limit;
+  Work work{};
+
+  bool wants(std::uint32_t) const noexcept { return false; }
+  void take(std::uint32_t, const Offset&) const noexcept {}
+};
+
 /// Tells the memories of different trees apart, also where one took another's place in memory. From 1.
 std::uint64_t next_number() noexcept {
   static std::atomic<std::uint64_t> last = 0;
@@ -240,6 +250,7 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
     return all().touches(probe, work);
   }
   const bool touching = visitor.kept_at != nowhere;
+  memory.move = Vec3::Constant(infinity);
   memory.center = center;
   memory.free = touching ? -1 : free_within(unseen, visitor.least, rounding);
   memory.nearest = touching ? visitor.least : std::numeric_limits<double>::infinity();
@@ -299,7 +310,7 @@ std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Mem
                     id(so_far.best().index));
 }
 
-void SphereTree::list_ahead(Memory& memory, Work& work) const noexcept {
+void SphereTree::look_ahead(Memory& memory, Work& work) const noexcept {
   const double moved = memory.move.norm();
   if (!(moved <= farthest_in_grains * grain_) || memory.blocks.pause > 0) return;
   const FilterPoint point = frame_.point(memory.center);
@@ -307,9 +318,15 @@ void SphereTree::list_ahead(Memory& memory, Work& work) const noexcept {
   // A tick's move counts twice: so much farther may the nearest be, and so much farther is the list's anchor.
   const float two_moves = static_cast<float>(2 * frame_.scale() * moved);
   const float away = way(memory.blocks.anchor, memory.center, point);
-  if (distance + away + ticks_prepared * two_moves < memory.blocks.rest) return;
   Work spent;
-  list_blocks(memory.center, memory.move, distance, memory, most_work(), spent);
+  if (distance + away + ticks_prepared * two_moves < memory.blocks.rest ||
+      list_blocks(memory.center, memory.move, distance, memory, most_work(), spent)) {
+    const Vec3 next = memory.center + memory.move;
+    const double farthest = memory.nearest + moved;
+    FetchVisitor visitor{next, frame_.limit(farthest * farthest)};
+    if (can_search(next)) search_listed(frame_.point(next), visitor, memory.blocks, 0, most_work());
+    spent += visitor.work;
+  }
   work += spent;
 }
 

@@ -30,8 +30,9 @@ class SphereTree {
     Vec3 center = Vec3::Zero();  ///< where the point was
     double free = -1;            ///< no triangle was nearer, all rounding included; -1: nothing is known
     double nearest = std::numeric_limits<double>::infinity();  ///< triangle `last` was that far
-    Vec3 move = Vec3::Zero();                                  ///< by which the point had moved then
-    std::uint32_t last = 0;                                    ///< where it is kept
+    Vec3 move =
+        Vec3::Zero();  ///< by which the point had moved then; infinite after `touches`, which lists none
+    std::uint32_t last = 0;  ///< where it is kept
     spheres::NearBlocks blocks;
   };
 
@@ -66,8 +67,9 @@ class SphereTree {
   bool is_near(const Memory& memory) const noexcept {
     return memory.tree == number_ && memory.nearest < std::numeric_limits<double>::infinity();
   }
-  /// Where it is near: lists what a next query may need.
-  void list_ahead(Memory& memory, Work& work) const noexcept;
+  /// Where it is near: lists what a next query may need, and fetches what it does if the point goes on as it
+  /// moved.
+  void look_ahead(Memory& memory, Work& work) const noexcept;
   std::size_t bytes() const noexcept;
 
  private:
@@ -114,6 +116,9 @@ class SphereTree {
   template <class Visitor>
   float search_near(const FilterPoint& point, Visitor& visitor, Memory& memory,
                     std::uint64_t most) const noexcept;
+  template <class Visitor>
+  float search_listed(const FilterPoint& point, Visitor& visitor, const spheres::NearBlocks& blocks,
+                      float away, std::uint64_t most) const noexcept;
   bool list_blocks(const Vec3& center, const Vec3& move, float distance, Memory& memory, std::uint64_t most,
                    Work& work) const noexcept;
 

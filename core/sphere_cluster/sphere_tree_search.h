@@ -55,13 +55,19 @@ float SphereTree::search_near(const FilterPoint& point, Visitor& visitor, Memory
     away = way(memory.blocks.anchor, visitor.center, point);
     if (!(distance + away < memory.blocks.rest)) return descend(point, visitor, most);
   }
+  return search_listed(point, visitor, memory.blocks, away, most);
+}
+
+template <class Visitor>
+float SphereTree::search_listed(const FilterPoint& point, Visitor& visitor, const spheres::NearBlocks& blocks,
+                                float away, std::uint64_t most) const noexcept {
   switch (simd_) {
     case Simd::avx512:
-      return spheres::avx512::search_listed(parts_, point, memory.blocks, away, most, visitor);
+      return spheres::avx512::search_listed(parts_, point, blocks, away, most, visitor);
     case Simd::avx2:
-      return spheres::avx2::search_listed(parts_, point, memory.blocks, away, most, visitor);
+      return spheres::avx2::search_listed(parts_, point, blocks, away, most, visitor);
     default:
-      return spheres::portable::search_listed(parts_, point, memory.blocks, away, most, visitor);
+      return spheres::portable::search_listed(parts_, point, blocks, away, most, visitor);
   }
 }
 

@@ -83,6 +83,10 @@ inline void prefetch(const TreeParts& tree, TreeRef ref) noexcept {
   prefetch_lines(start, sizeof(TreeNode));
 }
 
+inline void prefetch(const PreparedTriangle& triangle) noexcept {
+  prefetch_lines(&triangle, sizeof triangle);
+}
+
 /// Takes the lowest bit off.
 inline std::uint32_t take(unsigned& bits) noexcept {
   const auto lowest = static_cast<std::uint32_t>(std::countr_zero(bits));
@@ -116,9 +120,27 @@ float descend(const TreeParts& tree, const FilterPoint& point, std::uint64_t mos
     const std::uint32_t index = next.ref.index();
     if (next.ref.is_block()) {
       const TriangleBlock& block = tree.blocks[index];
-      unsigned near =
-          within([&](std::size_t at) { return triangle_bounds(block, at, p); }, visitor.limit, unseen);
+      alignas(64) std::array<float, tree_width> bound;
+      unsigned near = within(
+          [&](std::size_t at) {
+            const Wide bounds = triangle_bounds(block, at, p);
+            store(bound.data() + at, bounds);
+            return bounds;
+          },
+          visitor.limit, unseen);
       visitor.work.triangles += tree_width;
+      if (near == 0) continue;
+      for (unsigned left = near; left != 0;) prefetch(tree.triangles[index * tree_width + take(left)]);
+      // The most promising one first: it may be nearer than others can be.
+      unsigned left = near;
+      std::uint32_t first = take(left);
+      while (left != 0) {
+        const std::uint32_t other = take(left);
+        first = bound[other] < bound[first] ? other : first;
+      }
+      show(tree, index * tree_width + first, visitor);
+      near &= ~(1U << first);
+      near &= within([&](std::size_t at) { return load(bound.data() + at); }, visitor.limit, unseen);
       while (near != 0) show(tree, index * tree_width + take(near), visitor);
       continue;
     }
@@ -219,14 +241,14 @@ float search_listed(const TreeParts& tree, const FilterPoint& point, const NearB
   std::size_t left_count = 0;
   for (std::size_t i = 0; i < block_count; ++i) {
     const TriangleBlock& block = tree.blocks[blocks[i].index()];
-    const unsigned near = within([&](std::size_t at) { return triangle_bounds(block, at, p); }, limit, unseen);
+    const unsigned near =
+        within([&](std::size_t at) { return triangle_bounds(block, at, p); }, limit, unseen);
     alignas(32) std::array<std::uint32_t, tree_width> places;
     for (std::uint32_t k = 0; k < tree_width; ++k) places[k] = blocks[i].index() * tree_width + k;
     pack(left.data() + left_count, places.data(), near);
     left_count += static_cast<std::size_t>(std::popcount(near));
   }
-  for (std::size_t k = 0; k < left_count; ++k)
-    prefetch_lines(&tree.triangles[left[k]], sizeof(PreparedTriangle));
+  for (std::size_t k = 0; k < left_count; ++k) prefetch(tree.triangles[left[k]]);
   for (std::size_t k = 0; k < left_count; ++k) show(tree, left[k], visitor);
   const float rest = std::max(list.rest - moved, 0.0F);
   return std::min(rest * rest, least_lane(unseen));

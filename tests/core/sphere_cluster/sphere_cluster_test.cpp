@@ -208,6 +208,17 @@ TEST(SphereCluster, PreparesNothingWhereNothingIsNear) {
   EXPECT_EQ(session.work.total(), before);
 }
 
+TEST(SphereCluster, PreparesNothingForTouchesWhichUseNoLists) {
+  const SphereCluster detector = SphereCluster::build(test::bumpy_sphere(10, 0, 61));
+  SphereCluster::Session session;
+  for (int step = 0; step < 20; ++step) {
+    ASSERT_TRUE(detector.touches({{1.03, 0.03 * step, 0}, 0.08 + 0.02 * step}, session)) << step;
+    const std::uint64_t before = session.work.total();
+    detector.prepare(session);
+    EXPECT_EQ(session.work.total(), before) << step;
+  }
+}
+
 TEST(SphereCluster, ASessionMayGoFromOneDetectorToTheNext) {
   // Built one after the other in the same place, so that addresses do not tell them apart.
   SphereCluster::Session session;
