@@ -1,7 +1,9 @@
 #include "core/sphere_cluster/tree_split.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
+#include <iterator>
 #include <limits>
 
 #include "core/sphere_cluster/tree_layout.h"
@@ -23,10 +25,6 @@ float half_area(Lanes min, Lanes max) noexcept {
 LaneBits bins_of(Lanes key, Lanes origin, Lanes scale) noexcept {
   constexpr float within_the_last = static_cast<float>(bins_an_axis) - 0.5F;
   return __builtin_convertvector(lesser_of((key - origin) * scale, broadcast(within_the_last)), LaneBits);
-}
-int bin_of(float key, float origin, float scale) noexcept {
-  constexpr float within_the_last = static_cast<float>(bins_an_axis) - 0.5F;
-  return static_cast<int>(std::min((key - origin) * scale, within_the_last));
 }
 
 /// The triangles of a bin, or of several.
@@ -71,14 +69,18 @@ TriangleSplitter::TriangleSplitter(const TriangleMesh& mesh, const SphereCluster
       items_.push_back(item);
     }
   }
+  aside_.resize(items_.size());
 }
 
 TriangleSplitter::Box TriangleSplitter::box_of(const Item& item) noexcept {
   static_assert(sizeof(Item) == 2 * sizeof(Lanes));
   constexpr LaneBits coordinates = {-1, -1, -1, 0};
-  std::array<LaneBits, 2> corner;
-  std::memcpy(corner.data(), &item, sizeof corner);
-  return {reinterpret_cast<Lanes>(corner[0] & coordinates), reinterpret_cast<Lanes>(corner[1] & coordinates)};
+  // One by one: of an array of both the compiler makes a copy in pieces, which takes longer to read than to
+  // write.
+  LaneBits min, max;
+  std::memcpy(&min, reinterpret_cast<const std::byte*>(&item), sizeof min);
+  std::memcpy(&max, reinterpret_cast<const std::byte*>(&item) + sizeof min, sizeof max);
+  return {reinterpret_cast<Lanes>(min & coordinates), reinterpret_cast<Lanes>(max & coordinates)};
 }
 
 Lanes TriangleSplitter::key_of(const Item& item, Key key) const noexcept {
@@ -146,17 +148,30 @@ std::optional<TriangleSplitter::Cut> TriangleSplitter::cheapest_cut(const Triang
 void TriangleSplitter::part_at(const TriangleRange& range, std::uint32_t place, Key key, const Bins& bins,
                                const Cut& cut) {
   const float origin = bins.origin[cut.axis], scale = bins.scale[cut.axis];
-  const auto first = items_.begin() + range.begin, last = items_.begin() + range.end,
-             at = items_.begin() + place;
-  auto middle = std::partition(first, last, [&](const Item& item) {
-    return bin_of(key_of(item, key, cut.axis), origin, scale) < static_cast<int>(cut.bin);
-  });
+  // As bins_of has it: what is in the last bin is beyond every cut, so nothing needs to be put there.
+  const auto first_bin_right = static_cast<float>(cut.bin);
+  Item *left = items_.data() + range.begin, *right = aside_.data();
+  // Each to both sides, and kept on one: which one it is, no branch predictor knows.
+  for (std::uint32_t i = range.begin; i < range.end; ++i) {
+    const Item item = items_[i];
+    const bool is_left = (key_of(item, key, cut.axis) - origin) * scale < first_bin_right;
+    *left = item;
+    *right = item;
+    left += is_left;
+    right += !is_left;
+  }
+  std::copy(aside_.data(), right, left);
+  const auto found = static_cast<std::uint32_t>(left - items_.data());
   const auto less = [&](const Item& a, const Item& b) {
     const float x = key_of(a, key, cut.axis), y = key_of(b, key, cut.axis);
     return x != y ? x < y : a.triangle < b.triangle;
   };
-  for (; middle > at; --middle) std::iter_swap(std::max_element(first, middle, less), middle - 1);
-  for (; middle < at; ++middle) std::iter_swap(std::min_element(middle, last, less), middle);
+  if (found > place)
+    std::partial_sort(std::make_reverse_iterator(left), std::make_reverse_iterator(items_.data() + place),
+                      std::make_reverse_iterator(items_.data() + range.begin),
+                      [&](const Item& a, const Item& b) { return less(b, a); });
+  else
+    std::partial_sort(left, items_.data() + place, items_.data() + range.end, less);
 }
 
 /// The same for any place.

@@ -71,6 +71,7 @@ class TriangleSplitter {
   void halve(const TriangleRange& range, std::uint32_t place, Key key, int axis);
 
   std::vector<Item> items_;
+  std::vector<Item> aside_;          ///< room for as many
   std::vector<Lanes> cluster_keys_;  ///< empty when every triangle is its own cluster
 };
 
