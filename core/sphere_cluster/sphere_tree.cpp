@@ -19,6 +19,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// before that is used.
 constexpr double farthest_in_grains = 4;
 
+/// See TreeParts::far.
+constexpr double far_in_grains = 4;
+
 /// The next tick may be this much longer than the last one without a list being made in it.
 constexpr float ticks_prepared = 2;
 
@@ -123,16 +126,18 @@ SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters,
   frame_ = FilterFrame::around(mesh.bounds());
   parts_ = spheres::build_tree(mesh, clusters, frame_);
   unit_ = 1 / frame_.scale();
-  grain_ = mean_block_radius() / frame_.scale();
+  measure_grain();
   fill_distances();
 }
 
-double SphereTree::mean_block_radius() const noexcept {
+void SphereTree::measure_grain() noexcept {
   double sum = 0;
   for (const spheres::TreeNode& node : parts_.nodes)
     for (std::size_t i = 0; i < spheres::tree_width; ++i)
       if (node.child[i].is_block()) sum += node.radius[i];
-  return sum / static_cast<double>(parts_.blocks.size());
+  const double mean = sum / static_cast<double>(parts_.blocks.size());
+  grain_ = mean / frame_.scale();
+  parts_.far = static_cast<float>(far_in_grains * far_in_grains * mean * mean);
 }
 
 void SphereTree::renew() noexcept { number_ = next_number(); }

@@ -92,7 +92,7 @@ class SphereTree {
   std::uint64_t most_work() const noexcept { return most_work_before_all(parts_.triangles.size()); }
   std::optional<Contact> nearest_without(const Vec3& center, double reach, Work& work) const noexcept;
 
-  double mean_block_radius() const noexcept;
+  void measure_grain() noexcept;
   void renew() noexcept;
   void fill_distances();
   void refill_distances(const spheres::MovedTriangles& moved);

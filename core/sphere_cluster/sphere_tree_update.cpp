@@ -96,7 +96,7 @@ bool SphereTree::update(const TriangleMesh& mesh) {
   radius_ = frame_.radius() * unit_;
   const spheres::MovedTriangles moved = spheres::refit_tree(parts_, mesh, frame_);
   if (moved.count == 0) return true;
-  grain_ = mean_block_radius() / frame_.scale();
+  measure_grain();
   refill_distances(moved);
   return true;
 }

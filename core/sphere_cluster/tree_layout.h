@@ -51,6 +51,8 @@ struct TreeParts {
   std::vector<TreeNode> nodes;  ///< the root comes first
   std::vector<TriangleBlock> blocks;
   std::vector<PreparedTriangle> triangles;  ///< in the order of the blocks
+  /// From so far on, squared, a closer look at corners pays: many triangles are nearly as near.
+  float far = std::numeric_limits<float>::infinity();
 };
 
 }  // namespace touchmark::spheres

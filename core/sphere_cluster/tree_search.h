@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <span>
 
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -41,6 +42,10 @@ inline constexpr float farthest = std::numeric_limits<float>::max();
 /// |v|^2 - (n.v)^2 may come out too large by 16 roundings of |v|^2: three for v and its square, two sums, the
 /// same for n.v, twice, and n's own length.
 inline constexpr float difference_rounding = 1 - 16 * 0x1p-24F;
+
+/// Of a corner's bound, of which no term is negative: the cosine is off by 8 u at most, two for each of the
+/// normals and three of its own, so its square by 16 u and what it is a factor of by 8; ten roundings.
+inline constexpr float sine_rounding = 0x1p-18F, corner_rounding = 1 - 32 * 0x1p-24F;
 
 namespace portable {
 
