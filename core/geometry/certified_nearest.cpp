@@ -53,9 +53,16 @@ void NearestOfTies::consider(const PreparedTriangle& triangle) noexcept {
     if (order == std::partial_ordering::unordered) {
       if (on_same_feature(foot, foot_) || have_same_corners(triangle.corner, nearest_->corner)) {
         order = std::partial_ordering::equivalent;
+      } else if (is_nearer_inside(foot_, nearest_->corner, foot)) {
+        order = std::partial_ordering::greater;
+      } else if (is_nearer_inside(foot, triangle.corner, foot_)) {
+        order = std::partial_ordering::less;
       } else {
-        order = compare_exactly(triangle.corner, nearest_->corner, center_);
-        exactly_ = true;
+        if (foot.inside && foot_.inside) order = compare_inside(triangle.corner, nearest_->corner, center_);
+        if (order == std::partial_ordering::unordered) {
+          order = compare_exactly(triangle.corner, nearest_->corner, center_);
+          exactly_ = true;
+        }
       }
     }
     if (order > 0 || (order == 0 && triangle.index > nearest_->index)) return;

@@ -179,6 +179,19 @@ TEST(CertifiedNearest, ReachesAFaceAtExactlyItsDistance) {
   EXPECT_FALSE(oblique.nearest({{-1, 2, 5.5}, 0}, std::nextafter(5, 0), session));
 }
 
+TEST(CertifiedNearest, AtTheSmallestHeightsOverABorderTheNormalIsTheFaces) {
+  const AabbTree detector = AabbTree::build(plate(6));
+  AabbTree::Session session;
+  for (const double height : {5e-324, 1e-310, 1e-200, 1e-160}) {
+    for (const double side : {1.0, -1.0}) {
+      const auto contact = detector.nearest({{2.5, 2.5, side * height}, 0}, height, session);
+      ASSERT_TRUE(contact) << height;
+      EXPECT_EQ(contact->normal, Vec3(0, 0, side)) << height;
+      EXPECT_EQ(contact->distance, height);
+    }
+  }
+}
+
 TEST(CertifiedNearest, OverABorderOfLevelFacesNamesTheFirstWithoutWholeNumbers) {
   const TriangleMesh mesh = plate(6);
   const AabbTree detector = AabbTree::build(mesh);

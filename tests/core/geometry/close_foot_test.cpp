@@ -90,12 +90,72 @@ TEST(CloseFoot, TellsNearlyAlwaysWhatIsNearestToAPlainTriangle) {
   EXPECT_LE(unknown, 2);
 }
 
-TEST(CloseFoot, DoesNotTellOnABorderOrWithoutAnArea) {
+TEST(CloseFoot, DoesNotTellOverABorderOrWithoutAnArea) {
   const Corners triangle = {Vec3(0, 0, 0), Vec3(4, 0, 4), Vec3(0, 4, 0)};
-  EXPECT_FALSE(close_foot(triangle, {1, 0, 3}));   // over an edge: face or edge?
-  EXPECT_FALSE(close_foot(triangle, {0, -1, 0}));  // beside a corner: corner or edge?
+  EXPECT_FALSE(close_foot(triangle, {1, 0, 3}));  // over an edge: face or edge?
   EXPECT_FALSE(close_foot({Vec3(0, 0, 0), Vec3(1, 1, 1), Vec3(2, 2, 2)}, {1, 0, 0}));
   EXPECT_TRUE(close_foot(triangle, {1, 1, 1}));
+}
+
+TEST(CloseFoot, IsACornerWhereItsEdgeBegins) {
+  const Corners triangle = {Vec3(0.1, 0.1, 0.3), Vec3(4.1, 0.1, 4.3), Vec3(0.1, 4.1, 0.3)};
+  for (const Vec3& beside : {Vec3(0.1, -0.3, 0.3), Vec3(0.6, -0.2, -0.2)}) {
+    const std::optional<CloseFoot> close = close_foot(triangle, beside);
+    ASSERT_TRUE(close && close->feature) << beside.transpose();
+    EXPECT_EQ(close->feature->front(), triangle[0]);
+    EXPECT_EQ(close->feature->back(), triangle[0]);
+  }
+}
+
+/// Two triangles of one edge, all but in one plane, or bent; and a point over the edge but for rounding.
+struct Hinge {
+  Corners a, b;
+  Vec3 point;
+
+  Hinge(HardCases& hard, int i) {
+    const Vec3 p = hard.vector(), q = hard.vector(), r = hard.vector();
+    const Vec3 other = p + q - r;
+    const double bend = i % 3 == 0 ? 0.0 : hard.magnitude(i % 3 == 1 ? -17 : -4, 0);
+    const Vec3 normal = (q - p).cross(r - p).normalized();
+    a = {p, q, r};
+    b = {q, p, other + bend * normal};
+    const double part = hard.fraction();
+    point = (1 - part) * p + part * q + hard.fraction() * normal + hard.magnitude(-18, -15) * hard.vector();
+  }
+};
+
+TEST(CloseFoot, TellsWhichOfTwoFacesThatShareAnEdgeIsNearer) {
+  HardCases hard(84);
+  int inside = 0, told_inside = 0, told_by_edge = 0;
+  for (int i = 0; i < 6000; ++i) {
+    const Hinge hinge(hard, i);
+    const std::optional<CloseFoot> a = close_foot(hinge.a, hinge.point), b = close_foot(hinge.b, hinge.point);
+    if (!a || !b) continue;
+    const std::strong_ordering truth = compare_exactly(hinge.a, hinge.b, hinge.point);
+    if (is_nearer_inside(*a, hinge.a, *b)) {
+      ++told_by_edge;
+      ASSERT_TRUE(truth < 0) << i;
+    }
+    if (is_nearer_inside(*b, hinge.b, *a)) {
+      ++told_by_edge;
+      ASSERT_TRUE(truth > 0) << i;
+    }
+    if (!a->inside || !b->inside) continue;
+    ++inside;
+    const std::partial_ordering told = compare_inside(hinge.a, hinge.b, hinge.point);
+    if (told == std::partial_ordering::unordered) continue;
+    ++told_inside;
+    ASSERT_TRUE(told == truth) << i;
+  }
+  EXPECT_GT(told_by_edge, 500);
+  EXPECT_GT(inside, 200);
+  EXPECT_GT(told_inside, 0.9 * inside);
+}
+
+TEST(CloseFoot, TellsNothingOfFacesThatShareNoEdge) {
+  const Corners a = {Vec3(0, 0, 0), Vec3(4, 0, 4), Vec3(0, 4, 0)},
+                b = {Vec3(9, 0, 0), Vec3(4, 0, 4), Vec3(9, 4, 0)};
+  EXPECT_TRUE(compare_inside(a, b, {1, 1, 1}) == std::partial_ordering::unordered);
 }
 
 TEST(CloseFoot, TellsOverTheBorderOfALevelFaceWhateverItRoundsTo) {
