@@ -57,13 +57,13 @@ void NearestOfTies::consider(const PreparedTriangle& triangle) noexcept {
         order = std::partial_ordering::greater;
       } else if (is_nearer_inside(foot, triangle.corner, foot_)) {
         order = std::partial_ordering::less;
-      } else {
-        if (foot.inside && foot_.inside) order = compare_inside(triangle.corner, nearest_->corner, center_);
-        if (order == std::partial_ordering::unordered) {
-          order = compare_exactly(triangle.corner, nearest_->corner, center_);
-          exactly_ = true;
-        }
+      } else if (foot.inside && foot_.inside) {
+        order = compare_inside(triangle.corner, nearest_->corner, center_);
       }
+    }
+    if (order == std::partial_ordering::unordered) {
+      order = compare_exactly(triangle.corner, nearest_->corner, center_);
+      exactly_ = true;
     }
     if (order > 0 || (order == 0 && triangle.index > nearest_->index)) return;
   }

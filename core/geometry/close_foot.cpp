@@ -171,6 +171,13 @@ struct Interval {
   double middle, error;
 };
 
+/// Of any coordinate of the corners from the point's.
+double largest_difference(const TriangleCorners& triangle, const Vec3& point) noexcept {
+  double largest = 0;
+  for (const Vec3& corner : triangle) largest = std::max(largest, (corner - point).cwiseAbs().maxCoeff());
+  return largest;
+}
+
 enum class OverFace { inside, on_border, no, unknown };
 
 OverFace over_face(const Corners& w, const Vector& normal, const std::optional<Level>& level,
@@ -221,8 +228,7 @@ std::optional<CloseFoot> on_border(const TriangleCorners& triangle, const Corner
 }  // namespace
 
 std::optional<CloseFoot> close_foot(const TriangleCorners& triangle, const Vec3& point) noexcept {
-  double m = 0;
-  for (const Vec3& corner : triangle) m = std::max(m, (corner - point).cwiseAbs().maxCoeff());
+  const double m = largest_difference(triangle, point);
   // Otherwise fourth powers leave the range in which double-doubles keep both halves.
   if (!(m >= 0x1p-132 && m <= 0x1p232)) return std::nullopt;
   const Corners w = {difference(triangle[0], point), difference(triangle[1], point),
@@ -247,8 +253,6 @@ std::partial_ordering compare_inside(const TriangleCorners& a, const TriangleCor
   // Both are as far as the edge that they share, but for how far inside they are of it.
   const auto off_edge = [&](const TriangleCorners& t,
                             const TriangleCorners& other) -> std::optional<Interval> {
-    double m = 0;
-    for (const Vec3& corner : t) m = std::max(m, (corner - point).cwiseAbs().maxCoeff());
     for (std::size_t i = 0; i < 3; ++i) {
       // The edge from the next corner to the one after.
       const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
@@ -256,7 +260,7 @@ std::partial_ordering compare_inside(const TriangleCorners& a, const TriangleCor
       const Vector normal = cross(difference(t[j], t[i]), difference(t[k], t[i]));
       const double side = dot(cross(difference(t[j], point), difference(t[k], point)), normal).high;
       const double length = std::sqrt(dot(normal, normal).high);
-      return Interval{side / length, side_error(m) / length};
+      return Interval{side / length, side_error(largest_difference(t, point)) / length};
     }
     return std::nullopt;
   };
