@@ -13,9 +13,14 @@ namespace touchmark::spheres {
 /// The blocks are kept with the bounds that they have in the tree, as the children of one wide node. A block
 /// that is not listed was at least `rest` from `anchor`.
 struct NearBlocks {
-  static constexpr std::uint32_t capacity = 64;
+  static constexpr std::uint32_t capacity = 96;
+  /// A list of no more may have more: the next one is for more ticks.
+  static constexpr std::uint32_t few = 40;
   /// A node's worth may be written where one block is to be added.
   static constexpr std::uint32_t room = capacity + tree_width;
+
+  /// No more nodes are looked into for a list.
+  static constexpr std::size_t most_nodes = 512;
 
   Vec3 anchor = Vec3::Zero();  ///< in the mesh's frame
   float rest = -1;             ///< in the tree's; nothing is known

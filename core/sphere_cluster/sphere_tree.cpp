@@ -20,7 +20,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double farthest_in_grains = 4;
 
 /// See TreeParts::far.
-constexpr double far_in_grains = 4;
+constexpr double far_in_grains = 1;
 
 /// The next tick may be this much longer than the last one without a list being made in it.
 constexpr float ticks_prepared = 2;
@@ -223,8 +223,7 @@ bool SphereTree::list_blocks(const Vec3& center, const Vec3& move, float distanc
     blocks.ticks = std::max(0.5F * blocks.ticks, fewest_ticks);
   }
   blocks.last_pause = 0;
-  if (blocks.count <= spheres::NearBlocks::capacity / 2)
-    blocks.ticks = std::min(1.25F * blocks.ticks, most_ticks);
+  if (blocks.count <= spheres::NearBlocks::few) blocks.ticks = std::min(1.25F * blocks.ticks, most_ticks);
   return true;
 }
 

@@ -126,6 +126,13 @@ inline std::uint32_t take(unsigned& bits) noexcept {
   return lowest;
 }
 
+/// Where a block's triangles are kept.
+inline std::array<std::uint32_t, tree_width> places_in(TreeRef block) noexcept {
+  std::array<std::uint32_t, tree_width> places;
+  for (std::uint32_t k = 0; k < tree_width; ++k) places[k] = block.index() * tree_width + k;
+  return places;
+}
+
 template <class Visitor>
 inline void show(const TreeParts& tree, std::uint32_t at, Visitor& visitor) noexcept {
   if (visitor.wants(at)) visitor.take(at, kernel(tree.triangles[at], visitor.center));
@@ -210,18 +217,20 @@ inline unsigned blocks_of(const TreeNode& node) noexcept {
   return blocks;
 }
 
-/// Lists the blocks within the list's rest. False when there are too many, or after `most` spheres.
+/// Lists the blocks within the list's rest. False when there are too many, or too many nodes, or after `most`
+/// spheres.
 inline bool list_blocks(const TreeParts& tree, const FilterPoint& point, std::uint64_t most, NearBlocks& list,
                         Work& work) noexcept {
   const Point p = spread(point);
   const float limit = list.rest * list.rest * (1 + 0x1p-20F);
   Wide unseen = Wide{} + farthest;
-  std::array<std::uint32_t, most_waiting> waiting;
+  // First come, first served: what is fetched ahead has time to arrive.
+  std::array<std::uint32_t, NearBlocks::most_nodes> waiting;
   std::size_t count = 1;
   waiting[0] = 0;
-  while (count > 0) {
-    if (work.spheres > most) return false;
-    const TreeNode& node = tree.nodes[waiting[--count]];
+  for (std::size_t next = 0; next < count; ++next) {
+    if (work.spheres > most || count + tree_width > waiting.size()) return false;
+    const TreeNode& node = tree.nodes[waiting[next]];
     const unsigned near = within([&](std::size_t at) { return child_bounds(node, at, p); }, limit, unseen);
     work.spheres += tree_width;
     const unsigned blocks = near & blocks_of(node);
@@ -250,29 +259,56 @@ inline bool list_blocks(const TreeParts& tree, const FilterPoint& point, std::ui
 }
 
 /// Puts those of the blocks' triangles that may be within the limit one after the other; returns how many.
-template <bool beyond_corners>
 inline std::size_t filter(const TreeParts& tree, std::span<const TreeRef> blocks, const Point& p, float limit,
                           Wide& unseen, std::uint32_t* left) noexcept {
   std::size_t count = 0;
   for (const TreeRef ref : blocks) {
     const TriangleBlock& block = tree.blocks[ref.index()];
-    const unsigned near = within(
-        [&](std::size_t at) {
-          return beyond_corners ? corner_bounds(block, at, p) : triangle_bounds(block, at, p);
-        },
-        limit, unseen);
-    alignas(32) std::array<std::uint32_t, tree_width> places;
-    for (std::uint32_t k = 0; k < tree_width; ++k) places[k] = ref.index() * tree_width + k;
-    pack(left + count, places.data(), near);
+    const unsigned near =
+        within([&](std::size_t at) { return triangle_bounds(block, at, p); }, limit, unseen);
+    pack(left + count, places_in(ref).data(), near);
     count += static_cast<std::size_t>(std::popcount(near));
   }
   return count;
 }
-/// Apart from the loop for what is near, which has no register to spare.
-[[gnu::noinline]] inline std::size_t filter_far(const TreeParts& tree, std::span<const TreeRef> blocks,
-                                                const Point& p, float limit, Wide& unseen,
-                                                std::uint32_t* left) noexcept {
-  return filter<true>(tree, blocks, p, limit, unseen, left);
+
+/// Shows those of the blocks' triangles that may be within the limit, looking closely at corners, the most
+/// promising one first: it is often nearer than the others can be. Apart from the loop for what is near, which
+/// has no register to spare.
+template <class Visitor>
+[[gnu::noinline]] void show_far(const TreeParts& tree, std::span<const TreeRef> blocks, const Point& p,
+                                Wide& unseen, Visitor& visitor) noexcept {
+  std::array<std::uint32_t, NearBlocks::room * tree_width> left;
+  std::array<float, NearBlocks::room * tree_width> bound;
+  std::size_t count = 0;
+  for (const TreeRef ref : blocks) {
+    const TriangleBlock& block = tree.blocks[ref.index()];
+    alignas(64) std::array<float, tree_width> bounds;
+    const unsigned near = within(
+        [&](std::size_t at) {
+          const Wide some = corner_bounds(block, at, p);
+          store(bounds.data() + at, some);
+          return some;
+        },
+        visitor.limit, unseen);
+    pack(left.data() + count, places_in(ref).data(), near);
+    pack(bound.data() + count, bounds.data(), near);
+    count += static_cast<std::size_t>(std::popcount(near));
+  }
+  if (count == 0) return;
+  for (std::size_t k = 0; k < count; ++k) prefetch(tree.triangles[left[k]]);
+  std::size_t first = 0;
+  for (std::size_t k = 1; k < count; ++k) first = bound[k] < bound[first] ? k : first;
+  show(tree, left[first], visitor);
+  float skipped = farthest;
+  for (std::size_t k = 0; k < count; ++k) {
+    if (k == first) continue;
+    if (bound[k] > visitor.limit)
+      skipped = std::min(skipped, bound[k]);
+    else
+      show(tree, left[k], visitor);
+  }
+  unseen = smaller(unseen, Wide{} + skipped);
 }
 
 /// As descend, when every triangle within the visitor's limit is in a listed block. `moved`: from the list's
@@ -296,13 +332,15 @@ float search_listed(const TreeParts& tree, const FilterPoint& point, const NearB
   visitor.work.triangles += block_count * tree_width;
   if (visitor.work.spheres + visitor.work.triangles > most) return gave_up;
   for (std::size_t i = 0; i < block_count; ++i) prefetch(tree, blocks[i]);
-  std::array<std::uint32_t, NearBlocks::room * tree_width> left;
   const std::span<const TreeRef> near_blocks(blocks.data(), block_count);
-  const std::size_t left_count = limit > tree.far
-                                     ? filter_far(tree, near_blocks, p, limit, unseen, left.data())
-                                     : filter<false>(tree, near_blocks, p, limit, unseen, left.data());
-  for (std::size_t k = 0; k < left_count; ++k) prefetch(tree.triangles[left[k]]);
-  for (std::size_t k = 0; k < left_count; ++k) show(tree, left[k], visitor);
+  if (limit > tree.far) {
+    show_far(tree, near_blocks, p, unseen, visitor);
+  } else {
+    std::array<std::uint32_t, NearBlocks::room * tree_width> left;
+    const std::size_t left_count = filter(tree, near_blocks, p, limit, unseen, left.data());
+    for (std::size_t k = 0; k < left_count; ++k) prefetch(tree.triangles[left[k]]);
+    for (std::size_t k = 0; k < left_count; ++k) show(tree, left[k], visitor);
+  }
   const float rest = std::max(list.rest - moved, 0.0F);
   return std::min(rest * rest, least_lane(unseen));
 }
