@@ -1,7 +1,9 @@
 /// An axis-aligned box; empty until something is put in.
 #pragma once
 
+#include <algorithm>
 #include <limits>
+#include <span>
 
 #include "core/probe.h"
 
@@ -38,5 +40,11 @@ struct Aabb {
   }
   double squared_distance(const Vec3& point) const noexcept { return excess(point).squaredNorm(); }
 };
+
+/// Is one of the boxes at most this far from the point?
+inline bool any_within(std::span<const Aabb> boxes, const Vec3& point, double distance) noexcept {
+  return std::any_of(boxes.begin(), boxes.end(),
+                     [&](const Aabb& box) { return box.squared_distance(point) <= distance * distance; });
+}
 
 }  // namespace touchmark

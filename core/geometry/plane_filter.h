@@ -73,6 +73,7 @@ class FilterFrame {
     return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), tau(p)};
   }
   Vec3 to_frame(const Vec3& point) const noexcept { return scale_ * (point - origin_); }
+  Aabb to_frame(const Aabb& box) const noexcept { return {to_frame(box.min), to_frame(box.max)}; }
   /// What rounding may do to a plane's value at this point of the frame.
   float tau(const Vec3& in_frame) const noexcept {
     const double reach = std::abs(in_frame.x()) + std::abs(in_frame.y()) + std::abs(in_frame.z()) + radius_;

@@ -203,12 +203,7 @@ void CellTree::update(const TriangleStore& store, const BoxTree& tree, const std
     }
     const std::uint32_t number = cell.link & ~is_leaf;
     const Leaf leaf = leaves_.at(number);
-    const double distance =
-        (static_cast<double>(leaf.distance) + 2 * rounded_down_to) * (1 + 2 * rounded_down_by);
-    const bool may_differ = std::any_of(moved.begin(), moved.end(), [&](const Aabb& box) {
-      return box.squared_distance(cell.middle) <= distance * distance;
-    });
-    if (!may_differ) continue;
+    if (!any_within(moved, cell.middle, at_most(static_cast<double>(leaf.distance)))) continue;
     Work unreported;
     const Leaf known =
         rough_ ? Leaf{leaf.place, 0} : nearest_to(store, tree, cell.middle, leaf.place, any_work, unreported);

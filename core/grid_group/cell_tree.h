@@ -49,6 +49,10 @@ class CellTree {
     const Leaf leaf = leaves_.at(found.leaf);
     return {middle(at, found.shift), static_cast<double>(leaf.distance), leaf.place};
   }
+  /// A cell's distance before it was rounded down, at most.
+  static double at_most(double distance) noexcept {
+    return (distance + 2 * rounded_down_to) * (1 + 2 * rounded_down_by);
+  }
   /// Finds what is nearest to the middle of that cell, where that is not known yet; else false. Any thread
   /// may meanwhile read or settle the same.
   bool settle(const Vec3& in_frame, const TriangleStore& store, const BoxTree& tree,

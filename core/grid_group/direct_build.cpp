@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <limits>
 
 #include "core/grid_group/direct_grid.h"
 #include "core/grid_group/group_builder.h"
+#include "core/grid_group/nearest_search.h"
 
 namespace touchmark::grid {
 namespace {
@@ -28,6 +30,13 @@ double lead_for(const TriangleMesh& mesh, const FilterFrame& frame) {
   return 16 * (culling_slack(4) + 4 * epsilon * frame.scale() * coordinates);
 }
 
+std::size_t most_bytes_of_distances(const TriangleMesh& mesh) {
+  return std::max<std::size_t>(5 * mesh.size(), 128);
+}
+
+/// Where the boxes are a poor fit, so much work a triangle is enough.
+constexpr std::uint64_t most_sampling_a_triangle = 1024;
+
 }  // namespace
 
 DirectGrid DirectGrid::build(const TriangleMesh& mesh, const DirectOptions& options) {
@@ -43,6 +52,7 @@ DirectGrid DirectGrid::build(const TriangleMesh& mesh, const DirectOptions& opti
 
   grid.cells_ =
       CellTree::build(grid.store_, grid.tree_, {options.cell * frame.scale(), left() / 4, options.grows});
+  if (!options.grows && left() >= most_bytes_of_distances(mesh)) grid.fill_distances();
   grid.lead_ = lead_for(mesh, frame);
   GroupBuilder builder(grid.store_, grid.tree_, grid.lead_, left());
   grid.groups_ = options.grows ? builder.unmade() : builder.build();
@@ -58,6 +68,7 @@ bool DirectGrid::update(const TriangleMesh& mesh) {
   if (moved.empty()) return true;
   tree_ = BoxTree(store_);
   cells_.update(store_, tree_, moved);
+  refill_distances(moved);
   // The old groups make room for the new ones.
   const std::size_t taken = bytes() - groups_.bytes();
   lead_ = lead_for(mesh, store_.frame);
@@ -65,6 +76,43 @@ bool DirectGrid::update(const TriangleMesh& mesh) {
   groups_ = builder.rebuild(groups_, moved);
   coarsened_ = coarsened_ || builder.ran_out();
   return true;
+}
+
+/// What the cell knows, where that is good enough; else by a search for what is nearer, of which `left`
+/// bounds the work of all.
+DistanceGrid::Interval DirectGrid::sample(const Vec3& in_frame, double most,
+                                          std::uint64_t& left) const noexcept {
+  constexpr double enough = 0.35;  // of the distance
+  if (cells_.holds(in_frame)) {
+    const Cell cell = cells_.at(in_frame);
+    const double way = (in_frame - cell.middle).norm();
+    most = std::min(most, CellTree::at_most(cell.distance) + way);
+    if (way <= std::max(enough * cell.distance, cells_.smallest_edge()))
+      return {std::max(cell.distance - way, 0.0), most};
+  }
+  const double scale = store_.frame.scale(), reach = (1 - enough) * most;
+  const Vec3 center = store_.frame.origin() + in_frame / scale;
+  NearestSearch search(store_, center, reach / scale);
+  const bool gave_up = !search.consider_tree(tree_, left);
+  left -= std::min(left, search.triangles() + search.boxes());
+  if (gave_up || left == 0) return {-1, -1};
+  if (!search.found()) return {reach, most};
+  const double distance = scale * std::sqrt(search.offset().squared);
+  return {distance, std::min(distance, most)};
+}
+
+void DirectGrid::fill_distances() {
+  distances_ = DistanceGrid::around(store_.frame, bounds_, store_.size());
+  std::uint64_t left = most_sampling_a_triangle * store_.size();
+  distances_.fill([&](const Vec3& place, double most) { return sample(place, most, left); });
+}
+
+void DirectGrid::refill_distances(const std::vector<Aabb>& moved) {
+  if (distances_.empty()) return;
+  if (!distances_.holds(store_.frame, bounds_)) return fill_distances();
+  std::uint64_t left = most_sampling_a_triangle * store_.size();
+  distances_.refill([&](const Vec3& place, double most) { return sample(place, most, left); },
+                    [&](const Vec3& place, double most) { return any_within(moved, place, most); });
 }
 
 void DirectGrid::grow_one(std::uint32_t near, std::uint32_t start, const Vec3& center,
@@ -86,7 +134,7 @@ void DirectGrid::make_group(std::uint32_t place, Work& work) const noexcept {
 }
 
 std::size_t DirectGrid::bytes() const noexcept {
-  return store_.bytes() + tree_.bytes() + groups_.bytes() + cells_.bytes();
+  return store_.bytes() + tree_.bytes() + groups_.bytes() + cells_.bytes() + distances_.bytes();
 }
 
 }  // namespace touchmark::grid

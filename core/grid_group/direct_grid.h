@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "core/detector.h"
+#include "core/geometry/distance_grid.h"
 #include "core/geometry/every_triangle.h"
 #include "core/grid_group/box_tree.h"
 #include "core/grid_group/cell_tree.h"
@@ -30,6 +32,13 @@ struct DirectMemory {
   /// Of the distance at that centre, with room for the kernel's error wherever the bounds are put to use. The
   /// distance changes by the displacement at most.
   double lower = 0, upper = std::numeric_limits<double>::infinity();
+
+  /// Is this place certainly less than that far from the centre? With room for the rounding of a displacement
+  /// and of what is compared with it.
+  bool moved_less(const Vec3& to, double by) const noexcept {
+    constexpr double shy = 1 - 0x1p-40;
+    return by > 0 && (to - center).squaredNorm() < by * by * shy;
+  }
 };
 
 class DirectGrid {
@@ -42,6 +51,10 @@ class DirectGrid {
   /// be built anew.
   bool update(const TriangleMesh& mesh);
 
+  /// Is it known, without looking, that no triangle is within reach?
+  bool surely_free(const Vec3& center, double reach, const DirectMemory& memory) const noexcept {
+    return memory.owner == serial_ && memory.moved_less(center, memory.lower - reach);
+  }
   bool touches(const Probe& probe, DirectMemory& memory, Work& work) const noexcept;
   std::optional<Contact> nearest(const Vec3& center, double reach, DirectMemory& memory,
                                  Work& work) const noexcept;
@@ -109,6 +122,10 @@ class DirectGrid {
   /// What `nearest` answers where rounding could tell.
   std::optional<Contact> nearest_tie(const Vec3& center, double distance, double reach, double error,
                                      std::uint64_t spent, Work& work) const noexcept;
+  /// Samples distances, or those that the boxes of what moved may have changed.
+  void fill_distances();
+  void refill_distances(const std::vector<Aabb>& moved);
+  DistanceGrid::Interval sample(const Vec3& in_frame, double most, std::uint64_t& left) const noexcept;
   EveryTriangle all() const noexcept { return {store_.exact, bounds_, store_.ids, certified_}; }
 
   std::uint64_t serial_ = 0;  ///< tells this grid from all others
@@ -117,7 +134,8 @@ class DirectGrid {
   BoxTree tree_;
   Groups groups_;
   CellTree cells_;
-  double lead_ = 0;  ///< see GroupFinder
+  DistanceGrid distances_;  ///< empty where there is no room for it, or groups grow
+  double lead_ = 0;         ///< see GroupFinder
   std::size_t most_bytes_ = 0;
   bool coarsened_ = false;
   bool certified_ = true;

@@ -10,13 +10,6 @@
 namespace touchmark::grid {
 namespace {
 
-/// Room for the rounding of a displacement and of what is compared with it.
-constexpr double shy = 1 - 0x1p-40;
-
-bool moved_less(const DirectMemory& memory, const Vec3& center, double by) noexcept {
-  return by > 0 && (center - memory.center).squaredNorm() < by * by * shy;
-}
-
 /// Calls visit(triangle) for every triangle that the filter does not put beyond the distance. False when it
 /// has tested more than `most` triangles and boxes before the end.
 template <class Visit>
@@ -55,7 +48,7 @@ bool for_each_near(const TriangleStore& store, const BoxTree& tree, const Vec3& 
 void DirectGrid::remember(const Vec3& center, float tau, double lower, double upper,
                           DirectMemory& memory) const noexcept {
   // Twice culling_slack, for the kernel's error here: tau is 2^-21 of a length above the largest difference.
-  // What the error grows by elsewhere goes with the displacement and is in `shy`.
+  // What the error grows by elsewhere goes with the displacement and is in moved_less.
   const double slack = static_cast<double>(tau) * (0x1p-24 * (1 + 0x1p-20)) / store_.frame.scale();
   memory.center = center;
   memory.lower = lower - slack;
@@ -64,13 +57,18 @@ void DirectGrid::remember(const Vec3& center, float tau, double lower, double up
 
 DirectGrid::Start DirectGrid::start_at(const Vec3& center, const FilterPoint& point, double reach,
                                        DirectMemory& memory, Work& work) const noexcept {
-  const bool remembers = memory.owner == serial_;
-  if (remembers) {
-    if (moved_less(memory, center, memory.lower - reach)) return {true, memory.place, nullptr};
+  if (surely_free(center, reach, memory)) return {true, memory.place, nullptr};
+  if (memory.owner == serial_) {
     if (const Group* group = serving(memory.place, point, work)) return {false, memory.place, group};
   } else {
     memory = DirectMemory();
     memory.owner = serial_;
+  }
+  if (!distances_.empty()) {
+    // Few bytes, which stay in the cache: what is far needs no cell.
+    remember(center, point.tau, static_cast<double>(distances_.at_least(point)) / store_.frame.scale(),
+             std::numeric_limits<double>::infinity(), memory);
+    if (memory.lower > reach) return {true, memory.place, nullptr};
   }
   const Vec3 in_frame = store_.frame.to_frame(center);
   if (!cells_.holds(in_frame)) {
@@ -83,7 +81,7 @@ DirectGrid::Start DirectGrid::start_at(const Vec3& center, const FilterPoint& po
   const Vec3 middle = store_.frame.origin() + cell.middle / store_.frame.scale();
   remember(middle, store_.frame.tau(cell.middle), cell.distance / store_.frame.scale(),
            std::numeric_limits<double>::infinity(), memory);
-  if (moved_less(memory, center, memory.lower - reach)) return {true, cell.place, nullptr};
+  if (surely_free(center, reach, memory)) return {true, cell.place, nullptr};
   return {false, cell.place, serving(cell.place, point, work)};
 }
 
@@ -130,7 +128,7 @@ DirectGrid::Located DirectGrid::locate(const Vec3& center, double reach, Sought 
 bool DirectGrid::touches(const Probe& probe, DirectMemory& memory, Work& work) const noexcept {
   if (!(probe.radius >= 0)) return false;
   if (!store_.frame.covers(probe.center)) return far_nearest(probe.center, probe.radius, work).has_value();
-  if (memory.owner == serial_ && moved_less(memory, probe.center, probe.radius - memory.upper)) return true;
+  if (memory.owner == serial_ && memory.moved_less(probe.center, probe.radius - memory.upper)) return true;
   const Located located = locate(probe.center, probe.radius, Sought::touch, memory, work);
   if (located.gave_up) return all().touches(probe, work);
   if (located.triangle == nullptr) return false;

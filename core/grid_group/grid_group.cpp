@@ -57,7 +57,7 @@ void GridGroup::update(const TriangleMesh& mesh) {
   if (direct == nullptr || !direct->update(mesh)) *this = build(mesh, options_);
 }
 
-bool GridGroup::touches(const Probe& probe, Session& session) const noexcept {
+bool GridGroup::look_for_touch(const Probe& probe, Session& session) const noexcept {
   if (const auto* direct = std::get_if<grid::DirectGrid>(&form_))
     return direct->touches(probe, session.memory, session.work);
   if (const auto* scan = std::get_if<grid::ScanGrid>(&form_)) return scan->touches(probe, session.work);
@@ -67,7 +67,8 @@ bool GridGroup::touches(const Probe& probe, Session& session) const noexcept {
   return touching;
 }
 
-std::optional<Contact> GridGroup::nearest(const Probe& probe, double reach, Session& session) const noexcept {
+std::optional<Contact> GridGroup::look_for_nearest(const Probe& probe, double reach,
+                                                   Session& session) const noexcept {
   if (const auto* direct = std::get_if<grid::DirectGrid>(&form_))
     return direct->nearest(probe.center, reach, session.memory, session.work);
   if (const auto* scan = std::get_if<grid::ScanGrid>(&form_))

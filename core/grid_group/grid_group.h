@@ -55,8 +55,14 @@ class GridGroup {
   /// become of another size or place; the scan is built anew.
   void update(const TriangleMesh& mesh);
 
-  bool touches(const Probe& probe, Session& session) const noexcept;
-  std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept;
+  // Inline as far as free space: there a query is a few comparisons, less than a call.
+  bool touches(const Probe& probe, Session& session) const noexcept {
+    return !surely_free(probe.center, probe.radius, session) && look_for_touch(probe, session);
+  }
+  std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept {
+    if (surely_free(probe.center, reach, session)) return std::nullopt;
+    return look_for_nearest(probe, reach, session);
+  }
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept;
 
   std::size_t bytes() const noexcept;
@@ -71,6 +77,13 @@ class GridGroup {
   bool coarsened() const noexcept;
 
  private:
+  bool surely_free(const Vec3& center, double reach, const Session& session) const noexcept {
+    const auto* direct = std::get_if<grid::DirectGrid>(&form_);
+    return direct != nullptr && direct->surely_free(center, reach, session.memory);
+  }
+  bool look_for_touch(const Probe& probe, Session& session) const noexcept;
+  std::optional<Contact> look_for_nearest(const Probe& probe, double reach, Session& session) const noexcept;
+
   Options options_;
   Connectivity connectivity_;
   /// BruteForce serves the meshes whose extent is zero or whose squares leave the range of double.

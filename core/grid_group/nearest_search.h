@@ -22,9 +22,10 @@ namespace touchmark::grid {
 /// Starts at the reach, with room for the kernel's error, and tightens it with every triangle found.
 class NearestSearch {
  public:
-  /// The store's frame covers `center`.
+  /// The store's frame covers `center`, which is kept by reference.
   NearestSearch(const TriangleStore& store, const Vec3& center, double reach) noexcept
       : NearestSearch(store, center, store.frame.point(center), reach) {}
+  NearestSearch(const TriangleStore&, const Vec3&&, double) = delete;
   /// `point` is the centre in that frame.
   NearestSearch(const TriangleStore& store, const Vec3& center, const FilterPoint& point,
                 double reach) noexcept

@@ -10,11 +10,11 @@
 
 #include "core/detector.h"
 #include "core/geometry/aabb.h"
+#include "core/geometry/distance_grid.h"
 #include "core/geometry/every_triangle.h"
 #include "core/geometry/plane_filter.h"
 #include "core/geometry/point_triangle.h"
 #include "core/sphere_cluster/clustering.h"
-#include "core/sphere_cluster/distance_grid.h"
 #include "core/sphere_cluster/near_blocks.h"
 #include "core/sphere_cluster/simd.h"
 #include "core/sphere_cluster/tree_layout.h"
@@ -103,7 +103,7 @@ class SphereTree {
   };
   /// Bounds the distance at a place of the frame, which is at most `most`, to about a fifth; negative when
   /// that is too much work.
-  spheres::DistanceGrid::Interval sample(const Vec3& place, double most, Sampling& sampling) const noexcept;
+  DistanceGrid::Interval sample(const Vec3& place, double most, Sampling& sampling) const noexcept;
   std::uint64_t most_work_of_samples() const noexcept;
 
   // Visitors: see sphere_tree_search.h.
@@ -133,7 +133,7 @@ class SphereTree {
   double grain_ = 0;   ///< the mean radius of a block
   spheres::TreeParts parts_;
   bool samples_later_ = false;
-  spheres::DistanceGrid distances_;
+  DistanceGrid distances_;
   std::vector<TriangleId> ids_;  ///< by mesh index; empty when they are the same
 };
 

@@ -30,11 +30,6 @@ struct RoughVisitor {
   }
 };
 
-/// Of a box in the mesh's frame.
-Aabb in_frame(const FilterFrame& frame, const Aabb& box) {
-  return {frame.to_frame(box.min), frame.to_frame(box.max)};
-}
-
 }  // namespace
 
 /// Where the hierarchy is a poor fit, the samples may cost no more than the hierarchy did.
@@ -43,9 +38,8 @@ std::uint64_t SphereTree::most_work_of_samples() const noexcept {
   return most_work_a_triangle * parts_.triangles.size();
 }
 
-spheres::DistanceGrid::Interval SphereTree::sample(const Vec3& place, double most,
-                                                   Sampling& sampling) const noexcept {
-  constexpr spheres::DistanceGrid::Interval unknown{-1, -1};
+DistanceGrid::Interval SphereTree::sample(const Vec3& place, double most, Sampling& sampling) const noexcept {
+  constexpr DistanceGrid::Interval unknown{-1, -1};
   if (sampling.work.total() > sampling.most) return unknown;
   const Vec3 center = frame_.origin() + place / frame_.scale();
   const double reach = most / frame_.scale();
@@ -60,13 +54,7 @@ spheres::DistanceGrid::Interval SphereTree::sample(const Vec3& place, double mos
 }
 
 void SphereTree::fill_distances() {
-  // Two roundings of a sample's place in the mesh's frame, measured in the tree's: of a mesh so far from 0
-  // that they count, nothing is known beforehand.
-  const double rounding =
-      std::numeric_limits<double>::epsilon() * frame_.origin().lpNorm<1>() * frame_.scale();
-  if (!(rounding < 0x1p-24)) return;
-  const Aabb box = in_frame(frame_, bounds_);
-  distances_ = spheres::DistanceGrid(box.min.cast<float>(), box.max.cast<float>(), parts_.triangles.size());
+  distances_ = DistanceGrid::around(frame_, bounds_, parts_.triangles.size());
   if (samples_later_) return distances_.fill_later();
   Sampling sampling{most_work_of_samples()};
   distances_.fill([&](const Vec3& place, double most) { return sample(place, most, sampling); });
@@ -74,19 +62,13 @@ void SphereTree::fill_distances() {
 
 void SphereTree::refill_distances(const spheres::MovedTriangles& moved) {
   if (distances_.empty()) return;
-  const Aabb box = in_frame(frame_, bounds_);
-  if (2 * moved.count > parts_.triangles.size() ||
-      !distances_.holds(box.min.cast<float>(), box.max.cast<float>()))
+  if (2 * moved.count > parts_.triangles.size() || !distances_.holds(frame_, bounds_))
     return fill_distances();
   std::vector<Aabb> boxes;
-  for (const Aabb& one : moved.boxes) boxes.push_back(in_frame(frame_, one));
+  for (const Aabb& one : moved.boxes) boxes.push_back(frame_.to_frame(one));
   Sampling sampling{most_work_of_samples()};
   distances_.refill([&](const Vec3& place, double most) { return sample(place, most, sampling); },
-                    [&](const Vec3& place, double most) {
-                      return std::any_of(boxes.begin(), boxes.end(), [&](const Aabb& one) {
-                        return one.squared_distance(place) <= most * most;
-                      });
-                    });
+                    [&](const Vec3& place, double most) { return any_within(boxes, place, most); });
 }
 
 bool SphereTree::update(const TriangleMesh& mesh) {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace touchmark::spheres {
+namespace touchmark {
 
 /// Each byte by itself: a reader sees it as it was or as it is, and nothing of when others are set. A copy
 /// takes each as it is then. To resize or assign, be alone.
@@ -41,4 +41,4 @@ class SharedBytes {
   mutable std::vector<std::uint8_t> bytes_;
 };
 
-}  // namespace touchmark::spheres
+}  // namespace touchmark

@@ -1,6 +1,7 @@
-#include "core/sphere_cluster/distance_grid.h"
+#include "core/geometry/distance_grid.h"
 
-namespace touchmark::spheres {
+namespace touchmark {
+
 SampleLattice::SampleLattice(const Eigen::Vector3f& min, const Eigen::Vector3f& max, std::uint32_t most) {
   const Eigen::Vector3f extent = max - min;
   // The box and its surroundings in cubes, of which there are at most so many.
@@ -48,4 +49,21 @@ DistanceGrid::DistanceGrid(const Eigen::Vector3f& min, const Eigen::Vector3f& ma
   step_ = std::ldexp(1.0F, std::ilogb(fine_.edge() / steps_an_edge));
 }
 
-}  // namespace touchmark::spheres
+DistanceGrid DistanceGrid::around(const FilterFrame& frame, const Aabb& bounds, std::size_t triangles) {
+  // Two roundings of a sample's place in the mesh's frame, measured in the other.
+  const double place_rounding =
+      std::numeric_limits<double>::epsilon() * frame.origin().lpNorm<1>() * frame.scale();
+  if (!(place_rounding < 0x1p-24)) return {};
+  const Aabb box = frame.to_frame(bounds);
+  return {box.min.cast<float>(), box.max.cast<float>(), triangles};
+}
+
+bool DistanceGrid::holds(const FilterFrame& frame, const Aabb& bounds) const noexcept {
+  const Aabb box = frame.to_frame(bounds);
+  const Eigen::Vector3f min = box.min.cast<float>(), max = box.max.cast<float>();
+  for (int k = 0; k < 3; ++k)
+    if (min[k] < fine_.min(k) || max[k] > fine_.max(k)) return false;
+  return true;
+}
+
+}  // namespace touchmark

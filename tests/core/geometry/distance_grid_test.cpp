@@ -1,4 +1,4 @@
-#include "core/sphere_cluster/distance_grid.h"
+#include "core/geometry/distance_grid.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -13,7 +13,6 @@
 namespace touchmark {
 namespace {
 
-using spheres::DistanceGrid;
 using test::Random;
 
 TriangleMesh plate(double width, double height) {

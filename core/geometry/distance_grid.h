@@ -16,11 +16,12 @@
 
 #include <Eigen/Core>
 
+#include "core/geometry/aabb.h"
 #include "core/geometry/plane_filter.h"
+#include "core/geometry/shared_bytes.h"
 #include "core/probe.h"
-#include "core/sphere_cluster/shared_bytes.h"
 
-namespace touchmark::spheres {
+namespace touchmark {
 
 /// The middles of cubes that fill a box, in the tree's frame.
 class SampleLattice {
@@ -65,6 +66,9 @@ class DistanceGrid {
   DistanceGrid() = default;
   /// A lattice to be filled for so many triangles whose box this is, in the frame.
   DistanceGrid(const Eigen::Vector3f& min, const Eigen::Vector3f& max, std::size_t triangles);
+  /// The same for a mesh whose box this is. One that stays empty, and of which nothing is known, where the
+  /// mesh is so far from 0 that rounding a sample's place would count.
+  static DistanceGrid around(const FilterFrame& frame, const Aabb& bounds, std::size_t triangles);
 
   /// distance_at(place, most) bounds the distance at a point of the frame, which is at most `most`, each
   /// bound within 2^-23. Where it gives up, by a negative one, so does the rest of the grid: nothing is known
@@ -85,12 +89,8 @@ class DistanceGrid {
   void refill(const DistanceAt& distance_at, const MayHaveChanged& may_have_changed);
 
   bool empty() const noexcept { return fine_steps_.empty(); }
-  /// Is this box within that of the lattice?
-  bool holds(const Eigen::Vector3f& min, const Eigen::Vector3f& max) const noexcept {
-    for (int k = 0; k < 3; ++k)
-      if (min[k] < fine_.min(k) || max[k] > fine_.max(k)) return false;
-    return true;
-  }
+  /// Is a mesh of this box within the lattice's?
+  bool holds(const FilterFrame& frame, const Aabb& bounds) const noexcept;
 
   /// No part of the mesh is nearer than this. May be negative.
   float at_least(const FilterPoint& point) const noexcept;
@@ -277,4 +277,4 @@ void DistanceGrid::refill(const DistanceAt& distance_at, const MayHaveChanged& m
   if (!is_filled_later()) fill_cubes(distance_at, [&](std::uint32_t cube) { return changed[cube]; });
 }
 
-}  // namespace touchmark::spheres
+}  // namespace touchmark
