@@ -98,7 +98,8 @@ DistanceGrid::Interval DirectGrid::sample(const Vec3& in_frame, double most,
   if (gave_up || left == 0) return {-1, -1};
   if (!search.found()) return {reach, most};
   const double distance = scale * std::sqrt(search.offset().squared);
-  return {distance, std::min(distance, most)};
+  // One that the filter let through may be beyond the reach, and another between them.
+  return {std::min(distance, reach), std::min(distance, most)};
 }
 
 void DirectGrid::fill_distances() {
