@@ -55,6 +55,7 @@ class DirectGrid {
   bool surely_free(const Vec3& center, double reach, const DirectMemory& memory) const noexcept {
     return memory.owner == serial_ && memory.moved_less(center, memory.lower - reach);
   }
+  // Both look, even where it is surely free.
   bool touches(const Probe& probe, DirectMemory& memory, Work& work) const noexcept;
   std::optional<Contact> nearest(const Vec3& center, double reach, DirectMemory& memory,
                                  Work& work) const noexcept;
@@ -71,7 +72,7 @@ class DirectGrid {
   bool is_certified() const noexcept { return certified_; }
 
  private:
-  /// Where to look first.
+  /// Where to look first, where it is not surely free.
   struct Start {
     bool beyond = false;  ///< nothing is within reach
     std::uint32_t place = 0;

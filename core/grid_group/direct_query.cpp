@@ -57,7 +57,6 @@ void DirectGrid::remember(const Vec3& center, float tau, double lower, double up
 
 DirectGrid::Start DirectGrid::start_at(const Vec3& center, const FilterPoint& point, double reach,
                                        DirectMemory& memory, Work& work) const noexcept {
-  if (surely_free(center, reach, memory)) return {true, memory.place, nullptr};
   if (memory.owner == serial_) {
     if (const Group* group = serving(memory.place, point, work)) return {false, memory.place, group};
   } else {

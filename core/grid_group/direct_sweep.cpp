@@ -128,6 +128,7 @@ std::optional<Impact> DirectGrid::first_hit(const Sweep& sweep, DirectMemory& me
   if (!(store_.frame.covers(sweep.from) && store_.frame.covers(sweep.to))) return far_first_hit(sweep, work);
   const double widening = sweep_widening(sweep, difference);
   const double farthest = (sweep.to - sweep.from).norm() * (1 + 0x1p-40) + widening;
+  if (surely_free(sweep.from, farthest, memory)) return std::nullopt;
   const Start start = start_at(sweep.from, store_.frame.point(sweep.from), farthest, memory, work);
   if (start.beyond) return std::nullopt;
   SweepSearch search(store_, sweep, widening);
@@ -171,7 +172,9 @@ std::optional<Impact> DirectGrid::first_hit_of_all(const Sweep& sweep, DirectMem
 std::optional<Impact> DirectGrid::impact_on(const Sweep& sweep, double fraction, std::uint32_t place,
                                             DirectMemory& memory, Work& work) const noexcept {
   // Touching at the start, which is decided exactly: of all the triangles there the nearest one counts.
-  if (const auto start = nearest(sweep.from, sweep.radius, memory, work)) return Impact{0, *start};
+  if (!surely_free(sweep.from, sweep.radius, memory)) {
+    if (const auto start = nearest(sweep.from, sweep.radius, memory, work)) return Impact{0, *start};
+  }
   return Impact{fraction, contact_on(store_.exact[place], position_at(sweep, fraction), store_.id(place))};
 }
 
