@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -23,7 +24,7 @@
 
 namespace touchmark {
 
-/// The middles of cubes that fill a box, in the tree's frame.
+/// The middles of cubes that fill a box, in the filter's frame.
 class SampleLattice {
  public:
   SampleLattice() = default;
@@ -69,6 +70,13 @@ class DistanceGrid {
   /// The same for a mesh whose box this is. One that stays empty, and of which nothing is known, where the
   /// mesh is so far from 0 that rounding a sample's place would count.
   static DistanceGrid around(const FilterFrame& frame, const Aabb& bounds, std::size_t triangles);
+  /// What it takes when it is filled at once, at most.
+  static std::size_t most_bytes(std::size_t triangles) noexcept {
+    return std::max<std::size_t>(5 * triangles, 128);
+  }
+  /// What sampling may look at, in all: where a hierarchy is a poor fit, samples may cost no more than it
+  /// did.
+  static std::uint64_t most_work(std::size_t triangles) noexcept { return 1024 * std::uint64_t{triangles}; }
 
   /// distance_at(place, most) bounds the distance at a point of the frame, which is at most `most`, each
   /// bound within 2^-23. Where it gives up, by a negative one, so does the rest of the grid: nothing is known
@@ -83,10 +91,10 @@ class DistanceGrid {
   template <class DistanceAt>
   bool sample_near(const FilterPoint& point, const DistanceAt& distance_at) const;
   /// After a part of the mesh has moved, within the lattice's box: fills anew, or leaves it to sample_near as
-  /// before, where that can have been nearest or can be. Asks may_have_changed(place, distance) whether any
-  /// of it was or is within the distance.
-  template <class DistanceAt, class MayHaveChanged>
-  void refill(const DistanceAt& distance_at, const MayHaveChanged& may_have_changed);
+  /// before, where that can have been nearest or can be. `moved`, in the frame, hold what moved as it was and
+  /// as it is.
+  template <class DistanceAt>
+  void refill(const DistanceAt& distance_at, std::span<const Aabb> moved);
 
   bool empty() const noexcept { return fine_steps_.empty(); }
   /// Is a mesh of this box within the lattice's?
@@ -259,14 +267,14 @@ bool DistanceGrid::sample_near(const FilterPoint& p, const DistanceAt& distance_
 
 /// Where all that moved was and is farther than the mesh was, bounds from below and from above stay true: of
 /// the middle, and with room for the way there and back of its eighths.
-template <class DistanceAt, class MayHaveChanged>
-void DistanceGrid::refill(const DistanceAt& distance_at, const MayHaveChanged& may_have_changed) {
+template <class DistanceAt>
+void DistanceGrid::refill(const DistanceAt& distance_at, std::span<const Aabb> moved) {
   std::vector<bool> changed(coarse_.size(), false);
   for (std::uint32_t z = 0; z < coarse_.count(2); ++z) {
     for (std::uint32_t y = 0; y < coarse_.count(1); ++y) {
       for (std::uint32_t x = 0; x < coarse_.count(0); ++x) {
         const std::uint32_t cube = coarse_.index(x, y, z);
-        if (!may_have_changed(middle(coarse_, x, y, z), most_at(cube) + 2 * to_eighth())) continue;
+        if (!any_within(moved, middle(coarse_, x, y, z), most_at(cube) + 2 * to_eighth())) continue;
         changed[cube] = true;
         coarse_steps_.set(cube, most_steps);
         for (std::uint32_t eighth = 0; eighth < 8; ++eighth) keep_fine(eighth_of(x, y, z, eighth), 0);

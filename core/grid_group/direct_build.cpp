@@ -30,13 +30,6 @@ double lead_for(const TriangleMesh& mesh, const FilterFrame& frame) {
   return 16 * (culling_slack(4) + 4 * epsilon * frame.scale() * coordinates);
 }
 
-std::size_t most_bytes_of_distances(const TriangleMesh& mesh) {
-  return std::max<std::size_t>(5 * mesh.size(), 128);
-}
-
-/// Where the boxes are a poor fit, so much work a triangle is enough.
-constexpr std::uint64_t most_sampling_a_triangle = 1024;
-
 }  // namespace
 
 DirectGrid DirectGrid::build(const TriangleMesh& mesh, const DirectOptions& options) {
@@ -52,7 +45,7 @@ DirectGrid DirectGrid::build(const TriangleMesh& mesh, const DirectOptions& opti
 
   grid.cells_ =
       CellTree::build(grid.store_, grid.tree_, {options.cell * frame.scale(), left() / 4, options.grows});
-  if (!options.grows && left() >= most_bytes_of_distances(mesh)) grid.fill_distances();
+  if (!options.grows && left() >= DistanceGrid::most_bytes(mesh.size())) grid.fill_distances();
   grid.lead_ = lead_for(mesh, frame);
   GroupBuilder builder(grid.store_, grid.tree_, grid.lead_, left());
   grid.groups_ = options.grows ? builder.unmade() : builder.build();
@@ -104,16 +97,15 @@ DistanceGrid::Interval DirectGrid::sample(const Vec3& in_frame, double most,
 
 void DirectGrid::fill_distances() {
   distances_ = DistanceGrid::around(store_.frame, bounds_, store_.size());
-  std::uint64_t left = most_sampling_a_triangle * store_.size();
+  std::uint64_t left = DistanceGrid::most_work(store_.size());
   distances_.fill([&](const Vec3& place, double most) { return sample(place, most, left); });
 }
 
 void DirectGrid::refill_distances(const std::vector<Aabb>& moved) {
   if (distances_.empty()) return;
   if (!distances_.holds(store_.frame, bounds_)) return fill_distances();
-  std::uint64_t left = most_sampling_a_triangle * store_.size();
-  distances_.refill([&](const Vec3& place, double most) { return sample(place, most, left); },
-                    [&](const Vec3& place, double most) { return any_within(moved, place, most); });
+  std::uint64_t left = DistanceGrid::most_work(store_.size());
+  distances_.refill([&](const Vec3& place, double most) { return sample(place, most, left); }, moved);
 }
 
 void DirectGrid::grow_one(std::uint32_t near, std::uint32_t start, const Vec3& center,

@@ -104,7 +104,6 @@ class SphereTree {
   /// Bounds the distance at a place of the frame, which is at most `most`, to about a fifth; negative when
   /// that is too much work.
   DistanceGrid::Interval sample(const Vec3& place, double most, Sampling& sampling) const noexcept;
-  std::uint64_t most_work_of_samples() const noexcept;
 
   // Visitors: see sphere_tree_search.h.
   template <class Visitor>

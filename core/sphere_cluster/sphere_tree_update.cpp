@@ -32,12 +32,6 @@ struct RoughVisitor {
 
 }  // namespace
 
-/// Where the hierarchy is a poor fit, the samples may cost no more than the hierarchy did.
-std::uint64_t SphereTree::most_work_of_samples() const noexcept {
-  constexpr std::uint64_t most_work_a_triangle = 1024;
-  return most_work_a_triangle * parts_.triangles.size();
-}
-
 DistanceGrid::Interval SphereTree::sample(const Vec3& place, double most, Sampling& sampling) const noexcept {
   constexpr DistanceGrid::Interval unknown{-1, -1};
   if (sampling.work.total() > sampling.most) return unknown;
@@ -56,7 +50,7 @@ DistanceGrid::Interval SphereTree::sample(const Vec3& place, double most, Sampli
 void SphereTree::fill_distances() {
   distances_ = DistanceGrid::around(frame_, bounds_, parts_.triangles.size());
   if (samples_later_) return distances_.fill_later();
-  Sampling sampling{most_work_of_samples()};
+  Sampling sampling{DistanceGrid::most_work(parts_.triangles.size())};
   distances_.fill([&](const Vec3& place, double most) { return sample(place, most, sampling); });
 }
 
@@ -66,9 +60,8 @@ void SphereTree::refill_distances(const spheres::MovedTriangles& moved) {
     return fill_distances();
   std::vector<Aabb> boxes;
   for (const Aabb& one : moved.boxes) boxes.push_back(frame_.to_frame(one));
-  Sampling sampling{most_work_of_samples()};
-  distances_.refill([&](const Vec3& place, double most) { return sample(place, most, sampling); },
-                    [&](const Vec3& place, double most) { return any_within(boxes, place, most); });
+  Sampling sampling{DistanceGrid::most_work(parts_.triangles.size())};
+  distances_.refill([&](const Vec3& place, double most) { return sample(place, most, sampling); }, boxes);
 }
 
 bool SphereTree::update(const TriangleMesh& mesh) {
