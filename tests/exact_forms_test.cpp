@@ -126,6 +126,14 @@ TEST_P(ExactForms, AreRightAndAgreeOnHardMeshes) {
   ask_touches("touches at the very distance", [&](std::size_t i) { return distance[i]; });
   ask_touches("touches an ulp short of it", [&](std::size_t i) { return std::nextafter(distance[i], 0); });
   ask_touches("touches an ulp beyond", [&](std::size_t i) { return std::nextafter(distance[i], infinity); });
+  // A touch that was content with what is within a large radius says nothing of what is within a small one.
+  std::vector<Step> ever_smaller;
+  for (std::size_t i = 0; i < centers.size(); ++i) {
+    for (const double radius : {3 * distance[i], std::nextafter(distance[i], infinity),
+                                std::nextafter(distance[i], 0), 2 * distance[i] + some, distance[i]})
+      ever_smaller.push_back({{centers[i], radius}, 0});
+  }
+  examination.ask_all("touches with ever smaller radii", Query::touches, ever_smaller);
   examination.ask_all("sweep", Query::sweep, steps_at(centers, constant(some), constant(0)));
 }
 

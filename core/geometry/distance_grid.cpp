@@ -28,6 +28,7 @@ SampleLattice::SampleLattice(const Eigen::Vector3f& min, const Eigen::Vector3f& 
     const float middle = 0.5F * (min[k] + max[k]), half = 0.5F * edge_ * static_cast<float>(count_[axis]);
     min_[axis] = std::min(middle - half, min[k]);
     max_[axis] = std::max(middle + half, max[k]);
+    last_[axis] = static_cast<float>(count_[axis] - 1);
   }
 }
 
@@ -35,7 +36,10 @@ SampleLattice SampleLattice::halved() const noexcept {
   SampleLattice half = *this;
   half.edge_ *= 0.5F;
   half.per_edge_ *= 2;
-  for (std::uint32_t& count : half.count_) count *= 2;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    half.count_[axis] *= 2;
+    half.last_[axis] = static_cast<float>(half.count_[axis] - 1);
+  }
   return half;
 }
 
@@ -45,7 +49,7 @@ DistanceGrid::DistanceGrid(const Eigen::Vector3f& min, const Eigen::Vector3f& ma
   constexpr std::size_t fewest = 8, most = std::size_t{1} << 15;
   coarse_ = SampleLattice(min, max, static_cast<std::uint32_t>(std::clamp(triangles / 2, fewest, most)));
   fine_ = coarse_.halved();
-  constexpr float steps_an_edge = 4;
+  constexpr float steps_an_edge = 8;
   step_ = std::ldexp(1.0F, std::ilogb(fine_.edge() / steps_an_edge));
 }
 

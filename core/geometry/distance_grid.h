@@ -36,8 +36,8 @@ class SampleLattice {
   std::uint32_t count(int axis) const noexcept { return count_[static_cast<std::size_t>(axis)]; }
   std::size_t size() const noexcept { return std::size_t{count_[0]} * count_[1] * count_[2]; }
   float edge() const noexcept { return edge_; }
-  float min(int axis) const noexcept { return min_[static_cast<std::size_t>(axis)]; }
-  float max(int axis) const noexcept { return max_[static_cast<std::size_t>(axis)]; }
+  float min(int axis) const noexcept { return min_[axis]; }
+  float max(int axis) const noexcept { return max_[axis]; }
 
   std::uint32_t index(std::uint32_t x, std::uint32_t y, std::uint32_t z) const noexcept {
     return (z * count_[1] + y) * count_[0] + x;
@@ -46,14 +46,24 @@ class SampleLattice {
   float middle(int axis, std::uint32_t i) const noexcept {
     return min(axis) + (static_cast<float>(i) + 0.5F) * edge_;
   }
-  /// The cube of a coordinate within the box; the nearest one of a coordinate beyond.
-  std::uint32_t place(int axis, float x) const noexcept {
-    const float at = std::max((x - min(axis)) * per_edge_, 0.0F);
-    return static_cast<std::uint32_t>(std::min(at, static_cast<float>(count(axis) - 1)));
+  /// The nearest point of the box. Of lanes x, y and z; here and below, the last one means nothing.
+  Lanes clamped(Lanes point) const noexcept { return lesser_of(greater_of(point, min_), max_); }
+  /// The cube that a point of the box is in; the nearest one to a point beyond.
+  LaneBits cube_of(Lanes point) const noexcept {
+    const Lanes at = greater_of((point - min_) * per_edge_, Lanes{});
+    return __builtin_convertvector(lesser_of(at, last_), LaneBits);
+  }
+  std::uint32_t index(LaneBits cube) const noexcept {
+    return index(static_cast<std::uint32_t>(cube[0]), static_cast<std::uint32_t>(cube[1]),
+                 static_cast<std::uint32_t>(cube[2]));
+  }
+  Lanes middle(LaneBits cube) const noexcept {
+    return min_ + (__builtin_convertvector(cube, Lanes) + 0.5F) * edge_;
   }
 
  private:
-  std::array<float, 3> min_{}, max_{};
+  Lanes min_{}, max_{};
+  Lanes last_{};  ///< count_ less one
   float edge_ = 1, per_edge_ = 1;
   std::array<std::uint32_t, 3> count_{};
 };
@@ -116,9 +126,10 @@ class DistanceGrid {
   /// once each; differences, squares, sums and the root relatively: below 8 u of the box in all.
   static constexpr float roundings_in_tau = 4;
 
-  static float squared(float x) noexcept { return x * x; }
-  static float length(float x, float y, float z) noexcept {
-    return std::sqrt(squared(x) + squared(y) + squared(z));
+  static Lanes lanes_of(const FilterPoint& p) noexcept { return Lanes{p.x, p.y, p.z, 0}; }
+  static float squared(Lanes v) noexcept {
+    const Lanes squares = v * v;
+    return squares[0] + squares[1] + squares[2];
   }
   /// Room for the roundings of two samples' places.
   static constexpr double rounding = 0x1p-20;
@@ -167,25 +178,23 @@ class DistanceGrid {
 // of the mesh at an angle of at least 90 degrees: |p - m|^2 >= |p - q|^2 + |q - m|^2.
 inline float DistanceGrid::at_least(const FilterPoint& p) const noexcept {
   if (fine_steps_.empty()) return 0;
-  const float x = std::clamp(p.x, fine_.min(0), fine_.max(0)),
-              y = std::clamp(p.y, fine_.min(1), fine_.max(1)),
-              z = std::clamp(p.z, fine_.min(2), fine_.max(2));
-  const std::uint32_t i = fine_.place(0, x), j = fine_.place(1, y), k = fine_.place(2, z);
-  const float steps = static_cast<float>(fine_steps_[fine_.index(i, j, k)]);
-  const float within =
-      steps * step_ - length(x - fine_.middle(0, i), y - fine_.middle(1, j), z - fine_.middle(2, k));
-  const float beyond = squared(p.x - x) + squared(p.y - y) + squared(p.z - z);
+  const Lanes point = lanes_of(p), nearest = fine_.clamped(point);
+  const LaneBits cube = fine_.cube_of(nearest);
+  const float steps = static_cast<float>(fine_steps_[fine_.index(cube)]);
+  const float within = steps * step_ - std::sqrt(squared(nearest - fine_.middle(cube)));
+  const float beyond = squared(point - nearest);
   if (beyond == 0) return within - roundings_in_tau * p.tau;
-  return std::sqrt(beyond + squared(std::max(within, 0.0F))) - roundings_in_tau * p.tau;
+  const float inside = std::max(within, 0.0F);
+  return std::sqrt(beyond + inside * inside) - roundings_in_tau * p.tau;
 }
 
 inline float DistanceGrid::at_most(const FilterPoint& p) const noexcept {
   if (coarse_steps_.empty()) return std::numeric_limits<float>::infinity();
-  const std::uint32_t i = coarse_.place(0, p.x), j = coarse_.place(1, p.y), k = coarse_.place(2, p.z);
-  const Step steps = coarse_steps_[coarse_.index(i, j, k)];
+  const Lanes point = lanes_of(p);
+  const LaneBits cube = coarse_.cube_of(point);
+  const Step steps = coarse_steps_[coarse_.index(cube)];
   if (steps == most_steps) return std::numeric_limits<float>::infinity();
-  return static_cast<float>(steps) * step_ +
-         length(p.x - coarse_.middle(0, i), p.y - coarse_.middle(1, j), p.z - coarse_.middle(2, k)) +
+  return static_cast<float>(steps) * step_ + std::sqrt(squared(point - coarse_.middle(cube))) +
          roundings_in_tau * p.tau;
 }
 
@@ -246,7 +255,9 @@ inline void DistanceGrid::fill_later() {
 template <class DistanceAt>
 bool DistanceGrid::sample_near(const FilterPoint& p, const DistanceAt& distance_at) const {
   if (wanted_.empty()) return false;
-  const std::uint32_t i = fine_.place(0, p.x), j = fine_.place(1, p.y), k = fine_.place(2, p.z);
+  const LaneBits fine_cube = fine_.cube_of(lanes_of(p));
+  const auto i = static_cast<std::uint32_t>(fine_cube[0]), j = static_cast<std::uint32_t>(fine_cube[1]),
+             k = static_cast<std::uint32_t>(fine_cube[2]);
   const std::uint32_t x = i / 2, y = j / 2, z = k / 2, cube = coarse_.index(x, y, z);
   const std::uint8_t wanted = wanted_[cube];
   const auto bit = static_cast<std::uint8_t>(1U << ((i & 1) | (j & 1) << 1 | (k & 1) << 2));

@@ -16,6 +16,7 @@ FilterFrame FilterFrame::around(const Aabb& bounds) noexcept {
   const Vec3 half = 0.5 * bounds.extent();
   frame.origin_ = bounds.center();
   frame.scale_ = std::ldexp(1.0, -std::ilogb(half.maxCoeff()) - 1);
+  frame.unit_ = 1 / frame.scale_;
   frame.squared_scale_ = frame.scale_ * frame.scale_;
   frame.radius_ = frame.scale_ * half.norm();
   return frame;

@@ -18,6 +18,7 @@
 /// work for every finite mesh whose box FilterFrame::fits; beyond that, do without.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -68,6 +69,10 @@ class FilterFrame {
     const Vec3 p = to_frame(center);
     return std::abs(p.x()) < 0x1p20 && std::abs(p.y()) < 0x1p20 && std::abs(p.z()) < 0x1p20;
   }
+  /// A quicker test on the point in this frame. It says no to some that are covered.
+  static bool covers(const FilterPoint& point) noexcept {
+    return point.tau < static_cast<float>(0x1p20 * tau_per_unit);
+  }
   FilterPoint point(const Vec3& center) const noexcept {
     const Vec3 p = to_frame(center);
     return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), tau(p)};
@@ -82,11 +87,19 @@ class FilterFrame {
   /// At least the distance_error of certified_nearest.h, in mesh units, at the point whose tau this is, and
   /// quicker to have: tau is 2^-21 of a length that would exceed every coordinate difference if the frame's
   /// origin were not rounded, and exceeds half of it so.
-  double kernel_error(float tau) const noexcept { return static_cast<double>(tau) * 0x1p-23 / scale_; }
+  double kernel_error(float tau) const noexcept { return static_cast<double>(tau) * 0x1p-23 * unit_; }
   /// A squared distance of the mesh's frame as a limit on lower bounds, rounded up.
   float limit(double squared_distance) const noexcept {
     const double limit = squared_distance * squared_scale_ * (1 + 0x1p-20) + 0x1p-120;
     return limit < most ? static_cast<float>(limit) : most;
+  }
+  /// A distance of the mesh's frame in this one, rounded down.
+  float at_most(double distance) const noexcept {
+    return static_cast<float>(std::min(distance * scale_ * (1 - 0x1p-20), double{most}));
+  }
+  /// A distance of this frame in the mesh's, rounded up.
+  double at_least(float distance) const noexcept {
+    return static_cast<double>(distance) * (1 + 0x1p-20) * unit_;
   }
   /// A lower bound as a squared distance of the mesh's frame, rounded down.
   double squared(float lower_bound) const noexcept {
@@ -94,6 +107,8 @@ class FilterFrame {
   }
   const Vec3& origin() const noexcept { return origin_; }
   double scale() const noexcept { return scale_; }
+  /// Of this frame, in the mesh's: a power of two, as the scale is.
+  double unit() const noexcept { return unit_; }
   /// Of a ball about the frame's middle that holds the mesh, in the frame.
   double radius() const noexcept { return radius_; }
 
@@ -106,6 +121,7 @@ class FilterFrame {
 
   Vec3 origin_ = Vec3::Zero();
   double scale_ = 1;
+  double unit_ = 1;
   double squared_scale_ = 1;
   double radius_ = 1;  ///< bound on |offset|: the farthest vertex from the origin, in the frame
 };
@@ -140,6 +156,20 @@ inline Lanes plane_values(const TrianglePlanes& planes, const PointLanes& p) noe
 }
 inline Lanes plane_values(const TrianglePlanes& planes, const FilterPoint& p) noexcept {
   return plane_values(planes, PointLanes(p));
+}
+
+/// A lower bound of the squared distance to the triangle of these values, in the frame.
+inline float least_squared(Lanes values, const FilterPoint& p) noexcept {
+  const float beside = std::max(values[1], std::max(values[2], values[3]));
+  const float height = std::max(std::abs(values[0]) - p.tau, 0.0F), excess = std::max(beside - p.tau, 0.0F);
+  return height * height + excess * excess;
+}
+
+/// At least the distance to the triangle of these values, in the frame, where the point is surely over its
+/// face; else infinity.
+inline float most_over_face(Lanes values, const FilterPoint& p) noexcept {
+  const float beside = std::max(values[1], std::max(values[2], values[3]));
+  return beside <= -p.tau ? std::abs(values[0]) + 2 * p.tau : std::numeric_limits<float>::infinity();
 }
 
 /// Where a point is to four triangles, a lane each: its distance to the face's plane, and how far it is

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/geometry/plane_filter.h"
@@ -66,6 +67,9 @@ class BoxStack {
   bool empty() const noexcept { return size_ == 0; }
   Entry pop() noexcept { return entries_[--size_]; }
   std::size_t size() const noexcept { return size_; }
+  std::span<const Entry> from(std::size_t base) const noexcept {
+    return {entries_.data() + base, size_ - base};
+  }
   /// Keeps the entries from `base` on in order, the least bound on top.
   void insert(std::size_t base, const Entry& entry) noexcept {
     std::size_t at = size_++;

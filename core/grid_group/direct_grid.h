@@ -88,8 +88,14 @@ class DirectGrid {
     const Group& group = groups_.of(place);
     return group.serves(plane_values(store_.planes[place], point), point.tau) ? &group : nullptr;
   }
+  /// At least the distance to the triangle in this place, where the point is over its face; else infinity.
+  double most_to(std::uint32_t place, const FilterPoint& point, Work& work) const noexcept {
+    ++work.triangles;
+    return store_.frame.at_least(most_over_face(plane_values(store_.planes[place], point), point));
+  }
   /// The nearest triangle, or none when nothing is within reach. One that is found may still be beyond it, by
-  /// a rounding of the filter; then `squared_lower` bounds the squared distance to all.
+  /// a rounding of the filter; then `squared_lower` bounds the squared distance to all. To `touch`, any
+  /// triangle surely within the reach is as good: then `within` bounds its distance, and no more is told.
   struct Located {
     const PreparedTriangle* triangle = nullptr;
     Offset offset{Vec3::Zero(), 0};
@@ -99,9 +105,11 @@ class DirectGrid {
     std::uint64_t spent = 0;
     bool gave_up = false;      ///< after as much work as all triangles would have been
     bool surely_first = true;  ///< of the nearest; `contact` only
+    double within = std::numeric_limits<double>::infinity();
   };
   enum class Sought { touch, contact };
-  Located locate(const Vec3& center, double reach, Sought sought, DirectMemory& memory,
+  template <Sought sought>
+  Located locate(const Vec3& center, const FilterPoint& point, double reach, DirectMemory& memory,
                  Work& work) const noexcept;
   /// After a query that no group served: where groups grow, makes that of one of the places or looks closer
   /// at the cell of this centre, what is still to be done.

@@ -10,6 +10,8 @@
 namespace touchmark::grid {
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 /// Calls visit(triangle) for every triangle that the filter does not put beyond the distance. False when it
 /// has tested more than `most` triangles and boxes before the end.
 template <class Visit>
@@ -49,7 +51,7 @@ void DirectGrid::remember(const Vec3& center, float tau, double lower, double up
                           DirectMemory& memory) const noexcept {
   // Twice culling_slack, for the kernel's error here: tau is 2^-21 of a length above the largest difference.
   // What the error grows by elsewhere goes with the displacement and is in moved_less.
-  const double slack = static_cast<double>(tau) * (0x1p-24 * (1 + 0x1p-20)) / store_.frame.scale();
+  const double slack = static_cast<double>(tau) * (0x1p-24 * (1 + 0x1p-20)) * store_.frame.unit();
   memory.center = center;
   memory.lower = lower - slack;
   memory.upper = upper + slack;
@@ -57,41 +59,63 @@ void DirectGrid::remember(const Vec3& center, float tau, double lower, double up
 
 DirectGrid::Start DirectGrid::start_at(const Vec3& center, const FilterPoint& point, double reach,
                                        DirectMemory& memory, Work& work) const noexcept {
-  if (memory.owner == serial_) {
-    if (const Group* group = serving(memory.place, point, work)) return {false, memory.place, group};
-  } else {
+  const bool knows_place = memory.owner == serial_;
+  if (!knows_place) {
     memory = DirectMemory();
     memory.owner = serial_;
   }
+  const auto serving_again = [&] { return knows_place ? serving(memory.place, point, work) : nullptr; };
+  const bool was_near = memory.upper < infinity;
+  if (was_near)
+    if (const Group* group = serving_again()) return {false, memory.place, group};
   if (!distances_.empty()) {
     // Few bytes, which stay in the cache: what is far needs no cell.
-    remember(center, point.tau, static_cast<double>(distances_.at_least(point)) / store_.frame.scale(),
-             std::numeric_limits<double>::infinity(), memory);
+    remember(center, point.tau, static_cast<double>(distances_.at_least(point)) * store_.frame.unit(),
+             infinity, memory);
     if (memory.lower > reach) return {true, memory.place, nullptr};
   }
+  if (!was_near)
+    if (const Group* group = serving_again()) return {false, memory.place, group};
   const Vec3 in_frame = store_.frame.to_frame(center);
   if (!cells_.holds(in_frame)) {
-    remember(center, point.tau, std::sqrt(bounds_.squared_distance(center)),
-             std::numeric_limits<double>::infinity(), memory);
+    remember(center, point.tau, std::sqrt(bounds_.squared_distance(center)), infinity, memory);
     return {memory.lower > reach, memory.place, nullptr};
   }
   ++work.cells;
   const Cell cell = cells_.at(in_frame);
-  const Vec3 middle = store_.frame.origin() + cell.middle / store_.frame.scale();
-  remember(middle, store_.frame.tau(cell.middle), cell.distance / store_.frame.scale(),
-           std::numeric_limits<double>::infinity(), memory);
+  const Vec3 middle = store_.frame.origin() + cell.middle * store_.frame.unit();
+  remember(middle, store_.frame.tau(cell.middle), cell.distance * store_.frame.unit(), infinity, memory);
   if (surely_free(center, reach, memory)) return {true, cell.place, nullptr};
   return {false, cell.place, serving(cell.place, point, work)};
 }
 
-DirectGrid::Located DirectGrid::locate(const Vec3& center, double reach, Sought sought, DirectMemory& memory,
-                                       Work& work) const noexcept {
-  const FilterPoint point = store_.frame.point(center);
+template <DirectGrid::Sought sought>
+DirectGrid::Located DirectGrid::locate(const Vec3& center, const FilterPoint& point, double reach,
+                                       DirectMemory& memory, Work& work) const noexcept {
+  constexpr bool to_touch = sought == Sought::touch;
+  const double enough = to_touch ? reach - store_.frame.kernel_error(point.tau) : -1;
+  Located located{.tau = point.tau};
+  // To touch, a look at one triangle may do.
+  const auto does = [&](std::uint32_t place) {
+    if (!to_touch) return false;
+    located.within = most_to(place, point, work);
+    return located.within < enough;
+  };
+  if (memory.owner == serial_ && memory.upper < infinity && does(memory.place)) return located;
+  const Vec3 before = memory.center;
   Start start = start_at(center, point, reach, memory, work);
   if (start.beyond) return {};
+  if (start.place != memory.place && does(start.place)) {
+    memory.place = start.place;
+    return located;
+  }
   NearestSearch search(store_, center, point, reach);
-  // A cell's triangle may be a neighbour of the one that is needed.
-  for (int hop = 0; hop < 2 && start.group == nullptr && groups_.of(start.place).count() > 0; ++hop) {
+  if (to_touch) search.be_content_with(enough);
+  // A cell's triangle may be a neighbour of the one that is needed. Where it is beyond the reach most often
+  // all are, and after a jump its neighbours are not worth a look each.
+  const bool near = start.group != nullptr || search.may_be_near(start.place) ||
+                    (center - before).squaredNorm() < cell() * cell();
+  for (int hop = 0; hop < 2 && near && start.group == nullptr && groups_.of(start.place).count() > 0; ++hop) {
     const std::uint32_t next = search.closest_of(groups_.members(groups_.of(start.place)));
     if (next == start.place) break;
     start = {false, next, serving(next, search.point(), work)};
@@ -101,16 +125,19 @@ DirectGrid::Located DirectGrid::locate(const Vec3& center, double reach, Sought 
   if (start.group != nullptr) {
     squared_lower = store_.frame.squared(search.consider_group(groups_.members(*start.group)));
   } else {
-    search.consider(start.place);
+    if (near) search.consider(start.place);
     gave_up = !search.consider_tree(tree_, most_work_before_all(store_.size()));
     if (!gave_up) grow(search.found() ? search.place() : start.place, start.place, center, work);
   }
   work.triangles += search.triangles();
   work.boxes += search.boxes();
+  if (to_touch && search.within() < enough) {
+    memory.place = search.place();
+    return {.tau = point.tau, .within = search.within()};
+  }
   if (gave_up) return {.gave_up = true};
   if (!search.found()) {
-    remember(center, search.point().tau, std::sqrt(squared_lower), std::numeric_limits<double>::infinity(),
-             memory);
+    remember(center, search.point().tau, std::sqrt(squared_lower), infinity, memory);
     return {};
   }
   memory.place = search.place();
@@ -121,15 +148,20 @@ DirectGrid::Located DirectGrid::locate(const Vec3& center, double reach, Sought 
           search.error(),
           search.triangles() + search.boxes(),
           false,
-          sought == Sought::touch || search.is_surely_first()};
+          to_touch || search.is_surely_first()};
 }
 
 bool DirectGrid::touches(const Probe& probe, DirectMemory& memory, Work& work) const noexcept {
   if (!(probe.radius >= 0)) return false;
-  if (!store_.frame.covers(probe.center)) return far_nearest(probe.center, probe.radius, work).has_value();
+  const FilterPoint point = store_.frame.point(probe.center);
+  if (!FilterFrame::covers(point)) return far_nearest(probe.center, probe.radius, work).has_value();
   if (memory.owner == serial_ && memory.moved_less(probe.center, probe.radius - memory.upper)) return true;
-  const Located located = locate(probe.center, probe.radius, Sought::touch, memory, work);
+  const Located located = locate<Sought::touch>(probe.center, point, probe.radius, memory, work);
   if (located.gave_up) return all().touches(probe, work);
+  if (located.within < probe.radius) {
+    remember(probe.center, located.tau, 0, located.within, memory);
+    return true;
+  }
   if (located.triangle == nullptr) return false;
   const double distance = std::sqrt(located.offset.squared);
   const bool touching =
@@ -144,8 +176,9 @@ bool DirectGrid::touches(const Probe& probe, DirectMemory& memory, Work& work) c
 std::optional<Contact> DirectGrid::nearest(const Vec3& center, double reach, DirectMemory& memory,
                                            Work& work) const noexcept {
   if (!(reach >= 0)) return std::nullopt;
-  if (!store_.frame.covers(center)) return far_nearest(center, reach, work);
-  const Located located = locate(center, reach, Sought::contact, memory, work);
+  const FilterPoint point = store_.frame.point(center);
+  if (!FilterFrame::covers(point)) return far_nearest(center, reach, work);
+  const Located located = locate<Sought::contact>(center, point, reach, memory, work);
   if (located.gave_up) return all().nearest(center, reach, work);
   if (located.triangle == nullptr) return std::nullopt;
   const Contact contact = contact_at(*located.triangle, center, located.offset, store_.id(memory.place));

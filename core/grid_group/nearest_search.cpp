@@ -22,6 +22,12 @@ float NearestSearch::consider_group(std::span<const std::uint32_t> members) noex
   if (bounds.over_one) {
     // There the distance is the height, to within two tau: one of the filter and one for the kernel.
     const float high = bounds.height + 2 * point_.tau;
+    if (high < enough_high_) {
+      within_ = store_.frame.at_least(high);
+      place_ = bounds.guess;
+      found_ = true;
+      return bounds.least;
+    }
     limit_ = std::min(limit_, high * high * (1 + 0x1p-20f));
   } else {
     decide(bounds.guess);

@@ -46,10 +46,23 @@ class NearestSearch {
   }
   /// Of the nearest ones, is it surely the first? When there is one.
   bool is_surely_first() const noexcept { return so_far_.is_surely_first(store_.exact, center_, error_); }
+  /// From now on any triangle surely within the distance ends the search: then `within` bounds the distance
+  /// of the one found, and else it is infinite.
+  void be_content_with(double distance) noexcept {
+    enough_ = distance;
+    enough_high_ = store_.frame.at_most(distance);
+  }
+  double within() const noexcept { return within_; }
   const FilterPoint& point() const noexcept { return point_; }
   double error() const noexcept { return error_; }                 ///< of a computed distance
   std::uint64_t triangles() const noexcept { return triangles_; }  ///< tested
   std::uint64_t boxes() const noexcept { return boxes_; }          ///< tested
+
+  /// Can the triangle be within the limit, as far as its planes tell?
+  bool may_be_near(std::uint32_t place) noexcept {
+    ++triangles_;
+    return least_squared(plane_values(store_.planes[place], point_), point_) <= limit_;
+  }
 
   void consider(std::uint32_t place) noexcept {
     ++triangles_;
@@ -76,19 +89,33 @@ class NearestSearch {
         visit(tree, next.level - 1, next.index, stack);
       } else {
         consider_block(next.index);
+        if (is_content()) break;
       }
     }
     return true;
   }
 
  private:
+  bool is_content() const noexcept { return within_ < enough_; }
   GroupBounds filter(std::span<const std::uint32_t> members) const noexcept;
   /// Bit i is set for member i.
   std::uint64_t within_limit(const GroupBounds& bounds, std::size_t members) const noexcept;
 
   void visit(const BoxTree& tree, std::uint32_t level, std::uint32_t node, BoxStack& stack) noexcept {
     boxes_ += BoxTree::arity;
+    const std::size_t base = stack.size();
     stack.push(lower_bounds(tree.node(level, node), point_), limit_, node, level);
+    for (const BoxStack::Entry& child : stack.from(base)) {
+      if (level > 0)
+        prefetch(&tree.node(level - 1, child.index), sizeof(EightBoxes));
+      else
+        prefetch(&store_.planes[child.index * TriangleStore::block_size],
+                 TriangleStore::block_size * sizeof(TrianglePlanes));
+    }
+  }
+  static void prefetch(const void* start, std::size_t size) noexcept {
+    for (std::size_t line = 0; line < size; line += 64)
+      __builtin_prefetch(static_cast<const char*>(start) + line);
   }
   void consider_block(std::uint32_t block) noexcept {
     const std::uint32_t first = block * TriangleStore::block_size;
@@ -98,6 +125,7 @@ class NearestSearch {
       const Lanes bounds = lower_bounds(planes[0], planes[1], planes[2], planes[3], point_);
       for (unsigned left = at_most(bounds, limit_); left != 0; left &= left - 1)
         decide(at + static_cast<std::uint32_t>(std::countr_zero(left)));
+      if (is_content()) return;
     }
   }
   void decide(std::uint32_t place) noexcept {
@@ -108,6 +136,7 @@ class NearestSearch {
     place_ = place;
     found_ = known_ = true;
     limit_ = std::min(limit_, store_.frame.limit(offset.squared));
+    if (enough_ > 0) within_ = std::min(within_, std::sqrt(offset.squared));
   }
   std::uint64_t without_far_balls(std::uint64_t left, std::span<const std::uint32_t> members) const noexcept;
   /// Is it, by its ball, farther than the limit?
@@ -119,7 +148,10 @@ class NearestSearch {
   double error_;
   float limit_;
   bool found_ = false;
-  bool known_ = false;      ///< offset_, and so_far_ with it
+  bool known_ = false;  ///< offset_, and so_far_ with it
+  double enough_ = -1;
+  float enough_high_ = -1;  ///< the same in the frame
+  double within_ = std::numeric_limits<double>::infinity();
   bool over_face_ = false;  ///< is the point surely over the face of the triangle found?
   std::uint32_t place_ = 0;
   NearestSoFar so_far_;

@@ -57,7 +57,8 @@ struct TouchVisitor {
   double radius;
   double error;  ///< of a computed distance
   bool certified;
-  float limit;
+  float limit = -1;
+  float height = -1;  ///< over its face, at which a triangle is surely within the radius
   Work work{};
   double least = std::numeric_limits<double>::infinity();  ///< distance of the one kept, else of those shown
   std::uint32_t kept_at = nowhere;
@@ -70,6 +71,12 @@ struct TouchVisitor {
         certified ? is_within(tree.triangles[at], distance, center, radius, error, work.exact_decisions)
                   : distance <= radius;
     if (!within) return;
+    keep(at, distance);
+  }
+  void take_under(std::uint32_t at) noexcept { keep(at, radius); }
+
+ private:
+  void keep(std::uint32_t at, double distance) noexcept {
     kept_at = at;
     least = distance;
     limit = -1;  // nothing is within it: the search ends
@@ -102,6 +109,11 @@ struct FetchVisitor {
   void take(std::uint32_t, const Offset&) const noexcept {}
 };
 
+/// What the kernel's rounding may do, here and wherever `free` is going to be used: it grows with the way
+/// there, which is at most `free` itself, so a relative 2^-40 of that does for the rest. `error`: of a
+/// computed distance.
+double slack_from(double error) noexcept { return 0.5 * error; }
+
 /// Tells the memories of different trees apart, also where one took another's place in memory. From 1.
 std::uint64_t next_number() noexcept {
   static std::atomic<std::uint64_t> last = 0;
@@ -125,7 +137,6 @@ SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters,
   }
   frame_ = FilterFrame::around(mesh.bounds());
   parts_ = spheres::build_tree(mesh, clusters, frame_);
-  unit_ = 1 / frame_.scale();
   measure_grain();
   fill_distances();
 }
@@ -142,21 +153,10 @@ void SphereTree::measure_grain() noexcept {
 
 void SphereTree::renew() noexcept { number_ = next_number(); }
 
-void SphereTree::claim(Memory& memory) const noexcept {
-  if (memory.tree == number_) return;
+void SphereTree::start_anew(Memory& memory) const noexcept {
   memory = {};
   memory.tree = number_;
 }
-
-/// What the kernel's rounding may do, here and wherever `free` is going to be used: it grows with the way
-/// there, which is at most `free` itself, so a relative 2^-40 of that does for the rest.
-double SphereTree::slack(const Vec3& center) const noexcept {
-  return 2 * culling_slack((center - frame_.origin()).lpNorm<1>() + radius_);
-}
-
-/// At least distance_error(bounds_, center), and quicker to have: twice what it would be if the frame's
-/// origin were not rounded.
-double SphereTree::error_from(double slack) noexcept { return 2 * slack; }
 
 /// No triangle is nearer than this: neither those shown, the nearest of which is at `shown`, nor those
 /// unseen.
@@ -168,7 +168,7 @@ double SphereTree::free_within(float unseen, double shown, double slack) const n
 [[gnu::always_inline]] inline bool SphereTree::is_far(const FilterPoint& point, const Vec3& center,
                                                       double reach, double slack,
                                                       Memory& memory) const noexcept {
-  const double free = distances_.at_least(point) * unit_ - slack;
+  const double free = distances_.at_least(point) * frame_.unit() - slack;
   if (!(free > reach)) return false;
   memory.center = center;
   memory.free = free;
@@ -232,19 +232,24 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
   const double radius = probe.radius;
   if (!(radius >= 0)) return false;
   claim(memory);
-  if (!can_search(center)) return nearest_without(center, radius, work).has_value();
-  const double rounding = slack(center), error = error_from(rounding);
-  const double moved = (center - memory.center).norm();
+  const FilterPoint point = frame_.point(center);
+  if (!can_search(point)) return nearest_without(center, radius, work).has_value();
+  const double error = frame_.kernel_error(point.tau), rounding = slack_from(error);
+  const double moved = memory.nearest < infinity ? (center - memory.center).norm() : infinity;
   if ((memory.nearest + moved) * (1 + 0x1p-40) + rounding <= radius) return true;
-  TouchVisitor visitor{parts_, center,     radius,
-                       error,  certified_, frame_.limit((radius + error) * (radius + error))};
+  // It is still near what it touched, unless it came from elsewhere.
+  const bool near = std::abs(memory.nearest - moved) <= radius;
+  TouchVisitor visitor{parts_, center, radius, error, certified_};
+  if (near) show(memory.last, visitor);
   float unseen = 0;
-  if (memory.nearest - moved <= radius) show(memory.last, visitor);
   if (visitor.kept_at == nowhere) {
-    const FilterPoint point = frame_.point(center);
     if (is_far(point, center, radius, rounding, memory) ||
-        (samples_later_ && is_far_once_sampled(point, center, radius, rounding, memory, work)))
+        (samples_later_ && is_far_once_sampled(point, center, radius, rounding, memory, work))) {
+      if (near) work += visitor.work;
       return false;
+    }
+    visitor.limit = frame_.limit((radius + error) * (radius + error));
+    visitor.height = frame_.at_most(radius - error) - 2 * point.tau;
     unseen = descend(point, visitor, most_work());
   }
   work += visitor.work;
@@ -266,22 +271,21 @@ std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Mem
                                            bool* gives_up) const noexcept {
   if (!(reach >= 0)) return std::nullopt;
   claim(memory);
-  if (!can_search(center)) return nearest_without(center, reach, work);
-  const double rounding = slack(center);
   const FilterPoint point = frame_.point(center);
+  if (!can_search(point)) return nearest_without(center, reach, work);
+  const double error = frame_.kernel_error(point.tau), rounding = slack_from(error);
   const double moved = memory.nearest < infinity ? (center - memory.center).norm() : infinity;
   const bool near = moved <= farthest_in_grains * grain_ && memory.nearest + moved <= reach;
   if (!near && (is_far(point, center, reach, rounding, memory) ||
                 (samples_later_ && is_far_once_sampled(point, center, reach, rounding, memory, work))))
     return std::nullopt;
-  const double error = error_from(rounding);
   NearestVisitor visitor(parts_, frame_, center, frame_.limit((reach + error) * (reach + error)), error);
   float unseen = 0;
   if (near) {
     show(memory.last, visitor);
     unseen = search_near(point, visitor, memory, most_work());
   } else {
-    const double most = distances_.at_most(point) * unit_;
+    const double most = distances_.at_most(point) * frame_.unit();
     if (most < reach) visitor.limit = frame_.limit((most + error) * (most + error));
     unseen = descend(point, visitor, most_work());
   }

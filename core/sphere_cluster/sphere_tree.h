@@ -75,9 +75,13 @@ class SphereTree {
  private:
   TriangleId id(std::uint32_t index) const noexcept { return ids_.empty() ? index : ids_[index]; }
   bool can_search(const Vec3& center) const noexcept { return searchable_ && frame_.covers(center); }
-  void claim(Memory& memory) const noexcept;
-  double slack(const Vec3& center) const noexcept;
-  static double error_from(double slack) noexcept;
+  bool can_search(const FilterPoint& point) const noexcept {
+    return searchable_ && FilterFrame::covers(point);
+  }
+  void claim(Memory& memory) const noexcept {
+    if (memory.tree != number_) start_anew(memory);
+  }
+  void start_anew(Memory& memory) const noexcept;
   double free_within(float unseen, double shown, double slack) const noexcept;
   bool is_far(const FilterPoint& point, const Vec3& center, double reach, double slack,
               Memory& memory) const noexcept;
@@ -128,7 +132,6 @@ class SphereTree {
   FilterFrame frame_;
   bool certified_ = true;
   double radius_ = 0;  ///< of a ball about the frame's origin that holds the mesh
-  double unit_ = 1;    ///< of the frame, in mesh units
   double grain_ = 0;   ///< the mean radius of a block
   spheres::TreeParts parts_;
   bool samples_later_ = false;

@@ -68,7 +68,7 @@ bool SphereTree::update(const TriangleMesh& mesh) {
   if (!searchable_ || !FilterFrame::fits(mesh.bounds()) || !frame_.widen(mesh.bounds())) return false;
   renew();
   bounds_ = mesh.bounds();
-  radius_ = frame_.radius() * unit_;
+  radius_ = frame_.radius() * frame_.unit();
   const spheres::MovedTriangles moved = spheres::refit_tree(parts_, mesh, frame_);
   if (moved.count == 0) return true;
   measure_grain();

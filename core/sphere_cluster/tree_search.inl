@@ -75,6 +75,19 @@ inline Wide corner_bounds(const TriangleBlock& block, std::size_t at, const Poin
   return height * height + across * corner_rounding;
 }
 
+/// Those of a block's triangles over whose face the point surely is, at most so high: with room for rounding
+/// (tau), that bounds the distance from above.
+inline unsigned surely_under(const TriangleBlock& block, float height, const Point& p) noexcept {
+  unsigned under = 0;
+  for (std::size_t at = 0; at < tree_width; at += lanes) {
+    const Wide face = planes_at(block, 0, at, p).value;
+    const Wide side = larger(planes_at(block, 1, at, p).value,
+                             larger(planes_at(block, 2, at, p).value, planes_at(block, 3, at, p).value));
+    under |= bits_of((larger(face, -face) <= height) & (side <= -p.tau)) << at;
+  }
+  return under;
+}
+
 inline Point spread(const FilterPoint& p) noexcept {
   return {Wide{} + p.x, Wide{} + p.y, Wide{} + p.z, Wide{} + p.tau};
 }
@@ -159,6 +172,13 @@ float descend(const TreeParts& tree, const FilterPoint& point, std::uint64_t mos
     const std::uint32_t index = next.ref.index();
     if (next.ref.is_block()) {
       const TriangleBlock& block = tree.blocks[index];
+      if constexpr (requires { visitor.height; }) {
+        if (unsigned under = surely_under(block, visitor.height, p); under != 0) {
+          visitor.work.triangles += tree_width;
+          visitor.take_under(index * tree_width + take(under));
+          break;
+        }
+      }
       const bool far = visitor.limit > tree.far;
       alignas(64) std::array<float, tree_width> bound;
       unsigned near = within(

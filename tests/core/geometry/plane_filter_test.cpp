@@ -56,6 +56,48 @@ TEST(PlaneFilter, BoundsTheDistanceFromBelowWhateverTheTriangleAndTheScale) {
   }
 }
 
+TEST(PlaneFilter, BoundsTheDistanceOverAFaceFromAboveWhateverTheTriangleAndTheScale) {
+  Random random(3);
+  int over = 0;
+  for (const double scale : {1e-35, 1e-6, 1.0, 1e6, 1e50}) {
+    for (const double thickness : {1.0, 1e-3, 1e-5, 1e-7, 1e-9}) {
+      for (int round = 0; round < 400; ++round) {
+        const Vec3 shift = random.point(round % 2 == 0 ? 0 : 1e3 * scale);
+        const Vec3 a = random.point(scale), along = random.point(scale),
+                   aside = thickness * random.point(scale);
+        const PreparedTriangle triangle =
+            prepare(a + shift, a + along + shift, a + 0.7 * along + aside + shift, 0);
+        ASSERT_TRUE(FilterFrame::fits(box_of(triangle)));
+        const FilterFrame frame = FilterFrame::around(box_of(triangle));
+        const Vec3 center = triangle.corner[0] + 0.6 * along + 0.4 * aside +
+                            (round % 3 == 0 ? 1.0 : 1e-3) * random.point(scale);
+        const FilterPoint point = frame.point(center);
+        const Lanes values = plane_values(planes_of(triangle, frame), point);
+        const double most = frame.at_least(most_over_face(values, point));
+        const double distance = std::sqrt(squared_distance(triangle, center));
+        if (std::isfinite(most)) ++over;
+        ASSERT_GE(most, distance) << scale << ' ' << thickness << ' ' << round;
+        ASSERT_LE(frame.squared(least_squared(values, point)), distance * distance);
+      }
+    }
+  }
+  EXPECT_GT(over, 1000);
+}
+
+TEST(PlaneFilter, IsTheHeightOverAFaceAndNothingBesideIt) {
+  const PreparedTriangle triangle = prepare({0, 0, 0}, {4, 0, 0}, {0, 4, 0}, 0);
+  const FilterFrame frame = FilterFrame::around(box_of(triangle));
+  const TrianglePlanes planes = planes_of(triangle, frame);
+  const auto most = [&](const Vec3& center) {
+    const FilterPoint point = frame.point(center);
+    return frame.at_least(most_over_face(plane_values(planes, point), point));
+  };
+  EXPECT_NEAR(most({1, 1, 3}), 3, 1e-4);
+  EXPECT_NEAR(most({1, 1, -3}), 3, 1e-4);
+  EXPECT_TRUE(std::isinf(most({2, -0.1, 3})));
+  EXPECT_TRUE(std::isinf(most({3, 3, 3})));
+}
+
 TEST(PlaneFilter, IsTheDistanceOverTheFaceAndBesideASide) {
   const PreparedTriangle triangle = prepare({0, 0, 0}, {4, 0, 0}, {0, 4, 0}, 0);
   const FilterFrame frame = FilterFrame::around(box_of(triangle));
@@ -112,8 +154,23 @@ TEST(PlaneFilter, CoversNeitherInfinityNorNaN) {
     for (const double bad : {infinity, -infinity, std::nan(""), 1e9, 1e308}) {
       center[k] = bad;
       EXPECT_FALSE(frame.covers(center)) << bad;
+      EXPECT_FALSE(FilterFrame::covers(frame.point(center))) << bad;
     }
   }
+}
+
+TEST(PlaneFilter, CoversAPointOfItsFrameOnlyIfItCoversThePoint) {
+  Random random(4);
+  const FilterFrame frame = FilterFrame::around({{5, 5, 5}, {6, 7, 8}});
+  int covered = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 center = random.point(std::ldexp(1.0, 15 + i % 8));
+    if (!FilterFrame::covers(frame.point(center))) continue;
+    ++covered;
+    ASSERT_TRUE(frame.covers(center)) << center.transpose();
+  }
+  EXPECT_GT(covered, 500);
+  EXPECT_LT(covered, 2000);
 }
 
 TEST(PlaneFilter, FitsNoBoxWhoseSquaresOverflowOrVanish) {

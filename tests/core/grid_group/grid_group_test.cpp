@@ -72,6 +72,29 @@ TEST(GridGroup, FindsWhatIsBarelyWithinReachOfAFreshSession) {
   }
 }
 
+// A touch ends at any triangle within the radius; what a session remembers of it is no bound of the nearest.
+TEST(GridGroup, ATouchTellsNothingOfWhatIsNearerThanWhatItFound) {
+  testing::Random random(12);
+  for (const TriangleMesh& mesh : {icosphere(5), testing::soup(3000, 0.05, 2), testing::one_spans_all()}) {
+    const GridGroup detector = GridGroup::build(mesh);
+    const BruteForce brute = BruteForce::build(mesh, {});
+    GridGroup::Session session;
+    for (int i = 0; i < 1500; ++i) {
+      const Vec3 center = random.point(i % 3 == 0 ? 3 : 1.3);
+      BruteForce::Session measured;
+      const auto contact = brute.nearest({center, 0}, infinity, measured);
+      const double distance = contact->distance;
+      ASSERT_TRUE(detector.touches({center, 3 * distance + 0.1}, session)) << center.transpose();
+      ASSERT_TRUE(detector.touches({center, distance * (1 + 1e-9)}, session)) << center.transpose();
+      ASSERT_FALSE(detector.touches({center, distance * (1 - 1e-9)}, session)) << center.transpose();
+      ASSERT_TRUE(detector.touches({center, 2 * distance}, session)) << center.transpose();
+      const auto nearest = detector.nearest({center, 0}, 1.5 * distance, session);
+      ASSERT_TRUE(nearest) << center.transpose();
+      ASSERT_EQ(nearest->distance, distance) << center.transpose();
+    }
+  }
+}
+
 TEST(GridGroup, FindsTheNearestFromFarAwayWithoutLimit) {
   for (const Options& options : forms(0)) {
     const GridGroup detector = GridGroup::build(icosphere(3), options);

@@ -150,6 +150,29 @@ TEST(SphereCluster, AMissedTouchLeavesNoMoreFreeSpaceThanThereIs) {
   }
 }
 
+// A touch ends at any triangle within the radius; what a session remembers of it is no bound of the nearest.
+TEST(SphereCluster, ATouchTellsNothingOfWhatIsNearerThanWhatItFound) {
+  test::Random random(59);
+  for (const TriangleMesh& mesh : {test::bumpy_sphere(40, 0.01, 7), test::soup(3000, 0.05, 2)}) {
+    const BruteForce brute = BruteForce::build(mesh, {});
+    for (const auto& options : exact_forms(1)) {
+      const SphereCluster detector = SphereCluster::build(mesh, options);
+      SphereCluster::Session session;
+      for (int i = 0; i < 500; ++i) {
+        const Vec3 center = random.vector(i % 3 == 0 ? 3 : 1.3);
+        BruteForce::Session measured;
+        const auto contact = brute.nearest({center, 0}, infinity, measured);
+        const double distance = contact->distance;
+        ASSERT_TRUE(detector.touches({center, 3 * distance + 0.1}, session)) << center.transpose();
+        ASSERT_TRUE(detector.touches({center, distance * (1 + 1e-9)}, session)) << center.transpose();
+        ASSERT_FALSE(detector.touches({center, distance * (1 - 1e-9)}, session)) << center.transpose();
+        ASSERT_TRUE(detector.touches({center, 2 * distance}, session)) << center.transpose();
+        expect_same(detector.nearest({center, 0}, 1.5 * distance, session), contact);
+      }
+    }
+  }
+}
+
 TEST(SphereCluster, EqualsBruteForceWhereMoreIsNearThanASessionRemembers) {
   // About the centre of a sphere all of its triangles are equally near, but for the bumps.
   for (const double noise : {0.0, 1e-3}) {

@@ -60,6 +60,28 @@ TEST_P(TriangleBounds, NeverExceedTheDistance) {
   }
 }
 
+TEST_P(TriangleBounds, PutNoPointUnderAFaceThatIsFartherAway) {
+  HardCases hard(91);
+  int under = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const HardCase c = placed(GetParam(), hard, i);
+    const Alone alone(c.triangle);
+    if (!alone.fits || !alone.frame.covers(c.point)) continue;
+    const FilterPoint point = alone.frame.point(c.point);
+    const double distance = std::sqrt(squared_distance(alone.triangle, c.point));
+    const auto is_under = [&](double radius) {
+      return (portable::surely_under(alone.block, alone.frame.at_most(radius) - 2 * point.tau,
+                                     portable::spread(point)) &
+              1) != 0;
+    };
+    ASSERT_FALSE(is_under(distance - alone.frame.kernel_error(point.tau))) << i;
+    if (is_under(1.01 * distance)) ++under;
+  }
+  if (GetParam().name == "plain") {
+    EXPECT_GT(under, 100);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Families, TriangleBounds, testing::ValuesIn(hard_families()),
                          [](const auto& family) { return family.param.name; });
 
