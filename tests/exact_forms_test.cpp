@@ -126,6 +126,10 @@ TEST_P(ExactForms, AreRightAndAgreeOnHardMeshes) {
   ask_touches("touches at the very distance", [&](std::size_t i) { return distance[i]; });
   ask_touches("touches an ulp short of it", [&](std::size_t i) { return std::nextafter(distance[i], 0); });
   ask_touches("touches an ulp beyond", [&](std::size_t i) { return std::nextafter(distance[i], infinity); });
+  // Where a bound from above that is not quite one shows.
+  ask_touches("touches a little short of it", [&](std::size_t i) {
+    return distance[i] * (1 - std::ldexp(1.0, -4 - static_cast<int>(i % 24)));
+  });
   // A touch that was content with what is within a large radius says nothing of what is within a small one.
   std::vector<Step> ever_smaller;
   for (std::size_t i = 0; i < centers.size(); ++i) {
@@ -213,6 +217,36 @@ TEST(ExactFormsBelowZero, TouchNothing) {
         for (const Answer& answer : ask(*form.detector, query, steps_at(centers, constant, constant)))
           EXPECT_EQ(answer.found, 0) << form.name << ", " << length;
     }
+  }
+}
+
+/// Bounds of the distance from above take sides for what their directions say, of which a short side has
+/// little.
+TEST(ExactFormsOnNeedles, TouchNothingALittleFartherThanTheRadius) {
+  struct Case {
+    HardCases::Corners corners;
+    Vec3 center;
+  };
+  const Case cases[] = {{{Vec3(0.96277979036287736, -0.42130004640573082, -0.4803880511554004),
+                          Vec3(-0.19580607093100308, 0.77398841641366889, -0.44194093543785484),
+                          Vec3(-0.19580607093100211, 0.77398841641366811, -0.44194093543785518)},
+                         Vec3(-2.0964956311259102, 3.9336432422773036, 0.41131590918623545)},
+                        {{Vec3(0.5885329697541779, -0.31224681824390799, 0.23695943493873806),
+                          Vec3(-0.86592463221215077, -0.18690868540204142, -0.36329985500603978),
+                          Vec3(0.5885329697541789, -0.31224681824390843, 0.23695943493873869)},
+                         Vec3(-14505.668675317911, 16617.033499429657, -12533.356383146722)},
+                        {{Vec3(-0.46699021822709286, -0.44853744387802408, -0.96018978951631562),
+                          Vec3(-0.46699021822709252, -0.44853744387802569, -0.96018978951631651),
+                          Vec3(0.66443035193545552, 0.61153190905154875, -0.24094348519444586)},
+                         Vec3(-1.6141780966449399, -1.638629646414707, -2.5125177160940027)}};
+  for (const auto& [corners, center] : cases) {
+    Examination examination(mesh_of({corners}));
+    std::vector<Step> steps;
+    for (double short_of_it = 0x1p-40; short_of_it < 0.5; short_of_it *= 2) {
+      steps.push_back({{corners[0], 0}, 0});  // to know of no free space
+      steps.push_back({{center, examination.oracle().solve(center).high * (1 - short_of_it)}, 0});
+    }
+    examination.ask_all("touches", Query::touches, steps);
   }
 }
 

@@ -32,6 +32,14 @@ bool FilterFrame::widen(const Aabb& bounds) noexcept {
   return true;
 }
 
+namespace {
+
+/// In the frame, whose coordinates are below 2: their roundings, 2^-53 of a corner's, turn a side as long as
+/// this by u / 2 at most.
+constexpr double shortest_side = 0x1p-26;
+
+}  // namespace
+
 TrianglePlanes planes_of(const PreparedTriangle& triangle, const FilterFrame& frame) noexcept {
   TrianglePlanes planes{};
   if (triangle.normal.isZero(0)) return planes;
@@ -48,7 +56,7 @@ TrianglePlanes planes_of(const PreparedTriangle& triangle, const FilterFrame& fr
     const Vec3 side = v[(i + 1) % 3] - v[i];
     const double length = side.norm();
     // A side too short for a direction bounds nothing: the other sides and the face still do.
-    if (!(length > 0)) {
+    if (!(length > shortest_side)) {
       place(static_cast<int>(i) + 1, Vec3::Zero(), 0);
       continue;
     }

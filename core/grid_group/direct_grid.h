@@ -33,6 +33,8 @@ struct DirectMemory {
   /// distance changes by the displacement at most.
   double lower = 0, upper = std::numeric_limits<double>::infinity();
 
+  /// Was a triangle near?
+  bool is_near() const noexcept { return upper < std::numeric_limits<double>::infinity(); }
   /// Is this place certainly less than that far from the centre? With room for the rounding of a displacement
   /// and of what is compared with it.
   bool moved_less(const Vec3& to, double by) const noexcept {
@@ -78,6 +80,21 @@ class DirectGrid {
     std::uint32_t place = 0;
     const Group* group = nullptr;  ///< of that place, if it serves the point
   };
+  void claim(DirectMemory& memory) const noexcept {
+    if (memory.owner == serial_) return;
+    memory = DirectMemory();
+    memory.owner = serial_;
+  }
+  /// Is nothing within reach, by what was sampled? Few bytes, which stay in the cache: what is far needs no
+  /// cell. The kernel's rounding is a 2^24th of what at_least leaves for that of single precision.
+  bool is_far(const Vec3& center, const FilterPoint& point, double reach,
+              DirectMemory& memory) const noexcept {
+    const double least = static_cast<double>(distances_.at_least(point)) * store_.frame.unit();
+    if (!(least > reach)) return false;
+    remember(center, point.tau, least, std::numeric_limits<double>::infinity(), memory);
+    return true;
+  }
+  /// What was near is still asked about first; where nothing was, is_far is to be asked before.
   Start start_at(const Vec3& center, const FilterPoint& point, double reach, DirectMemory& memory,
                  Work& work) const noexcept;
   /// The group of the triangle in this place if it serves the point.
@@ -88,10 +105,11 @@ class DirectGrid {
     const Group& group = groups_.of(place);
     return group.serves(plane_values(store_.planes[place], point), point.tau) ? &group : nullptr;
   }
-  /// At least the distance to the triangle in this place, where the point is over its face; else infinity.
+  /// At least the distance to the triangle in this place, or infinity.
   double most_to(std::uint32_t place, const FilterPoint& point, Work& work) const noexcept {
     ++work.triangles;
-    return store_.frame.at_least(most_over_face(plane_values(store_.planes[place], point), point));
+    const TrianglePlanes& planes = store_.planes[place];
+    return store_.frame.at_least(most_distance(planes, plane_values(planes, point), point));
   }
   /// The nearest triangle, or none when nothing is within reach. One that is found may still be beyond it, by
   /// a rounding of the filter; then `squared_lower` bounds the squared distance to all. To `touch`, any
@@ -119,7 +137,14 @@ class DirectGrid {
   void grow_one(std::uint32_t near, std::uint32_t start, const Vec3& center, Work& work) const noexcept;
   void make_group(std::uint32_t place, Work& work) const noexcept;
   void remember(const Vec3& center, float tau, double lower, double upper,
-                DirectMemory& memory) const noexcept;
+                DirectMemory& memory) const noexcept {
+    // Twice culling_slack, for the kernel's error here: tau is 2^-21 of a length above the largest
+    // difference. What the error grows by elsewhere goes with the displacement and is in moved_less.
+    const double slack = static_cast<double>(tau) * (0x1p-24 * (1 + 0x1p-20)) * store_.frame.unit();
+    memory.center = center;
+    memory.lower = lower - slack;
+    memory.upper = upper + slack;
+  }
 
   /// For probes so far away that single precision tells the triangles no longer apart.
   std::optional<Contact> far_nearest(const Vec3& center, double reach, Work& work) const noexcept;

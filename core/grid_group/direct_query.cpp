@@ -47,35 +47,10 @@ bool for_each_near(const TriangleStore& store, const BoxTree& tree, const Vec3& 
 
 }  // namespace
 
-void DirectGrid::remember(const Vec3& center, float tau, double lower, double upper,
-                          DirectMemory& memory) const noexcept {
-  // Twice culling_slack, for the kernel's error here: tau is 2^-21 of a length above the largest difference.
-  // What the error grows by elsewhere goes with the displacement and is in moved_less.
-  const double slack = static_cast<double>(tau) * (0x1p-24 * (1 + 0x1p-20)) * store_.frame.unit();
-  memory.center = center;
-  memory.lower = lower - slack;
-  memory.upper = upper + slack;
-}
-
 DirectGrid::Start DirectGrid::start_at(const Vec3& center, const FilterPoint& point, double reach,
                                        DirectMemory& memory, Work& work) const noexcept {
-  const bool knows_place = memory.owner == serial_;
-  if (!knows_place) {
-    memory = DirectMemory();
-    memory.owner = serial_;
-  }
-  const auto serving_again = [&] { return knows_place ? serving(memory.place, point, work) : nullptr; };
-  const bool was_near = memory.upper < infinity;
-  if (was_near)
-    if (const Group* group = serving_again()) return {false, memory.place, group};
-  if (!distances_.empty()) {
-    // Few bytes, which stay in the cache: what is far needs no cell.
-    remember(center, point.tau, static_cast<double>(distances_.at_least(point)) * store_.frame.unit(),
-             infinity, memory);
-    if (memory.lower > reach) return {true, memory.place, nullptr};
-  }
-  if (!was_near)
-    if (const Group* group = serving_again()) return {false, memory.place, group};
+  if (const Group* group = serving(memory.place, point, work)) return {false, memory.place, group};
+  if (memory.is_near() && is_far(center, point, reach, memory)) return {true, memory.place, nullptr};
   const Vec3 in_frame = store_.frame.to_frame(center);
   if (!cells_.holds(in_frame)) {
     remember(center, point.tau, std::sqrt(bounds_.squared_distance(center)), infinity, memory);
@@ -101,7 +76,7 @@ DirectGrid::Located DirectGrid::locate(const Vec3& center, const FilterPoint& po
     located.within = most_to(place, point, work);
     return located.within < enough;
   };
-  if (memory.owner == serial_ && memory.upper < infinity && does(memory.place)) return located;
+  if (memory.is_near() && does(memory.place)) return located;
   const Vec3 before = memory.center;
   Start start = start_at(center, point, reach, memory, work);
   if (start.beyond) return {};
@@ -155,7 +130,12 @@ bool DirectGrid::touches(const Probe& probe, DirectMemory& memory, Work& work) c
   if (!(probe.radius >= 0)) return false;
   const FilterPoint point = store_.frame.point(probe.center);
   if (!FilterFrame::covers(point)) return far_nearest(probe.center, probe.radius, work).has_value();
-  if (memory.owner == serial_ && memory.moved_less(probe.center, probe.radius - memory.upper)) return true;
+  claim(memory);
+  if (!memory.is_near()) {
+    if (is_far(probe.center, point, probe.radius, memory)) return false;
+  } else if (memory.moved_less(probe.center, probe.radius - memory.upper)) {
+    return true;
+  }
   const Located located = locate<Sought::touch>(probe.center, point, probe.radius, memory, work);
   if (located.gave_up) return all().touches(probe, work);
   if (located.within < probe.radius) {
@@ -178,6 +158,8 @@ std::optional<Contact> DirectGrid::nearest(const Vec3& center, double reach, Dir
   if (!(reach >= 0)) return std::nullopt;
   const FilterPoint point = store_.frame.point(center);
   if (!FilterFrame::covers(point)) return far_nearest(center, reach, work);
+  claim(memory);
+  if (!memory.is_near() && is_far(center, point, reach, memory)) return std::nullopt;
   const Located located = locate<Sought::contact>(center, point, reach, memory, work);
   if (located.gave_up) return all().nearest(center, reach, work);
   if (located.triangle == nullptr) return std::nullopt;

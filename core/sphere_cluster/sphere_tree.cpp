@@ -58,7 +58,7 @@ struct TouchVisitor {
   double error;  ///< of a computed distance
   bool certified;
   float limit = -1;
-  float height = -1;  ///< over its face, at which a triangle is surely within the radius
+  float enough = -1;  ///< in the tree's frame: a triangle no farther is surely within the radius
   Work work{};
   double least = std::numeric_limits<double>::infinity();  ///< distance of the one kept, else of those shown
   std::uint32_t kept_at = nowhere;
@@ -73,7 +73,7 @@ struct TouchVisitor {
     if (!within) return;
     keep(at, distance);
   }
-  void take_under(std::uint32_t at) noexcept { keep(at, radius); }
+  void take_within(std::uint32_t at) noexcept { keep(at, radius); }
 
  private:
   void keep(std::uint32_t at, double distance) noexcept {
@@ -108,11 +108,6 @@ struct FetchVisitor {
   bool wants(std::uint32_t) const noexcept { return false; }
   void take(std::uint32_t, const Offset&) const noexcept {}
 };
-
-/// What the kernel's rounding may do, here and wherever `free` is going to be used: it grows with the way
-/// there, which is at most `free` itself, so a relative 2^-40 of that does for the rest. `error`: of a
-/// computed distance.
-double slack_from(double error) noexcept { return 0.5 * error; }
 
 /// Tells the memories of different trees apart, also where one took another's place in memory. From 1.
 std::uint64_t next_number() noexcept {
@@ -164,11 +159,17 @@ double SphereTree::free_within(float unseen, double shown, double slack) const n
   return std::min(std::sqrt(frame_.squared(unseen)), shown * (1 - 0x1p-40)) - slack;
 }
 
-/// The same by what was sampled, which then is what is known of the place.
+/// What the kernel's rounding may do, here and wherever `free` is going to be used: it grows with the way
+/// there, which is at most `free` itself, so a relative 2^-40 of that does for the rest.
+double SphereTree::slack_at(const FilterPoint& point) const noexcept {
+  return 0.5 * frame_.kernel_error(point.tau);
+}
+
+/// The same by what was sampled, which then is what is known of the place. The kernel's rounding is a 2^24th
+/// of what at_least leaves for that of single precision.
 [[gnu::always_inline]] inline bool SphereTree::is_far(const FilterPoint& point, const Vec3& center,
-                                                      double reach, double slack,
-                                                      Memory& memory) const noexcept {
-  const double free = distances_.at_least(point) * frame_.unit() - slack;
+                                                      double reach, Memory& memory) const noexcept {
+  const double free = static_cast<double>(distances_.at_least(point)) * frame_.unit();
   if (!(free > reach)) return false;
   memory.center = center;
   memory.free = free;
@@ -177,7 +178,7 @@ double SphereTree::free_within(float unseen, double shown, double slack) const n
 }
 
 /// And when the place has its samples, two at most.
-bool SphereTree::is_far_once_sampled(const FilterPoint& point, const Vec3& center, double reach, double slack,
+bool SphereTree::is_far_once_sampled(const FilterPoint& point, const Vec3& center, double reach,
                                      Memory& memory, Work& work) const noexcept {
   // With a reach as long as the mesh no sample helps.
   if (!(reach < radius_)) return false;
@@ -186,7 +187,7 @@ bool SphereTree::is_far_once_sampled(const FilterPoint& point, const Vec3& cente
   while (!is_known_far && distances_.sample_near(point, [&](const Vec3& place, double most) {
     return sample(place, most, sampling);
   }))
-    is_known_far = is_far(point, center, reach, slack, memory);
+    is_known_far = is_far(point, center, reach, memory);
   work += sampling.work;
   return is_known_far;
 }
@@ -234,37 +235,51 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
   claim(memory);
   const FilterPoint point = frame_.point(center);
   if (!can_search(point)) return nearest_without(center, radius, work).has_value();
-  const double error = frame_.kernel_error(point.tau), rounding = slack_from(error);
-  const double moved = memory.nearest < infinity ? (center - memory.center).norm() : infinity;
-  if ((memory.nearest + moved) * (1 + 0x1p-40) + rounding <= radius) return true;
-  // It is still near what it touched, unless it came from elsewhere.
-  const bool near = std::abs(memory.nearest - moved) <= radius;
-  TouchVisitor visitor{parts_, center, radius, error, certified_};
-  if (near) show(memory.last, visitor);
-  float unseen = 0;
-  if (visitor.kept_at == nowhere) {
-    if (is_far(point, center, radius, rounding, memory) ||
-        (samples_later_ && is_far_once_sampled(point, center, radius, rounding, memory, work))) {
-      if (near) work += visitor.work;
-      return false;
+  if (memory.nearest < infinity) {
+    const double moved = (center - memory.center).norm();
+    if ((memory.nearest + moved) * (1 + 0x1p-40) + slack_at(point) <= radius) return true;
+    // It is still near what it touched, unless it came from elsewhere.
+    if (std::abs(memory.nearest - moved) <= radius) {
+      TouchVisitor visitor{parts_, center, radius, frame_.kernel_error(point.tau), certified_};
+      show(memory.last, visitor);
+      work += visitor.work;
+      if (visitor.kept_at != nowhere) {
+        keep_touch(visitor.least, memory.last, center, memory);
+        return true;
+      }
     }
-    visitor.limit = frame_.limit((radius + error) * (radius + error));
-    visitor.height = frame_.at_most(radius - error) - 2 * point.tau;
-    unseen = descend(point, visitor, most_work());
   }
+  if (is_far(point, center, radius, memory) ||
+      (samples_later_ && is_far_once_sampled(point, center, radius, memory, work)))
+    return false;
+  const double error = frame_.kernel_error(point.tau);
+  TouchVisitor visitor{parts_, center, radius, error, certified_};
+  visitor.limit = frame_.limit((radius + error) * (radius + error));
+  visitor.enough = frame_.at_most(radius - error);
+  const float unseen = descend(point, visitor, most_work());
   work += visitor.work;
   if (unseen == spheres::gave_up) {
     memory.free = -1;
     memory.nearest = infinity;
     return all().touches(probe, work);
   }
-  const bool touching = visitor.kept_at != nowhere;
+  if (visitor.kept_at != nowhere) {
+    keep_touch(visitor.least, visitor.kept_at, center, memory);
+    return true;
+  }
   memory.move = Vec3::Constant(infinity);
   memory.center = center;
-  memory.free = touching ? -1 : free_within(unseen, visitor.least, rounding);
-  memory.nearest = touching ? visitor.least : std::numeric_limits<double>::infinity();
-  if (touching) memory.last = visitor.kept_at;
-  return touching;
+  memory.free = free_within(unseen, visitor.least, slack_at(point));
+  memory.nearest = infinity;
+  return false;
+}
+
+void SphereTree::keep_touch(double distance, std::uint32_t at, const Vec3& center, Memory& memory) noexcept {
+  memory.move = Vec3::Constant(infinity);
+  memory.center = center;
+  memory.free = -1;
+  memory.nearest = distance;
+  memory.last = at;
 }
 
 std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Memory& memory, Work& work,
@@ -273,12 +288,15 @@ std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Mem
   claim(memory);
   const FilterPoint point = frame_.point(center);
   if (!can_search(point)) return nearest_without(center, reach, work);
-  const double error = frame_.kernel_error(point.tau), rounding = slack_from(error);
-  const double moved = memory.nearest < infinity ? (center - memory.center).norm() : infinity;
-  const bool near = moved <= farthest_in_grains * grain_ && memory.nearest + moved <= reach;
-  if (!near && (is_far(point, center, reach, rounding, memory) ||
-                (samples_later_ && is_far_once_sampled(point, center, reach, rounding, memory, work))))
+  bool near = false;
+  if (memory.nearest < infinity) {
+    const double moved = (center - memory.center).norm();
+    near = moved <= farthest_in_grains * grain_ && memory.nearest + moved <= reach;
+  }
+  if (!near && (is_far(point, center, reach, memory) ||
+                (samples_later_ && is_far_once_sampled(point, center, reach, memory, work))))
     return std::nullopt;
+  const double error = frame_.kernel_error(point.tau);
   NearestVisitor visitor(parts_, frame_, center, frame_.limit((reach + error) * (reach + error)), error);
   float unseen = 0;
   if (near) {
@@ -303,7 +321,7 @@ std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Mem
   memory.center = center;
   memory.nearest = distance;
   memory.last = so_far.at();
-  memory.free = free_within(unseen, distance, rounding);
+  memory.free = free_within(unseen, distance, slack_at(point));
   work += visitor.work;
   if (!so_far.found()) return std::nullopt;
   if (certified_ &&

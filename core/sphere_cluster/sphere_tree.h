@@ -82,11 +82,12 @@ class SphereTree {
     if (memory.tree != number_) start_anew(memory);
   }
   void start_anew(Memory& memory) const noexcept;
+  double slack_at(const FilterPoint& point) const noexcept;
   double free_within(float unseen, double shown, double slack) const noexcept;
-  bool is_far(const FilterPoint& point, const Vec3& center, double reach, double slack,
-              Memory& memory) const noexcept;
+  bool is_far(const FilterPoint& point, const Vec3& center, double reach, Memory& memory) const noexcept;
   [[gnu::noinline]] bool is_far_once_sampled(const FilterPoint& point, const Vec3& center, double reach,
-                                             double slack, Memory& memory, Work& work) const noexcept;
+                                             Memory& memory, Work& work) const noexcept;
+  static void keep_touch(double distance, std::uint32_t at, const Vec3& center, Memory& memory) noexcept;
   /// From a point of the mesh's frame to another, in the tree's, at least.
   float way(const Vec3& from, const Vec3& to, const FilterPoint& at) const noexcept;
 

@@ -75,17 +75,29 @@ inline Wide corner_bounds(const TriangleBlock& block, std::size_t at, const Poin
   return height * height + across * corner_rounding;
 }
 
-/// Those of a block's triangles over whose face the point surely is, at most so high: with room for rounding
-/// (tau), that bounds the distance from above.
-inline unsigned surely_under(const TriangleBlock& block, float height, const Point& p) noexcept {
-  unsigned under = 0;
+/// Those of a block's triangles that are surely within a distance, as most_distance of core/geometry/plane_filter.h
+/// tells.
+inline unsigned surely_within(const TriangleBlock& block, float distance, const Point& p) noexcept {
+  unsigned near = 0;
   for (std::size_t at = 0; at < tree_width; at += lanes) {
     const Wide face = planes_at(block, 0, at, p).value;
-    const Wide side = larger(planes_at(block, 1, at, p).value,
-                             larger(planes_at(block, 2, at, p).value, planes_at(block, 3, at, p).value));
-    under |= bits_of((larger(face, -face) <= height) & (side <= -p.tau)) << at;
+    const Wide height = larger(face, -face);
+    std::array<Planes, 3> side;
+    for (std::size_t i = 0; i < 3; ++i) side[i] = planes_at(block, i + 1, at, p);
+    const Wide beside = larger(side[0].value, larger(side[1].value, side[2].value));
+    WideBits found = (height <= distance - 2 * p.tau) & (beside <= -p.tau);
+    const Wide room = distance - corner_tau * p.tau;
+    const Wide most = room > 0 ? room * room - height * height : Wide{} - 1;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = i == 2 ? 0 : i + 1;
+      const Wide s = side[i].value, t = side[j].value;
+      const Wide cosine = side[i].x * side[j].x + side[i].y * side[j].y + side[i].z * side[j].z;
+      const Wide squared = (s * s + t * t) - (cosine + cosine) * (s * t);
+      found |= (squared * corner_excess <= most * (1 - cosine * cosine)) & (cosine < 0) & (cosine > sharpest_cosine);
+    }
+    near |= bits_of(found) << at;
   }
-  return under;
+  return near;
 }
 
 inline Point spread(const FilterPoint& p) noexcept {
@@ -172,13 +184,6 @@ float descend(const TreeParts& tree, const FilterPoint& point, std::uint64_t mos
     const std::uint32_t index = next.ref.index();
     if (next.ref.is_block()) {
       const TriangleBlock& block = tree.blocks[index];
-      if constexpr (requires { visitor.height; }) {
-        if (unsigned under = surely_under(block, visitor.height, p); under != 0) {
-          visitor.work.triangles += tree_width;
-          visitor.take_under(index * tree_width + take(under));
-          break;
-        }
-      }
       const bool far = visitor.limit > tree.far;
       alignas(64) std::array<float, tree_width> bound;
       unsigned near = within(
@@ -190,6 +195,12 @@ float descend(const TreeParts& tree, const FilterPoint& point, std::uint64_t mos
           visitor.limit, unseen);
       visitor.work.triangles += tree_width;
       if (near == 0) continue;
+      if constexpr (requires { visitor.take_within(index); }) {
+        if (unsigned sure = surely_within(block, visitor.enough, p); sure != 0) {
+          visitor.take_within(index * tree_width + take(sure));
+          break;
+        }
+      }
       for (unsigned left = near; left != 0;) prefetch(tree.triangles[index * tree_width + take(left)]);
       // The most promising one first: it may be nearer than others can be.
       unsigned left = near;
