@@ -62,6 +62,28 @@ DistanceGrid DistanceGrid::around(const FilterFrame& frame, const Aabb& bounds, 
   return {box.min.cast<float>(), box.max.cast<float>(), triangles};
 }
 
+// Away from the surface, one of the eight is nearly behind the point.
+float DistanceGrid::at_least_by_eight(const FilterPoint& p) const noexcept {
+  if (fine_steps_.empty()) return 0;
+  const Lanes point = lanes_of(p), nearest = fine_.clamped(point);
+  const LaneBits first = fine_.first_about(nearest);
+  const Lanes to_first = nearest - fine_.middle(first), to_second = nearest - fine_.middle(first + 1);
+  const Lanes first_squared = to_first * to_first, second_squared = to_second * to_second;
+  // A lane for each of four cubes in a plane.
+  const Lanes across = __builtin_shufflevector(first_squared, second_squared, 0, 4, 0, 4) +
+                       __builtin_shufflevector(first_squared, second_squared, 1, 1, 5, 5);
+  const std::uint32_t row = fine_.count(0), plane = row * fine_.count(1);
+  const auto steps = [&](std::uint32_t at) {
+    return Lanes{static_cast<float>(fine_steps_[at]), static_cast<float>(fine_steps_[at + 1]),
+                 static_cast<float>(fine_steps_[at + row]), static_cast<float>(fine_steps_[at + row + 1])};
+  };
+  const std::uint32_t at = fine_.index(first);
+  const Lanes within = greater_of(steps(at) * step_ - square_root(across + first_squared[2]),
+                                  steps(at + plane) * step_ - square_root(across + second_squared[2]));
+  return beyond_box(p, point - nearest,
+                    std::max(std::max(within[0], within[1]), std::max(within[2], within[3])));
+}
+
 bool DistanceGrid::holds(const FilterFrame& frame, const Aabb& bounds) const noexcept {
   const Aabb box = frame.to_frame(bounds);
   const Eigen::Vector3f min = box.min.cast<float>(), max = box.max.cast<float>();

@@ -53,6 +53,12 @@ class SampleLattice {
     const Lanes at = greater_of((point - min_) * per_edge_, Lanes{});
     return __builtin_convertvector(lesser_of(at, last_), LaneBits);
   }
+  /// Of the eight cubes whose middles are about a point of the box, the first in each direction. Where there
+  /// are two in each.
+  LaneBits first_about(Lanes point) const noexcept {
+    const Lanes at = greater_of((point - min_) * per_edge_ - 0.5F, Lanes{});
+    return __builtin_convertvector(lesser_of(at, last_ - 1), LaneBits);
+  }
   std::uint32_t index(LaneBits cube) const noexcept {
     return index(static_cast<std::uint32_t>(cube[0]), static_cast<std::uint32_t>(cube[1]),
                  static_cast<std::uint32_t>(cube[2]));
@@ -112,6 +118,8 @@ class DistanceGrid {
 
   /// No part of the mesh is nearer than this. May be negative.
   float at_least(const FilterPoint& point) const noexcept;
+  /// Nor than this, which takes longer and, as a rule, is more.
+  float at_least_by_eight(const FilterPoint& point) const noexcept;
   /// Some part of the mesh is this near, or infinity.
   float at_most(const FilterPoint& point) const noexcept;
   std::size_t bytes() const noexcept { return fine_steps_.bytes() + coarse_steps_.bytes() + wanted_.bytes(); }
@@ -133,6 +141,9 @@ class DistanceGrid {
   }
   /// By one instruction: std::sqrt has errno to think of.
   static float root(float x) noexcept { return square_root(broadcast(x))[0]; }
+  /// At least the distance at a point this far from the lattice's box, in whose nearest point it is at least
+  /// `within`.
+  static float beyond_box(const FilterPoint& point, Lanes to_box, float within) noexcept;
   /// Room for the roundings of two samples' places.
   static constexpr double rounding = 0x1p-20;
   /// Away from the surface the eight samples of a coarse cube are what its own leaves of them: then even a
@@ -178,16 +189,20 @@ class DistanceGrid {
 
 // Beyond the lattice's box, which is convex and holds the mesh, its nearest point q sees p and every point m
 // of the mesh at an angle of at least 90 degrees: |p - m|^2 >= |p - q|^2 + |q - m|^2.
+inline float DistanceGrid::beyond_box(const FilterPoint& p, Lanes to_box, float within) noexcept {
+  const float beyond = squared(to_box);
+  if (beyond == 0) return within - roundings_in_tau * p.tau;
+  const float inside = std::max(within, 0.0F);
+  return root(beyond + inside * inside) - roundings_in_tau * p.tau;
+}
+
 inline float DistanceGrid::at_least(const FilterPoint& p) const noexcept {
   if (fine_steps_.empty()) return 0;
   const Lanes point = lanes_of(p), nearest = fine_.clamped(point);
   const LaneBits cube = fine_.cube_of(nearest);
   const float steps = static_cast<float>(fine_steps_[fine_.index(cube)]);
   const float within = steps * step_ - root(squared(nearest - fine_.middle(cube)));
-  const float beyond = squared(point - nearest);
-  if (beyond == 0) return within - roundings_in_tau * p.tau;
-  const float inside = std::max(within, 0.0F);
-  return root(beyond + inside * inside) - roundings_in_tau * p.tau;
+  return beyond_box(p, point - nearest, within);
 }
 
 inline float DistanceGrid::at_most(const FilterPoint& p) const noexcept {

@@ -86,10 +86,13 @@ class DirectGrid {
     memory.owner = serial_;
   }
   /// Is nothing within reach, by what was sampled? Few bytes, which stay in the cache: what is far needs no
-  /// cell. The kernel's rounding is a 2^24th of what at_least leaves for that of single precision.
+  /// cell. Closely after a jump: a point that comes near slowly meets a group, which tells more. The kernel's
+  /// rounding is a 2^24th of what at_least leaves for that of single precision.
   bool is_far(const Vec3& center, const FilterPoint& point, double reach,
               DirectMemory& memory) const noexcept {
-    const double least = static_cast<double>(distances_.at_least(point)) * store_.frame.unit();
+    double least = static_cast<double>(distances_.at_least(point)) * store_.frame.unit();
+    if (!(least > reach) && !memory.moved_less(center, std::max(memory.lower - reach, 0.0) + cell()))
+      least = static_cast<double>(distances_.at_least_by_eight(point)) * store_.frame.unit();
     if (!(least > reach)) return false;
     remember(center, point.tau, least, std::numeric_limits<double>::infinity(), memory);
     return true;

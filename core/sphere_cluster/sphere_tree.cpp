@@ -165,11 +165,14 @@ double SphereTree::slack_at(const FilterPoint& point) const noexcept {
   return 0.5 * frame_.kernel_error(point.tau);
 }
 
-/// The same by what was sampled, which then is what is known of the place. The kernel's rounding is a 2^24th
-/// of what at_least leaves for that of single precision.
+/// The same by what was sampled, which then is what is known of the place: closely where nothing was near,
+/// for else something still is, as a rule. The kernel's rounding is a 2^24th of what at_least leaves for that
+/// of single precision.
 [[gnu::always_inline]] inline bool SphereTree::is_far(const FilterPoint& point, const Vec3& center,
                                                       double reach, Memory& memory) const noexcept {
-  const double free = static_cast<double>(distances_.at_least(point)) * frame_.unit();
+  double free = static_cast<double>(distances_.at_least(point)) * frame_.unit();
+  if (!(free > reach) && !(memory.nearest < infinity))
+    free = static_cast<double>(distances_.at_least_by_eight(point)) * frame_.unit();
   if (!(free > reach)) return false;
   memory.center = center;
   memory.free = free;
