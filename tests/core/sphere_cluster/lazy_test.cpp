@@ -53,7 +53,8 @@ TEST_F(LazyDistances, AreSampledOnceAndThenServe) {
   const std::uint64_t third = work_of_a_pass(detector), whole = work_of_a_pass(whole_);
   EXPECT_GT(first, whole);
   EXPECT_LT(third, first);
-  EXPECT_LE(static_cast<double>(third), 1.02 * static_cast<double>(whole));
+  // Of the eight samples about a place, those of cubes that nothing was asked in stay untaken.
+  EXPECT_LE(static_cast<double>(third), 1.15 * static_cast<double>(whole));
 }
 
 TEST_F(LazyDistances, AreSampledAnewWhereTheMeshHasMoved) {
