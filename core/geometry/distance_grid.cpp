@@ -21,25 +21,26 @@ SampleLattice::SampleLattice(const Eigen::Vector3f& min, const Eigen::Vector3f& 
   };
   while (!fits(edge_)) edge_ /= finer;
   while (edge_ > finest && fits(edge_ * finer)) edge_ *= finer;
-  count_ = counts(edge_);
+  set_count(counts(edge_));
   per_edge_ = 1 / edge_;
   for (int k = 0; k < 3; ++k) {
     const auto axis = static_cast<std::size_t>(k);
     const float middle = 0.5F * (min[k] + max[k]), half = 0.5F * edge_ * static_cast<float>(count_[axis]);
     min_[axis] = std::min(middle - half, min[k]);
     max_[axis] = std::max(middle + half, max[k]);
-    last_[axis] = static_cast<float>(count_[axis] - 1);
   }
+}
+
+void SampleLattice::set_count(const std::array<std::uint32_t, 3>& count) noexcept {
+  count_ = count;
+  for (std::size_t axis = 0; axis < 3; ++axis) last_[axis] = static_cast<float>(count[axis] - 1);
 }
 
 SampleLattice SampleLattice::halved() const noexcept {
   SampleLattice half = *this;
   half.edge_ *= 0.5F;
   half.per_edge_ *= 2;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    half.count_[axis] *= 2;
-    half.last_[axis] = static_cast<float>(half.count_[axis] - 1);
-  }
+  half.set_count({2 * count_[0], 2 * count_[1], 2 * count_[2]});
   return half;
 }
 

@@ -49,15 +49,11 @@ class SampleLattice {
   /// The nearest point of the box. Of lanes x, y and z; here and below, the last one means nothing.
   Lanes clamped(Lanes point) const noexcept { return lesser_of(greater_of(point, min_), max_); }
   /// The cube that a point of the box is in; the nearest one to a point beyond.
-  LaneBits cube_of(Lanes point) const noexcept {
-    const Lanes at = greater_of((point - min_) * per_edge_, Lanes{});
-    return __builtin_convertvector(lesser_of(at, last_), LaneBits);
-  }
+  LaneBits cube_of(Lanes point) const noexcept { return whole((point - min_) * per_edge_, last_); }
   /// Of the eight cubes whose middles are about a point of the box, the first in each direction. Where there
   /// are two in each.
   LaneBits first_about(Lanes point) const noexcept {
-    const Lanes at = greater_of((point - min_) * per_edge_ - 0.5F, Lanes{});
-    return __builtin_convertvector(lesser_of(at, last_ - 1), LaneBits);
+    return whole((point - min_) * per_edge_ - 0.5F, last_ - 1);
   }
   std::uint32_t index(LaneBits cube) const noexcept {
     return index(static_cast<std::uint32_t>(cube[0]), static_cast<std::uint32_t>(cube[1]),
@@ -68,6 +64,11 @@ class SampleLattice {
   }
 
  private:
+  static LaneBits whole(Lanes at, Lanes last) noexcept {
+    return __builtin_convertvector(lesser_of(greater_of(at, Lanes{}), last), LaneBits);
+  }
+  void set_count(const std::array<std::uint32_t, 3>& count) noexcept;
+
   Lanes min_{}, max_{};
   Lanes last_{};  ///< count_ less one
   float edge_ = 1, per_edge_ = 1;
@@ -131,7 +132,8 @@ class DistanceGrid {
 
   /// More than all roundings between two points of the lattice's box: the frame's coordinates are below 2,
   /// and tau is at least 4 u of them (plane_filter.h), u = 2^-24. The point and its coordinates are rounded
-  /// once each; differences, squares, sums and the root relatively: below 8 u of the box in all.
+  /// once each; differences, squares, sums and the root relatively: below 8 u of the box in all. What is left
+  /// holds the rounding of the double kernel as well, 2^-24 tau.
   static constexpr float roundings_in_tau = 4;
 
   static Lanes lanes_of(const FilterPoint& p) noexcept { return Lanes{p.x, p.y, p.z, 0}; }

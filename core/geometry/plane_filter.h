@@ -158,9 +158,14 @@ inline Lanes plane_values(const TrianglePlanes& planes, const FilterPoint& p) no
   return plane_values(planes, PointLanes(p));
 }
 
+/// How far the point is beyond the side that it is farthest beyond; negative inside the prism over the face.
+inline float most_beside(Lanes values) noexcept {
+  return std::max(values[1], std::max(values[2], values[3]));
+}
+
 /// A lower bound of the squared distance to the triangle of these values, in the frame.
 inline float least_squared(Lanes values, const FilterPoint& p) noexcept {
-  const float beside = std::max(values[1], std::max(values[2], values[3]));
+  const float beside = most_beside(values);
   const float height = std::max(std::abs(values[0]) - p.tau, 0.0F), excess = std::max(beside - p.tau, 0.0F);
   return height * height + excess * excess;
 }
@@ -185,7 +190,7 @@ inline float most_distance(const TrianglePlanes& planes, Lanes values, const Fil
       ((values * values + t * t) - (cosine + cosine) * (values * t)) / (1 - cosine * cosine);
   const LaneBits is_known = (cosine < 0) & (cosine > sharpest_cosine);
   const Lanes to_corner = is_known ? squared : broadcast(unknown);
-  const float beside = std::max(values[1], std::max(values[2], values[3]));
+  const float beside = most_beside(values);
   const float across = std::min(to_corner[1], std::min(to_corner[2], to_corner[3])) * corner_excess;
   const float height = std::abs(values[0]);
   if (beside <= -p.tau) return height + 2 * p.tau;

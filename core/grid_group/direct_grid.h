@@ -86,8 +86,7 @@ class DirectGrid {
     memory.owner = serial_;
   }
   /// Is nothing within reach, by what was sampled? Few bytes, which stay in the cache: what is far needs no
-  /// cell. Closely after a jump: a point that comes near slowly meets a group, which tells more. The kernel's
-  /// rounding is a 2^24th of what at_least leaves for that of single precision.
+  /// cell. Closely after a jump: a point that comes near slowly meets a group, which tells more.
   bool is_far(const Vec3& center, const FilterPoint& point, double reach,
               DirectMemory& memory) const noexcept {
     double least = static_cast<double>(distances_.at_least(point)) * store_.frame.unit();
@@ -97,7 +96,14 @@ class DirectGrid {
     remember(center, point.tau, least, std::numeric_limits<double>::infinity(), memory);
     return true;
   }
-  /// What was near is still asked about first; where nothing was, is_far is to be asked before.
+  /// Makes the memory this grid's. Is nothing within reach, by what was sampled, where nothing was near? What
+  /// was near is asked about before the samples are, in start_at.
+  bool begins_far(const Vec3& center, const FilterPoint& point, double reach,
+                  DirectMemory& memory) const noexcept {
+    claim(memory);
+    return !memory.is_near() && is_far(center, point, reach, memory);
+  }
+  /// After begins_far.
   Start start_at(const Vec3& center, const FilterPoint& point, double reach, DirectMemory& memory,
                  Work& work) const noexcept;
   /// The group of the triangle in this place if it serves the point.

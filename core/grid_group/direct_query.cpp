@@ -130,12 +130,8 @@ bool DirectGrid::touches(const Probe& probe, DirectMemory& memory, Work& work) c
   if (!(probe.radius >= 0)) return false;
   const FilterPoint point = store_.frame.point(probe.center);
   if (!FilterFrame::covers(point)) return far_nearest(probe.center, probe.radius, work).has_value();
-  claim(memory);
-  if (!memory.is_near()) {
-    if (is_far(probe.center, point, probe.radius, memory)) return false;
-  } else if (memory.moved_less(probe.center, probe.radius - memory.upper)) {
-    return true;
-  }
+  if (begins_far(probe.center, point, probe.radius, memory)) return false;
+  if (memory.moved_less(probe.center, probe.radius - memory.upper)) return true;
   const Located located = locate<Sought::touch>(probe.center, point, probe.radius, memory, work);
   if (located.gave_up) return all().touches(probe, work);
   if (located.within < probe.radius) {
@@ -158,8 +154,7 @@ std::optional<Contact> DirectGrid::nearest(const Vec3& center, double reach, Dir
   if (!(reach >= 0)) return std::nullopt;
   const FilterPoint point = store_.frame.point(center);
   if (!FilterFrame::covers(point)) return far_nearest(center, reach, work);
-  claim(memory);
-  if (!memory.is_near() && is_far(center, point, reach, memory)) return std::nullopt;
+  if (begins_far(center, point, reach, memory)) return std::nullopt;
   const Located located = locate<Sought::contact>(center, point, reach, memory, work);
   if (located.gave_up) return all().nearest(center, reach, work);
   if (located.triangle == nullptr) return std::nullopt;

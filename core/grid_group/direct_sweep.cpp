@@ -129,9 +129,8 @@ std::optional<Impact> DirectGrid::first_hit(const Sweep& sweep, DirectMemory& me
   const double widening = sweep_widening(sweep, difference);
   const double farthest = (sweep.to - sweep.from).norm() * (1 + 0x1p-40) + widening;
   if (surely_free(sweep.from, farthest, memory)) return std::nullopt;
-  claim(memory);
   const FilterPoint from = store_.frame.point(sweep.from);
-  if (!memory.is_near() && is_far(sweep.from, from, farthest, memory)) return std::nullopt;
+  if (begins_far(sweep.from, from, farthest, memory)) return std::nullopt;
   const Start start = start_at(sweep.from, from, farthest, memory, work);
   if (start.beyond) return std::nullopt;
   SweepSearch search(store_, sweep, widening);

@@ -29,7 +29,7 @@ class Group {
 
   /// Is the point with these values of the triangle's planes surely where the group is valid?
   bool serves(Lanes values, float tau) const noexcept {
-    const float beside = std::max(values[1], std::max(values[2], values[3]));
+    const float beside = most_beside(values);
     return std::abs(values[0]) + tau <= height() && beside + tau <= margin_;
   }
 

@@ -12,6 +12,7 @@
 
 #include "core/geometry/every_triangle.h"
 #include "core/geometry/nearest_so_far.h"
+#include "core/geometry/prefetch.h"
 #include "core/grid_group/box_tree.h"
 #include "core/grid_group/exact_offset.h"
 #include "core/grid_group/group_filter.h"
@@ -107,15 +108,11 @@ class NearestSearch {
     stack.push(lower_bounds(tree.node(level, node), point_), limit_, node, level);
     for (const BoxStack::Entry& child : stack.from(base)) {
       if (level > 0)
-        prefetch(&tree.node(level - 1, child.index), sizeof(EightBoxes));
+        prefetch_lines(&tree.node(level - 1, child.index), sizeof(EightBoxes));
       else
-        prefetch(&store_.planes[child.index * TriangleStore::block_size],
-                 TriangleStore::block_size * sizeof(TrianglePlanes));
+        prefetch_lines(&store_.planes[child.index * TriangleStore::block_size],
+                       TriangleStore::block_size * sizeof(TrianglePlanes));
     }
-  }
-  static void prefetch(const void* start, std::size_t size) noexcept {
-    for (std::size_t line = 0; line < size; line += 64)
-      __builtin_prefetch(static_cast<const char*>(start) + line);
   }
   void consider_block(std::uint32_t block) noexcept {
     const std::uint32_t first = block * TriangleStore::block_size;

@@ -153,21 +153,20 @@ void SphereTree::start_anew(Memory& memory) const noexcept {
   memory.tree = number_;
 }
 
-/// No triangle is nearer than this: neither those shown, the nearest of which is at `shown`, nor those
-/// unseen.
-double SphereTree::free_within(float unseen, double shown, double slack) const noexcept {
-  return std::min(std::sqrt(frame_.squared(unseen)), shown * (1 - 0x1p-40)) - slack;
-}
-
 /// What the kernel's rounding may do, here and wherever `free` is going to be used: it grows with the way
 /// there, which is at most `free` itself, so a relative 2^-40 of that does for the rest.
 double SphereTree::slack_at(const FilterPoint& point) const noexcept {
   return 0.5 * frame_.kernel_error(point.tau);
 }
 
+/// No triangle is nearer than this: neither those shown, the nearest of which is at `shown`, nor those
+/// unseen.
+double SphereTree::free_within(float unseen, double shown, double slack) const noexcept {
+  return std::min(std::sqrt(frame_.squared(unseen)), shown * (1 - 0x1p-40)) - slack;
+}
+
 /// The same by what was sampled, which then is what is known of the place: closely where nothing was near,
-/// for else something still is, as a rule. The kernel's rounding is a 2^24th of what at_least leaves for that
-/// of single precision.
+/// for else something still is, as a rule.
 [[gnu::always_inline]] inline bool SphereTree::is_far(const FilterPoint& point, const Vec3& center,
                                                       double reach, Memory& memory) const noexcept {
   double free = static_cast<double>(distances_.at_least(point)) * frame_.unit();
@@ -247,7 +246,7 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
       show(memory.last, visitor);
       work += visitor.work;
       if (visitor.kept_at != nowhere) {
-        keep_touch(visitor.least, memory.last, center, memory);
+        remember_touch(center, -1, visitor.least, memory);
         return true;
       }
     }
@@ -266,23 +265,21 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
     memory.nearest = infinity;
     return all().touches(probe, work);
   }
-  if (visitor.kept_at != nowhere) {
-    keep_touch(visitor.least, visitor.kept_at, center, memory);
-    return true;
+  if (visitor.kept_at == nowhere) {
+    remember_touch(center, free_within(unseen, visitor.least, slack_at(point)), infinity, memory);
+    return false;
   }
-  memory.move = Vec3::Constant(infinity);
-  memory.center = center;
-  memory.free = free_within(unseen, visitor.least, slack_at(point));
-  memory.nearest = infinity;
-  return false;
+  remember_touch(center, -1, visitor.least, memory);
+  memory.last = visitor.kept_at;
+  return true;
 }
 
-void SphereTree::keep_touch(double distance, std::uint32_t at, const Vec3& center, Memory& memory) noexcept {
+/// Of `touches`, whatever it found.
+void SphereTree::remember_touch(const Vec3& center, double free, double nearest, Memory& memory) noexcept {
   memory.move = Vec3::Constant(infinity);
   memory.center = center;
-  memory.free = -1;
-  memory.nearest = distance;
-  memory.last = at;
+  memory.free = free;
+  memory.nearest = nearest;
 }
 
 std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Memory& memory, Work& work,

@@ -87,7 +87,7 @@ class SphereTree {
   bool is_far(const FilterPoint& point, const Vec3& center, double reach, Memory& memory) const noexcept;
   [[gnu::noinline]] bool is_far_once_sampled(const FilterPoint& point, const Vec3& center, double reach,
                                              Memory& memory, Work& work) const noexcept;
-  static void keep_touch(double distance, std::uint32_t at, const Vec3& center, Memory& memory) noexcept;
+  static void remember_touch(const Vec3& center, double free, double nearest, Memory& memory) noexcept;
   /// From a point of the mesh's frame to another, in the tree's, at least.
   float way(const Vec3& from, const Vec3& to, const FilterPoint& at) const noexcept;
 

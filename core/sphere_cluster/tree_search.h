@@ -19,6 +19,7 @@
 #include "core/geometry/plane_filter.h"
 #include "core/geometry/point_triangle.h"
 #include "core/geometry/point_triangle_avx2.h"
+#include "core/geometry/prefetch.h"
 #include "core/sphere_cluster/near_blocks.h"
 #include "core/sphere_cluster/simd.h"
 #include "core/sphere_cluster/tree_layout.h"

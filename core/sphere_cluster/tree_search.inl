@@ -39,6 +39,16 @@ inline Planes planes_at(const TriangleBlock& block, std::size_t k, std::size_t a
   return {x, y, z, ((p.x * x + p.y * y) + p.z * z) + load(block.offset[k] + at)};
 }
 
+inline Wide cosine_between(const Planes& a, const Planes& b) noexcept {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+/// Squared, and times the square of the sine: how far what is s beyond one side and t beyond the next is from
+/// the corner between them.
+inline Wide off_corner(Wide s, Wide t, Wide cosine) noexcept {
+  return (s * s + t * t) - (cosine + cosine) * (s * t);
+}
+
 /// Lower bounds of the squared distances to the triangles: the plane filter of core/geometry/plane_filter.h
 /// on plain arrays.
 inline Wide triangle_bounds(const TriangleBlock& block, std::size_t at, const Point& p) noexcept {
@@ -66,8 +76,8 @@ inline Wide corner_bounds(const TriangleBlock& block, std::size_t at, const Poin
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = i == 2 ? 0 : i + 1;
     const Wide s = excess[i], t = excess[j];
-    const Wide cosine = side[i].x * side[j].x + side[i].y * side[j].y + side[i].z * side[j].z;
-    const Wide squared = ((s * s + t * t) - (cosine + cosine) * (s * t)) / ((1 + sine_rounding) - cosine * cosine);
+    const Wide cosine = cosine_between(side[i], side[j]);
+    const Wide squared = off_corner(s, t, cosine) / ((1 + sine_rounding) - cosine * cosine);
     const Wide product = smaller(smaller(s, t), -cosine);
     across = product > 0 ? larger(across, squared) : across;
   }
@@ -90,9 +100,8 @@ inline unsigned surely_within(const TriangleBlock& block, float distance, const 
     const Wide most = room > 0 ? room * room - height * height : Wide{} - 1;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = i == 2 ? 0 : i + 1;
-      const Wide s = side[i].value, t = side[j].value;
-      const Wide cosine = side[i].x * side[j].x + side[i].y * side[j].y + side[i].z * side[j].z;
-      const Wide squared = (s * s + t * t) - (cosine + cosine) * (s * t);
+      const Wide cosine = cosine_between(side[i], side[j]);
+      const Wide squared = off_corner(side[i].value, side[j].value, cosine);
       found |= (squared * corner_excess <= most * (1 - cosine * cosine)) & (cosine < 0) & (cosine > sharpest_cosine);
     }
     near |= bits_of(found) << at;
@@ -126,11 +135,6 @@ inline float least_lane(Wide values) noexcept {
   float least = values[0];
   for (std::size_t i = 1; i < lanes; ++i) least = values[i] < least ? values[i] : least;
   return least;
-}
-
-inline void prefetch_lines(const void* start, std::size_t size) noexcept {
-  for (std::size_t line = 0; line < size; line += 64)
-    __builtin_prefetch(static_cast<const char*>(start) + line);
 }
 
 /// A node's lines, or as many of a block.

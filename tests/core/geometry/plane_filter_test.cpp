@@ -35,21 +35,32 @@ Aabb box_of(const PreparedTriangle& triangle) {
   return box;
 }
 
+/// Of about this scale, as thin as that, every other one a thousand times its scale away.
+struct Thin {
+  Thin(Random& random, double scale, double thickness, int round)
+      : shift(random.point(round % 2 == 0 ? 0 : 1e3 * scale)),
+        a(random.point(scale)),
+        along(random.point(scale)),
+        aside(thickness * random.point(scale)),
+        triangle(prepare(a + shift, a + along + shift, a + 0.7 * along + aside + shift, 0)),
+        frame(FilterFrame::around(box_of(triangle))) {}
+
+  Vec3 shift, a, along, aside;
+  PreparedTriangle triangle;
+  FilterFrame frame;
+};
+
 TEST(PlaneFilter, BoundsTheDistanceFromBelowWhateverTheTriangleAndTheScale) {
   Random random(1);
   for (const double scale : {1e-80, 1e-6, 1.0, 1e6, 1e80}) {
     for (const double thickness : {1.0, 1e-3, 1e-6, 1e-9, 0.0}) {
       for (int round = 0; round < 400; ++round) {
-        const Vec3 shift = random.point(round % 2 == 0 ? 0 : 1e3 * scale);
-        const Vec3 a = random.point(scale), along = random.point(scale),
-                   aside = thickness * random.point(scale);
-        const PreparedTriangle triangle =
-            prepare(a + shift, a + along + shift, a + 0.7 * along + aside + shift, 0);
-        const FilterFrame frame = FilterFrame::around(box_of(triangle));
+        const Thin thin(random, scale, thickness, round);
         for (const double away : {1e-3, 1.0, 1e4}) {
-          const Vec3 center = a + shift + random.point(away * scale);
-          const double squared = squared_distance(triangle, center);
-          ASSERT_LE(bound_of(triangle, frame, center), squared) << scale << ' ' << thickness << ' ' << round;
+          const Vec3 center = thin.a + thin.shift + random.point(away * scale);
+          const double squared = squared_distance(thin.triangle, center);
+          ASSERT_LE(bound_of(thin.triangle, thin.frame, center), squared)
+              << scale << ' ' << thickness << ' ' << round;
         }
       }
     }
@@ -62,23 +73,18 @@ TEST(PlaneFilter, BoundsTheDistanceFromAboveWhateverTheTriangleAndTheScale) {
   for (const double scale : {1e-35, 1e-6, 1.0, 1e6, 1e50}) {
     for (const double thickness : {1.0, 1e-3, 1e-5, 1e-7, 1e-9}) {
       for (int round = 0; round < 400; ++round) {
-        const Vec3 shift = random.point(round % 2 == 0 ? 0 : 1e3 * scale);
-        const Vec3 a = random.point(scale), along = random.point(scale),
-                   aside = thickness * random.point(scale);
-        const PreparedTriangle triangle =
-            prepare(a + shift, a + along + shift, a + 0.7 * along + aside + shift, 0);
-        ASSERT_TRUE(FilterFrame::fits(box_of(triangle)));
-        const FilterFrame frame = FilterFrame::around(box_of(triangle));
-        const Vec3 center = triangle.corner[0] + 0.6 * along + 0.4 * aside +
+        const Thin thin(random, scale, thickness, round);
+        ASSERT_TRUE(FilterFrame::fits(box_of(thin.triangle)));
+        const Vec3 center = thin.triangle.corner[0] + 0.6 * thin.along + 0.4 * thin.aside +
                             (round % 3 == 0 ? 1.0 : 1e-3) * random.point(scale);
-        const FilterPoint point = frame.point(center);
-        const TrianglePlanes planes = planes_of(triangle, frame);
+        const FilterPoint point = thin.frame.point(center);
+        const TrianglePlanes planes = planes_of(thin.triangle, thin.frame);
         const Lanes values = plane_values(planes, point);
-        const double most = frame.at_least(most_distance(planes, values, point));
-        const double distance = std::sqrt(squared_distance(triangle, center));
+        const double most = thin.frame.at_least(most_distance(planes, values, point));
+        const double distance = std::sqrt(squared_distance(thin.triangle, center));
         if (most < 1.01 * distance) ++close;
         ASSERT_GE(most, distance) << scale << ' ' << thickness << ' ' << round;
-        ASSERT_LE(frame.squared(least_squared(values, point)), distance * distance);
+        ASSERT_LE(thin.frame.squared(least_squared(values, point)), distance * distance);
       }
     }
   }

@@ -8,6 +8,7 @@
 
 #include "core/brute_force/brute_force.h"
 #include "tests/core/grid_group/meshes.h"
+#include "tests/core/touch_then_nearest.h"
 
 namespace touchmark {
 namespace {
@@ -82,13 +83,9 @@ TEST(GridGroup, ATouchTellsNothingOfWhatIsNearerThanWhatItFound) {
     for (int i = 0; i < 1500; ++i) {
       const Vec3 center = random.point(i % 3 == 0 ? 3 : 1.3);
       BruteForce::Session measured;
-      const auto contact = brute.nearest({center, 0}, infinity, measured);
-      const double distance = contact->distance;
-      ASSERT_TRUE(detector.touches({center, 3 * distance + 0.1}, session)) << center.transpose();
-      ASSERT_TRUE(detector.touches({center, distance * (1 + 1e-9)}, session)) << center.transpose();
-      ASSERT_FALSE(detector.touches({center, distance * (1 - 1e-9)}, session)) << center.transpose();
-      ASSERT_TRUE(detector.touches({center, 2 * distance}, session)) << center.transpose();
-      const auto nearest = detector.nearest({center, 0}, 1.5 * distance, session);
+      const double distance = brute.nearest({center, 0}, infinity, measured)->distance;
+      const auto nearest = test::nearest_after_touches(detector, center, distance, session);
+      ASSERT_FALSE(HasFailure());
       ASSERT_TRUE(nearest) << center.transpose();
       ASSERT_EQ(nearest->distance, distance) << center.transpose();
     }
