@@ -198,6 +198,7 @@ bool AabbTree::touches(const Probe& probe, Session& session) const noexcept {
   Work& work = session.work;
   if (std::isinf(error)) return all().touches(probe, work);
   const std::uint64_t most = most_work(work);
+  WithinRadius is_within(probe.center, probe.radius, error);
   std::array<Waiting, most_levels> waiting;
   std::size_t count = 0;
   waiting[count++] = {lower_bound(nodes_[0].box, probe.center, slack), 0};
@@ -209,9 +210,7 @@ bool AabbTree::touches(const Probe& probe, Session& session) const noexcept {
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       ++work.triangles;
       const double distance = std::sqrt(squared_distance(triangles_[i], probe.center));
-      if (certified_
-              ? is_within(triangles_[i], distance, probe.center, probe.radius, error, work.exact_decisions)
-              : distance <= probe.radius)
+      if (certified_ ? is_within(triangles_[i], distance, work.exact_decisions) : distance <= probe.radius)
         return true;
     }
     if (node.count > 0) continue;
@@ -233,7 +232,7 @@ std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Sessi
   Work& work = session.work;
   if (std::isinf(error)) return all().nearest(center, reach, work);
   const std::uint64_t most = most_work(work);
-  NearestSoFar so_far(error);
+  NearestSoFar so_far(triangles_.data(), center, error);
   const auto consider = [&](std::uint32_t i) {
     ++work.triangles;
     so_far.take({squared_distance(triangles_[i], center), triangles_[i].index}, i);
@@ -263,14 +262,8 @@ std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Sessi
   if (!so_far.found()) return std::nullopt;
   session.last = so_far.at();
   const double distance = std::sqrt(so_far.best().squared_distance);
-  if (certified_ && !is_certain_first(so_far, triangles_, distance, center, reach, error)) {
-    return nearest_of_ties(center, distance, reach, error, ids_, work.exact_decisions,
-                           [&](double within, const auto& visit) {
-                             if (search_near(center, within, work, most, visit)) return;
-                             work.triangles += triangles_.size();
-                             std::for_each(triangles_.begin(), triangles_.end(), visit);
-                           });
-  }
+  if (certified_ && !is_certain_first(so_far, triangles_, distance, center, reach, error))
+    return nearest_of_ties(so_far, center, reach, error, ids_, work.exact_decisions);
   if (distance > reach) return std::nullopt;
   return contact_on(triangles_[so_far.at()], center, id(so_far.best().index));
 }

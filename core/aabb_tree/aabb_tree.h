@@ -47,21 +47,11 @@ class AabbTree {
   /// phase for libraries that have none. Misses no triangle whose computed distance is at most the reach.
   template <class Visit>
   void for_each_near(const Vec3& center, double reach, Work& work, const Visit& visit) const noexcept {
-    search_near(center, reach, work, any_work, visit);
-  }
-
- private:
-  friend class FloatTree;  // the same tree, rounded
-  /// Until `work` has more than `most` boxes and triangles. Returns whether it got through.
-  template <class Visit>
-  bool search_near(const Vec3& center, double reach, Work& work, std::uint64_t most,
-                   const Visit& visit) const noexcept {
     const double slack = culling_slack(largest_difference(bounds(), center));
     std::array<std::uint32_t, most_levels> waiting;
     std::size_t count = 0;
     waiting[count++] = 0;
     while (count > 0) {
-      if (work.boxes + work.triangles > most) return false;
       const Node& node = nodes_[waiting[--count]];
       ++work.boxes;
       if (lower_bound(node.box, center, slack) > reach) continue;
@@ -73,9 +63,10 @@ class AabbTree {
       work.triangles += node.count;
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i) visit(triangles_[i]);
     }
-    return true;
   }
 
+ private:
+  friend class FloatTree;  // the same tree, rounded
   struct Node {
     Aabb box;
     std::uint32_t first =

@@ -52,8 +52,7 @@
 
 #include "core/detector.h"
 #include "core/geometry/aabb.h"
-#include "core/geometry/close_foot.h"
-#include "core/geometry/exact_decision.h"
+#include "core/geometry/nearest_of_ties.h"
 #include "core/geometry/nearest_so_far.h"
 #include "core/geometry/point_triangle.h"
 #include "core/probe.h"
@@ -114,56 +113,21 @@ inline bool is_certain_first(const NearestSoFar& so_far, std::span<const Prepare
                              double distance, const Vec3& center, double reach, double error) noexcept {
   return (is_certain(distance, reach, error) ||
           is_certain_on(triangles[so_far.at()], distance, center, reach, error)) &&
-         so_far.is_surely_first(triangles, center, error);
+         so_far.is_surely_first(error);
 }
-
-/// Is this triangle, at this computed distance, within the radius? Exact.
-inline bool is_within(const PreparedTriangle& triangle, double distance, const Vec3& center, double radius,
-                      double error, std::uint64_t& exact_decisions) noexcept {
-  if (std::abs(distance - radius) > error) return distance < radius;
-  ++exact_decisions;
-  return within_exactly(triangle.corner, center, radius);
-}
-
-/// The exactly nearest of the triangles shown: by double-doubles, by whole numbers where these do not tell.
-class NearestOfTies {
- public:
-  explicit NearestOfTies(const Vec3& center) noexcept : center_(center) {}
-
-  void consider(const PreparedTriangle& triangle) noexcept;
-  /// Nothing when even that one is beyond the reach. The kernel's, where that is certain by the error. `ids`
-  /// by the mesh's order, empty where they are the same. Counts one decision if any took whole numbers.
-  std::optional<Contact> contact(double reach, double error, std::span<const TriangleId> ids,
-                                 std::uint64_t& exact_decisions) noexcept;
-
- private:
-  CloseFoot foot_of(const PreparedTriangle& triangle) noexcept;
-  bool is_within(double reach) noexcept;
-
-  Vec3 center_;
-  const PreparedTriangle* nearest_ = nullptr;
-  CloseFoot foot_;
-  bool exactly_ = false;
-};
 
 /// What `nearest` answers where is_certain says no, or the nearest as computed is not surely the first of the
-/// nearest. for_each_near(limit, visit) calls visit(triangle) for
-/// every triangle whose computed distance is at most the limit, and for others as it pleases.
-template <class ForEachNear>
-[[gnu::noinline, gnu::cold]] std::optional<Contact> nearest_of_ties(
-    const Vec3& center, double distance, double reach, double error, std::span<const TriangleId> ids,
-    std::uint64_t& exact_decisions, const ForEachNear& for_each_near) noexcept {
-  const double limit = distance + error;
-  NearestOfTies ties(center);
-  for_each_near(limit, [&](const PreparedTriangle& triangle) {
-    if (std::sqrt(squared_distance(triangle, center)) <= limit) ties.consider(triangle);
-  });
-  return ties.contact(reach, error, ids, exact_decisions);
-}
+/// nearest: of those that the search has taken, which was shown all whose computed distance is at most the
+/// least one, or the reach, and the error.
+[[gnu::noinline, gnu::cold]] std::optional<Contact> nearest_of_ties(const NearestSoFar& so_far,
+                                                                    const Vec3& center, double reach,
+                                                                    double error,
+                                                                    std::span<const TriangleId> ids,
+                                                                    std::uint64_t& exact_decisions) noexcept;
 
 /// The same answer by a look at every triangle, for any finite numbers: where distance_error is infinite they
 /// are measured as scaled by a power of two. `bounds` are the triangles'; nothing for a centre that is not
-/// finite. Every look at a triangle is counted: two, where the least computed distance does not tell.
+/// finite. Every look at a triangle is counted: two, where they are measured so.
 std::optional<Contact> nearest_of_all(std::span<const PreparedTriangle> triangles, const Aabb& bounds,
                                       const Vec3& center, double reach, std::span<const TriangleId> ids,
                                       Work& work) noexcept;

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "core/geometry/double_double.h"
+#include "core/geometry/double_double_vector.h"
 
 namespace touchmark {
 namespace {
@@ -15,20 +15,8 @@ namespace {
 // rigorous error bounds for basic building blocks of double-word arithmetic", 2017: 3 u^2 and 5 u^2). The
 // differences of two doubles, so the corners and the edges, are exact.
 
-using Vector = std::array<DoubleDouble, 3>;
+using double_double::cross, double_double::difference, double_double::dot, double_double::Vector;
 using Corners = std::array<Vector, 3>;
-
-Vector difference(const Vec3& a, const Vec3& b) noexcept {
-  return {two_sum(a.x(), -b.x()), two_sum(a.y(), -b.y()), two_sum(a.z(), -b.z())};
-}
-
-DoubleDouble dot(const Vector& a, const Vector& b) noexcept {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vector cross(const Vector& a, const Vector& b) noexcept {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 
 /// The sign of a sum of products, exactly: of each the four products of halves, as a sum of doubles of which
 /// no two overlap (Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric

@@ -12,12 +12,13 @@ bool EveryTriangle::touches(const Probe& probe, Work& work) const noexcept {
   const double error = certified ? distance_error(bounds, probe.center) : 0;
   if (std::isinf(error)) return nearest(probe.center, probe.radius, work).has_value();
   std::uint64_t tested = 0;
+  WithinRadius is_within(probe.center, probe.radius, error);
   const bool touching =
       std::any_of(triangles.begin(), triangles.end(), [&](const PreparedTriangle& triangle) {
         ++tested;
         const double distance = std::sqrt(squared_distance(triangle, probe.center));
         if (!certified) return distance <= probe.radius;
-        return is_within(triangle, distance, probe.center, probe.radius, error, work.exact_decisions);
+        return is_within(triangle, distance, work.exact_decisions);
       });
   work.triangles += tested;
   return touching;

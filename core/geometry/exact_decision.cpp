@@ -8,6 +8,7 @@
 
 #include "core/geometry/exact_grid.h"
 #include "core/geometry/exact_integer.h"
+#include "core/geometry/exact_square.h"
 
 namespace touchmark {
 namespace {
@@ -115,6 +116,24 @@ bool all_finite(const TriangleCorners& triangle, const Vec3& point) noexcept {
 }
 
 }  // namespace
+
+exact::Square exact::square(const Grid& grid, const Feature& feature, const Vec3& point) noexcept {
+  const Vector<1> origin = grid(point), w = grid(feature.corner[0]) - origin;
+  if (feature.corners == 1) return {dot(w, w), Integer<1>::one()};
+  const Vector<1> edge = grid(feature.corner[1]) - origin - w;
+  if (feature.corners == 2) {
+    const Vector<2> moment = cross(w, edge);
+    return {dot(moment, moment), dot(edge, edge)};
+  }
+  const Vector<2> normal = cross(edge, grid(feature.corner[2]) - origin - w);
+  const Integer<3> height = dot(w, normal);
+  return {height * height, dot(normal, normal)};
+}
+
+exact::Square exact::square(const Grid& grid, const TriangleCorners& triangle, const Vec3& point) noexcept {
+  const ExactFoot foot = nearest_foot(grid, triangle, point);
+  return {foot.numerator, foot.denominator};
+}
 
 bool within_exactly(const TriangleCorners& triangle, const Vec3& point, double radius) noexcept {
   if (!(radius >= 0) || !all_finite(triangle, point)) return false;

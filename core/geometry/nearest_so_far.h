@@ -6,18 +6,22 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <span>
 
 #include "core/geometry/point_triangle.h"
 #include "core/probe.h"
 
 namespace touchmark {
 
+class NearestOfTies;
+
 class NearestSoFar {
  public:
   /// `error` is at least the distance_error of the query, M 2^-45 or more: what is not farther than the
   /// nearest by more than that is to be remembered. 0: nothing is.
-  explicit NearestSoFar(double error) noexcept : closeness_(0x1p47 * error * error) {}
+  /// `triangles` is where they are kept; both they and the centre must outlive this.
+  NearestSoFar(const PreparedTriangle* triangles, const Vec3& center, double error) noexcept
+      : closeness_(0x1p47 * error * error), triangles_(triangles), center_(&center) {}
+  NearestSoFar(const PreparedTriangle*, const Vec3&&, double) = delete;
 
   bool found() const noexcept { return at_ != nowhere; }
   const Candidate& best() const noexcept { return best_; }
@@ -44,12 +48,14 @@ class NearestSoFar {
     return true;
   }
 
-  /// Is it surely a nearest one and, of those that are exactly as near, the first? Of those taken, kept in
-  /// `triangles`. `error` as above.
-  bool is_surely_first(std::span<const PreparedTriangle> triangles, const Vec3& center,
-                       double error) const noexcept {
-    return rival_count_ == 0 || beats_rivals(triangles, center, error);
-  }
+  /// Of those taken, is it surely a nearest one and, of those that are exactly as near, the first? `error` as
+  /// above.
+  bool is_surely_first(double error) const noexcept { return rival_count_ == 0 || beats_rivals(error); }
+  /// The exactly nearest of those taken is among these: shows `ties` the best and what rounding may have put
+  /// behind it.
+  void show(NearestOfTies& ties) const noexcept;
+  /// How often whole numbers decided what is remembered.
+  std::uint64_t exact_decisions() const noexcept { return exact_decisions_; }
 
  private:
   struct Rival {
@@ -57,11 +63,10 @@ class NearestSoFar {
     std::uint32_t at;
   };
   static constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
-  static constexpr std::uint32_t most_rivals = 16;  ///< about a corner there are some more than six triangles
+  static constexpr std::uint32_t most_rivals = 64;  ///< about a corner there are some more than six triangles
 
-  [[gnu::cold]] void make_room() noexcept;
-  bool beats_rivals(std::span<const PreparedTriangle> triangles, const Vec3& center,
-                    double error) const noexcept;
+  [[gnu::cold, gnu::noinline]] void make_room() noexcept;
+  bool beats_rivals(double error) const noexcept;
 
   /// Of the squares of distances d that are apart by at most the error E: (d + E)^2 - d^2 = E (2 d + E), and
   /// d <= sqrt(3) M.
@@ -70,7 +75,9 @@ class NearestSoFar {
   Candidate best_;
   std::uint32_t at_ = nowhere;
   std::uint32_t rival_count_ = 0;
-  bool too_many_ = false;  ///< some were forgotten
+  std::uint32_t exact_decisions_ = 0;
+  const PreparedTriangle* triangles_;
+  const Vec3* center_;
   std::array<Rival, most_rivals> rivals_;
 };
 

@@ -125,13 +125,13 @@ class DirectGrid {
   /// triangle surely within the reach is as good: then `within` bounds its distance, and no more is told.
   struct Located {
     const PreparedTriangle* triangle = nullptr;
+    /// The exactly nearest one; null where `triangle` surely is that, or to touch it does not matter.
+    const PreparedTriangle* exactly = nullptr;
     Offset offset{Vec3::Zero(), 0};
     double squared_lower = 0;
-    float tau = 0;     ///< the filter's, at the centre
-    double error = 0;  ///< of a computed distance there
-    std::uint64_t spent = 0;
-    bool gave_up = false;      ///< after as much work as all triangles would have been
-    bool surely_first = true;  ///< of the nearest; `contact` only
+    float tau = 0;         ///< the filter's, at the centre
+    double error = 0;      ///< of a computed distance there
+    bool gave_up = false;  ///< after as much work as all triangles would have been
     double within = std::numeric_limits<double>::infinity();
   };
   enum class Sought { touch, contact };
@@ -162,9 +162,9 @@ class DirectGrid {
   /// The impact of a sweep whose first hit is known.
   std::optional<Impact> impact_on(const Sweep& sweep, double fraction, std::uint32_t place,
                                   DirectMemory& memory, Work& work) const noexcept;
-  /// What `nearest` answers where rounding could tell.
-  std::optional<Contact> nearest_tie(const Vec3& center, double distance, double reach, double error,
-                                     std::uint64_t spent, Work& work) const noexcept;
+  /// Of the exactly nearest triangle, where rounding could tell; nothing where it is beyond the reach.
+  std::optional<Contact> contact_of(const PreparedTriangle& nearest, const Vec3& center, double reach,
+                                    double error, Work& work) const noexcept;
   /// Samples distances, or those that the boxes of what moved may have changed.
   void fill_distances();
   void refill_distances(const std::vector<Aabb>& moved);

@@ -12,39 +12,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Calls visit(triangle) for every triangle that the filter does not put beyond the distance. False when it
-/// has tested more than `most` triangles and boxes before the end.
-template <class Visit>
-bool for_each_near(const TriangleStore& store, const BoxTree& tree, const Vec3& center, double distance,
-                   std::uint64_t most, Work& work, const Visit& visit) noexcept {
-  const std::uint64_t before = work.boxes + work.triangles;
-  const FilterPoint point = store.frame.point(center);
-  const float limit = store.frame.limit(distance * distance);
-  BoxStack stack;
-  const auto open = [&](std::uint32_t level, std::uint32_t node) {
-    work.boxes += BoxTree::arity;
-    stack.push(lower_bounds(tree.node(level, node), point), limit, node, level);
-  };
-  open(static_cast<std::uint32_t>(tree.levels()) - 1, 0);
-  while (!stack.empty()) {
-    if (work.boxes + work.triangles - before > most) return false;
-    const BoxStack::Entry next = stack.pop();
-    if (next.level > 0) {
-      open(next.level - 1, next.index);
-      continue;
-    }
-    const std::uint32_t first = next.index * TriangleStore::block_size;
-    work.triangles += TriangleStore::block_size;
-    for (std::uint32_t at = first; at < first + TriangleStore::block_size; at += 4) {
-      const TrianglePlanes* planes = &store.planes[at];
-      const Lanes bounds = lower_bounds(planes[0], planes[1], planes[2], planes[3], point);
-      for (unsigned left = at_most(bounds, limit); left != 0; left &= left - 1)
-        visit(store.exact[at + static_cast<std::uint32_t>(std::countr_zero(left))]);
-    }
-  }
-  return true;
-}
-
 }  // namespace
 
 DirectGrid::Start DirectGrid::start_at(const Vec3& center, const FilterPoint& point, double reach,
@@ -116,14 +83,17 @@ DirectGrid::Located DirectGrid::locate(const Vec3& center, const FilterPoint& po
     return {};
   }
   memory.place = search.place();
-  return {&store_.exact[search.place()],
-          search.offset(),
+  const Offset offset = search.offset();
+  // To touch, what is exactly nearest matters only where doubles leave open whether it is within the reach.
+  const bool is_sure =
+      to_touch ? std::abs(std::sqrt(offset.squared) - reach) > search.error() : search.is_surely_first();
+  const PreparedTriangle* found = &store_.exact[search.place()];
+  return {found,
+          is_sure || !certified_ ? nullptr : &search.exactly_nearest(work.exact_decisions),
+          offset,
           squared_lower,
           search.point().tau,
-          search.error(),
-          search.triangles() + search.boxes(),
-          false,
-          to_touch || search.is_surely_first()};
+          search.error()};
 }
 
 bool DirectGrid::touches(const Probe& probe, DirectMemory& memory, Work& work) const noexcept {
@@ -141,9 +111,9 @@ bool DirectGrid::touches(const Probe& probe, DirectMemory& memory, Work& work) c
   if (located.triangle == nullptr) return false;
   const double distance = std::sqrt(located.offset.squared);
   const bool touching =
-      !certified_ || std::abs(distance - probe.radius) > located.error
+      located.exactly == nullptr
           ? distance <= probe.radius
-          : nearest_tie(probe.center, distance, probe.radius, located.error, located.spent, work).has_value();
+          : contact_of(*located.exactly, probe.center, probe.radius, located.error, work).has_value();
   const double lower = touching ? distance : std::min(std::sqrt(located.squared_lower), distance);
   remember(probe.center, located.tau, lower, distance, memory);
   return touching;
@@ -163,24 +133,23 @@ std::optional<Contact> DirectGrid::nearest(const Vec3& center, double reach, Dir
   const double lower =
       within ? contact.distance : std::min(std::sqrt(located.squared_lower), contact.distance);
   remember(center, located.tau, lower, contact.distance, memory);
-  if (certified_ && !(located.surely_first && is_certain(contact.distance, reach, located.error))) {
+  if (certified_ && !(located.exactly == nullptr && is_certain(contact.distance, reach, located.error))) {
     const double error = distance_error(bounds_, center);
-    if (!located.surely_first || !is_certain_on(*located.triangle, contact.distance, center, reach, error))
-      return nearest_tie(center, contact.distance, reach, error, located.spent, work);
+    const bool is_first = located.exactly == nullptr;
+    if (!is_first || !is_certain_on(*located.triangle, contact.distance, center, reach, error))
+      return contact_of(is_first ? *located.triangle : *located.exactly, center, reach, error, work);
   }
   if (!within) return std::nullopt;
   return contact;
 }
 
-std::optional<Contact> DirectGrid::nearest_tie(const Vec3& center, double distance, double reach,
-                                               double error, std::uint64_t spent, Work& work) const noexcept {
-  const std::uint64_t most = left_of(most_work_before_all(store_.size()), spent);
-  return nearest_of_ties(center, distance, reach, error, store_.ids, work.exact_decisions,
-                         [&](double within, const auto& visit) {
-                           if (for_each_near(store_, tree_, center, within, most, work, visit)) return;
-                           work.triangles += store_.size();
-                           std::for_each(store_.exact.begin(), store_.exact.end(), visit);
-                         });
+std::optional<Contact> DirectGrid::contact_of(const PreparedTriangle& nearest, const Vec3& center,
+                                              double reach, double error, Work& work) const noexcept {
+  NearestOfTies only(center);
+  only.consider(nearest);
+  const std::optional<Contact> contact = only.contact(reach, error, store_.ids);
+  work.exact_decisions += only.exact_decisions();
+  return contact;
 }
 
 std::optional<Contact> DirectGrid::far_nearest(const Vec3& center, double reach, Work& work) const noexcept {

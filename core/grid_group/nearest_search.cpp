@@ -4,6 +4,8 @@
 #include <bit>
 #include <cassert>
 
+#include "core/geometry/nearest_of_ties.h"
+
 namespace touchmark::grid {
 namespace {
 
@@ -63,6 +65,15 @@ std::uint64_t NearestSearch::without_far_balls(std::uint64_t left,
   for (std::uint64_t rest = left; rest != 0; rest &= rest - 1)
     if (ball_excludes(members[static_cast<std::size_t>(std::countr_zero(rest))])) left &= ~(rest & -rest);
   return left;
+}
+
+/// Where what was found was never taken, the others were all farther for certain.
+const PreparedTriangle& NearestSearch::exactly_nearest(std::uint64_t& exact_decisions) const noexcept {
+  if (!known_) return store_.exact[place_];
+  NearestOfTies ties(center_);
+  so_far_.show(ties);
+  exact_decisions += so_far_.exact_decisions() + ties.exact_decisions();
+  return *ties.nearest();
 }
 
 std::uint32_t NearestSearch::closest_of(std::span<const std::uint32_t> members) noexcept {

@@ -35,7 +35,7 @@ class NearestSearch {
         point_(point),
         error_(store.frame.kernel_error(point_.tau)),
         limit_(store.frame.limit((reach + error_) * (reach + error_))),
-        so_far_(error_) {}
+        so_far_(store.exact.data(), center, error_) {}
 
   bool found() const noexcept { return found_; }
   std::uint32_t place() const noexcept { return place_; }  ///< of the nearest
@@ -46,7 +46,9 @@ class NearestSearch {
     return over_face_ ? offset_over_face(triangle, center_) : exact_offset(triangle, center_);
   }
   /// Of the nearest ones, is it surely the first? When there is one.
-  bool is_surely_first() const noexcept { return so_far_.is_surely_first(store_.exact, center_, error_); }
+  bool is_surely_first() const noexcept { return so_far_.is_surely_first(error_); }
+  /// The exactly nearest, the first where several are, when there is one; counts where whole numbers decide.
+  const PreparedTriangle& exactly_nearest(std::uint64_t& exact_decisions) const noexcept;
   /// From now on any triangle surely within the distance ends the search: then `within` bounds the distance
   /// of the one found, and else it is infinite.
   void be_content_with(double distance) noexcept {

@@ -80,9 +80,10 @@ bool ScanGrid::touches(const Probe& probe, Work& work) const noexcept {
   const double error = distance_error(bounds_, center);
   if (std::isinf(error)) return all().touches(probe, work);
   bool touching = false;
+  WithinRadius is_within(center, probe.radius, error);
   const auto visit = [&](const PreparedTriangle& triangle) {
     const double distance = std::sqrt(squared_distance(triangle, center));
-    return touching = is_within(triangle, distance, center, probe.radius, error, work.exact_decisions);
+    return touching = is_within(triangle, distance, work.exact_decisions);
   };
   if (!search(center, probe.radius + error, work, most_work(work), visit)) return all().touches(probe, work);
   return touching;
@@ -93,7 +94,7 @@ std::optional<Contact> ScanGrid::nearest(const Vec3& center, double reach, Work&
   const double error = distance_error(bounds_, center);
   if (std::isinf(error)) return all().nearest(center, reach, work);
   const std::uint64_t most = most_work(work);
-  NearestSoFar so_far(error);
+  NearestSoFar so_far(triangles_.data(), center, error);
   const auto consider = [&](const PreparedTriangle& triangle) {
     so_far.take({squared_distance(triangle, center), triangle.index}, triangle.index);
     return false;
@@ -101,18 +102,8 @@ std::optional<Contact> ScanGrid::nearest(const Vec3& center, double reach, Work&
   if (!search(center, reach + error, work, most, consider)) return all().nearest(center, reach, work);
   if (!so_far.found()) return std::nullopt;
   const double distance = std::sqrt(so_far.best().squared_distance);
-  if (!is_certain_first(so_far, triangles_, distance, center, reach, error)) {
-    return nearest_of_ties(center, distance, reach, error, ids_, work.exact_decisions,
-                           [&](double within, const auto& visit) {
-                             const auto show = [&](const PreparedTriangle& triangle) {
-                               visit(triangle);
-                               return false;
-                             };
-                             if (search(center, within, work, most, show)) return;
-                             work.triangles += triangles_.size();
-                             std::for_each(triangles_.begin(), triangles_.end(), show);
-                           });
-  }
+  if (!is_certain_first(so_far, triangles_, distance, center, reach, error))
+    return nearest_of_ties(so_far, center, reach, error, ids_, work.exact_decisions);
   if (distance > reach) return std::nullopt;
   return contact_on(triangles_[so_far.at()], center, id(so_far.at()));
 }

@@ -70,12 +70,13 @@ bool SphereScan::touches(const Probe& probe, Work& work) const noexcept {
   const double error = distance_error(bounds_, center);
   if (std::isinf(error)) return all().touches(probe, work);
   std::size_t tested = 0;
+  WithinRadius is_within(center, probe.radius, error);
   const bool touching = for_each_met(center, probe.radius + error, [&](std::size_t sphere) noexcept {
     tested = sphere;
     for (std::size_t i = first_[sphere]; i < first_[sphere + 1]; ++i) {
       ++work.triangles;
       const double distance = std::sqrt(squared_distance(triangles_[i], center));
-      if (is_within(triangles_[i], distance, center, probe.radius, error, work.exact_decisions)) return true;
+      if (is_within(triangles_[i], distance, work.exact_decisions)) return true;
     }
     return false;
   });
@@ -87,7 +88,7 @@ std::optional<Contact> SphereScan::nearest(const Vec3& center, double reach, Wor
   if (!(reach >= 0)) return std::nullopt;
   const double error = distance_error(bounds_, center);
   if (std::isinf(error)) return all().nearest(center, reach, work);
-  NearestSoFar so_far(error);
+  NearestSoFar so_far(triangles_.data(), center, error);
   for_each_met(center, reach + error, [&](std::size_t sphere) noexcept {
     search(sphere, center, so_far, work);
     return false;
@@ -95,18 +96,8 @@ std::optional<Contact> SphereScan::nearest(const Vec3& center, double reach, Wor
   work.spheres += x_.size();
   if (!so_far.found()) return std::nullopt;
   const double distance = std::sqrt(so_far.best().squared_distance);
-  if (!is_certain_first(so_far, triangles_, distance, center, reach, error)) {
-    return nearest_of_ties(center, distance, reach, error, ids_, work.exact_decisions,
-                           [&](double within, const auto& visit) {
-                             work.spheres += x_.size();
-                             for_each_met(center, within, [&](std::size_t sphere) noexcept {
-                               work.triangles += first_[sphere + 1] - first_[sphere];
-                               for (std::size_t i = first_[sphere]; i < first_[sphere + 1]; ++i)
-                                 visit(triangles_[i]);
-                               return false;
-                             });
-                           });
-  }
+  if (!is_certain_first(so_far, triangles_, distance, center, reach, error))
+    return nearest_of_ties(so_far, center, reach, error, ids_, work.exact_decisions);
   if (distance > reach) return std::nullopt;
   return contact_on(triangles_[so_far.at()], center, id(so_far.best().index));
 }
@@ -125,7 +116,7 @@ std::optional<Impact> SphereScan::first_hit(const Sweep& sweep, Work& work) cons
   };
   HitCandidate first;
   std::size_t kept_at = 0;
-  NearestSoFar at_start(error);
+  NearestSoFar at_start(triangles_.data(), sweep.from, error);
   for_each_held(x_.size(), outside, [&](std::size_t sphere) noexcept {
     search(sphere, sweep.from, at_start, work);
     for (std::size_t i = first_[sphere]; i < first_[sphere + 1]; ++i) {

@@ -40,7 +40,11 @@ struct NearestVisitor {
   /// Not an aggregate, whose initialization would clear all of what is yet to be written.
   NearestVisitor(const TreeParts& parts, const FilterFrame& tree_frame, const Vec3& point, float first_limit,
                  double error) noexcept
-      : tree(parts), frame(tree_frame), center(point), limit(first_limit), so_far(error) {}
+      : tree(parts),
+        frame(tree_frame),
+        center(point),
+        limit(first_limit),
+        so_far(parts.triangles.data(), point, error) {}
 
   bool wants(std::uint32_t at) const noexcept { return at != so_far.at(); }
   void take(std::uint32_t at, const Offset& found) noexcept {
@@ -55,7 +59,7 @@ struct TouchVisitor {
   const TreeParts& tree;
   const Vec3& center;
   double radius;
-  double error;  ///< of a computed distance
+  WithinRadius is_within;
   bool certified;
   float limit = -1;
   float enough = -1;  ///< in the tree's frame: a triangle no farther is surely within the radius
@@ -68,8 +72,7 @@ struct TouchVisitor {
     const double distance = std::sqrt(found.squared);
     least = std::min(least, distance);
     const bool within =
-        certified ? is_within(tree.triangles[at], distance, center, radius, error, work.exact_decisions)
-                  : distance <= radius;
+        certified ? is_within(tree.triangles[at], distance, work.exact_decisions) : distance <= radius;
     if (!within) return;
     keep(at, distance);
   }
@@ -81,22 +84,6 @@ struct TouchVisitor {
     least = distance;
     limit = -1;  // nothing is within it: the search ends
   }
-};
-
-/// Shows ties everything within a distance.
-template <class Visit>
-struct TieVisitor {
-  const TreeParts& tree;
-  const Vec3& center;
-  float limit;
-  const Visit& visit;
-  Work work{};
-
-  bool wants(std::uint32_t at) const noexcept {
-    visit(tree.triangles[at]);
-    return false;
-  }
-  void take(std::uint32_t, const Offset&) const noexcept {}
 };
 
 /// Wants nothing: a search for it brings what it looks at nearer to the processor.
@@ -242,7 +229,8 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
     if ((memory.nearest + moved) * (1 + 0x1p-40) + slack_at(point) <= radius) return true;
     // It is still near what it touched, unless it came from elsewhere.
     if (std::abs(memory.nearest - moved) <= radius) {
-      TouchVisitor visitor{parts_, center, radius, frame_.kernel_error(point.tau), certified_};
+      TouchVisitor visitor{
+          parts_, center, radius, {center, radius, frame_.kernel_error(point.tau)}, certified_};
       show(memory.last, visitor);
       work += visitor.work;
       if (visitor.kept_at != nowhere) {
@@ -255,7 +243,7 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
       (samples_later_ && is_far_once_sampled(point, center, radius, memory, work)))
     return false;
   const double error = frame_.kernel_error(point.tau);
-  TouchVisitor visitor{parts_, center, radius, error, certified_};
+  TouchVisitor visitor{parts_, center, radius, {center, radius, error}, certified_};
   visitor.limit = frame_.limit((radius + error) * (radius + error));
   visitor.enough = frame_.at_most(radius - error);
   const float unseen = descend(point, visitor, most_work());
@@ -324,12 +312,10 @@ std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Mem
   memory.free = free_within(unseen, distance, slack_at(point));
   work += visitor.work;
   if (!so_far.found()) return std::nullopt;
-  if (certified_ &&
-      !(is_certain(distance, reach, error) && so_far.is_surely_first(parts_.triangles, center, error))) {
+  if (certified_ && !(is_certain(distance, reach, error) && so_far.is_surely_first(error))) {
     const double least_error = distance_error(bounds_, center);
     if (!is_certain_first(so_far, parts_.triangles, distance, center, reach, least_error))
-      return nearest_tie(center, distance, reach, least_error, left_of(most_work(), visitor.work.total()),
-                         gives_up, work);
+      return nearest_of_ties(so_far, center, reach, least_error, ids_, work.exact_decisions);
   }
   if (distance > reach) return std::nullopt;
   return contact_at(parts_.triangles[so_far.at()], center, {visitor.offset, so_far.best().squared_distance},
@@ -354,20 +340,6 @@ void SphereTree::look_ahead(Memory& memory, Work& work) const noexcept {
     spent += visitor.work;
   }
   work += spent;
-}
-
-std::optional<Contact> SphereTree::nearest_tie(const Vec3& center, double distance, double reach,
-                                               double error, std::uint64_t most, bool* gives_up,
-                                               Work& work) const noexcept {
-  return nearest_of_ties(
-      center, distance, reach, error, ids_, work.exact_decisions, [&](double within, const auto& visit) {
-        TieVisitor<std::decay_t<decltype(visit)>> visitor{parts_, center, frame_.limit(within * within),
-                                                          visit};
-        const bool gave_up = descend(frame_.point(center), visitor, most) == spheres::gave_up;
-        if (gave_up && gives_up == nullptr) show_all(visitor);
-        if (gave_up && gives_up != nullptr) *gives_up = true;
-        work += visitor.work;
-      });
 }
 
 /// Where the hierarchy does not serve.

@@ -91,8 +91,6 @@ class SphereTree {
   /// From a point of the mesh's frame to another, in the tree's, at least.
   float way(const Vec3& from, const Vec3& to, const FilterPoint& at) const noexcept;
 
-  std::optional<Contact> nearest_tie(const Vec3& center, double distance, double reach, double error,
-                                     std::uint64_t most, bool* gives_up, Work& work) const noexcept;
   EveryTriangle all() const noexcept { return {parts_.triangles, bounds_, ids_, certified_}; }
   std::uint64_t most_work() const noexcept { return most_work_before_all(parts_.triangles.size()); }
   std::optional<Contact> nearest_without(const Vec3& center, double reach, Work& work) const noexcept;
