@@ -1,5 +1,6 @@
 """How each detector looks and where it stands, the same in every picture: colour and shape by kind, filling by options,
-so that grey print tells them apart too."""
+so that grey print tells most of them apart too; tone where one kind has more forms than there are fillings."""
+import colorsys
 import zlib
 
 from .results import unique
@@ -23,19 +24,26 @@ KINDS = {  # kind: colour, marker
 PLACES = {kind: place for place, kind in enumerate(KINDS)}
 FILLINGS = ["full", "none", "left", "bottom", "right", "top"]
 LINES = {"full": "-", "none": "--", "left": ":", "bottom": "-.", "right": (0, (5, 1, 1, 1, 1, 1)), "top": (0, (1, 3))}
-KNOWN_FILLINGS = {
-    "grid-group:lookup=scan": "none",
-    "grid-group:lookup=scan,shape=sphere": "left",
-    "sphere-cluster:lookup=scan": "none",
-    "sphere-cluster:lookup=scan,precise=false": "left",
-    "bullet:precision=float": "none",
-    "bullet:precision=float,frame=fitted": "left",
-    "bullet:method=callback,frame=fitted": "bottom",
-    "fcl:bv=obbrss": "none",
-    "fcl:bv=aabb,method=distance,narrow=exact": "bottom",
-    "libccd+aabb:algorithm=mpr": "none",
-    "cgal:kernel=simple,hint=bounded": "bottom",
+# A detector's look is its place here: the six fillings in the kind's colour, then the six in each other tone of it. New
+# ones are appended, so that nobody's look changes from one recording to the next.
+KNOWN = {
+    "sphere-cluster": ["", "lookup=scan", "lookup=scan,precise=false", "build=lazy", "prepare=true", "precise=false",
+                       "clustering=2%", "clustering=2%,precise=false", "clustering=1%,precise=false",
+                       "clustering=0.5%,precise=false", "clustering=5%,precise=false", "certified=false",
+                       "lookup=scan,clustering=2%", "lookup=scan,clustering=2%,precise=false"],
+    "grid-group": ["", "lookup=scan", "lookup=scan,shape=sphere", "build=lazy", "cell=1%", "cell=0.5%", "cell=4%",
+                   "certified=false"],
+    "aabb-tree": ["", "precision=float", "certified=false"],
+    "embree": ["", "geometry=triangle", "quality=refit"],
+    "cgal": ["", "kernel=simple,hint=bounded", "kernel=epeck,hint=bounded"],
+    "bullet": ["", "precision=float", "precision=float,frame=fitted", "method=callback,frame=fitted", "frame=fitted",
+               "precision=float,method=callback"],
+    "fcl": ["", "bv=obbrss", "bv=obb", "bv=aabb,method=distance,narrow=exact", "bv=kios,method=traverse,narrow=exact",
+            "bv=rss,method=distance"],
+    "libccd+aabb": ["", "algorithm=mpr", "tolerance=1e-8", "tolerance=1e-2", "iterations=5", "tolerance=1e-8,iterations=20",
+                    "algorithm=mpr,tolerance=1e-2", "algorithm=mpr,tolerance=1e-8"],
 }
+TONES = 5  # in which a detector that is not known looks for a place of its own
 
 
 def kind_of(name):
@@ -50,36 +58,59 @@ def in_order(names):
     return sorted(unique(names), key=lambda name: (PLACES[kind_of(name)], ":" in name, name))
 
 
-def filling(name):
-    if name in KNOWN_FILLINGS:
-        return KNOWN_FILLINGS[name]
-    if ":" not in name and kind_of(name):
-        return "full"
-    return chosen_fillings.get(name) or preferred(name)[0]
+def family_of(name):
+    """Whose mark and colour it has: a form as published shares those of ours."""
+    detector = name.partition(":")[0]
+    return detector if detector in KINDS else None
 
 
-def preferred(name):
-    """The fillings in the order in which a detector that is not known would like them: the same everywhere."""
-    first = 1 + zlib.crc32(name.encode()) % (len(FILLINGS) - 1)
-    return FILLINGS[first:] + FILLINGS[1:first] + FILLINGS[:1]
+def look(name):
+    """A number: filling and tone. No two names of a family that are known, or drawn in one go, have the same."""
+    known = KNOWN.get(family_of(name), [""])
+    options = name.partition(":")[2]
+    if family_of(name) and options in known:
+        return known.index(options)
+    return chosen_looks.get(name, first_look(name))
 
 
-chosen_fillings = {}  # of detectors that are not known
+def first_look(name):
+    """Of a detector that is not known, when no other one has it: the same everywhere."""
+    reserved = len(KNOWN.get(family_of(name), [""]))
+    return reserved + zlib.crc32(name.encode()) % (TONES * len(FILLINGS) - reserved)
+
+
+chosen_looks = {}  # of detectors that are not known
 
 
 def tell_apart(names):
-    """Of those to be drawn in one go: gives each that is not known a filling that no other of its kind has, if one is
-    left."""
-    known = [name for name in names if name in KNOWN_FILLINGS or ":" not in name and kind_of(name)]
-    taken = {(kind_of(name), filling(name)) for name in known}
-    for name in in_order(set(names) - set(known)):
-        free = [filling for filling in preferred(name) if (kind_of(name), filling) not in taken]
-        chosen_fillings[name] = (free or preferred(name))[0]
-        taken.add((kind_of(name), chosen_fillings[name]))
+    """Of those to be drawn in one go: gives each that is not known a look that no other of its family has."""
+    unknown = [name for name in in_order(names)
+               if not family_of(name) or name.partition(":")[2] not in KNOWN.get(family_of(name), [""])]
+    taken = set()
+    for name in unknown:
+        chosen = first_look(name)
+        while (family_of(name), chosen) in taken:
+            chosen += 1
+        chosen_looks[name] = chosen
+        taken.add((family_of(name), chosen))
+
+
+def filling(name):
+    return FILLINGS[look(name) % len(FILLINGS)]
 
 
 def colour(name):
-    return KINDS[kind_of(name)][0]
+    """The family's, or a tone of it: lighter, darker, then turned in hue."""
+    basic, tone = KINDS[kind_of(name)][0], look(name) // len(FILLINGS)
+    channels = [int(basic[k:k + 2], 16) / 255 for k in (1, 3, 5)]
+    if tone == 1:
+        channels = [1 - 0.55 * (1 - channel) for channel in channels]
+    elif tone == 2:
+        channels = [0.5 * channel for channel in channels]
+    elif tone > 2:
+        hue, value, saturation = colorsys.rgb_to_hls(*channels)
+        channels = colorsys.hls_to_rgb((hue + 0.15 * (tone - 2)) % 1, min(max(value, 0.3), 0.6), max(saturation, 0.5))
+    return "#" + "".join(f"{round(255 * channel):02x}" for channel in channels)
 
 
 def mark(name, size=7):

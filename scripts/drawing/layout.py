@@ -22,7 +22,7 @@ def duration(ns):
 
 
 def rate(hz):
-    for unit, size in (("MHz", 1e6), ("kHz", 1e3)):
+    for unit, size in (("GHz", 1e9), ("MHz", 1e6), ("kHz", 1e3)):
         if hz >= 0.9999 * size:
             return f"{hz / size:.3g} {unit}"
     return f"{hz:.3g} Hz"
@@ -30,6 +30,11 @@ def rate(hz):
 
 def count(value):
     return f"{value:,.0f}"
+
+
+def percent(share):
+    """Two digits, without an exponent."""
+    return plain(float(f"{100 * share:.2g}")) + " %"
 
 
 def plain(value):
@@ -120,18 +125,21 @@ def note(axes, y, text):
 
 
 def canvas(plt, panels, panel_width, panel_height, left=0.9, right=0.25, bottom=1.05, gap=(0.15, 0.55), columns=None,
-           share_x=True, share_y=True):
-    """A figure with room for the title above `panels` panels and a legend below or to the right. All in inches."""
+           share_x=True, share_y=True, heights=None):
+    """A figure with room for the title above `panels` panels and a legend below or to the right. All in inches; `heights`:
+    of each line of panels, where they differ."""
     columns = columns or min(panels, 2 if panels in (2, 4) else 3)
     lines = -(-panels // columns)
     top = 1.25
     width = left + columns * panel_width + (columns - 1) * gap[0] + right
     panel_width += max(0.0, NARROWEST - width) / columns
     width = max(width, NARROWEST)
-    height = top + lines * panel_height + (lines - 1) * gap[1] + bottom
-    figure, axes = plt.subplots(lines, columns, sharex=share_x, sharey=share_y, squeeze=False, figsize=(width, height))
+    heights = heights or [panel_height] * lines
+    height = top + sum(heights) + (lines - 1) * gap[1] + bottom
+    figure, axes = plt.subplots(lines, columns, sharex=share_x, sharey=share_y, squeeze=False, figsize=(width, height),
+                                gridspec_kw={"height_ratios": heights})
     figure.subplots_adjust(left=left / width, right=1 - right / width, top=1 - top / height, bottom=bottom / height,
-                           hspace=gap[1] / panel_height, wspace=gap[0] / panel_width)
+                           hspace=gap[1] * lines / sum(heights), wspace=gap[0] / panel_width)
     shown = list(axes.flat)
     for spare in shown[panels:]:
         spare.set_visible(False)
@@ -156,10 +164,13 @@ def label(figure, title, asked, source, axis="", legend=(), more=""):
         figure.text(0.1 / width, 1 - down * inch, text, fontsize=size * min(1.0, (width - 0.3) / max(needed, 1.0)),
                     fontweight=weight, va="top")
     panels = figure.subplotpars
-    figure.text((panels.left + panels.right) / 2, 0.62 * inch, axis, fontsize=9, ha="center", va="center")
+    columns = entries_per_line([handle.get_label() for handle in legend], width - 0.4)
+    lines = -(-len(legend) // columns)
+    figure.text((panels.left + panels.right) / 2, max(0.62, 0.3 + 0.2 * lines) * inch, axis, fontsize=9, ha="center",
+                va="center")
     if legend:
         figure.legend(handles=legend, loc="lower center", bbox_to_anchor=(0.5, 0.0), fontsize=9, frameon=False,
-                      ncols=entries_per_line([handle.get_label() for handle in legend], width - 0.4))
+                      ncols=columns)
 
 
 def entries_per_line(labels, width):
@@ -210,11 +221,20 @@ def in_file_name(words):
     return "".join("-" + re.sub(r"[^A-Za-z0-9.]+", "_", word) for word in words)
 
 
+def whole(figure):
+    """The figure's box in inches, and as much more as its texts need: no label is cut off at the border."""
+    from matplotlib import transforms
+    size = transforms.Bbox.from_bounds(0, 0, *figure.get_size_inches())
+    needed = figure.get_tightbbox(figure.canvas.get_renderer())
+    return transforms.Bbox.union([size, needed.padded(0.04)])
+
+
 def save(figure, stem):
     """Under its final name only when complete; the same bytes for the same numbers."""
+    box = whole(figure)
     for kind, metadata in (("png", {"Software": None}), ("svg", {"Date": None, "Creator": None})):
         part = stem.with_name(f".{stem.name}.{kind}.part")
-        figure.savefig(part, format=kind, dpi=110, metadata=metadata)
+        figure.savefig(part, format=kind, dpi=110, metadata=metadata, bbox_inches=box)
         os.replace(part, stem.with_name(f"{stem.name}.{kind}"))
 
 

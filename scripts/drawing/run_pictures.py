@@ -1,10 +1,11 @@
 """One scene of one run: latency, update rate, errors. A line a detector, those that have no numbers with the reason."""
 import collections
 import math
+import statistics
 
 from . import detectors
-from .layout import (GRID, canvas, count, duration, label, log_axis, name_axis, name_panel, note, rate, room_for,
-                     spread, tinted, trajectories_of, trajectory_legend, trajectory_mark, what_was_asked)
+from .layout import (canvas, duration, label, log_axis, name_axis, name_panel, note, percent, rate,
+                     room_for, spread, tinted, trajectories_of, trajectory_legend, trajectory_mark, what_was_asked)
 from .results import NothingToDraw, finite, positive, shortened
 
 PERCENTILES = [  # column, label, marker, how much of the colour: told apart by shape, so that grey print will do
@@ -30,18 +31,25 @@ def draw_latency(plt, rows, source):
     times = positive(getattr(row, column) for row in rows for column, *_ in PERCENTILES)
     if not times:
         raise NothingToDraw("no row has times")
+    clock = positive(row.clock_cost_ns for row in rows)
+    ends = times + [DEADLINE_NS] + clock
     names, trajectories = detectors.in_order(row.name for row in rows), trajectories_of(rows)
     figure, panels = canvas(plt, len(trajectories), 4.0, 0.27 * len(names), left=room_for(names))
     for axes, trajectory in zip(panels, trajectories):
         for row in (row for row in rows if row.trajectory == trajectory):
             draw_percentiles(axes, names.index(row.name), row)
         axes.axvline(DEADLINE_NS, color="black", linestyle="--", linewidth=1)
+        if clock:
+            axes.axvline(statistics.median(clock), color="black", linestyle=":", linewidth=1)
         name_panel(axes, shortened(trajectory, 40))
-        log_axis(axes.xaxis, min(times + [DEADLINE_NS]) / 2, max(times + [DEADLINE_NS]) * 3, duration)
+        log_axis(axes.xaxis, min(ends) / 2, max(ends) * 3, duration)
         name_axis(axes, names)
     legend = [plt.Line2D([], [], linewidth=1, label=which, **percentile_mark(marker, "0.2", strength))
               for _, which, marker, strength in PERCENTILES]
     legend.append(plt.Line2D([], [], color="black", linestyle="--", linewidth=1, label="1 ms: a 1 kHz tick is over"))
+    if clock:
+        legend.append(plt.Line2D([], [], color="black", linestyle=":", linewidth=1,
+                                 label=f"{duration(statistics.median(clock))}: the clock, part of every time"))
     label(figure, "Latency of one query: left is better", what_was_asked(rows), source, "time for one query (log scale)",
           legend)
     return figure
@@ -115,9 +123,9 @@ def draw_errors(plt, rows, source):
              for name in names}
     lines = max(sum(number > 0 for number in wrong[name].values()) + bool(failures(rows, name)) for name in names)
     lines = max(3, lines)
-    figure, (count_axes, size_axes) = canvas(plt, 2, 5.5, 0.13 * lines * len(names), left=room_for(names), share_x=False,
+    figure, (share_axes, size_axes) = canvas(plt, 2, 5.5, 0.13 * lines * len(names), left=room_for(names), share_x=False,
                                              gap=(0.3, 0.55))
-    draw_error_counts(count_axes, rows, names, wrong, lines)
+    draw_error_shares(share_axes, rows, names, wrong, lines)
     draw_error_sizes(size_axes, rows, names)
     legend = [plt.Rectangle((0, 0), 1, 1, facecolor=kind.shade, edgecolor="black", hatch=kind.hatch, linewidth=0.6,
                             label=kind.label) for kind in ERRORS if any(wrong[name][kind.label] for name in names)]
@@ -126,30 +134,32 @@ def draw_errors(plt, rows, source):
     return figure
 
 
-def draw_error_counts(axes, rows, names, wrong, lines):
-    """Bars for the kinds that occur, so that a clean row stays clean; notes for the rest, on lines of their own."""
+def draw_error_shares(axes, rows, names, wrong, lines):
+    """Bars for the kinds that occur, so that a clean row stays clean; notes for the rest, on lines of their own. Shares,
+    as slow contestants are judged on fewer steps."""
+    steps = {name: sum(finite(row.steps for row in rows if row.name == name and row.done)) for name in names}
+    shares = [number / steps[name] for name in names if steps[name] for number in wrong[name].values() if number]
+    low, most = min(shares, default=0.01) / 3, max(shares, default=1.0)
     for y, name in enumerate(names):
-        steps = sum(finite(row.steps for row in rows if row.name == name and row.done))
-        kinds = [kind for kind in ERRORS if wrong[name][kind.label]]
+        kinds = [kind for kind in ERRORS if wrong[name][kind.label] and steps[name]]
         clean = "no error" if claims_exactness(rows, name) else "none beyond what it declares"
-        clean = "" if kinds or not steps else clean
+        clean = "" if kinds or not steps[name] else clean
         remark = "; ".join(filter(None, [clean, failures(rows, name)]))
         used = len(kinds) + bool(remark)
         at = [y + (k - (used - 1) / 2) * 0.94 / lines for k in range(used)]
         for kind, line in zip(kinds, at):
             number = wrong[name][kind.label]
-            axes.barh(line, number, 0.94 / lines, color=kind.shade, edgecolor="black", hatch=kind.hatch, linewidth=0.6,
+            share = number / steps[name]
+            axes.barh(line, share, 0.94 / lines, color=kind.shade, edgecolor="black", hatch=kind.hatch, linewidth=0.6,
                       zorder=2)
-            share = f" ({100 * number / steps:.2g} %)" if steps else ""
-            axes.text(number * 1.1, line, f"{int(number):,}{share}", va="center", fontsize=8)
+            axes.annotate(f"{percent(share)} ({int(number):,} of {int(steps[name]):,})", (share, line), (4, 0),
+                          textcoords="offset points", va="center", fontsize=8)
         if remark:
             note(axes, at[-1], remark)
-    axes.set_xscale("symlog", linthresh=1)
-    axes.set_xlim(0, 20 * max([1] + [number for counts in wrong.values() for number in counts.values()]))
-    axes.xaxis.set_major_formatter(lambda number, _: count(number))
-    axes.grid(axis="x", **GRID)
+    room = (most / low) ** 0.6  # for what is written beside the longest bar
+    log_axis(axes.xaxis, low, most * room, lambda share: percent(share) if share <= 1 else "")
     name_axis(axes, names)
-    name_panel(axes, "wrong answers, and their share of all (log scale)")
+    name_panel(axes, "wrong answers: share of the steps (log scale)")
 
 
 def draw_error_sizes(axes, rows, names):

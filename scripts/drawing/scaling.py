@@ -76,9 +76,9 @@ def draw_scaling(plt, rows, fits, source):
     names = detectors.in_order(fit.name for fit in fits)
     if not shown or not rows:
         raise NothingToDraw("nothing was measured on two sizes")
-    beside = 1.55 + 0.062 * min(44, max(map(len, names)))
-    figure, panels = canvas(plt, len(shown), 4.3, max(2.6, 0.2 * (len(names) + 1)), right=beside, gap=(beside + 0.75, 0.6),
-                            columns=2 if len(shown) > 1 else 1, share_y=False)
+    beside = 1.7  # inches for the exponents
+    figure, panels = canvas(plt, len(shown), 3.7, max(2.4, 0.2 * (len(names) + 1)), right=beside, gap=(beside + 0.75, 0.6),
+                            columns=2 if len(shown) > 1 else 1, share_y=False, bottom=1.05 + 0.2 * (len(names) // 4))
     spans = sorted(unique(row.triangles for row in rows))
     for axes, (quantity, title, unit, written) in zip(panels, shown):
         draw_panel(plt, axes, [fit for fit in fits if fit.quantity == quantity], rows, quantity, unit)
@@ -88,8 +88,9 @@ def draw_scaling(plt, rows, fits, source):
         log_axis(axes.yaxis, min(values) / 2, max(values) * 2, written)
     asked = f"{what_was_asked(rows)}, {shortened(rows[0].trajectory)}"
     label(figure, "Growth with the mesh: down is better, flat is best", asked, source,
-          "triangles (log scale); marks: measured; lines: quantity = factor × triangles^exponent, the exponent with its "
-          "95 % interval in the legend")
+          "triangles (log scale); beside each panel: the exponent of quantity = factor × triangles^exponent, the line, "
+          "with its 95 % interval",
+          [plt.Line2D([], [], label=shortened(name), **detectors.mark(name, 6), **detectors.line(name)) for name in names])
     return figure
 
 
@@ -106,7 +107,7 @@ def draw_panel(plt, axes, fits, rows, quantity, unit):
         ends = [fit.least_triangles, fit.most_triangles]
         axes.plot([x for x, _ in points], [y for _, y in points], **detectors.mark(name, 6), linestyle="", zorder=3)
         axes.plot(ends, [unit * fit.at(end) for end in ends], color=detectors.colour(name), **detectors.line(name))
-        handles.append(plt.Line2D([], [], label=f"{fit.text()}  {shortened(name, 44)}", **detectors.mark(name, 6),
+        handles.append(plt.Line2D([], [], label=fit.text(), **detectors.mark(name, 6),
                                   **detectors.line(name)))
     axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.02, 1.0), borderaxespad=0, fontsize=8, frameon=False,
                 handlelength=2.6, labelspacing=0.5)

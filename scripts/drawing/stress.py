@@ -14,8 +14,8 @@ Kind = collections.namedtuple("Kind", "name colour ink meaning")
 KINDS = [  # the worst first
     Kind("crashed", "#1a1a1a", "white", "C  crashed"),
     Kind("timeout", "#4d4d4d", "white", "T  did not come back"),
-    Kind("wrong", "#c0392b", "white", "12  contacts missed or made up, or answers that are no numbers"),
-    Kind("inexact", "#f3c14b", "black", "~12  contact told rightly; triangle, distance, point or normal off by more than declared"),
+    Kind("wrong", "#c0392b", "white", "12%  contacts missed or made up, or answers that are no numbers"),
+    Kind("inexact", "#f3c14b", "black", "~12%  contact told rightly; triangle, distance, point or normal off by more than declared"),
     Kind("refused", "#c9cdd2", "black", "R  refused the mesh"),
     Kind("unsupported", "#ffffff", "black", "–  does not answer such queries"),
     Kind("ok", "#dcefdc", "#2e6b2e", "✓  no error beyond what is declared"),
@@ -50,21 +50,18 @@ def kind_and_text(rows):
     asked = [row for row in rows if row.status != "unsupported"]  # the other queries count
     kind = min((KINDS[rank(row.status)] for row in asked or rows), key=KINDS.index)
     if kind.name == "wrong":
-        return kind, short(sum(row.missed + row.false_contacts + row.malformed for row in rows))
+        return kind, share(sum(row.missed + row.false_contacts + row.malformed for row in rows), rows)
     if kind.name == "inexact":
         off = sum(row.wrong_triangle + max(row.beyond_bound, row.wrong_point, row.wrong_normal) for row in rows)
-        return kind, "~" + short(off)
+        return kind, "~" + share(off, rows)
     return kind, SIGNS[kind.name]
 
 
-def short(value):
-    """At most four characters."""
-    for unit, size in (("M", 1e6), ("k", 1e3)):
-        if value >= 9.995 * size or (unit == "M" and value >= 999500):
-            return f"{value / size:.0f}{unit}"
-        if value >= 0.9995 * size:
-            return f"{value / size:.1f}{unit}"
-    return f"{value:.0f}"
+def share(wrong, rows):
+    """What part of the answers, in at most five characters: families and contestants have different numbers of them."""
+    answers = sum(row.probes for row in rows)
+    percent = 100 * min(1, wrong / answers) if answers else 100
+    return "<0.1%" if percent < 0.095 else f"{percent:.1f}%" if percent < 9.95 else f"{percent:.0f}%"
 
 
 def draw_stress(plt, rows, source):
@@ -88,7 +85,7 @@ def draw_stress(plt, rows, source):
                 used.add(kind)
                 axes.add_patch(plt.Rectangle((x - 0.5, y - 0.5), 1, 1, facecolor=kind.colour, edgecolor="white",
                                              linewidth=1.2))
-                axes.text(x, y, text, ha="center", va="center", fontsize=8.5, color=kind.ink,
+                axes.text(x, y, text, ha="center", va="center", fontsize=8, color=kind.ink,
                           fontweight="bold" if kind.name in ("wrong", "crashed", "timeout") else "normal")
     axes.set_xlim(-0.5, len(families) - 0.5)
     axes.set_ylim(len(names) - 0.5, -0.5)
@@ -102,7 +99,7 @@ def draw_stress(plt, rows, source):
     hard = sum(row.probes for row in rows if row.adversarial)
     legend = [plt.Rectangle((0, 0), 1, 1, facecolor=kind.colour, edgecolor="0.5", linewidth=0.6, label=kind.meaning)
               for kind in KINDS if kind in used]
-    label(figure, "Stress: how many answers were wrong, by contestant and family",
+    label(figure, "Stress: what share of the answers was wrong, by contestant and family",
           f"queries: {', '.join(unique(row.query for row in rows))}; {answers:,.0f} answers against the exact oracle, "
           f"{hard:,.0f} of them at the edge of contact", source, "", legend)
     return figure

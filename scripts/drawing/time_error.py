@@ -1,24 +1,28 @@
-"""Time against error, a mark a detector: to the left and down is better."""
+"""Time against error, a mark a detector: to the left and down is better. Who does not err has a row below."""
 import math
+import textwrap
 
 from . import detectors
-from .layout import canvas, detector_legend, duration, label, log_axis, name_panel, spread, trajectories_of, what_was_asked
+from .layout import (canvas, detector_legend, duration, label, log_axis, name_axis, name_panel, percent, trajectories_of,
+                     what_was_asked)
 from .results import NothingToDraw, finite, geometric_mean, shortened
 
 TIMES = [("ns_p50", "median of the steps"), ("ns_p999", "99.9 % of the steps take at most this")]
 ROUNDING = 1e-15  # of the box's diagonal: what double precision leaves of a right answer
-BAND = 0.16  # of a panel's height: where those are that are not wrong at all
+PANEL_HEIGHT, ROW_HEIGHT = 3.6, 0.22  # inches
 
 
 class Error:
-    """A kind of error of all detectors: `values` by name, those up to `floor` go to the band at the foot; `most`: there
-    can be. `stored`: the same by the scene as the detector's library stores it, where that is another one."""
+    """A kind of error of all detectors: `values` by name, of which those up to `floor` are none; `most`: there can be.
+    `stored`: the same by the scene as the detector's library stores it, where that is another one."""
 
     def __init__(self, title, clean, values, floor, written, most=math.inf, stored=None):
         self.title, self.clean, self.floor, self.written, self.most = title, clean, floor, written, most
         self.values = {name: value for name, value in values.items() if math.isfinite(value)}
         self.stored = {name: value for name, value in (stored or {}).items() if math.isfinite(value)}
-        self.shown = [value for value in [*self.values.values(), *self.stored.values()] if value > floor]
+        self.erring = [name for name, value in self.values.items() if value > floor]
+        self.shown = [value for name in self.erring
+                      for value in (self.values[name], self.stored.get(name, math.nan)) if value > floor]
 
 
 def draw_time_error(plt, rows, source):
@@ -33,30 +37,49 @@ def draw_time_error(plt, rows, source):
         raise NothingToDraw("no detector has times and errors on every trajectory")
     if not errors:
         raise NothingToDraw("nobody errs: " + "; ".join(error.clean for error in judged))
-    height = max(3.9, 0.21 * len(complete) / len(errors))
-    figure, panels = canvas(plt, 2 * len(errors), 4.6, height, right=room_for_legend(complete), columns=2, share_x="col",
-                            share_y="row", left=1.0, bottom=1.2, gap=(0.2, 0.6))
-    for k, error in enumerate(errors):
-        for (column, what), axes in zip(TIMES, panels[2 * k:2 * k + 2]):
-            times = {name: geometric_mean([getattr(row, column) for row in by_name[name]]) for name in complete}
+    erring = [name for name in complete if any(name in error.erring for error in errors)]
+    clean = [name for name in complete if name not in erring and any(name in error.values for error in judged)]
+    heights = [PANEL_HEIGHT] * len(errors) + [ROW_HEIGHT * len(clean)] * bool(clean)
+    heights[0] = max(heights[0], 0.21 * len(erring))
+    figure, panels = canvas(plt, 2 * len(heights), 4.0, PANEL_HEIGHT, right=room_for_legend(complete), columns=2,
+                            share_x="col", share_y="row", left=1.0, bottom=1.2, gap=(0.2, 0.5), heights=heights)
+    for k, (column, what) in enumerate(TIMES):
+        times = {name: geometric_mean([getattr(row, column) for row in by_name[name]]) for name in complete}
+        for error, axes in zip(errors, panels[k::2]):
             draw_panel(axes, error, times)
-            name_panel(axes, error.title if column == "ns_p50" else "")
+            name_panel(axes, "" if k else error.title)
+        if clean:
+            draw_clean(panels[-2 + k], clean, times)
+            name_panel(panels[-2 + k], "" if k else "Without such errors")
+        for axes in panels[k::2]:
             log_axis(axes.xaxis, min(times.values()) / 2, max(times.values()) * 2, duration)
-            if k == len(errors) - 1:
-                axes.set_xlabel(f"{what} (log scale)", fontsize=9)
-    detector_legend(plt, figure, panels[1], complete, lines=False)
+        panels[-2 + k].set_xlabel(f"{what} (log scale)", fontsize=9)
+    detector_legend(plt, figure, panels[1], erring, lines=False)
     asked = what_was_asked(rows) + ("; times: geometric mean over " if len(trajectories) > 1 else "; ")
     asked += ", ".join(map(shortened, trajectories))
-    remarks = [error.clean for error in judged if not error.shown]
-    remarks += [f"rounding: at most {ROUNDING:g} of the diagonal" for error in errors if error.floor]
-    if any(error.stored for error in errors):
-        remarks.append("bar under a mark: by the scene as that library stores it, in single precision")
+    label(figure, "Time against error: left and down is better", asked, source)
+    say_below(figure, remarks_on(errors, judged, by_name, complete))
+    return figure
+
+
+def remarks_on(errors, judged, by_name, complete):
+    yield from (error.clean for error in judged if not error.shown)
+    yield from (f"rounding: at most {ROUNDING:g} of the diagonal" for error in errors if error.floor)
+    if len(errors) > 1:
+        yield "who has a mark in one panel only has no error of the other kind"
+    stored = [value > error.floor for error in errors for name, value in error.stored.items() if name in error.erring]
+    if stored:
+        yield ("bar under a mark: by the scene as that library stores it, in single precision"
+               + ("" if all(stored) else "; at the panel's foot: no error by that scene"))
     left_out = [shortened(name) for name in by_name if name not in complete]
     if left_out:
-        remarks.append("not everywhere answered, so not shown: " + ", ".join(left_out))
-    label(figure, "Time against error: left and down is better", asked, source)
-    figure.text(0.1 / figure.get_figwidth(), 0.3 / figure.get_figheight(), "; ".join(remarks), fontsize=9)
-    return figure
+        yield "not everywhere answered, so not shown: " + ", ".join(left_out)
+
+
+def say_below(figure, remarks):
+    """Lines at the foot, none longer than the picture is wide."""
+    lines = textwrap.wrap("; ".join(remarks), int((figure.get_figwidth() - 0.3) / 0.068), break_long_words=False)
+    figure.text(0.1 / figure.get_figwidth(), 0.5 / figure.get_figheight(), "\n".join(lines), fontsize=9, va="top")
 
 
 def room_for_legend(names):
@@ -84,34 +107,26 @@ def kinds_of_error(rows, by_name, complete):
                 ROUNDING if relative else 0, lambda size: f"{size:.0e}".replace("e-0", "e-"), stored=stored_distances)
 
 
-def percent(share):
-    return f"{100 * share:.3g} %"
-
-
 def draw_panel(axes, error, times):
-    """Errors on a log scale above a band for those that have none; in it, height means nothing but keeps marks apart."""
+    """Those that err, on a log scale."""
     from matplotlib import ticker
     most = max(error.shown)
     low, high = min(error.shown) / 3, max(min(3 * most, error.most), 1.1 * most)
-    foot = low / (high / low) ** (BAND / (1 - BAND))
-    log_axis(axes.yaxis, foot, high, error.written)
-    axes.yaxis.set_minor_locator(ticker.NullLocator())  # none in the band
-    axes.axhspan(foot, low, color="0.94", zorder=0)
-    axes.axhline(low, color="0.6", linewidth=0.8, zorder=0)
-    ticks = [tick for tick in axes.get_yticks() if low <= tick <= high]
-    middle = math.sqrt(foot * low)
-    axes.set_yticks([middle] + ticks, ["none" if error.floor == 0 else "rounding"] + [error.written(t) for t in ticks],
-                    fontsize=9)
-    clean = sorted((name for name in error.values if error.values[name] <= error.floor), key=times.get)
-    levels = spread([times[name] for name in clean], math.log(4 * max(times.values()) / min(times.values())))
-    rows = max(levels, default=0) + 1
-    for name, level in zip(clean, levels):
-        put(axes, name, times[name], foot * (low / foot) ** ((level + 0.5) / rows if rows > 1 else 0.5))
-    for name, value in error.values.items():
-        if value > error.floor:
-            put(axes, name, times[name], value)
-            if name in error.stored:
-                put_stored(axes, name, times[name], value, max(error.stored[name], middle))
+    log_axis(axes.yaxis, low, high, error.written)
+    axes.yaxis.set_minor_locator(ticker.NullLocator())
+    for name in error.erring:
+        value = error.values[name]
+        put(axes, name, times[name], value)
+        if name in error.stored:
+            put_stored(axes, name, times[name], value, max(error.stored[name], low))
+
+
+def draw_clean(axes, names, times):
+    """A row each, with its name to the right of both panels."""
+    for y, name in enumerate(names):
+        put(axes, name, times[name], y)
+    name_axis(axes, names)
+    axes.tick_params(axis="y", left=False, labelleft=False, labelright=axes.get_subplotspec().is_last_col())
 
 
 def put_stored(axes, name, time, value, stored):

@@ -106,7 +106,7 @@ class Scaling(Folders):
         folder = self.scaled(self.fit(0.125, 0.025, 0.225), self.fit(0.5, detector="fcl", options="bv=rss"))
         self.plot(folder, "--only", "scaling")
         picture = self.picture("scaling")
-        for text in ("0.12 ± 0.10  grid-group", "0.50  fcl:bv=rss", "Time of a query", "soup:100, soup:10000"):
+        for text in ("<!-- 0.12 ± 0.10 -->", "<!-- 0.50 -->", "grid-group", "fcl:bv=rss", "Time of a query", "soup:100, soup:10000"):
             self.assertIn(text, picture)
         self.assertNotIn("Time to build", picture)
 
@@ -258,16 +258,47 @@ class Looks(unittest.TestCase):
                          ["sphere-cluster", "grid-group", "embree", "fcl", "fcl:bv=obbrss", "new-one", "grid-group:lookup=scan",
                           "sphere-cluster:lookup=scan", "brute-force"])
 
-    def test_no_two_known_detectors_look_alike_without_colour(self):
-        names = [*detectors.KNOWN_FILLINGS, *(kind for kind in detectors.KINDS if kind and " " not in kind)]
-        looks = {(mark["marker"], mark["fillstyle"]) for mark in map(detectors.mark, names)}
-        self.assertEqual(len(looks), len(names))
+    KNOWN = [kind + (":" + options if options else "") for kind, known in detectors.KNOWN.items() for options in known]
+
+    def test_no_two_known_detectors_look_alike_whatever_else_is_drawn(self):
+        names = [*self.KNOWN, *(kind for kind in detectors.KINDS if kind and " " not in kind and kind not in detectors.KNOWN)]
+        self.assertEqual(len(set(names)), len(names))
+        alone = {name: self.look(name) for name in names}
+        self.assertEqual(len(set(alone.values())), len(names))
+        detectors.tell_apart([*names, "fcl:a=1", "new"])
+        self.assertEqual({name: self.look(name) for name in names}, alone)
+
+    @staticmethod
+    def look(name):
+        mark = detectors.mark(name)
+        return mark["marker"], mark["fillstyle"], mark["color"]
+
+    def test_the_six_first_forms_of_each_detector_differ_without_colour(self):
+        names = [name for kind in detectors.KNOWN for name in self.KNOWN if name.partition(":")[0] == kind
+                 and detectors.look(name) < 6]
+        self.assertEqual(len({self.look(name)[:2] for name in names}), len(names))
 
     def test_detectors_that_are_not_known_are_told_apart_too(self):
-        names = ["fcl", "fcl:bv=obbrss", "fcl:a=1", "fcl:a=2", "fcl:a=3", "new", "newer", "newest"]
-        detectors.tell_apart(names)
-        looks = {(mark["marker"], mark["fillstyle"]) for mark in map(detectors.mark, names)}
-        self.assertEqual(len(looks), len(names))
+        for names in (["fcl", "fcl:bv=obbrss", "fcl:a=1", "fcl:a=2", "fcl:a=3", "new", "newer", "newest"],
+                      [*self.KNOWN, *(f"embree:quality={k}" for k in range(40)), *(f"plug-in-{k}" for k in range(40))]):
+            detectors.tell_apart(names)
+            self.assertEqual(len({self.look(name) for name in names}), len(names))
+
+    def test_ticks_are_written_without_an_exponent(self):
+        self.assertEqual([layout.rate(hz) for hz in (5, 1e3, 2.5e7, 1e9, 2e9)], ["5 Hz", "1 kHz", "25 MHz", "1 GHz", "2 GHz"])
+        self.assertEqual([layout.percent(share) for share in (1, 0.0123, 1.3e-5, 1e-8)],
+                         ["100 %", "1.2 %", "0.0013 %", "0.000001 %"])
+
+    def test_nothing_is_cut_off_at_the_border(self):
+        plt = layout.load_pyplot()
+        figure = plt.figure(figsize=(4, 3))
+        figure.text(0.95, 0.5, "well beyond the right border")
+        figure.text(0.5, -0.1, "below")
+        box = layout.whole(figure)
+        self.assertGreater(box.x1, 5)
+        self.assertLess(box.y0, -0.2)
+        self.assertEqual((box.x0, box.y1), (0, 3))
+        plt.close(figure)
 
     def test_trajectories_keep_their_marker_whatever_else_is_drawn(self):
         alone = layout.trajectory_mark("jump", ["jump"], "black")

@@ -68,7 +68,7 @@ class Plot(unittest.TestCase):
                      "bunny (69,666 triangles)"):
             self.assertIn(text, latency)
         errors = (self.directory / "plots" / "errors.svg").read_text(encoding="utf-8")
-        for text in ("missed contacts", "3 (0.3 %)", "crashed in slide", "no error"):
+        for text in ("missed contacts", "0.3 % (3 of 1,000)", "crashed in slide", "no error"):
             self.assertIn(text, errors)
 
     def test_gives_the_same_bytes_for_the_same_numbers(self):
@@ -100,6 +100,31 @@ class Plot(unittest.TestCase):
         self.write(GOOD)
         self.assertIn("time_error: left out: nobody errs", self.plot(self.directory, "--only", "time_error").stdout)
 
+    def test_lists_who_does_not_err_in_time_against_error_a_row_each(self):
+        self.write({**GOOD, "detector": "fcl", "missed": 3}, GOOD, {**GOOD, "detector": "embree"})
+        self.plot(self.directory, "--only", "time_error")
+        picture = (self.directory / "plots" / "time_error.svg").read_text(encoding="utf-8")
+        for text in ("Missed and false contacts", "Without such errors", "grid-group", "embree", "fcl"):
+            self.assertEqual(picture.count(f"<!-- {text}"), 1, text)  # in the legend or beside its row, not in both
+
+    def test_draws_the_clocks_own_cost_where_it_is_known(self):
+        self.write(GOOD)
+        self.plot(self.directory, "--only", "latency")
+        self.assertNotIn("the clock", (self.directory / "plots" / "latency.svg").read_text(encoding="utf-8"))
+        COLUMNS.append("clock_cost_ns")
+        self.addCleanup(COLUMNS.pop)
+        self.write({**GOOD, "clock_cost_ns": 24}, {**GOOD, "detector": "fcl", "clock_cost_ns": 22}, {**CRASHED})
+        self.plot(self.directory, "--only", "latency")
+        self.assertIn("23 ns: the clock, part of every time",
+                      (self.directory / "plots" / "latency.svg").read_text(encoding="utf-8"))
+
+    def test_counts_errors_as_shares_of_what_each_was_asked(self):
+        self.write({**GOOD, "missed": 10}, {**GOOD, "detector": "fcl", "steps": 50, "missed": 10})
+        self.plot(self.directory, "--only", "errors")
+        picture = (self.directory / "plots" / "errors.svg").read_text(encoding="utf-8")
+        for text in ("<!-- 1 % (10 of 1,000) -->", "<!-- 20 % (10 of 50) -->", "share of the steps"):
+            self.assertIn(text, picture)
+
     def test_names_who_is_not_shown_in_time_against_error(self):
         self.write({**GOOD, "missed": 3}, {**GOOD, "trajectory": "jump"}, {**GOOD, "detector": "fcl"})
         self.plot(self.directory, "--only", "time_error")
@@ -128,7 +153,7 @@ class Plot(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(self.pictures(), ["stress.png", "stress.svg"])
         picture = (self.directory / "plots" / "stress.svg").read_text(encoding="utf-8")
-        for text in ("fcl:bv=obb", "needles", "<!-- 46 -->", "<!-- ~7 -->", "<!-- C -->", "270 answers",
+        for text in ("fcl:bv=obb", "needles", "<!-- 51% -->", "<!-- ~7.8% -->", "<!-- C -->", "270 answers",
                      "180 of them at the edge"):
             self.assertIn(text, picture)
 
