@@ -1,5 +1,6 @@
 // What a step looks at is counted, and in the worst case at most twice what brute force looks at, and a
-// little.
+// little: by our forms and the plain reference. The published scans look at what the papers let them look at
+// (tests/core/grid_group/scan_work_test.cpp).
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -99,6 +100,8 @@ struct Worst {
   std::string where;
 };
 
+bool is_as_published(const std::string& form) { return form.find(", scan") != std::string::npos; }
+
 /// Also that giving a search up changes no answer.
 std::map<std::string, Worst> worst_of_all() {
   std::map<std::string, Worst> worst;
@@ -108,16 +111,17 @@ std::map<std::string, Worst> worst_of_all() {
     for (const Query query : all_queries) {
       const Asked brute_force = ask(*forms.front().detector, query, steps);
       for (const ExactForm& form : forms) {
-        Worst& so_far = worst[form.name + ", " + name_of(query)];
         const Asked asked = ask(*form.detector, query, steps);
         for (std::size_t i = 0; i < steps.size(); ++i) {
           const std::string where = named.name + ", step " + std::to_string(i);
           EXPECT_EQ(std::memcmp(&asked.answers[i], &brute_force.answers[i], sizeof(Answer)), 0)
               << form.name << ", " << name_of(query) << ": " << where;
+          if (is_as_published(form.name)) continue;
           // It looks at all triangles, unless one that touches comes first; again at the start of a sweep
           // that touches something; and once more where rounding could tell the nearest.
           const std::uint64_t least = std::max<std::uint64_t>(brute_force.work[i], named.mesh.size());
           const auto beyond = static_cast<std::int64_t>(asked.work[i]) - static_cast<std::int64_t>(2 * least);
+          Worst& so_far = worst[form.name + ", " + name_of(query)];
           if (beyond > so_far.beyond)
             so_far = {beyond,
                       where + ": " + std::to_string(asked.work[i]) + " against " + std::to_string(least)};

@@ -43,6 +43,10 @@ constexpr Case pinned[] = {
     {"grid-group:lookup=scan", "noisy-sphere:1000", "cross", sweep, 200, false},
     {"grid-group:lookup=scan,shape=sphere", "noisy-sphere:1000", "slide", nearest, 500, false},
     {"grid-group:lookup=scan,shape=sphere", "noisy-sphere:1000", "tap", touches, 500, false},
+    // More groups than triangles: the published form tests them all, however much less brute force would do.
+    {"grid-group:lookup=scan,groups=5000", "noisy-sphere:1000", "slide", nearest, 100, false},
+    {"grid-group:lookup=scan,groups=5000", "noisy-sphere:1000", "cross", sweep, 100, false},
+    {"grid-group:lookup=scan,shape=sphere,groups=5000", "noisy-sphere:1000", "tap", touches, 100, false},
     {"sphere-cluster:clustering=2%", "noisy-sphere:1000", "slide", nearest, 2'000, false},
     {"sphere-cluster:clustering=2%,lookup=scan", "noisy-sphere:1000", "slide", nearest, 200, true},
     {"sphere-cluster:clustering=2%,lookup=scan", "noisy-sphere:1000", "cross", sweep, 200, false},

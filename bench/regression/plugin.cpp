@@ -180,6 +180,10 @@ Built build(std::string_view name, const touchmark::TriangleMesh& mesh) {
   if (name == "grid-group:lookup=scan") return built<GridGroup>(mesh, grid);
   grid.shape = GridGroup::Shape::sphere;
   if (name == "grid-group:lookup=scan,shape=sphere") return built<GridGroup>(mesh, grid);
+  grid.groups = 5000;
+  if (name == "grid-group:lookup=scan,shape=sphere,groups=5000") return built<GridGroup>(mesh, grid);
+  grid.shape = GridGroup::Shape::cube;
+  if (name == "grid-group:lookup=scan,groups=5000") return built<GridGroup>(mesh, grid);
   SphereCluster::Options spheres;
   spheres.clustering = 0.02 * mesh.diagonal();
   if (name == "sphere-cluster:clustering=2%") return built<SphereCluster>(mesh, spheres);

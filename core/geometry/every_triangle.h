@@ -1,8 +1,9 @@
 /// What brute force does, for whoever falls back on it: a look at every triangle.
 ///
-/// A hierarchy costs most where it is of no use: where everything is equally near, or equal. So each query
-/// that has looked at as much as there are triangles, and a little, ends with these. It so costs at most
-/// twice what brute force does, and a little, whatever the scene; and answers the same bits.
+/// A hierarchy costs most where it is of no use: where everything is equally near, or equal. So each query of
+/// our forms that has looked at as much as there are triangles, and a little, ends with these. It so costs at
+/// most twice what brute force does, and a little, whatever the scene; and answers the same bits. The
+/// published scans end with these only for numbers that their own arithmetic cannot hold.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
-/// Park & Jang's detector as published: groups in no order, every one tested by every query. Only a query
-/// that would look at more than there are triangles looks at those instead: a triangle is in many groups.
+/// Park & Jang's detector as published: groups in no order, every one tested by every query, and the members
+/// of each that holds the probe. A triangle is in many groups, and groups may be many more than triangles: no
+/// query ends early because that is more than brute force would look at.
 #pragma once
 
 #include <cstddef>
@@ -50,13 +51,10 @@ class ScanGrid {
  private:
   void enclose(const TriangleMesh& mesh, Shape shape);
   /// Calls visit(triangle) for the members of every group that holds the point when enlarged by `reach`,
-  /// until visit returns true, or the next group would bring the total beyond `most`: then it returns false.
+  /// until visit returns true.
   template <class Visit>
-  bool search(const Vec3& center, double reach, Work& work, std::uint64_t most,
-              const Visit& visit) const noexcept;
-  std::uint64_t most_work(const Work& work) const noexcept {
-    return work.total() + most_work_before_all(triangles_.size());
-  }
+  void search(const Vec3& center, double reach, Work& work, const Visit& visit) const noexcept;
+  /// For numbers whose squares or fourth powers leave the range of double.
   EveryTriangle all() const noexcept { return {triangles_, bounds_, ids_}; }
   template <class Visit>
   bool search_members(std::size_t group, Work& work, const Visit& visit) const noexcept;

@@ -54,24 +54,16 @@ bool ScanGrid::search_members(std::size_t group, Work& work, const Visit& visit)
 }
 
 template <class Visit>
-bool ScanGrid::search(const Vec3& center, double reach, Work& work, std::uint64_t most,
-                      const Visit& visit) const noexcept {
+void ScanGrid::search(const Vec3& center, double reach, Work& work, const Visit& visit) const noexcept {
   // The kernel may call near what is this much farther.
   const double by = reach + culling_slack(largest_difference(bounds_, center));
   const auto scan = [&](const auto& shapes) {
-    std::uint64_t left = left_of(most, work.total());
     for (std::size_t group = 0; group < shapes.size(); ++group) {
       ++work.cells;
-      if (left-- == 0) return false;
-      if (!holds(shapes[group], center, by)) continue;
-      const std::size_t more = members(group).size();
-      if (more > left) return false;
-      left -= more;
-      if (search_members(group, work, visit)) return true;
+      if (holds(shapes[group], center, by) && search_members(group, work, visit)) return;
     }
-    return true;
   };
-  return boxes_.empty() ? scan(spheres_) : scan(boxes_);
+  boxes_.empty() ? scan(spheres_) : scan(boxes_);
 }
 
 bool ScanGrid::touches(const Probe& probe, Work& work) const noexcept {
@@ -85,7 +77,7 @@ bool ScanGrid::touches(const Probe& probe, Work& work) const noexcept {
     const double distance = std::sqrt(squared_distance(triangle, center));
     return touching = is_within(triangle, distance, work.exact_decisions);
   };
-  if (!search(center, probe.radius + error, work, most_work(work), visit)) return all().touches(probe, work);
+  search(center, probe.radius + error, work, visit);
   return touching;
 }
 
@@ -93,13 +85,12 @@ std::optional<Contact> ScanGrid::nearest(const Vec3& center, double reach, Work&
   if (!(reach >= 0)) return std::nullopt;
   const double error = distance_error(bounds_, center);
   if (std::isinf(error)) return all().nearest(center, reach, work);
-  const std::uint64_t most = most_work(work);
   NearestSoFar so_far(triangles_.data(), center, error);
   const auto consider = [&](const PreparedTriangle& triangle) {
     so_far.take({squared_distance(triangle, center), triangle.index}, triangle.index);
     return false;
   };
-  if (!search(center, reach + error, work, most, consider)) return all().nearest(center, reach, work);
+  search(center, reach + error, work, consider);
   if (!so_far.found()) return std::nullopt;
   const double distance = std::sqrt(so_far.best().squared_distance);
   if (!is_certain_first(so_far, triangles_, distance, center, reach, error))
@@ -115,23 +106,17 @@ std::optional<Impact> ScanGrid::first_hit(const Sweep& sweep, Work& work) const 
   const double by = sweep_widening(sweep, difference);
   HitCandidate first;
   const auto scan = [&](const auto& shapes) {
-    std::uint64_t left = most_work_before_all(triangles_.size());
     for (std::size_t group = 0; group < shapes.size(); ++group) {
       ++work.cells;
-      if (left-- == 0) return false;
       if (!passes(shapes[group], sweep, by)) continue;
-      const std::size_t more = members(group).size();
-      if (more > left) return false;
-      left -= more;
       search_members(group, work, [&](const PreparedTriangle& triangle) {
         const std::optional<double> hit = sweep_hit(triangle, sweep, std::min(first.fraction, 1.0));
         if (hit) first = std::min(first, HitCandidate{*hit, triangle.index});
         return false;
       });
     }
-    return true;
   };
-  if (!(boxes_.empty() ? scan(spheres_) : scan(boxes_))) return all().first_hit(sweep, work);
+  boxes_.empty() ? scan(spheres_) : scan(boxes_);
   if (first.index >= triangles_.size()) return std::nullopt;
   // Touching at the start, which is decided exactly: of all the triangles there the nearest one counts.
   if (const auto start = nearest(sweep.from, sweep.radius, work)) return Impact{0, *start};
