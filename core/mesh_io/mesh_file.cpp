@@ -5,13 +5,11 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <numeric>
 #include <system_error>
 #include <utility>
 
-#include <Eigen/Geometry>
+#include "core/mesh_io/input_file.h"
 
 namespace touchmark::mesh_io {
 namespace {
@@ -19,43 +17,26 @@ namespace {
 bool is_blank(char c) noexcept { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 bool is_line_end(char c) noexcept { return c == '\n' || c == '\r'; }
 
-using Point2 = Eigen::Vector2d;
+/// A pipe tells no size that could be held against the machine's memory.
+constexpr std::size_t most_piped = std::size_t{1} << 30;
 
-/// Twice the signed area of (a, b, c).
-double turn(const Point2& a, const Point2& b, const Point2& c) {
-  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
-}
-
-/// The polygon seen along the largest component of its (Newell) normal, counter-clockwise.
-std::vector<Point2> flattened(const std::vector<Vec3>& vertices, const std::vector<std::uint32_t>& corners) {
-  Vec3 normal = Vec3::Zero();
-  const Vec3& origin = vertices[corners[0]];
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Vec3 a = vertices[corners[i]] - origin, b = vertices[corners[(i + 1) % corners.size()]] - origin;
-    normal += a.cross(b);
+std::string read_whole(const std::filesystem::path& path) {
+  InputFile file(path);
+  if (!file.is_regular() && !file.is_pipe()) throw MeshError("is neither a file nor a pipe");
+  constexpr std::size_t least_room = 1 << 16;
+  std::string bytes(file.size() + 1, '\0');  // the one more finds the end
+  std::size_t filled = 0;
+  for (;;) {
+    if (filled == bytes.size()) bytes.resize(std::max(2 * filled, least_room));
+    const std::size_t more = file.read(bytes.data() + filled, bytes.size() - filled);
+    if (more == 0) break;
+    filled += more;
+    if (file.is_pipe() && filled > most_piped)
+      throw MeshError("is a pipe that brings more than " + std::to_string(most_piped) + " bytes");
   }
-  int drop = 0;
-  normal.cwiseAbs().maxCoeff(&drop);
-  const int u = (drop + 1) % 3, v = (drop + 2) % 3;
-  std::vector<Point2> points;
-  points.reserve(corners.size());
-  for (const std::uint32_t corner : corners) {
-    const Vec3 p = vertices[corner] - origin;
-    points.emplace_back(normal[drop] < 0 ? p[v] : p[u], normal[drop] < 0 ? p[u] : p[v]);
-  }
-  return points;
-}
-
-bool is_ear(const std::vector<Point2>& points, const std::vector<std::size_t>& ring, std::size_t at) {
-  const std::size_t n = ring.size();
-  const Point2 &a = points[ring[(at + n - 1) % n]], &b = points[ring[at]], &c = points[ring[(at + 1) % n]];
-  if (!(turn(a, b, c) > 0)) return false;
-  for (const std::size_t other : ring) {
-    const Point2& p = points[other];
-    if (p == a || p == b || p == c) continue;
-    if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0) return false;
-  }
-  return true;
+  if (filled == 0) throw MeshError("is empty");
+  bytes.resize(filled);
+  return bytes;
 }
 
 }  // namespace
@@ -69,21 +50,29 @@ std::string quoted(std::string_view word) {
 }
 
 std::string read_file(const std::filesystem::path& path) {
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  std::error_code ignored;
+  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
   if (!std::filesystem::exists(status)) throw MeshError("no such file");
   if (std::filesystem::is_directory(status)) throw MeshError("is a directory");
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw MeshError("cannot be opened for reading");
-  std::string bytes;
-  if (std::filesystem::is_regular_file(status)) {
-    const std::uintmax_t size = std::filesystem::file_size(path, error);
-    if (!error) bytes.reserve(size);
+  try {
+    return read_whole(path);
+  } catch (const InputError& error) {
+    throw MeshError(error.what());
   }
-  bytes.assign(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
-  if (in.bad()) throw MeshError("cannot be read");
-  if (bytes.empty()) throw MeshError("is empty");
+}
+
+std::string_view without_byte_order_mark(std::string_view bytes) {
+  constexpr std::string_view utf8 = "\xef\xbb\xbf", utf16_little = "\xff\xfe", utf16_big = "\xfe\xff";
+  if (bytes.starts_with(utf16_little) || bytes.starts_with(utf16_big))
+    throw MeshError("line 1: is UTF-16 text, which is not supported; save it as UTF-8 or ASCII");
+  if (bytes.starts_with(utf8)) bytes.remove_prefix(utf8.size());
   return bytes;
+}
+
+bool is_padding(std::string_view bytes) noexcept {
+  constexpr char end_of_file = '\x1a';  // that of CP/M and MS-DOS
+  return std::all_of(bytes.begin(), bytes.end(),
+                     [](char c) { return c == '\0' || c == end_of_file || is_blank(c) || is_line_end(c); });
 }
 
 void TextCursor::fail(const std::string& message) const {
@@ -183,35 +172,17 @@ void MeshBuilder::add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c
   ++faces_;
 }
 
-void MeshBuilder::add_polygon(const std::vector<std::uint32_t>& corners) {
+void MeshBuilder::add_polygon(const std::vector<std::uint32_t>& corners,
+                              const std::vector<PolygonTriangle>& triangles) {
   const std::uint32_t id = faces_++;
   if (ids_.empty()) {
     ids_.resize(triangles_.size());
     std::iota(ids_.begin(), ids_.end(), 0u);
   }
-  const std::vector<Point2> points = flattened(vertices_, corners);
-  std::vector<std::size_t> ring(corners.size());
-  std::iota(ring.begin(), ring.end(), std::size_t{0});
-  const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
-    triangles_.push_back({corners[a], corners[b], corners[c]});
+  for (const PolygonTriangle& triangle : triangles) {
+    triangles_.push_back({corners[triangle[0]], corners[triangle[1]], corners[triangle[2]]});
     ids_.push_back(id);
-  };
-  std::size_t at = 0, since_last_ear = 0;
-  while (ring.size() > 3) {
-    // No ear left: the polygon crosses itself or has no area; what remains becomes a fan.
-    const bool stuck = since_last_ear >= ring.size();
-    if (stuck || is_ear(points, ring, at)) {
-      const std::size_t n = ring.size();
-      add(ring[(at + n - 1) % n], ring[at], ring[(at + 1) % n]);
-      ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(at));
-      at %= ring.size();
-      since_last_ear = 0;
-    } else {
-      at = (at + 1) % ring.size();
-      ++since_last_ear;
-    }
   }
-  add(ring[0], ring[1], ring[2]);
 }
 
 TriangleMesh MeshBuilder::build() && {

@@ -8,12 +8,21 @@
 #include <string_view>
 #include <vector>
 
+#include "core/mesh_io/polygon.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::mesh_io {
 
-/// The bytes of a file. Throws MeshError when it cannot be read, is a directory or is empty.
+/// The bytes of a file, or of a pipe up to 1 GiB. Throws MeshError when it cannot be read, is anything else
+/// or is empty, or when nobody writes to the pipe.
 std::string read_file(const std::filesystem::path& path);
+
+/// Text without a UTF-8 byte-order mark. Throws MeshError for UTF-16.
+std::string_view without_byte_order_mark(std::string_view bytes);
+
+/// True of zero bytes, white space and MS-DOS's end-of-file byte alone: what programs fill the end of a file
+/// with.
+bool is_padding(std::string_view bytes) noexcept;
 
 /// Where a reader stands in a text: whitespace-separated words, counted by line. Handles LF, CR LF and CR.
 class TextCursor {
@@ -61,8 +70,8 @@ std::int64_t parse_integer(std::string_view word, std::string_view what, const T
 /// stands: its fail(message) throws MeshError with the line or the byte.
 class MeshBuilder {
  public:
-  static constexpr std::size_t most_corners =
-      1024;  ///< of one polygon; cutting takes the cube of it at worst
+  /// Of a polygon whose ears are clipped, which takes the cube of it at worst.
+  static constexpr std::size_t most_clipped_corners = 1024;
 
   void reserve(std::size_t vertices, std::size_t faces);
   void add_vertex(const Vec3& position) { vertices_.push_back(position); }
@@ -77,16 +86,23 @@ class MeshBuilder {
     return static_cast<std::uint32_t>(vertex);
   }
 
-  /// A polygon becomes triangles that share its id: ears are clipped in the plane that the polygon faces, so
-  /// a flat polygon that is not convex keeps its shape.
+  /// A polygon becomes triangles that share its id: clipped ears, or a fan where it has more corners than
+  /// are clipped. A larger polygon whose first corner does not see all of it is refused.
   template <class Place>
   void add_face(const std::vector<std::uint32_t>& corners, const Place& place) {
-    if (corners.size() < 3 || corners.size() > most_corners) {
-      place.fail("face " + std::to_string(faces_) + " has " + std::to_string(corners.size()) +
-                 " corners; 3 to " + std::to_string(most_corners) + " make a face");
-    }
+    const auto fail = [&](const std::string& why) {
+      place.fail("face " + std::to_string(faces_) + " has " + std::to_string(corners.size()) + " corners" +
+                 why);
+    };
+    if (corners.size() < 3) fail("; a face has at least 3");
     if (corners.size() == 3) return add_triangle(corners[0], corners[1], corners[2]);
-    add_polygon(corners);
+    if (corners.size() <= most_clipped_corners) return add_polygon(corners, clipped_ears(vertices_, corners));
+    const std::vector<PolygonTriangle> triangles = fan(vertices_, corners);
+    if (triangles.empty()) {
+      fail(" and is not convex; " + std::to_string(most_clipped_corners) +
+           " are the most of one that is not");
+    }
+    add_polygon(corners, triangles);
   }
   void add_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
 
@@ -96,7 +112,7 @@ class MeshBuilder {
   TriangleMesh build() &&;
 
  private:
-  void add_polygon(const std::vector<std::uint32_t>& corners);
+  void add_polygon(const std::vector<std::uint32_t>& corners, const std::vector<PolygonTriangle>& triangles);
 
   std::vector<Vec3> vertices_;
   std::vector<TriangleMesh::Corners> triangles_;

@@ -1,9 +1,11 @@
 #include "core/mesh_io/mesh_io.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <new>
 #include <string>
+#include <string_view>
 
 #include "core/mesh_io/mesh_file.h"
 #include "core/mesh_io/read_with_assimp.h"
@@ -19,7 +21,20 @@ std::string lower_case_ending(const std::filesystem::path& path) {
   return ending;
 }
 
+/// Curved surfaces, which become triangles only by a choice that the reader of a mesh should not make.
+void refuse_cad_files(const std::string& bytes, const std::string& ending) {
+  constexpr std::array<std::string_view, 6> cad_endings = {".step", ".stp", ".stpz", ".p21", ".iges", ".igs"};
+  constexpr std::string_view step_header = "ISO-10303-21";
+  const bool by_ending = std::find(cad_endings.begin(), cad_endings.end(), ending) != cad_endings.end();
+  const bool is_step = bytes.starts_with(step_header) && ending != ".ifc";  // which assimp reads
+  if (by_ending || is_step) {
+    throw MeshError(std::string("is a CAD exchange file (") + (ending.starts_with(".ig") ? "IGES" : "STEP") +
+                    "), not a mesh; export it as STL, PLY or OBJ");
+  }
+}
+
 TriangleMesh read(const std::string& bytes, const std::string& ending) {
+  refuse_cad_files(bytes, ending);
   if (ending == ".ply") return mesh_io::read_ply(bytes);
   if (ending == ".obj") return mesh_io::read_obj(bytes);
   if (ending == ".off") return mesh_io::read_off(bytes);

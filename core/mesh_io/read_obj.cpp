@@ -9,11 +9,24 @@
 namespace touchmark::mesh_io {
 namespace {
 
-/// Statements that carry no surface.
-constexpr std::array<std::string_view, 26> skipped = {
-    "vt",       "vn",     "vp",     "g",      "o",    "s",          "mtllib",    "usemtl", "l",
-    "p",        "mg",     "usemap", "maplib", "lod",  "shadow_obj", "trace_obj", "bevel",  "c_interp",
-    "d_interp", "cstype", "deg",    "bmat",   "step", "parm",       "end",       "call"};
+/// Statements that carry no surface: attributes, groups, points, lines and curves.
+constexpr std::array<std::string_view, 31> skipped = {
+    "vt",    "vn",       "vp",       "g",      "o",      "s",     "mtllib",     "usemtl",
+    "l",     "p",        "mg",       "usemap", "maplib", "lod",   "shadow_obj", "trace_obj",
+    "bevel", "c_interp", "d_interp", "cstype", "deg",    "bmat",  "step",       "parm",
+    "end",   "curv",     "curv2",    "sp",     "ctech",  "stech", "scrv"};
+
+struct Refused {
+  std::string_view statement, what;
+};
+/// Skipping these would lose parts of the surface.
+constexpr std::array<Refused, 7> refused = {{{"surf", "a free-form surface"},
+                                             {"bsp", "a B-spline patch"},
+                                             {"bzp", "a Bezier patch"},
+                                             {"cdc", "a Cardinal curve"},
+                                             {"cdp", "a Cardinal patch"},
+                                             {"call", "another file"},
+                                             {"csh", "a command"}}};
 
 /// Lines that end in a backslash go on in the next one.
 std::string with_joined_lines(std::string_view bytes) {
@@ -28,42 +41,66 @@ std::string with_joined_lines(std::string_view bytes) {
   return text;
 }
 
-/// "7", "7/1", "7//3" or "-1/2/3": the vertex, counted from 1, or backwards from the last one read.
-std::uint32_t corner(std::string_view word, const MeshBuilder& mesh, const TextCursor& cursor) {
+/// Where a face is: what its corners may name.
+struct VerticesThere {
+  std::size_t so_far, in_all;
+};
+
+/// "7", "7/1", "7//3" or "-1/2/3": the vertex, counted from 1, or backwards from the last one so far.
+std::uint32_t corner(std::string_view word, const VerticesThere& vertices, std::size_t face,
+                     const TextCursor& cursor) {
   const std::int64_t given = parse_integer(word.substr(0, word.find('/')), "a face's vertex", cursor);
-  const auto count = static_cast<std::int64_t>(mesh.vertex_count());
-  const std::int64_t index = given > 0 ? given - 1 : count + given;
-  if (given == 0 || index < 0 || index >= count) {
-    cursor.fail("face " + std::to_string(mesh.face_count()) + " names vertex " + std::to_string(given) +
-                " of the " + std::to_string(count) + " read so far");
+  const auto so_far = static_cast<std::int64_t>(vertices.so_far);
+  const auto in_all = static_cast<std::int64_t>(vertices.in_all);
+  if (given < -so_far || given == 0 || given > in_all) {
+    cursor.fail("face " + std::to_string(face) + " names vertex " + std::to_string(given) + " of " +
+                (given < 0 ? std::to_string(so_far) + " so far" : std::to_string(in_all)));
   }
-  return static_cast<std::uint32_t>(index);
+  return static_cast<std::uint32_t>(given > 0 ? given - 1 : so_far + given);
+}
+
+void read_vertices(TextCursor cursor, MeshBuilder& mesh) {
+  for (; !cursor.at_end(); cursor.skip_line()) {
+    if (cursor.word() != "v") continue;
+    const double x = cursor.number_on_line("x"), y = cursor.number_on_line("y"),
+                 z = cursor.number_on_line("z");
+    mesh.add_vertex({x, y, z});
+  }
+}
+
+void check_statement(std::string_view statement, const TextCursor& cursor) {
+  for (const Refused& known : refused) {
+    if (statement == known.statement)
+      cursor.fail(std::string(statement) + ", " + std::string(known.what) + ", is not supported");
+  }
+  if (std::find(skipped.begin(), skipped.end(), statement) == skipped.end())
+    cursor.fail("unknown statement " + quoted(statement));
 }
 
 }  // namespace
 
+// Vertices first: a face may name one that stands after it.
 TriangleMesh read_obj(std::string_view bytes) {
+  bytes = without_byte_order_mark(bytes);
   const bool joined = bytes.find("\\\n") != bytes.npos || bytes.find("\\\r\n") != bytes.npos;
   const std::string text = joined ? with_joined_lines(bytes) : std::string();
   TextCursor cursor(joined ? std::string_view(text) : bytes, '#');
   MeshBuilder mesh;
+  read_vertices(cursor, mesh);
+  VerticesThere vertices{0, mesh.vertex_count()};
   std::vector<std::uint32_t> corners;
-  while (!cursor.at_end()) {
+  for (; !cursor.at_end(); cursor.skip_line()) {
     const std::string_view statement = cursor.word();
     if (statement == "v") {
-      const double x = cursor.number_on_line("x"), y = cursor.number_on_line("y"),
-                   z = cursor.number_on_line("z");
-      mesh.add_vertex({x, y, z});
+      ++vertices.so_far;
     } else if (statement == "f" || statement == "fo") {
       corners.clear();
-      for (std::string_view word = cursor.word_on_line(); !word.empty(); word = cursor.word_on_line()) {
-        corners.push_back(corner(word, mesh, cursor));
-      }
+      for (std::string_view word = cursor.word_on_line(); !word.empty(); word = cursor.word_on_line())
+        corners.push_back(corner(word, vertices, mesh.face_count(), cursor));
       mesh.add_face(corners, cursor);
-    } else if (std::find(skipped.begin(), skipped.end(), statement) == skipped.end()) {
-      cursor.fail("unknown statement " + quoted(statement));
+    } else {
+      check_statement(statement, cursor);
     }
-    cursor.skip_line();
   }
   return std::move(mesh).build();
 }

@@ -3,147 +3,31 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/mesh_io/mesh_file.h"
+#include "core/mesh_io/ply_header.h"
 #include "core/mesh_io/readers.h"
 
 namespace touchmark::mesh_io {
 namespace {
 
-enum class Scalar { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+using ply::Element;
+using ply::Format;
+using ply::Header;
+using ply::Property;
+using ply::Scalar;
 
-struct ScalarName {
-  std::string_view name;
-  Scalar scalar;
-};
-constexpr std::array<ScalarName, 16> scalar_names = {{{"char", Scalar::int8},
-                                                      {"int8", Scalar::int8},
-                                                      {"uchar", Scalar::uint8},
-                                                      {"uint8", Scalar::uint8},
-                                                      {"short", Scalar::int16},
-                                                      {"int16", Scalar::int16},
-                                                      {"ushort", Scalar::uint16},
-                                                      {"uint16", Scalar::uint16},
-                                                      {"int", Scalar::int32},
-                                                      {"int32", Scalar::int32},
-                                                      {"uint", Scalar::uint32},
-                                                      {"uint32", Scalar::uint32},
-                                                      {"float", Scalar::float32},
-                                                      {"float32", Scalar::float32},
-                                                      {"double", Scalar::float64},
-                                                      {"float64", Scalar::float64}}};
-
-std::size_t bytes_of(Scalar scalar) {
-  constexpr std::array<std::size_t, 8> sizes = {1, 1, 2, 2, 4, 4, 4, 8};
-  return sizes[static_cast<std::size_t>(scalar)];
-}
-
-bool is_integer(Scalar scalar) { return scalar != Scalar::float32 && scalar != Scalar::float64; }
-
-struct Property {
-  std::string name;
-  Scalar value = Scalar::float32;
-  std::optional<Scalar> length;  // of a list
-};
-
-struct Element {
-  std::string name;
-  std::size_t count = 0;
-  std::vector<Property> properties;
-
-  std::size_t find(std::string_view wanted) const {
-    const auto found = std::find_if(properties.begin(), properties.end(),
-                                    [&](const Property& property) { return property.name == wanted; });
-    return static_cast<std::size_t>(found - properties.begin());
-  }
-};
-
-enum class Format { ascii, little_endian, big_endian };
-
-struct Header {
-  Format format = Format::ascii;
-  std::vector<Element> elements;
-  std::size_t size = 0;  // bytes
-  std::size_t lines = 0;
-};
-
-Scalar parse_scalar(std::string_view word, const TextCursor& cursor) {
-  for (const ScalarName& known : scalar_names) {
-    if (known.name == word) return known.scalar;
-  }
-  cursor.fail("unknown type " + quoted(word));
-}
-
-Property parse_property(TextCursor& cursor) {
-  Property property;
-  std::string_view type = cursor.word_on_line();
-  if (type == "list") {
-    property.length = parse_scalar(cursor.word_on_line(), cursor);
-    if (!is_integer(*property.length)) cursor.fail("a list's length must be an integer type");
-    type = cursor.word_on_line();
-  }
-  property.value = parse_scalar(type, cursor);
-  property.name = cursor.word_on_line();
-  if (property.name.empty()) cursor.fail("a property without a name");
-  return property;
-}
-
-/// The least bytes that one of these takes, so that a count can be held against the file's size.
-std::size_t least_bytes(const Element& element, Format format) {
-  std::size_t bytes = 0;
-  for (const Property& property : element.properties) {
-    bytes += format == Format::ascii ? 2 : bytes_of(property.length.value_or(property.value));
-  }
-  return std::max<std::size_t>(bytes, 1);
-}
-
-Header parse_header(std::string_view bytes) {
-  TextCursor cursor(bytes);
-  if (cursor.word() != "ply") cursor.fail("does not start with 'ply'");
-  Header header;
-  bool has_format = false;
-  for (;;) {
-    const std::string_view keyword = cursor.word();
-    if (keyword == "format") {
-      const std::string_view format = cursor.word_on_line();
-      if (format == "ascii") {
-        header.format = Format::ascii;
-      } else if (format == "binary_little_endian") {
-        header.format = Format::little_endian;
-      } else if (format == "binary_big_endian") {
-        header.format = Format::big_endian;
-      } else {
-        cursor.fail("unknown format " + quoted(format));
-      }
-      has_format = true;
-    } else if (keyword == "element") {
-      Element element;
-      element.name = cursor.word_on_line();
-      const std::int64_t count = parse_integer(cursor.word_on_line(), "an element's count", cursor);
-      if (count < 0)
-        cursor.fail("element " + mesh_io::quoted(element.name) + " has count " + std::to_string(count));
-      element.count = static_cast<std::size_t>(count);
-      header.elements.push_back(std::move(element));
-    } else if (keyword == "property") {
-      if (header.elements.empty()) cursor.fail("a property before any element");
-      header.elements.back().properties.push_back(parse_property(cursor));
-    } else if (keyword == "end_header") {
-      break;
-    } else if (keyword.empty()) {
-      cursor.fail("the header has no end_header");
-    } else if (keyword != "comment" && keyword != "obj_info") {
-      cursor.fail("unknown keyword " + quoted(keyword));
-    }
-    cursor.skip_line();
-  }
-  if (!has_format) cursor.fail("the header names no format");
-  cursor.skip_line();
-  header.size = bytes.size() - cursor.rest().size();
-  header.lines = cursor.line() - 1;
-  return header;
+/// A vertex's number that was stored as a floating-point one.
+template <class Body>
+std::int64_t whole(double value, Scalar scalar, std::string_view what, const Body& body) {
+  // Beyond these not every whole number is one of the type: what was meant may have been another one.
+  const double exact = scalar == Scalar::float32 ? 0x1p24 : 0x1p53;
+  if (value != std::floor(value)) body.fail(std::string(what) + " is not a whole number");
+  if (!(std::abs(value) < exact)) body.fail(std::string(what) + " is beyond the whole numbers of its type");
+  return static_cast<std::int64_t>(value);
 }
 
 /// Reads the values of an ascii body.
@@ -153,14 +37,16 @@ class AsciiBody {
 
   bool at_end() { return cursor_.at_end(); }
   double real(Scalar, std::string_view what) { return cursor_.number(what); }
-  std::int64_t integer(Scalar, std::string_view what) { return cursor_.integer(what); }
+  std::int64_t integer(Scalar scalar, std::string_view what) {
+    return ply::is_integer(scalar) ? cursor_.integer(what) : whole(cursor_.number(what), scalar, what, *this);
+  }
   void skip(Scalar, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
       if (cursor_.word().empty()) fail("ends in the middle of an element");
     }
   }
+  bool has_only_padding_left() const { return is_padding(cursor_.rest()); }
   [[noreturn]] void fail(const std::string& message) const { cursor_.fail(message); }
-  const TextCursor& cursor() const { return cursor_; }
 
  private:
   TextCursor cursor_;
@@ -179,22 +65,20 @@ class BinaryBody {
     return value;
   }
   std::int64_t integer(Scalar scalar, std::string_view what) {
-    const double value = take(scalar);
-    if (!is_integer(scalar) && value != std::floor(value)) fail(std::string(what) + " is not a whole number");
-    if (!(std::abs(value) < 0x1p53)) fail(std::string(what) + " is out of range");
-    return static_cast<std::int64_t>(value);
+    return whole(take(scalar), scalar, what, *this);
   }
   void skip(Scalar scalar, std::size_t count) {
-    if (count > (bytes_.size() - at_) / bytes_of(scalar)) fail("ends in the middle of an element");
-    at_ += count * bytes_of(scalar);
+    if (count > (bytes_.size() - at_) / ply::bytes_of(scalar)) fail("ends in the middle of an element");
+    at_ += count * ply::bytes_of(scalar);
   }
+  bool has_only_padding_left() const { return is_padding(bytes_.substr(at_)); }
   [[noreturn]] void fail(const std::string& message) const {
     throw MeshError("byte " + std::to_string(at_) + ": " + message);
   }
 
  private:
   double take(Scalar scalar) {
-    const std::size_t size = bytes_of(scalar);
+    const std::size_t size = ply::bytes_of(scalar);
     if (bytes_.size() - at_ < size) fail("ends in the middle of an element");
     std::array<char, 8> raw{};
     std::memcpy(raw.data(), bytes_.data() + at_, size);
@@ -257,88 +141,107 @@ void read_vertices(Body& body, const Element& element, MeshBuilder& mesh) {
   }
 }
 
+/// Reads the list of vertices of a face or a strip, and skips the rest of it. A negative number is left to
+/// `take`, which gets each.
+template <class Body, class Take>
+void read_indices(Body& body, const Element& element, const Take& take) {
+  const std::size_t indices = element.indices();
+  for (std::size_t p = 0; p < element.properties.size(); ++p) {
+    const Property& property = element.properties[p];
+    if (p != indices) {
+      skip_property(body, property);
+      continue;
+    }
+    const std::int64_t size = body.integer(*property.length, "a list's length");
+    for (std::int64_t k = 0; k < size; ++k) take(body.integer(property.value, "a face's vertex"));
+  }
+}
+
 template <class Body>
-void read_faces(Body& body, const Element& element, std::size_t indices, MeshBuilder& mesh) {
+void expect_more(Body& body, const Element& element, std::size_t done, const char* what) {
+  if (body.at_end()) {
+    body.fail("ends after " + std::to_string(done) + " of " + std::to_string(element.count) + " " + what);
+  }
+}
+
+template <class Body>
+void read_faces(Body& body, const Element& element, MeshBuilder& mesh) {
   std::vector<std::uint32_t> corners;
   for (std::size_t i = 0; i < element.count; ++i) {
-    if (body.at_end())
-      body.fail("ends after " + std::to_string(i) + " of " + std::to_string(element.count) + " faces");
-    for (std::size_t p = 0; p < element.properties.size(); ++p) {
-      const Property& property = element.properties[p];
-      if (p != indices) {
-        skip_property(body, property);
-        continue;
+    expect_more(body, element, i, "faces");
+    corners.clear();
+    read_indices(body, element,
+                 [&](std::int64_t vertex) { corners.push_back(mesh.checked_corner(vertex, body)); });
+    mesh.add_face(corners, body);
+  }
+}
+
+/// A strip's triangles turn alternately the one and the other way; -1 begins another strip. A triangle that
+/// has a vertex twice only leads to the next one, and is no face.
+template <class Body>
+void read_strips(Body& body, const Element& element, MeshBuilder& mesh) {
+  for (std::size_t i = 0; i < element.count; ++i) {
+    expect_more(body, element, i, "triangle strips");
+    std::uint32_t a = 0, b = 0;
+    std::size_t length = 0;
+    read_indices(body, element, [&](std::int64_t vertex) {
+      if (vertex == -1) {
+        length = 0;
+        return;
       }
-      const std::int64_t size = body.integer(*property.length, "a face's number of corners");
-      corners.clear();
-      for (std::int64_t k = 0; k < size; ++k) {
-        corners.push_back(mesh.checked_corner(body.integer(property.value, "a face's vertex"), body));
+      const std::uint32_t c = mesh.checked_corner(vertex, body);
+      if (++length >= 3 && a != b && b != c && c != a) {
+        length % 2 == 1 ? mesh.add_triangle(a, b, c) : mesh.add_triangle(b, a, c);
       }
-      mesh.add_face(corners, body);
-    }
+      a = b;
+      b = c;
+    });
+  }
+}
+
+template <class Body>
+void read_surface(Body& body, const Element& element, MeshBuilder& mesh) {
+  if (element.name == "face") {
+    mesh.reserve(0, element.count);
+    read_faces(body, element, mesh);
+  } else {
+    read_strips(body, element, mesh);
+  }
+}
+
+template <class Body>
+void skip(Body& body, const Element& element) {
+  for (std::size_t i = 0; i < element.count; ++i) {
+    for (const Property& property : element.properties) skip_property(body, property);
   }
 }
 
 template <class Body>
 TriangleMesh read_body(Body body, const Header& header) {
   MeshBuilder mesh;
-  bool has_vertices = false, has_faces = false;
+  bool has_vertices = false;
+  std::vector<std::pair<Body, const Element*>> before_vertices;  // surfaces, to be read once these are known
   for (const Element& element : header.elements) {
     if (element.name == "vertex") {
       mesh.reserve(element.count, 0);
       read_vertices(body, element, mesh);
       has_vertices = true;
-    } else if (element.name == "face") {
-      if (!has_vertices) body.fail("the faces stand before the vertices");
-      std::size_t indices = element.find("vertex_indices");
-      if (indices == element.properties.size()) indices = element.find("vertex_index");
-      mesh.reserve(0, element.count);
-      read_faces(body, element, indices, mesh);
-      has_faces = true;
+      for (auto& [there, surface] : before_vertices) read_surface(there, *surface, mesh);
+    } else if (ply::is_surface(element) && has_vertices) {
+      read_surface(body, element, mesh);
     } else {
-      for (std::size_t i = 0; i < element.count; ++i) {
-        for (const Property& property : element.properties) skip_property(body, property);
-      }
+      if (ply::is_surface(element)) before_vertices.emplace_back(body, &element);
+      skip(body, element);
     }
   }
-  if (!has_faces) body.fail("the file has no faces");
-  if (!body.at_end()) body.fail("goes on after its last element");
+  if (!body.at_end() && !body.has_only_padding_left()) body.fail("goes on after its last element");
   return std::move(mesh).build();
-}
-
-/// Refuses what the body could not hold or mean, before memory is taken for it.
-void check(const Header& header, std::size_t file_size) {
-  for (const Element& element : header.elements) {
-    const std::size_t least = least_bytes(element, header.format);
-    if (element.count > file_size / least) {
-      throw MeshError("the header declares " + std::to_string(element.count) + " of element " +
-                      mesh_io::quoted(element.name) + ", of at least " + std::to_string(least) +
-                      " bytes each; the file has " + std::to_string(file_size) + " bytes");
-    }
-    if (element.name == "vertex") {
-      for (const std::string_view axis : {"x", "y", "z"}) {
-        const std::size_t at = element.find(axis);
-        if (at == element.properties.size() || element.properties[at].length) {
-          throw MeshError("element vertex has no coordinate " + std::string(axis));
-        }
-      }
-    }
-    if (element.name == "face") {
-      std::size_t at = element.find("vertex_indices");
-      if (at == element.properties.size()) at = element.find("vertex_index");
-      if (at == element.properties.size() || !element.properties[at].length ||
-          !is_integer(element.properties[at].value)) {
-        throw MeshError("element face has no list of integers vertex_indices");
-      }
-    }
-  }
 }
 
 }  // namespace
 
 TriangleMesh read_ply(std::string_view bytes) {
-  const Header header = parse_header(bytes);
-  check(header, bytes.size());
+  const Header header = ply::parse_header(bytes);
   if (header.format == Format::ascii) {
     return read_body(AsciiBody(bytes.substr(header.size), header.lines), header);
   }

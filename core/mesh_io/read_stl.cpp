@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -61,37 +63,54 @@ TriangleMesh read_binary(std::string_view bytes, std::size_t facets) {
   return std::move(mesh).build();
 }
 
+bool is_keyword(std::string_view word, std::string_view keyword) {
+  return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(), [](char a, char b) {
+    return a == b || std::tolower(static_cast<unsigned char>(a)) == b;
+  });
+}
+
+[[noreturn]] void fail_at(std::string_view word, const std::string& wanted, const TextCursor& cursor) {
+  cursor.fail((word.empty() ? "the end" : quoted(word)) + " stands where " + wanted + " should");
+}
+
 void expect(TextCursor& cursor, std::string_view wanted) {
   const std::string_view word = cursor.word();
-  if (word != wanted)
-    cursor.fail((word.empty() ? "the end" : quoted(word)) + " stands where '" + std::string(wanted) +
-                "' should");
+  if (!is_keyword(word, wanted)) fail_at(word, "'" + std::string(wanted) + "'", cursor);
+}
+
+/// From "outer loop" to "endfacet": a triangle, or the polygon that some programs write.
+void read_loop(TextCursor& cursor, Welder& welder, std::vector<std::uint32_t>& corners) {
+  expect(cursor, "outer");
+  expect(cursor, "loop");
+  corners.clear();
+  std::string_view word;
+  for (word = cursor.word(); is_keyword(word, "vertex"); word = cursor.word()) {
+    const double x = cursor.number("x"), y = cursor.number("y"), z = cursor.number("z");
+    corners.push_back(welder.vertex({x, y, z}));
+  }
+  if (!is_keyword(word, "endloop")) fail_at(word, "'vertex' or 'endloop'", cursor);
+  expect(cursor, "endfacet");
+}
+
+bool starts_as_ascii(std::string_view bytes) {
+  return is_keyword(TextCursor(without_byte_order_mark(bytes)).word(), "solid");
 }
 
 TriangleMesh read_ascii(std::string_view bytes) {
-  TextCursor cursor(bytes);
+  TextCursor cursor(without_byte_order_mark(bytes));
   MeshBuilder mesh;
   Welder welder(mesh);
-  std::array<std::uint32_t, 3> corners{};
-  while (!cursor.at_end()) {
+  std::vector<std::uint32_t> corners;
+  while (!cursor.at_end() && !(mesh.face_count() > 0 && is_padding(cursor.rest()))) {
     expect(cursor, "solid");
     cursor.skip_line();  // the solid's name
     std::string_view word = cursor.word();
-    for (; word == "facet"; word = cursor.word()) {
+    for (; is_keyword(word, "facet"); word = cursor.word()) {
       cursor.skip_line();  // "normal" and three numbers, which many programs leave wrong
-      expect(cursor, "outer");
-      expect(cursor, "loop");
-      for (std::uint32_t& corner : corners) {
-        expect(cursor, "vertex");
-        const double x = cursor.number("x"), y = cursor.number("y"), z = cursor.number("z");
-        corner = welder.vertex({x, y, z});
-      }
-      expect(cursor, "endloop");
-      expect(cursor, "endfacet");
-      mesh.add_triangle(corners[0], corners[1], corners[2]);
+      read_loop(cursor, welder, corners);
+      mesh.add_face(corners, cursor);
     }
-    if (word != "endsolid")
-      cursor.fail((word.empty() ? "the end" : quoted(word)) + " stands where 'facet' or 'endsolid' should");
+    if (!is_keyword(word, "endsolid")) fail_at(word, "'facet' or 'endsolid'", cursor);
     cursor.skip_line();
   }
   return std::move(mesh).build();
@@ -105,8 +124,8 @@ TriangleMesh read_stl(std::string_view bytes) {
     std::memcpy(&facets, bytes.data() + 80, sizeof facets);
     const std::size_t needed = header_size + facet_size * std::size_t{facets};
     // Binary files may start with "solid" too: the size decides.
-    if (bytes.size() == needed) return read_binary(bytes, facets);
-    if (bytes.substr(0, 5) != "solid") {
+    if (bytes.size() >= needed && is_padding(bytes.substr(needed))) return read_binary(bytes, facets);
+    if (!starts_as_ascii(bytes)) {
       throw MeshError("byte 80: " + std::to_string(facets) + " facets need " + std::to_string(needed) +
                       " bytes, the file has " + std::to_string(bytes.size()));
     }

@@ -25,7 +25,29 @@ def ply(form, index="vertex_indices", extra=""):
     return header.encode() + body
 
 
+PLY_VERTICES = "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+PLY_POINTS = "0 0 0\n1 0 0\n0 1 0\n1 1 0\n"
+
+
+def unusual_ply():
+    """What few programs write, and files that are refused by name."""
+    start, end = "ply\nformat ascii 1.0\n", "end_header\n"
+    strips = "element tristrips 1\nproperty list int int vertex_indices\n"
+    faces = "element face 1\nproperty list uchar int vertex_indices\n"
+    yield start + PLY_VERTICES + strips + end + PLY_POINTS + "8 0 1 2 3 3 -1 1 2\n"
+    yield start + PLY_VERTICES + faces.replace("int", "float") + end + PLY_POINTS + "4 0 1.0 3 2e0\n"
+    yield start + faces + PLY_VERTICES + end + "4 0 1 3 2\n" + PLY_POINTS + "\n\0\0"
+    yield "\ufeff" + start + PLY_VERTICES + "property float x\n" + faces + end + PLY_POINTS + "3 0 1 2\n"
+    yield start + PLY_VERTICES + faces + faces.replace("face", "range_grid") + end + PLY_POINTS + "3 0 1 2\n0\n"
+
+
 def obj():
+    yield "\ufefff 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\ncstype bspline\ncurv 0 1 1 2 3\nend\nf -1 -2 3\n"
+    yield "v 0 0 0\nsurf 0 1 0 1 1\n"
+    # A face of more corners than are clipped: a square with many on its sides.
+    corners = [(i, 0) for i in range(300)] + [(300, i) for i in range(300)]
+    corners += [(300 - i, 300) for i in range(300)] + [(0, 300 - i) for i in range(300)]
+    yield "".join(f"v {x} {y} 0\n" for x, y in corners) + "f " + " ".join(str(i + 1) for i in range(1200)) + "\n"
     yield "".join(f"v {x} {y} {z}\n" for x, y, z in VERTICES) + "f 1 2 3\nf 1/1 2/2/2 -1//3\nf 1 2 3 \\\n4\n"
     yield "# a comment\r\no thing\r\nv 0 0 0\r\nv 1 0 0 1.0\r\nv 0 1 0\r\nvt 0 0\r\nvn 0 0 1\r\ns off\r\nf -3 -2 -1\r\n"
 
@@ -34,12 +56,17 @@ def off():
     faces = "".join(f"{len(f)} {' '.join(map(str, f))}\n" for f in FACES)
     vertices = "".join(f"{x} {y} {z}\n" for x, y, z in VERTICES)
     yield f"OFF\n{len(VERTICES)} {len(FACES)} 0\n{vertices}{faces}"
+    yield f"{len(VERTICES)} {len(FACES)} 0\n{vertices}{faces}"
+    yield "4nOFF 3\n3 1 0\n0 0 0 1\n2 0 0 2\n0 1 0 1\n3 0 1 2\n\0"
+    yield "OFF BINARY\n"
     yield "COFF # coloured\n3 1 0\n0 0 0 255 0 0\n1 0 0 0 255 0\n0 1 0 0 0 255\n3 0 1 2 0.5 0.5 0.5\n"
 
 
 def stl():
     facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1e-9 0\nendloop\nendfacet\n"
     yield f"solid a\n{facet}{facet}endsolid a\nsolid b\n{facet}endsolid\n".encode()
+    quad = facet.replace("endloop", "vertex 1 1 0\nendloop").upper()
+    yield f"\ufeffSOLID a\n{quad}ENDSOLID a\n\0".encode()
     for start in (b"made", b"solid"):
         corners = [0, 0, 1] + [c for v in VERTICES[:3] for c in v]
         yield start.ljust(80, b"\0") + struct.pack("<I", 2) + 2 * (struct.pack("<12f", *corners) + b"\0\0")
@@ -74,7 +101,7 @@ def seeds():
              ply("ascii", extra="property uchar red\n"), ply("binary_little_endian", extra="property uchar red\n")]
     huge = [ply("ascii").replace(b"element face 3", b"element face 4294967295"),
             ply("binary_little_endian").replace(b"element vertex 5", b"element vertex 2147483648")]
-    yield "ply", forms + huge
+    yield "ply", forms + huge + [text.encode() for text in unusual_ply()]
     yield "obj", [text.encode() for text in obj()]
     yield "off", [text.encode() for text in off()]
     yield "stl", list(stl())

@@ -2,12 +2,16 @@
 #include "core/mesh_io/mesh_io.h"
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "tests/temporary_folder.h"
@@ -88,12 +92,43 @@ TEST(LoadMesh, RefusesWhatIsNoReadableFile) {
   expect_refusal(folder.file("dangling.obj"), "no such file");
 }
 
+TEST(LoadMesh, ReadsAPipeThatSomebodyWritesTo) {
+  const TemporaryFolder folder;
+  const std::string pipe = folder.file("pipe.obj");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  std::thread writer([&] {
+    std::ofstream out(pipe);
+    out << "v 0 0 0\nv 1 0 0\nv 0 1 0\n" << std::flush;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    out << "f 1 2 3\n";
+  });
+  EXPECT_EQ(load_mesh(pipe).size(), 1u);
+  writer.join();
+}
+
+TEST(LoadMesh, APipeThatNobodyWritesToIsRefused) {
+  const TemporaryFolder folder;
+  const std::string pipe = folder.file("pipe.ply");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  expect_refusal(pipe, "is a pipe that nobody writes to");
+}
+
+TEST(LoadMesh, RefusesDevices) { expect_refusal("/dev/null", "is neither a file nor a pipe"); }
+
+TEST(LoadMesh, ACadFileIsToldFromAMesh) {
+  const TemporaryFolder folder;
+  const std::string step = "ISO-10303-21;\nHEADER;\n", what = "is a CAD exchange file (STEP), not a mesh";
+  for (const char* name : {"a.step", "a.STP", "a.stl", "a.txt"})
+    expect_refusal(folder.file(name, step), what);
+  expect_refusal(folder.file("a.igs", "S      1\n"), "is a CAD exchange file (IGES), not a mesh");
+}
+
 TEST(LoadMesh, RefusesAFileThatMayNotBeRead) {
   if (::geteuid() == 0) GTEST_SKIP() << "root may read everything";
   const TemporaryFolder folder;
   const std::string path = folder.file("secret.obj", square_obj);
   std::filesystem::permissions(path, std::filesystem::perms::none);
-  expect_refusal(path, "cannot be opened");
+  expect_refusal(path, "Permission denied");
 }
 
 TEST(LoadMesh, RefusesEmptyFilesOfEveryFormat) {

@@ -1,6 +1,7 @@
 #include "core/mesh_io/readers.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <limits>
@@ -75,16 +76,63 @@ TEST(ReadObj, NamesTheLineOfWhatItRefuses) {
   EXPECT_EQ(refusal(read_obj, "v 0 0\n"), "line 1: z is missing");
   EXPECT_EQ(refusal(read_obj, "v 0 nan 0\n"), "line 1: y 'nan' is not finite");
   EXPECT_EQ(refusal(read_obj, "v 0 1e400 0\n"), "line 1: y '1e400' does not fit a double");
-  EXPECT_EQ(refusal(read_obj, square_obj + "f 1 2 7\n"),
-            "line 5: face 0 names vertex 7 of the 4 read so far");
-  EXPECT_EQ(refusal(read_obj, square_obj + "f 1 2 0\n"),
-            "line 5: face 0 names vertex 0 of the 4 read so far");
-  EXPECT_EQ(refusal(read_obj, square_obj + "f 1 2 -5\n"),
-            "line 5: face 0 names vertex -5 of the 4 read so far");
-  EXPECT_EQ(refusal(read_obj, square_obj + "f 1 2\n"), "line 5: face 0 has 2 corners; 3 to 1024 make a face");
+  EXPECT_EQ(refusal(read_obj, square_obj + "f 1 2 7\n"), "line 5: face 0 names vertex 7 of 4");
+  EXPECT_EQ(refusal(read_obj, square_obj + "f 1 2 0\n"), "line 5: face 0 names vertex 0 of 4");
+  EXPECT_EQ(refusal(read_obj, square_obj + "f 1 2 -5\n"), "line 5: face 0 names vertex -5 of 4 so far");
+  EXPECT_EQ(refusal(read_obj, square_obj + "f 1 2\n"), "line 5: face 0 has 2 corners; a face has at least 3");
   EXPECT_EQ(refusal(read_obj, "hello\n"), "line 1: unknown statement 'hello'");
   EXPECT_EQ(refusal(read_obj, square_obj), "the mesh has no triangle");
 }
+
+TEST(ReadObj, AFaceMayStandBeforeItsVertices) {
+  const TriangleMesh mesh = read_obj("f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 9 9 9\nf 4 -1 2\n");
+  ASSERT_EQ(mesh.size(), 3u);
+  EXPECT_EQ(mesh.triangles()[0], (TriangleMesh::Corners{0, 1, 2}));
+  EXPECT_EQ(mesh.triangles()[1], (TriangleMesh::Corners{0, 1, 2}));
+  EXPECT_EQ(mesh.triangles()[2], (TriangleMesh::Corners{3, 3, 1}));
+  EXPECT_EQ(refusal(read_obj, "f -1 -2 -3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n"),
+            "line 1: face 0 names vertex -1 of 0 so far");
+}
+
+TEST(ReadObj, SkipsCurvesAndRefusesFreeFormSurfacesByName) {
+  EXPECT_EQ(read_obj(square_obj + "cstype bspline\ndeg 3\ncurv 0 1 1 2 3 4\nparm u 0 0 1 1\nend\n"
+                                  "curv2 1 2 3\nsp 1\nf 1 2 3\n")
+                .size(),
+            1u);
+  EXPECT_EQ(refusal(read_obj, square_obj + "f 1 2 3\nsurf 0 1 0 1 1 2 3 4\n"),
+            "line 6: surf, a free-form surface, is not supported");
+  EXPECT_EQ(refusal(read_obj, "call other.obj\n"), "line 1: call, another file, is not supported");
+}
+
+/// A corner for each of `angles` in whole turns, on the unit circle; every `dented`-th one is pulled in.
+std::string polygon_obj(int corners, int dented) {
+  std::string text, face = "f";
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2 * 3.14159265358979323846 * i / corners,
+                 r = dented != 0 && i % dented == 1 ? 0.5 : 1;
+    text += "v " + std::to_string(r * std::cos(angle)) + " " + std::to_string(r * std::sin(angle)) + " 0\n";
+    face += " " + std::to_string(i + 1);
+  }
+  return text + face + "\n";
+}
+
+TEST(ReadObj, ALargeConvexFaceKeepsItsArea) {
+  for (const int corners : {1024, 1025, 5000, 20000}) {
+    const TriangleMesh mesh = read_obj(polygon_obj(corners, 0));
+    ASSERT_EQ(mesh.size(), static_cast<std::size_t>(corners) - 2);
+    EXPECT_EQ(mesh.id(mesh.size() - 1), 0u);
+    // Six digits are written of each coordinate.
+    EXPECT_NEAR(area(mesh), 3.14159265358979323846, 1e-4) << corners;
+  }
+}
+
+TEST(ReadObj, ALargeFaceThatIsNotConvexIsRefusedByItsCorners) {
+  EXPECT_EQ(read_obj(polygon_obj(1024, 4)).size(), 1022u);
+  EXPECT_EQ(refusal(read_obj, polygon_obj(1028, 4)),
+            "line 1029: face 0 has 1028 corners and is not convex; 1024 are the most of one that is not");
+}
+
+const std::string byte_order_mark = "\xef\xbb\xbf";
 
 const std::string ply_header =
     "ply\nformat ascii 1.0\ncomment x\nelement vertex 3\nproperty double x\nproperty double y\nproperty "
@@ -123,6 +171,89 @@ TEST(ReadPly, NamesTheLineOfWhatItRefuses) {
             "line 4: the header has no end_header");
 }
 
+TEST(ReadPly, NamesWhatStandsInTheHeaderTwice) {
+  const auto with = [](const std::string& lines) {
+    return "ply\nformat ascii 1.0\n" + lines + "end_header\n";
+  };
+  EXPECT_EQ(refusal(read_ply, with("element vertex 3\nproperty float x\nproperty double x\n")),
+            "line 5: element 'vertex' has property 'x' twice");
+  EXPECT_EQ(refusal(read_ply, with("element vertex 3\nproperty float x\nelement vertex 3\n")),
+            "line 5: element 'vertex' stands in the header twice");
+  EXPECT_EQ(refusal(read_ply, with("format ascii 1.0\n")), "line 3: a second format");
+}
+
+TEST(ReadPly, SaysWhichPartOfASurfaceIsNotThere) {
+  const std::string points =
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n";
+  EXPECT_EQ(refusal(read_ply, points + "end_header\n0 0 0\n"),
+            "the header has no element face: these are points without a surface");
+  EXPECT_EQ(refusal(read_ply, points + "element range_grid 1\nproperty list uchar int vertex_indices\n"
+                                       "end_header\n0 0 0\n1 0\n"),
+            "line 7: element 'range_grid' is not supported, and there are no faces");
+  EXPECT_EQ(refusal(read_ply, points + "element face 1\nproperty int vertex_indices\nend_header\n0 0 0\n0\n"),
+            "line 7: element 'face' has no list vertex_indices");
+  EXPECT_EQ(refusal(read_ply,
+                    "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+                    "element face 1\nproperty list uchar int vertex_indices\nend_header\n"),
+            "line 3: element 'vertex' has no coordinate z");
+}
+
+TEST(ReadPly, ReadsTriangleStrips) {
+  // Two strips in one list, the first with a vertex twice: it leads on without being a face.
+  const TriangleMesh mesh = read_ply(
+      "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+      "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n10 0 1 2 3 3 4 -1 2 3 4\n");
+  ASSERT_EQ(mesh.size(), 3u);
+  EXPECT_EQ(mesh.triangles()[0], (TriangleMesh::Corners{0, 1, 2}));
+  EXPECT_EQ(mesh.triangles()[1], (TriangleMesh::Corners{2, 1, 3}));
+  EXPECT_EQ(mesh.triangles()[2], (TriangleMesh::Corners{2, 3, 4}));
+  EXPECT_EQ(mesh.id(2), 2u);
+  EXPECT_EQ(refusal(read_ply,
+                    "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+                    "property float z\nelement tristrips 1\nproperty list int int vertex_indices\n"
+                    "end_header\n0 0 0\n3 0 0 -2\n"),
+            "line 11: face 0 names vertex -2 of 1");
+}
+
+TEST(ReadPly, AStripKeepsTheSurfacesSide) {
+  const TriangleMesh mesh = read_ply(
+      "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
+      "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n1 2 0\n6 0 1 2 3 4 5\n");
+  ASSERT_EQ(mesh.size(), 4u);
+  for (std::size_t i = 0; i < mesh.size(); ++i) {
+    const Vec3 u = mesh.corner(i, 1) - mesh.corner(i, 0), v = mesh.corner(i, 2) - mesh.corner(i, 0);
+    EXPECT_GT(u.x() * v.y() - u.y() * v.x(), 0) << i;
+  }
+}
+
+TEST(ReadPly, ReadsIndicesStoredAsFloatingPointNumbers) {
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar float vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n";
+  EXPECT_EQ(read_ply(header + "3 2.0 1 0e0\n").triangles()[0], (TriangleMesh::Corners{2, 1, 0}));
+  EXPECT_EQ(refusal(read_ply, header + "3 0 1 1.5\n"), "line 13: a face's vertex is not a whole number");
+  EXPECT_EQ(refusal(read_ply, header + "3 0 1 16777216\n"),
+            "line 13: a face's vertex is beyond the whole numbers of its type");
+}
+
+TEST(ReadPly, FacesMayStandBeforeVertices) {
+  const TriangleMesh mesh = read_ply(
+      "ply\nformat ascii 1.0\nelement face 2\nproperty list uchar int vertex_indices\nelement vertex 4\n"
+      "property float x\nproperty float y\nproperty float z\nend_header\n"
+      "3 2 1 0\n4 0 1 2 3\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n");
+  ASSERT_EQ(mesh.size(), 3u);
+  EXPECT_EQ(mesh.triangles()[0], (TriangleMesh::Corners{2, 1, 0}));
+  EXPECT_EQ(mesh.id(2), 1u);
+}
+
+TEST(ReadPly, PaddingMayFollowTheLastElement) {
+  const std::string whole = ply_header + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  EXPECT_EQ(read_ply(whole + std::string("\n\x1a\0\0", 4)).size(), 1u);
+  EXPECT_EQ(read_ply(byte_order_mark + whole).size(), 1u);
+}
+
 TEST(ReadPly, HoldsDeclaredCountsAgainstTheFilesSize) {
   const std::string huge =
       "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\n"
@@ -157,6 +288,14 @@ TEST(ReadPly, ReadsBinaryOfEitherByteOrder) {
   }
 }
 
+TEST(ReadPly, BinaryPaddingIsReadAndMoreDataIsNot) {
+  const std::string whole = binary_ply(false);
+  EXPECT_EQ(read_ply(whole + "\n").size(), 1u);
+  EXPECT_EQ(read_ply(whole + std::string(100, '\0')).size(), 1u);
+  EXPECT_EQ(refusal(read_ply, whole + std::string(8, '\0') + "\3"),
+            "byte " + std::to_string(whole.size()) + ": goes on after its last element");
+}
+
 TEST(ReadPly, EveryTruncationOfABinaryFileIsRefused) {
   const std::string whole = binary_ply(false);
   for (std::size_t length = 0; length < whole.size(); ++length) {
@@ -172,13 +311,30 @@ TEST(ReadOff, ReadsVerticesAndFacesAndLeavesColours) {
 }
 
 TEST(ReadOff, NamesTheLineOfWhatItRefuses) {
-  EXPECT_EQ(refusal(read_off, "3 1 0\n"), "line 1: starts with '3' instead of OFF");
+  EXPECT_EQ(refusal(read_off, "of 3 1 0\n"), "line 1: starts with 'of' instead of OFF");
+  EXPECT_EQ(refusal(read_off, "OFFX\n3 1 0\n"), "line 1: starts with 'OFFX' instead of OFF");
+  EXPECT_EQ(refusal(read_off, "OFF BINARY\n"), "line 1: binary OFF is not supported");
+  EXPECT_EQ(refusal(read_off, "nOFF\n5\n3 1 0\n"), "line 2: dimension 5 is not supported; 3 is");
+  EXPECT_EQ(refusal(read_off, "4OFF\n1 0 0\n1 2 3 0\n"), "line 3: a vertex at infinity");
   EXPECT_EQ(refusal(read_off, "OFF\n3 1 0\n0 0 0\n"), "line 4: ends after 1 of 3 vertices");
   EXPECT_EQ(refusal(read_off, "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 5\n"),
             "line 6: face 0 names vertex 5 of 3");
   EXPECT_EQ(refusal(read_off, "OFF\n999999 1 0\n0 0 0\n"),
             "line 2: the number of vertices 999999 in a file of 21 bytes");
   EXPECT_EQ(refusal(read_off, off + "3 0 1 2\n"), "line 7: goes on after its 1 faces");
+}
+
+TEST(ReadOff, ReadsEveryFormOfTheHeader) {
+  const std::string body = "3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  const std::string homogeneous = "3 1 0\n0 0 0 1\n2 0 0 2\n0 0.5 0 0.5\n3 0 1 2\n";
+  for (const std::string& text : {body, "\n# a comment\n" + body, "nOFF 3\n" + body, "STCNOFF\n" + body,
+                                  byte_order_mark + "OFF\n" + body, "4OFF\n" + homogeneous,
+                                  "4nOFF\n3\n" + homogeneous, "OFF\n" + body + std::string("\0\0\x1a", 3)}) {
+    const TriangleMesh mesh = read_off(text);
+    ASSERT_EQ(mesh.size(), 1u) << text;
+    EXPECT_EQ(mesh.corner(0, 1), Vec3(1, 0, 0)) << text;
+    EXPECT_EQ(mesh.corner(0, 2), Vec3(0, 1, 0)) << text;
+  }
 }
 
 std::string ascii_facet(const std::string& last) {
@@ -198,7 +354,23 @@ TEST(ReadStl, NamesTheLineOfWhatItRefuses) {
   EXPECT_EQ(refusal(read_stl, "solid a\n" + ascii_facet("0 1 0")),
             "line 9: the end stands where 'facet' or 'endsolid' should");
   EXPECT_EQ(refusal(read_stl, "solid a\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n"),
-            "line 6: 'endloop' stands where 'vertex' should");
+            "line 7: the end stands where 'endfacet' should");
+}
+
+TEST(ReadStl, ReadsPolygonsCapitalsAndAByteOrderMark) {
+  const TriangleMesh mesh = read_stl(byte_order_mark +
+                                     "SOLID a\nFACET NORMAL 0 0 1\nOUTER LOOP\nVERTEX 0 0 0\nVERTEX 1 0 0\n"
+                                     "VERTEX 1 1 0\nVERTEX 0 1 0\nENDLOOP\nENDFACET\n" +
+                                     ascii_facet("0 1 0") + "ENDSOLID\n" + std::string(3, '\0'));
+  ASSERT_EQ(mesh.size(), 3u);
+  EXPECT_EQ(mesh.id(1), 0u);
+  EXPECT_EQ(mesh.id(2), 1u);
+  EXPECT_EQ(area(mesh), 1.5);
+  EXPECT_EQ(refusal(read_stl, "solid\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\nendfacet\n"),
+            "line 7: face 0 has 2 corners; a face has at least 3");
+  EXPECT_EQ(refusal(read_stl, "\xff\xfes\0o\0"),
+            "line 1: is UTF-16 text, which is not supported; save it as "
+            "UTF-8 or ASCII");
 }
 
 std::string binary_stl(const std::string& title, std::uint32_t declared, float last) {
@@ -212,6 +384,12 @@ std::string binary_stl(const std::string& title, std::uint32_t declared, float l
 
 TEST(ReadStl, ReadsBinaryEvenWhenItsTitleSaysSolid) {
   EXPECT_EQ(read_stl(binary_stl("solid", 1, 0.5f)).corner(0, 2), Vec3(0, 1, 0.5));
+}
+
+TEST(ReadStl, PaddingMayFollowTheLastFacet) {
+  EXPECT_EQ(read_stl(binary_stl("x", 1, 0.5f) + std::string(7, '\0')).size(), 1u);
+  EXPECT_EQ(refusal(read_stl, binary_stl("x", 1, 0.5f) + "more"),
+            "byte 80: 1 facets need 134 bytes, the file has 138");
 }
 
 TEST(ReadStl, RefusesBinaryOfTheWrongSizeAndNotANumber) {
