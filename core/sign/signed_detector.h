@@ -25,6 +25,7 @@ class Signed {
   static Signed build(const TriangleMesh& mesh, const Options& options) {
     return Signed(D::build(mesh, options), SideFinder::build(mesh));
   }
+  static Signed build(const TriangleMesh& mesh) { return build(mesh, Options()); }
 
   /// The sides are found anew.
   void update(const TriangleMesh& mesh) requires Updates<D> {

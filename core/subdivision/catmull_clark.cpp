@@ -85,7 +85,7 @@ std::vector<Around> sums_around(const IndexedFaces<N>& mesh, const OrientedSurfa
 template <std::size_t N>
 Points smooth_vertices(const IndexedFaces<N>& mesh, const OrientedSurface<N>& surface, const Points& middle,
                        const Points& face) {
-  using Place = OrientedSurface<N>::Place;
+  using Place = typename OrientedSurface<N>::Place;
   const std::vector<Around> sums = sums_around(mesh, surface, middle, face);
   Points points = mesh.positions;
   for (std::uint32_t v = 0; v < points.size(); ++v) {
