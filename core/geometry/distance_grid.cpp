@@ -55,10 +55,10 @@ DistanceGrid::DistanceGrid(const Eigen::Vector3f& min, const Eigen::Vector3f& ma
 }
 
 DistanceGrid DistanceGrid::around(const FilterFrame& frame, const Aabb& bounds, std::size_t triangles) {
-  // Two roundings of a sample's place in the mesh's frame, measured in the other.
-  const double place_rounding =
-      std::numeric_limits<double>::epsilon() * frame.origin().lpNorm<1>() * frame.scale();
-  if (!(place_rounding < 0x1p-24)) return {};
+  // The samples lie within a tenth and a cube of the mesh's box, whose coordinates are below 2. Their places
+  // are rounded when they are taken, and half of the 2^-23 that a sample may be off by is left for the rest.
+  constexpr double largest = 4;
+  if (!(frame.from_frame_error(largest) < 0x1p-24)) return {};
   const Aabb box = frame.to_frame(bounds);
   return {box.min.cast<float>(), box.max.cast<float>(), triangles};
 }

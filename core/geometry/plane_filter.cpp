@@ -18,15 +18,20 @@ FilterFrame FilterFrame::around(const Aabb& bounds) noexcept {
   frame.scale_ = std::ldexp(1.0, -std::ilogb(half.maxCoeff()) - 1);
   frame.unit_ = 1 / frame.scale_;
   frame.squared_scale_ = frame.scale_ * frame.scale_;
-  frame.radius_ = frame.scale_ * half.norm();
+  frame.radius_ = frame.radius_of(bounds);
   return frame;
+}
+
+/// Far from 0 the origin is the box's middle but for its rounding, which may be as much as the extent.
+double FilterFrame::radius_of(const Aabb& bounds) const noexcept {
+  const Vec3 farthest = (bounds.min - origin_).cwiseAbs().cwiseMax((bounds.max - origin_).cwiseAbs());
+  return scale_ * farthest.norm();
 }
 
 bool FilterFrame::widen(const Aabb& bounds) noexcept {
   // A frame around a box has an extent of 1 to 2, and so a radius of 0.5 to 1.8.
   constexpr double largest_radius = 2, least_extent = 0.5;
-  const Vec3 farthest = (bounds.min - origin_).cwiseAbs().cwiseMax((bounds.max - origin_).cwiseAbs());
-  const double radius = scale_ * farthest.norm();
+  const double radius = radius_of(bounds);
   if (!(radius <= largest_radius) || !(scale_ * bounds.extent().maxCoeff() >= least_extent)) return false;
   radius_ = std::max(radius_, radius);
   return true;

@@ -79,14 +79,25 @@ class FilterFrame {
   }
   Vec3 to_frame(const Vec3& point) const noexcept { return scale_ * (point - origin_); }
   Aabb to_frame(const Aabb& box) const noexcept { return {to_frame(box.min), to_frame(box.max)}; }
+  /// A point of this frame in the mesh's, rounded to the doubles there: far from 0 these are far apart, and
+  /// what is measured at the result holds of the point only within from_frame_error.
+  Vec3 from_frame(const Vec3& in_frame) const noexcept { return origin_ + in_frame * unit_; }
+  /// In this frame, at most the way from a point whose coordinates are within `largest` of 0 to where
+  /// from_frame puts it. The product by a power of two is exact; the sum is rounded once a coordinate, by u
+  /// of itself, u = 2^-53, and a vector is no longer than the sum of its coordinates. A quarter more than
+  /// that.
+  double from_frame_error(double largest) const noexcept {
+    constexpr double u = std::numeric_limits<double>::epsilon() / 2;
+    return 1.25 * u * (origin_.lpNorm<1>() * scale_ + 3 * largest);
+  }
   /// What rounding may do to a plane's value at this point of the frame.
   float tau(const Vec3& in_frame) const noexcept {
     const double reach = std::abs(in_frame.x()) + std::abs(in_frame.y()) + std::abs(in_frame.z()) + radius_;
     return static_cast<float>(reach * tau_per_unit);
   }
   /// At least the distance_error of certified_nearest.h, in mesh units, at the point whose tau this is, and
-  /// quicker to have: tau is 2^-21 of a length that would exceed every coordinate difference if the frame's
-  /// origin were not rounded, and exceeds half of it so.
+  /// quicker to have: tau is 2^-21 of a length that exceeds every coordinate difference, and this is twice
+  /// that error of it.
   double kernel_error(float tau) const noexcept { return static_cast<double>(tau) * 0x1p-23 * unit_; }
   /// A squared distance of the mesh's frame as a limit on lower bounds, rounded up.
   float limit(double squared_distance) const noexcept {
@@ -119,11 +130,14 @@ class FilterFrame {
  private:
   static constexpr float most = std::numeric_limits<float>::max();
 
+  /// From the frame's origin to the farthest point of the box, in the frame.
+  double radius_of(const Aabb& bounds) const noexcept;
+
   Vec3 origin_ = Vec3::Zero();
   double scale_ = 1;
   double unit_ = 1;
   double squared_scale_ = 1;
-  double radius_ = 1;  ///< bound on |offset|: the farthest vertex from the origin, in the frame
+  double radius_ = 1;  ///< bound on |offset|: no vertex is farther from the origin, in the frame
 };
 
 /// A triangle without a normal (collinear corners) gets planes that bound nothing: it always meets the

@@ -10,14 +10,16 @@
 namespace touchmark::grid {
 
 CellTree::Leaf CellTree::nearest_to(const TriangleStore& store, const BoxTree& tree, const Vec3& middle,
-                                    std::uint32_t hint, std::uint64_t most, Work& work) noexcept {
-  const Vec3 center = store.frame.origin() + middle / store.frame.scale();
+                                    std::uint32_t hint, std::uint64_t most, Work& work) const noexcept {
+  const Vec3 center = store.frame.from_frame(middle);
   NearestSearch search(store, center, std::numeric_limits<double>::infinity());
   search.consider(hint);
   const bool found = search.consider_tree(tree, most);
   work.triangles += search.triangles();
   work.boxes += search.boxes();
-  return {search.place(), found ? rounded_down(store.frame.scale() * std::sqrt(search.offset().squared)) : 0};
+  if (!found) return {search.place(), 0};
+  const double distance = store.frame.scale() * std::sqrt(search.offset().squared);
+  return {search.place(), std::max(rounded_down(distance - middle_error_), 0.0F)};
 }
 
 CellTree::Leaves::Leaves(const Leaves& other) {
@@ -91,6 +93,8 @@ class CellTreeBuilder {
       cells_.half_ = options_.smallest / 2;
       while (cells_.half_ < room) cells_.half_ *= 2;
     }
+    cells_.middle_error_ =
+        store_.frame.from_frame_error(cells_.half_) + CellTree::middle_roundings * cells_.half_;
     cells_.unit_ = std::ldexp(2 * cells_.half_, -static_cast<int>(CellTree::most_levels));
     // A little less, so that a sum rounded up to the cube's edge still counts as inside.
     cells_.units_per_length_ = (1 - 0x1p-50) / cells_.unit_;
@@ -145,7 +149,7 @@ class CellTreeBuilder {
 
   CellTree::Leaf nearest_to(const Open& cell) const {
     Work unreported;
-    return CellTree::nearest_to(store_, tree_, cell.middle, cell.rough.place, any_work, unreported);
+    return cells_.nearest_to(store_, tree_, cell.middle, cell.rough.place, any_work, unreported);
   }
 
   /// Near the surface, down to the size of the triangles there.

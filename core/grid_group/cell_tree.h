@@ -27,7 +27,7 @@ struct CellOptions {
 /// The triangle nearest to a cell's middle, and how far it is: what a query starts from.
 struct Cell {
   Vec3 middle;      ///< in the frame
-  double distance;  ///< from the middle to the mesh, in the frame, rounded down
+  double distance;  ///< from there to the mesh, in the frame, at least
   std::uint32_t place;
 };
 
@@ -49,10 +49,14 @@ class CellTree {
     const Leaf leaf = leaves_.at(found.leaf);
     return {middle(at, found.shift), static_cast<double>(leaf.distance), leaf.place};
   }
-  /// A cell's distance before it was rounded down, at most.
-  static double at_most(double distance) noexcept {
-    return (distance + 2 * rounded_down_to) * (1 + 2 * rounded_down_by);
+  /// The mesh is no farther from the middle of a cell of this distance, where a search for what is nearest to
+  /// it came to its end.
+  double at_most(double distance) const noexcept {
+    return (distance + 2 * rounded_down_to) * (1 + 2 * rounded_down_by) + 2 * middle_error_;
   }
+  /// In the frame: how far a cell's middle may be from where it is looked at in the mesh's own coordinates,
+  /// in which it is rounded.
+  double middle_error() const noexcept { return middle_error_; }
   /// Finds what is nearest to the middle of that cell, where that is not known yet; else false. Any thread
   /// may meanwhile read or settle the same.
   bool settle(const Vec3& in_frame, const TriangleStore& store, const BoxTree& tree,
@@ -126,16 +130,21 @@ class CellTree {
     return {middle(at[0]), middle(at[1]), middle(at[2])};
   }
 
-  /// So much a distance is rounded down, relatively and besides.
+  /// Of the middle of a cell, besides from_frame's rounding: it is a sum over the levels when the cells are
+  /// made, and a product and a sum in middle(), each rounded by u = 2^-53 of half the cube's edge or its
+  /// whole; 32 of them in each of three coordinates, and as much again for the difference between the two.
+  static constexpr double middle_roundings = 2 * 3 * 32 * 0x1p-53;
+  /// So much a distance is rounded down, relatively and besides: to single precision, and for the kernel's
+  /// error.
   static constexpr double rounded_down_by = 0x1p-20, rounded_down_to = 0x1p-30;
 
   static float rounded_down(double distance) noexcept {
     return static_cast<float>(distance * (1 - rounded_down_by) - rounded_down_to);
   }
   /// `hint` is tried first. Where testing `most` triangles and boxes is not enough, the nearest of those and
-  /// no distance.
-  static Leaf nearest_to(const TriangleStore& store, const BoxTree& tree, const Vec3& middle,
-                         std::uint32_t hint, std::uint64_t most, Work& work) noexcept;
+  /// no distance. The search is from where the middle is when rounded, the distance holds of the middle.
+  Leaf nearest_to(const TriangleStore& store, const BoxTree& tree, const Vec3& middle, std::uint32_t hint,
+                  std::uint64_t most, Work& work) const noexcept;
   std::uint32_t unit(double along) const noexcept {
     return static_cast<std::uint32_t>(static_cast<std::int32_t>((along + half_) * units_per_length_));
   }
@@ -143,6 +152,7 @@ class CellTree {
   double half_ = 0;  ///< of the cube's edge; its middle is the frame's origin
   double unit_ = 0;  ///< edge of a cell of the last possible level
   double units_per_length_ = 0;
+  double middle_error_ = 0;
   unsigned top_levels_ = 0;
   std::vector<std::uint32_t> links_;  ///< the top table, then eight a node: the first of a node, or a leaf
   Leaves leaves_;

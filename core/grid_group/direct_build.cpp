@@ -79,12 +79,12 @@ DistanceGrid::Interval DirectGrid::sample(const Vec3& in_frame, double most,
   if (cells_.holds(in_frame)) {
     const Cell cell = cells_.at(in_frame);
     const double way = (in_frame - cell.middle).norm();
-    most = std::min(most, CellTree::at_most(cell.distance) + way);
+    most = std::min(most, cells_.at_most(cell.distance) + way);
     if (way <= std::max(enough * cell.distance, cells_.smallest_edge()))
       return {std::max(cell.distance - way, 0.0), most};
   }
   const double scale = store_.frame.scale(), reach = (1 - enough) * most;
-  const Vec3 center = store_.frame.origin() + in_frame / scale;
+  const Vec3 center = store_.frame.from_frame(in_frame);
   NearestSearch search(store_, center, reach / scale);
   const bool gave_up = !search.consider_tree(tree_, left);
   left -= std::min(left, search.triangles() + search.boxes());

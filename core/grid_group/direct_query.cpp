@@ -25,8 +25,9 @@ DirectGrid::Start DirectGrid::start_at(const Vec3& center, const FilterPoint& po
   }
   ++work.cells;
   const Cell cell = cells_.at(in_frame);
-  const Vec3 middle = store_.frame.origin() + cell.middle * store_.frame.unit();
-  remember(middle, store_.frame.tau(cell.middle), cell.distance * store_.frame.unit(), infinity, memory);
+  // The memory keeps the middle as it is when rounded.
+  const double free = (cell.distance - cells_.middle_error()) * store_.frame.unit();
+  remember(store_.frame.from_frame(cell.middle), store_.frame.tau(cell.middle), free, infinity, memory);
   if (surely_free(center, reach, memory)) return {true, cell.place, nullptr};
   return {false, cell.place, serving(cell.place, point, work)};
 }

@@ -110,7 +110,6 @@ SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters,
       searchable_(FilterFrame::fits(mesh.bounds())),
       bounds_(mesh.bounds()),
       certified_(options.certified),
-      radius_(0.5 * mesh.diagonal()),
       samples_later_(options.samples_later),
       ids_(mesh.ids().begin(), mesh.ids().end()) {
   if (!searchable_) {
@@ -118,6 +117,7 @@ SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters,
     return;
   }
   frame_ = FilterFrame::around(mesh.bounds());
+  radius_ = frame_.radius() * frame_.unit();
   parts_ = spheres::build_tree(mesh, clusters, frame_);
   measure_grain();
   fill_distances();

@@ -35,7 +35,7 @@ struct RoughVisitor {
 DistanceGrid::Interval SphereTree::sample(const Vec3& place, double most, Sampling& sampling) const noexcept {
   constexpr DistanceGrid::Interval unknown{-1, -1};
   if (sampling.work.total() > sampling.most) return unknown;
-  const Vec3 center = frame_.origin() + place / frame_.scale();
+  const Vec3 center = frame_.from_frame(place);
   const double reach = most / frame_.scale();
   RoughVisitor visitor{parts_, frame_, center, frame_.limit(reach * reach)};
   show(sampling.near, visitor);

@@ -1,0 +1,215 @@
+// Far from the origin doubles are so far apart that a place of the detectors' own frame has none near it:
+// what is measured at the nearest one must not be taken for what holds of the place.
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "bench/random.h"
+#include "bench/update/displaced.h"
+#include "core/aabb_tree/aabb_tree.h"
+#include "core/brute_force/brute_force.h"
+#include "core/geometry/plane_filter.h"
+#include "core/grid_group/cell_tree.h"
+#include "core/grid_group/grid_group.h"
+#include "core/sphere_cluster/sphere_cluster.h"
+#include "tests/core/sphere_cluster/test_meshes.h"
+
+namespace touchmark {
+namespace {
+
+using bench::Random;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Vec3 somewhere(Random& random, double largest) {
+  const auto one = [&] { return largest * (2 * random.unit() - 1); };
+  const double x = one(), y = one(), z = one();
+  return {x, y, z};
+}
+
+/// Of extent 1 but for bumps, and that many times its extent away, where its vertices are rounded.
+TriangleMesh ball_at(int exponent, int rings = 8) {
+  const Vec3 place = std::ldexp(1.0, exponent) * Vec3(1, -0.7, 0.3);
+  return test::bumpy_sphere(rings, 0.05, 1).transformed(0.5, place);
+}
+
+TEST(FilterFrameFarAway, BoundsWhatRoundingDoesToAPlace) {
+  Random random(3);
+  double worst = 0;
+  for (int exponent = 0; exponent <= 52; ++exponent) {
+    const FilterFrame frame = FilterFrame::around(ball_at(exponent).bounds());
+    const double bound = frame.from_frame_error(1.1);
+    for (int i = 0; i < 200; ++i) {
+      const Vec3 place = somewhere(random, 1.1);
+      // The difference of two doubles so close together is one.
+      const double off = (frame.to_frame(frame.from_frame(place)) - place).norm();
+      ASSERT_LE(off, bound) << "2^" << exponent;
+      if (exponent >= 20) worst = std::max(worst, off / bound);
+    }
+  }
+  EXPECT_GT(worst, 0.3) << "a bound so far off serves nobody";
+}
+
+TEST(FilterFrameFarAway, HoldsTheMeshWhereItsMiddleIsRoundedToItsBorder) {
+  const double far = 0x1p52;
+  const Aabb box{Vec3::Constant(far), Vec3::Constant(far + 1)};
+  const FilterFrame frame = FilterFrame::around(box);
+  for (const Vec3& corner : {box.min, box.max}) {
+    EXPECT_LE(frame.to_frame(corner).norm(), frame.radius());
+    // tau is 8 u of the point's coordinates and of the farthest corner's distance.
+    const double largest = frame.to_frame(corner).norm();
+    EXPECT_GE(static_cast<double>(frame.tau(Vec3::Zero())), 8 * 0x1p-24 * largest * (1 - 0x1p-20));
+  }
+}
+
+/// The mesh as the frame has it, where nothing is rounded: powers of two times differences.
+TriangleMesh in_frame(const TriangleMesh& mesh, const FilterFrame& frame) {
+  std::vector<Vec3> vertices;
+  for (const Vec3& v : mesh.vertices()) vertices.push_back(frame.to_frame(v));
+  return {std::move(vertices), {mesh.triangles().begin(), mesh.triangles().end()}};
+}
+
+/// Of the cell of each of many places of the cube: is the mesh no nearer to its middle than it says, nor
+/// farther than at_most says where the search was not cut short?
+void expect_true_distances(const grid::CellTree& cells, const TriangleMesh& mesh, const FilterFrame& frame,
+                           bool also_at_most) {
+  const BruteForce exact = BruteForce::build(in_frame(mesh, frame));
+  BruteForce::Session session;
+  Random random(5);
+  for (int i = 0; i < 400; ++i) {
+    const Vec3 place = somewhere(random, 1.03);
+    if (!cells.holds(place)) continue;
+    const grid::Cell cell = cells.at(place);
+    const double distance = exact.nearest({cell.middle, 0}, infinity, session)->distance;
+    EXPECT_LE(cell.distance, distance * (1 + 0x1p-40));
+    if (also_at_most) {
+      EXPECT_GE(cells.at_most(cell.distance), distance);
+    }
+  }
+}
+
+TEST(CellTreeFarAway, KnowsTheDistanceFromTheMiddleOfEachCell) {
+  for (const int exponent : {0, 30, 34, 38, 42, 46, 50}) {
+    SCOPED_TRACE("2^" + std::to_string(exponent));
+    const TriangleMesh mesh = ball_at(exponent);
+    const grid::TriangleStore store = grid::TriangleStore::build(mesh);
+    const grid::BoxTree tree(store);
+    for (const bool rough : {false, true}) {
+      for (const double smallest : {0.0, 0.01}) {
+        const grid::CellTree cells =
+            grid::CellTree::build(store, tree, {smallest, std::size_t{1} << 20, rough});
+        expect_true_distances(cells, mesh, store.frame, !rough);
+        Work work;
+        Random random(7);
+        for (int i = 0; rough && i < 100; ++i) {
+          const Vec3 place = somewhere(random, 1.03);
+          if (cells.holds(place)) cells.settle(place, store, tree, work);
+        }
+        expect_true_distances(cells, mesh, store.frame, !rough);
+      }
+    }
+  }
+}
+
+TEST(CellTreeFarAway, KnowsItAfterAnUpdate) {
+  for (const int exponent : {0, 38, 44, 48, 50}) {
+    SCOPED_TRACE("2^" + std::to_string(exponent));
+    const TriangleMesh mesh = ball_at(exponent);
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      grid::TriangleStore store = grid::TriangleStore::build(bench::displaced(mesh, seed));
+      const grid::BoxTree before(store);
+      for (const bool rough : {false, true}) {
+        grid::TriangleStore moving = store;
+        grid::CellTree cells = grid::CellTree::build(moving, before, {0.02, std::size_t{1} << 20, rough});
+        ASSERT_TRUE(moving.frame.widen(mesh.bounds()));
+        const std::vector<Aabb> moved = moving.move(mesh);
+        const grid::BoxTree after(moving);
+        cells.update(moving, after, moved);
+        expect_true_distances(cells, mesh, moving.frame, !rough);
+      }
+    }
+  }
+}
+
+/// Doubles on the mesh, near it and anywhere about it: a session goes on from one to the next.
+std::vector<Vec3> centers_about(const TriangleMesh& mesh, std::size_t count) {
+  Random random(11);
+  const Vec3 extent = mesh.bounds().extent();
+  std::vector<Vec3> centers;
+  while (centers.size() < count) {
+    const Vec3& vertex = mesh.vertices()[random.below(mesh.vertices().size())];
+    centers.push_back(vertex);
+    centers.emplace_back(vertex + somewhere(random, 0.05).cwiseProduct(extent));
+    centers.emplace_back(mesh.bounds().center() + somewhere(random, 0.7).cwiseProduct(extent));
+  }
+  return centers;
+}
+
+/// At the distance, at the doubles beside it, and a probe of radius 0, which touches where it is on the mesh.
+template <class D>
+void expect_answers_of_brute_force(const D& detector, const BruteForce& exact,
+                                   const std::vector<Vec3>& centers, const std::string& name) {
+  typename D::Session session;
+  BruteForce::Session plain;
+  std::size_t touches = 0, contacts = 0;
+  for (const Vec3& center : centers) {
+    const double distance = exact.nearest({center, 0}, infinity, plain)->distance;
+    for (const double radius :
+         {distance, std::nextafter(distance, infinity), std::nextafter(distance, 0), 0.0}) {
+      const Probe probe{center, radius};
+      touches += detector.touches(probe, session) != exact.touches(probe, plain) ? 1U : 0U;
+      const auto contact = detector.nearest(probe, radius, session),
+                 right = exact.nearest(probe, radius, plain);
+      const bool same =
+          contact.has_value() == right.has_value() &&
+          (!contact || (contact->triangle == right->triangle && contact->point == right->point &&
+                        contact->distance == right->distance));
+      contacts += same ? 0 : 1;
+    }
+  }
+  EXPECT_EQ(touches, 0U) << name;
+  EXPECT_EQ(contacts, 0U) << name;
+}
+
+template <class D>
+void expect_of_built_and_updated(const TriangleMesh& mesh, const typename D::Options& options,
+                                 const std::string& name) {
+  const BruteForce exact = BruteForce::build(mesh);
+  const std::vector<Vec3> centers = centers_about(mesh, 60);
+  expect_answers_of_brute_force(D::build(mesh, options), exact, centers, name);
+  D updated = D::build(bench::displaced(mesh, 1), options);
+  typename D::Session session;
+  for (const Vec3& center : centers) updated.nearest({center, 0}, 0.1, session);  // makes what is made later
+  updated.update(mesh);
+  expect_answers_of_brute_force(updated, exact, centers, name + ", updated");
+}
+
+class FarFromOrigin : public testing::TestWithParam<int> {};
+
+TEST_P(FarFromOrigin, EveryFormAnswersAsBruteForce) {
+  const TriangleMesh mesh = ball_at(GetParam(), 10);
+  constexpr auto lazy_groups = GridGroup::Making::lazy;
+  constexpr auto lazy_samples = SphereCluster::Making::lazy;
+  expect_of_built_and_updated<GridGroup>(mesh, {}, "grid-group");
+  expect_of_built_and_updated<GridGroup>(mesh, {.making = lazy_groups}, "grid-group, lazy");
+  expect_of_built_and_updated<GridGroup>(mesh, {.bytes_per_triangle = 1e5, .making = lazy_groups},
+                                         "grid-group, lazy, much memory");
+  expect_of_built_and_updated<GridGroup>(mesh, {.cell = 0.02}, "grid-group, small cells");
+  expect_of_built_and_updated<SphereCluster>(mesh, {}, "sphere-cluster");
+  expect_of_built_and_updated<SphereCluster>(mesh, {.making = lazy_samples}, "sphere-cluster, lazy");
+  expect_of_built_and_updated<AabbTree>(mesh, {}, "aabb-tree");
+  expect_of_built_and_updated<GridGroup>(mesh, {.lookup = GridGroup::Lookup::scan}, "cubes as published");
+  expect_of_built_and_updated<GridGroup>(
+      mesh, {.shape = GridGroup::Shape::sphere, .lookup = GridGroup::Lookup::scan}, "balls as published");
+  expect_of_built_and_updated<SphereCluster>(mesh, {.lookup = SphereCluster::Lookup::scan},
+                                             "spheres as published");
+}
+
+INSTANTIATE_TEST_SUITE_P(PowersOfTwo, FarFromOrigin, testing::Values(27, 31, 34, 42, 50, 52));
+
+}  // namespace
+}  // namespace touchmark
