@@ -88,7 +88,7 @@ def printed_ls3(directory, what):
 
 def draw_pair(plt, directory, table, column, title, unit, printed, log=True, relative=True, factor=1.0):
     """Without and with clustering, and LS3 beside the paper's numbers."""
-    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(14.5, 4.8), gridspec_kw={"width_ratios": [5, 5, 3.6]})
+    figure, (left, middle, right) = plt.subplots(1, 3, figsize=(11.5, 4.8), gridspec_kw={"width_ratios": [5, 5, 3.6]})
     levels = range(table.levels)
     bars(left, table, column, False, levels, log, factor)
     bars(middle, table, column, True, levels, log, factor)

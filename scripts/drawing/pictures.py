@@ -4,6 +4,7 @@ import pathlib
 import numpy
 
 from . import raster
+from .results import NothingToDraw, Unusable
 
 METHODS = [("butterfly", "(a) Butterfly"), ("catmull-clark-linear", "(b) Catmull-Clark"), ("mid-point", "(c) Mid-point"),
            ("loop", "(d) Loop"), ("ls3", "(e) LS3")]
@@ -11,8 +12,19 @@ PIXELS = 300  # the side of a picture on a sheet; those that stand alone are twi
 FRONT = raster.turned(-20, 8)
 
 
+def folder_of(directory):
+    """Where touchmark paper leaves what is rendered."""
+    folder = pathlib.Path(directory) / "pictures"
+    if not folder.is_dir():
+        raise NothingToDraw(f"no {folder}: touchmark paper writes it, recordings are kept without")
+    return folder
+
+
 def read(path):
-    return numpy.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
+    try:
+        return numpy.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
+    except OSError:  # numpy's own does not name the file
+        raise Unusable(f"{path}: cannot be read") from None
 
 
 def read_triangles(path):
@@ -45,7 +57,7 @@ def surface_picture(folder, method, level, what, frame, pixels):
 
 def draw_surfaces(plt, directory, what, unit, title, pixels=PIXELS):
     """The paper's sheet: a column a method, a row a level; the original is drawn once and shown in every column."""
-    folder = pathlib.Path(directory) / "pictures"
+    folder = folder_of(directory)
     frame = read_triangles(folder / "original-0-mesh.csv").reshape(-1, 3)
     if what != "mesh":  # room for what stands out
         middle = (frame.min(axis=0) + frame.max(axis=0)) / 2
@@ -79,7 +91,7 @@ def facing(point, points):
 
 
 def draw_original(plt, directory, pixels=PIXELS):
-    triangles = read_triangles(pathlib.Path(directory) / "pictures" / "original-mesh.csv")
+    triangles = read_triangles(folder_of(directory) / "original-mesh.csv")
     figure, axes = plt.subplots(figsize=(5, 5.3))
     picture = raster.Picture(triangles.reshape(-1, 3), 2 * pixels, FRONT)
     picture.triangles(triangles)
@@ -92,7 +104,7 @@ def draw_original(plt, directory, pixels=PIXELS):
 
 def draw_groups(plt, directory, shape, title, printed, pixels=PIXELS):
     """Left the groups, right the triangles of one group that holds the probe, dark on the pale model."""
-    folder = pathlib.Path(directory) / "pictures"
+    folder = folder_of(directory)
     triangles = read_triangles(folder / "original-mesh.csv")
     active = read_triangles(folder / f"{shape}-active.csv")
     groups, hip = read(folder / f"{shape}-groups.csv"), read(folder / "hip.csv")[0]

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """scripts/plot-papers on what the program (the argument) leaves of tiny experiments, and its rasteriser."""
 import pathlib
+import shutil
 import struct
 import subprocess
 import sys
@@ -48,6 +49,28 @@ class Figures(unittest.TestCase):
     def test_of_park_and_jang_are_all_drawn(self):
         self.assertEqual(self.draw("park-jang-2018", "icosphere:2"),
                          ["fig04_model", "fig05_cube_groups", "fig06_sphere_groups", "fig07_time"])
+
+    def test_of_a_recording_are_drawn_where_the_recording_has_what_they_need(self):
+        for paper, charts, rendered in (("choi-sung-2017", "fig03_volume", "fig02_surfaces"),
+                                        ("park-jang-2018", "fig07_time", "fig05_cube_groups")):
+            with tempfile.TemporaryDirectory() as folder:
+                for table in (SCRIPTS.parent / "results" / "papers" / paper).glob("*.csv"):
+                    shutil.copy(table, folder)
+                done = plot(folder)
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+                self.assertIn(f"{rendered}: left out: no {folder}/pictures", done.stdout)
+                figures = [path.name for path in (pathlib.Path(folder) / "figures").iterdir()]
+                self.assertIn(f"{charts}.png", figures)
+                self.assertNotIn(f"{rendered}.png", figures)
+
+    def test_names_a_file_that_is_missing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            recorded = SCRIPTS.parent / "results" / "papers" / "park-jang-2018" / "times.csv"
+            shutil.copy(recorded, folder)
+            (pathlib.Path(folder) / "pictures").mkdir()
+            done = plot(folder)
+            self.assertEqual((done.returncode, done.stderr),
+                             (2, f"plot-papers: {folder}/pictures/original-mesh.csv: cannot be read\n"))
 
     def test_refuses_a_folder_without_results(self):
         with tempfile.TemporaryDirectory() as empty:
