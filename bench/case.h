@@ -10,6 +10,8 @@
 #include "bench/contestant_process.h"
 #include "bench/effort.h"
 #include "bench/result_row.h"
+#include "bench/sampling/piece_times.h"
+#include "bench/sampling/sample_plan.h"
 #include "bench/truths.h"
 #include "bench/workload.h"
 
@@ -22,7 +24,7 @@ class Case {
  public:
   /// All references must outlive it.
   Case(const Workload& workload, const WorkerStage& stage, const Effort& effort, ContestantProcess& process,
-       std::size_t course, Query query);
+       std::size_t course, Query query, const SamplePlan& plan);
 
   std::string contestant() const { return row_.contestant(); }
   /// False once something went wrong, or for a query that the contestant does not answer.
@@ -30,6 +32,8 @@ class Case {
 
   /// Builds if that was not done, asks the first question, finds how many steps there is time for.
   void introduce();
+  /// The same, with the steps and repetitions of another contestant's case.
+  void introduce_like(const Case& other);
   /// Has the steps answered and judged, before anything is timed; once more by `stored`, unless that is null:
   /// the truths of the scene as the contestant's library stores it.
   void verify(Truths& truths, Truths* stored = nullptr);
@@ -44,9 +48,20 @@ class Case {
   void dismiss();
   ResultRow finish();
 
+  bool claims_exactness() const noexcept {
+    return row_.accuracy && row_.accuracy->guarantee == Guarantee::exact;
+  }
+  /// A query's, as found before anything was verified: for choosing, not for telling.
+  double calibrated_ns() const noexcept { return calibrated_ns_; }
+  const ContestantSpec& spec() const noexcept { return process_.spec(); }
+
  private:
   template <class Action>
   void attempt(Action action);
+  void begin();
+  void calibrate();
+  void choose_pieces();
+  PieceTimes piece_times() const;
   std::vector<double> in_ns(std::span<const std::uint64_t> ticks) const;
   void expect_verified_answers(const Timed& timed);
   void judge(Truths& truths, Truths* stored);
@@ -56,10 +71,15 @@ class Case {
   ContestantProcess& process_;
   ResultRow row_;
   Task task_;
-  std::size_t course_steps_;
-  std::vector<Window> windows_;
-  std::int64_t passes_ = 1;  // a repetition's
+  const SamplePlan& plan_;
+  std::vector<Window> windows_;  // those of the task, neighbours joined
+  double calibrated_ns_ = 0;
+  std::int64_t passes_ = 1;    // a repetition's
+  std::int64_t together_ = 1;  // passes a sample
   double first_pass_ns_ = 0;
+  double repeating_ns_ = 0;                   // spent on repetitions
+  std::vector<std::vector<double>> samples_;  // a repetition's each
+  std::size_t interrupted_ = 0;
   std::vector<double> repetitions_ns_;
   std::vector<double> repetitions_cpu_ns_;
   std::vector<std::vector<double>> latencies_ns_;

@@ -21,12 +21,29 @@ struct Order {
   Measurement measurement = nullptr;
 };
 
-std::vector<Order> orders_for(std::size_t cases, const Effort& effort) {
+void append_shuffled(std::vector<Order>& orders, std::vector<Order> some, Random& random) {
+  random.shuffle(some);
+  orders.insert(orders.end(), some.begin(), some.end());
+}
+
+/// Round by round, so that whatever changes on the machine meets all contestants alike; in random order
+/// within a round. Passes for latency are spread over the rounds.
+std::vector<Order> orders_for(std::size_t cases, const Effort& effort, Random random) {
   std::vector<Order> orders;
-  for (std::size_t which = 0; which < cases; ++which) {
-    orders.push_back({which, &Case::first_pass});
-    orders.insert(orders.end(), effort.repetitions, {which, &Case::repetition});
-    orders.insert(orders.end(), effort.latency_passes, {which, &Case::latency_pass});
+  const auto all = [&](Measurement measurement) {
+    std::vector<Order> some;
+    for (std::size_t which = 0; which < cases; ++which) some.push_back({which, measurement});
+    return some;
+  };
+  append_shuffled(orders, all(&Case::first_pass), random);
+  std::size_t clocked = 0;
+  for (std::size_t round = 1; round <= effort.repetitions; ++round) {
+    std::vector<Order> some = all(&Case::repetition);
+    for (; clocked * effort.repetitions < round * effort.latency_passes; ++clocked) {
+      const std::vector<Order> more = all(&Case::latency_pass);
+      some.insert(some.end(), more.begin(), more.end());
+    }
+    append_shuffled(orders, std::move(some), random);
   }
   return orders;
 }
@@ -92,11 +109,16 @@ void Comparison::run_all(const std::vector<Query>& queries, std::vector<ResultRo
 
 std::vector<ResultRow> Comparison::run(std::size_t course, Query query, Truths& truths) {
   const std::string& trajectory = workload_.trajectories[course];
+  const SamplePlan plan = plan_for(course, truths);
   std::deque<Case> cases;
   std::vector<std::size_t> whose;  // the process of each case
   for (std::size_t i = 0; i < processes_.size(); ++i) {
-    if (!filter_(trajectory, processes_[i].spec().text())) continue;
-    cases.emplace_back(workload_, stage_, effort_, processes_[i], course, query);
+    const std::string contestant = processes_[i].spec().text();
+    if (!filter_(trajectory, contestant)) {
+      left_out_.emplace_back(trajectory, contestant);
+      continue;
+    }
+    cases.emplace_back(workload_, stage_, effort_, processes_[i], course, query, plan);
     whose.push_back(i);
   }
   std::vector<Case*> together;
@@ -112,10 +134,43 @@ std::vector<ResultRow> Comparison::run(std::size_t course, Query query, Truths& 
       cases[i].dismiss();
     }
   }
+  Case* const controlled = to_control(together);
+  std::optional<Case> control;
+  if (controlled != nullptr) {
+    control.emplace(workload_, stage_, effort_, *control_, course, query, plan);
+    control->introduce_like(*controlled);
+    control->verify(truths);
+    together.push_back(&*control);
+  }
   measure(together, trajectory, seed_ + course);
   std::vector<ResultRow> rows;
-  for (Case& one : cases) rows.push_back(one.finish());
+  std::optional<Control> found;
+  for (Case& one : cases) {
+    rows.push_back(one.finish());
+    if (&one == controlled) found = control_of(rows.back(), control->finish());
+  }
+  if (effort_.repetitions > 0 && !rows.empty()) steadiness_.push_back(steadiness_of(rows, std::move(found)));
   return rows;
+}
+
+SamplePlan Comparison::plan_for(std::size_t course, Truths& truths) const {
+  const std::vector<Step>& steps = workload_.courses[course];
+  const std::vector<double> distances = truths.distances(telling_steps(steps.size()));
+  return {steps.size(), phases_of(steps, distances, workload_.mesh.diagonal()), seed_ + course};
+}
+
+Case* Comparison::to_control(const std::vector<Case*>& cases) {
+  if (effort_.repetitions == 0) return nullptr;
+  Case* chosen = nullptr;
+  for (Case* const one : cases) {
+    if (!one->alive() || !one->claims_exactness()) continue;
+    if (control_ && one->spec().text() == control_->spec().text()) return one;
+    if (chosen == nullptr || one->calibrated_ns() < chosen->calibrated_ns()) chosen = one;
+  }
+  if (chosen == nullptr) return nullptr;
+  const ContestantSpec& spec = chosen->spec();
+  control_.emplace(stage_, spec, roster_.find(spec.name).worker_program(spec.values));
+  return chosen;
 }
 
 const StoredScene* Comparison::stored_by(std::size_t process) {
@@ -135,9 +190,7 @@ void Comparison::verify(Case& one, const StoredScene* stored, std::size_t course
 
 void Comparison::measure(const std::vector<Case*>& cases, const std::string& trajectory, std::uint64_t seed) {
   if (effort_.repetitions == 0) return;
-  std::vector<Order> orders = orders_for(cases.size(), effort_);
-  Random(seed).shuffle(orders);
-  for (const Order& order : orders) {
+  for (const Order& order : orders_for(cases.size(), effort_, Random(seed))) {
     check_for_interrupt();
     Case& one = *cases[order.which];
     progress_(trajectory, one.contestant());

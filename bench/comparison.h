@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/contestant_info.h"
@@ -16,6 +17,8 @@
 #include "bench/effort.h"
 #include "bench/oracle/oracle.h"
 #include "bench/result_row.h"
+#include "bench/sampling/sample_plan.h"
+#include "bench/sampling/steadiness.h"
 #include "bench/stored_scene.h"
 #include "bench/truths.h"
 #include "bench/workload.h"
@@ -51,6 +54,12 @@ class Comparison {
   /// What the oracle finds out about a course serves all queries.
   void run_all(const std::vector<Query>& queries, std::vector<ResultRow>& rows);
 
+  /// Of every course and query that was timed, in the order of the runs.
+  const std::vector<Steadiness>& steadiness() const noexcept { return steadiness_; }
+
+  /// Not asked for, because the filter leaves them out: pairs of trajectory and contestant.
+  const std::vector<std::pair<std::string, std::string>>& left_out() const noexcept { return left_out_; }
+
   /// With what their workers said of themselves.
   const std::deque<ContestantProcess>& contestants() const noexcept { return processes_; }
 
@@ -61,6 +70,10 @@ class Comparison {
   const StoredScene* stored_by(std::size_t process);
   void verify(class Case& one, const StoredScene* stored, std::size_t course, Truths& truths);
   void measure(const std::vector<class Case*>& cases, const std::string& trajectory, std::uint64_t seed);
+  SamplePlan plan_for(std::size_t course, Truths& truths) const;
+  /// The process that times a contestant once more: that of the course before, where its contestant still is
+  /// among the right ones, or else the fastest one's. Null where there is none.
+  Case* to_control(const std::vector<Case*>& cases);
 
   const Roster& roster_;
   const Workload& workload_;
@@ -71,6 +84,9 @@ class Comparison {
   Oracle oracle_;
   std::deque<ContestantProcess> processes_;
   std::vector<std::optional<std::unique_ptr<const StoredScene>>> stored_;  ///< a process each
+  std::optional<ContestantProcess> control_;
+  std::vector<Steadiness> steadiness_;
+  std::vector<std::pair<std::string, std::string>> left_out_;
   Progress progress_ = [](const std::string&, const std::string&) {};
   CaseFilter filter_ = [](const std::string&, const std::string&) { return true; };
 };

@@ -127,6 +127,10 @@ Timed ContestantProcess::time(const Task& task, std::int64_t passes) {
   return order("time", task, {{"passes", passes}});
 }
 
+Timed ContestantProcess::sample(const Task& task, std::int64_t passes, std::int64_t together) {
+  return order("sample", task, {{"passes", passes}, {"together", together}});
+}
+
 Timed ContestantProcess::latency(const Task& task) {
   return order("latency", task, nlohmann::json::object());
 }

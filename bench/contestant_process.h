@@ -61,10 +61,12 @@ class ContestantProcess {
   /// be made again. Elsewhere that would change nothing, and nothing is done.
   void unmake();
   Timed first(const Task& task);
+  /// Replays the task's windows once, or, where it names none, as many steps as `budget_ns` allows.
   Timed calibrate(const Task& task, double budget_ns);
   Answered answer(const Task& task);
   Timed first_pass(const Task& task);
   Timed time(const Task& task, std::int64_t passes);
+  Timed sample(const Task& task, std::int64_t passes, std::int64_t together);
   Timed latency(const Task& task);
   /// The detector follows the mesh as it is deformed; or, built anew, is that of the deformed mesh.
   Updated update(const Deformation& deformation);

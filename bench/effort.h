@@ -6,13 +6,13 @@
 namespace touchmark::bench {
 
 struct Effort {
-  std::size_t repetitions = 5;  ///< of throughput; 0: verify only
+  std::size_t repetitions = 15;  ///< of throughput, many and short; 0: verify only
   std::size_t latency_passes = 3;
-  double pass_budget_ns = 100e6;  ///< a trajectory that takes longer to replay is cut to windows of steps
-  double repetition_ns = 50e6;    ///< shorter passes are repeated until they last so long
+  double pass_budget_ns = 50e6;  ///< a trajectory that takes longer to replay is cut to a sample of its steps
+  double repetition_ns = 8e6;    ///< shorter passes are repeated until they last so long
 };
 
-inline constexpr Effort quick_effort{3, 3, 25e6, 20e6};
+inline constexpr Effort quick_effort{10, 3, 10e6, 4e6};
 
 /// To verify and not to time: more steps in return.
 inline constexpr Effort accuracy_effort{0, 0, 1e9, 0};

@@ -6,12 +6,14 @@
 #include <vector>
 
 #include "bench/result_row.h"
+#include "bench/sampling/steadiness.h"
 
 namespace touchmark::bench {
 
 /// `rows` are those of one trajectory.
 std::string timing_table(const std::vector<ResultRow>& rows);
-std::string verdict(const std::vector<ResultRow>& rows);
+/// Who is fastest, and who cannot be told from it; whose 99.9 % is least; how disturbed the run was.
+std::string verdict(const std::vector<ResultRow>& rows, const Steadiness& steadiness);
 /// What a step looked at on average, and at most; the rest of the mesh was skipped. Of most rivals only the
 /// triangles are seen that they hand to a callback.
 std::string work_table(const std::vector<ResultRow>& rows);

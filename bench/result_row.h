@@ -11,10 +11,14 @@
 
 #include "bench/answer.h"
 #include "bench/latency.h"
+#include "bench/sampling/piece_times.h"
 #include "bench/verify.h"
 #include "core/detector.h"
 
 namespace touchmark::bench {
+
+/// Of fewer, one in a thousand is none: no 99.9 % is told of them.
+inline constexpr std::size_t steps_for_p999 = 1000;
 
 /// How long queries took when the trajectory was replayed without a clock inside.
 struct ThroughputResult {
@@ -24,6 +28,8 @@ struct ThroughputResult {
   double ns_per_query_first_pass = 0;  ///< fresh session; see Case::first_pass
   double cpu_ns_per_query = 0;         ///< median; without what other processes took of the core
   std::size_t repetitions = 0;
+  UndisturbedTime undisturbed{};  ///< of the whole trajectory; what contestants are ranked by
+  double disturbed_share = 0;     ///< of the samples it is from: interrupted for over a fifth of their time
 };
 
 struct WorkResult {
@@ -64,11 +70,35 @@ struct ResultRow {
   std::optional<std::uint64_t> heap_bytes;
   std::optional<WorkResult> work;
   std::optional<std::uint64_t> checksum;
+  std::optional<std::uint64_t> decisions_checksum;  ///< see decisions_checksum_of
 
   std::string contestant() const { return options.empty() ? detector : detector + ":" + options; }
   /// It was judged, and did not do what it claims.
   bool broke_its_word() const { return accuracy && tally && !keeps_its_word(*tally, *accuracy); }
 };
+
+/// What all who claim exactness must agree on: contact or none, and for `nearest` the triangle. Distances may
+/// differ in their last bits. Nothing for others, and for those that name any of several triangles equally
+/// near.
+inline std::optional<std::uint64_t> decisions_checksum_of(Query query, std::span<const Answer> answers,
+                                                          const Accuracy& accuracy) {
+  if (accuracy.guarantee != Guarantee::exact) return std::nullopt;
+  if (query == Query::nearest && !accuracy.names_exactly) return std::nullopt;
+  Checksum checksum;
+  for (const Answer& answer : answers) {
+    Answer decision;
+    decision.found = answer.found;
+    if (query == Query::nearest) decision.triangle = answer.triangle;
+    checksum.add(decision);
+  }
+  return checksum.value();
+}
+
+/// Nothing where there are no times or too few steps.
+inline std::optional<double> p999_of(const ResultRow& row, const std::optional<LatencySummary>& latency) {
+  if (!latency || row.steps < steps_for_p999) return std::nullopt;
+  return latency->p999;
+}
 
 /// How many answers found contact with the wrong distance, point, normal or side: at least so many, since one
 /// answer is counted under each of them.

@@ -50,6 +50,17 @@ std::string prepare_of(const ResultRow& row) {
   return row.prepare ? rounded((*row.prepare).*Member) : "";
 }
 
+template <auto Latency>
+std::string p999_in(const ResultRow& row) {
+  const std::optional<double> ns = p999_of(row, row.*Latency);
+  return ns ? rounded(*ns) : "";
+}
+
+template <auto Member>
+std::string undisturbed_of(const ResultRow& row) {
+  return row.throughput ? rounded(row.throughput->undisturbed.*Member) : "";
+}
+
 template <std::size_t Deadline>
 std::string misses_of(const ResultRow& row) {
   return row.latency ? fmt::format("{}", row.latency->deadlines[Deadline].misses) : "";
@@ -103,7 +114,7 @@ constexpr std::array columns{
     Column{"ns_p50", latency_of<&LatencySummary::p50>},
     Column{"ns_p90", latency_of<&LatencySummary::p90>},
     Column{"ns_p99", latency_of<&LatencySummary::p99>},
-    Column{"ns_p999", latency_of<&LatencySummary::p999>},
+    Column{"ns_p999", p999_in<&R::latency>},
     Column{"ns_max", latency_of<&LatencySummary::max>},
     Column{"update_rate_hz",
            [](Row row) { return row.throughput ? rounded(1e9 / row.throughput->ns_per_query) : ""; }},
@@ -149,8 +160,14 @@ constexpr std::array columns{
            }},
     Column{"wrong_side", count_of<&Tally::wrong_side>},
     Column{"prepare_ns_p50", prepare_of<&LatencySummary::p50>},
-    Column{"prepare_ns_p999", prepare_of<&LatencySummary::p999>},
+    Column{"prepare_ns_p999", p999_in<&R::prepare>},
     Column{"prepare_ns_max", prepare_of<&LatencySummary::max>},
+    Column{"ns_undisturbed", undisturbed_of<&UndisturbedTime::ns>},
+    Column{"ns_undisturbed_low", undisturbed_of<&UndisturbedTime::low>},
+    Column{"ns_undisturbed_high", undisturbed_of<&UndisturbedTime::high>},
+    Column{"disturbed_share", throughput_of<&ThroughputResult::disturbed_share>},
+    Column{"decisions_checksum",
+           [](Row row) { return row.decisions_checksum ? hex(*row.decisions_checksum) : ""; }},
 };
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "bench/query_name.h"
 #include "bench/results_csv.h"
 #include "bench/run_circumstances.h"
+#include "bench/sampling/piece_times.h"
 #include "bench/tick_clock.h"
 
 namespace touchmark::bench {
@@ -63,12 +64,45 @@ Json clock_json(const std::deque<ContestantProcess>& contestants) {
           {"note", "each step's latency includes one reading of the clock"}};
 }
 
+Json asked_json(const RunDescription& run, const Workload& workload,
+                const std::deque<ContestantProcess>& contestants) {
+  Json json{{"contestants", Json::array()},
+            {"trajectories", workload.trajectories},
+            {"queries", {name_of(run.query)}},
+            {"left_out", Json::array()}};
+  for (const ContestantProcess& contestant : contestants)
+    json["contestants"].push_back(contestant.spec().text());
+  for (const auto& [trajectory, contestant] : run.left_out)
+    json["left_out"].push_back({{"trajectory", trajectory}, {"contestant", contestant}});
+  return json;
+}
+
+Json steadiness_json(const std::vector<Steadiness>& all) {
+  Json json = Json::array();
+  for (const Steadiness& one : all) {
+    Json entry{{"mesh", one.mesh},
+               {"trajectory", one.trajectory},
+               {"query", name_of(one.query)},
+               {"disturbed_share", one.disturbed_share},
+               {"conclusive", one.conclusive()}};
+    if (one.control) {
+      entry["control"] = {{"contestant", one.control->contestant},
+                          {"ratio", one.control->ratio},
+                          {"ratio_low", one.control->low},
+                          {"ratio_high", one.control->high}};
+    }
+    json.push_back(std::move(entry));
+  }
+  return json;
+}
+
 Json effort_json(const Effort& effort) {
   return {{"repetitions", effort.repetitions},
           {"repetition_ms", effort.repetition_ns / 1e6},
           {"pass_budget_ms", effort.pass_budget_ns / 1e6},
           {"latency_passes", effort.latency_passes},
-          {"latency_note", "percentiles are of each step's median over the passes"}};
+          {"latency_note", "percentiles are of each step's median over the passes"},
+          {"undisturbed_quantile", PieceTimes::quantile}};
 }
 
 }  // namespace
@@ -124,21 +158,25 @@ std::string run_json(const RunDescription& run, const Workload& workload,
   json["clock"] = clock_json(contestants);
   json["effort"] = effort_json(run.effort);
   json["contestants"] = contestants_json(contestants);
+  json["asked"] = asked_json(run, workload, contestants);
+  json["steadiness"] = steadiness_json(run.steadiness);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
 std::string joined_run_json(const std::vector<std::string>& runs, bool finished) {
   Json joined = Json::parse(runs.front());
-  Json meshes = Json::array();
+  Json meshes = Json::array(), steadiness = Json::array();
   for (const std::string& text : runs) {
     const Json run = Json::parse(text);
     Json mesh = run.at("mesh");
     mesh["radius"] = run.at("radius");
     mesh["reach"] = run.at("reach");
     meshes.push_back(std::move(mesh));
+    for (const Json& one : run.at("steadiness")) steadiness.push_back(one);
   }
   joined["finished"] = finished;
   joined["meshes"] = std::move(meshes);
+  joined["steadiness"] = std::move(steadiness);
   return joined.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 

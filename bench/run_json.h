@@ -5,10 +5,12 @@
 #include <deque>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/contestant_process.h"
 #include "bench/effort.h"
+#include "bench/sampling/steadiness.h"
 #include "bench/system_info.h"
 #include "bench/workload.h"
 
@@ -22,8 +24,10 @@ struct RunDescription {
   Query query = Query::nearest;
   std::uint64_t seed = 0;
   Effort effort;
-  std::optional<int> core;  ///< the workers'
-  bool finished = true;     ///< false after Ctrl-C
+  std::optional<int> core;                                    ///< the workers'
+  bool finished = true;                                       ///< false after Ctrl-C
+  std::vector<Steadiness> steadiness;                         ///< of what was timed
+  std::vector<std::pair<std::string, std::string>> left_out;  ///< trajectory and contestant, by a filter
 };
 
 /// Of a run that begins now: an id, the system, and the command line without the program's name.

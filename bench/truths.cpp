@@ -1,8 +1,10 @@
 #include "bench/truths.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "bench/interrupt.h"
+#include "bench/windows.h"
 
 namespace touchmark::bench {
 namespace {
@@ -43,6 +45,18 @@ void Truths::Asked<Question, TruthType>::solve(const Oracle& oracle, const std::
       known[some[i]] = true;
     }
   }
+}
+
+std::vector<double> Truths::distances(const std::vector<std::size_t>& steps) {
+  std::vector<Window> windows;
+  for (const std::size_t step : steps) windows.push_back({step, step + 1});
+  probes_.solve(oracle_, joined(windows));
+  std::vector<double> distances;
+  for (const std::size_t step : steps) {
+    const Truth& truth = probes_.truths[step];
+    distances.push_back(truth.defined ? truth.high : std::numeric_limits<double>::infinity());
+  }
+  return distances;
 }
 
 Tally Truths::judge(Query query, const std::vector<Window>& windows, std::span<const Answer> answers,

@@ -23,6 +23,9 @@ class Truths {
   Tally judge(Query query, const std::vector<Window>& windows, std::span<const Answer> answers,
               const Accuracy& accuracy, const Reported& reported = {});
 
+  /// How far these steps, ascending, are from the surface; infinite where a coordinate is not finite.
+  std::vector<double> distances(const std::vector<std::size_t>& steps);
+
  private:
   /// One of each a step.
   template <class Question, class TruthType>

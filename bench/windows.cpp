@@ -24,6 +24,30 @@ std::vector<Window> plan_windows(std::size_t total, std::size_t wanted) {
   return windows;
 }
 
+std::vector<Window> joined(const std::vector<Window>& windows) {
+  std::vector<Window> result;
+  for (const Window& window : windows) {
+    if (!result.empty() && result.back().end == window.begin) {
+      result.back().end = window.end;
+    } else {
+      result.push_back(window);
+    }
+  }
+  return result;
+}
+
+std::vector<Window> split(Window window, std::size_t parts) {
+  parts = std::clamp<std::size_t>(parts, 1, std::max<std::size_t>(window.size(), 1));
+  std::vector<Window> result;
+  std::size_t begin = window.begin;
+  for (std::size_t i = 1; i <= parts; ++i) {
+    const std::size_t end = window.begin + window.size() * i / parts;
+    result.push_back({begin, end});
+    begin = end;
+  }
+  return result;
+}
+
 std::size_t steps_in(const std::vector<Window>& windows) noexcept {
   std::size_t steps = 0;
   for (const Window& window : windows) steps += window.size();

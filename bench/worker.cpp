@@ -20,6 +20,7 @@
 #include "bench/floating_point.h"
 #include "bench/line_channel.h"
 #include "bench/median.h"
+#include "bench/processor_time.h"
 #include "bench/query_name.h"
 #include "bench/remarks.h"
 #include "bench/shared_memory.h"
@@ -75,6 +76,7 @@ class Worker {
     if (what == "answer") return answer(task);
     if (what == "first_pass") return first_pass(task);
     if (what == "time") return time(task, order.at("passes"));
+    if (what == "sample") return sample(task, order.at("passes"), order.at("together"));
     if (what == "latency") return latency(task);
     throw std::logic_error("unknown order " + what);
   }
@@ -90,11 +92,12 @@ class Worker {
   nlohmann::json answer(const Task& task);
   nlohmann::json first_pass(const Task& task);
   nlohmann::json time(const Task& task, std::int64_t passes);
+  nlohmann::json sample(const Task& task, std::int64_t passes, std::int64_t together);
   nlohmann::json latency(const Task& task);
 
   Course course_of(const Task& task) const { return {task.query, courses_.at(task.course)}; }
   std::vector<Window> windows_of(const Task& task) const {
-    return plan_windows(courses_.at(task.course).size(), task.steps);
+    return task.windows.empty() ? plan_windows(courses_.at(task.course).size(), task.steps) : task.windows;
   }
   double timed_build(const ContestantSpec& spec);
   Timed timed_replay(const Course& course, const std::vector<Window>& windows);
@@ -231,6 +234,13 @@ nlohmann::json Worker::first(const Task& task) {
 }
 
 nlohmann::json Worker::calibrate(const Task& task, double budget_ns) {
+  if (!task.windows.empty()) {
+    const double start = processor_ns();
+    Timed timed = timed_replay(course_of(task), task.windows);
+    const double processor = (processor_ns() - start) / static_cast<double>(steps_in(task.windows));
+    timed.ns_per_query = std::min(timed.ns_per_query, processor);
+    return timed;
+  }
   const std::size_t total = courses_.at(task.course).size();
   for (std::size_t steps = 2;; steps *= 4) {
     const std::vector<Window> windows = plan_windows(total, steps);
@@ -267,6 +277,14 @@ nlohmann::json Worker::time(const Task& task, std::int64_t passes) {
   const Throughput throughput = measure_throughput(*contestant_, course_of(task), windows_of(task), passes);
   return Timed{
       throughput.ns_per_query, throughput.cpu_ns_per_query, throughput.checksum, throughput.steady, {}};
+}
+
+nlohmann::json Worker::sample(const Task& task, std::int64_t passes, std::int64_t together) {
+  const Throughput throughput =
+      sample_throughput(*contestant_, course_of(task), windows_of(task), passes, together);
+  return Timed{
+      throughput.ns_per_query, throughput.cpu_ns_per_query, throughput.checksum, throughput.steady, {},
+      throughput.samples,      throughput.interrupted};
 }
 
 nlohmann::json Worker::latency(const Task& task) {

@@ -33,13 +33,22 @@ Work work_from(const nlohmann::json& json) {
 }  // namespace
 
 void to_json(nlohmann::json& json, const Task& task) {
-  json = {{"course", task.course}, {"query", static_cast<std::uint32_t>(task.query)}, {"steps", task.steps}};
+  std::vector<std::size_t> windows;
+  for (const Window& window : task.windows) windows.insert(windows.end(), {window.begin, window.end});
+  json = {{"course", task.course},
+          {"query", static_cast<std::uint32_t>(task.query)},
+          {"steps", task.steps},
+          {"windows", windows}};
 }
 
 void from_json(const nlohmann::json& json, Task& task) {
   json.at("course").get_to(task.course);
   task.query = static_cast<Query>(json.at("query").get<std::uint32_t>());
   json.at("steps").get_to(task.steps);
+  const auto windows = json.at("windows").get<std::vector<std::size_t>>();
+  task.windows.clear();
+  for (std::size_t i = 0; i + 1 < windows.size(); i += 2)
+    task.windows.push_back({windows[i], windows[i + 1]});
 }
 
 void to_json(nlohmann::json& json, const Opened& opened) {
@@ -97,11 +106,10 @@ void from_json(const nlohmann::json& json, Answered& answered) {
 }
 
 void to_json(nlohmann::json& json, const Timed& timed) {
-  json = {{"ns_per_query", timed.ns_per_query},
-          {"cpu_ns_per_query", timed.cpu_ns_per_query},
-          {"checksum", timed.checksum},
-          {"steady", timed.steady},
-          {"work", work_json(timed.work)}};
+  json = {{"ns_per_query", timed.ns_per_query}, {"cpu_ns_per_query", timed.cpu_ns_per_query},
+          {"checksum", timed.checksum},         {"steady", timed.steady},
+          {"work", work_json(timed.work)},      {"samples", timed.samples},
+          {"interrupted", timed.interrupted}};
 }
 
 void from_json(const nlohmann::json& json, Timed& timed) {
@@ -110,6 +118,8 @@ void from_json(const nlohmann::json& json, Timed& timed) {
   json.at("checksum").get_to(timed.checksum);
   json.at("steady").get_to(timed.steady);
   timed.work = work_from(json.at("work"));
+  json.at("samples").get_to(timed.samples);
+  json.at("interrupted").get_to(timed.interrupted);
 }
 
 void to_json(nlohmann::json& json, const Updated& updated) {

@@ -10,6 +10,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "bench/answer.h"
+#include "bench/contestant.h"
 #include "core/detector.h"
 
 namespace touchmark::bench {
@@ -19,11 +20,13 @@ inline constexpr int worker_control = 3;
 inline constexpr int worker_input = 4;
 inline constexpr int worker_output = 5;
 
-/// Which steps of which course are meant: those of plan_windows(steps of the course, `steps`).
+/// Which steps of which course are meant: those of `windows`, or, where there are none, of
+/// plan_windows(steps of the course, `steps`).
 struct Task {
   std::size_t course = 0;
   Query query = Query::nearest;
   std::size_t steps = 1;
+  std::vector<Window> windows = {};  ///< ascending
 };
 
 /// Reply to "open": the worker has read the mesh and the courses.
@@ -51,14 +54,16 @@ struct Answered {
   Work work;  ///< of all steps
 };
 
-/// Reply to "first" (one step, fresh session), "calibrate", "first_pass" (fresh session), "time" and
-/// "latency" (ticks lie in the output room).
+/// Reply to "first" (one step, fresh session), "calibrate", "first_pass" (fresh session), "time", "sample"
+/// and "latency" (ticks lie in the output room).
 struct Timed {
-  double ns_per_query = 0;      ///< elapsed
-  double cpu_ns_per_query = 0;  ///< of "time" only
+  double ns_per_query = 0;      ///< elapsed; of "calibrate" the shorter of that and the processor time
+  double cpu_ns_per_query = 0;  ///< of "time" and "sample" only
   std::uint64_t checksum = 0;
-  bool steady = true;  ///< every pass gave the same checksum
-  Work work;           ///< of "first_pass" only, of all steps
+  bool steady = true;                ///< every pass gave the same checksum
+  Work work;                         ///< of "first_pass" only, of all steps
+  std::vector<double> samples = {};  ///< of "sample" only: see sample_throughput
+  std::size_t interrupted = 0;       ///< of the samples
 };
 
 /// Reply to "update": the detector follows the deformed mesh now. Updates, there and back, and builds of the

@@ -121,6 +121,8 @@ void BenchRun::save(bool finished) const {
   if (!folder_) return;
   RunDescription description = description_;
   description.finished = finished;
+  description.steadiness = comparison_->steadiness();
+  description.left_out = comparison_->left_out();
   folder_->write(results_csv(description.run_id, rows_),
                  run_json(description, workload_, comparison_->contestants()));
 }
@@ -132,7 +134,8 @@ void BenchRun::run_trajectory(std::size_t course) {
   save(false);
   progress_.clear();
   out_.write(fmt::format("\n{} ({} steps)\n{}{}", workload_.trajectories[course],
-                         workload_.courses[course].size(), timing_table(rows), verdict(rows)));
+                         workload_.courses[course].size(), timing_table(rows),
+                         verdict(rows, comparison_->steadiness().back())));
   if (shows_work_) out_.write('\n' + work_table(rows));
   out_.finish();
 }

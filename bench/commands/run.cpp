@@ -130,7 +130,7 @@ void SweepRun::run_scene(const SweepScene& scene) {
         scene.mesh, scene.trajectory, scene.jobs.size() - missing.size(), scene.jobs.size());
   }
   const Workload workload = planned_workload(scene);
-  const RunDescription description = description_of(scene);
+  RunDescription description = description_of(scene);
   WorkerOptions workers = worker_options(options_.workers);
   workers.core = description.core;
   workers.calibrate_clock = effort_.repetitions > 0;
@@ -139,6 +139,7 @@ void SweepRun::run_scene(const SweepScene& scene) {
     progress_.show(fmt::format("{}, {}: {}", workload.mesh_name, trajectory, contestant));
   });
   const std::vector<ResultRow> rows = comparison.run(0, scene.query);
+  description.steadiness = comparison.steadiness();
   const auto run = nlohmann::json::parse(run_json(description, workload, comparison.contestants()));
   for (const ResultRow& row : rows) {
     const std::string id = job_id(scene, row.contestant(), manifest_.effort, manifest_.version);

@@ -173,7 +173,8 @@ std::vector<ResultRow> ScaleRun::run_course(Comparison& comparison, const Worklo
   std::vector<ResultRow> rows = comparison.run(course, description_.query);
   progress_.clear();
   out_.write(fmt::format("\n{}, {} ({} steps)\n{}{}", workload.mesh_name, workload.trajectories[course],
-                         workload.courses[course].size(), timing_table(rows), verdict(rows)));
+                         workload.courses[course].size(), timing_table(rows),
+                         verdict(rows, comparison.steadiness().back())));
   out_.finish();
   return rows;
 }
@@ -198,6 +199,7 @@ void ScaleRun::run_mesh(const std::string& name) {
     std::ranges::move(run_course(comparison, workload, course), std::back_inserter(rows));
   note_too_much(comparison, rows);
   std::ranges::move(rows, std::back_inserter(rows_));
+  description_.steadiness = comparison.steadiness();
   runs_.push_back(run_json(description_, workload, comparison.contestants()));
   save(runs_.size() == meshes_.size());
 }

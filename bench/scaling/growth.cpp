@@ -15,7 +15,6 @@ namespace touchmark::bench {
 namespace {
 
 constexpr int scaling_schema = 1;
-constexpr std::size_t steps_for_p999 = 1000;  // of fewer, one in a thousand is none
 
 struct Quantity {
   std::string_view name;
@@ -32,12 +31,9 @@ constexpr std::array quantities{
     Quantity{"bytes", "bytes",
              [](Row row) { return row.bytes ? Value(static_cast<double>(*row.bytes)) : Value(); }},
     Quantity{"ns_per_query", "ns/query",
-             [](Row row) { return row.throughput ? Value(row.throughput->ns_per_query) : Value(); }},
+             [](Row row) { return row.throughput ? Value(row.throughput->undisturbed.ns) : Value(); }},
     Quantity{"ns_p50", "p50", [](Row row) { return row.latency ? Value(row.latency->p50) : Value(); }},
-    Quantity{"ns_p999", "p99.9",
-             [](Row row) {
-               return row.latency && row.steps >= steps_for_p999 ? Value(row.latency->p999) : Value();
-             }},
+    Quantity{"ns_p999", "p99.9", [](Row row) { return p999_of(row, row.latency); }},
 };
 
 /// Do rows of these two lie on one curve?

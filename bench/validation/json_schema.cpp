@@ -141,6 +141,12 @@ constexpr std::array keywords{
                 fail(place, fmt::format("is below {}", keyword.dump()), faults);
               }
             }},
+    Keyword{"maximum",
+            [](const Json& keyword, const Place& place, std::vector<SchemaFault>& faults) {
+              if (place.value.is_number() && place.value > keyword) {
+                fail(place, fmt::format("is above {}", keyword.dump()), faults);
+              }
+            }},
     Keyword{"minItems", [](const Json& keyword, const Place& place,
                            std::vector<SchemaFault>& faults) { check_size(keyword, place, faults, true); }},
     Keyword{"maxItems", [](const Json& keyword, const Place& place,

@@ -9,7 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/numbers.h"
+#include "bench/result_row.h"
 #include "bench/validation/column_rules.h"
+#include "bench/validation/rows_asked.h"
 
 namespace touchmark::bench {
 namespace {
@@ -28,6 +30,10 @@ constexpr std::array ascending{
     std::pair{"ns_p90", "ns_p99"},
     std::pair{"ns_p99", "ns_p999"},
     std::pair{"ns_p999", "ns_max"},
+    std::pair{"ns_p99", "ns_max"},
+    std::pair{"ns_undisturbed", "ns_max"},
+    std::pair{"ns_undisturbed_low", "ns_undisturbed"},
+    std::pair{"ns_undisturbed", "ns_undisturbed_high"},
     std::pair{"longest_miss_run_1khz", "deadline_misses_1khz"},
     std::pair{"longest_miss_run_4khz", "deadline_misses_4khz"},
     std::pair{"longest_miss_run_10khz", "deadline_misses_10khz"},
@@ -65,8 +71,13 @@ class ResultsCheck {
       check_fields();
       check_order();
       check_rate();
+      check_mean();
+      check_p999();
+      check_exactness();
       if (run_ != nullptr) check_against_run();
     }
+    check_rows_asked(table_, run_, faults_);
+    check_exact_peers(table_, faults_);
   }
 
  private:
@@ -74,6 +85,9 @@ class ResultsCheck {
   void check_presence(const ColumnRule& rule, const std::string& text);
   void check_order();
   void check_rate();
+  void check_mean();
+  void check_p999();
+  void check_exactness();
   void check_against_run();
   void check_listed(const char* column, const nlohmann::json& list, const char* what);
 
@@ -127,6 +141,38 @@ void ResultsCheck::check_rate() {
   const std::optional<double> rate = parse_number(field("update_rate_hz"));
   if (ns && rate && std::abs(*ns * *rate / 1e9 - 1) > 2 * rounding) {
     fault("update_rate_hz", fmt::format("is not 1e9 / ns_per_query {}", field("ns_per_query")));
+  }
+}
+
+/// No mean is above the maximum. The mean is of other passes than the maximum, so that where all steps take
+/// equally long it may be a little, and where the row says so what interrupted them is in one and not in the
+/// other.
+void ResultsCheck::check_mean() {
+  constexpr double between_passes = 1.25;
+  const std::optional<double> mean = parse_number(field("ns_per_query")),
+                              most = parse_number(field("ns_max"));
+  const std::optional<double> disturbed = parse_number(field("disturbed_share"));
+  if (!mean || !most || (disturbed && *disturbed > 0)) return;
+  if (*mean > between_passes * *most)
+    fault("ns_per_query", fmt::format("is above ns_max {}", field("ns_max")));
+}
+
+/// From so many steps on there is a 99.9 %; of fewer it was told only before `ns_undisturbed` was.
+void ResultsCheck::check_p999() {
+  const std::optional<std::uint64_t> steps = parse_count(field("steps"));
+  if (!steps || !is_ok(table_, *row_)) return;
+  const bool enough = *steps >= steps_for_p999;
+  if (enough && timed_ && field("ns_p999").empty()) fault("ns_p999", "must not be empty from 1,000 steps on");
+  if (!enough && !field("ns_undisturbed").empty() && !field("ns_p999").empty())
+    fault("ns_p999", "must be empty below 1,000 steps");
+}
+
+/// Whoever claims exactness and errs is no result to quote.
+void ResultsCheck::check_exactness() {
+  if (field("guarantee") != "exact" || !is_ok(table_, *row_)) return;
+  for (const char* const column : {"missed", "false_contacts", "wrong_triangle"}) {
+    const std::optional<std::uint64_t> wrong = parse_count(field(column));
+    if (wrong && *wrong > 0) fault(column, "must be 0 where the guarantee is exact");
   }
 }
 

@@ -18,7 +18,7 @@ class Ratio:
         if below_a:
             self.value *= below_a.ns_per_query / below_b.ns_per_query
             parts += [below_a, below_b]
-        self.known = all(row.ns_per_query_mad >= 0 and row.repetitions > 1 for row in parts)
+        self.known = all(row.low > 0 or row.ns_per_query_mad >= 0 and row.repetitions > 1 for row in parts)
         error = CERTAIN * math.hypot(*map(relative_error, parts)) if self.known else 0.0
         self.low, self.high = self.value * math.exp(-error), self.value * math.exp(error)
         self.differs = self.known and not self.low <= 1 <= self.high

@@ -40,7 +40,10 @@ def ratio(row, reference):
 
 
 def relative_error(row):
-    """Of a median of n repetitions with this median deviation, were they normal; 0 where it is not known."""
+    """Standard error: from the interval, or of a median of n repetitions with this median deviation, were they normal; 0
+    where it is not known."""
+    if row.low > 0 and row.high > 0:
+        return math.log(row.high / row.low) / (2 * CERTAIN)
     if not (row.ns_per_query_mad >= 0 and row.repetitions > 1):
         return 0.0
     return 1.253 * 1.483 * row.ns_per_query_mad / math.sqrt(row.repetitions) / row.ns_per_query

@@ -10,7 +10,8 @@ NUMBER_COLUMNS = ["triangles", "steps", "radius", "missed", "false_contacts", "w
                   "ns_max", "update_rate_hz"]
 OPTIONAL_NUMBERS = ["ns_per_query", "ns_per_query_mad", "repetitions", "max_distance_error_of_diagonal", "build_ms",
                     "first_answer_ms", "bytes", "stored_missed", "stored_false_contacts",
-                    "stored_max_distance_error_of_diagonal", "clock_cost_ns"]
+                    "stored_max_distance_error_of_diagonal", "clock_cost_ns", "ns_undisturbed", "ns_undisturbed_low",
+                    "ns_undisturbed_high", "disturbed_share"]
 MAY_BE_INFINITE = ["radius", "max_distance_error", "max_distance_error_of_diagonal",
                    "stored_max_distance_error_of_diagonal"]
 OPTIONAL_TEXTS = ["answers_checksum"]
@@ -37,6 +38,14 @@ class Row:
         self.done = self.status == DONE
         if math.isnan(self.ns_per_query) and self.update_rate_hz > 0:
             self.ns_per_query = 1e9 / self.update_rate_hz
+        self.take_undisturbed()
+
+    def take_undisturbed(self):
+        """Where it is known, the time that other work on the machine does not move is the one that is compared."""
+        self.low = self.high = math.nan
+        if self.ns_undisturbed > 0:
+            self.ns_per_query, self.update_rate_hz = self.ns_undisturbed, 1e9 / self.ns_undisturbed
+            self.low, self.high = self.ns_undisturbed_low, self.ns_undisturbed_high
 
     @property
     def scene(self):

@@ -10,6 +10,7 @@ from .results import NothingToDraw, finite, positive, shortened
 
 PERCENTILES = [  # column, label, marker, how much of the colour: told apart by shape, so that grey print will do
     ("ns_p50", "median", "|", 1.0),
+    ("ns_per_query", "mean", "x", 1.0),
     ("ns_p90", "90 %", ".", 1.0),
     ("ns_p99", "99 %", "o", 0.0),
     ("ns_p999", "99.9 %", "D", 1.0),
@@ -77,7 +78,8 @@ def draw_update_rate(plt, rows, source):
     if not rates:
         raise NothingToDraw("no row has an update rate")
     names, trajectories = detectors.in_order(row.name for row in rows), trajectories_of(rows)
-    low, high = min(rates + [1000]) / 3, max(rates + [1000]) * 3
+    slowest = positive(1e9 / row.ns_p999 for row in rows if row.ns_p999 > 0)
+    low, high = min(rates + slowest + [1000]) / 3, max(rates + [1000]) * 3
     timed, levels = {}, {}  # marks that would meet stand below each other
     for name in names:
         timed[name] = sorted((row for row in rows if row.name == name and row.update_rate_hz > 0),
@@ -87,14 +89,19 @@ def draw_update_rate(plt, rows, source):
     figure, (axes,) = canvas(plt, 1, 7.5, height * len(names), left=room_for(names))
     for y, name in enumerate(names):
         for row, level in zip(timed[name], levels[name]):
-            axes.plot(row.update_rate_hz, y + 0.09 / height * (level - max(levels[name]) / 2), linestyle="",
-                      **trajectory_mark(row.trajectory, trajectories, detectors.colour(name), 6.5))
+            line = y + 0.09 / height * (level - max(levels[name]) / 2)
+            mark = trajectory_mark(row.trajectory, trajectories, detectors.colour(name), 6.5)
+            axes.plot(row.update_rate_hz, line, linestyle="", **mark)
+            if row.ns_p999 > 0:
+                axes.plot(1e9 / row.ns_p999, line, linestyle="", **{**mark, "markersize": 3.5})
         if not timed[name]:
             note(axes, y, shortened(next(row.status for row in rows if row.name == name)) or "no times")
     deadline = axes.axvline(1000, color="black", linestyle="--", linewidth=1, label="1 kHz: what haptics asks for")
     log_axis(axes.xaxis, low, high, rate)
     name_axis(axes, names)
     legend = trajectory_legend(plt, trajectories, linestyle="")
+    legend.append(plt.Line2D([], [], linestyle="", marker="o", markersize=3.5, color="0.2",
+                             label="small: at the pace of the slowest 0.1 %"))
     label(figure, "Update rate: right is better", what_was_asked(rows), source, "queries answered in a second (log scale)",
           legend + [deadline])
     return figure

@@ -30,7 +30,7 @@ def draw_time_error(plt, rows, source):
     by_name = {name: [row for row in rows if row.name == name and row.done] for name in
                detectors.in_order(row.name for row in rows)}
     complete = [name for name, mine in by_name.items() if len({row.trajectory for row in mine}) == len(trajectories)
-                and all(row.ns_p50 > 0 and row.ns_p999 > 0 for row in mine)]
+                and all(row.ns_p50 > 0 for row in mine)]
     judged = [error for error in kinds_of_error(rows, by_name, complete) if error.values]
     errors = [error for error in judged if error.shown]
     if not judged:
@@ -44,7 +44,10 @@ def draw_time_error(plt, rows, source):
     figure, panels = canvas(plt, 2 * len(heights), 4.0, PANEL_HEIGHT, right=room_for_legend(complete), columns=2,
                             share_x="col", share_y="row", left=1.0, bottom=1.2, gap=(0.2, 0.5), heights=heights)
     for k, (column, what) in enumerate(TIMES):
-        times = {name: geometric_mean([getattr(row, column) for row in by_name[name]]) for name in complete}
+        times = {name: geometric_mean([getattr(row, column) for row in by_name[name]]) for name in complete
+                 if all(getattr(row, column) > 0 for row in by_name[name])}
+        if not times:
+            continue  # all of fewer than 1,000 steps
         for error, axes in zip(errors, panels[k::2]):
             draw_panel(axes, error, times)
             name_panel(axes, "" if k else error.title)
@@ -115,6 +118,8 @@ def draw_panel(axes, error, times):
     log_axis(axes.yaxis, low, high, error.written)
     axes.yaxis.set_minor_locator(ticker.NullLocator())
     for name in error.erring:
+        if name not in times:
+            continue
         value = error.values[name]
         put(axes, name, times[name], value)
         if name in error.stored:
@@ -124,7 +129,8 @@ def draw_panel(axes, error, times):
 def draw_clean(axes, names, times):
     """A row each, with its name to the right of both panels."""
     for y, name in enumerate(names):
-        put(axes, name, times[name], y)
+        if name in times:
+            put(axes, name, times[name], y)
     name_axis(axes, names)
     axes.tick_params(axis="y", left=False, labelleft=False, labelright=axes.get_subplotspec().is_last_col())
 

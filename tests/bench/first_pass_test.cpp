@@ -33,6 +33,7 @@ class FirstPass : public testing::Test {
   const Workload workload_ = workload();
   const WorkerStage stage_{workload_, {}};
   const Effort effort_{1, 0, 1e9, 1e6};
+  const SamplePlan plan_{400, std::vector<Phase>(SamplePlan::blocks_in(400), Phase::free), 1};
 };
 
 TEST_F(FirstPass, CostsMoreOnceUnmade) {
@@ -49,7 +50,7 @@ TEST_F(FirstPass, OfACaseComesAfterNoOtherQuery) {
   const Oracle oracle(workload_.mesh);
   Truths truths(oracle, workload_.courses[0]);
   ContestantProcess later = process("makes-later");
-  Case slide(workload_, stage_, effort_, later, 0, Query::nearest);
+  Case slide(workload_, stage_, effort_, later, 0, Query::nearest, plan_);
   slide.introduce();
   slide.verify(truths);
   slide.repetition();
@@ -83,7 +84,7 @@ TEST_F(FirstPass, BuildsNothingAnewThatMakesAllAtOnce) {
   const Oracle oracle(workload_.mesh);
   Truths truths(oracle, workload_.courses[0]);
   ContestantProcess moody = process("moody");
-  Case slide(workload_, stage_, effort_, moody, 0, Query::nearest);
+  Case slide(workload_, stage_, effort_, moody, 0, Query::nearest, plan_);
   slide.introduce();
   const std::uintmax_t builds = std::filesystem::file_size(counter);
   EXPECT_GT(builds, 0U);

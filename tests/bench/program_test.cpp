@@ -63,7 +63,8 @@ TEST(Bench, LeavesOneRowAContestantAndTrajectoryAndARunJson) {
     ASSERT_EQ(row.size(), header.size());
     constexpr int of_stored_scene = 3;  // these two store what they are given
     constexpr int of_prepare = 3;       // and prepare nothing
-    EXPECT_EQ(std::count(row.begin(), row.end(), ""), of_stored_scene + of_prepare + i % 2)
+    constexpr int of_few_steps = 1;     // no 99.9 %
+    EXPECT_EQ(std::count(row.begin(), row.end(), ""), of_stored_scene + of_prepare + of_few_steps + i % 2)
         << "besides, only brute-force's options are empty";
     EXPECT_EQ(row[0], "1");
     EXPECT_EQ(row[3], i % 2 == 1 ? "" : "lookup=scan,shape=sphere");
@@ -122,7 +123,7 @@ TEST(Bench, SameSeedSameAnswersAnotherSeedOthers) {
 TEST(Bench, ClocksPreparingApart) {
   const TemporaryFolder folder;
   const Outcome finished =
-      run_touchmark({"bench", "--mesh", "icosphere:3", "--quick", "--steps", "200", "--trajectory", "slide",
+      run_touchmark({"bench", "--mesh", "icosphere:3", "--quick", "--steps", "1000", "--trajectory", "slide",
                      "--detector", "sphere-cluster:prepare=true", "--detector", "sphere-cluster", "--out",
                      folder.path(), "--benchmark_min_time=0.001"});
   EXPECT_EQ(finished.status, 0) << finished.err;

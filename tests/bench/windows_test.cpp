@@ -14,6 +14,19 @@ TEST(Windows, AreTheWholeWayWhereThereIsTimeForIt) {
   }
 }
 
+TEST(Windows, AreSplitIntoEqualPartsAndJoinedAgain) {
+  for (const std::size_t parts : {1U, 2U, 3U, 7U, 100U, 1000U}) {
+    const std::vector<Window> some = split({5, 105}, parts);
+    ASSERT_EQ(some.size(), std::min<std::size_t>(parts, 100));
+    for (const Window& window : some) EXPECT_LE(window.size(), 100 / some.size() + 1);
+    const std::vector<Window> whole = joined(some);
+    ASSERT_EQ(whole.size(), 1U);
+    EXPECT_EQ(whole[0].begin, 5U);
+    EXPECT_EQ(whole[0].end, 105U);
+  }
+  EXPECT_EQ(joined({{0, 2}, {3, 4}, {4, 6}}).size(), 2U);
+}
+
 TEST(Windows, AreDisjointAscendingAndInsideWhateverTheCounts) {
   for (std::size_t total = 1; total < 200; ++total) {
     for (std::size_t wanted = 0; wanted < total; ++wanted) {

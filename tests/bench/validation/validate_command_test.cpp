@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -111,6 +112,13 @@ TEST_F(Validate, NamesLineColumnAndValueOfAWrongField) {
       {"status", {"fine", "refused: ", "crashed:", "Ok", ""}},
       {"ns_per_query", {"0", "inf", ""}},
       {"ns_p50", {"1e9", "abc"}},
+      {"ns_p999", {"12"}},
+      {"ns_undisturbed", {"0", "inf", "", "1e9"}},
+      {"ns_undisturbed_low", {"1e9"}},
+      {"disturbed_share", {"1.5", ""}},
+      {"repetitions", {"0", "-1", ""}},
+      {"false_contacts", {"1"}},
+      {"wrong_triangle", {"1"}},
       {"update_rate_hz", {"1"}},
       {"build_ms", {"", "-1", "1e9"}},
       {"work_mean", {"1e9"}},
@@ -124,6 +132,56 @@ TEST_F(Validate, NamesLineColumnAndValueOfAWrongField) {
                    "results.csv:2: " + column + " \"" + value + "\"");
     }
   }
+}
+
+TEST_F(Validate, WantsNoMeanAboveTheMaximum) {
+  // The rate and the share are made to fit, so that only the mean is wrong.
+  const auto with_mean = [](const std::string& share) {
+    std::string text = with("ns_per_query", 2, "1000000000");
+    const std::string fresh = std::exchange(csv(), text);
+    text = with("update_rate_hz", 2, "1");
+    csv() = text;
+    text = with("disturbed_share", 2, share);
+    csv() = fresh;
+    return text;
+  };
+  expect_fault(validate(with_mean("0"), run()),
+               "results.csv:2: ns_per_query \"1000000000\" is above ns_max ");
+  EXPECT_EQ(validate(with_mean("0.5"), run()).status, 0) << "the row says that it was interrupted";
+}
+
+TEST_F(Validate, WantsEachRowThatWasAskedForOnce) {
+  const std::size_t second = csv().find('\n') + 1, third = csv().find('\n', second) + 1;
+  const std::string row = csv().substr(second, third - second);
+  expect_fault(validate(csv() + row, run()), "results.csv:4: detector \"aabb-tree\" has this row twice");
+  expect_fault(validate(csv() + row, ""), "results.csv:4: detector \"aabb-tree\" has this row twice");
+  std::string less = csv();
+  less.erase(second, row.size());
+  expect_fault(validate(less, run()), "results.csv:1: rows \"aabb-tree on icosphere:1, slide\" is missing");
+  EXPECT_EQ(validate(less, "").status, 0) << "without run.json nobody knows";
+  std::string interrupted = run();
+  interrupted.replace(interrupted.find("\"finished\": true"), 16, "\"finished\": false");
+  EXPECT_EQ(validate(less, interrupted).status, 0) << "what Ctrl-C left";
+}
+
+TEST_F(Validate, WantsThoseThatClaimExactnessToAgree) {
+  const TemporaryFolder folder;
+  const Outcome finished = run_touchmark(
+      {"bench", "--mesh", "icosphere:1", "--quick", "--steps", "50", "--trajectory", "slide", "--detector",
+       "aabb-tree", "--detector", "brute-force", "--out", folder.path(), "--benchmark_min_time=0.001"});
+  ASSERT_EQ(finished.status, 0) << finished.err;
+  const std::string fresh = std::exchange(csv(), content_of(folder.file("results.csv")));
+  const std::string other_answers = with("decisions_checksum", 3, "0123456789abcdef"), other_steps = [] {
+    const std::string before = std::exchange(csv(), with("decisions_checksum", 3, "0123456789abcdef"));
+    std::string text = with("steps", 3, "49");
+    csv() = before;
+    return text;
+  }();
+  csv() = fresh;
+  const std::string description = content_of(folder.file("run.json"));
+  expect_fault(validate(other_answers, description),
+               "results.csv:3: decisions_checksum \"0123456789abcdef\" is not that of aabb-tree, line 2");
+  EXPECT_EQ(validate(other_steps, description).status, 0) << "other steps have other answers";
 }
 
 TEST_F(Validate, WantsNoTimesWhereTheStatusIsNotOk) {
