@@ -69,26 +69,29 @@ FrontierSettings checked(const TuneOptions& options, const TriangleMesh& mesh) {
   return settings;
 }
 
+double percent_of(double error, double diagonal) { return diagonal > 0 ? 100 * error / diagonal : 0; }
+
 std::string table_of(const FrontierResult& result, double diagonal, double rate) {
   TextTable table({"surface", "form", "clustering", "triangles", "spheres", "error %", "99 % within us", "Hz",
                    "in time", "best"});
   for (const FrontierPoint& p : result.points) {
     table.add({fmt::format("{} {}", p.method, p.level), p.form, fmt::format("{:.4g}", p.clustering),
                std::to_string(p.triangles), std::to_string(p.spheres),
-               fmt::format("{:.4f}", diagonal > 0 ? 100 * p.error.mean / diagonal : 0),
-               fmt::format("{:.3g}", p.ns_p99 * 1e-3), fmt::format("{:.4g}", 1e9 / p.ns_p99),
-               holds_rate(p, rate) ? "yes" : "no", p.best ? "*" : ""});
+               fmt::format("{:.4f}", percent_of(p.error.mean, diagonal)),
+               p.ns_p99 ? fmt::format("{:.3g}", *p.ns_p99 * 1e-3) : "",
+               p.ns_p99 ? fmt::format("{:.4g}", 1e9 / *p.ns_p99) : "", holds_rate(p, rate) ? "yes" : "no",
+               p.best ? "*" : ""});
   }
   return table.text();
 }
 
 std::string description(const char* which, const std::optional<FrontierPoint>& point,
                         const TuneOptions& options, double diagonal) {
-  if (!point) return fmt::format("{}: none holds {} Hz\n", which, options.rate);
+  if (!point || !point->ns_p99) return fmt::format("{}: none holds {} Hz\n", which, options.rate);
   std::string text = fmt::format(
       "{}: {} level {}, {}, mean error {:.4f} % of the box diagonal, 99 of 100 queries within {:.4g} us\n",
-      which, point->method, point->level, detector_of(*point), 100 * point->error.mean / diagonal,
-      point->ns_p99 * 1e-3);
+      which, point->method, point->level, detector_of(*point), percent_of(point->error.mean, diagonal),
+      *point->ns_p99 * 1e-3);
   if (point->level > 0) {
     text += fmt::format(
         "  touchmark mesh subdivide --mesh {} --method {} --levels {} --threshold {} --form meshlab --output "

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -60,15 +62,19 @@ class Claims {
 
  private:
   static const printed::Level& printed_at(int level) { return printed::ls3[static_cast<std::size_t>(level)]; }
-  std::string why(const char* reason) const {
-    return own_mesh_ ? reason : fmt::format("{}; {}", other_mesh, reason);
+  /// Why a number may differ, where something is known besides the mesh.
+  using Reason = std::optional<std::string>;
+  std::string why(const Reason& reason) const {
+    if (own_mesh_) return reason.value_or("");
+    return reason ? fmt::format("{}; {}", other_mesh, *reason) : other_mesh;
   }
   bool complete() const {
     return std::all_of(choi_sung_methods.begin(), choi_sung_methods.end(),
                        [this](auto m) { return find_row(result_, m, 3, true) != nullptr; });
   }
   void add(Claim claim) { claims_.push_back(std::move(claim)); }
-  void add(const char* where, std::string statement, bool holds, std::string reproduced, const char* reason) {
+  void add(const char* where, std::string statement, bool holds, std::string reproduced,
+           const Reason& reason) {
     add(statement_claim(where, std::move(statement), holds, std::move(reproduced), why(reason)));
   }
 
@@ -79,7 +85,7 @@ class Claims {
     const printed::Level& p = printed_at(level);
     const std::string where = fmt::format("Table 3, LS3 level {}", level);
     const auto a = static_cast<double>(single->spheres), b = static_cast<double>(clustered->spheres);
-    add(number_claim(where, "spheres without clustering", p.spheres, a, 0, 0.03, why("")));
+    add(number_claim(where, "spheres without clustering", p.spheres, a, 0, 0.03, why(std::nullopt)));
     add(number_claim(where, "spheres with clustering", p.clustered_spheres, b, 0, 0.03, why(visit_order)));
     add(number_claim(where, "reduction of spheres, %", p.sphere_reduction_percent, 100 * (1 - b / a), 0, 0.03,
                      why(visit_order)));
@@ -118,14 +124,14 @@ class Claims {
         add(number_claim(fmt::format("MeshLab, level {}", level),
                          "triangles of " + method_text(choi_sung_methods[m]),
                          printed::tool_triangles[m][static_cast<std::size_t>(level - 1)],
-                         static_cast<double>(row->surface.triangles), 0, 0.03, why("")));
+                         static_cast<double>(row->surface.triangles), 0, 0.03, why(std::nullopt)));
       }
     }
   }
 
   /// "X is the best" at each level, by a value that should be least.
   void best(const char* where, const char* statement, SubdivisionMethod expected, int from_level,
-            bool clustered, const std::function<double(const ChoiSungRow&)>& value, const char* reason) {
+            bool clustered, const std::function<double(const ChoiSungRow&)>& value, const Reason& reason) {
     std::string found;
     bool holds = true;
     for (int level = from_level; level <= 3; ++level) {
@@ -150,16 +156,17 @@ class Claims {
         fmt::format("{:.4f}, {:.4f} at level 3",
                     find_row(result_, catmull_clark_linear, 3, false)->surface.relative_volume,
                     find_row(result_, mid_point, 3, false)->surface.relative_volume),
-        "");
+        std::nullopt);
     add("Fig. 3", "Loop is the worst in volume", loop_worst,
-        fmt::format("{:.3f} at level 3", find_row(result_, loop, 3, false)->surface.relative_volume), "");
+        fmt::format("{:.3f} at level 3", find_row(result_, loop, 3, false)->surface.relative_volume),
+        std::nullopt);
     tightness_order();
     best(
         "Fig. 7", "Catmull-Clark makes the most triangles", catmull_clark_linear, 1, false,
-        [](const auto& r) { return -static_cast<double>(r.surface.triangles); }, "");
+        [](const auto& r) { return -static_cast<double>(r.surface.triangles); }, std::nullopt);
     best(
         "Fig. 8", "Catmull-Clark makes the smallest triangles", catmull_clark_linear, 1, false,
-        [](const auto& r) { return r.surface.mean_area; }, "");
+        [](const auto& r) { return r.surface.mean_area; }, std::nullopt);
     fewest_spheres();
     const auto vertices_factor = [&](SubdivisionMethod m, int level) {
       const auto at = [&](int l) {
@@ -174,7 +181,7 @@ class Claims {
         high = std::max(high, vertices_factor(m, level));
       }
     add("Graphical test", "all but Catmull-Clark grow 3 or 4 times a level", low > 2.5 && high < 4.5,
-        fmt::format("{:.2f} to {:.2f} times the triangles", low, high), "");
+        fmt::format("{:.2f} to {:.2f} times the triangles", low, high), std::nullopt);
     add("Graphical test", "Catmull-Clark grows 4.5 to 6 times a level",
         vertices_factor(catmull_clark_linear, 3) >= 4.5,
         fmt::format("{:.2f}, {:.2f}, {:.2f} times the triangles", vertices_factor(catmull_clark_linear, 1),
@@ -232,7 +239,7 @@ class Claims {
       return find_row(result_, ls3, 3, clustered)->scan->ns / find_row(result_, ls3, 0, clustered)->scan->ns;
     };
     add("Fig. 10", "with clustering the time grows less with the levels (LS3)", growth(true) < growth(false),
-        fmt::format("{:.1f} times with, {:.1f} times without", growth(true), growth(false)), "");
+        fmt::format("{:.1f} times with, {:.1f} times without", growth(true), growth(false)), std::nullopt);
     int below = 0;
     for (const ChoiSungRow& row : result_.rows) below += row.surface.level > 0 && row.scan->ns > 1e6 ? 1 : 0;
     add("Discussion", "no subdivided surface is served at 1000 Hz",

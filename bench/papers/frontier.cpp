@@ -45,7 +45,7 @@ class Exploration {
     }
     for (std::size_t i = 0; i < result_.points.size(); ++i) {
       const Timed timed = timing_.timed(i);
-      result_.points[i].ns = timed.ns;
+      if (timed.ns > 0) result_.points[i].ns = timed.ns;
       result_.points[i].ns_p99 = timed.ns_p99;
     }
     return std::move(result_);
@@ -128,7 +128,7 @@ void mark_best(std::vector<FrontierPoint>& points, const std::function<bool(cons
   std::vector<FrontierPoint*> compared;
   for (FrontierPoint& point : points) {
     point.best = false;
-    if (point.ns > 0 && among(point)) compared.push_back(&point);
+    if (point.ns && among(point)) compared.push_back(&point);
   }
   std::sort(compared.begin(), compared.end(), [](const FrontierPoint* a, const FrontierPoint* b) {
     return a->ns != b->ns ? a->ns < b->ns : a->error.mean < b->error.mean;
@@ -154,8 +154,8 @@ Table frontier_table(const FrontierResult& result, double diagonal) {
   for (const FrontierPoint& p : result.points) {
     table.add({p.method, std::to_string(p.level), p.form, number(p.clustering), std::to_string(p.triangles),
                std::to_string(p.spheres), number(p.error.mean), number(p.error.rms), number(p.error.max),
-               number(diagonal > 0 ? 100 * p.error.mean / diagonal : 0), p.ns > 0 ? number(p.ns * 1e-6) : "",
-               p.ns > 0 ? number(1e9 / p.ns) : "", p.best ? "yes" : "no"});
+               number(diagonal > 0 ? 100 * p.error.mean / diagonal : 0), p.ns ? number(*p.ns * 1e-6) : "",
+               p.ns ? number(1e9 / *p.ns) : "", p.best ? "yes" : "no"});
   }
   return table;
 }

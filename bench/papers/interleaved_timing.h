@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,10 @@ struct TimingEffort {
 
 /// What a detector did on the course.
 struct Timed {
-  double ns = 0;              ///< per query, median over the rounds; 0 before the first
-  double ns_p99 = 0;          ///< what 99 of 100 queries are done in, each step's median over the rounds
+  double ns = 0;  ///< per query, median over the rounds; 0 before the first
+  /// What 99 of 100 queries are done in, each step's median over the rounds; nothing before the first. At
+  /// least the clock's own cost: it cannot tell shorter queries apart.
+  std::optional<double> ns_p99 = {};
   double work = 0;            ///< groups, spheres, boxes and triangles looked at per query
   std::size_t contacts = 0;   ///< steps that found one
   std::uint64_t answers = 0;  ///< a checksum: detectors that answer alike have the same

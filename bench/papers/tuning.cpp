@@ -7,7 +7,7 @@
 namespace touchmark::bench {
 
 bool holds_rate(const FrontierPoint& point, double rate) {
-  return point.ns_p99 > 0 && point.ns_p99 * rate <= 1e9;
+  return point.ns_p99 && *point.ns_p99 * rate <= 1e9;
 }
 
 Tuned tune(const FrontierResult& result, double rate) {

@@ -1,3 +1,4 @@
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,7 +10,7 @@
 namespace touchmark::bench {
 namespace {
 
-FrontierPoint point(const char* form, double error, double ns) {
+FrontierPoint point(const char* form, double error, std::optional<double> ns) {
   FrontierPoint p;
   p.method = "ls3";
   p.form = form;
@@ -38,13 +39,19 @@ TEST(Tune, OfEqualErrorsTakesTheFaster) {
 
 TEST(Tune, CountsNothingThatWasNotTimed) {
   FrontierResult result;
-  result.points = {point("scan", 1, 0)};
+  result.points = {point("scan", 1, std::nullopt)};
   EXPECT_FALSE(tune(result, 10).published);
+}
+
+TEST(Tune, TakesWhatTookLessThanAnyClockTells) {
+  FrontierResult result;
+  result.points = {point("tree", 0.93, 100), point("tree", 0.22, 0)};
+  EXPECT_EQ(tune(result, 1000).fast->error.mean, 0.22);
 }
 
 TEST(MarkBest, MarksWhatNoOtherBeats) {
   std::vector<FrontierPoint> points = {point("scan", 5, 10), point("scan", 6, 20), point("scan", 1, 30),
-                                       point("tree", 1, 20), point("scan", 0.5, 0)};
+                                       point("tree", 1, 20), point("scan", 0.5, std::nullopt)};
   mark_best(points, [](const FrontierPoint&) { return true; });
   const std::vector<bool> expected{true, false, false, true, false};
   for (std::size_t i = 0; i < points.size(); ++i) EXPECT_EQ(points[i].best, expected[i]) << i;
@@ -70,6 +77,7 @@ TEST(TuneCommand, FindsAFinerSurfaceAtARateThatEveryoneHolds) {
   EXPECT_NE(outcome.out.find("as published: ls3 level 2, sphere-cluster:lookup=scan"), std::string::npos)
       << outcome.out;
   EXPECT_NE(outcome.out.find("--method ls3 --levels 2"), std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.out.find("inf"), std::string::npos) << outcome.out;
   EXPECT_NE(content_of(folder.file("tune.csv")).find("method,level,form"), std::string::npos);
 }
 
