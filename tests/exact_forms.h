@@ -35,6 +35,7 @@ inline std::vector<ExactForm> exact_forms(const TriangleMesh& mesh) {
       Grid::build(mesh, {.shape = Grid::Shape::sphere, .lookup = Grid::Lookup::scan}));
   add("grid-group, direct", Grid::build(mesh));
   add("grid-group, direct, small cells", Grid::build(mesh, {.cell = 0.2 * some}));
+  add("grid-group, direct, lazy", Grid::build(mesh, {.making = Grid::Making::lazy}));
   using Cluster = SphereCluster;
   add("sphere-cluster, scan", Cluster::build(mesh, {.lookup = Cluster::Lookup::scan}));
   add("sphere-cluster, scan, clustered",
@@ -43,6 +44,7 @@ inline std::vector<ExactForm> exact_forms(const TriangleMesh& mesh) {
   add("sphere-cluster, tree, portable", Cluster::build(mesh, {.widest = Simd::portable}));
   add("sphere-cluster, tree, avx2", Cluster::build(mesh, {.widest = Simd::avx2}));
   add("sphere-cluster, tree, clustered", Cluster::build(mesh, {.clustering = some}));
+  add("sphere-cluster, tree, lazy", Cluster::build(mesh, {.making = Cluster::Making::lazy}));
   return forms;
 }
 

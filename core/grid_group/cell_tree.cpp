@@ -45,13 +45,12 @@ void CellTree::Leaves::set(std::uint32_t i, const Leaf& leaf, bool rough) const 
 }
 
 bool CellTree::settle(const Vec3& in_frame, const TriangleStore& store, const BoxTree& tree,
-                      Work& work) const noexcept {
+                      std::uint64_t most, Work& work) const noexcept {
   const Units units_at = units(in_frame);
   const Found at = find(units_at);
   if (!leaves_.is_rough(at.leaf)) return false;
   const Leaf rough = leaves_.at(at.leaf);
   // A tick's work is bounded: where that is not enough, what is known will do.
-  constexpr std::uint64_t most = 4096;
   Leaf leaf = nearest_to(store, tree, middle(units_at, at.shift), rough.place, most, work);
   leaf.distance = std::max(leaf.distance, rough.distance);
   leaves_.set(at.leaf, leaf, false);

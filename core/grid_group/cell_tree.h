@@ -59,7 +59,7 @@ class CellTree {
   double middle_error() const noexcept { return middle_error_; }
   /// Finds what is nearest to the middle of that cell, where that is not known yet; else false. Any thread
   /// may meanwhile read or settle the same.
-  bool settle(const Vec3& in_frame, const TriangleStore& store, const BoxTree& tree,
+  bool settle(const Vec3& in_frame, const TriangleStore& store, const BoxTree& tree, std::uint64_t most,
               Work& work) const noexcept;
 
   std::size_t cells() const noexcept { return leaves_.size(); }

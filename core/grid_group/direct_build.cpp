@@ -108,19 +108,24 @@ void DirectGrid::refill_distances(const std::vector<Aabb>& moved) {
   distances_.refill([&](const Vec3& place, double most) { return sample(place, most, left); }, moved);
 }
 
-void DirectGrid::grow_one(std::uint32_t near, std::uint32_t start, const Vec3& center,
+void DirectGrid::grow_one(std::uint32_t near, std::uint32_t start, const Vec3& center, std::uint64_t spent,
                           Work& work) const noexcept {
-  if (groups_.waits(near)) return make_group(near, work);
-  if (groups_.waits(start)) return make_group(start, work);
+  // With what answered the query it is to be no more than two looks at every triangle. What has taken more
+  // than one is no place to grow at.
+  const std::uint64_t most = left_of(2 * std::uint64_t{store_.size()}, spent);
+  if (most < store_.size()) return;
+  if (groups_.waits(near)) return make_group(near, most, work);
+  if (groups_.waits(start)) return make_group(start, most, work);
   const Vec3 in_frame = store_.frame.to_frame(center);
-  if (cells_.holds(in_frame)) cells_.settle(in_frame, store_, tree_, work);
+  if (cells_.holds(in_frame)) cells_.settle(in_frame, store_, tree_, std::min(most, most_growth_looks), work);
 }
 
-void DirectGrid::make_group(std::uint32_t place, Work& work) const noexcept {
-  // A tick's work is bounded: what lies among so many boxes has no group.
-  constexpr std::uint64_t most_boxes = 4096;
+void DirectGrid::make_group(std::uint32_t place, std::uint64_t most, Work& work) const noexcept {
+  // What lies among so many boxes or triangles has no group.
   if (!groups_.claim(place)) return;
-  GroupFinder finder(store_, tree_, lead_, {.sharing = 0, .most_boxes = most_boxes});
+  const std::uint64_t share = most / (1 + GroupFinder::most_looks);
+  GroupFinder finder(store_, tree_, lead_,
+                     {.sharing = 0, .most_boxes = std::min(share, most_growth_looks), .most_near = share});
   const GroupFinder::Found found = finder.find(place);
   groups_.put(place, found.members, found.height, found.margin);
   work += finder.take_work();

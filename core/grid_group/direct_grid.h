@@ -63,8 +63,9 @@ class DirectGrid {
                                  Work& work) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, DirectMemory& memory, Work& work) const noexcept;
 
-  /// Where groups grow, a query looks at no more boxes and triangles than this besides those that answer it;
-  /// a sweep at twice as many, for it may ask what is nearest to its start.
+  /// Where groups grow, a query looks at no more boxes and triangles than this besides those that answer it,
+  /// and with those at no more than twice as many as there are triangles, and a little; a sweep at twice as
+  /// many, for it may ask what is nearest to its start.
   static constexpr std::uint64_t most_growth_in_a_query = 10'000;
 
   std::size_t bytes() const noexcept;
@@ -74,6 +75,9 @@ class DirectGrid {
   bool is_certified() const noexcept { return certified_; }
 
  private:
+  /// A tick's work is bounded: no more boxes are looked at for a group, and no more of them and of triangles
+  /// for a cell.
+  static constexpr std::uint64_t most_growth_looks = 4096;
   /// Where to look first, where it is not surely free.
   struct Start {
     bool beyond = false;  ///< nothing is within reach
@@ -140,11 +144,14 @@ class DirectGrid {
                  Work& work) const noexcept;
   /// After a query that no group served: where groups grow, makes that of one of the places or looks closer
   /// at the cell of this centre, what is still to be done.
-  void grow(std::uint32_t near, std::uint32_t start, const Vec3& center, Work& work) const noexcept {
-    if (groups_.grows()) grow_one(near, start, center, work);
+  /// `spent`: on the query, in boxes and triangles.
+  void grow(std::uint32_t near, std::uint32_t start, const Vec3& center, std::uint64_t spent,
+            Work& work) const noexcept {
+    if (groups_.grows()) grow_one(near, start, center, spent, work);
   }
-  void grow_one(std::uint32_t near, std::uint32_t start, const Vec3& center, Work& work) const noexcept;
-  void make_group(std::uint32_t place, Work& work) const noexcept;
+  void grow_one(std::uint32_t near, std::uint32_t start, const Vec3& center, std::uint64_t spent,
+                Work& work) const noexcept;
+  void make_group(std::uint32_t place, std::uint64_t most, Work& work) const noexcept;
   void remember(const Vec3& center, float tau, double lower, double upper,
                 DirectMemory& memory) const noexcept {
     // Twice culling_slack, for the kernel's error here: tau is 2^-21 of a length above the largest

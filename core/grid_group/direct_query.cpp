@@ -70,7 +70,9 @@ DirectGrid::Located DirectGrid::locate(const Vec3& center, const FilterPoint& po
   } else {
     if (near) search.consider(start.place);
     gave_up = !search.consider_tree(tree_, most_work_before_all(store_.size()));
-    if (!gave_up) grow(search.found() ? search.place() : start.place, start.place, center, work);
+    if (!gave_up)
+      grow(search.found() ? search.place() : start.place, start.place, center,
+           search.triangles() + search.boxes(), work);
   }
   work.triangles += search.triangles();
   work.boxes += search.boxes();

@@ -133,6 +133,7 @@ std::optional<Impact> DirectGrid::first_hit(const Sweep& sweep, DirectMemory& me
   if (begins_far(sweep.from, from, farthest, memory)) return std::nullopt;
   const Start start = start_at(sweep.from, from, farthest, memory, work);
   if (start.beyond) return std::nullopt;
+  const std::uint64_t before = work.total();
   SweepSearch search(store_, sweep, widening);
   // Where a group is valid is convex: it serves the way between two points that it serves.
   if (start.group != nullptr && serving(start.place, store_.frame.point(sweep.to), work) != nullptr) {
@@ -140,7 +141,7 @@ std::optional<Impact> DirectGrid::first_hit(const Sweep& sweep, DirectMemory& me
   } else if (!search.consider_tree(tree_, most_work_before_all(store_.size()), work)) {
     return first_hit_of_all(sweep, memory, work);
   } else {
-    grow(search.found() ? search.place() : start.place, start.place, sweep.from, work);
+    grow(search.found() ? search.place() : start.place, start.place, sweep.from, work.total() - before, work);
   }
   if (!search.found()) return std::nullopt;
   memory.place = search.place();

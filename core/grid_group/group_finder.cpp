@@ -14,6 +14,8 @@ constexpr double growth = 0.3;
 /// Over and under the triangle by this part of its size at first, and by less where the groups would be too
 /// large.
 constexpr double first_height = 1.0, least_height = 0.2, shrinking = 0.6;
+static_assert(first_height * shrinking * shrinking * shrinking * shrinking < least_height &&
+              GroupFinder::most_looks >= 4);
 
 // Of a ball about the triangle the footprint grown is within 1.6 radii, its size below 1.65, so the highest
 // prism within 3.25; and no point of that is farther than 2.25 from the triangle. What is nearest there comes
@@ -150,7 +152,7 @@ bool GroupFinder::gather_blocks(const Aabb& box) noexcept {
       for (std::uint32_t place = first; place < std::min(first + TriangleStore::block_size, store_.size());
            ++place)
         if (reaches(store_.balls[place], box)) near_[near_count_++] = place;
-      if (near_count_ > most_near) return false;
+      if (near_count_ > std::min<std::uint64_t>(most_near, effort_.most_near)) return false;
     }
   }
   return true;

@@ -22,7 +22,10 @@ class GroupFinder {
     /// surroundings, triangles are gathered, to serve the next groups too.
     double sharing = 0;
     std::uint64_t most_boxes = ~std::uint64_t{0};  ///< are looked at to gather; past that there is no group
+    std::uint64_t most_near = ~std::uint64_t{0};   ///< are gathered, likewise
   };
+  /// Each triangle gathered is looked at no more often than this.
+  static constexpr std::uint64_t most_looks = 4;
 
   /// `lead`: by how much, in the frame, a triangle must lose to be left out.
   GroupFinder(const TriangleStore& store, const BoxTree& tree, double lead, const Effort& effort) noexcept

@@ -14,6 +14,7 @@
 #include "core/geometry/point_triangle.h"
 #include "core/sign/clearance.h"
 #include "core/sign/open_edges.h"
+#include "core/sign/volume.h"
 
 namespace touchmark {
 namespace {
@@ -26,22 +27,6 @@ constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 Side side_of_count(int count, bool inside_out) noexcept {
   if (inside_out) return count == 0 ? Side::inside : count < 0 ? Side::outside : Side::undecided;
   return count == 0 ? Side::outside : count > 0 ? Side::inside : Side::undecided;
-}
-
-/// Negative beyond what rounding could have done. In units of the box, so that no power leaves the range.
-bool has_negative_volume(const TriangleMesh& mesh) {
-  const Vec3 center = mesh.bounds().center();
-  const double size = mesh.bounds().extent().maxCoeff();
-  double six_volumes = 0, magnitude = 0;
-  for (std::uint32_t t = 0; t < mesh.size(); ++t) {
-    const Vec3 a = (mesh.corner(t, 0) - center) / size, b = (mesh.corner(t, 1) - center) / size,
-               c = (mesh.corner(t, 2) - center) / size;
-    const double term = a.dot(b.cross(c));
-    six_volumes += term;
-    magnitude += a.norm() * b.norm() * c.norm() + std::abs(six_volumes);
-  }
-  // The centre's own rounding moves nothing: a closed mesh has its volume about any point.
-  return six_volumes < -16 * unit_roundoff * magnitude;
 }
 
 /// By mesh index; welding dropped the triangles with two corners in one place and kept the others' order.
@@ -83,7 +68,7 @@ SideFinder SideFinder::build(const TriangleMesh& mesh) {
   surface.open_edges = open.edges.size();
   surface.contrary_edges = open.contrary;
   surface.closed = open.edges.empty() && open.contrary == 0;
-  surface.inside_out = surface.closed && has_negative_volume(mesh);
+  surface.inside_out = surface.closed && sign::volume_sign(mesh) < 0;
   surface.way = open.contrary > 0 ? Way::none : surface.closed ? Way::crossings : Way::winding_number;
   if (surface.closed) {
     finder.find_simple_faces(

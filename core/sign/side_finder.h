@@ -6,9 +6,9 @@
 /// exact
 ///   then (winding.h), 0 outside and 1 inside; where solids overlap it is 2 and more, inside too. Where the
 ///   surface is simple round the nearest point, the pseudonormal there says the same and is found faster.
-///   A mesh of negative volume is inside out: a room, solid all round. There, -1 and less is outside and 0
-///   inside. What is left, positive in a room and negative elsewhere, is a shell turned against the rest:
-///   undecided.
+///   A mesh of negative volume (of the stored doubles, exactly) is inside out: a room, solid all round.
+///   There, -1 and less is outside and 0 inside. What is left, positive in a room and negative elsewhere, is
+///   a shell turned against the rest: undecided.
 /// - Open: the winding number has no jump in an opening. Decided where it is as near to a whole number as
 ///   `clear_share` and the pseudonormal of the nearest point says the same: so never where an opening is
 ///   nearest.

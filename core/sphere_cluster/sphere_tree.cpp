@@ -166,18 +166,20 @@ double SphereTree::free_within(float unseen, double shown, double slack) const n
   return true;
 }
 
-/// And when the place has its samples, two at most.
+/// And when the place has its samples, two at most, which take no more than half of the work that a query may
+/// take before it looks at every triangle. `most` is what is left of that.
 bool SphereTree::is_far_once_sampled(const FilterPoint& point, const Vec3& center, double reach,
-                                     Memory& memory, Work& work) const noexcept {
+                                     Memory& memory, std::uint64_t& most, Work& work) const noexcept {
   // With a reach as long as the mesh no sample helps.
   if (!(reach < radius_)) return false;
-  Sampling sampling{most_work(), memory.last};
+  Sampling sampling{most / 2, memory.last};
   bool is_known_far = false;
-  while (!is_known_far && distances_.sample_near(point, [&](const Vec3& place, double most) {
-    return sample(place, most, sampling);
+  while (!is_known_far && distances_.sample_near(point, [&](const Vec3& place, double farthest) {
+    return sample(place, farthest, sampling);
   }))
     is_known_far = is_far(point, center, reach, memory);
   work += sampling.work;
+  most = left_of(most, sampling.work.total());
   return is_known_far;
 }
 
@@ -239,14 +241,15 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
       }
     }
   }
+  std::uint64_t most = most_work();
   if (is_far(point, center, radius, memory) ||
-      (samples_later_ && is_far_once_sampled(point, center, radius, memory, work)))
+      (samples_later_ && is_far_once_sampled(point, center, radius, memory, most, work)))
     return false;
   const double error = frame_.kernel_error(point.tau);
   TouchVisitor visitor{parts_, center, radius, {center, radius, error}, certified_};
   visitor.limit = frame_.limit((radius + error) * (radius + error));
   visitor.enough = frame_.at_most(radius - error);
-  const float unseen = descend(point, visitor, most_work());
+  const float unseen = descend(point, visitor, most);
   work += visitor.work;
   if (unseen == spheres::gave_up) {
     memory.free = -1;
@@ -281,19 +284,20 @@ std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Mem
     const double moved = (center - memory.center).norm();
     near = moved <= farthest_in_grains * grain_ && memory.nearest + moved <= reach;
   }
+  std::uint64_t most = most_work();
   if (!near && (is_far(point, center, reach, memory) ||
-                (samples_later_ && is_far_once_sampled(point, center, reach, memory, work))))
+                (samples_later_ && is_far_once_sampled(point, center, reach, memory, most, work))))
     return std::nullopt;
   const double error = frame_.kernel_error(point.tau);
   NearestVisitor visitor(parts_, frame_, center, frame_.limit((reach + error) * (reach + error)), error);
   float unseen = 0;
   if (near) {
     show(memory.last, visitor);
-    unseen = search_near(point, visitor, memory, most_work());
+    unseen = search_near(point, visitor, memory, most);
   } else {
-    const double most = distances_.at_most(point) * frame_.unit();
-    if (most < reach) visitor.limit = frame_.limit((most + error) * (most + error));
-    unseen = descend(point, visitor, most_work());
+    const double farthest = distances_.at_most(point) * frame_.unit();
+    if (farthest < reach) visitor.limit = frame_.limit((farthest + error) * (farthest + error));
+    unseen = descend(point, visitor, most);
   }
   if (unseen == spheres::gave_up) {
     work += visitor.work;

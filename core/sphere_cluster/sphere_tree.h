@@ -86,7 +86,7 @@ class SphereTree {
   double free_within(float unseen, double shown, double slack) const noexcept;
   bool is_far(const FilterPoint& point, const Vec3& center, double reach, Memory& memory) const noexcept;
   [[gnu::noinline]] bool is_far_once_sampled(const FilterPoint& point, const Vec3& center, double reach,
-                                             Memory& memory, Work& work) const noexcept;
+                                             Memory& memory, std::uint64_t& most, Work& work) const noexcept;
   static void remember_touch(const Vec3& center, double free, double nearest, Memory& memory) noexcept;
   /// From a point of the mesh's frame to another, in the tree's, at least.
   float way(const Vec3& from, const Vec3& to, const FilterPoint& at) const noexcept;

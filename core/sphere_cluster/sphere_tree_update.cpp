@@ -39,7 +39,7 @@ DistanceGrid::Interval SphereTree::sample(const Vec3& place, double most, Sampli
   const double reach = most / frame_.scale();
   RoughVisitor visitor{parts_, frame_, center, frame_.limit(reach * reach)};
   show(sampling.near, visitor);
-  const float unseen = descend(frame_.point(center), visitor, sampling.most);
+  const float unseen = descend(frame_.point(center), visitor, left_of(sampling.most, sampling.work.total()));
   sampling.work += visitor.work;
   if (unseen == spheres::gave_up) return unknown;
   sampling.near = visitor.kept_at;

@@ -85,6 +85,45 @@ TEST(SideFinder, BehindTheFacesIsInsideThoughTheMeshBeInsideOut) {
   }
 }
 
+/// Thinner than any rounding of the volume: closed, and of the orientation given.
+TriangleMesh leaf(double thickness, bool inwards) {
+  const TriangleMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, thickness}},
+                          {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
+  return inwards ? turned_over(mesh) : mesh;
+}
+
+TEST(SideFinder, AVolumeBelowRoundingHasItsSignAllTheSame) {
+  for (const bool inwards : {false, true}) {
+    for (const double thickness : {1e-17, 1e-30, 0x1p-1074}) {
+      for (const double scale : {0x1p-40, 1.0, 0x1p40}) {
+        if (thickness * scale == 0) continue;
+        const TriangleMesh mesh = moved(leaf(thickness, inwards), scale, Vec3::Zero());
+        const bench::ExactSides oracle(mesh);
+        const SignedBruteForce detector = SignedBruteForce::build(mesh, {});
+        for (const Vec3& point : {Vec3(5, 5, 5), Vec3(0.25, 0.25, -1), Vec3(0.3, 0.3, 1e-3)}) {
+          EXPECT_EQ(side_at(detector, scale * point), oracle.side(scale * point))
+              << thickness << ' ' << scale;
+          EXPECT_EQ(side_at(detector, scale * point), inwards ? Side::inside : Side::outside)
+              << thickness << ' ' << scale;
+        }
+      }
+    }
+  }
+}
+
+TEST(SideFinder, AMeshThatEnclosesAsMuchEitherWayIsNotInsideOut) {
+  const TriangleMesh cube = bench::cube();
+  const TriangleMesh both = together({cube, turned_over(moved(cube, 1, {4, 0, 0}))});
+  const TriangleMesh flat = together({leaf(0, false), leaf(0, true)});
+  for (const TriangleMesh* mesh : {&both, &flat}) {
+    const bench::ExactSides oracle(*mesh);
+    const SignedBruteForce detector = SignedBruteForce::build(*mesh, {});
+    EXPECT_FALSE(detector.sides().surface().inside_out);
+    for (const Vec3& point : {Vec3(0.1, 0.2, 0.3), Vec3(4.1, 0.2, 0.3), Vec3(9, 9, 9)})
+      EXPECT_EQ(side_at(detector, point), oracle.side(point)) << point.transpose();
+  }
+}
+
 TEST(SideFinder, AShellTurnedAgainstTheRestIsUndecidedWithinAndTheRestIsNotDisturbed) {
   const TriangleMesh ball = bench::icosphere(1);
   const SignedBruteForce detector =
