@@ -11,6 +11,7 @@
 
 #include "bench/oracle/interval_distance.h"
 #include "bench/oracle/parallel.h"
+#include "core/geometry/sphere_triangle_sweep.h"
 
 namespace touchmark::bench {
 namespace {
@@ -69,6 +70,8 @@ class Judge {
     return oracle_.segment_within(from, to, lowered(radius - tolerance)) ||
            (radius >= 0 && radius <= tolerance && oracle_.surely_crosses(from, to, tolerance));
   }
+  double sweep_gap(const Sweep& sweep, TriangleId id) const;
+  void exact_sweep(const SweepTruth& truth, const Sweep& sweep, const Answer& answer, Tally& tally) const;
   Verdict threshold(const Truth& truth, const Vec3& center, double limit, bool found) const;
   void contact(const Truth& truth, const Vec3& center, const Answer& answer, double slack,
                Tally& tally) const;
@@ -104,18 +107,22 @@ Verdict Judge::threshold(const Truth& truth, const Vec3& center, double limit, b
   return excused ? Verdict::unresolved : Verdict::wrong;
 }
 
+/// Where those that carry the id begin and end.
+std::pair<std::size_t, std::size_t> places_of(const TriangleMesh& mesh, TriangleId id) {
+  const auto ids = mesh.ids();
+  if (ids.empty())
+    return {std::min<std::size_t>(id, mesh.size()), std::min(std::size_t{id} + 1, mesh.size())};
+  const auto range = std::equal_range(ids.begin(), ids.end(), id);
+  return {static_cast<std::size_t>(range.first - ids.begin()),
+          static_cast<std::size_t>(range.second - ids.begin())};
+}
+
 /// The triangles that carry the id and are nearest within the accuracy.
 std::vector<Truth> Judge::with_id(const Truth& truth, const Vec3& center, TriangleId id, double slack) const {
   const TriangleMesh& mesh = oracle_.mesh();
-  const auto ids = mesh.ids();
-  std::size_t begin = id, end = std::size_t{id} + 1;
-  if (!ids.empty()) {
-    const auto range = std::equal_range(ids.begin(), ids.end(), id);
-    begin = static_cast<std::size_t>(range.first - ids.begin());
-    end = static_cast<std::size_t>(range.second - ids.begin());
-  }
+  const auto [begin, end] = places_of(mesh, id);
   std::vector<Truth> found;
-  for (std::size_t i = begin; i < std::min(end, mesh.size()); ++i) {
+  for (std::size_t i = begin; i < end; ++i) {
     const auto triangle = static_cast<std::uint32_t>(i);
     if (triangle == truth.triangle) {
       found.push_back(truth);
@@ -239,6 +246,7 @@ void Judge::sweep(const SweepTruth& truth, const Sweep& sweep, const Answer& ans
     if (found) ++tally.false_contacts;
     return;
   }
+  if (accuracy_.decides_exactly) return exact_sweep(truth, sweep, answer, tally);
   const auto largest_difference = [&](const Vec3& p) {
     return (p - low_).cwiseAbs().cwiseMax((p - high_).cwiseAbs()).maxCoeff();
   };
@@ -269,6 +277,50 @@ void Judge::sweep(const SweepTruth& truth, const Sweep& sweep, const Answer& ans
   } else {
     contact(there, position, answer, slack, tally);
   }
+}
+
+/// By how much the distance at the fraction told may exceed the radius, of the triangle named.
+double Judge::sweep_gap(const Sweep& sweep, TriangleId id) const {
+  double largest = 0;
+  const auto [begin, end] = places_of(oracle_.mesh(), id);
+  for (std::size_t i = begin; i < end; ++i)
+    for (const Vec3& v : triangle_of(oracle_.mesh(), static_cast<std::uint32_t>(i)))
+      largest = std::max(largest, (sweep.from - v).cwiseAbs().maxCoeff());
+  return most_early_gap(largest, (sweep.to - sweep.from).cwiseAbs().maxCoeff());
+}
+
+/// Nothing is excused.
+void Judge::exact_sweep(const SweepTruth& truth, const Sweep& sweep, const Answer& answer,
+                        Tally& tally) const {
+  const bool found = answer.found != 0, at_start = found && answer.fraction == 0;
+  if (found != truth.hit) {
+    ++(found ? tally.false_contacts : tally.missed);
+    return;
+  }
+  if (!found) return;
+  if (at_start != truth.touching_at_start) {
+    ++(at_start ? tally.false_contacts : tally.missed);
+    return;
+  }
+  const double early = at_start ? 0 : sweep_gap(sweep, answer.triangle);
+  constexpr double first_of_all = std::numeric_limits<double>::denorm_min();  // there is none before it
+  if (answer.fraction > first_of_all && oracle_.touches_before(sweep, answer.fraction)) {
+    ++tally.missed;
+    return;
+  }
+  if (!at_start && !oracle_.within_on_way(sweep, answer.fraction, raised(sweep.radius + early))) {
+    ++tally.false_contacts;
+    return;
+  }
+  const Vec3 position = at_start              ? sweep.from
+                        : answer.fraction < 1 ? Vec3(sweep.from + answer.fraction * (sweep.to - sweep.from))
+                                              : sweep.to;
+  const Truth there = oracle_.solve(position);
+  if (!at_start) note_distance_error(std::abs(there.high - sweep.radius), tally);
+  // The fields are judged at a position that is rounded.
+  const double rounding =
+      4 * unit_roundoff * (sweep.from.cwiseAbs().maxCoeff() + position.cwiseAbs().maxCoeff());
+  contact(there, position, answer, at_start ? 0 : early + rounding, tally);
 }
 
 /// Adds up judge_one(i, tally) for i < size.
@@ -330,7 +382,9 @@ Tally judge(const Oracle& oracle, std::span<const Truth> truths, Query query, st
 Tally judge(const Oracle& oracle, std::span<const SweepTruth> truths, std::span<const Sweep> sweeps,
             std::span<const Answer> answers, const Accuracy& accuracy, const Reported& reported) {
   Accuracy of_sweeps = accuracy;
-  of_sweeps.relative = std::max(accuracy.relative, kernel_relative_error);
+  // most_early_gap, where the way's start is within M of the triangle and the way's coordinates within 2 M.
+  const double least = accuracy.guarantee == Guarantee::exact ? most_early_gap(1, 2) : kernel_relative_error;
+  of_sweeps.relative = std::max(accuracy.relative, least);
   const Judge judge(oracle, of_sweeps, reported);
   return total(std::min({truths.size(), sweeps.size(), answers.size()}), oracle.threads(),
                [&](std::size_t i, Tally& tally) { judge.sweep(truths[i], sweeps[i], answers[i], tally); });

@@ -66,7 +66,65 @@ std::strong_ordering compare_corner(const Configuration& c, const Vector& w) {
   return exact::order(dot(moment, moment), Integer(c.squared_radius * length));
 }
 
+/// How the distance between the way's end and the triangle compares: over the face to the plane, else to the
+/// nearest of its sides.
+std::strong_ordering compare_end(const Configuration& c) {
+  const std::array<Vector, 3> w = {c.w[0] - c.way, c.w[1] - c.way, c.w[2] - c.way};
+  const Vector normal = cross(w[1] - w[0], w[2] - w[0]);
+  bool over_face = !exact::is_zero(normal);
+  for (std::size_t i = 0; i < 3 && over_face; ++i) over_face = dot(cross(w[i], w[(i + 1) % 3]), normal) >= 0;
+  if (over_face) {
+    const Integer height = dot(w[0], normal);
+    return exact::order(Integer(height * height), Integer(c.squared_radius * dot(normal, normal)));
+  }
+  std::strong_ordering least = std::strong_ordering::greater;
+  for (std::size_t i = 0; i < 3; ++i) {
+    // From a corner's point of view the side is a way, and the end a corner.
+    const Vector& from = w[i];
+    const Configuration side{w[(i + 1) % 3] - from, {}, c.squared_radius};
+    least = exact::lesser(least, compare_corner(side, Vector{0, 0, 0} - from));
+  }
+  return least;
+}
+
+/// The part of the way as seen from its start, on a grid as much finer as the fraction's last digit asks for.
+Configuration part_of(const Vec3& from, const Vec3& to, double fraction, const Triangle& triangle,
+                      double radius) {
+  Grid grid;
+  grid.add(from);
+  grid.add(to);
+  grid.add(triangle);
+  grid.add(radius);
+  const exact::Parts parts = exact::parts_of(fraction);
+  Integer part(static_cast<long>(parts.mantissa)), fine(1);
+  if (parts.mantissa != 0 && parts.exponent < 0) fine <<= static_cast<mp_bitcnt_t>(-parts.exponent);
+  const Vector origin = grid(from);
+  const Integer r = fine * grid(radius);
+  Configuration c{scaled(part, grid(to) - origin), {}, Integer(r * r)};
+  for (std::size_t i = 0; i < 3; ++i) c.w[i] = scaled(fine, grid(triangle[i]) - origin);
+  return c;
+}
+
 }  // namespace
+
+std::strong_ordering compare_distance_on_way(const Vec3& from, const Vec3& to, double fraction,
+                                             const Triangle& triangle, double radius) {
+  if (std::isinf(radius)) return std::strong_ordering::less;
+  return compare_end(part_of(from, to, fraction, triangle, radius));
+}
+
+std::strong_ordering compare_part_distance(const Vec3& from, const Vec3& to, double fraction,
+                                           const Triangle& triangle, double radius) {
+  if (std::isinf(radius)) return std::strong_ordering::less;
+  const Configuration c = part_of(from, to, fraction, triangle, radius);
+  std::strong_ordering least = exact::lesser(compare_distance(from, triangle, radius), compare_end(c));
+  if (cross_through_the_face(c)) least = exact::lesser(least, exact::order(Integer(0), c.squared_radius));
+  for (std::size_t i = 0; i < 3; ++i) {
+    least = exact::lesser(least, compare_corner(c, c.w[i]));
+    least = exact::lesser(least, compare_inside(c, c.w[i], c.w[(i + 1) % 3]));
+  }
+  return least;
+}
 
 std::strong_ordering compare_segment_distance(const Vec3& from, const Vec3& to, const Triangle& triangle,
                                               double radius) {

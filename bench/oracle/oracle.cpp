@@ -221,6 +221,47 @@ bool Oracle::segment_within(const Vec3& from, const Vec3& to, double radius) con
          });
 }
 
+template <class Holds>
+bool Oracle::any_near(const Sweep& sweep, double fraction, bool only_end, double radius,
+                      const Holds& holds) const {
+  if (!sweep.from.allFinite() || !sweep.to.allFinite() || !(radius >= 0)) return false;
+  const Vec3 end = (1 - fraction) * sweep.from + fraction * sweep.to;
+  const Vec3& begin = only_end ? end : sweep.from;
+  // Four roundings a coordinate, of what is no larger than the ends; twice that.
+  const double rounding = 8 * std::numeric_limits<double>::epsilon() *
+                          (sweep.from.cwiseAbs().maxCoeff() + sweep.to.cwiseAbs().maxCoeff());
+  const double reach = (radius + rounding) * (1 + 4 * std::numeric_limits<double>::epsilon());
+  bool found = false;
+  double limit = reach;
+  structure_->tree.visit([&](const Box& box) { return distance_below(box, begin, end); }, limit,
+                         [&](std::uint32_t index) {
+                           if (found) return;
+                           const Triangle triangle = triangle_of(mesh(), index);
+                           if (segment_distance_interval(begin, end, triangle).lo > reach) return;
+                           found = holds(triangle);
+                           if (found) limit = -1;  // nothing more to visit
+                         });
+  return found;
+}
+
+bool Oracle::touches_before(const Sweep& sweep, double fraction) const {
+  const auto& [from, to, radius] = sweep;
+  const auto touched = [&](const Triangle& triangle) {
+    const std::strong_ordering order = compare_part_distance(from, to, fraction, triangle, radius);
+    if (order != 0) return order < 0;
+    // At the very radius: only from here on?
+    return compare_distance_on_way(from, to, fraction, triangle, radius) != 0 ||
+           compare_part_distance(from, to, std::nextafter(fraction, 0), triangle, radius) <= 0;
+  };
+  return fraction > 0 && any_near(sweep, fraction, false, radius, touched);
+}
+
+bool Oracle::within_on_way(const Sweep& sweep, double fraction, double radius) const {
+  return any_near(sweep, fraction, true, radius, [&](const Triangle& triangle) {
+    return compare_distance_on_way(sweep.from, sweep.to, fraction, triangle, radius) <= 0;
+  });
+}
+
 bool Oracle::surely_crosses(const Vec3& from, const Vec3& to, double margin) const {
   if (!from.allFinite() || !to.allFinite() || !(margin >= 0)) return false;
   const auto crosses = [&](const Triangle& t) {

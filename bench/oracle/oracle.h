@@ -57,6 +57,13 @@ class Oracle {
   /// finite.
   bool segment_within(const Vec3& from, const Vec3& to, double radius) const;
 
+  /// Does the sweep touch before that fraction of its way, of the points from + fraction (to - from) as they
+  /// are, none rounded? Exact likewise; but a ball that slides at the very radius since less than the
+  /// fraction's last digit ago is taken to touch there.
+  bool touches_before(const Sweep& sweep, double fraction) const;
+  /// Is the point at that fraction of the way, not rounded, within `radius` of the mesh? Exact likewise.
+  bool within_on_way(const Sweep& sweep, double fraction, double radius) const;
+
   /// Does the segment pass through a triangle so well that no displacement of either by less than `margin`
   /// could part them: the ends and the triangle's edges keep more than `margin` away? Exact likewise.
   /// (Through the edge between two triangles is not through either.)
@@ -74,6 +81,11 @@ class Oracle {
 
  private:
   struct Structure;
+  /// Is there one, of the triangles near to the way up to the fraction (or only to its end), of which that
+  /// holds?
+  template <class Holds>
+  bool any_near(const Sweep& sweep, double fraction, bool only_end, double radius, const Holds& holds) const;
+
   std::unique_ptr<const Structure> structure_;
 };
 

@@ -35,6 +35,10 @@ std::vector<Workload> huge(std::uint64_t seed, std::size_t probes);
 std::vector<Workload> denormal(std::uint64_t seed, std::size_t probes);
 std::vector<Workload> not_a_number(std::uint64_t seed, std::size_t probes);
 
+// sweeps.cpp
+std::vector<Workload> sweeps(std::uint64_t seed, std::size_t probes);
+std::vector<Workload> far_sweeps(std::uint64_t seed, std::size_t probes);
+
 // motions.cpp
 std::vector<Workload> motions(std::uint64_t seed, std::size_t probes);
 

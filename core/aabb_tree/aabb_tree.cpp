@@ -292,7 +292,8 @@ std::optional<Impact> AabbTree::first_hit(const Sweep& sweep, Session& session) 
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       ++work.triangles;
-      const std::optional<double> fraction = sweep_hit(triangles_[i], sweep, std::min(first.fraction, 1.0));
+      const std::optional<double> fraction =
+          sweep_hit(triangles_[i], sweep, std::min(first.fraction, 1.0), work.exact_decisions);
       const HitCandidate candidate{fraction.value_or(infinity), triangles_[i].index};
       if (!fraction || !(candidate < first)) continue;
       first = candidate;
@@ -300,10 +301,12 @@ std::optional<Impact> AabbTree::first_hit(const Sweep& sweep, Session& session) 
     }
   }
   if (first.index >= triangles_.size()) return std::nullopt;
-  // Touching at the start, which is decided exactly: of all the triangles there the nearest one counts.
-  if (const auto start = nearest({sweep.from, sweep.radius}, sweep.radius, session)) return Impact{0, *start};
-  return Impact{first.fraction,
-                contact_on(triangles_[kept_at], position_at(sweep, first.fraction), id(first.index))};
+  // Of all the triangles that are touched at the start the nearest one counts.
+  if (first.fraction == 0) {
+    if (const auto start = nearest({sweep.from, sweep.radius}, sweep.radius, session))
+      return Impact{0, *start};
+  }
+  return Impact{first.fraction, contact_on_way(triangles_[kept_at], sweep, first.fraction, id(first.index))};
 }
 
 std::size_t AabbTree::bytes() const noexcept {

@@ -31,28 +31,21 @@ std::optional<Contact> EveryTriangle::nearest(const Vec3& center, double reach, 
 
 std::optional<Impact> EveryTriangle::first_hit(const Sweep& sweep, Work& work) const noexcept {
   if (!(sweep.radius >= 0)) return std::nullopt;
-  const double difference = largest_difference(bounds, sweep);
-  const bool fits = fourth_powers_fit(difference);
-  const double unit = fits ? 1 : unit_for(difference);
-  const Sweep in_unit = {unit * sweep.from, unit * sweep.to, unit * sweep.radius};
   HitCandidate first;
   const PreparedTriangle* hit = nullptr;
   for (const PreparedTriangle& triangle : triangles) {
-    const double limit = std::min(first.fraction, 1.0);
     const std::optional<double> fraction =
-        fits ? sweep_hit(triangle, sweep, limit) : sweep_hit(scaled(triangle, unit), in_unit, limit);
+        sweep_hit(triangle, sweep, std::min(first.fraction, 1.0), work.exact_decisions);
     if (!fraction || !(HitCandidate{*fraction, triangle.index} < first)) continue;
     first = {*fraction, triangle.index};
     hit = &triangle;
   }
   work.triangles += triangles.size();
   if (hit == nullptr) return std::nullopt;
-  // Touching at the start, which is decided exactly: of all the triangles there the nearest one counts.
-  if (const auto start = nearest(sweep.from, sweep.radius, work)) return Impact{0, *start};
-  Contact contact = contact_on(scaled(*hit, unit), position_at(in_unit, first.fraction), id(first.index));
-  contact.point /= unit;
-  contact.distance /= unit;
-  return Impact{first.fraction, contact};
+  // Of all the triangles that are touched at the start the nearest one counts.
+  if (first.fraction == 0)
+    if (const auto start = nearest(sweep.from, sweep.radius, work)) return Impact{0, *start};
+  return Impact{first.fraction, contact_on_way(*hit, sweep, first.fraction, id(first.index))};
 }
 
 std::optional<Contact> EveryTriangle::nearest_as_computed(const Vec3& center, double reach,

@@ -74,6 +74,55 @@ ExactFoot nearest_foot(const Grid& grid, const TriangleCorners& triangle, const 
   return nearest_foot({grid(triangle[0]) - origin, grid(triangle[1]) - origin, grid(triangle[2]) - origin});
 }
 
+/// A way as seen from its start: it leads to `way`, the triangle's corners are at `w`.
+struct ExactWay {
+  Vector<1> way;
+  std::array<Vector<1>, 3> w;
+  Integer<2> squared_radius;
+};
+
+/// Does it go through the triangle? A way along the triangle's plane is left to ends, corners and edges.
+bool passes_through(const ExactWay& c) noexcept {
+  const Vector<2> normal = cross(c.w[1] - c.w[0], c.w[2] - c.w[0]);
+  const Integer<3> start = dot(c.w[0], normal), drop = dot(c.way, normal);
+  const int sign = drop.sign();
+  if (sign == 0) return false;
+  // It meets the plane at start / drop of the way, and there the barycentric coordinates are to each other
+  // as these products.
+  if (sign > 0 ? start.sign() < 0 || start > drop : start.sign() > 0 || start < drop) return false;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (dot(c.way, cross(c.w[i], c.w[(i + 1) % 3])).sign() * sign < 0) return false;
+  return true;
+}
+
+/// Does its inside come within the radius of this corner?
+bool passes_corner(const ExactWay& c, const Vector<1>& w) noexcept {
+  const Integer<2> along = dot(w, c.way), squared = dot(c.way, c.way);
+  if (along.sign() <= 0 || along >= squared) return false;
+  const Vector<2> moment = cross(w, c.way);
+  return dot(moment, moment) <= c.squared_radius * squared;
+}
+
+/// Does its inside come within the radius of the inside of the edge from w to v? False where they are
+/// parallel: then an end of one is as near.
+bool passes_edge(const ExactWay& c, const Vector<1>& w, const Vector<1>& v) noexcept {
+  const Vector<1> edge = v - w;
+  const Vector<2> normal = cross(c.way, edge);
+  const Integer<4> determinant = dot(normal, normal);
+  if (determinant.sign() == 0) return false;
+  const Integer<2> across = dot(c.way, edge), along_way = dot(c.way, w), along_edge = dot(edge, w);
+  const Integer<4> on_way = along_way * dot(edge, edge) - across * along_edge;
+  const Integer<4> on_edge = across * along_way - dot(c.way, c.way) * along_edge;
+  if (on_way.sign() < 0 || on_way > determinant || on_edge.sign() < 0 || on_edge > determinant) return false;
+  const Integer<3> height = dot(w, normal);
+  return height * height <= c.squared_radius * determinant;
+}
+
+bool end_is_within(const std::array<Vector<1>, 3>& w, const Integer<2>& squared_radius) noexcept {
+  const ExactFoot foot = nearest_foot(w);
+  return foot.numerator <= squared_radius * foot.denominator;
+}
+
 /// Square root of a quotient, in units of 2^exponent.
 DoubleDouble root(const Scaled& numerator, const Scaled& denominator, int exponent) noexcept {
   Scaled square = numerator / denominator;
@@ -143,6 +192,28 @@ bool within_exactly(const TriangleCorners& triangle, const Vec3& point, double r
   const ExactFoot foot = nearest_foot(grid, triangle, point);
   const Integer<1> r = grid(radius);
   return foot.numerator <= r * r * foot.denominator;
+}
+
+bool way_within_exactly(const TriangleCorners& triangle, const Vec3& from, const Vec3& to, double fraction,
+                        double radius) noexcept {
+  if (!(radius >= 0) || !all_finite(triangle, from) || !to.allFinite()) return false;
+  if (std::isinf(radius)) return true;
+  Grid grid(triangle, from);
+  grid.add(to);
+  grid.add(radius);
+  // On a grid so much finer that the part ends on it, too.
+  const exact::Limb fine = fraction < 1 ? exact::Limb{1} << 53 : 1;
+  const auto part = static_cast<exact::Limb>(fraction * static_cast<double>(fine));
+  const Vector<1> origin = grid(from);
+  ExactWay c{times(grid(to) - origin, part), {}, {}};
+  for (std::size_t i = 0; i < 3; ++i) c.w[i] = times(grid(triangle[i]) - origin, fine);
+  const Integer<1> r = grid(radius).times(fine);
+  c.squared_radius = r * r;
+  if (passes_through(c)) return true;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (passes_corner(c, c.w[i]) || passes_edge(c, c.w[i], c.w[(i + 1) % 3])) return true;
+  return end_is_within(c.w, c.squared_radius) ||
+         end_is_within({c.w[0] - c.way, c.w[1] - c.way, c.w[2] - c.way}, c.squared_radius);
 }
 
 std::strong_ordering compare_exactly(const TriangleCorners& a, const TriangleCorners& b,

@@ -20,6 +20,12 @@ using TriangleCorners = std::array<Vec3, 3>;
 /// least 0; the radius may be infinite.
 bool within_exactly(const TriangleCorners& triangle, const Vec3& point, double radius) noexcept;
 
+/// Does the part of the way from `from` to `to` up to and with `fraction` come within the radius of the
+/// triangle? Exact, for a fraction in [0, 1] that is a multiple of 2^-53; false when a coordinate is not
+/// finite or the radius not at least 0.
+bool way_within_exactly(const TriangleCorners& triangle, const Vec3& from, const Vec3& to, double fraction,
+                        double radius) noexcept;
+
 /// How the distances to two triangles compare. Exact, for finite coordinates.
 std::strong_ordering compare_exactly(const TriangleCorners& a, const TriangleCorners& b,
                                      const Vec3& point) noexcept;

@@ -3,7 +3,8 @@
 /// Every finite double is a whole multiple of 2^-1074 below 2^1024. On the coarsest grid that holds all the
 /// doubles of a question a coordinate is thus below 2^2098 and a difference below 2^2099. Of the sums of
 /// products used here those of degree k stay below 2^(2100 k): two more bits for the three terms of a dot
-/// product. Numbers of one magnitude need far less, and only the limbs in use are touched.
+/// product. A part of a way is measured on a grid 2^53 times finer: 2^(2154 k). Numbers of one magnitude need
+/// far less, and only the limbs in use are touched.
 #pragma once
 
 #include <algorithm>
@@ -94,7 +95,7 @@ inline Scaled operator/(const Scaled& a, const Scaled& b) noexcept {
 template <int degree>
 class Integer {
  public:
-  static constexpr std::size_t capacity = std::size_t{33} * degree;  // of 64 bits
+  static constexpr std::size_t capacity = std::size_t{34} * degree;  // of 64 bits
 
   Integer() noexcept = default;
   Integer(const Integer& other) noexcept { assign(other.limbs(), other.negative_); }
@@ -165,6 +166,14 @@ class Integer {
     return {negative_ ? -fraction : fraction, static_cast<int>(64 * size_) - static_cast<int>(zeros)};
   }
 
+  /// Times a plain number, which is not counted as a degree.
+  Integer times(Limb factor) const noexcept {
+    Integer product;
+    const Limb one_limb[] = {factor};
+    product.set(multiply(limbs(), Limbs(one_limb, trimmed(one_limb, 1)), product.room()), negative_);
+    return product;
+  }
+
   /// For the arithmetic of other degrees: where a result goes, and what it became.
   Limb* room() noexcept { return limbs_.data(); }
   void set(std::size_t size, bool negative) noexcept {
@@ -208,6 +217,10 @@ Integer<a_degree + b_degree> dot(const Vector<a_degree>& a, const Vector<b_degre
 template <int a_degree, int b_degree>
 Vector<a_degree + b_degree> cross(const Vector<a_degree>& a, const Vector<b_degree>& b) noexcept {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+template <int degree>
+Vector<degree> times(const Vector<degree>& v, Limb factor) noexcept {
+  return {v[0].times(factor), v[1].times(factor), v[2].times(factor)};
 }
 template <int degree>
 bool is_zero(const Vector<degree>& v) noexcept {

@@ -1,9 +1,23 @@
 /// When a moving ball first touches a triangle.
 ///
 /// The distance from a point to a convex set, along a straight line, is a convex function of the way. So
-/// Newton's method from the start approaches the first touch from before, never past it, and stops where the
-/// distance no longer falls: no case distinction into faces, edges and corners, and the point-triangle
-/// kernel's accuracy. Where the slope drowns in rounding, the least distance is searched by comparing alone.
+/// Newton's method from the start approaches the first touch from before: no case distinction into faces,
+/// edges and corners. Each step is checked: where the gap is surely above zero and surely falling there was
+/// no touch before. Where that is not sure, the step is the largest that the gap's steepest fall allows.
+///
+/// - Whether the sweep hits is decided exactly, for the doubles as they are stored: the closed way comes
+///   within the radius of the closed triangle or it does not. Doubles decide where the gap's bound
+///   (way_gap.h) allows, whole numbers elsewhere.
+/// - The fraction is 0 where, and only where, the probe touches at the start.
+/// - It is never late: nothing touches before it. (Where the touch is between 0 and the smallest double
+///   above it, that is told.)
+/// - It is early by a little: there the distance exceeds the radius by at most `most_early_gap`, 384 u S, and
+/// by a
+///   quarter of that where it is a face that is touched. As
+///   a part of the way that is at most most_early_gap / (length * the rate of approach per length, its mean
+///   between the fraction and the touch): a few roundings where the ball comes straight on. Where it grazes
+///   that rate goes to zero, and the part to the root of 2 * most_early_gap * (radius + most_early_gap) over
+///   the length off a corner or an edge, and to the whole way along a face or an edge.
 #pragma once
 
 #include <cstdint>
@@ -15,18 +29,33 @@
 
 namespace touchmark {
 
-/// By how much a computed position on the way can be off: relative to the coordinates, not to differences of
-/// them, since a position is a sum of coordinates.
+/// By how much a position on the way that is rounded to a point (position_at) can be off.
 double position_error(const Sweep& sweep) noexcept;
 
-/// The first fraction in [0, limit] of the way at which the distance to the triangle is at most the radius,
-/// or nothing. Touching is decided within an error of 48 u M + position_error (u = 2^-53, M the largest
-/// coordinate difference between the triangle and the position): a ball that passes at the radius plus that
-/// may be reported as touching, one that touches is always found. A sweep that does not move hits when it
-/// touches at once.
-std::optional<double> sweep_hit(const PreparedTriangle& triangle, const Sweep& sweep, double limit) noexcept;
+/// By how much the distance at a reported fraction may exceed the radius: 384 u S, S the largest coordinate
+/// difference from the way's start to the triangle's corners plus the way's largest coordinate. See above.
+inline double most_early_gap(double start_difference, double largest_way) noexcept {
+  return 384 * (std::numeric_limits<double>::epsilon() / 2) * (start_difference + largest_way);
+}
 
-/// Where the probe stands at a fraction of the way; exact at 0 and 1.
+/// The fraction in [0, limit] of the way at which the triangle is first touched, or nothing; see above. The
+/// limit only ends the search and does not change the fraction, so that detectors may look at triangles in
+/// any order. A sweep that does not move hits when it touches at once. Nothing where a number is not finite
+/// (the radius may be infinite) or the radius is below 0. Counts 1 where doubles did not decide.
+std::optional<double> sweep_hit(const PreparedTriangle& triangle, const Sweep& sweep, double limit,
+                                std::uint64_t& exact_decisions) noexcept;
+inline std::optional<double> sweep_hit(const PreparedTriangle& triangle, const Sweep& sweep,
+                                       double limit) noexcept {
+  std::uint64_t uncounted = 0;
+  return sweep_hit(triangle, sweep, limit, uncounted);
+}
+
+/// The contact of the ball at this fraction of the way with this triangle. The position is not rounded to a
+/// point first: only its differences to the triangle are.
+Contact contact_on_way(const PreparedTriangle& triangle, const Sweep& sweep, double fraction,
+                       TriangleId id) noexcept;
+
+/// Where the probe stands at a fraction of the way, rounded; exact at 0 and 1.
 inline Vec3 position_at(const Sweep& sweep, double fraction) noexcept {
   return fraction < 1 ? Vec3(sweep.from + fraction * (sweep.to - sweep.from)) : sweep.to;
 }

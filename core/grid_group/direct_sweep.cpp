@@ -38,7 +38,7 @@ class SweepSearch {
       const Lanes bounds = lower_bounds(store_.planes[place[at]], store_.planes[place[at + 1]],
                                         store_.planes[place[at + 2]], store_.planes[place[at + 3]], start_);
       for (unsigned left = at_most(bounds, within()); left != 0; left &= left - 1)
-        consider(place[at + static_cast<std::size_t>(std::countr_zero(left))]);
+        consider(place[at + static_cast<std::size_t>(std::countr_zero(left))], work);
     }
   }
 
@@ -50,8 +50,8 @@ class SweepSearch {
     while (!stack.empty()) {
       if (work.boxes + work.triangles - before > most) return false;
       const BoxStack::Entry next = stack.pop();
-      // The bound may have been rounded up to single precision.
-      if (static_cast<double>(next.bound) > limit() * (1 + 0x1p-22)) continue;
+      // The bound may have been rounded up to single precision, where that is denormal by 2^-149.
+      if (static_cast<double>(next.bound) > limit() * (1 + 0x1p-22) + 0x1p-149) continue;
       if (next.level > 0) {
         visit(tree, next.level - 1, next.index, stack, work);
       } else {
@@ -96,13 +96,13 @@ class SweepSearch {
       const TrianglePlanes* planes = &store_.planes[at];
       const Lanes bounds = lower_bounds(planes[0], planes[1], planes[2], planes[3], start_);
       for (unsigned left = at_most(bounds, within()); left != 0; left &= left - 1)
-        consider(at + static_cast<std::uint32_t>(std::countr_zero(left)));
+        consider(at + static_cast<std::uint32_t>(std::countr_zero(left)), work);
     }
   }
 
-  void consider(std::uint32_t place) noexcept {
+  void consider(std::uint32_t place, Work& work) noexcept {
     const PreparedTriangle& triangle = store_.exact[place];
-    const std::optional<double> hit = sweep_hit(triangle, sweep_, limit());
+    const std::optional<double> hit = sweep_hit(triangle, sweep_, limit(), work.exact_decisions);
     if (!hit || !(HitCandidate{*hit, triangle.index} < first_)) return;
     first_ = {*hit, triangle.index};
     place_ = place;
@@ -162,7 +162,8 @@ std::optional<Impact> DirectGrid::first_hit_of_all(const Sweep& sweep, DirectMem
   std::uint32_t first_place = 0;
   for (std::uint32_t place = 0; place < store_.size(); ++place) {
     const PreparedTriangle& triangle = store_.exact[place];
-    const std::optional<double> hit = sweep_hit(triangle, sweep, std::min(first.fraction, 1.0));
+    const std::optional<double> hit =
+        sweep_hit(triangle, sweep, std::min(first.fraction, 1.0), work.exact_decisions);
     if (!hit || !(HitCandidate{*hit, triangle.index} < first)) continue;
     first = {*hit, triangle.index};
     first_place = place;
@@ -174,11 +175,11 @@ std::optional<Impact> DirectGrid::first_hit_of_all(const Sweep& sweep, DirectMem
 
 std::optional<Impact> DirectGrid::impact_on(const Sweep& sweep, double fraction, std::uint32_t place,
                                             DirectMemory& memory, Work& work) const noexcept {
-  // Touching at the start, which is decided exactly: of all the triangles there the nearest one counts.
-  if (!surely_free(sweep.from, sweep.radius, memory)) {
+  // Of all the triangles that are touched at the start the nearest one counts.
+  if (fraction == 0) {
     if (const auto start = nearest(sweep.from, sweep.radius, memory, work)) return Impact{0, *start};
   }
-  return Impact{fraction, contact_on(store_.exact[place], position_at(sweep, fraction), store_.id(place))};
+  return Impact{fraction, contact_on_way(store_.exact[place], sweep, fraction, store_.id(place))};
 }
 
 }  // namespace touchmark::grid

@@ -110,7 +110,8 @@ std::optional<Impact> ScanGrid::first_hit(const Sweep& sweep, Work& work) const 
       ++work.cells;
       if (!passes(shapes[group], sweep, by)) continue;
       search_members(group, work, [&](const PreparedTriangle& triangle) {
-        const std::optional<double> hit = sweep_hit(triangle, sweep, std::min(first.fraction, 1.0));
+        const std::optional<double> hit =
+            sweep_hit(triangle, sweep, std::min(first.fraction, 1.0), work.exact_decisions);
         if (hit) first = std::min(first, HitCandidate{*hit, triangle.index});
         return false;
       });
@@ -118,10 +119,11 @@ std::optional<Impact> ScanGrid::first_hit(const Sweep& sweep, Work& work) const 
   };
   boxes_.empty() ? scan(spheres_) : scan(boxes_);
   if (first.index >= triangles_.size()) return std::nullopt;
-  // Touching at the start, which is decided exactly: of all the triangles there the nearest one counts.
-  if (const auto start = nearest(sweep.from, sweep.radius, work)) return Impact{0, *start};
-  const Vec3 position = position_at(sweep, first.fraction);
-  return Impact{first.fraction, contact_on(triangles_[first.index], position, id(first.index))};
+  // Of all the triangles that are touched at the start the nearest one counts.
+  if (first.fraction == 0)
+    if (const auto start = nearest(sweep.from, sweep.radius, work)) return Impact{0, *start};
+  return Impact{first.fraction,
+                contact_on_way(triangles_[first.index], sweep, first.fraction, id(first.index))};
 }
 
 }  // namespace touchmark::grid

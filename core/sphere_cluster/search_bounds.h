@@ -20,9 +20,9 @@ inline double grown_radius(double radius, double reach) noexcept {
   return (radius + reach) * roundings + smallest_length;
 }
 
-/// What a touch found by sweep_hit may be farther away than the probe's radius and than grown_radius leaves
-/// room for: 48 u of the largest difference between the way and a triangle near it, which is at most the
-/// coordinates of both ends and the sphere, and the rounding of a position on the way.
+/// What the fast level's touch of a sphere may be farther away than the probe's radius and than grown_radius
+/// leaves room for: roundings of the largest difference between the way and a sphere near it, which is at
+/// most the coordinates of both ends and the sphere, and of a position on the way.
 inline double sweep_slack(const Sweep& sweep) noexcept {
   return 128 * std::numeric_limits<double>::epsilon() *
          (sweep.from.lpNorm<Eigen::Infinity>() + sweep.to.lpNorm<Eigen::Infinity>());

@@ -7,6 +7,7 @@
 
 #include "core/geometry/certified_nearest.h"
 #include "core/geometry/sphere_triangle_sweep.h"
+#include "core/geometry/sweep_box.h"
 #include "core/sphere_cluster/search_bounds.h"
 
 namespace touchmark {
@@ -106,9 +107,9 @@ std::optional<Contact> SphereScan::nearest(const Vec3& center, double reach, Wor
 std::optional<Impact> SphereScan::first_hit(const Sweep& sweep, Work& work) const noexcept {
   if (!(sweep.radius >= 0)) return std::nullopt;
   const double error = distance_error(bounds_, sweep.from);
-  if (std::isinf(error) || !fourth_powers_fit(largest_difference(bounds_, sweep)))
-    return all().first_hit(sweep, work);
-  const double reach = sweep.radius + std::max(sweep_slack(sweep), error);
+  const double difference = largest_difference(bounds_, sweep);
+  if (std::isinf(error) || !fourth_powers_fit(difference)) return all().first_hit(sweep, work);
+  const double reach = std::max(sweep_widening(sweep, difference), sweep.radius + error);
   const auto outside = [&](std::size_t i) noexcept {
     const double grown = grown_radius(radius_[i], reach);
     const double squared = squared_distance_to_way(sweep, 1, {x_[i], y_[i], z_[i]});
@@ -120,7 +121,8 @@ std::optional<Impact> SphereScan::first_hit(const Sweep& sweep, Work& work) cons
   for_each_held(x_.size(), outside, [&](std::size_t sphere) noexcept {
     search(sphere, sweep.from, at_start, work);
     for (std::size_t i = first_[sphere]; i < first_[sphere + 1]; ++i) {
-      const auto fraction = sweep_hit(triangles_[i], sweep, std::min(first.fraction, 1.0));
+      const auto fraction =
+          sweep_hit(triangles_[i], sweep, std::min(first.fraction, 1.0), work.exact_decisions);
       if (!fraction || !(HitCandidate{*fraction, triangles_[i].index} < first)) continue;
       first = {*fraction, triangles_[i].index};
       kept_at = i;
@@ -130,14 +132,13 @@ std::optional<Impact> SphereScan::first_hit(const Sweep& sweep, Work& work) cons
   work.spheres += x_.size();
   if (first.index >= triangles_.size()) return std::nullopt;
   const double distance = std::sqrt(at_start.best().squared_distance);
-  if (is_certain_first(at_start, triangles_, distance, sweep.from, sweep.radius, error)) {
-    if (distance <= sweep.radius)
-      return Impact{0, contact_on(triangles_[at_start.at()], sweep.from, id(at_start.best().index))};
-  } else if (const std::optional<Contact> start = nearest(sweep.from, sweep.radius, work)) {
-    return Impact{0, *start};
-  }
-  return Impact{first.fraction,
-                contact_on(triangles_[kept_at], position_at(sweep, first.fraction), id(first.index))};
+  if (first.fraction > 0)
+    return Impact{first.fraction,
+                  contact_on_way(triangles_[kept_at], sweep, first.fraction, id(first.index))};
+  // Of all the triangles that are touched at the start the nearest one counts.
+  if (is_certain_first(at_start, triangles_, distance, sweep.from, sweep.radius, error))
+    return Impact{0, contact_on(triangles_[at_start.at()], sweep.from, id(at_start.best().index))};
+  return Impact{0, *nearest(sweep.from, sweep.radius, work)};
 }
 
 std::size_t SphereScan::bytes() const noexcept {

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/certified_nearest.h"
 #include "core/geometry/sphere_triangle_sweep.h"
+#include "core/geometry/sweep_box.h"
 #include "core/sphere_cluster/search_bounds.h"
 #include "core/sphere_cluster/sphere_tree.h"
 #include "core/sphere_cluster/sphere_tree_search.h"
@@ -21,7 +23,8 @@ struct SweepVisitor {
 
   /// Never: how far the triangle is from the centre does not matter.
   bool wants(std::uint32_t at) noexcept {
-    const auto fraction = sweep_hit(tree.triangles[at], sweep, std::min(first.fraction, 1.0));
+    const auto fraction =
+        sweep_hit(tree.triangles[at], sweep, std::min(first.fraction, 1.0), work.exact_decisions);
     if (fraction && HitCandidate{*fraction, tree.triangles[at].index} < first) {
       first = {*fraction, tree.triangles[at].index};
       kept_at = at;
@@ -46,13 +49,14 @@ std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, 
     if (start) return Impact{0, *start};
   }
   const double length = (sweep.to - sweep.from).norm();
-  const double reach = sweep.radius + sweep_slack(sweep);
+  const double reach = sweep_widening(sweep, largest_difference(bounds_, sweep));
   if (surely_free(sweep.from, reach + length, memory)) return std::nullopt;
   const std::uint64_t most = left_of(most_work(), work.total() - before);
   SweepVisitor visitor{parts_, sweep, sweep.from, 0};
   constexpr double most_parts = 256;
   const double parts = std::clamp(std::ceil(length / (2 * std::max(sweep.radius, grain_))), 1.0, most_parts);
-  const double ball = reach + 0.5 * length / parts * (1 + 0x1p-40);
+  // The middle of a part is rounded to a point.
+  const double ball = reach + position_error(sweep) + 0.5 * length / parts * (1 + 0x1p-40);
   for (double part = 0; part < parts && !(visitor.first.fraction < part / parts); ++part) {
     visitor.center = position_at(sweep, (part + 0.5) / parts);
     visitor.limit = frame_.limit(ball * ball);
@@ -62,9 +66,8 @@ std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, 
   }
   work += visitor.work;
   if (visitor.first.index >= parts_.triangles.size()) return std::nullopt;
-  return Impact{visitor.first.fraction,
-                contact_on(parts_.triangles[visitor.kept_at], position_at(sweep, visitor.first.fraction),
-                           id(visitor.first.index))};
+  return Impact{visitor.first.fraction, contact_on_way(parts_.triangles[visitor.kept_at], sweep,
+                                                       visitor.first.fraction, id(visitor.first.index))};
 }
 
 }  // namespace touchmark
