@@ -1,8 +1,10 @@
-/// What every rival needs before it can be asked: most of them square, add or quantise whatever they get.
+/// What every rival needs before it can be asked: most of them square, add or quantise whatever they get. And
+/// what whoever uses one in a loop asks before it: the mesh's box, and the triangle of the last contact.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 
@@ -10,6 +12,27 @@
 #include "core/probe.h"
 
 namespace touchmark::baselines {
+
+/// checked: a point farther from the mesh's box than the reach is told at once, and the triangle of the
+/// session's last contact comes first: it answers `touches`, and bounds `nearest` where the rival's answer
+/// cannot depend on that. plain: the rival is asked whatever the point.
+enum class Asking { checked, plain };
+
+/// In a session: there was no contact last.
+inline constexpr std::uint32_t no_triangle = std::numeric_limits<std::uint32_t>::max();
+
+/// True if the mesh is farther away than the reach along some axis. Rounding keeps the order of numbers, so
+/// nothing within the reach is told to be beyond it.
+inline bool out_of_reach(const Aabb& bounds, const Vec3& center, double reach) noexcept {
+  return (bounds.min - center).cwiseMax(center - bounds.max).maxCoeff() > reach;
+}
+
+/// The same of a ball on its way.
+inline bool out_of_reach(const Aabb& bounds, const Sweep& sweep) noexcept {
+  const Vec3 before = bounds.min - sweep.from.cwiseMax(sweep.to);
+  const Vec3 behind = sweep.from.cwiseMin(sweep.to) - bounds.max;
+  return before.cwiseMax(behind).maxCoeff() > sweep.radius;
+}
 
 /// The reach, or a little more than the distance to the farthest corner of the mesh's box when that is less:
 /// the same triangles, as a number that rivals can compute with. Negative and NaN stay as they are.

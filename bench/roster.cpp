@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "baselines/reach.h"
 #include "bench/roster_options.h"
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/aabb_tree/float_tree.h"
@@ -24,6 +25,7 @@
 #endif
 #if TOUCHMARK_WITH_EMBREE
 #include "baselines/embree/embree_detector.h"
+#include "baselines/embree/frame.h"
 #endif
 #if TOUCHMARK_WITH_FCL
 #include "baselines/fcl/fcl_detector.h"
@@ -37,6 +39,15 @@ namespace {
 
 const Names<bool> yes_or_no{{"true", true}, {"false", false}};
 const Names<bool> no_or_yes{{"false", false}, {"true", true}};
+
+/// The same for every rival: see baselines/README.md.
+const Names<baselines::Asking> askings{{"checked", baselines::Asking::checked},
+                                       {"plain", baselines::Asking::plain}};
+OptionInfo query_option() {
+  return choice("query", askings,
+                "checked: the mesh's box and the last contact's triangle first; plain: the rival at once");
+}
+baselines::Asking asking(const OptionValues& values) { return chosen(values, "query", askings); }
 
 OptionInfo certified_option() {
   return choice("certified", yes_or_no, "false: contact as doubles have it, to measure what certainty costs");
@@ -206,10 +217,10 @@ ContestantInfo fcl() {
   info.options = {
       choice("bv", volumes, "the hierarchy's bounding volume"),
       choice("method", methods, "collide: as most programs use it; distance: best first, bounded"),
-      choice("narrow", narrows, "exact: this project's kernel on the triangles FCL reaches")};
+      choice("narrow", narrows, "exact: this project's kernel on the triangles FCL reaches"), query_option()};
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
     return contestant<FclDetector>(mesh, {chosen(values, "bv", volumes), chosen(values, "method", methods),
-                                          chosen(values, "narrow", narrows)});
+                                          chosen(values, "narrow", narrows), asking(values)});
   };
 #endif
   return info;
@@ -233,7 +244,8 @@ ContestantInfo bullet() {
   info.options = {
       choice("precision", precisions, "which of Debian's two builds of the library"),
       choice("method", methods, "contact: as most programs use it; callback: this project's kernel"),
-      choice("frame", frames, "fitted: moved and scaled to the size that Bullet is written for")};
+      choice("frame", frames, "fitted: moved and scaled to the size that Bullet is written for"),
+      query_option()};
   // The two builds define the same names, so a program has one or the other.
   info.worker_program = [](const OptionValues& values) {
     return values.text("precision") == "float" ? "touchmark-worker-bullet-float" : default_worker_program;
@@ -243,8 +255,8 @@ ContestantInfo bullet() {
       throw std::invalid_argument("bullet: precision=" + values.text("precision") +
                                   " is not the build of Bullet that this program has");
     }
-    return contestant<BulletDetector>(mesh,
-                                      {chosen(values, "method", methods), chosen(values, "frame", frames)});
+    return contestant<BulletDetector>(
+        mesh, {chosen(values, "method", methods), chosen(values, "frame", frames), asking(values)});
   };
   info.storing = [](const TriangleMesh& mesh, const OptionValues& values) -> std::optional<Storing> {
     if (values.text("precision") != "float" || values.text("method") != "contact") return std::nullopt;
@@ -271,11 +283,12 @@ ContestantInfo libccd() {
   info.options = {choice("algorithm", algorithms, "gjk: GJK and EPA; mpr: Minkowski portal refinement"),
                   choice("frame", frames, "fitted: the ball as the unit ball; mesh: coordinates as they are"),
                   {"tolerance", OptionKind::number, {}, "1e-4", "of EPA and MPR; in radii when fitted"},
-                  {"iterations", OptionKind::count, {}, "500", "of GJK at most"}};
+                  {"iterations", OptionKind::count, {}, "500", "of GJK at most"},
+                  query_option()};
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
     return contestant<LibccdDetector>(
         mesh, {chosen(values, "algorithm", algorithms), chosen(values, "frame", frames),
-               values.number("tolerance"), values.count("iterations")});
+               values.number("tolerance"), values.count("iterations"), asking(values)});
   };
 #endif
   return info;
@@ -289,20 +302,30 @@ ContestantInfo embree() {
   using baselines::EmbreeDetector;
   using Geometry = EmbreeDetector::Geometry;
   using Quality = EmbreeDetector::Quality;
-  static const Names<Geometry> geometries{{"user", Geometry::user}, {"triangle", Geometry::triangle}};
+  static const Names<Geometry> geometries{{"user", Geometry::user},
+                                          {"triangle", Geometry::triangle},
+                                          {"triangle_exact", Geometry::triangle_exact}};
   static const Names<Quality> qualities{
       {"medium", Quality::medium}, {"high", Quality::high}, {"refit", Quality::refit}};
-  info.accuracy = "exact";
+  info.accuracy = "exact; geometry=triangle: approximate";
   info.queries = queries_of<EmbreeDetector>();
   info.options = {
-      choice("geometry", geometries, "user: boxes of our own, rounded outward; triangle: Embree's"),
+      choice(
+          "geometry", geometries,
+          "user: boxes of our own, rounded outward; triangle: Embree's triangles and their closest points in "
+          "single precision; triangle_exact: Embree's boxes, this project's kernel"),
       choice("quality", qualities,
              "Embree's; refit: updates refit the hierarchy instead of building it anew"),
-      choice("warm", yes_or_no, "start from the distance of the session's last triangle")};
+      choice("warm", yes_or_no, "start from the distance of the session's last triangle"), query_option()};
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
     return contestant<EmbreeDetector>(
         mesh, {chosen(values, "geometry", geometries), chosen(values, "quality", qualities),
-               chosen(values, "warm", yes_or_no)});
+               chosen(values, "warm", yes_or_no), asking(values)});
+  };
+  info.storing = [](const TriangleMesh& mesh, const OptionValues& values) -> std::optional<Storing> {
+    if (chosen(values, "geometry", geometries) != Geometry::triangle) return std::nullopt;
+    const baselines::EmbreeFrame frame(mesh.bounds());
+    return stored_in_single_precision(frame.scale, frame.origin);
   };
 #endif
   return info;
@@ -318,16 +341,18 @@ ContestantInfo cgal() {
   using Hint = CgalDetector::Hint;
   static const Names<Kernel> kernels{
       {"epick", Kernel::epick}, {"simple", Kernel::simple}, {"epeck", Kernel::epeck}};
-  static const Names<Hint> hints{{"none", Hint::none}, {"last", Hint::last}, {"bounded", Hint::bounded}};
+  static const Names<Hint> hints{{"bounded", Hint::bounded}, {"none", Hint::none}, {"last", Hint::last}};
   info.accuracy = "approximate; kernel=epeck: exact";
   info.queries = queries_of<CgalDetector>();
-  info.options = {
-      choice("kernel", kernels,
-             "simple: doubles throughout; epick: exact predicates; epeck: exact points, too"),
-      choice("hint", hints,
-             "where a search starts: CGAL's own, at the last triangle, or that within the reach")};
+  info.options = {choice("kernel", kernels,
+                         "simple: doubles throughout; epick: exact predicates; epeck: exact points, too"),
+                  choice("hint", hints,
+                         "where a search starts: none: CGAL's own; last: at the last triangle; bounded: that "
+                         "within the reach"),
+                  query_option()};
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
-    return contestant<CgalDetector>(mesh, {chosen(values, "kernel", kernels), chosen(values, "hint", hints)});
+    return contestant<CgalDetector>(
+        mesh, {chosen(values, "kernel", kernels), chosen(values, "hint", hints), asking(values)});
   };
 #endif
   return info;
@@ -352,6 +377,8 @@ const std::vector<std::string> compared_by_default{"brute-force",
                                                    "libccd+aabb",
                                                    "libccd+aabb:algorithm=mpr",
                                                    "embree",
+                                                   "embree:query=plain",
+                                                   "embree:geometry=triangle",
                                                    "cgal:kernel=simple,hint=bounded"};
 
 // What verify runs besides: every other exact form, and the rivals' forms that answer differently.
@@ -365,8 +392,10 @@ const std::vector<std::string> verified_besides{"aabb-tree:precision=float",
                                                 "fcl:bv=kios,method=traverse,narrow=exact",
                                                 "bullet:frame=fitted",
                                                 "bullet:precision=float,method=callback",
-                                                "embree:geometry=triangle",
+                                                "embree:geometry=triangle_exact",
+                                                "embree:geometry=triangle,query=plain",
                                                 "cgal",
+                                                "cgal:hint=none,query=plain",
                                                 "cgal:kernel=epeck,hint=bounded"};
 
 // Each contestant over what trades its accuracy for its time.
@@ -403,6 +432,7 @@ const std::vector<std::string> over_accuracy{"aabb-tree",
                                              "libccd+aabb:algorithm=mpr",
                                              "libccd+aabb:algorithm=mpr,tolerance=1e-8",
                                              "embree",
+                                             "embree:geometry=triangle",
                                              "cgal:kernel=simple,hint=bounded",
                                              "cgal:kernel=epeck,hint=bounded"};
 

@@ -7,11 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include <BulletCollision/CollisionDispatch/SphereTriangleDetector.h>
 #include <BulletCollision/CollisionShapes/btOptimizedBvh.h>
+#include <BulletCollision/CollisionShapes/btTriangleShape.h>
 #include <btBulletCollisionCommon.h>
 
 #include "baselines/bullet/view.h"
-#include "baselines/reach.h"
 #include "core/geometry/point_triangle.h"
 #include "core/geometry/sphere_triangle_sweep.h"
 #include "core/mesh_update.h"
@@ -182,13 +183,16 @@ struct BulletDetector::Model {
 
 struct BulletDetector::Session::State : World {
   using World::World;
-  std::uint32_t last = 0;  ///< the nearest triangle of the last query
+  std::uint32_t last = no_triangle;  ///< checked: of the last contact; plain: the last that was nearest
 };
 
 BulletDetector::Session::Session() noexcept = default;
 BulletDetector::Session::Session(Session&&) noexcept = default;
 BulletDetector::Session& BulletDetector::Session::operator=(Session&&) noexcept = default;
 BulletDetector::Session::~Session() = default;
+void BulletDetector::Session::forget() noexcept {
+  if (state_) state_->last = no_triangle;
+}
 
 BulletDetector::Session::State& BulletDetector::state(Session& session) const {
   const bool fits = session.state_ && session.state_->mesh_object.getCollisionShape() == model_->shape.get();
@@ -228,11 +232,51 @@ struct BulletDetector::Queries {
   std::optional<Contact> deepest_contact(const Vec3& center, double reach) const {
     const Deepest deepest = contact_test(state, model.view, center, reach);
     session.work.triangles += deepest.reported;
+    state.last = deepest.found ? static_cast<std::uint32_t>(deepest.index) : no_triangle;
     if (!deepest.found) return std::nullopt;
     const Vec3 point = model.view.back(deepest.on_mesh);
     const double distance = std::max(0.0, reach + static_cast<double>(deepest.depth) / model.view.scale);
     return Contact{point, direction(point, center, deepest.normal), distance,
                    model.id(static_cast<std::size_t>(deepest.index))};
+  }
+
+  bool checked() const { return model.options.query == Asking::checked; }
+
+  /// Bullet's narrow phase for the triangle of the last contact: what its contact test comes to for each one.
+  bool touches_last(const Vec3& center, double radius) const {
+    if (!checked() || state.last >= model.corners_of_bullet.size() / 3) return false;
+    const auto corner = [&](std::size_t i) {
+      return model
+          .vertices[static_cast<std::size_t>(model.corners_of_bullet[3 * std::size_t{state.last} + i])];
+    };
+    ++session.work.triangles;
+    state.ball.setUnscaledRadius(static_cast<btScalar>(model.view.scale * radius));
+    btTriangleShape triangle(corner(0), corner(1), corner(2));
+    SphereTriangleDetector narrow(&state.ball, &triangle, 0);
+    btVector3 point, normal;
+    btScalar depth = 0, time = 0;
+    return narrow.collide(model.view.into(center), point, normal, depth, time, 0) && depth <= 0;
+  }
+
+  bool touches(const Vec3& center, double radius) const {
+    if (model.options.method == Method::contact)
+      return touches_last(center, radius) || deepest_contact(center, radius).has_value();
+    return checked() ? touches_any(center, radius)
+                     : std::sqrt(reported_within(center, radius).squared_distance) <= radius;
+  }
+
+  /// Bullet's traversal cannot be ended, but what it reports after the first touch is not measured.
+  bool touches_any(const Vec3& center, double radius) const {
+    const auto touches = [&](std::uint32_t triangle) {
+      ++session.work.triangles;
+      return std::sqrt(squared_distance(model.triangles[triangle], center)) <= radius;
+    };
+    if (state.last < model.triangles.size() && touches(state.last)) return true;
+    state.last = no_triangle;
+    model.near(center, center, radius, [&](std::uint32_t triangle) {
+      if (state.last == no_triangle && touches(triangle)) state.last = triangle;
+    });
+    return state.last != no_triangle;
   }
 
   /// The least candidate of the triangles that Bullet reports within the reach.
@@ -255,6 +299,7 @@ struct BulletDetector::Queries {
 
   /// The last triangle's distance bounds the nearest one's.
   double warm_reach(const Vec3& center, double reach) const {
+    if (checked() && state.last >= model.triangles.size()) return reach;
     const std::uint32_t last = state.last < model.triangles.size() ? state.last : 0;
     ++session.work.triangles;
     return std::min(reach, std::sqrt(squared_distance(model.triangles[last], center)));
@@ -262,8 +307,11 @@ struct BulletDetector::Queries {
 
   std::optional<Contact> nearest(const Vec3& center, double reach) const {
     if (model.options.method == Method::callback) {
-      return nearest_by_growing(model.bounds, center, warm_reach(center, reach),
-                                [&](double within) { return exact_contact(center, within); });
+      const std::optional<Contact> contact =
+          nearest_by_growing(model.bounds, center, warm_reach(center, reach),
+                             [&](double within) { return exact_contact(center, within); });
+      if (checked() && !contact) state.last = no_triangle;
+      return contact;
     }
     return nearest_by_growing(model.bounds, center, reach,
                               [&](double within) { return deepest_contact(center, within); });
@@ -324,21 +372,28 @@ void BulletDetector::update(const TriangleMesh& mesh) {
 }
 
 bool BulletDetector::touches(const Probe& probe, Session& session) const noexcept {
+  if (model_->options.query == Asking::checked && out_of_reach(model_->bounds, probe.center, probe.radius)) {
+    session.forget();
+    return false;
+  }
   const double radius = finite_reach(model_->bounds, probe.center, probe.radius);
   if (!answerable(probe.center, radius)) return false;
-  const Queries ask{*model_, session, state(session)};
-  if (model_->options.method == Method::contact) return ask.deepest_contact(probe.center, radius).has_value();
-  return std::sqrt(ask.reported_within(probe.center, radius).squared_distance) <= radius;
+  return Queries{*model_, session, state(session)}.touches(probe.center, radius);
 }
 
 std::optional<Contact> BulletDetector::nearest(const Probe& probe, double reach,
                                                Session& session) const noexcept {
+  if (model_->options.query == Asking::checked && out_of_reach(model_->bounds, probe.center, reach)) {
+    session.forget();
+    return std::nullopt;
+  }
   const double finite = finite_reach(model_->bounds, probe.center, reach);
   if (!answerable(probe.center, finite)) return std::nullopt;
   return Queries{*model_, session, state(session)}.nearest(probe.center, finite);
 }
 
 std::optional<Impact> BulletDetector::first_hit(const Sweep& asked, Session& session) const noexcept {
+  if (model_->options.query == Asking::checked && out_of_reach(model_->bounds, asked)) return std::nullopt;
   const Sweep sweep{asked.from, asked.to, finite_reach(model_->bounds, asked.from, asked.radius)};
   if (!answerable(sweep.from, sweep.radius) || !answerable(sweep.to, 0)) return std::nullopt;
   const Queries ask{*model_, session, state(session)};

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "baselines/reach.h"
 #include "core/detector.h"
 
 namespace touchmark::baselines {
@@ -25,6 +26,7 @@ class BulletDetector {
   struct Options {
     Method method = Method::contact;
     Frame frame = Frame::mesh;
+    Asking query = Asking::checked;
   };
 
   class Session {
@@ -39,6 +41,7 @@ class BulletDetector {
    private:
     friend class BulletDetector;
     struct State;
+    void forget() noexcept;
     std::unique_ptr<State> state_;
   };
 

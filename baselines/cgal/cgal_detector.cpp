@@ -16,8 +16,6 @@
 #include <CGAL/Simple_cartesian.h>
 #include <Eigen/Geometry>
 
-#include "baselines/reach.h"
-
 namespace touchmark::baselines {
 
 /// What the kernels have in common.
@@ -39,7 +37,8 @@ struct CgalDetector::Model {
   /// `reach` is finite, `last` the place of a triangle to start from.
   virtual std::optional<Found> nearest(const Vec3& center, double reach,
                                        const std::optional<std::uint32_t>& last) const = 0;
-  virtual bool touches(const Probe& probe) const = 0;
+  /// Asks the triangle at `last` first, and leaves there where the one is kept that is touched.
+  virtual bool touches(const Probe& probe, std::optional<std::uint32_t>& last) const = 0;
   virtual Vec3 face_normal(std::uint32_t place) const = 0;
   virtual std::size_t tree_bytes() const = 0;
 
@@ -96,11 +95,15 @@ class TreeModel final : public Model {
     return within ? std::optional(found) : std::nullopt;
   }
 
-  bool touches(const Probe& probe) const override {
+  bool touches(const Probe& probe, std::optional<std::uint32_t>& last) const override {
+    const Point center = into(probe.center);
     const FT squared = FT(probe.radius) * FT(probe.radius);
-    BallTouch touch{squared, {into(probe.center), squared}};
-    tree_.traversal(into(probe.center), touch);
-    return touch.found;
+    if (last && *last < triangles_.size() && CGAL::squared_distance(center, triangles_[*last]) <= squared)
+      return true;
+    BallTouch touch{squared, {center, squared}};
+    tree_.traversal(center, touch);
+    last = touch.found ? std::optional(place_of(*touch.found)) : std::nullopt;
+    return touch.found.has_value();
   }
 
   Vec3 face_normal(std::uint32_t place) const override {
@@ -135,11 +138,12 @@ class TreeModel final : public Model {
   struct BallTouch {
     FT squared_radius;
     typename Kernel::Sphere_3 ball;
-    bool found = false;
+    std::optional<Iterator> found{};
 
     bool go_further() const { return !found; }
     void intersection(const Point& center, const Primitive& primitive) {
-      found = found || CGAL::squared_distance(center, primitive.datum()) <= squared_radius;
+      if (!found && CGAL::squared_distance(center, primitive.datum()) <= squared_radius)
+        found = primitive.id();
     }
     bool do_intersect(const Point&, const CGAL::AABB_node<Traits>& node) const {
       return CGAL::do_intersect(ball, node.bbox());
@@ -220,9 +224,15 @@ CgalDetector CgalDetector::build(const TriangleMesh& mesh, const Options& option
 std::optional<Contact> CgalDetector::nearest(const Probe& probe, double reach,
                                              Session& session) const noexcept {
   const Vec3& center = probe.center;
+  const bool checked = model_->options.query == Asking::checked;
+  if (checked && out_of_reach(model_->bounds, center, reach)) {
+    session.last.reset();
+    return std::nullopt;
+  }
   if (!answerable(center, reach)) return std::nullopt;
   const double finite = finite_reach(model_->bounds, center, reach);
   const std::optional<Model::Found> found = model_->nearest(center, finite, session.last);
+  if (!found && checked) session.last.reset();
   if (!found) return std::nullopt;
   session.last = found->place;
   const double length = found->away.norm();
@@ -230,9 +240,16 @@ std::optional<Contact> CgalDetector::nearest(const Probe& probe, double reach,
   return Contact{found->point, normal, found->distance, model_->id(found->triangle)};
 }
 
-bool CgalDetector::touches(const Probe& probe, Session&) const noexcept {
+bool CgalDetector::touches(const Probe& probe, Session& session) const noexcept {
+  const bool checked = model_->options.query == Asking::checked;
+  if (checked && out_of_reach(model_->bounds, probe.center, probe.radius)) {
+    session.last.reset();
+    return false;
+  }
   if (!answerable(probe.center, probe.radius)) return false;
-  return model_->touches({probe.center, finite_reach(model_->bounds, probe.center, probe.radius)});
+  const Probe asked{probe.center, finite_reach(model_->bounds, probe.center, probe.radius)};
+  std::optional<std::uint32_t> alone;
+  return model_->touches(asked, checked ? session.last : alone);
 }
 
 std::size_t CgalDetector::bytes() const noexcept {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "baselines/reach.h"
 #include "core/detector.h"
 
 namespace touchmark::baselines {
@@ -22,12 +23,14 @@ class CgalDetector {
 
   struct Options {
     Kernel kernel = Kernel::epick;
-    Hint hint = Hint::none;
+    Hint hint = Hint::bounded;
+    Asking query = Asking::checked;
   };
   /// CGAL tells no work.
   struct Session {
     Work work;
-    std::optional<std::uint32_t> last;  ///< where the last nearest triangle is kept
+    /// Where a triangle is kept. checked: that of the last contact; plain: the last that was nearest.
+    std::optional<std::uint32_t> last;
   };
 
   /// Throws MeshError where CGAL has nothing to work with: with epeck any triangle of no area, with the

@@ -1,30 +1,34 @@
-/// The rival Embree 3.13: its point query over its own hierarchy, with this project's kernel as the callback,
-/// which is how Embree means point queries to be used. README.md states the decisions made for it.
+/// The rival Embree, 3.13 or 4: its point query over its own hierarchy, with this project's kernel as the
+/// callback or with its own triangles in single precision. README.md states the decisions made for it.
 #pragma once
 
 #include <cstddef>
 #include <memory>
 #include <optional>
 
+#include "baselines/reach.h"
 #include "core/detector.h"
 
 namespace touchmark::baselines {
 
 class EmbreeDetector {
  public:
-  /// triangle: Embree's triangle geometry. user: user geometry with boxes of our own, rounded outward.
-  enum class Geometry { triangle, user };
+  /// user: user geometry with boxes of our own, rounded outward, and our kernel in double. triangle: Embree's
+  /// triangle geometry and the closest point of its triangles in single precision, which is an approximation.
+  /// triangle_exact: Embree's triangle geometry for its boxes, and our kernel.
+  enum class Geometry { user, triangle, triangle_exact };
   /// Embree's build quality; refit: medium, in a scene of the kind that follows its geometry by refitting.
   enum class Quality { medium, high, refit };
 
   struct Options {
     Geometry geometry = Geometry::user;
     Quality quality = Quality::medium;
-    bool warm = true;  ///< start from the distance of the session's last triangle
+    bool warm = true;  ///< `nearest` starts from the distance of the session's last triangle
+    Asking query = Asking::checked;
   };
   struct Session {
-    Work work;  ///< triangles: callbacks. Embree tells no boxes.
-    std::uint32_t last = 0;
+    Work work;                         ///< triangles: callbacks. Embree tells no boxes.
+    std::uint32_t last = no_triangle;  ///< checked: of the last contact; plain: the last that was nearest
   };
 
   /// Throws MeshError when Embree has no memory for the mesh or cannot be started.
@@ -40,7 +44,7 @@ class EmbreeDetector {
   bool touches(const Probe& probe, Session& session) const noexcept;
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept;
 
-  /// What Embree took, as its memory monitor says, and the prepared triangles.
+  /// What Embree took, as its memory monitor says, and the prepared triangles, if any.
   std::size_t bytes() const noexcept;
   Accuracy accuracy() const noexcept;
 

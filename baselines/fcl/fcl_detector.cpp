@@ -18,7 +18,6 @@
 #include <fcl/narrowphase/detail/traversal/distance/mesh_shape_distance_traversal_node.h>
 #include <fcl/narrowphase/distance.h>
 
-#include "baselines/reach.h"
 #include "core/geometry/point_triangle.h"
 #include "core/mesh_update.h"
 
@@ -122,7 +121,7 @@ class ExactCollide : public Base {
 };
 
 /// FCL's best-first descent with our kernel at the leaves. Volumes as near as the best so far are entered, so
-/// that of several nearest triangles the lowest wins whatever the order; `first` is where to start.
+/// that of several nearest triangles the lowest wins whatever the order; `first` is where to start, if any.
 template <class Base>
 class ExactNearest : public Base {
  public:
@@ -130,7 +129,9 @@ class ExactNearest : public Base {
                std::uint32_t first)
       : triangles_(triangles), center_(center), bound_(reach), slack_(slack), first_(first) {}
 
-  void preprocess() override { consider(first_); }
+  void preprocess() override {
+    if (first_ < triangles_.size()) consider(first_);
+  }
   void postprocess() override {}
   void leafTesting(int leaf, int) const override {
     ++this->num_leaf_tests;
@@ -165,19 +166,27 @@ class FclNearest : public Base {
   void preprocess() override {}
   void postprocess() override {}
 
- private:
-  void consider(int triangle) const {
+  struct Measured {
+    double distance;
+    Vec3 on_mesh, on_ball;
+  };
+  Measured measured(int triangle) const {
     const fcl::Triangle& corner = this->tri_indices[triangle];
     const Vec3 center = this->tf2.translation();
-    double distance = 0;
-    Vec3 on_mesh = center, on_ball = center;
+    Measured found{0, center, center};
     const bool apart = this->nsolver->shapeTriangleDistance(
         *this->model2, this->tf2, this->vertices[corner[0]], this->vertices[corner[1]],
-        this->vertices[corner[2]], this->tf1, &distance, &on_ball, &on_mesh);
+        this->vertices[corner[2]], this->tf1, &found.distance, &found.on_ball, &found.on_mesh);
     if (!apart) {
-      distance = 0;
-      on_mesh = center;
+      found.distance = 0;
+      found.on_mesh = center;
     }
+    return found;
+  }
+
+ private:
+  void consider(int triangle) const {
+    const auto [distance, on_mesh, on_ball] = measured(triangle);
     this->result->update(distance, this->model1, this->model2, triangle, fcl::DistanceResultd::NONE, on_mesh,
                          on_ball);
   }
@@ -195,13 +204,16 @@ double fitting_slack(double largest_coordinate, const Vec3& center) {
 struct FclDetector::Session::State {
   fcl::CollisionResultd contacts;
   Solver solver;
-  std::uint32_t last = 0;  ///< the nearest triangle of the last query
+  std::uint32_t last = no_triangle;  ///< checked: of the last contact; plain: the last that was nearest
 };
 
 FclDetector::Session::Session() noexcept = default;
 FclDetector::Session::Session(Session&&) noexcept = default;
 FclDetector::Session& FclDetector::Session::operator=(Session&&) noexcept = default;
 FclDetector::Session::~Session() = default;
+void FclDetector::Session::forget() noexcept {
+  if (state_) state_->last = no_triangle;
+}
 FclDetector::Session::State& FclDetector::Session::state() {
   if (!state_) state_ = std::make_unique<State>();
   return *state_;
@@ -279,20 +291,41 @@ struct FclDetector::ModelOf : FclDetector::Model {
   }
 
   bool touches(const Probe& probe, Session& session) const override {
+    Session::State& state = session.state();
+    if (touches_last(probe, state)) {
+      ++session.work.triangles;
+      return true;
+    }
+    state.last = no_triangle;
     if (options.narrow == Narrow::exact) {
       const Candidate best = collided(probe, Gather::Stop::at_first_touch, session);
-      return std::sqrt(best.squared_distance) <= probe.radius;
+      const bool touching = std::sqrt(best.squared_distance) <= probe.radius;
+      if (touching) state.last = best.index;
+      return touching;
     }
     const Sphere ball(probe.radius);
     fcl::CollisionRequestd request(1, false);
-    return collide(ball, probe.center, request, session) > 0;
+    if (collide(ball, probe.center, request, session) == 0) return false;
+    state.last = static_cast<std::uint32_t>(state.contacts.getContact(0).b1);
+    return true;
+  }
+
+  /// By the narrow phase that the traversal has at its leaves.
+  bool touches_last(const Probe& probe, const Session::State& state) const {
+    if (options.query == Asking::plain || state.last >= static_cast<std::uint32_t>(hierarchy.num_tris))
+      return false;
+    if (options.narrow == Narrow::exact)
+      return std::sqrt(squared_distance(triangles[state.last], probe.center)) <= probe.radius;
+    const fcl::Triangle& corner = hierarchy.tri_indices[state.last];
+    return state.solver.shapeTriangleIntersect(
+        Sphere(probe.radius), at(probe.center), hierarchy.vertices[corner[0]], hierarchy.vertices[corner[1]],
+        hierarchy.vertices[corner[2]], fcl::Transform3d::Identity(), nullptr, nullptr, nullptr);
   }
 
   std::optional<Contact> nearest(const Vec3& center, double reach, Session& session) const override {
     if (options.method != Method::distance) {
-      return options.narrow == Narrow::exact
-                 ? exact_contact(collided({center, reach}, Gather::Stop::never, session), center, reach)
-                 : deepest_contact(center, reach, session);
+      return options.narrow == Narrow::exact ? exact_deepest(center, reach, session)
+                                             : deepest_contact(center, reach, session);
     }
     if constexpr (has_distance) {
       return options.narrow == Narrow::exact ? exact_nearest(center, reach, session)
@@ -333,9 +366,22 @@ struct FclDetector::ModelOf : FclDetector::Model {
       const fcl::Contactd& contact = contacts.getContact(i);
       if (!deepest || key(contact) < key(*deepest)) deepest = &contact;
     }
+    session.state().last = deepest ? static_cast<std::uint32_t>(deepest->b1) : no_triangle;
     if (!deepest) return std::nullopt;
     const double distance = std::max(0.0, reach + deepest->penetration_depth);
     return contact_at(deepest->pos, deepest->normal, distance, static_cast<std::size_t>(deepest->b1));
+  }
+
+  /// The ball need not hold more than the last triangle's distance.
+  std::optional<Contact> exact_deepest(const Vec3& center, double reach, Session& session) const {
+    Session::State& state = session.state();
+    double within = reach;
+    if (options.query == Asking::checked && state.last < triangles.size())
+      within = std::min(reach, std::sqrt(squared_distance(triangles[state.last], center)));
+    const Candidate best = collided({center, within}, Gather::Stop::never, session);
+    const std::optional<Contact> contact = exact_contact(best, center, within);
+    state.last = contact ? best.index : no_triangle;
+    return contact;
   }
 
   Candidate collided(const Probe& probe, typename Gather::Stop stop, Session& session) const {
@@ -354,12 +400,21 @@ struct FclDetector::ModelOf : FclDetector::Model {
     const Sphere point(0);
     set_up(node, point, center, session);
     Traversal<Bounds>::set_ball(node.model2_bv, center, 0);
-    // Only what is nearer than the bound counts for FCL; contact here is closed.
-    fcl::DistanceResultd result(std::nextafter(reach, std::numeric_limits<double>::infinity()));
+    // Only what is nearer than the bound counts for FCL; contact here is closed. The last triangle's distance
+    // bounds the search with more room than FCL's roundings take: which triangle FCL finds does not change.
+    Session::State& state = session.state();
+    double bound = reach;
+    if (options.query == Asking::checked && state.last < static_cast<std::uint32_t>(hierarchy.num_tris)) {
+      bound = std::min(bound, node.measured(static_cast<int>(state.last)).distance +
+                                  fitting_slack(largest_coordinate, center));
+    }
+    fcl::DistanceResultd result(std::nextafter(bound, std::numeric_limits<double>::infinity()));
     node.result = &result;
     nodes::distance(&node, nullptr, 2);
     count(node, session);
-    if (result.b1 == fcl::DistanceResultd::NONE) return std::nullopt;
+    const bool found = result.b1 != fcl::DistanceResultd::NONE;
+    state.last = found ? static_cast<std::uint32_t>(result.b1) : no_triangle;
+    if (!found) return std::nullopt;
     const Vec3 offset = center - result.nearest_points[0];
     const double length = offset.norm();
     const Vec3 normal = length > 0 ? Vec3(offset / length) : face_normal(static_cast<int>(result.b1));
@@ -369,15 +424,18 @@ struct FclDetector::ModelOf : FclDetector::Model {
 
   std::optional<Contact> exact_nearest(const Vec3& center, double reach, Session& session) const {
     Session::State& state = session.state();
+    const bool always = options.query == Asking::plain;
     ExactNearest<Distance> node(triangles, center, reach, fitting_slack(largest_coordinate, center),
-                                state.last < triangles.size() ? state.last : 0);
+                                always && state.last >= triangles.size() ? 0 : state.last);
     const Sphere point(0);
     set_up(node, point, center, session);
     Traversal<Bounds>::set_ball(node.model2_bv, center, 0);
     nodes::distance(&node, nullptr, 2);
     count(node, session);
-    if (node.best().index < triangles.size()) state.last = node.best().index;
-    return exact_contact(node.best(), center, reach);
+    const std::optional<Contact> contact = exact_contact(node.best(), center, reach);
+    if (contact || always) state.last = node.best().index;
+    if (!contact && !always) state.last = no_triangle;
+    return contact;
   }
 
   std::optional<Contact> exact_contact(const Candidate& best, const Vec3& center, double reach) const {
@@ -456,6 +514,10 @@ void FclDetector::update(const TriangleMesh& mesh) {
 }
 
 bool FclDetector::touches(const Probe& probe, Session& session) const noexcept {
+  if (model_->options.query == Asking::checked && out_of_reach(model_->bounds, probe.center, probe.radius)) {
+    session.forget();
+    return false;
+  }
   const double radius = finite_reach(model_->bounds, probe.center, probe.radius);
   if (!answerable(probe.center, radius)) return false;
   try {
@@ -467,6 +529,10 @@ bool FclDetector::touches(const Probe& probe, Session& session) const noexcept {
 
 std::optional<Contact> FclDetector::nearest(const Probe& probe, double reach,
                                             Session& session) const noexcept {
+  if (model_->options.query == Asking::checked && out_of_reach(model_->bounds, probe.center, reach)) {
+    session.forget();
+    return std::nullopt;
+  }
   const double finite = finite_reach(model_->bounds, probe.center, reach);
   if (!answerable(probe.center, finite)) return std::nullopt;
   try {

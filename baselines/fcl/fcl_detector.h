@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "baselines/reach.h"
 #include "core/detector.h"
 
 namespace touchmark::baselines {
@@ -27,6 +28,7 @@ class FclDetector {
     Volume bv = Volume::kios;
     Method method = Method::collide;
     Narrow narrow = Narrow::fcl;
+    Asking query = Asking::checked;
   };
 
   class Session {
@@ -42,6 +44,7 @@ class FclDetector {
     friend class FclDetector;
     struct State;
     State& state();
+    void forget() noexcept;
     std::unique_ptr<State> state_;
   };
 

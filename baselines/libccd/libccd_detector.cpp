@@ -10,7 +10,6 @@
 
 #include <ccd/ccd.h>
 
-#include "baselines/reach.h"
 #include "core/aabb_tree/aabb_tree.h"
 
 namespace touchmark::baselines {
@@ -117,11 +116,9 @@ struct LibccdDetector::Model {
   Model(const TriangleMesh& mesh, const Options& chosen)
       : options(chosen),
         bounds(mesh.bounds()),
-        ids(mesh.ids().begin(), mesh.ids().end()),
+        surface(mesh),
         // A pair costs a hundred boxes: one triangle a leaf.
         tree(AabbTree::build(mesh, {.leaf_size = 1})) {}
-
-  TriangleId id(std::uint32_t index) const { return ids.empty() ? index : ids[index]; }
 
   /// The scale that makes the radius 1, or the triangle when it is very much larger than the ball.
   double scale_for(double radius, const std::array<Vec3, 3>& corners) const {
@@ -135,6 +132,10 @@ struct LibccdDetector::Model {
 
   static std::array<Vec3, 3> relative(const PreparedTriangle& triangle, const Vec3& center) {
     return {triangle.corner[0] - center, triangle.corner[1] - center, triangle.corner[2] - center};
+  }
+  std::array<Vec3, 3> relative(std::uint32_t triangle, const Vec3& center) const {
+    return {surface.corner(triangle, 0) - center, surface.corner(triangle, 1) - center,
+            surface.corner(triangle, 2) - center};
   }
   static std::array<Vec3, 3> scaled(std::array<Vec3, 3> corners, double scale) {
     for (Vec3& corner : corners) corner *= scale;
@@ -182,30 +183,38 @@ struct LibccdDetector::Model {
       consider(pair, triangle, center, reach, nearest, session);
     });
     session.work.boxes += tree_work.boxes;
+    session.last = nearest.found ? nearest.index : no_triangle;
     if (!nearest.found) return std::nullopt;
     return Contact{center + nearest.distance * nearest.direction, -nearest.direction, nearest.distance,
-                   id(nearest.index)};
+                   surface.id(nearest.index)};
   }
 
   bool touches(const Vec3& center, double radius, Session& session) const {
     Pair pair(options);
-    bool touching = false;
-    Work tree_work;
-    tree.for_each_near(center, radius, tree_work, [&](const PreparedTriangle& triangle) {
-      const std::array<Vec3, 3> corners = relative(triangle, center);
-      if (touching || !near_box(corners, radius)) return;
+    const auto meets = [&](const std::array<Vec3, 3>& corners) {
+      if (!near_box(corners, radius)) return false;
       ++session.work.triangles;
       const double scale = scale_for(radius, corners);
-      touching = pair.intersect(radius * scale, scaled(corners, scale));
+      const bool touching = pair.intersect(radius * scale, scaled(corners, scale));
       session.given_up += pair.gave_up();
+      return touching;
+    };
+    const bool first = options.query == Asking::checked && session.last < surface.size();
+    if (first && meets(relative(session.last, center))) return true;
+    session.last = no_triangle;
+    Work tree_work;
+    tree.for_each_near(center, radius, tree_work, [&](const PreparedTriangle& triangle) {
+      if (!meets(relative(triangle, center))) return false;
+      session.last = triangle.index;
+      return true;
     });
     session.work.boxes += tree_work.boxes;
-    return touching;
+    return session.last != no_triangle;
   }
 
   Options options;
   Aabb bounds;
-  std::vector<TriangleId> ids;
+  TriangleMesh surface;
   AabbTree tree;
 };
 
@@ -224,12 +233,20 @@ LibccdDetector LibccdDetector::build(const TriangleMesh& mesh, const Options& op
 }
 
 bool LibccdDetector::touches(const Probe& probe, Session& session) const noexcept {
+  if (model_->options.query == Asking::checked && out_of_reach(model_->bounds, probe.center, probe.radius)) {
+    session.last = no_triangle;
+    return false;
+  }
   const double radius = finite_reach(model_->bounds, probe.center, probe.radius);
   return answerable(probe.center, radius) && model_->touches(probe.center, radius, session);
 }
 
 std::optional<Contact> LibccdDetector::nearest(const Probe& probe, double reach,
                                                Session& session) const noexcept {
+  if (model_->options.query == Asking::checked && out_of_reach(model_->bounds, probe.center, reach)) {
+    session.last = no_triangle;
+    return std::nullopt;
+  }
   const double finite = finite_reach(model_->bounds, probe.center, reach);
   if (!answerable(probe.center, finite)) return std::nullopt;
   return nearest_by_growing(model_->bounds, probe.center, finite, [&](double within) {
@@ -238,7 +255,9 @@ std::optional<Contact> LibccdDetector::nearest(const Probe& probe, double reach,
 }
 
 std::size_t LibccdDetector::bytes() const noexcept {
-  return model_->tree.bytes() + model_->ids.capacity() * sizeof(TriangleId);
+  return model_->tree.bytes() + model_->surface.vertices().size() * sizeof(Vec3) +
+         model_->surface.size() * sizeof(TriangleMesh::Corners) +
+         model_->surface.ids().size() * sizeof(TriangleId);
 }
 
 Accuracy LibccdDetector::accuracy() const noexcept {

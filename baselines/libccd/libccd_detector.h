@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "baselines/reach.h"
 #include "core/detector.h"
 
 namespace touchmark::baselines {
@@ -23,10 +24,12 @@ class LibccdDetector {
     Frame frame = Frame::fitted;
     double tolerance = 1e-4;       ///< of EPA and MPR, libccd's own default; in radii when fitted
     std::size_t iterations = 500;  ///< of GJK at most; libccd's own default is ULONG_MAX
+    Asking query = Asking::checked;
   };
   struct Session {
-    Work work;                 ///< boxes: our tree's; triangles: those libccd is asked about
-    std::size_t given_up = 0;  ///< pairs that were stopped for taking too long
+    Work work;                         ///< boxes: our tree's; triangles: those libccd is asked about
+    std::size_t given_up = 0;          ///< pairs that were stopped for taking too long
+    std::uint32_t last = no_triangle;  ///< of the last contact
   };
 
   /// Throws std::invalid_argument for a tolerance that is not positive, or no iterations.

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 #include "core/detector.h"
@@ -44,7 +45,8 @@ class AabbTree {
   Accuracy accuracy() const noexcept { return certified_ ? certified : uncertified; }
 
   /// Calls visit(triangle) for every triangle in a leaf whose box is within `reach` of the centre: a broad
-  /// phase for libraries that have none. Misses no triangle whose computed distance is at most the reach.
+  /// phase for libraries that have none. Misses no triangle whose computed distance is at most the reach. A
+  /// visit that returns bool ends it by returning true.
   template <class Visit>
   void for_each_near(const Vec3& center, double reach, Work& work, const Visit& visit) const noexcept {
     const double slack = culling_slack(largest_difference(bounds(), center));
@@ -61,7 +63,13 @@ class AabbTree {
         continue;
       }
       work.triangles += node.count;
-      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) visit(triangles_[i]);
+      for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+        if constexpr (std::is_same_v<decltype(visit(triangles_[i])), bool>) {
+          if (visit(triangles_[i])) return true;
+        } else {
+          visit(triangles_[i]);
+        }
+      }
     }
   }
 

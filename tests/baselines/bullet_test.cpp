@@ -11,6 +11,7 @@
 
 #include "baselines/bullet/bullet_detector.h"
 #include "core/brute_force/brute_force.h"
+#include "tests/baselines/asking.h"
 #include "tests/baselines/follows.h"
 #include "tests/baselines/meshes.h"
 
@@ -327,6 +328,12 @@ TEST(Bullet, FollowsVerticesThatMove) {
     BulletDetector detector = BulletDetector::build(mesh, form);
     EXPECT_THROW(detector.update(bumps(11)), std::invalid_argument);
   }
+}
+
+TEST_P(EveryBullet, AskingTheBoxAndTheLastTriangleFirstChangesNoAnswer) {
+  expect_asking_changes_no_answer<BulletDetector>(bumps(12), GetParam());
+  expect_asking_changes_no_answer<BulletDetector>(soup(120, 4), GetParam());
+  expect_asking_to_save_work<BulletDetector>(GetParam());
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "baselines/cgal/cgal_detector.h"
 #include "core/brute_force/brute_force.h"
+#include "tests/baselines/asking.h"
 #include "tests/baselines/meshes.h"
 
 namespace touchmark::baselines {
@@ -132,6 +133,14 @@ TEST(Cgal, CountsItsMemory) {
   const auto bytes = [&](Hint hint) { return CgalDetector::build(mesh, {Kernel::simple, hint}).bytes(); };
   EXPECT_GT(bytes(Hint::last), mesh.size() * 9 * sizeof(double));
   EXPECT_GT(bytes(Hint::none), bytes(Hint::last));  // the k-d tree
+}
+
+TEST(Cgal, AskingTheBoxAndTheLastTriangleFirstChangesNoAnswer) {
+  for (const Options& form : all_forms()) {
+    if (form.kernel != Kernel::simple && form.hint != Hint::bounded) continue;  // they take seconds
+    expect_asking_changes_no_answer<CgalDetector>(bumps(12), form, true);
+    expect_asking_to_save_work<CgalDetector>(form);
+  }
 }
 
 }  // namespace

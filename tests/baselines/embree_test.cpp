@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <random>
 #include <stdexcept>
@@ -48,10 +50,29 @@ TriangleMesh soup(double scale, double offset) {
   return {std::move(vertices), std::move(corners)};
 }
 
+/// Octahedra about the origin: triangles of good shape, with corners and edges in common.
+TriangleMesh octahedra(std::uint32_t count, double scale) {
+  Random random(6);
+  std::vector<Vec3> vertices;
+  std::vector<TriangleMesh::Corners> corners;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Vec3 center = random.point();
+    const double size = 0.05 * (1.5 + random.coordinate());
+    for (std::uint32_t axis = 0; axis < 3; ++axis) {
+      for (const double sign : {-1.0, 1.0})
+        vertices.push_back(scale * (center + sign * size * Vec3::Unit(axis)));
+    }
+    for (std::uint32_t octant = 0; octant < 8; ++octant)
+      corners.push_back({6 * i + (octant & 1), 6 * i + 2 + (octant >> 1 & 1), 6 * i + 4 + (octant >> 2)});
+  }
+  return {std::move(vertices), std::move(corners)};
+}
+
 TEST(Embree, AnswersAsBruteForceDoesToTheLastBit) {
   const std::vector<Options> forms = {{Geometry::user, Quality::medium, true},
-                                      {Geometry::triangle, Quality::medium, true},
-                                      {Geometry::triangle, Quality::high, false}};
+                                      {Geometry::user, Quality::medium, true, Asking::plain},
+                                      {Geometry::triangle_exact, Quality::medium, true},
+                                      {Geometry::triangle_exact, Quality::high, false}};
   struct Place {
     double scale, offset;
   };
@@ -80,6 +101,90 @@ TEST(Embree, AnswersAsBruteForceDoesToTheLastBit) {
       }
     }
   }
+}
+
+TEST(Embree, SinglePrecisionIsWithinWhatItClaimsOnTrianglesOfGoodShape) {
+  const Options form{Geometry::triangle};
+  for (const double scale : {1.0, 1e-6, 1e6}) {
+    const TriangleMesh mesh = octahedra(200, scale);
+    const BruteForce reference = BruteForce::build(mesh);
+    const EmbreeDetector embree = EmbreeDetector::build(mesh, form);
+    const Accuracy accuracy = embree.accuracy();
+    EXPECT_EQ(accuracy.guarantee, Guarantee::approximate);
+    EmbreeDetector::Session session;
+    BruteForce::Session brute;
+    Random random(9);
+    double worst = 0;
+    for (int i = 0; i < 500; ++i) {
+      const Probe probe{scale * 1.3 * random.point(), 0};
+      const auto contact = embree.nearest(probe, infinity, session),
+                 expected = reference.nearest(probe, infinity, brute);
+      ASSERT_TRUE(contact && expected);
+      const double error = std::abs(contact->distance - expected->distance);
+      EXPECT_LE(error, accuracy.relative * 3 * scale + accuracy.absolute);
+      EXPECT_NEAR((probe.center - contact->point).norm(), contact->distance, 1e-6 * scale);
+      worst = std::max(worst, error / scale);
+      const double apart = 4 * (accuracy.relative * 3 * scale + accuracy.absolute);
+      EXPECT_TRUE(embree.touches({probe.center, expected->distance + apart}, session));
+      EXPECT_FALSE(embree.touches({probe.center, expected->distance - apart}, session));
+    }
+    EXPECT_GT(worst, 1e-10);  // doubles would not err as much
+  }
+}
+
+TEST(Embree, ForgettingTheSessionChangesNoAnswerInAnyForm) {
+  const TriangleMesh mesh = octahedra(200, 1);
+  for (const Geometry geometry : {Geometry::user, Geometry::triangle, Geometry::triangle_exact}) {
+    for (const Asking query : {Asking::checked, Asking::plain}) {
+      const EmbreeDetector embree = EmbreeDetector::build(mesh, {geometry, Quality::medium, true, query});
+      EmbreeDetector::Session kept;
+      Random random(10);
+      for (int i = 0; i < 2000; ++i) {
+        EmbreeDetector::Session fresh;
+        const Probe probe{1.2 * random.point(), 0.05};
+        const double reach = i % 5 == 0 ? infinity : 0.1;
+        const auto contact = embree.nearest(probe, reach, kept), again = embree.nearest(probe, reach, kept),
+                   alone = embree.nearest(probe, reach, fresh);
+        ASSERT_EQ(contact.has_value(), alone.has_value());
+        if (contact) {
+          EXPECT_EQ(contact->triangle, alone->triangle);
+          EXPECT_EQ(contact->distance, alone->distance);
+          EXPECT_EQ(again->triangle, alone->triangle);
+        }
+        EXPECT_EQ(embree.touches(probe, kept), embree.touches(probe, fresh));
+      }
+    }
+  }
+}
+
+TEST(Embree, AsksNothingFartherFromTheBoxThanTheReach) {
+  const TriangleMesh mesh = soup(1, 0);
+  const Aabb box = mesh.bounds();
+  for (const Geometry geometry : {Geometry::user, Geometry::triangle}) {
+    const EmbreeDetector embree = EmbreeDetector::build(mesh, {geometry});
+    EmbreeDetector::Session session;
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 center = box.center();
+      center[axis] = box.max[axis] + 0.25;
+      EXPECT_FALSE(embree.nearest({center, 0}, 0.125, session));
+      EXPECT_FALSE(embree.touches({center, 0.125}, session));
+    }
+    EXPECT_EQ(session.work.triangles, 0u);
+  }
+}
+
+TEST(Embree, MeasuresTheLastTriangleFirstAndOnlyAfterAContact) {
+  const TriangleMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 8}, {1, 0, 8}, {0, 1, 8}},
+                          {{0, 1, 2}, {3, 4, 5}});
+  const EmbreeDetector embree = EmbreeDetector::build(mesh);
+  EmbreeDetector::Session session;
+  EXPECT_FALSE(embree.nearest({{0.25, 0.25, 4}, 0}, 0.5, session));
+  EXPECT_EQ(session.work.triangles, 0u);
+  EXPECT_TRUE(embree.touches({{0.25, 0.25, 7.75}, 0.5}, session));
+  EXPECT_EQ(session.last, 1u);
+  const auto asked = session.work.triangles;
+  EXPECT_TRUE(embree.touches({{0.25, 0.25, 7.8}, 0.5}, session));
+  EXPECT_EQ(session.work.triangles, asked + 1);
 }
 
 TEST(Embree, LeavesTheFloatingPointModesAlone) {
@@ -111,9 +216,9 @@ TEST(Embree, FollowsVerticesThatMove) {
   const TriangleMesh other(vertices, {mesh.triangles().begin(), mesh.triangles().end()});
   for (const EmbreeDetector::Options& form : std::vector<EmbreeDetector::Options>{
            {},
-           {EmbreeDetector::Geometry::triangle, EmbreeDetector::Quality::medium, true},
+           {EmbreeDetector::Geometry::triangle_exact, EmbreeDetector::Quality::medium, true},
            {EmbreeDetector::Geometry::user, EmbreeDetector::Quality::refit, true},
-           {EmbreeDetector::Geometry::triangle, EmbreeDetector::Quality::refit, false}}) {
+           {EmbreeDetector::Geometry::triangle_exact, EmbreeDetector::Quality::refit, false}}) {
     expect_to_follow<EmbreeDetector>(mesh, other, form);
   }
 }

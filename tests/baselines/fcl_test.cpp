@@ -9,6 +9,7 @@
 
 #include "baselines/fcl/fcl_detector.h"
 #include "core/brute_force/brute_force.h"
+#include "tests/baselines/asking.h"
 #include "tests/baselines/follows.h"
 #include "tests/baselines/meshes.h"
 
@@ -305,6 +306,12 @@ TEST(Fcl, FollowsVerticesThatMove) {
     FclDetector detector = FclDetector::build(mesh, form);
     EXPECT_THROW(detector.update(bumps(11)), std::invalid_argument);
   }
+}
+
+TEST_P(EveryFcl, AskingTheBoxAndTheLastTriangleFirstChangesNoAnswer) {
+  expect_asking_changes_no_answer<FclDetector>(bumps(12), GetParam());
+  expect_asking_changes_no_answer<FclDetector>(soup(120, 4), GetParam());
+  expect_asking_to_save_work<FclDetector>(GetParam());
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include "baselines/libccd/libccd_detector.h"
 #include "core/brute_force/brute_force.h"
+#include "tests/baselines/asking.h"
 #include "tests/baselines/meshes.h"
 
 namespace touchmark::baselines {
@@ -208,6 +209,12 @@ TEST(LibccdTraps, ABarePointOnATriangleIsOftenMissed) {
     found += detector.touches({inside, 0}, session);
   }
   EXPECT_LT(found, 50);
+}
+
+TEST_P(EveryLibccd, AskingTheBoxAndTheLastTriangleFirstChangesNoAnswer) {
+  expect_asking_changes_no_answer<LibccdDetector>(bumps(12), {GetParam()});
+  expect_asking_changes_no_answer<LibccdDetector>(soup(120, 4), {GetParam()});
+  expect_asking_to_save_work<LibccdDetector>({GetParam()});
 }
 
 }  // namespace

