@@ -14,6 +14,8 @@ bool touching(Query query, const Step& step, const Answer& answer) noexcept {
   return query != Query::nearest || answer.distance <= step.probe.radius;
 }
 
+}  // namespace
+
 const char* name_of(Side side) noexcept {
   switch (side) {
     case Side::unasked:
@@ -29,8 +31,6 @@ const char* name_of(Side side) noexcept {
   }
   return "";
 }
-
-}  // namespace
 
 std::string answer_header(Query query, bool with_side) {
   std::string header = "step,touching,triangle,distance,point_x,point_y,point_z,normal_x,normal_y,normal_z";

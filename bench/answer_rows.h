@@ -13,6 +13,9 @@ namespace touchmark::bench {
 /// contestant that is asked for it the side.
 std::string answer_header(Query query, bool with_side = false);
 
+/// "outside", "inside", "on_surface", "undecided"; empty where it was not asked for.
+const char* name_of(Side side) noexcept;
+
 /// Appends a step's row. `touching` is 1 where the distance is at most the probe's radius (sweep: where it
 /// was hit on the way); what the query does not tell or found nothing to tell about stays empty. Doubles in
 /// the shortest form that reads back to the same bits.

@@ -40,6 +40,7 @@ Case::Case(const Workload& workload, const WorkerStage& stage, const Effort& eff
     : stage_(stage), effort_(effort), process_(process), task_{course, query, 1}, plan_(plan) {
   row_.detector = process.spec().name;
   row_.options = process.spec().options;
+  row_.claimed = process.spec().claimed;
   row_.mesh = workload.mesh_name;
   row_.triangles = workload.mesh.size();
   row_.trajectory = workload.trajectories[course];
@@ -166,7 +167,7 @@ void Case::judge(Truths& truths, Truths* stored) {
     return;
   }
   row_.decisions_checksum = decisions_checksum_of(task_.query, answers, *row_.accuracy);
-  row_.tally = truths.judge(task_.query, windows_, answers, *row_.accuracy);
+  row_.tally = truths.judge(task_.query, windows_, answers, *row_.accuracy, {}, &row_.wrong);
   if (stored != nullptr) row_.stored_tally = stored->judge(task_.query, windows_, answers, *row_.accuracy);
 }
 

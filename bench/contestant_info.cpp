@@ -61,6 +61,30 @@ void check_value(const ContestantInfo& contestant, const OptionInfo& option, std
   throw std::invalid_argument(fmt::format("{}: {}=\"{}\" is {}", contestant.name, option.key, value, wrong));
 }
 
+Guarantee guarantee_named(std::string_view name) {
+  if (name == "exact") return Guarantee::exact;
+  if (name == "conservative") return Guarantee::conservative;
+  if (name == "approximate") return Guarantee::approximate;
+  throw std::invalid_argument(fmt::format("\"{}\" is not exact, conservative or approximate", name));
+}
+
+/// Is every "key=value", joined by " with ", among the chosen ones?
+bool all_chosen(std::string_view conditions, const OptionValues& values) {
+  constexpr std::string_view with = " with ";
+  for (;;) {
+    const std::size_t end = conditions.find(with);
+    const std::string_view pair = conditions.substr(0, end);
+    const std::size_t equals = pair.find('=');
+    const auto chosen = values.all().find(std::string(pair.substr(0, equals)));
+    if (equals == std::string_view::npos || chosen == values.all().end()) {
+      throw std::invalid_argument(fmt::format("\"{}\" is not an option and its value", pair));
+    }
+    if (chosen->second != pair.substr(equals + 1)) return false;
+    if (end == std::string_view::npos) return true;
+    conditions.remove_prefix(end + with.size());
+  }
+}
+
 /// The pairs as written, checked. Throws for what is not key=value, an unknown or repeated key, a bad value.
 std::map<std::string, std::string> parse_options(const ContestantInfo& contestant, std::string_view text) {
   std::map<std::string, std::string> written;
@@ -80,6 +104,24 @@ std::map<std::string, std::string> parse_options(const ContestantInfo& contestan
 }
 
 }  // namespace
+
+std::optional<Guarantee> claimed_guarantee(const std::string& accuracy, const OptionValues& values) {
+  if (accuracy.empty()) return std::nullopt;
+  std::optional<Guarantee> claimed;
+  for (std::string_view part : split(accuracy, ';')) {
+    if (!claimed) {
+      claimed = guarantee_named(part);
+      continue;
+    }
+    part.remove_prefix(std::min(part.find_first_not_of(' '), part.size()));
+    const std::size_t colon = part.find(": ");
+    if (colon == std::string_view::npos) {
+      throw std::invalid_argument(fmt::format("\"{}\" is not KEY=VALUE: GUARANTEE", part));
+    }
+    if (all_chosen(part.substr(0, colon), values)) claimed = guarantee_named(part.substr(colon + 2));
+  }
+  return claimed;
+}
 
 double OptionValues::number(const std::string& key) const { return parse_number(text(key)).value(); }
 
@@ -123,7 +165,9 @@ ContestantSpec Roster::parse(const std::string& text) const {
     if (given != written.end()) in_order.push_back(option.key + "=" + given->second);
     values.emplace(option.key, given != written.end() ? given->second : option.default_value);
   }
-  return {contestant.name, fmt::format("{}", fmt::join(in_order, ",")), OptionValues(std::move(values))};
+  OptionValues chosen(std::move(values));
+  const std::optional<Guarantee> claimed = claimed_guarantee(contestant.accuracy, chosen);
+  return {contestant.name, fmt::format("{}", fmt::join(in_order, ",")), std::move(chosen), claimed};
 }
 
 void Roster::add_built(std::vector<ContestantSpec>& specs, const std::vector<std::string>& texts) const {

@@ -54,8 +54,10 @@ inline constexpr const char* default_worker_program = "touchmark-worker";
 
 struct ContestantInfo {
   std::string name;
-  std::string summary;   ///< one line
-  std::string accuracy;  ///< "exact", or what it depends on
+  std::string summary;  ///< one line
+  /// What its forms claim: "GUARANTEE" or "GUARANTEE; KEY=VALUE[ with KEY=VALUE]: GUARANTEE[; ...]", of which
+  /// the last whose options are chosen holds.
+  std::string accuracy;
   std::vector<Query> queries;
   std::vector<OptionInfo> options;
   /// Throws std::invalid_argument or MeshError for options or a mesh it refuses. Empty: not built in.
@@ -82,9 +84,14 @@ struct ContestantSpec {
   std::string name;
   std::string options;  ///< "key=value,key=value" in the contestant's own order; empty: all defaults
   OptionValues values;
+  std::optional<Guarantee> claimed;  ///< by its entry, so known before it is built; nothing: none
 
   std::string text() const { return options.empty() ? name : name + ":" + options; }
 };
+
+/// The guarantee that an `accuracy` of the form above claims for these options; nothing where it is empty.
+/// Throws std::invalid_argument for another form.
+std::optional<Guarantee> claimed_guarantee(const std::string& accuracy, const OptionValues& values);
 
 /// All contestants, and those that are compared or verified when none is named.
 class Roster {

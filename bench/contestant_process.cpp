@@ -119,6 +119,10 @@ Answered ContestantProcess::answer(const Task& task) {
   return order("answer", task, nlohmann::json::object());
 }
 
+Answered ContestantProcess::answer_afresh(const Task& task, std::size_t step) {
+  return order("answer_afresh", task, {{"step", step}});
+}
+
 Timed ContestantProcess::first_pass(const Task& task) {
   return order("first_pass", task, nlohmann::json::object());
 }

@@ -64,6 +64,8 @@ class ContestantProcess {
   /// Replays the task's windows once, or, where it names none, as many steps as `budget_ns` allows.
   Timed calibrate(const Task& task, double budget_ns);
   Answered answer(const Task& task);
+  /// The answer to that step alone, by a fresh session; it lies first in the output room.
+  Answered answer_afresh(const Task& task, std::size_t step);
   Timed first_pass(const Task& task);
   Timed time(const Task& task, std::int64_t passes);
   Timed sample(const Task& task, std::int64_t passes, std::int64_t together);

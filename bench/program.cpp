@@ -14,7 +14,9 @@
 
 #include "bench/build_info.h"
 #include "bench/near_names.h"
+#include "bench/standard_descriptors.h"
 #include "bench/standard_output.h"
+#include "bench/system_limit.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::bench {
@@ -36,7 +38,9 @@ std::string one_line(std::string text) {
 }
 
 int fail(int status, std::string_view what) {
-  fmt::print(stderr, "touchmark: {}\n", one_line(std::string(what)));
+  // Where nothing can be written there is nobody to tell.
+  const std::string line = fmt::format("touchmark: {}\n", one_line(std::string(what)));
+  std::fwrite(line.data(), 1, line.size(), stderr);
   return status;
 }
 
@@ -67,6 +71,12 @@ int parse_and_run(CLI::App& program, ProgramContext& context) {
 }  // namespace
 
 int run_program(int argc, char** argv, const Roster& roster) {
+  try {
+    reserve_standard_descriptors();
+  } catch (const ResourceError& error) {
+    return fail(exit_resources, error.what());
+  }
+  survive_limits();
   ProgramContext context{roster, argc, argv};
   CLI::App program("Which collision detector can serve a haptic loop.", "touchmark");
   program.set_version_flag("--version", std::string("touchmark ") + build_info().version);
@@ -87,9 +97,9 @@ int run_program(int argc, char** argv, const Roster& roster) {
   } catch (const ResourceError& error) {
     return fail(exit_resources, error.what());
   } catch (const std::bad_alloc&) {
-    return fail(exit_resources, "out of memory");
+    return fail(exit_resources, "out of memory" + memory_limit());
   } catch (const std::system_error& error) {
-    return fail(exit_resources, error.what());
+    return fail(exit_resources, error.what() + limit_behind(error.code().value()));
   }
 }
 

@@ -46,10 +46,19 @@ std::vector<std::string> timing_cells(const ResultRow& row, const Least& least) 
 }
 
 std::vector<std::string> error_cells(const ResultRow& row) {
-  if (!row.tally) return {"", "", "", ""};
+  if (!row.tally) return {"", "", "", "", "", ""};
   const Tally& tally = *row.tally;
-  return {count(tally.missed), count(tally.false_contacts), count(tally.wrong_triangle),
-          count(answers_off(tally))};
+  const std::uint64_t others =
+      std::max({tally.wrong_point, tally.wrong_normal, tally.wrong_side}) + tally.malformed;
+  return {count(tally.missed),           count(tally.false_contacts), count(tally.wrong_triangle),
+          count(tally.beyond_tolerance), count(tally.rounding),       count(others)};
+}
+
+/// Empty where there is none. How long a contestant may take is the user's choice, so that a timeout is none.
+std::string fault_of(const ResultRow& row) {
+  if (row.status == "checksum mismatch") return "timed answers differ from verified ones";
+  if (row.broke_its_word()) return "answers are not as exact as claimed";
+  return row.claims_exactness() && row.status.starts_with("crashed") ? row.status : "";
 }
 
 bool is_exact(const ResultRow& row) {
@@ -88,8 +97,10 @@ std::string disturbance(const Steadiness& steadiness) {
 }  // namespace
 
 std::string timing_table(const std::vector<ResultRow>& rows) {
-  TextTable table({"detector", "guarantee", "missed", "false", "wrong", "off", "ns/query", "95 %",
-                   "x fastest", "p99.9 ns", "x least p99.9", "max ns", "Hz", "build ms", "MB", "steps"});
+  const std::string off = fmt::format("off>{:g}", physical_tolerance);
+  TextTable table({"detector", "guarantee", "missed", "false", "triangle", off, "rounding", "point/normal",
+                   "ns/query", "95 %", "x fastest", "p99.9 ns", "x least p99.9", "max ns", "Hz", "build ms",
+                   "MB", "steps"});
   const Least least = least_of(rows);
   for (const ResultRow& row : rows) {
     std::vector<std::string> cells{row.contestant(), std::string(guarantee_name(row))};
@@ -144,11 +155,10 @@ bool tell_faults(const std::vector<ResultRow>& rows,
                  const std::function<std::string(const ResultRow&)>& where) {
   bool faulty = false;
   for (const ResultRow& row : rows) {
-    const bool mismatch = row.status == "checksum mismatch";
-    if (!mismatch && !row.broke_its_word()) continue;
+    const std::string fault = fault_of(row);
+    if (fault.empty()) continue;
     faulty = true;
-    fmt::print(stderr, "touchmark: {} on {}: {}\n", row.contestant(), where(row),
-               mismatch ? "timed answers differ from verified ones" : "answers are not as exact as claimed");
+    fmt::print(stderr, "touchmark: {} on {}: {}\n", row.contestant(), where(row), fault);
   }
   return faulty;
 }

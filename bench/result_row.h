@@ -8,11 +8,13 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "bench/answer.h"
 #include "bench/latency.h"
 #include "bench/sampling/piece_times.h"
 #include "bench/verify.h"
+#include "bench/wrong_answer.h"
 #include "core/detector.h"
 
 namespace touchmark::bench {
@@ -57,12 +59,16 @@ struct ResultRow {
   double reach = 0;           ///< mesh units
   std::string status = "ok";  ///< or unsupported, refused: ..., crashed:..., timeout, checksum mismatch
 
-  std::optional<Accuracy> accuracy;   ///< as claimed
+  std::optional<Guarantee>
+      claimed;  ///< by the contestant's entry, so known of one that never came to be built
+  std::optional<Accuracy> accuracy;   ///< as claimed once it was built
   std::optional<Tally> tally;         ///< as found
   std::optional<Tally> stored_tally;  ///< the same by the mesh that its library keeps, where that is another
   std::optional<ThroughputResult> throughput;
   std::optional<LatencySummary> latency;
   std::optional<LatencySummary> prepare;  ///< between steps, where the contestant does that
+  std::vector<WrongAnswer> wrong;         ///< the first ones of those that were charged
+  std::string repeat;  ///< the command that prints the answer to a step, up to the step's number
   double clock_cost_ns = 0;
   std::optional<double> build_ms;
   std::optional<double> first_answer_ms;  ///< build and first query
@@ -73,6 +79,11 @@ struct ResultRow {
   std::optional<std::uint64_t> decisions_checksum;  ///< see decisions_checksum_of
 
   std::string contestant() const { return options.empty() ? detector : detector + ":" + options; }
+  std::optional<Guarantee> claim() const {
+    if (accuracy) return accuracy->guarantee;
+    return claimed;
+  }
+  bool claims_exactness() const { return claim() == Guarantee::exact; }
   /// It was judged, and did not do what it claims.
   bool broke_its_word() const { return accuracy && tally && !keeps_its_word(*tally, *accuracy); }
 };
@@ -108,9 +119,9 @@ inline std::uint64_t answers_off(const Tally& tally) noexcept {
 }
 
 /// As claimed; empty where it is not known.
-inline std::string_view guarantee_name(const ResultRow& row) noexcept {
-  if (!row.accuracy) return "";
-  switch (row.accuracy->guarantee) {
+inline std::string_view guarantee_name(std::optional<Guarantee> claim) noexcept {
+  if (!claim) return "";
+  switch (*claim) {
     case Guarantee::exact:
       return "exact";
     case Guarantee::conservative:
@@ -120,5 +131,6 @@ inline std::string_view guarantee_name(const ResultRow& row) noexcept {
   }
   return "";
 }
+inline std::string_view guarantee_name(const ResultRow& row) noexcept { return guarantee_name(row.claim()); }
 
 }  // namespace touchmark::bench

@@ -168,6 +168,9 @@ constexpr std::array columns{
     Column{"disturbed_share", throughput_of<&ThroughputResult::disturbed_share>},
     Column{"decisions_checksum",
            [](Row row) { return row.decisions_checksum ? hex(*row.decisions_checksum) : ""; }},
+    Column{"judged", count_of<&Tally::judged>},
+    Column{"beyond_tolerance", count_of<&Tally::beyond_tolerance>},
+    Column{"rounding", count_of<&Tally::rounding>},
 };
 
 }  // namespace

@@ -1,7 +1,6 @@
 #include "bench/shared_memory.h"
 
 #include <cerrno>
-#include <cstring>
 #include <utility>
 
 #include <fcntl.h>
@@ -11,13 +10,14 @@
 #include <unistd.h>
 
 #include "bench/failures.h"
+#include "bench/system_limit.h"
 
 namespace touchmark::bench {
 namespace {
 
 ResourceError no_memory(std::size_t bytes, int error) {
-  return ResourceError(
-      fmt::format("cannot share {} MB with the workers: {}", (bytes >> 20U) + 1, std::strerror(error)));
+  return ResourceError(fmt::format("cannot share {} MB with the workers: {}", (bytes >> 20U) + 1,
+                                   described_with_limit(error)));
 }
 
 }  // namespace

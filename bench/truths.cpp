@@ -11,6 +11,7 @@ namespace {
 
 /// Often enough for Ctrl-C, seldom enough for threads to be worth starting.
 constexpr std::size_t solved_at_once = 2048;
+constexpr std::size_t wrong_answers_kept = 3;
 
 }  // namespace
 
@@ -60,33 +61,68 @@ std::vector<double> Truths::distances(const std::vector<std::size_t>& steps) {
 }
 
 Tally Truths::judge(Query query, const std::vector<Window>& windows, std::span<const Answer> answers,
-                    const Accuracy& accuracy, const Reported& reported) {
+                    const Accuracy& accuracy, const Reported& reported, std::vector<WrongAnswer>* wrong) {
   query == Query::sweep ? sweeps_.solve(oracle_, windows) : probes_.solve(oracle_, windows);
   Tally tally;
+  if (wrong != nullptr) wrong->clear();
   std::size_t done = 0;
   for (const Window& window : windows) {
     check_for_interrupt();
-    tally += judge(query, window, answers.subspan(done, window.size()), accuracy, reported);
+    Charges charges;
+    tally += judge(query, window, answers.subspan(done, window.size()), accuracy, reported, charges);
+    for (const Charge& one : charges.kept()) {
+      if (wrong == nullptr || wrong->size() == wrong_answers_kept) break;
+      wrong->push_back(wrong_answer(query, window.begin + one.step, answers[done + one.step], one.tally));
+    }
     done += window.size();
   }
   return tally;
 }
 
+WrongAnswer Truths::wrong_answer(Query query, std::size_t step, const Answer& got,
+                                 const Tally& charged) const {
+  WrongAnswer wrong;
+  wrong.step = step;
+  wrong.query = query;
+  wrong.asked = {probes_.questions[step], reaches_[step]};
+  wrong.got = got;
+  wrong.charged = charged;
+  if (query == Query::sweep) {
+    const Sweep& sweep = sweeps_.questions[step];
+    wrong.from = sweep.from;
+    wrong.found = sweeps_.truths[step].hit;
+    if (got.found != 0)
+      wrong.truth = oracle_.solve(Vec3(sweep.from + got.fraction * (sweep.to - sweep.from)));
+  } else {
+    wrong.truth = probes_.truths[step];
+    const Vec3& center = wrong.asked.probe.center;
+    wrong.found = oracle_.within(wrong.truth, center,
+                                 query == Query::touches ? wrong.asked.probe.radius : reaches_[step]);
+    if (charged.wrong_side > 0) wrong.side = oracle_.side(center);
+  }
+  const auto ids = oracle_.mesh().ids();
+  if (wrong.truth.defined) wrong.triangle = ids.empty() ? wrong.truth.triangle : ids[wrong.truth.triangle];
+  return wrong;
+}
+
 Tally Truths::judge(Query query, Window window, std::span<const Answer> answers, const Accuracy& accuracy,
-                    const Reported& reported) const {
+                    const Reported& reported, Charges& charges) const {
   if (query == Query::sweep) {
     return bench::judge(oracle_, std::span(sweeps_.truths).subspan(window.begin, window.size()),
                         std::span(sweeps_.questions).subspan(window.begin, window.size()), answers, accuracy,
-                        reported);
+                        reported, &charges);
   }
   // The judge takes one reach; recorded trajectories may change theirs from step to step.
   Tally tally;
   for (std::size_t begin = window.begin, end = begin; begin < window.end; begin = end) {
     while (end < window.end && reaches_[end] == reaches_[begin]) ++end;
     if (end == begin) ++end;  // a reach that is not a number equals nothing
-    tally += bench::judge(oracle_, std::span(probes_.truths).subspan(begin, end - begin), query,
-                          std::span(probes_.questions).subspan(begin, end - begin), reaches_[begin],
-                          answers.subspan(begin - window.begin, end - begin), accuracy, reported);
+    Charges of_this_reach;
+    tally +=
+        bench::judge(oracle_, std::span(probes_.truths).subspan(begin, end - begin), query,
+                     std::span(probes_.questions).subspan(begin, end - begin), reaches_[begin],
+                     answers.subspan(begin - window.begin, end - begin), accuracy, reported, &of_this_reach);
+    charges.merge(of_this_reach, begin - window.begin);
   }
   return tally;
 }

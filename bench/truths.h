@@ -10,6 +10,7 @@
 #include "bench/contestant.h"
 #include "bench/oracle/oracle.h"
 #include "bench/verify.h"
+#include "bench/wrong_answer.h"
 
 namespace touchmark::bench {
 
@@ -18,10 +19,11 @@ class Truths {
   /// The oracle must outlive it.
   Truths(const Oracle& oracle, std::span<const Step> steps);
 
-  /// `answers` to the query are those of the windows' steps, one after the other. Throws Interrupted on
-  /// Ctrl-C.
+  /// `answers` to the query are those of the windows' steps, one after the other. The first of them that are
+  /// charged become `wrong`, unless that is null. Throws Interrupted on Ctrl-C.
   Tally judge(Query query, const std::vector<Window>& windows, std::span<const Answer> answers,
-              const Accuracy& accuracy, const Reported& reported = {});
+              const Accuracy& accuracy, const Reported& reported = {},
+              std::vector<WrongAnswer>* wrong = nullptr);
 
   /// How far these steps, ascending, are from the surface; infinite where a coordinate is not finite.
   std::vector<double> distances(const std::vector<std::size_t>& steps);
@@ -36,8 +38,10 @@ class Truths {
 
     void solve(const Oracle& oracle, const std::vector<Window>& windows);
   };
+  /// The charges' steps are counted from the window's begin.
   Tally judge(Query query, Window window, std::span<const Answer> answers, const Accuracy& accuracy,
-              const Reported& reported) const;
+              const Reported& reported, Charges& charges) const;
+  WrongAnswer wrong_answer(Query query, std::size_t step, const Answer& got, const Tally& charged) const;
 
   const Oracle& oracle_;
   std::vector<double> reaches_;

@@ -52,6 +52,7 @@ class Judge {
       }
     }
     diagonal_ = (high_ - low_).norm();
+    tolerance_ = std::isfinite(diagonal_) ? physical_tolerance * diagonal_ : 0;
   }
 
   void position(const Truth& truth, Query query, const Probe& probe, double reach, const Answer& answer,
@@ -63,6 +64,10 @@ class Judge {
   double allowed(double largest_difference) const noexcept {
     return known_ ? accuracy_.relative * largest_difference + accuracy_.absolute
                   : kernel_relative_error * largest_difference;
+  }
+  /// The same for the fields of an answer. Whoever declares nothing is not held to what others declare.
+  double allowed_in_fields(double largest_difference) const noexcept {
+    return known_ ? allowed(largest_difference) : std::max(allowed(largest_difference), tolerance_);
   }
   /// Does the way touch the mesh beyond all excuse? A radius below the tolerance leaves no depth to tell by,
   /// only that the way goes through.
@@ -96,6 +101,7 @@ class Judge {
   bool known_;
   Vec3 low_, high_;
   double diagonal_ = 0;
+  double tolerance_ = 0;  ///< physical_tolerance in mesh units; 0 where the diagonal is beyond doubles
 };
 
 Verdict Judge::threshold(const Truth& truth, const Vec3& center, double limit, bool found) const {
@@ -131,7 +137,7 @@ std::vector<Truth> Judge::with_id(const Truth& truth, const Vec3& center, Triang
     double largest = truth.largest_difference;
     for (const Vec3& v : triangle_of(mesh, triangle))
       largest = std::max(largest, (v - center).cwiseAbs().maxCoeff());
-    if (oracle_.within(triangle, center, raised(truth.high + allowed(largest) + slack)))
+    if (oracle_.within(triangle, center, raised(truth.high + allowed_in_fields(largest) + slack)))
       found.push_back(oracle_.solve(center, triangle));
   }
   return found;
@@ -140,7 +146,7 @@ std::vector<Truth> Judge::with_id(const Truth& truth, const Vec3& center, Triang
 /// All triangles that are nearest within the accuracy.
 std::vector<Truth> Judge::tied(const Truth& truth, const Vec3& center, double slack) const {
   std::vector<Truth> found;
-  const double limit = raised(truth.high + allowed(truth.largest_difference) + slack);
+  const double limit = raised(truth.high + allowed_in_fields(truth.largest_difference) + slack);
   for (const std::uint32_t triangle : oracle_.all_within(center, limit))
     found.push_back(oracle_.solve(center, triangle));
   return found;
@@ -166,7 +172,8 @@ void Judge::contact(const Truth& truth, const Vec3& center, const Answer& answer
   if (nearest.empty()) nearest.push_back(truth);
   double largest = truth.largest_difference;
   for (const Truth& one : nearest) largest = std::max(largest, one.largest_difference);
-  const double bound = allowed(largest) + slack + ulp(truth.high);
+  const double bound = allowed_in_fields(largest) + slack + ulp(truth.high);
+  const double rounding_bound = kernel_relative_error * largest + slack + ulp(truth.high);
 
   if (reported_.distance) {
     const double error = std::abs((answer.distance - truth.high) - truth.low);
@@ -174,6 +181,7 @@ void Judge::contact(const Truth& truth, const Vec3& center, const Answer& answer
     if (truth.high > kernel_relative_error * largest + slack)
       tally.max_distance_error_ulp = std::max(tally.max_distance_error_ulp, error / ulp(truth.high));
     if (error > bound) ++tally.beyond_bound;
+    if (error > rounding_bound) ++(error > tolerance_ ? tally.beyond_tolerance : tally.rounding);
   }
   if (reported_.point) {
     const Vec3 point = vector(answer.point);
@@ -325,14 +333,21 @@ void Judge::exact_sweep(const SweepTruth& truth, const Sweep& sweep, const Answe
 
 /// Adds up judge_one(i, tally) for i < size.
 template <class JudgeOne>
-Tally total(std::size_t size, unsigned threads, const JudgeOne& judge_one) {
+Tally total(std::size_t size, unsigned threads, Charges* charges, const JudgeOne& judge_one) {
   Tally sum;
   std::mutex mutex;
   in_parallel(size, threads, [&](std::size_t begin, std::size_t end) {
     Tally piece;
-    for (std::size_t i = begin; i < end; ++i) judge_one(i, piece);
+    Charges of_piece;
+    for (std::size_t i = begin; i < end; ++i) {
+      Tally one;
+      judge_one(i, one);
+      if (one.charged()) of_piece.add(i, one);
+      piece += one;
+    }
     const std::lock_guard lock(mutex);
     sum += piece;
+    if (charges != nullptr) charges->merge(of_piece);
   });
   return sum;
 }
@@ -345,6 +360,8 @@ Tally& Tally::operator+=(const Tally& other) noexcept {
   false_contacts += other.false_contacts;
   wrong_triangle += other.wrong_triangle;
   beyond_bound += other.beyond_bound;
+  beyond_tolerance += other.beyond_tolerance;
+  rounding += other.rounding;
   wrong_point += other.wrong_point;
   wrong_normal += other.wrong_normal;
   malformed += other.malformed;
@@ -359,6 +376,12 @@ Tally& Tally::operator+=(const Tally& other) noexcept {
   return *this;
 }
 
+void Charges::merge(const Charges& others, std::size_t first_step) {
+  for (const Charge& one : others.kept_) kept_.push_back({first_step + one.step, one.tally});
+  std::sort(kept_.begin(), kept_.end(), [](const Charge& a, const Charge& b) { return a.step < b.step; });
+  if (kept_.size() > most_) kept_.resize(most_);
+}
+
 bool keeps_its_word(const Tally& tally, const Accuracy& accuracy) noexcept {
   if (tally.malformed + tally.wrong_side > 0) return false;
   if (accuracy.guarantee == Guarantee::approximate) return true;
@@ -370,23 +393,24 @@ bool keeps_its_word(const Tally& tally, const Accuracy& accuracy) noexcept {
 }
 
 Tally judge(const Oracle& oracle, std::span<const Truth> truths, Query query, std::span<const Probe> probes,
-            double reach, std::span<const Answer> answers, const Accuracy& accuracy,
-            const Reported& reported) {
+            double reach, std::span<const Answer> answers, const Accuracy& accuracy, const Reported& reported,
+            Charges* charges) {
   const Judge judge(oracle, accuracy, reported);
-  return total(std::min({truths.size(), probes.size(), answers.size()}), oracle.threads(),
+  return total(std::min({truths.size(), probes.size(), answers.size()}), oracle.threads(), charges,
                [&](std::size_t i, Tally& tally) {
                  judge.position(truths[i], query, probes[i], reach, answers[i], tally);
                });
 }
 
 Tally judge(const Oracle& oracle, std::span<const SweepTruth> truths, std::span<const Sweep> sweeps,
-            std::span<const Answer> answers, const Accuracy& accuracy, const Reported& reported) {
+            std::span<const Answer> answers, const Accuracy& accuracy, const Reported& reported,
+            Charges* charges) {
   Accuracy of_sweeps = accuracy;
   // most_early_gap, where the way's start is within M of the triangle and the way's coordinates within 2 M.
   const double least = accuracy.guarantee == Guarantee::exact ? most_early_gap(1, 2) : kernel_relative_error;
   of_sweeps.relative = std::max(accuracy.relative, least);
   const Judge judge(oracle, of_sweeps, reported);
-  return total(std::min({truths.size(), sweeps.size(), answers.size()}), oracle.threads(),
+  return total(std::min({truths.size(), sweeps.size(), answers.size()}), oracle.threads(), charges,
                [&](std::size_t i, Tally& tally) { judge.sweep(truths[i], sweeps[i], answers[i], tally); });
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "bench/answer.h"
 #include "bench/oracle/oracle.h"
@@ -14,6 +15,11 @@ namespace touchmark::bench {
 /// What a contestant that cannot tell the triangle reports; it is not charged for it. No mesh has this id
 /// unless its file gave it.
 inline constexpr TriangleId no_triangle = std::numeric_limits<TriangleId>::max();
+
+/// What nobody feels or measures, of the diagonal of the mesh's box: a distance that is off by more is wrong
+/// for any use, one that is off by less only rounded. On an object of 20 cm it is 0.2 micrometres, where
+/// haptic devices resolve 1 to 55 and fingertips feel ridges of about 1; at 1 N/mm it is 0.2 mN.
+inline constexpr double physical_tolerance = 1e-6;
 
 /// Which fields of an answer a contestant fills in. Those it does not are not judged.
 struct Reported {
@@ -32,6 +38,10 @@ struct Tally {
   std::uint64_t wrong_triangle = 0;  ///< not one of the nearest within the accuracy, no triangle of the mesh,
                                      ///< or not the very one that a contestant claims to name
   std::uint64_t beyond_bound = 0;    ///< distance off by more than the accuracy allows
+  /// The distance by itself, whatever is claimed, against what arithmetic in double must be off by: 48
+  /// roundings of the largest coordinate difference (kernel_relative_error), and one of the result.
+  std::uint64_t beyond_tolerance = 0;  ///< off by more than that and than physical_tolerance
+  std::uint64_t rounding = 0;          ///< off by more than that, within physical_tolerance
   std::uint64_t wrong_point = 0;   ///< point off its triangle, or not the one nearest to the centre, likewise
   std::uint64_t wrong_normal = 0;  ///< normal not unit, or turned by more than the accuracy can explain
   std::uint64_t malformed =
@@ -46,6 +56,13 @@ struct Tally {
   double max_normal_angle_deg = 0;    ///< where the distance is so large that the direction has a meaning
   double max_point_error = 0;  ///< mesh units, from the reported point to the triangle it should lie on
 
+  /// Is any answer charged with what breaks a claim of exactness?
+  bool charged() const noexcept {
+    return missed + false_contacts + wrong_triangle + beyond_bound + wrong_point + wrong_normal + malformed +
+               wrong_side >
+           0;
+  }
+
   Tally& operator+=(const Tally& other) noexcept;
   bool operator==(const Tally&) const = default;
 };
@@ -54,18 +71,41 @@ struct Tally {
 /// missed or malformed. approximate: nothing malformed. Whoever tells a side must tell the right one.
 bool keeps_its_word(const Tally& tally, const Accuracy& accuracy) noexcept;
 
+/// One answer that was charged.
+struct Charge {
+  std::size_t step = 0;  ///< its place in the lists
+  Tally tally;           ///< of this answer alone
+};
+
+/// The first ones of those that were charged, in the order of the steps.
+class Charges {
+ public:
+  explicit Charges(std::size_t most = 3) : most_(most) {}
+  /// In ascending order of the steps.
+  void add(std::size_t step, const Tally& tally) {
+    if (kept_.size() < most_) kept_.push_back({step, tally});
+  }
+  /// Those of another list of the same answers, whose steps are counted from `first_step`.
+  void merge(const Charges& others, std::size_t first_step = 0);
+  const std::vector<Charge>& kept() const noexcept { return kept_; }
+
+ private:
+  std::size_t most_;
+  std::vector<Charge> kept_;
+};
+
 /// Judges `touches` (against each probe's radius) or `nearest` (against `reach`; infinite is allowed). Step i
 /// of each list belongs together; the shorter of `probes` and `answers` decides how many are judged.
 ///
 /// The accuracy allowed at a step is relative * M + absolute, M the largest coordinate difference between the
 /// centre and the corners of the nearest (and of the reported, if tied) triangle, plus the rounding of the
-/// result itself. Where it is infinite or NaN nothing is excused: thresholds are judged exactly, and fields
-/// by `kernel_relative_error`. Where it decides exactly nothing is excused at a threshold either.
+/// result itself. Where it is infinite or NaN nothing is excused at a threshold, and fields are wrong beyond
+/// physical_tolerance. Where it decides exactly nothing is excused at a threshold either.
 ///
 /// An id stands for every triangle that carries it (a polygon's pieces).
 Tally judge(const Oracle& oracle, std::span<const Truth> truths, Query query, std::span<const Probe> probes,
             double reach, std::span<const Answer> answers, const Accuracy& accuracy,
-            const Reported& reported = {});
+            const Reported& reported = {}, Charges* charges = nullptr);
 
 /// Judges `sweep`. Of a contestant that decides exactly whether it hits is judged without tolerance: the way
 /// comes within the radius or it does not; at fraction 0 it has to touch at the start, at another one it may
@@ -79,6 +119,7 @@ Tally judge(const Oracle& oracle, std::span<const Truth> truths, Query query, st
 /// relative part is kernel_relative_error at least, and most_early_gap of those who claim exactness: no sweep
 /// claims better.
 Tally judge(const Oracle& oracle, std::span<const SweepTruth> truths, std::span<const Sweep> sweeps,
-            std::span<const Answer> answers, const Accuracy& accuracy, const Reported& reported = {});
+            std::span<const Answer> answers, const Accuracy& accuracy, const Reported& reported = {},
+            Charges* charges = nullptr);
 
 }  // namespace touchmark::bench

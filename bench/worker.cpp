@@ -8,6 +8,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -25,6 +26,7 @@
 #include "bench/remarks.h"
 #include "bench/shared_memory.h"
 #include "bench/shared_workload.h"
+#include "bench/system_limit.h"
 #include "bench/throughput.h"
 #include "bench/tick_clock.h"
 #include "bench/update/deformation.h"
@@ -74,6 +76,7 @@ class Worker {
     if (what == "first") return first(task);
     if (what == "calibrate") return calibrate(task, order.at("budget_ns"));
     if (what == "answer") return answer(task);
+    if (what == "answer_afresh") return answer_afresh(task, order.at("step"));
     if (what == "first_pass") return first_pass(task);
     if (what == "time") return time(task, order.at("passes"));
     if (what == "sample") return sample(task, order.at("passes"), order.at("together"));
@@ -90,6 +93,7 @@ class Worker {
   nlohmann::json first(const Task& task);
   nlohmann::json calibrate(const Task& task, double budget_ns);
   nlohmann::json answer(const Task& task);
+  nlohmann::json answer_afresh(const Task& task, std::size_t step);
   nlohmann::json first_pass(const Task& task);
   nlohmann::json time(const Task& task, std::int64_t passes);
   nlohmann::json sample(const Task& task, std::int64_t passes, std::int64_t together);
@@ -150,6 +154,9 @@ nlohmann::json Worker::build(const std::string& spec_text) {
     return refused(fmt::format("{}all of it is taken", no_memory));
   } catch (const ResourceError& error) {
     return refused(fmt::format("{}{}", no_memory, error.what()));
+  } catch (const std::system_error& error) {
+    if (limit_behind(error.code().value()).empty()) return refused(error.what());
+    throw;  // for want of threads or descriptors, which is no fault of the mesh
   } catch (const std::exception& error) {
     return refused(error.what());
   }
@@ -266,6 +273,14 @@ nlohmann::json Worker::answer(const Task& task) {
   return Answered{checksum.value(), contestant_->work()};
 }
 
+nlohmann::json Worker::answer_afresh(const Task& task, std::size_t step) {
+  contestant_->forget();
+  contestant_->answer(course_of(task), {step, step + 1}, room_->answers(1), room_->work(1));
+  Checksum checksum;
+  checksum.add(room_->answers(1).front());
+  return Answered{checksum.value(), contestant_->work()};
+}
+
 nlohmann::json Worker::first_pass(const Task& task) {
   contestant_->forget();
   Timed timed = timed_replay(course_of(task), windows_of(task));
@@ -306,21 +321,34 @@ nlohmann::json Worker::latency(const Task& task) {
   return Timed{ns_since(start) / static_cast<double>(done), 0, checksum.value(), true, {}};
 }
 
+void serve(Worker worker, LineChannel channel) {
+  std::string line;
+  while (channel.receive(line, std::nullopt, [] {}) == LineChannel::Outcome::line) {
+    if (!channel.send(dumped(worker.obey(nlohmann::json::parse(line))))) return;
+  }
+}
+
 }  // namespace
 
 int run_worker(int argc, char** argv, const Roster& roster) {
+  const LineChannel channel(worker_control);
+  const auto give_up = [&](const std::string& what) {
+    channel.send(dumped({{out_of_resources, what}}));
+    return exit_resources;
+  };
   try {
     initialize_throughput({argv + 1, argv + argc});
-    Worker worker(roster);
-    LineChannel channel(worker_control);
-    std::string line;
-    while (channel.receive(line, std::nullopt, [] {}) == LineChannel::Outcome::line) {
-      if (!channel.send(dumped(worker.obey(nlohmann::json::parse(line))))) break;
-    }
-    return 0;
+    serve(Worker(roster), LineChannel(worker_control));
+    return exit_done;
+  } catch (const std::bad_alloc&) {
+    return give_up("out of memory" + memory_limit());
+  } catch (const ResourceError& error) {
+    return give_up(error.what());
+  } catch (const std::system_error& error) {
+    return give_up(error.what() + limit_behind(error.code().value()));
   } catch (const std::exception& error) {
     fmt::print(stderr, "worker: {}\n", error.what());
-    return 3;
+    return exit_resources;
   }
 }
 

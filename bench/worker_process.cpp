@@ -1,10 +1,11 @@
 #include "bench/worker_process.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
-#include <cstring>
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 #include <thread>
 
@@ -13,16 +14,23 @@
 #include <nlohmann/json.hpp>
 #include <sched.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "bench/failures.h"
 #include "bench/interrupt.h"
+#include "bench/system_limit.h"
 #include "bench/worker_protocol.h"
 
 namespace touchmark::bench {
 namespace {
+
+/// The exit status of a program that could not be loaded, as the dynamic loader and shells have it.
+constexpr int not_loaded = 127;
+constexpr std::string_view start_error_key = "start_error";
+constexpr std::string_view start_error_begin = "{\"start_error\":";
 
 std::filesystem::path beside_this_program(const std::string& program) {
   std::error_code ignored;
@@ -45,7 +53,7 @@ struct Exec {
 
 /// The three descriptors at their agreed numbers. Moved up first, so that none is overwritten by another.
 bool place_descriptors(int control, int input, int output) {
-  constexpr int above = 16;
+  constexpr int above = std::max({worker_control, worker_input, worker_output}) + 1;
   const std::array<int, 3> from{fcntl(control, F_DUPFD_CLOEXEC, above), fcntl(input, F_DUPFD_CLOEXEC, above),
                                 fcntl(output, F_DUPFD_CLOEXEC, above)};
   constexpr std::array<int, 3> to{worker_control, worker_input, worker_output};
@@ -53,6 +61,21 @@ bool place_descriptors(int control, int input, int output) {
     if (from[i] < 0 || dup2(from[i], to[i]) < 0) return false;
   }
   return true;
+}
+
+/// In place of the worker that could not be started, its first reply. Only what a child may do before exec.
+void tell_start_error(int control, int error) {
+  std::array<char, 32> line{};
+  std::size_t begin = line.size();
+  line[--begin] = '\n';
+  line[--begin] = '}';
+  do {
+    line[--begin] = static_cast<char>('0' + error % 10);
+    error /= 10;
+  } while (error > 0);
+  for (std::size_t i = start_error_begin.size(); i > 0; --i) line[--begin] = start_error_begin[i - 1];
+  const ssize_t ignored = send(control, line.data() + begin, line.size() - begin, MSG_NOSIGNAL);
+  static_cast<void>(ignored);
 }
 
 void silence_output() {
@@ -75,8 +98,11 @@ void restrict_to_core(int core) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_IGN);
   if (!launch.show_output) silence_output();
   if (launch.core) restrict_to_core(*launch.core);
+  // The control is moved first, so that it is there to tell by whatever fails after it.
   if (place_descriptors(control, launch.input, launch.output)) execv(exec.path.c_str(), exec.argv.data());
-  _exit(127);
+  // F_DUPFD says EINVAL where the limit on descriptors does not admit the number.
+  tell_start_error(control, errno == EINVAL ? EMFILE : errno);
+  _exit(not_loaded);
 }
 
 std::string how_it_ended(int status) {
@@ -93,13 +119,13 @@ bool worker_program_exists(const std::string& program) {
   return access(beside_this_program(program).c_str(), X_OK) == 0;
 }
 
-WorkerProcess::WorkerProcess(const WorkerLaunch& launch) {
+WorkerProcess::WorkerProcess(const WorkerLaunch& launch) : program_(launch.program) {
   if (!worker_program_exists(launch.program)) {
     throw ResourceError(fmt::format("the program {} is not beside this one", launch.program));
   }
   std::array<int, 2> sockets{};
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets.data()) != 0) {
-    throw ResourceError(fmt::format("cannot talk to a worker: {}", std::strerror(errno)));
+    throw ResourceError(fmt::format("cannot talk to a worker: {}", described_with_limit(errno)));
   }
   const Exec exec(launch);
   const pid_t parent = getpid();
@@ -109,7 +135,7 @@ WorkerProcess::WorkerProcess(const WorkerLaunch& launch) {
   close(sockets[1]);
   if (process_ < 0) {
     close(sockets[0]);
-    throw ResourceError(fmt::format("cannot start a worker: {}", std::strerror(error)));
+    throw ResourceError(fmt::format("cannot start a worker: {}", described_with_limit(error)));
   }
   control_ = sockets[0];
   channel_ = LineChannel(control_);
@@ -120,34 +146,61 @@ WorkerProcess::~WorkerProcess() {
   end();
 }
 
-std::string WorkerProcess::end() {
+WorkerProcess::Ending WorkerProcess::end() {
   if (control_ >= 0) close(std::exchange(control_, -1));
-  if (process_ <= 0) return "ended";
-  int status = 0;
+  if (process_ <= 0) return {};
+  Ending ending;
+  rusage used{};
   // Closing the socket ends an orderly worker; one that lingers is killed.
-  for (int waited_ms = 0; waitpid(process_, &status, WNOHANG) == 0; ++waited_ms) {
+  for (int waited_ms = 0; wait4(process_, &ending.status, WNOHANG, &used) == 0; ++waited_ms) {
     if (waited_ms == 2000) kill(process_, SIGKILL);
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   process_ = -1;
-  return how_it_ended(status);
+  ending.out_of_time = WIFSIGNALED(ending.status) && used_up_its_time(used);
+  return ending;
+}
+
+void WorkerProcess::explain(const Ending& ending) const {
+  if (ending.out_of_time) throw ResourceError(fmt::format("{}: {}", program_, time_limit()));
+  const std::string how = how_it_ended(ending.status);
+  if (replied_) throw WorkerFailure(how);
+  if (WIFEXITED(ending.status) && WEXITSTATUS(ending.status) == not_loaded) {
+    throw ResourceError(
+        fmt::format("{} cannot be loaded: a library is missing, or there is too little memory{}", program_,
+                    memory_limit()));
+  }
+  throw ResourceError(
+      fmt::format("{} ended before it knew whom to run: {}{}", program_, how, memory_limit()));
 }
 
 nlohmann::json WorkerProcess::ask(const nlohmann::json& order, std::chrono::milliseconds patience) {
-  if (process_ <= 0 || !channel_.send(order.dump())) throw WorkerFailure(end());
+  if (process_ <= 0) throw WorkerFailure("ended");
+  channel_.send(order.dump());  // one that is gone may have left a reply that says why
   std::string line;
   const auto deadline = std::chrono::steady_clock::now() + patience;
   switch (channel_.receive(line, deadline, check_for_interrupt)) {
     case LineChannel::Outcome::line:
-      return nlohmann::json::parse(line);
-    case LineChannel::Outcome::closed:
-      throw WorkerFailure(end());
-    case LineChannel::Outcome::late:
       break;
+    case LineChannel::Outcome::closed:
+      explain(end());
+    case LineChannel::Outcome::late:
+      kill(process_, SIGKILL);
+      end();
+      throw WorkerFailure("timeout");
   }
-  kill(process_, SIGKILL);
-  end();
-  throw WorkerFailure("timeout");
+  nlohmann::json reply = nlohmann::json::parse(line);
+  if (const auto error = reply.find(start_error_key); error != reply.end()) {
+    end();
+    throw ResourceError(
+        fmt::format("cannot start {}: {}", program_, described_with_limit(error->get<int>())));
+  }
+  if (const auto what = reply.find(out_of_resources); what != reply.end()) {
+    end();
+    throw ResourceError(fmt::format("{}: {}", program_, what->get<std::string>()));
+  }
+  replied_ = true;
+  return reply;
 }
 
 }  // namespace touchmark::bench

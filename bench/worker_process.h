@@ -39,12 +39,21 @@ class WorkerProcess {
   WorkerProcess& operator=(const WorkerProcess&) = delete;
   ~WorkerProcess();
 
-  /// Throws WorkerFailure (the process is gone then), or Interrupted.
+  /// Throws WorkerFailure (the process is gone then), Interrupted, or ResourceError where the machine, not
+  /// the contestant, kept the worker from answering: no descriptor, memory or processor time was left for it,
+  /// or it ended before it knew whom to run.
   nlohmann::json ask(const nlohmann::json& order, std::chrono::milliseconds patience);
 
  private:
-  std::string end();  // makes sure it is gone and says how it went
+  struct Ending {
+    int status = 0;  ///< of waitpid
+    bool out_of_time = false;
+  };
+  Ending end();  // makes sure it is gone and says how it went
+  [[noreturn]] void explain(const Ending& ending) const;
 
+  std::string program_;
+  bool replied_ = false;
   pid_t process_ = -1;
   int control_ = -1;
   LineChannel channel_{-1};

@@ -20,6 +20,9 @@ inline constexpr int worker_control = 3;
 inline constexpr int worker_input = 4;
 inline constexpr int worker_output = 5;
 
+/// The key of a reply that says what the worker itself, not its contestant, was short of.
+inline constexpr const char* out_of_resources = "out_of_resources";
+
 /// Which steps of which course are meant: those of `windows`, or, where there are none, of
 /// plan_windows(steps of the course, `steps`).
 struct Task {

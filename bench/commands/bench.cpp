@@ -17,6 +17,7 @@
 #include "bench/program.h"
 #include "bench/progress.h"
 #include "bench/query_name.h"
+#include "bench/repeat_command.h"
 #include "bench/report_table.h"
 #include "bench/results_csv.h"
 #include "bench/results_folder.h"
@@ -24,11 +25,13 @@
 #include "bench/scenes.h"
 #include "bench/selectors.h"
 #include "bench/standard_output.h"
+#include "bench/verification_report.h"
 #include "bench/worker_options.h"
 
 namespace touchmark::bench {
 namespace {
 
+constexpr std::size_t faulty_rows_shown = 20;
 const std::vector<std::string> default_trajectories{"slide", "approach", "hover", "jump"};
 
 struct BenchOptions {
@@ -48,6 +51,10 @@ Effort effort_for(const BenchOptions& options, const BenchmarkFlags& flags) {
   return effort;
 }
 
+std::string mesh_of(const Selectors& selectors) {
+  return selectors.meshes.empty() ? default_scene() : selectors.meshes.front();
+}
+
 /// The whole run, from the checked command line to the last row.
 class BenchRun {
  public:
@@ -64,7 +71,12 @@ class BenchRun {
     return flags_.wanted(contestant + "/" + trajectory);
   }
 
+  const std::vector<std::string>& named() const {
+    return selectors_.trajectories.empty() ? default_trajectories : selectors_.trajectories;
+  }
+
   BenchmarkFlags flags_;
+  Selectors selectors_;
   Selection selection_;
   std::optional<ResultsFolder> folder_;
   RunDescription description_;
@@ -78,7 +90,7 @@ class BenchRun {
 
 Workload workload_for(const BenchOptions& options, const Selection& selection) {
   const Selectors& selectors = options.selectors;
-  const std::string mesh = selectors.meshes.empty() ? default_scene() : selectors.meshes.front();
+  const std::string mesh = mesh_of(selectors);
   return make_workload(without_directories(mesh), load_mesh(mesh, selectors.normalize), selection,
                        selectors.trajectories.empty() ? default_trajectories : selectors.trajectories,
                        options.quick ? 5000 : 20000);
@@ -86,6 +98,7 @@ Workload workload_for(const BenchOptions& options, const Selection& selection) {
 
 BenchRun::BenchRun(const ProgramContext& context, const BenchOptions& options, const BenchmarkFlags& flags)
     : flags_(flags),
+      selectors_(options.selectors),
       selection_(check(options.selectors, context.roster)),
       description_(begun_run(context.argc, context.argv)),
       workload_(workload_for(options, selection_)),
@@ -128,8 +141,10 @@ void BenchRun::save(bool finished) const {
 }
 
 void BenchRun::run_trajectory(std::size_t course) {
-  const std::vector<ResultRow> rows = comparison_->run(course, description_.query);
+  std::vector<ResultRow> rows = comparison_->run(course, description_.query);
   if (rows.empty()) return;
+  for (ResultRow& row : rows)
+    row.repeat = repeat_command(selectors_, mesh_of(selectors_), named(), workload_, row);
   rows_.insert(rows_.end(), rows.begin(), rows.end());
   save(false);
   progress_.clear();
@@ -154,8 +169,11 @@ int BenchRun::run() {
     return exit_interrupted;
   }
   save(true);
-  return tell_faults(rows_, [](const ResultRow& row) { return row.trajectory; }) ? exit_check_failed
-                                                                                 : exit_done;
+  const std::string failures = list_of_failures(rows_, faulty_rows_shown);
+  out_.write(fmt::format("\n{}{}", judged_answers(rows_), failures.empty() ? "" : "\n" + failures));
+  out_.finish();
+  const bool faulty = tell_faults(rows_, [](const ResultRow& row) { return row.trajectory; });
+  return rows_.empty() ? exit_done : status_of(rows_, faulty);
 }
 
 }  // namespace

@@ -76,6 +76,7 @@ class Gate {
   Baseline baseline_;
   ProgressLine progress_;
   std::vector<GateLine> lines_;
+  std::uint64_t judged_ = 0;
   int status_ = exit_done;
 };
 
@@ -193,6 +194,7 @@ void Gate::check_pair(const GatePair& pair, const BaselineRow& row) {
     fmt::print(stderr, "touchmark: {}\n", failure.what());
     line.verdict = "FAILED";
   }
+  judged_ += batches.judged();
   const bool failed =
       line.verdict == "FAILED" || line.verdict == "CHANGED" || line.judgement.verdict == Verdict::slower;
   if (failed) {
@@ -217,6 +219,7 @@ void Gate::write_pair(const GatePair& pair) {
     ++held;
     log_ratios.insert(log_ratios.end(), batches.log_ratios().begin(), batches.log_ratios().end());
   }
+  judged_ += batches.judged();
   if (held == 2) {
     line.verdict = "written";
     line.judgement.batch.ratio = median_ratio(log_ratios, selection_.seed);
@@ -231,8 +234,9 @@ void Gate::write_pair(const GatePair& pair) {
 
 void Gate::report() const {
   StandardOutput out;
-  out.write(fmt::format("times over those of {} in the same rounds, on {}; tolerance {:.3g} %\n{}",
-                        reference_.text(), workload_.mesh_name, 100 * tolerance_, gate_table(lines_)));
+  out.write(fmt::format(
+      "times over those of {} in the same rounds, on {}; tolerance {:.3g} %\n{}{} answers judged exactly\n",
+      reference_.text(), workload_.mesh_name, 100 * tolerance_, gate_table(lines_), judged_));
   out.finish();
   if (options_.report.empty()) return;
   AtomicFile file(options_.report);

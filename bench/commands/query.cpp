@@ -12,15 +12,16 @@
 
 #include "bench/answer_rows.h"
 #include "bench/atomic_file.h"
-#include "bench/available_memory.h"
 #include "bench/contestant_process.h"
 #include "bench/failures.h"
 #include "bench/interrupt.h"
+#include "bench/numbers.h"
 #include "bench/program.h"
 #include "bench/query_name.h"
 #include "bench/roster_options.h"
 #include "bench/scenes.h"
 #include "bench/selectors.h"
+#include "bench/single_step.h"
 #include "bench/standard_output.h"
 #include "bench/worker_options.h"
 #include "bench/workload.h"
@@ -29,11 +30,10 @@ namespace touchmark::bench {
 namespace {
 
 constexpr std::size_t block_size = 1 << 16;  // bytes of rows written at once
-constexpr std::string_view refusal_mark = "refused: ";
 
 struct QueryOptions {
   Selectors selectors;
-  std::string csv;
+  std::string csv, step, session = "replayed";
   WorkerSelectors workers;
 };
 
@@ -88,24 +88,6 @@ WorkerOptions patient(const WorkerSelectors& selectors) {
   return options;
 }
 
-/// The worker's end as the user caused it, or as the contestant's failure.
-[[noreturn]] void explain(const WorkerFailure& failure, const std::string& contestant) {
-  const std::string_view what = failure.what();
-  if (what.starts_with(refusal_mark)) {
-    const std::string_view why = what.substr(refusal_mark.size());
-    if (why.starts_with(no_memory)) throw ResourceError(fmt::format("{}: {}", contestant, why));
-    throw std::invalid_argument(fmt::format("{}: {}", contestant, why));
-  }
-  throw ResourceError(fmt::format("{} did not answer: {}", contestant, what));
-}
-
-void check_it_answers(const Built& built, Query query, const std::string& contestant) {
-  for (const Query known : built.queries) {
-    if (known == query) return;
-  }
-  throw std::invalid_argument(fmt::format("{} does not answer --query {}", contestant, name_of(query)));
-}
-
 void write_rows(RowSink& sink, Query query, std::span<const Step> course, std::span<const Answer> answers,
                 bool with_side) {
   std::string rows = answer_header(query, with_side);
@@ -119,6 +101,13 @@ void write_rows(RowSink& sink, Query query, std::span<const Step> course, std::s
   if (sink.write(rows)) sink.finish();
 }
 
+std::size_t checked_step(const std::string& text) {
+  const std::optional<std::uint64_t> step = parse_count(text);
+  if (!step)
+    throw std::invalid_argument(fmt::format("--step \"{}\" is not a whole number of 0 or more", text));
+  return *step;
+}
+
 void run_query(const QueryOptions& options, const Roster& roster) {
   check_there_is_one(options.selectors);
   const Selection selection = check(options.selectors, roster);
@@ -129,6 +118,13 @@ void run_query(const QueryOptions& options, const Roster& roster) {
   const std::vector<Step>& course = workload.courses.front();
   RowSink sink(options.csv);  // before the work: a name that cannot be written is known at once
 
+  if (!options.step.empty()) {
+    const SessionBefore session = options.session == "fresh" ? SessionBefore::fresh : SessionBefore::replayed;
+    const std::size_t step = checked_step(options.step);
+    if (sink.write(rows_of_step(roster, workload, workers, spec, {0, query, course.size()}, step, session)))
+      sink.finish();
+    return;
+  }
   const WorkerStage stage(workload, workers);
   ContestantProcess process(stage, spec, roster.find(spec.name).worker_program(spec.values));
   try {
@@ -149,6 +145,17 @@ void add_query(CLI::App& program, ProgramContext& context) {
   add_selectors(*command, options->selectors);
   command->add_option("--csv", options->csv, "where the rows go instead of standard output")
       ->type_name("FILE");
+  CLI::Option* step = command->add_option(
+      "--step", options->step, "only this step's row, as verify, stress and bench name it; from 0");
+  step->type_name("N");
+  command
+      ->add_option("--session", options->session,
+                   "of --step: replayed answers all steps before it first, fresh none; where the other one "
+                   "has another "
+                   "answer, that is said")
+      ->check(CLI::IsMember({"replayed", "fresh"}))
+      ->needs(step)
+      ->capture_default_str();
   add_worker_selectors(*command, options->workers);
   command->footer(
       "Example: touchmark query --mesh bunny --trajectory approach --detector grid-group --reach inf "

@@ -1,6 +1,9 @@
 /// `touchmark stress`: families of hard questions to every contestant, each answer against the exact oracle.
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -13,8 +16,10 @@
 #include "bench/numbers.h"
 #include "bench/program.h"
 #include "bench/progress.h"
+#include "bench/query_name.h"
 #include "bench/results_folder.h"
 #include "bench/selectors.h"
+#include "bench/single_step.h"
 #include "bench/standard_output.h"
 #include "bench/stress/stress_csv.h"
 #include "bench/stress/stress_report.h"
@@ -35,7 +40,7 @@ struct StressOptions {
   bool sweep_too = false;
   std::vector<std::string> families;
   std::string probes = "1000";
-  std::string out;
+  std::string out, repeat;
   WorkerSelectors workers;
 };
 
@@ -71,6 +76,28 @@ StressRequest request_of(const StressOptions& options, const Roster& roster) {
   if (options.workers.timeout.empty())
     request.workers.build_patience = request.workers.order_patience = stress_patience;
   return request;
+}
+
+/// As that of rows, see verification_report.h.
+int status_of(const std::vector<Score>& scores) {
+  std::map<std::string, std::uint64_t> judged;
+  std::map<std::string, std::string> short_of_memory;
+  std::uint64_t all_judged = 0;
+  for (const Score& score : scores) {
+    if (score.broken) return exit_check_failed;
+    all_judged += score.tally.judged;
+    judged[score.contestant()] += score.tally.judged;
+    if (!score.short_of_memory.empty()) short_of_memory.emplace(score.contestant(), score.short_of_memory);
+  }
+  int status = exit_done;
+  for (const auto& [contestant, why] : short_of_memory) {
+    if (judged[contestant] > 0) continue;
+    fmt::print(stderr, "touchmark: {}: nothing judged: {}\n", contestant, why);
+    status = exit_resources;
+  }
+  if (status != exit_done || all_judged > 0) return status;
+  fmt::print(stderr, "touchmark: inconclusive: 0 answers were judged\n");
+  return exit_inconclusive;
 }
 
 class StressCommand {
@@ -114,10 +141,35 @@ int StressCommand::run() {
     return exit_interrupted;
   }
   report(true);
-  for (const Score& score : run_.scores()) {
-    if (score.broken) return exit_check_failed;
+  return status_of(run_.scores());
+}
+
+/// "QUERY/MESH/COURSE/STEP": one answer of the only family, by the only contestant.
+void repeat_one(const StressOptions& options, const Roster& roster) {
+  const StressRequest request = request_of(options, roster);
+  if (options.families.size() != 1 || options.selectors.detectors.size() != 1) {
+    throw std::invalid_argument("--repeat needs exactly one --family and one --detector");
   }
-  return exit_done;
+  std::istringstream text(options.repeat);
+  std::vector<std::string> parts;
+  for (std::string part; std::getline(text, part, '/');) parts.push_back(part);
+  const std::optional<Query> query = parts.size() == 4 ? query_named(parts[0]) : std::nullopt;
+  std::vector<std::uint64_t> places;
+  for (std::size_t i = 1; query && i < parts.size(); ++i) {
+    if (const auto place = parse_count(parts[i])) places.push_back(*place);
+  }
+  if (places.size() != 3) {
+    throw std::invalid_argument(
+        fmt::format("--repeat \"{}\" is not QUERY/MESH/COURSE/STEP, as nearest/0/0/17", options.repeat));
+  }
+  const std::vector<Workload> workloads = request.families.front()->make(request.seed, request.probes);
+  if (places[0] >= workloads.size() || places[1] >= workloads[places[0]].courses.size()) {
+    throw std::invalid_argument(
+        fmt::format("--repeat \"{}\" names a mesh or course that is not", options.repeat));
+  }
+  const Task task{places[1], *query, workloads[places[0]].courses[places[1]].size()};
+  StandardOutput().write(rows_of_step(roster, workloads[places[0]], request.workers,
+                                      request.contestants.front(), task, places[2], SessionBefore::replayed));
 }
 
 std::string list_of_families() {
@@ -152,13 +204,22 @@ void add_stress(CLI::App& program, ProgramContext& context) {
       ->capture_default_str();
   command->add_option("--out", options->out, "folder for stress.csv and run.json; scripts/plot draws them")
       ->type_name("DIR");
+  command
+      ->add_option("--repeat", options->repeat,
+                   "instead: the one answer that was told as wrong, as a row of touchmark query")
+      ->type_name("QUERY/MESH/COURSE/STEP");
   add_worker_selectors(*command, options->workers);
-  command->footer(
-      list_of_families() +
-      "Exit status 1 if a contestant that claims exactness is wrong, crashes or does not come back.\n"
-      "Example: touchmark stress --detector grid-group --detector bullet --family needles --out "
-      "results/today\n");
-  command->final_callback([options, &context] { context.status = StressCommand(context, *options).run(); });
+  command->footer(list_of_families() +
+                  "Exit status 1 if a contestant that claims exactness is wrong, crashes or does not come "
+                  "back; 3 if memory or\n"
+                  "another limit of the machine kept one from being judged; 4 if nothing was judged.\n"
+                  "Example: touchmark stress --detector grid-group --detector bullet --family needles --out "
+                  "results/today\n");
+  command->final_callback([options, &context] {
+    restore_denormals();
+    if (!options->repeat.empty()) return repeat_one(*options, context.roster);
+    context.status = StressCommand(context, *options).run();
+  });
 }
 
 }  // namespace touchmark::bench

@@ -1,5 +1,6 @@
 /// `touchmark verify`: every contestant's answers against the oracle; without --mesh on every scene, also far
 /// from the origin, tiny and huge.
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +15,7 @@
 #include "bench/program.h"
 #include "bench/progress.h"
 #include "bench/query_name.h"
+#include "bench/repeat_command.h"
 #include "bench/results_csv.h"
 #include "bench/results_folder.h"
 #include "bench/run_json.h"
@@ -92,7 +94,19 @@ void VerifyRun::verify_mesh(const std::string& mesh) {
   comparison.set_progress([&](const std::string& trajectory, const std::string& contestant) {
     progress_.show(fmt::format("{}, {}: {}", workload.mesh_name, trajectory, contestant));
   });
-  comparison.run_all(selection_.queries, rows_);
+  const std::size_t before = rows_.size();
+  const auto say_how_to_repeat = [&] {
+    for (std::size_t i = before; i < rows_.size(); ++i)
+      rows_[i].repeat =
+          repeat_command(options_.selectors, mesh, trajectories_for(options_), workload, rows_[i]);
+  };
+  try {
+    comparison.run_all(selection_.queries, rows_);
+  } catch (const Interrupted&) {
+    say_how_to_repeat();
+    throw;
+  }
+  say_how_to_repeat();
 }
 
 int VerifyRun::report(bool finished) {
@@ -104,10 +118,7 @@ int VerifyRun::report(bool finished) {
     fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", rows_.size());
     return exit_interrupted;
   }
-  for (const ResultRow& row : rows_) {
-    if (claim_is_broken(row)) return exit_check_failed;
-  }
-  return exit_done;
+  return status_of(rows_, std::any_of(rows_.begin(), rows_.end(), claim_is_broken));
 }
 
 int VerifyRun::run() {
@@ -132,7 +143,9 @@ void add_verify(CLI::App& program, ProgramContext& context) {
   add_worker_selectors(*command, options->workers);
   command->footer(
       "Without --mesh: every scene that needs no file, also at an offset of 1e6 and scaled by 1e-6 and 1e6.\n"
-      "Exit status 1 if a contestant that claims exactness is wrong.\n"
+      "Exit status 1 if a contestant that claims exactness is wrong, crashes or does not come back; 3 if "
+      "memory or\n"
+      "another limit of the machine kept one from being judged; 4 if nothing was judged.\n"
       "Example: touchmark verify --mesh bunny --trajectory slide --detector grid-group --radius 0.5%\n");
   command->final_callback(
       [options, &context] { context.status = VerifyRun(context.roster, *options).run(); });

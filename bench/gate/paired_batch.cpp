@@ -58,7 +58,9 @@ class PairedBatches::Contender {
     const OutputRoom& room = batches_.stage_.room();
     const std::size_t count = steps_in(windows);
     checksum_ = answered.checksum;
-    if (!keeps_its_word(truths.judge(task_.query, windows, room.answers(count), accuracy_), accuracy_)) {
+    const Tally tally = truths.judge(task_.query, windows, room.answers(count), accuracy_);
+    judged_ += tally.judged;
+    if (!keeps_its_word(tally, accuracy_)) {
       fail("gives wrong answers (touchmark verify says which)");
     }
     return {checksum_, summarize_work(room.work(count), answered.work)};
@@ -72,6 +74,7 @@ class PairedBatches::Contender {
 
   void turn() { log_ns_.push_back(std::log(std::max(timed(passes_), 1e-3))); }
   const std::vector<double>& log_ns() const noexcept { return log_ns_; }
+  std::uint64_t judged() const noexcept { return judged_; }
 
  private:
   double timed(std::int64_t passes) {
@@ -85,6 +88,7 @@ class PairedBatches::Contender {
   Task task_;
   Accuracy accuracy_;
   std::uint64_t checksum_ = 0;
+  std::uint64_t judged_ = 0;
   std::int64_t passes_ = 1;
   std::vector<double> log_ns_;
 };
@@ -129,6 +133,7 @@ Batch PairedBatches::measure() {
   answers_ = detector.answer(steps_, truths);
   reference.answer(steps_, truths);
   control.answer(steps_, truths);
+  for (const Contender& contender : contenders) judged_ += contender.judged();
   for (Contender& contender : contenders) contender.warm_up(effort_.turn_ns);
 
   Random random(seed_++);

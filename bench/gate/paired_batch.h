@@ -56,6 +56,8 @@ class PairedBatches {
   std::size_t steps() const noexcept { return steps_; }
   /// The detector's, after the first batch.
   const GateAnswers& answers() const noexcept { return *answers_; }
+  /// Answers judged in all batches, of the detector, the reference and its control.
+  std::uint64_t judged() const noexcept { return judged_; }
   /// Of the last batch, one a round: detector over reference.
   const std::vector<double>& log_ratios() const noexcept { return log_ratios_; }
 
@@ -73,6 +75,7 @@ class PairedBatches {
   std::uint64_t seed_;
   std::optional<GateAnswers> answers_;
   std::vector<double> log_ratios_;  // of the last batch
+  std::uint64_t judged_ = 0;
 };
 
 }  // namespace touchmark::bench

@@ -1,12 +1,14 @@
 #include "bench/stress/score.h"
 
+#include "bench/verification_report.h"
+
 namespace touchmark::bench {
 namespace {
 
 /// What exactness is about: contact, the triangle and the distance. A normal or point that is off is told,
 /// and is no broken claim: where squares of lengths leave the range of doubles no direction is promised.
 bool breaks_the_claim(const ResultRow& row) {
-  if (!row.accuracy || row.accuracy->guarantee != Guarantee::exact) return false;
+  if (!row.claims_exactness()) return false;
   const bool declined = row.status == "unsupported" || row.status.starts_with("refused");
   if (!row.tally) return !declined;
   const Tally& tally = *row.tally;
@@ -46,7 +48,7 @@ bool Score::is_of(const ResultRow& row, const Family& of) const {
 
 void Score::add(const ResultRow& row, bool of_another_mesh) {
   meshes += of_another_mesh ? 1 : 0;
-  if (row.accuracy) guarantee = guarantee_name(row);
+  if (row.claim()) guarantee = guarantee_name(row);
   if (row.tally) tally += *row.tally;
   if (row.tally && row.throughput) {
     ns_ += row.throughput->ns_per_query * static_cast<double>(row.tally->judged);
@@ -57,6 +59,7 @@ void Score::add(const ResultRow& row, bool of_another_mesh) {
   unsupported += row.status == "unsupported" ? 1 : 0;
   // A checksum mismatch is a worker whose memory cannot be trusted.
   crashes += row.status.starts_with("crashed") || row.status == "checksum mismatch" ? 1 : 0;
+  if (is_short_of_memory(row) && short_of_memory.empty()) short_of_memory = row.status;
   broken = broken || breaks_the_claim(row);
 }
 

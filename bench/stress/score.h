@@ -46,6 +46,7 @@ class Score {
   std::uint64_t timeouts = 0;
   std::uint64_t refusals = 0;
   std::uint64_t unsupported = 0;
+  std::string short_of_memory;  ///< the first status that says so
   bool broken =
       false;  ///< claims exactness, and contact, triangle or distance was wrong, or it did not survive
 

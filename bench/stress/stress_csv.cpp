@@ -59,6 +59,10 @@ constexpr std::array columns{
              const std::optional<double> ns = score.ns_per_query();
              return ns ? fmt::format("{:.6g}", *ns) : std::string();
            }},
+    // Appended to schema 1.
+    Column{"beyond_tolerance", counted<&Tally::beyond_tolerance>},
+    Column{"rounding", counted<&Tally::rounding>},
+    Column{"wrong_side", counted<&Tally::wrong_side>},
 };
 
 }  // namespace

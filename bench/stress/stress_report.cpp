@@ -9,6 +9,7 @@
 #include "bench/query_name.h"
 #include "bench/run_circumstances.h"
 #include "bench/text_table.h"
+#include "bench/verification_report.h"
 
 namespace touchmark::bench {
 namespace {
@@ -71,10 +72,12 @@ std::string stress_table(const std::vector<Score>& scores) {
   std::vector<const Family*> shown;
   std::map<std::pair<std::size_t, std::size_t>, Cell> cells;
   std::map<std::size_t, bool> broken;
+  std::map<std::size_t, std::uint64_t> judged;
   for (const Score& score : scores) {
     const std::size_t row = place_in(contestants, score.contestant());
     cells[{row, place_in(shown, score.family)}].add(score);
     broken[row] = broken[row] || score.broken;
+    judged[row] += score.tally.judged;
   }
   std::vector<std::string> header{"contestant"};
   for (std::size_t column = 0; column < shown.size(); ++column) header.push_back(letter(column));
@@ -86,16 +89,17 @@ std::string stress_table(const std::vector<Score>& scores) {
       const auto cell = cells.find({row, column});
       line.push_back(cell == cells.end() ? "" : cell->second.text());
     }
-    line.emplace_back(broken[row] ? "BROKEN" : "as claimed");
+    line.emplace_back(verdict_on(broken[row], judged[row]));
     table.add(line);
   }
   std::string text = table.text() + '\n';
   for (std::size_t column = 0; column < shown.size(); ++column)
     text += fmt::format("{}  {}: {}\n", letter(column), shown[column]->name, shown[column]->meaning);
   text +=
-      "N missed, made up or malformed, ~N otherwise off by more than declared, . none, R refused, - "
-      "unsupported, "
-      "C crashed, T timeout\n";
+      "N missed, made up or malformed, ~N otherwise off by more than declared, or, where nothing is "
+      "declared, than " +
+      fmt::format("{:g}", physical_tolerance) +
+      " of the diagonal, . none, R refused, - unsupported, C crashed, T timeout\n";
   return text + sums(scores);
 }
 

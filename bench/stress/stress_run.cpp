@@ -8,6 +8,8 @@
 
 #include "bench/comparison.h"
 #include "bench/failures.h"
+#include "bench/query_name.h"
+#include "bench/repeat_command.h"
 #include "bench/verification_report.h"
 
 namespace touchmark::bench {
@@ -20,6 +22,15 @@ constexpr double pass_budget_ns = 2e9;
 /// One repetition, to see that the same questions get the same answers again, and how fast; in a family's
 /// first round, as further ones only ask more.
 constexpr Effort first_effort{1, 0, pass_budget_ns, 0}, further_effort{0, 0, pass_budget_ns, 0};
+
+/// To be followed by the step's number; see --repeat of `touchmark stress`.
+std::string repeat_command(const Family& family, std::uint64_t seed, std::size_t probes, std::size_t place,
+                           const Workload& workload, const ResultRow& row) {
+  const auto course = std::find(workload.trajectories.begin(), workload.trajectories.end(), row.trajectory);
+  return fmt::format("touchmark stress --family {} --seed {} --probes {} --detector {} --repeat {}/{}/{}/",
+                     family.name, seed, probes, quoted(row.contestant()), name_of(row.query), place,
+                     course - workload.trajectories.begin());
+}
 
 }  // namespace
 
@@ -52,12 +63,14 @@ void StressRun::run_round(const Family& family, std::uint64_t seed, std::size_t 
     return;
   }
   ++counts_[&family].rounds;
-  for (const Workload& workload : workloads) {
-    if (!workload.courses.empty()) run_workload(family, workload, progress);
+  for (std::size_t place = 0; place < workloads.size(); ++place) {
+    if (!workloads[place].courses.empty())
+      run_workload(family, seed, probes, place, workloads[place], progress);
   }
 }
 
-void StressRun::run_workload(const Family& family, const Workload& workload, const Progress& progress) {
+void StressRun::run_workload(const Family& family, std::uint64_t seed, std::size_t probes, std::size_t place,
+                             const Workload& workload, const Progress& progress) {
   const Effort& effort = counts_[&family].rounds > 1 ? further_effort : first_effort;
   Comparison comparison(roster_, workload, request_.contestants, request_.workers, effort, request_.seed);
   comparison.set_progress([&](const std::string& course, const std::string& contestant) {
@@ -65,7 +78,10 @@ void StressRun::run_workload(const Family& family, const Workload& workload, con
   });
   std::vector<ResultRow> rows;
   const auto keep = [&] {
-    for (const ResultRow& row : rows) add(family, row, row.trajectory == workload.trajectories.front());
+    for (ResultRow& row : rows) {
+      row.repeat = repeat_command(family, seed, probes, place, workload, row);
+      add(family, row, row.trajectory == workload.trajectories.front());
+    }
   };
   try {
     comparison.run_all(request_.queries, rows);
@@ -87,6 +103,7 @@ void StressRun::refuse_all(const Family& family, const std::string& why) {
       ResultRow row;
       row.detector = spec.name;
       row.options = spec.options;
+      row.claimed = spec.claimed;
       row.query = query;
       row.status = "refused: " + why;
       add(family, row, true);

@@ -52,7 +52,9 @@ class StressRun {
 
  private:
   void run_round(const Family& family, std::uint64_t seed, std::size_t probes, const Progress& progress);
-  void run_workload(const Family& family, const Workload& workload, const Progress& progress);
+  /// `place` is the workload's in what family.make(seed, probes) makes.
+  void run_workload(const Family& family, std::uint64_t seed, std::size_t probes, std::size_t place,
+                    const Workload& workload, const Progress& progress);
   void refuse_all(const Family& family, const std::string& why);
   std::size_t place_of(const Score& score) const;
   void add(const Family& family, const ResultRow& row, bool of_another_mesh);

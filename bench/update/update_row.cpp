@@ -32,9 +32,8 @@ std::string of_tally(Row row) {
 }
 
 std::string guarantee(Row row) {
-  ResultRow claimed;
-  claimed.accuracy = row.accuracy;
-  return std::string(guarantee_name(claimed));
+  if (!row.accuracy) return "";
+  return std::string(guarantee_name(row.accuracy->guarantee));
 }
 
 // The order is the contract. schema comes before these.
@@ -73,10 +72,6 @@ void add_new(Values& values, const Value& value) {
   if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
 }
 
-std::uint64_t errors_of(const Tally& tally) {
-  return tally.missed + tally.false_contacts + tally.wrong_triangle + answers_off(tally);
-}
-
 std::string table_of(const std::vector<UpdateRow>& rows, const std::string& mesh) {
   std::vector<double> shares;
   std::vector<std::string> contestants;
@@ -87,24 +82,27 @@ std::string table_of(const std::vector<UpdateRow>& rows, const std::string& mesh
   }
   std::vector<std::string> header{"detector", "build ms"};
   for (const double share : shares) header.push_back(fmt::format("{:g} %", 100 * share));
-  for (const char* name : {"query then", "errors", "status"}) header.emplace_back(name);
+  for (const char* name : {"query then", "missed", "false", "triangle", "off", "status"})
+    header.emplace_back(name);
   TextTable table(header);
   for (const std::string& contestant : contestants) {
     std::vector<std::string> cells{contestant, ""};
     std::optional<double> dearest;
-    std::uint64_t errors = 0;
+    Tally errors;
     std::string status = "ok";
     for (const UpdateRow& row : rows) {
       if (row.mesh != mesh || row.contestant() != contestant) continue;
       if (row.updated) cells[1] = fmt::format("{:.3g}", row.updated->build_ms);
       cells.push_back(row.updated ? fmt::format("{:.3g}", row.updated->update_over_build) : "");
-      if (row.tally) errors += errors_of(*row.tally);
+      if (row.tally) errors += *row.tally;
       if (row.status != "ok") status = row.status;
       if (row.ns_updated && row.ns_built)
         dearest = std::max(dearest.value_or(0), *row.ns_updated / std::max(*row.ns_built, 1e-3));
     }
     cells.push_back(dearest ? fmt::format("{:.2f}", *dearest) : "");
-    cells.push_back(status == "ok" ? fmt::format("{}", errors) : "");
+    for (const std::uint64_t count :
+         {errors.missed, errors.false_contacts, errors.wrong_triangle, answers_off(errors)})
+      cells.push_back(status == "ok" ? fmt::format("{}", count) : "");
     cells.push_back(status);
     table.add(std::move(cells));
   }

@@ -149,6 +149,9 @@ constexpr std::array rules{
     clocked("ns_undisturbed_high"),
     ColumnRule{"disturbed_share", Presence::timed, &is_share, "is not a share from 0 to 1"},
     ColumnRule{"decisions_checksum", Presence::optional, &is_hex, "is not 16 hexadecimal digits"},
+    counted("judged", Presence::judged),
+    counted("beyond_tolerance", Presence::judged),
+    counted("rounding", Presence::judged),
 };
 
 }  // namespace

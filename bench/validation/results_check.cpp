@@ -25,6 +25,11 @@ constexpr std::array ascending{
     std::pair{"false_contacts", "steps"},
     std::pair{"wrong_triangle", "steps"},
     std::pair{"unresolved", "steps"},
+    std::pair{"judged", "steps"},
+    std::pair{"missed", "judged"},
+    std::pair{"false_contacts", "judged"},
+    std::pair{"beyond_tolerance", "judged"},
+    std::pair{"rounding", "judged"},
     std::pair{"ns_per_query_min", "ns_per_query"},
     std::pair{"ns_p50", "ns_p90"},
     std::pair{"ns_p90", "ns_p99"},
@@ -124,6 +129,7 @@ void ResultsCheck::check_presence(const ColumnRule& rule, const std::string& tex
   if (!text.empty() && rule.presence == Presence::timed && !ok) {
     fault(rule.name, "must be empty where the status is not ok");
   }
+  if (rule.name == "judged" && ok && text == "0") fault(rule.name, "must be above 0 where the status is ok");
   if (rule.name == "steps" && ok && text == "0") fault(rule.name, "must be above 0 where the status is ok");
 }
 

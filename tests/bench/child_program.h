@@ -42,6 +42,7 @@ class ChildProgram {
     ::_exit(127);
   }
 
+  pid_t id() const { return process_; }
   void signal(int number) const { ::kill(process_, number); }
 
   Outcome wait() const {

@@ -128,6 +128,11 @@ struct Moody : Honest {
   }
 };
 
+/// Says in a file that it is being built, and then does not answer.
+struct Stalls : Moody {
+  static std::optional<Contact> at_answer(const std::optional<Contact>&) { hang(); }
+};
+
 struct TouchesOnly {
   struct Options {};
   using Session = BruteForce::Session;
@@ -144,6 +149,7 @@ template <Detector D>
 ContestantInfo contestant(std::string name) {
   ContestantInfo info;
   info.name = std::move(name);
+  info.accuracy = "exact";
   info.queries = queries_of<D>();
   info.build = [](const TriangleMesh& mesh, const OptionValues&) -> std::unique_ptr<Contestant> {
     return std::make_unique<ContestantOf<D>>(D::build(mesh, {}));
@@ -174,7 +180,7 @@ const Roster& hostile_roster() {
        contestant<Misbehaving<HangsAtBuild>>("hangs-at-build"), contestant<Misbehaving<Refuses>>("refuses"),
        contestant<Misbehaving<Lies>>("lies"), contestant<Misbehaving<Fickle>>("fickle"),
        contestant<TouchesOnly>("touches-only"), contestant<Misbehaving<Paced>>("paced"),
-       contestant<Misbehaving<Moody>>("moody"), makes_later()},
+       contestant<Misbehaving<Moody>>("moody"), contestant<Misbehaving<Stalls>>("stalls"), makes_later()},
       {"honest"});
   return all;
 }

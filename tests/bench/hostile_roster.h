@@ -8,8 +8,8 @@
 namespace touchmark::bench {
 
 /// honest, aborts, aborts-at-build, divides-by-zero, throws, exits, hangs, hangs-at-build, refuses, lies,
-/// fickle, touches-only, paced, moody, and makes-later, which is a lazy GridGroup. They run in the program
-/// touchmark-hostile-worker.
+/// fickle, touches-only, paced, moody, stalls, and makes-later, which is a lazy GridGroup. They run in the
+/// program touchmark-hostile-worker.
 const Roster& hostile_roster();
 
 /// What the answers of this process's contestants so far claim to have cost, in nanoseconds.

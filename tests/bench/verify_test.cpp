@@ -198,10 +198,52 @@ TEST_F(LyingDetector, GainsNothingByDeclaringNothing) {
     const Accuracy accuracy = {Guarantee::approximate, 0, unknown};
     EXPECT_EQ(counts(tally_of([](Answer&) {}, true, accuracy)), Counts{});
     EXPECT_EQ(counts(tally_of([](Answer& a) { a = {}; }, true, accuracy)), Counts{.missed = touching});
-    EXPECT_EQ(counts(tally_of([](Answer& a) { a.distance += 1e-9; }, true, accuracy)),
+    const double tolerance = physical_tolerance * mesh.diagonal();
+    EXPECT_EQ(counts(tally_of([&](Answer& a) { a.distance += 1.01 * tolerance; }, true, accuracy)),
               Counts{.beyond_bound = touching});
     EXPECT_EQ(counts(tally_of([](Answer& a) { a.triangle = opposite(a.triangle); }, true, accuracy)),
               Counts{.wrong_triangle = touching});
+  }
+}
+
+/// The worst of what rounds in double is no error of whoever declares nothing, and is told apart.
+TEST_F(LyingDetector, IsNotChargedForRoundingThatItDeclaresNothingAbout) {
+  const Accuracy nothing = {Guarantee::approximate, infinity, 0};
+  const double tolerance = physical_tolerance * mesh.diagonal();
+  const auto counted = [&](double shift, const Accuracy& accuracy) {
+    const Tally tally = tally_of([&](Answer& a) { a.distance += shift; }, true, accuracy);
+    return std::array{tally.beyond_bound, tally.beyond_tolerance, tally.rounding};
+  };
+  using Expected = std::array<std::uint64_t, 3>;
+  EXPECT_EQ(counted(1e-16, nothing), (Expected{0, 0, 0})) << "less than doubles must be off by";
+  EXPECT_EQ(counted(1e-12, nothing), (Expected{0, 0, touching}));
+  EXPECT_EQ(counted(0.99 * tolerance, nothing), (Expected{0, 0, touching}));
+  EXPECT_EQ(counted(1.01 * tolerance, nothing), (Expected{touching, touching, 0}));
+  // The same two counts of whoever declares something, and his own bound beside them.
+  EXPECT_EQ(counted(1e-12, exact), (Expected{touching, 0, touching}));
+  EXPECT_EQ(counted(1.01 * tolerance, {Guarantee::approximate, 0, 1e-3}), (Expected{0, touching, 0}));
+  // A neighbour's triangle that is as near but for rounding is no wrong one, and one that is a hand away is.
+  EXPECT_EQ(tally_of([](Answer& a) { a.triangle = opposite(a.triangle); }, true, nothing).wrong_triangle,
+            touching);
+}
+
+TEST_F(LyingDetector, HasItsFirstWrongAnswersNamed) {
+  for (const std::size_t first : {0U, 17U, 250U}) {
+    std::vector<Answer> lies = answers;
+    std::vector<std::size_t> expected;
+    for (std::size_t i = first; i < lies.size(); ++i) {
+      if (lies[i].found == 0) continue;
+      lies[i].distance += 1e-9;
+      if (expected.size() < 3) expected.push_back(i);
+    }
+    Charges charges;
+    judge(oracle, truths, Query::nearest, probes, radius, lies, exact, {}, &charges);
+    std::vector<std::size_t> named;
+    for (const Charge& one : charges.kept()) {
+      named.push_back(one.step);
+      EXPECT_EQ(counts(one.tally), Counts{.beyond_bound = 1});
+    }
+    EXPECT_EQ(named, expected);
   }
 }
 

@@ -12,7 +12,8 @@ COLUMNS = (
     "schema,run_id,detector,options,mesh,triangles,trajectory,query,steps,radius,reach,guarantee,missed,"
     "false_contacts,wrong_triangle,max_distance_error,max_distance_error_ulp,max_normal_angle_deg,unresolved,status,"
     "ns_per_query,ns_p50,ns_p90,ns_p99,ns_p999,ns_max,update_rate_hz,deadline_misses_1khz,longest_miss_run_1khz,"
-    "build_ms,first_answer_ms,bytes,heap_bytes,work_mean,work_max,repetitions,beyond_bound,wrong_point,wrong_normal,malformed"
+    "build_ms,first_answer_ms,bytes,heap_bytes,work_mean,work_max,repetitions,beyond_bound,wrong_point,wrong_normal,malformed,"
+    "beyond_tolerance,rounding"
 ).split(",")
 GOOD = {
     "schema": 1, "detector": "grid-group", "mesh": "bunny", "triangles": 69666, "trajectory": "slide",
@@ -70,6 +71,14 @@ class Plot(unittest.TestCase):
         errors = (self.directory / "plots" / "errors.svg").read_text(encoding="utf-8")
         for text in ("missed contacts", "0.3 % (3 of 1,000)", "crashed in slide", "no error"):
             self.assertIn(text, errors)
+
+    def test_tells_rounding_from_distances_that_are_off(self):
+        apart = {**GOOD, "detector": "cgal", "guarantee": "approximate", "beyond_bound": 7, "beyond_tolerance": 2, "rounding": 5}
+        self.write(GOOD, apart, {**apart, "detector": "old", "beyond_tolerance": "", "rounding": ""})
+        self.assertEqual(self.plot(self.directory, "--only", "errors").returncode, 0)
+        errors = (self.directory / "plots" / "errors.svg").read_text(encoding="utf-8")
+        for text in ("2 (0.2 %)", "5 (0.5 %)", "7 (0.7 %)", "distance off by rounding, less than that"):
+            self.assertEqual(errors.count(f"<!-- {text} -->"), 1, text)
 
     def test_gives_the_same_bytes_for_the_same_numbers(self):
         self.write(GOOD, CRASHED)

@@ -127,7 +127,13 @@ TEST(Stress, ValidateSeesAFileThatContradictsItself) {
 }
 
 TEST(Stress, RefusingIsNoBrokenClaim) {
-  EXPECT_EQ(hostile({"--detector", "refuses", "--family", "tangent", "--probes", "30"}).status, 0);
+  const Outcome alone = hostile({"--detector", "refuses", "--family", "tangent", "--probes", "30"});
+  EXPECT_EQ(alone.status, 4) << "nothing was judged";
+  EXPECT_NE(alone.out.find("nothing judged"), std::string::npos) << alone.out;
+  EXPECT_EQ(
+      hostile({"--detector", "refuses", "--detector", "honest", "--family", "tangent", "--probes", "30"})
+          .status,
+      0);
 }
 
 TEST(Stress, RefusesBadOptionsInOneLine) {
