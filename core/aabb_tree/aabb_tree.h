@@ -65,7 +65,7 @@ class AabbTree {
       work.triangles += node.count;
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
         if constexpr (std::is_same_v<decltype(visit(triangles_[i])), bool>) {
-          if (visit(triangles_[i])) return true;
+          if (visit(triangles_[i])) return;
         } else {
           visit(triangles_[i]);
         }
