@@ -199,6 +199,13 @@ bool AabbTree::touches(const Probe& probe, Session& session) const noexcept {
   if (std::isinf(error)) return all().touches(probe, work);
   const std::uint64_t most = most_work(work);
   WithinRadius is_within(probe.center, probe.radius, error);
+  const auto touching = [&](std::uint32_t i) {
+    ++work.triangles;
+    const double distance = std::sqrt(squared_distance(triangles_[i], probe.center));
+    return certified_ ? is_within(triangles_[i], distance, work.exact_decisions) : distance <= probe.radius;
+  };
+  if (session.last < triangles_.size() && touching(session.last)) return true;
+  session.last = no_triangle;
   std::array<Waiting, most_levels> waiting;
   std::size_t count = 0;
   waiting[count++] = {lower_bound(nodes_[0].box, probe.center, slack), 0};
@@ -208,10 +215,9 @@ bool AabbTree::touches(const Probe& probe, Session& session) const noexcept {
     if (!(next.bound <= probe.radius + error)) continue;
     const Node& node = nodes_[next.node];
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      ++work.triangles;
-      const double distance = std::sqrt(squared_distance(triangles_[i], probe.center));
-      if (certified_ ? is_within(triangles_[i], distance, work.exact_decisions) : distance <= probe.radius)
-        return true;
+      if (!touching(i)) continue;
+      session.last = i;
+      return true;
     }
     if (node.count > 0) continue;
     work.boxes += 2;
@@ -238,6 +244,7 @@ std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Sessi
     so_far.take({squared_distance(triangles_[i], center), triangles_[i].index}, i);
   };
   if (session.last < triangles_.size()) consider(session.last);
+  session.last = no_triangle;
   double limit = std::min(reach, std::sqrt(so_far.best().squared_distance)) + error;
   std::array<Waiting, most_levels> waiting;
   std::size_t count = 0;
@@ -260,8 +267,8 @@ std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Sessi
     waiting[count++] = near;
   }
   if (!so_far.found()) return std::nullopt;
-  session.last = so_far.at();
   const double distance = std::sqrt(so_far.best().squared_distance);
+  if (distance <= reach) session.last = so_far.at();
   if (certified_ && !is_certain_first(so_far, triangles_, distance, center, reach, error))
     return nearest_of_ties(so_far, center, reach, error, ids_, work.exact_decisions);
   if (distance > reach) return std::nullopt;

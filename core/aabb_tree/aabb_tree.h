@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <type_traits>
 #include <vector>
@@ -27,8 +28,11 @@ class AabbTree {
   };
   struct Session {
     Work work;
-    std::uint32_t last = 0;  ///< where the last nearest triangle is kept: its distance bounds the next search
+    /// Where the triangle of the last contact is kept, if there was one: `touches` asks it first, and its
+    /// distance bounds `nearest`.
+    std::uint32_t last = no_triangle;
   };
+  static constexpr std::uint32_t no_triangle = std::numeric_limits<std::uint32_t>::max();
 
   /// Throws std::invalid_argument for a leaf size out of range.
   static AabbTree build(const TriangleMesh& mesh, const Options& options);

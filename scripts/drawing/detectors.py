@@ -34,7 +34,7 @@ KNOWN = {
     "grid-group": ["", "lookup=scan", "lookup=scan,shape=sphere", "build=lazy", "cell=1%", "cell=0.5%", "cell=4%",
                    "certified=false"],
     "aabb-tree": ["", "precision=float", "certified=false"],
-    "embree": ["", "geometry=triangle", "quality=refit"],
+    "embree": ["", "geometry=triangle", "quality=refit", "query=plain"],
     "cgal": ["", "kernel=simple,hint=bounded", "kernel=epeck,hint=bounded"],
     "bullet": ["", "precision=float", "precision=float,frame=fitted", "method=callback,frame=fitted", "frame=fitted",
                "precision=float,method=callback"],

@@ -127,5 +127,23 @@ TEST(AabbTree, RefusesALeafSizeOutOfRange) {
   EXPECT_THROW(AabbTree::build(soup(3, 0), {256}), std::invalid_argument);
 }
 
+TEST(AabbTree, MeasuresTheLastTriangleFirstAndOnlyAfterAContact) {
+  const TriangleMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 8}, {1, 0, 8}, {0, 1, 8}},
+                          {{0, 1, 2}, {3, 4, 5}});
+  const AabbTree tree = AabbTree::build(mesh);
+  AabbTree::Session session;
+  EXPECT_FALSE(tree.nearest({{0.25, 0.25, -4}, 0}, 0.5, session));
+  EXPECT_FALSE(tree.touches({{0.25, 0.25, -4}, 0.5}, session));
+  EXPECT_EQ(session.work.triangles, 0u);
+  EXPECT_TRUE(tree.nearest({{0.25, 0.25, 7.75}, 0}, 0.5, session));
+  const Work asked = session.work;
+  EXPECT_TRUE(tree.touches({{0.25, 0.25, 7.75}, 0.5}, session));
+  EXPECT_EQ(session.work.total(), asked.total() + 1);
+  EXPECT_FALSE(tree.touches({{0.25, 0.25, -4}, 0.5}, session));
+  const std::uint64_t triangles = session.work.triangles;
+  EXPECT_FALSE(tree.touches({{0.25, 0.25, -4}, 0.5}, session));
+  EXPECT_EQ(session.work.triangles, triangles);
+}
+
 }  // namespace
 }  // namespace touchmark
