@@ -1,6 +1,7 @@
 #include "bench/progress.h"
 
 #include <cstdio>
+#include <set>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -18,6 +19,13 @@ void ProgressLine::show(const std::string& text) {
   // Carriage return, text, erase what an earlier longer one left.
   std::fputs(fmt::format("\r{:.78}\x1b[K", text).c_str(), stderr);
   shown_ = true;
+}
+
+void note_once(const std::string& text) {
+  static std::set<std::string> said;
+  if (!said.insert(text).second) return;
+  if (isatty(STDERR_FILENO) != 0) std::fputs("\r\x1b[K", stderr);  // a progress line may be there
+  fmt::print(stderr, "touchmark: {}\n", text);
 }
 
 void ProgressLine::clear() {

@@ -25,4 +25,7 @@ class ProgressLine {
   std::chrono::steady_clock::time_point next_{};
 };
 
+/// A line on stderr that stays, the first time it comes up: the same may come up for each mesh of many.
+void note_once(const std::string& text);
+
 }  // namespace touchmark::bench

@@ -38,10 +38,25 @@ Json mesh_json(const Workload& workload) {
           {"fnv1a", hex(hash_of(workload.mesh))}};
 }
 
+/// A file's own times, and speeds where the unit is known.
+void add_motion(Json& json, const Motion& motion, const std::optional<LengthUnit>& unit) {
+  if (motion.recorded) {
+    json["rows"] = motion.recorded->rows;
+    json["duration_s"] = motion.recorded->duration_s;
+    if (const auto rate = motion.recorded->rate_hz()) json["rate_hz"] = number(*rate);
+    if (motion.recorded->resampled_hz) json["resampled_hz"] = *motion.recorded->resampled_hz;
+  }
+  if (unit) {
+    json["mean_speed_m_per_s"] = number(motion.mean_speed * unit->metres);
+    json["max_speed_m_per_s"] = number(motion.max_speed * unit->metres);
+  }
+}
+
 Json trajectories_json(const Workload& workload) {
   Json json = Json::array();
   for (std::size_t i = 0; i < workload.trajectories.size(); ++i) {
     json.push_back({{"name", workload.trajectories[i]}, {"steps", workload.courses[i].size()}});
+    if (i < workload.motions.size()) add_motion(json.back(), workload.motions[i], workload.unit);
   }
   return json;
 }
@@ -151,6 +166,7 @@ std::string run_json(const RunDescription& run, const Workload& workload,
                      const std::deque<ContestantProcess>& contestants) {
   Json json = run_circumstances(run);
   json["mesh"] = mesh_json(workload);
+  if (workload.unit) json["unit"] = workload.unit->name;
   json["query"] = name_of(run.query);
   json["radius"] = number(workload.radius);
   json["reach"] = workload.reach ? number(*workload.reach) : Json("radius");

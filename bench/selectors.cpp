@@ -49,6 +49,37 @@ std::uint64_t checked_seed(const std::string& text) {
 
 }  // namespace
 
+void add_motion_selectors(CLI::App& command, MotionSelectors& motion) {
+  command
+      .add_option("--columns", motion.columns,
+                  "of motion files, by name or number: x=COL,y=COL,z=COL[,time=COL][,radius=COL]")
+      ->type_name("COLUMNS");
+  command
+      .add_option(
+          "--motion-scale", motion.scale,
+          "factor on the coordinates and radii of motion files, to mesh units: 1000 for metres on a mesh "
+          "in millimetres")
+      ->type_name("S");
+  command
+      .add_option(
+          "--rate", motion.rate,
+          "resample motion files by their times to this servo rate, linearly; default: a row is a step")
+      ->type_name("HZ");
+}
+
+void add_unit(CLI::App& command, std::string& unit) {
+  command
+      .add_option("--unit", unit, "what a mesh unit is, um, mm, cm, m or in: reports then speak of metres")
+      ->type_name("UNIT");
+}
+
+std::optional<LengthUnit> checked_unit(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  const std::optional<LengthUnit> unit = length_unit_named(text);
+  if (!unit) throw bad_value("--unit", text, "one of um, mm, cm, m, in");
+  return unit;
+}
+
 void add_selectors(CLI::App& command, Selectors& selectors, Variety variety) {
   CLI::Option* mesh = command.add_option("--mesh", selectors.meshes,
                                          "a scene (touchmark list) or a mesh file; modifiers may follow: "
@@ -62,7 +93,7 @@ void add_selectors(CLI::App& command, Selectors& selectors, Variety variety) {
   command.add_flag("--normalize", selectors.normalize, "scale to box diagonal 1 about the origin");
   command
       .add_option("--trajectory", selectors.trajectories,
-                  "a name (touchmark list) or a CSV file with columns x,y,z; repeatable")
+                  "a name (touchmark list) or a motion file, CSV with columns x,y,z; repeatable")
       ->type_name("T")
       ->expected(1)
       ->take_all();
@@ -83,6 +114,7 @@ void add_selectors(CLI::App& command, Selectors& selectors, Variety variety) {
   command
       .add_option("--reach", selectors.reach, "how far nearest looks; inf is allowed; default: the radius")
       ->type_name("LENGTH");
+  add_motion_selectors(command, selectors.motion);
   command.add_option("--steps", selectors.steps, "steps a trajectory")->type_name("N");
   command.add_option("--seed", selectors.seed, "of trajectories and of the order of measuring")
       ->type_name("N")
@@ -99,6 +131,9 @@ Selection check(const Selectors& selectors, const Roster& roster, Variety variet
   selection.radius = checked_length("--radius", selectors.radius);
   if (!selectors.reach.empty()) selection.reach = checked_length("--reach", selectors.reach);
   if (!selectors.steps.empty()) selection.steps = checked_steps(selectors.steps);
+  selection.motion =
+      parse_motion_options(selectors.motion.columns, selectors.motion.scale, selectors.motion.rate);
+  selection.unit = checked_unit(selectors.unit);
   selection.seed = checked_seed(selectors.seed);
   for (const std::string& text : selectors.detectors) selection.contestants.push_back(roster.parse(text));
   if (selection.contestants.empty()) {

@@ -10,6 +10,8 @@
 #include "bench/answer.h"
 #include "bench/contestant_info.h"
 #include "bench/length.h"
+#include "bench/length_unit.h"
+#include "bench/motion/motion_options.h"
 #include "core/triangle_mesh.h"
 
 namespace CLI {
@@ -17,6 +19,18 @@ class App;
 }
 
 namespace touchmark::bench {
+
+/// How motion files are read, as the command line says it; empty: as motion_options.h says.
+struct MotionSelectors {
+  std::string columns, scale, rate;
+};
+
+void add_motion_selectors(CLI::App& command, MotionSelectors& motion);
+
+/// --unit, for commands whose reports speak of lengths or speeds.
+void add_unit(CLI::App& command, std::string& unit);
+/// Nothing for an empty text. Throws std::invalid_argument.
+std::optional<LengthUnit> checked_unit(const std::string& text);
 
 /// As the command line gave them, still unchecked against mesh, roster and trajectories. A command that wants
 /// other defaults sets them before it calls add_selectors.
@@ -29,6 +43,8 @@ struct Selectors {
   std::string radius = "0.5%";
   std::string reach;  ///< empty: the radius
   std::string steps;  ///< empty: the command's own choice
+  MotionSelectors motion;
+  std::string unit;  ///< empty: unknown
   std::string seed = "1";
 };
 
@@ -43,6 +59,8 @@ struct Selection {
   Length radius;
   std::optional<Length> reach;  ///< nothing: each probe's radius
   std::optional<std::size_t> steps;
+  MotionOptions motion;
+  std::optional<LengthUnit> unit;  ///< of the mesh; nothing: unknown
   std::uint64_t seed = 1;
   std::vector<ContestantSpec>
       contestants;  ///< with --detector absent the default set, or (many) the thorough one

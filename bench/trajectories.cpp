@@ -59,6 +59,11 @@ std::vector<TrajectoryInfo> trajectories() {
   return list;
 }
 
+bool is_generated(const std::string& name) {
+  return std::any_of(std::begin(shapes), std::end(shapes),
+                     [&](const Shape& shape) { return name == shape.name; });
+}
+
 Trajectory make_trajectory(const std::string& what, const TriangleMesh& mesh,
                            const TrajectoryOptions& options) {
   if (!(options.radius >= 0)) {
@@ -68,7 +73,7 @@ Trajectory make_trajectory(const std::string& what, const TriangleMesh& mesh,
   const auto* const shape = std::find_if(std::begin(shapes), std::end(shapes),
                                          [&](const Shape& candidate) { return what == candidate.name; });
   if (shape == std::end(shapes)) {
-    if (is_path(what)) return read_trajectory(what, options.steps);
+    if (is_path(what)) return read_trajectory(what, options.steps, options.motion);
     throw unknown(what);
   }
   const double diagonal = unit_of_length(mesh, options.radius);

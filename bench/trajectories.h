@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/motion/motion_options.h"
 #include "bench/trajectory.h"
 #include "core/triangle_mesh.h"
 
@@ -22,9 +23,13 @@ std::vector<TrajectoryInfo> trajectories();
 struct TrajectoryOptions {
   std::size_t steps =
       0;  ///< 0: 20,000 generated ones, all of a file; else at most the first so many of a file
-  std::uint64_t seed = 1;  ///< of generated ones
-  double radius = 0;       ///< the probe's, mesh units: says what "in contact" is; may be infinite
+  std::uint64_t seed = 1;     ///< of generated ones
+  double radius = 0;          ///< the probe's, mesh units: says what "in contact" is; may be infinite
+  MotionOptions motion = {};  ///< of a file
 };
+
+/// True of a name from the list.
+bool is_generated(const std::string& name);
 
 /// `what` is a name from the list or the path of a CSV file (trajectory_csv.h). Lengths are measured in box
 /// diagonals, so a scaled mesh gets a scaled trajectory; a mesh that is a single point counts its radius, or

@@ -2,105 +2,162 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
-#include <optional>
-#include <string_view>
+#include <stdexcept>
 #include <system_error>
+#include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "bench/atomic_file.h"
 #include "bench/available_memory.h"
 #include "bench/csv_reader.h"
+#include "bench/motion/motion_columns.h"
+#include "bench/motion/motion_field.h"
+#include "bench/motion/resampling.h"
 
 namespace touchmark::bench {
 namespace {
 
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
+constexpr double most_ticks = 100'000'000;  // of a resampled motion, as of --steps
+constexpr double bytes_a_tick = 256;        // here and in the workers
 
-/// Which field of a row holds what.
-struct Columns {
-  std::array<std::size_t, 3> position{};
-  std::optional<std::size_t> radius, time;
-  std::size_t count = 0;
+/// Reads the rows of one file.
+class MotionReader {
+ public:
+  MotionReader(CsvReader& file, const std::string& path, std::size_t most, const MotionOptions& options)
+      : file_(file),
+        most_(most),
+        options_(options),
+        numbers_(file),
+        columns_(read_motion_header(file, options.columns, row_)),
+        motion_{path, {}, {}, {}} {
+    if (options.rate_hz && !columns_.time)
+      throw file.error("--rate needs times, and the header has no column time_s (or --columns name none)");
+  }
+
+  Trajectory read();
+
+ private:
+  bool next_row();
+  bool has_enough() const;
+  void add_row();
+  double coordinate(const MotionColumn& column);
+  void add_time(const MotionColumn& column);
+  void check_times();
+  [[noreturn]] void fail(std::size_t line, const std::string& what) const;
+
+  CsvReader& file_;
+  std::size_t most_;
+  const MotionOptions& options_;
+  NumberReader numbers_;
+  std::vector<std::string> row_;  // at first what was read in search of a header
+  MotionColumns columns_;
+  Trajectory motion_;
+  std::vector<std::size_t> lines_;  // of rows with times
 };
 
-std::optional<std::size_t> find_column(const CsvReader& file, const std::vector<std::string>& header,
-                                       std::string_view name) {
-  const auto is_named = [&](const std::string& field) { return trimmed(field) == name; };
-  const auto found = std::find_if(header.begin(), header.end(), is_named);
-  if (found == header.end()) return std::nullopt;
-  if (std::find_if(found + 1, header.end(), is_named) != header.end())
-    throw file.error("the header names column " + std::string(name) + " twice");
-  return static_cast<std::size_t>(found - header.begin());
-}
+bool is_blank(const std::string& field) { return trimmed(field).empty(); }
 
-Columns read_header(CsvReader& file) {
-  std::vector<std::string> header;
-  if (!file.next(header)) throw file.error("the file is empty: it needs a header that names x, y and z");
-  Columns columns;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::string_view name = std::string_view("xyz").substr(axis, 1);
-    const auto column = find_column(file, header, name);
-    if (!column)
-      throw file.error("the header has no column " + std::string(name) + ": it must name x, y and z");
-    columns.position[axis] = *column;
+/// Spreadsheets leave rows of empty fields, and empty fields at the end of rows.
+bool MotionReader::next_row() {
+  if (motion_.size() > 0 || row_.empty()) {
+    do {
+      if (!file_.next(row_)) return false;
+    } while (row_.size() > 1 && std::all_of(row_.begin(), row_.end(), is_blank));
   }
-  columns.radius = find_column(file, header, "radius");
-  columns.time = find_column(file, header, "time_s");
-  columns.count = header.size();
-  return columns;
+  const bool rest_is_blank =
+      row_.size() > columns_.count &&
+      std::all_of(row_.begin() + static_cast<std::ptrdiff_t>(columns_.count), row_.end(), is_blank);
+  if (row_.size() != columns_.count && !rest_is_blank) {
+    throw file_.error("the row has " + std::to_string(row_.size()) + " fields, the header " +
+                      std::to_string(columns_.count));
+  }
+  return true;
 }
 
-/// What a message shows of a field: enough to recognise it, and nothing that a terminal would obey.
-std::string shown(std::string_view text) {
-  std::string begin(text.substr(0, 40));
-  for (char& c : begin)
-    if (std::isprint(static_cast<unsigned char>(c)) == 0) c = '?';
-  return "'" + begin + (text.size() > 40 ? "..." : "") + "'";
+/// True once the rows hold as many steps as are wanted.
+bool MotionReader::has_enough() const {
+  if (most_ == 0 || motion_.size() == 0) return false;
+  if (!options_.rate_hz) return motion_.size() >= most_;
+  return ticks_at(motion_, *options_.rate_hz) >= static_cast<double>(most_);
 }
 
-double number(const CsvReader& file, const std::string& field, const char* column) {
-  const std::string_view text = trimmed(field);
-  double value = 0;
-  const char* const begin = text.data() + (text.starts_with('+') && !text.starts_with("+-") ? 1 : 0);
-  const char* const end = text.data() + text.size();
-  const auto [stop, failure] = std::from_chars(begin, end, value);
-  const auto wrong = [&](const char* why) {
-    return file.error("column " + std::string(column) + ": " + shown(text) + why);
-  };
-  if (failure == std::errc::result_out_of_range && stop == end)
-    throw wrong(" is beyond the range of a double");
-  if (failure != std::errc() || stop != end) throw wrong(" is not a number");
-  if (!std::isfinite(value)) throw wrong(" is not finite");
+double MotionReader::coordinate(const MotionColumn& column) {
+  const std::string& field = row_[column.index];
+  const double value = numbers_.read(field, column.name) * options_.scale;
+  if (!std::isfinite(value)) {
+    throw file_.error("column " + column.name + ": " + shown(trimmed(field)) +
+                      " times --motion-scale is beyond the range of a double");
+  }
   return value;
 }
 
-void check_length(const CsvReader& file, const std::vector<std::string>& row, const Columns& columns) {
-  if (row.size() != columns.count) {
-    throw file.error("the row has " + std::to_string(row.size()) + " fields, the header " +
-                     std::to_string(columns.count));
+void MotionReader::add_time(const MotionColumn& column) {
+  const std::string& field = row_[column.index];
+  const double time = numbers_.read(field, column.name) * columns_.seconds;
+  if (!motion_.times_s.empty() && !(time > motion_.times_s.back())) {
+    throw file_.error("column " + column.name + ": " + shown(trimmed(field)) +
+                      " is not after the row before (--columns without time does not read times)");
+  }
+  motion_.times_s.push_back(time);
+  lines_.push_back(file_.line());
+}
+
+void MotionReader::add_row() {
+  const auto& [x, y, z] = columns_.position;
+  const double px = coordinate(x), py = coordinate(y), pz = coordinate(z);
+  motion_.positions.emplace_back(px, py, pz);
+  if (columns_.radius) {
+    const double radius = coordinate(*columns_.radius);
+    if (radius < 0) {
+      throw file_.error("column " + columns_.radius->name + ": " +
+                        shown(trimmed(row_[columns_.radius->index])) + " is negative");
+    }
+    motion_.radii.push_back(radius);
+  }
+  if (columns_.time) add_time(*columns_.time);
+}
+
+void MotionReader::fail(std::size_t line, const std::string& what) const {
+  throw std::invalid_argument(fmt::format("{}:{}: {}", motion_.name, line, what));
+}
+
+void MotionReader::check_times() {
+  const std::vector<double>& times = motion_.times_s;
+  const double duration = times.back() - times.front();
+  if (!std::isfinite(duration))
+    throw file_.error("column " + columns_.time->name + ": the duration overflows");
+  motion_.recorded = RecordedTiming{times.size(), duration, options_.rate_hz};
+  if (options_.rate_hz) {
+    const double ticks = ticks_at(motion_, *options_.rate_hz);
+    if (most_ == 0 && ticks > most_ticks) {
+      throw std::invalid_argument(fmt::format("{}: {} s at --rate {} are {:.0f} steps, more than {:.0f}",
+                                              motion_.name, duration, *options_.rate_hz, ticks, most_ticks));
+    }
+    const double steps = most_ == 0 ? ticks : std::min(ticks, static_cast<double>(most_));
+    require_memory(fmt::format("trajectory {}: {:.0f} steps", motion_.name, steps), bytes_a_tick * steps);
+  } else if (const std::size_t row = first_gap(times)) {
+    fail(lines_[row],
+         fmt::format("column {}: {:.6g} s after the row before, longer than the usual interval: rows "
+                     "are not evenly spaced; --rate HZ resamples them",
+                     columns_.time->name, times[row] - times[row - 1]));
   }
 }
 
-double radius_of(const CsvReader& file, const std::string& field) {
-  const double radius = number(file, field, "radius");
-  if (radius < 0) throw file.error("column radius: " + shown(field) + " is negative");
-  return radius;
-}
-
-double time_after(const CsvReader& file, const std::string& field, const std::vector<double>& earlier) {
-  const double time = number(file, field, "time_s");
-  if (!earlier.empty() && time < earlier.back())
-    throw file.error("column time_s: " + shown(field) + " is before the row above");
-  return time;
+Trajectory MotionReader::read() {
+  while (!has_enough() && next_row()) add_row();
+  if (motion_.positions.empty()) throw file_.error("no row follows the header");
+  if (!columns_.time) return std::move(motion_);
+  check_times();
+  if (!options_.rate_hz) return std::move(motion_);
+  Trajectory ticks = resampled(motion_, *options_.rate_hz, most_);
+  ticks.recorded = motion_.recorded;
+  return ticks;
 }
 
 void append(std::string& line, double value) {
@@ -122,22 +179,11 @@ void require_memory_for(const std::string& path) {
 
 }  // namespace
 
-Trajectory read_trajectory(const std::string& path, std::size_t most) {
+Trajectory read_trajectory(const std::string& path, std::size_t most, const MotionOptions& options) {
   CsvReader file(path);
-  const Columns columns = read_header(file);
+  file.accept_any_dialect();
   if (most == 0) require_memory_for(path);
-  Trajectory trajectory{path, {}, {}, {}};
-  std::vector<std::string> row;
-  while ((most == 0 || trajectory.size() < most) && file.next(row)) {
-    check_length(file, row, columns);
-    trajectory.positions.emplace_back(number(file, row[columns.position[0]], "x"),
-                                      number(file, row[columns.position[1]], "y"),
-                                      number(file, row[columns.position[2]], "z"));
-    if (columns.radius) trajectory.radii.push_back(radius_of(file, row[*columns.radius]));
-    if (columns.time) trajectory.times_s.push_back(time_after(file, row[*columns.time], trajectory.times_s));
-  }
-  if (trajectory.positions.empty()) throw file.error("no row follows the header");
-  return trajectory;
+  return MotionReader(file, path, most, options).read();
 }
 
 void write_trajectory(const Trajectory& trajectory, const std::string& path) {

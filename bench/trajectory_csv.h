@@ -4,16 +4,25 @@
 #include <cstddef>
 #include <string>
 
+#include "bench/motion/motion_options.h"
 #include "bench/trajectory.h"
 
 namespace touchmark::bench {
 
-/// A header that names at least x, y and z (optional time_s, radius; any order, other columns ignored), then
-/// one row a tick. Quoted fields, CRLF, a byte order mark and a missing last newline are accepted. At most
-/// `most` rows are kept, 0 means all. The trajectory's name is the path. Throws std::invalid_argument, naming
-/// the file, line and column, for anything that is not a finite number, a negative radius, time that runs
-/// backwards, a row of another length than the header, or no row at all.
-Trajectory read_trajectory(const std::string& path, std::size_t most = 0);
+/// A header that names the columns (bench/motion/motion_columns.h says how, or `options` do), then one row a
+/// tick. Commas, semicolons or tabs separate; beside semicolons and tabs numbers may have decimal commas.
+/// Quoted fields, CRLF, a UTF-8 byte-order mark, comment lines (#, %, //), a first line "sep=;", empty rows
+/// and a missing last newline are accepted. At most `most` steps are kept, 0 means all. The trajectory's name
+/// is the path.
+///
+/// Coordinates and the file's radii are multiplied with options.scale. Times must ascend. With
+/// options.rate_hz the steps are the ticks of a clock of that rate, between rows by linear interpolation;
+/// without it rows are steps, and times must be evenly spaced: none more than one and a half times the usual
+/// interval after the one before.
+///
+/// Throws std::invalid_argument, naming the file, line and column, for anything that is not a finite number,
+/// a negative radius, a row of another length than the header, no row at all, and times that are not as said.
+Trajectory read_trajectory(const std::string& path, std::size_t most = 0, const MotionOptions& options = {});
 
 /// Shortest text that reads back to the same bits. Written whole or not at all; throws std::runtime_error
 /// when it cannot be written.

@@ -8,9 +8,16 @@
 
 #include "bench/contestant.h"
 #include "bench/selectors.h"
+#include "bench/trajectory.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::bench {
+
+/// How fast a trajectory is, and what its file says of time.
+struct Motion {
+  double mean_speed = 0, max_speed = 0;  ///< mesh units a second
+  std::optional<RecordedTiming> recorded;
+};
 
 struct Workload {
   std::string mesh_name;
@@ -18,12 +25,21 @@ struct Workload {
   double radius = 0;            ///< mesh units; of the trajectories that bring none of their own
   std::optional<double> reach;  ///< mesh units; nothing: each probe's radius
   std::vector<std::string> trajectories;
-  std::vector<std::vector<Step>> courses;  ///< one a trajectory
+  std::vector<std::vector<Step>> courses;         ///< one a trajectory
+  std::vector<Motion> motions = {};               ///< one a trajectory, or none
+  std::optional<LengthUnit> unit = std::nullopt;  ///< nothing: unknown
 };
 
-/// Generates the trajectories, of `default_steps` unless --steps was given, or reads them whole. Throws
-/// std::invalid_argument.
+/// Generates the trajectories, of `default_steps` unless --steps was given, or reads them whole. Says on
+/// stderr, once, where a file has times and its rows are steps nevertheless. Throws std::invalid_argument.
 Workload make_workload(std::string mesh_name, TriangleMesh mesh, const Selection& selection,
                        const std::vector<std::string>& trajectories, std::size_t default_steps);
+
+/// A length of the workload as reports write it: with its unit where that is known.
+std::string length_text(const Workload& workload, double length);
+
+/// What reports say of a trajectory beside its name: "20000 steps", its times and, where the unit is known,
+/// its speed.
+std::string course_text(const Workload& workload, std::size_t course);
 
 }  // namespace touchmark::bench

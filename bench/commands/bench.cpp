@@ -148,18 +148,18 @@ void BenchRun::run_trajectory(std::size_t course) {
   rows_.insert(rows_.end(), rows.begin(), rows.end());
   save(false);
   progress_.clear();
-  out_.write(fmt::format("\n{} ({} steps)\n{}{}", workload_.trajectories[course],
-                         workload_.courses[course].size(), timing_table(rows),
-                         verdict(rows, comparison_->steadiness().back())));
+  out_.write(fmt::format("\n{} ({})\n{}{}", workload_.trajectories[course], course_text(workload_, course),
+                         timing_table(rows), verdict(rows, comparison_->steadiness().back())));
   if (shows_work_) out_.write('\n' + work_table(rows));
   out_.finish();
 }
 
 int BenchRun::run() {
   watch_for_interrupts();
-  out_.write(fmt::format("{}: {} triangles, {} within {:.6g}, radius {:.6g}\n", workload_.mesh_name,
+  out_.write(fmt::format("{}: {} triangles, {} within {}, radius {}\n", workload_.mesh_name,
                          workload_.mesh.size(), name_of(description_.query),
-                         workload_.reach.value_or(workload_.radius), workload_.radius));
+                         length_text(workload_, workload_.reach.value_or(workload_.radius)),
+                         length_text(workload_, workload_.radius)));
   try {
     for (std::size_t course = 0; course < workload_.courses.size(); ++course) run_trajectory(course);
   } catch (const Interrupted&) {
@@ -183,6 +183,7 @@ void add_bench(CLI::App& program, ProgramContext& context) {
   CLI::App* command =
       program.add_subcommand("bench", "verify and time contestants on identical trajectories");
   add_selectors(*command, options->selectors);
+  add_unit(*command, options->selectors.unit);
   command->add_option("--out", options->out, "folder for results.csv and run.json")->type_name("DIR");
   command
       ->add_flag("--frontier", options->frontier,
@@ -197,7 +198,9 @@ void add_bench(CLI::App& program, ProgramContext& context) {
       "--benchmark_min_time=0.2, --benchmark_filter=REGEX on contestant/trajectory.\n"
       "Example: touchmark bench --mesh bunny --trajectory slide --detector grid-group --detector "
       "fcl:bv=obbrss "
-      "--out results/today\n");
+      "--out results/today\n"
+      "         touchmark bench --mesh part.stl --unit mm --trajectory hand.csv --motion-scale 1000 --rate "
+      "1000\n");
   command->final_callback([options, command, &context] {
     const BenchmarkFlags flags = parse_benchmark_flags(command->remaining());
     if (options->frontier) {

@@ -42,7 +42,9 @@ std::string list(const Roster& roster) {
     text += fmt::format("  {:<28}{}{}\n", scene.name, scene.description,
                         scene.available ? "" : "  (not installed)");
   }
-  text += "\ntrajectories: --trajectory NAME, or a CSV file with columns x,y,z and perhaps time_s, radius\n";
+  text +=
+      "\ntrajectories: --trajectory NAME, or a motion file: CSV with columns x,y,z and perhaps time_s, "
+      "radius\n";
   for (const TrajectoryInfo& trajectory : trajectories()) {
     text += fmt::format("  {:<28}{}\n", trajectory.name, trajectory.description);
   }

@@ -1,6 +1,8 @@
 /// `touchmark mesh`: what a mesh is like, and finer ones.
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -20,6 +22,7 @@ struct InfoOptions {
   std::string mesh;
   bool normalize = false;
   bool json = false;
+  std::string unit;
 };
 
 /// What report_on takes for a triangle.
@@ -43,7 +46,28 @@ const char* name_of(SideFinder::Way way) {
   return "";
 }
 
-std::string as_text(const MeshReport& report) {
+struct Metric {
+  const char* what;
+  double value;
+};
+
+/// Sizes in metres, square metres and cubic metres.
+std::vector<Metric> metrics_of(const MeshReport& report, const LengthUnit& unit) {
+  const double m = unit.metres;
+  const Vec3 size = report.bounds.max - report.bounds.min;
+  std::vector<Metric> metrics{{"size_x_m", size.x() * m},
+                              {"size_y_m", size.y() * m},
+                              {"size_z_m", size.z() * m},
+                              {"diagonal_m", report.diagonal * m},
+                              {"area_m2", report.area * m * m}};
+  if (report.volume) metrics.push_back({"volume_m3", *report.volume * m * m * m});
+  metrics.push_back({"shortest_edge_m", report.shortest_edge * m});
+  metrics.push_back({"mean_edge_m", report.mean_edge * m});
+  metrics.push_back({"longest_edge_m", report.longest_edge * m});
+  return metrics;
+}
+
+std::string as_text(const MeshReport& report, const std::optional<LengthUnit>& unit) {
   std::string text;
   const auto line = [&text](const char* what, const auto& value) {
     text += fmt::format("{}: {}\n", what, value);
@@ -73,10 +97,15 @@ std::string as_text(const MeshReport& report) {
   line("open_edges", report.sides.open_edges);
   line("contrary_edges", report.sides.contrary_edges);
   line("inside_out", yes_or_no(report.sides.inside_out));
+  if (unit) {
+    line("unit", unit->name);
+    for (const Metric& metric : metrics_of(report, *unit)) line(metric.what, metric.value);
+  }
   return text;
 }
 
-std::string as_json(const std::string& mesh, const MeshReport& report) {
+std::string as_json(const std::string& mesh, const MeshReport& report,
+                    const std::optional<LengthUnit>& unit) {
   const auto triple = [](const Vec3& v) { return nlohmann::ordered_json{v.x(), v.y(), v.z()}; };
   nlohmann::ordered_json json;
   json["mesh"] = mesh;
@@ -105,6 +134,10 @@ std::string as_json(const std::string& mesh, const MeshReport& report) {
   json["open_edges"] = report.sides.open_edges;
   json["contrary_edges"] = report.sides.contrary_edges;
   json["inside_out"] = report.sides.inside_out;
+  if (unit) {
+    json["unit"] = unit->name;
+    for (const Metric& metric : metrics_of(report, *unit)) json[metric.what] = metric.value;
+  }
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
@@ -113,14 +146,18 @@ void add_info(CLI::App& mesh_command) {
   CLI::App* command = mesh_command.add_subcommand("info", "size, connections, measures; one line each");
   add_mesh_options(*command, options->mesh, options->normalize);
   command->add_flag("--json", options->json, "as JSON");
-  command->footer("Example: touchmark mesh info bunny@normalize\n");
+  add_unit(*command, options->unit);
+  command->footer(
+      "Example: touchmark mesh info bunny@normalize\n"
+      "         touchmark mesh info part.stl --unit mm\n");
   command->final_callback([options] {
+    const std::optional<LengthUnit> unit = checked_unit(options->unit);
     const TriangleMesh mesh = load_mesh(options->mesh, options->normalize);
     require_memory(fmt::format("edges and sides of {} triangles", mesh.size()),
                    bytes_reported_on * static_cast<double>(mesh.size()));
     const MeshReport report = report_on(mesh);
     StandardOutput out;
-    out.write(options->json ? as_json(options->mesh, report) : as_text(report));
+    out.write(options->json ? as_json(options->mesh, report, unit) : as_text(report, unit));
     out.finish();
   });
 }

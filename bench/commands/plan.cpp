@@ -27,6 +27,7 @@ struct PlanOptions {
   std::vector<std::string> meshes, trajectories, detectors, queries, radii, reaches, seeds;
   std::string steps, effort = "full", out;
   bool normalize = false;
+  MotionSelectors motion;
 };
 
 std::vector<Query> checked_queries(const std::vector<std::string>& names) {
@@ -79,6 +80,7 @@ void Planner::plan_mesh(const std::string& mesh) {
   Selectors selectors;
   selectors.detectors = options_.detectors;
   selectors.steps = options_.steps;
+  selectors.motion = options_.motion;
   for (const std::string& radius : or_else(options_.radii, {selectors.radius})) {
     for (const std::string& reach : or_else(options_.reaches, {""})) {
       for (const std::string& seed : or_else(options_.seeds, {selectors.seed})) {
@@ -110,7 +112,8 @@ void Planner::plan_courses(const std::string& mesh, const TriangleMesh& loaded, 
                        selectors.radius,
                        selectors.reach,
                        query,
-                       {}};
+                       {},
+                       options_.motion};
       add_scene(std::move(scene), selection.contestants);
     }
   }
@@ -155,12 +158,13 @@ void add_plan(CLI::App& program, ProgramContext& context) {
         ->take_all();
   };
   many("--mesh", options->meshes, "a scene (touchmark list) or a mesh file", "MESH");
-  many("--trajectory", options->trajectories, "a name (touchmark list) or a CSV file", "T");
+  many("--trajectory", options->trajectories, "a name (touchmark list) or a motion file, CSV", "T");
   many("--detector", options->detectors, "a contestant (touchmark list); default: those of bench", "D");
   many("--query", options->queries, "touches, nearest, sweep or all; default: nearest", "QUERY");
   many("--radius", options->radii, "the probe's; default: 0.5%", "LENGTH");
   many("--reach", options->reaches, "how far nearest looks; default: the radius", "LENGTH");
   many("--seed", options->seeds, "of trajectories and of the order of measuring; default: 1", "N");
+  add_motion_selectors(*command, options->motion);
   command->add_flag("--normalize", options->normalize, "scale meshes to box diagonal 1 about the origin");
   command->add_option("--steps", options->steps, "steps a trajectory")->type_name("N");
   command

@@ -160,6 +160,9 @@ void add_query(CLI::App& program, ProgramContext& context) {
   command->footer(
       "Example: touchmark query --mesh bunny --trajectory approach --detector grid-group --reach inf "
       "--csv answers.csv\n"
+      "         touchmark query --mesh part.stl --trajectory hand.csv --columns x=2,y=3,z=4,time_ms=1 --rate "
+      "1000 "
+      "--detector grid-group\n"
       "With the option side=on (--detector grid-group:side=on) a last column tells inside from outside.\n");
   command->final_callback([options, &context] {
     watch_for_interrupts();

@@ -172,9 +172,8 @@ std::vector<ResultRow> ScaleRun::run_course(Comparison& comparison, const Worklo
                                             std::size_t course) {
   std::vector<ResultRow> rows = comparison.run(course, description_.query);
   progress_.clear();
-  out_.write(fmt::format("\n{}, {} ({} steps)\n{}{}", workload.mesh_name, workload.trajectories[course],
-                         workload.courses[course].size(), timing_table(rows),
-                         verdict(rows, comparison.steadiness().back())));
+  out_.write(fmt::format("\n{}, {} ({})\n{}{}", workload.mesh_name, workload.trajectories[course],
+                         course_text(workload, course), timing_table(rows), verdict(rows, comparison.steadiness().back())));
   out_.finish();
   return rows;
 }
@@ -245,6 +244,7 @@ void add_scale(CLI::App& program, ProgramContext& context) {
                    "a contestant that took longer on a mesh is left out on larger ones")
       ->type_name("S")
       ->capture_default_str();
+  add_unit(*command, options->selectors.unit);
   command->add_option("--out", options->out, "folder for results.csv, scaling.csv and run.json")
       ->type_name("DIR");
   command->add_flag("--quick", options->quick, "fewer sizes, steps and repetitions");

@@ -151,6 +151,7 @@ void add_update(CLI::App& program, ProgramContext& context) {
                    "of the vertices that move: a dent for less than 100%, a wave through all for 100%")
       ->type_name("S,S,...")
       ->capture_default_str();
+  add_unit(*command, options->selectors.unit);
   command->add_option("--out", options->out, "folder for update.csv and run.json")->type_name("DIR");
   add_worker_selectors(*command, options->workers);
   command->footer(

@@ -1,6 +1,8 @@
 #include "bench/sweep/manifest.h"
 
+#include <array>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -9,6 +11,7 @@
 #include "bench/numbers.h"
 #include "bench/query_name.h"
 #include "bench/system_info.h"
+#include "bench/trajectories.h"
 #include "bench/validation/json_schema.h"
 #include "bench/validation/located_json.h"
 
@@ -37,6 +40,9 @@ constexpr const char* manifest_form = R"({
         "seed": {"type": "integer", "minimum": 0},
         "radius": {"type": "string", "minLength": 1},
         "reach": {"type": "string"},
+        "columns": {"type": "string"},
+        "motion_scale": {"type": "string"},
+        "rate": {"type": "string"},
         "query": {"enum": ["touches", "nearest", "sweep"]},
         "jobs": {"type": "array", "minItems": 1, "items": {
           "type": "object", "required": ["id", "detector"],
@@ -47,20 +53,30 @@ constexpr const char* manifest_form = R"({
 
 std::uint64_t hash_in(const nlohmann::json& json) { return parse_hex(json.get<std::string>()).value(); }
 
+/// The keys of a motion's options, which are there where they were given.
+template <class Motion>
+auto motion_texts(Motion& motion) {
+  return std::array{std::pair{"columns", &motion.columns}, std::pair{"motion_scale", &motion.scale},
+                    std::pair{"rate", &motion.rate}};
+}
+
 Json json_of(const SweepScene& scene) {
   Json jobs = Json::array();
   for (const SweepJob& job : scene.jobs) jobs.push_back({{"id", job.id}, {"detector", job.detector}});
-  return {{"mesh", scene.mesh},
-          {"normalize", scene.normalize},
-          {"mesh_fnv1a", hex(scene.mesh_hash)},
-          {"trajectory", scene.trajectory},
-          {"course_fnv1a", hex(scene.course_hash)},
-          {"steps", scene.steps},
-          {"seed", scene.seed},
-          {"radius", scene.radius},
-          {"reach", scene.reach},
-          {"query", name_of(scene.query)},
-          {"jobs", jobs}};
+  Json json{{"mesh", scene.mesh},
+            {"normalize", scene.normalize},
+            {"mesh_fnv1a", hex(scene.mesh_hash)},
+            {"trajectory", scene.trajectory},
+            {"course_fnv1a", hex(scene.course_hash)},
+            {"steps", scene.steps},
+            {"seed", scene.seed},
+            {"radius", scene.radius},
+            {"reach", scene.reach},
+            {"query", name_of(scene.query)},
+            {"jobs", jobs}};
+  for (const auto& [key, value] : motion_texts(scene.motion))
+    if (!value->empty()) json[key] = *value;
+  return json;
 }
 
 SweepScene scene_of(const nlohmann::json& json) {
@@ -75,6 +91,7 @@ SweepScene scene_of(const nlohmann::json& json) {
   scene.radius = json.at("radius");
   scene.reach = json.at("reach");
   scene.query = query_named(json.at("query").get<std::string>()).value();
+  for (const auto& [key, value] : motion_texts(scene.motion)) *value = json.value(key, "");
   for (const nlohmann::json& job : json.at("jobs")) scene.jobs.push_back({job.at("id"), job.at("detector")});
   return scene;
 }
@@ -127,6 +144,7 @@ Workload workload_of(const SweepScene& scene, const Roster& roster) {
   selectors.reach = scene.reach;
   selectors.seed = std::to_string(scene.seed);
   selectors.steps = std::to_string(scene.steps);
+  if (!is_generated(scene.trajectory)) selectors.motion = scene.motion;
   return make_workload(without_directories(scene.mesh), load_mesh(scene.mesh, scene.normalize),
                        check(selectors, roster), {scene.trajectory}, scene.steps);
 }

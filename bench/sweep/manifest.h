@@ -31,6 +31,7 @@ struct SweepScene {
   std::string reach;   ///< as --reach takes it; empty: the radius
   Query query = Query::nearest;
   std::vector<SweepJob> jobs;
+  MotionSelectors motion = {};  ///< as --columns, --motion-scale and --rate take it
 };
 
 struct Manifest {

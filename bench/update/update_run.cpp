@@ -59,6 +59,9 @@ UpdateRun::UpdateRun(const Roster& roster, const Selection& selection, std::stri
           const std::string after = fmt::format("after {:g} % moved", 100 * share);
           all.trajectories.push_back(one.trajectories[0] + ' ' + after);
           all.trajectories.push_back("about what moved " + after);
+          all.motions.push_back(one.motions[0]);
+          all.motions.emplace_back();
+          all.unit = one.unit;
           all.courses.push_back(std::move(one.courses[0]));
           all.courses.push_back(
               about_what_moved(mesh, scenes_.back()->mesh, all.courses.back()[0], selection.seed));

@@ -9,13 +9,17 @@
 
 namespace touchmark::mesh_io {
 
-/// PLY 1.0, ascii and binary of either byte order. Elements other than `vertex` and `face` are skipped.
+/// PLY 1.0, ascii and binary of either byte order: faces and triangle strips, of which each triangle with
+/// three different vertices is a face. Elements that hold no surface are skipped.
 TriangleMesh read_ply(std::string_view bytes);
-/// Wavefront OBJ: v and f; everything else that is known is skipped, unknown statements are refused.
+/// Wavefront OBJ: v and f; attributes, points, lines and curves are skipped, free-form surfaces, included
+/// files and unknown statements are refused.
 TriangleMesh read_obj(std::string_view bytes);
-/// OFF and its forms with colours, normals or texture coordinates (COFF, NOFF, STOFF...), ascii.
+/// OFF, ascii, also without its header, and its forms with colours, normals or texture coordinates (COFF,
+/// NOFF, STOFF...), with a fourth coordinate that divides the others (4OFF) and with a dimension of 3 (nOFF).
 TriangleMesh read_off(std::string_view bytes);
-/// STL, ascii and binary. Corners with the same coordinates become one vertex; triangles keep their numbers.
+/// STL, ascii, also with polygons, and binary. Corners with the same coordinates become one vertex; triangles
+/// keep their numbers.
 TriangleMesh read_stl(std::string_view bytes);
 
 }  // namespace touchmark::mesh_io

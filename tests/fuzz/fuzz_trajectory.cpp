@@ -26,22 +26,32 @@ class MemoryFile {
   int file_;
 };
 
-}  // namespace
-}  // namespace touchmark::fuzz
-
-/// A trajectory in CSV: std::invalid_argument, or steps that are all finite.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace touchmark;
-  const fuzz::MemoryFile file(data, size);
+void read(const std::string& path, std::size_t most, const bench::MotionOptions& options, std::size_t size) {
   try {
-    const bench::Trajectory trajectory = bench::read_trajectory(file.path());
-    fuzz::require(trajectory.size() > 0 && trajectory.size() <= size, "no steps, or more than bytes");
-    for (const Vec3& position : trajectory.positions) fuzz::require(position.allFinite(), "not finite");
-    for (const double radius : trajectory.radii) fuzz::require(radius >= 0, "a radius below 0");
+    const bench::Trajectory trajectory = bench::read_trajectory(path, most, options);
+    require(trajectory.size() > 0, "no steps");
+    require(trajectory.size() <= (options.rate_hz ? most : size), "more steps than bytes, or than wanted");
+    for (const Vec3& position : trajectory.positions) require(position.allFinite(), "not finite");
+    for (const double radius : trajectory.radii) require(radius >= 0, "a radius below 0");
+    for (const double time : trajectory.times_s) require(time - time == 0, "a time that is not finite");
   } catch (const std::invalid_argument& error) {
     // One line, whatever the bytes are.
     for (const char c : std::string_view(error.what()))
-      fuzz::require(c != '\n' && c != '\r' && c != '\0' && c != '\x1b', "a message of more than one line");
+      require(c != '\n' && c != '\r' && c != '\0' && c != '\x1b', "a message of more than one line");
   }
+}
+
+}  // namespace
+}  // namespace touchmark::fuzz
+
+/// A trajectory in CSV: std::invalid_argument, or steps that are all finite; also resampled, and with columns
+/// by number.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace touchmark;
+  const fuzz::MemoryFile file(data, size);
+  fuzz::read(file.path(), 0, {}, size);
+  fuzz::read(file.path(), 100, bench::parse_motion_options("", "1000", "333"), size);
+  fuzz::read(file.path(), 100, bench::parse_motion_options("x=2,y=3,z=4,time_ms=1", "", "1000"), size);
+  fuzz::read(file.path(), 0, bench::parse_motion_options("x=1,y=2,z=3", "1e-3", ""), size);
   return 0;
 }

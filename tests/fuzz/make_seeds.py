@@ -74,6 +74,9 @@ def stl():
 
 def trajectory():
     yield "x,y,z\n0,0,0\n1e-9,2,3\n"
+    yield "sep=;\r\nT_ms;Pos X;Pos Y;Pos Z\r\n0;0,5;1;2\r\n# lost\r\n1,5;2;1e-3;4\r\n;;;\r\n3;1;2;3;;\r\n"
+    yield "% recorded\n# px\tpy\tpz\n1.5\t2\t3\n4\t5\t6"
+    yield "0,1,2,3\n0.001,4,5,6\n0.009,7,8,9\n"
     yield '\ufefftime_s,"x",y,z,radius,more\r\n0,1,2,3,0.5,"a ""b"", c"\r\n0.001,1,2,3,0,\r\n'
 
 

@@ -1,0 +1,44 @@
+/// How a recorded motion is to be read: which columns, in what unit, at what rate.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+namespace touchmark::bench {
+
+/// A column by its name in the header, or by its number, from 1.
+using ColumnChoice = std::variant<std::string, std::size_t>;
+
+/// Columns that were chosen one by one. Of a file whose columns are all chosen by number the header may be
+/// missing.
+struct ChosenColumns {
+  std::array<ColumnChoice, 3> position;
+  std::optional<ColumnChoice> time, radius;
+  double seconds = 1;  ///< what the time's unit is in seconds
+};
+
+struct MotionOptions {
+  std::optional<ChosenColumns> columns;  ///< nothing: by the names that motion_columns.h lists
+  double scale = 1;                      ///< factor on the coordinates and on the file's radii, to mesh units
+  std::optional<double> rate_hz;         ///< the rate to which the motion is resampled by its times
+
+  bool are_given() const noexcept { return columns || scale != 1 || rate_hz; }
+};
+
+/// The unit of a column of times by the end of its name: 1e-3 for "time_ms".
+double seconds_of(std::string_view column) noexcept;
+
+/// "x=COL,y=COL,z=COL" with any of "time=COL" (or time_s, time_ms, time_us, time_ns) and "radius=COL". Throws
+/// std::invalid_argument, naming the option and the value.
+ChosenColumns parse_columns(const std::string& text);
+
+/// The options as the command line gives them; empty texts stand for absent options. Throws
+/// std::invalid_argument, naming the option and the value.
+MotionOptions parse_motion_options(const std::string& columns, const std::string& scale,
+                                   const std::string& rate);
+
+}  // namespace touchmark::bench
