@@ -64,11 +64,12 @@ MotionColumns named_columns(const CsvReader& file, const Header& header) {
     }
     return columns;
   }
+  const std::string names = shown(fmt::format("{}", fmt::join(header, ",")));
   for (const char* name : {"x", "y", "z"}) {
     if (!find_column(file, header, name))
-      throw file.error(fmt::format("the header has no column {}: {}", name, must_name));
+      throw file.error(fmt::format("the header {} has no column {}: {}", names, name, must_name));
   }
-  throw file.error(fmt::format("the header: {}", must_name));
+  throw file.error(fmt::format("the header {}: {}", names, must_name));
 }
 
 /// `header` is empty where the file has none.

@@ -85,9 +85,10 @@ TEST_F(TrajectoryCsv, NamesTheLineAndColumnOfWhatIsWrong) {
   EXPECT_EQ(complaint(""), "path.csv: the file is empty: it needs a header that names x, y and z");
   EXPECT_EQ(complaint("\n\n"), "path.csv: the file is empty: it needs a header that names x, y and z");
   const std::string must_name = "it must name x, y and z, or --columns say which they are";
-  EXPECT_EQ(complaint("x,y\n1,2\n"), "path.csv:1: the header has no column z: " + must_name);
-  EXPECT_EQ(complaint("1,2,3\n"), "path.csv:1: the header has no column x: " + must_name);
-  EXPECT_EQ(complaint("# made by hand\n\n1,2,3\n"), "path.csv:3: the header has no column x: " + must_name);
+  EXPECT_EQ(complaint("x,y\n1,2\n"), "path.csv:1: the header 'x,y' has no column z: " + must_name);
+  EXPECT_EQ(complaint("1,2,3\n"), "path.csv:1: the header '1,2,3' has no column x: " + must_name);
+  EXPECT_EQ(complaint("# made by hand\n\n1,2,3\n"),
+            "path.csv:3: the header '1,2,3' has no column x: " + must_name);
   EXPECT_EQ(complaint("X,X,Y,Z\n1,2,3,4\n"), "path.csv:1: the header names column x twice");
   EXPECT_EQ(complaint("x,y,z,y\n1,2,3,4\n"), "path.csv:1: the header names column y twice");
   EXPECT_EQ(complaint("x,y,z\n"), "path.csv:1: no row follows the header");

@@ -109,6 +109,14 @@ class Limits(unittest.TestCase):
             self.refused(NO_ROOM, "way.csv: 8589934592 bytes need about", "query", "--mesh", "cube", "--detector",
                          "brute-force", "--trajectory", path)
 
+    def test_a_motion_of_more_steps_than_the_memory_holds(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "way.csv"
+            path.write_text("time_s,x,y,z\n0,0,0,0\n90000,1,0,0\n", encoding="utf-8")
+            query = ("query", "--mesh", "cube", "--detector", "brute-force", "--trajectory", str(path), "--rate")
+            self.refused(NO_ROOM, "way.csv: 90000001 steps need about", *query, "1000")
+            self.refused(REFUSED, "90000 s at --rate 2000 are 180000001 steps", *query, "2000")
+
     def test_levels_of_subdivision(self):
         with tempfile.TemporaryDirectory() as folder:
             def subdivide(levels):
