@@ -107,47 +107,102 @@ void Comparison::run_all(const std::vector<Query>& queries, std::vector<ResultRo
   }
 }
 
+/// One trajectory on its way from the first answer to the rows.
+struct Comparison::Begun {
+  std::size_t course = 0;
+  Query query = Query::nearest;
+  SamplePlan plan;
+  std::deque<Case> cases = {};
+  std::vector<std::size_t> whose = {};  ///< the process of each case
+  std::vector<Case*> together = {};     ///< those that take turns
+  Case* controlled = nullptr;
+  std::optional<Case> control = std::nullopt;
+  std::vector<Order> orders = {};
+  std::size_t done = 0;  ///< of the orders
+};
+
+Comparison::~Comparison() = default;
+
 std::vector<ResultRow> Comparison::run(std::size_t course, Query query, Truths& truths) {
+  begin(course, query, truths);
+  return end();
+}
+
+void Comparison::begin(std::size_t course, Query query) {
+  Truths truths(oracle_, workload_.courses[course]);
+  begin(course, query, truths);
+}
+
+void Comparison::begin(std::size_t course, Query query, Truths& truths) {
+  auto begun = std::make_unique<Begun>(Begun{course, query, plan_for(course, truths)});
   const std::string& trajectory = workload_.trajectories[course];
-  const SamplePlan plan = plan_for(course, truths);
-  std::deque<Case> cases;
-  std::vector<std::size_t> whose;  // the process of each case
   for (std::size_t i = 0; i < processes_.size(); ++i) {
     const std::string contestant = processes_[i].spec().text();
     if (!filter_(trajectory, contestant)) {
       left_out_.emplace_back(trajectory, contestant);
       continue;
     }
-    cases.emplace_back(workload_, stage_, effort_, processes_[i], course, query, plan);
-    whose.push_back(i);
+    begun->cases.emplace_back(workload_, stage_, effort_, processes_[i], course, query, begun->plan);
+    begun->whose.push_back(i);
   }
-  std::vector<Case*> together;
-  for (std::size_t i = 0; i < cases.size(); ++i) {
+  verify(*begun, truths);
+  add_control(*begun, truths);
+  begun->orders = orders_for(begun->together.size(), effort_, Random(seed_ + course));
+  measure(*begun, begun->orders.size() / 2);
+  begun_.push_back(std::move(begun));
+}
+
+void Comparison::verify(Begun& begun, Truths& truths) {
+  for (std::size_t i = 0; i < begun.cases.size(); ++i) {
+    Case& one = begun.cases[i];
     check_for_interrupt();
-    progress_(trajectory, cases[i].contestant());
-    cases[i].introduce();
-    verify(cases[i], stored_by(whose[i]), course, truths);
-    if (turns_ == Turns::together) {
-      together.push_back(&cases[i]);
-    } else {
-      measure({&cases[i]}, trajectory, seed_ + course);
-      cases[i].dismiss();
+    progress_(workload_.trajectories[begun.course], one.contestant());
+    one.introduce();
+    verify(one, stored_by(begun.whose[i]), begun.course, truths);
+    begun.together.push_back(&one);
+    if (turns_ == Turns::together) continue;
+    begun.orders = orders_for(begun.together.size(), effort_, Random(seed_ + begun.course));
+    measure(begun, begun.orders.size());
+    begun.done = 0;
+    begun.together.clear();
+    one.dismiss();
+  }
+}
+
+void Comparison::add_control(Begun& begun, Truths& truths) {
+  begun.controlled = to_control(begun.together);
+  if (begun.controlled == nullptr) return;
+  begun.control.emplace(workload_, stage_, effort_, *control_, begun.course, begun.query, begun.plan);
+  begun.control->introduce_like(*begun.controlled);
+  begun.control->verify(truths);
+  begun.together.push_back(&*begun.control);
+}
+
+std::vector<ResultRow> Comparison::end() {
+  Begun& begun = *begun_.front();
+  measure(begun, begun.orders.size());
+  std::vector<ResultRow> rows = rows_of(begun);
+  begun_.pop_front();
+  return rows;
+}
+
+std::vector<ResultRow> Comparison::so_far() {
+  std::vector<ResultRow> rows;
+  for (const std::unique_ptr<Begun>& begun : begun_) {
+    for (Case& one : begun->cases) {
+      ResultRow row = one.finish();
+      if (row.throughput || row.status != "ok") rows.push_back(std::move(row));
     }
   }
-  Case* const controlled = to_control(together);
-  std::optional<Case> control;
-  if (controlled != nullptr) {
-    control.emplace(workload_, stage_, effort_, *control_, course, query, plan);
-    control->introduce_like(*controlled);
-    control->verify(truths);
-    together.push_back(&*control);
-  }
-  measure(together, trajectory, seed_ + course);
+  return rows;
+}
+
+std::vector<ResultRow> Comparison::rows_of(Begun& begun) {
   std::vector<ResultRow> rows;
   std::optional<Control> found;
-  for (Case& one : cases) {
+  for (Case& one : begun.cases) {
     rows.push_back(one.finish());
-    if (&one == controlled) found = control_of(rows.back(), control->finish());
+    if (&one == begun.controlled) found = control_of(rows.back(), begun.control->finish());
   }
   if (effort_.repetitions > 0 && !rows.empty()) steadiness_.push_back(steadiness_of(rows, std::move(found)));
   return rows;
@@ -188,12 +243,13 @@ void Comparison::verify(Case& one, const StoredScene* stored, std::size_t course
   one.verify(truths, &of_stored);
 }
 
-void Comparison::measure(const std::vector<Case*>& cases, const std::string& trajectory, std::uint64_t seed) {
+void Comparison::measure(Begun& begun, std::size_t end) {
   if (effort_.repetitions == 0) return;
-  for (const Order& order : orders_for(cases.size(), effort_, Random(seed))) {
+  for (; begun.done < end; ++begun.done) {
+    const Order& order = begun.orders[begun.done];
     check_for_interrupt();
-    Case& one = *cases[order.which];
-    progress_(trajectory, one.contestant());
+    Case& one = *begun.together[order.which];
+    progress_(workload_.trajectories[begun.course], one.contestant());
     (one.*order.measurement)();
   }
 }

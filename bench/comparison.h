@@ -40,6 +40,7 @@ class Comparison {
   /// `roster` and `workload` must outlive it. A contestant that cannot run becomes a row, not an error.
   Comparison(const Roster& roster, const Workload& workload, const std::vector<ContestantSpec>& contestants,
              const WorkerOptions& workers, const Effort& effort, std::uint64_t seed);
+  ~Comparison();
 
   void set_progress(Progress progress) { progress_ = std::move(progress); }
   void set_filter(CaseFilter filter) { filter_ = std::move(filter); }
@@ -49,6 +50,14 @@ class Comparison {
 
   /// The rows of one trajectory, in the contestants' order. Throws ResourceError or Interrupted.
   std::vector<ResultRow> run(std::size_t course, Query query);
+
+  /// The same in two parts, between which others may be begun: a machine that is slow for some seconds is
+  /// then slow for a part of each trajectory's rounds, not for all of one's. end() is of the first that was
+  /// begun.
+  void begin(std::size_t course, Query query);
+  std::vector<ResultRow> end();
+  /// The rows of those that were begun and not ended, with the repetitions that they have got, if any.
+  std::vector<ResultRow> so_far();
 
   /// All of them, appended to `rows` course by course, so that those finished before an exception are there.
   /// What the oracle finds out about a course serves all queries.
@@ -64,16 +73,23 @@ class Comparison {
   const std::deque<ContestantProcess>& contestants() const noexcept { return processes_; }
 
  private:
+  struct Begun;
+
   std::vector<ResultRow> run(std::size_t course, Query query, Truths& truths);
+  void begin(std::size_t course, Query query, Truths& truths);
+  void verify(Begun& begun, Truths& truths);
+  void add_control(Begun& begun, Truths& truths);
+  std::vector<ResultRow> rows_of(Begun& begun);
   /// The scene as that process's library stores it, made when first asked for; null where it is the given
   /// one.
   const StoredScene* stored_by(std::size_t process);
   void verify(class Case& one, const StoredScene* stored, std::size_t course, Truths& truths);
-  void measure(const std::vector<class Case*>& cases, const std::string& trajectory, std::uint64_t seed);
+  /// Takes the orders of `begun` up to this one.
+  void measure(Begun& begun, std::size_t end);
   SamplePlan plan_for(std::size_t course, Truths& truths) const;
   /// The process that times a contestant once more: that of the course before, where its contestant still is
   /// among the right ones, or else the fastest one's. Null where there is none.
-  Case* to_control(const std::vector<Case*>& cases);
+  class Case* to_control(const std::vector<class Case*>& cases);
 
   const Roster& roster_;
   const Workload& workload_;
@@ -85,6 +101,7 @@ class Comparison {
   std::deque<ContestantProcess> processes_;
   std::vector<std::optional<std::unique_ptr<const StoredScene>>> stored_;  ///< a process each
   std::optional<ContestantProcess> control_;
+  std::deque<std::unique_ptr<Begun>> begun_;
   std::vector<Steadiness> steadiness_;
   std::vector<std::pair<std::string, std::string>> left_out_;
   Progress progress_ = [](const std::string&, const std::string&) {};

@@ -2,6 +2,7 @@
 /// results.csv and run.json.
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -65,7 +66,9 @@ class BenchRun {
   void list_cases();
 
  private:
-  void run_trajectory(std::size_t course);
+  void run_trajectories();
+  void end_trajectory(std::size_t course);
+  void save_so_far();
   void save(bool finished) const;
   bool wanted(const std::string& trajectory, const std::string& contestant) const {
     return flags_.wanted(contestant + "/" + trajectory);
@@ -86,6 +89,7 @@ class BenchRun {
   StandardOutput out_;
   bool shows_work_;
   std::vector<ResultRow> rows_;
+  std::size_t kept_ = 0;  ///< rows that were last saved
 };
 
 Workload workload_for(const BenchOptions& options, const Selection& selection) {
@@ -140,13 +144,30 @@ void BenchRun::save(bool finished) const {
                  run_json(description, workload_, comparison_->contestants()));
 }
 
-void BenchRun::run_trajectory(std::size_t course) {
-  std::vector<ResultRow> rows = comparison_->run(course, description_.query);
+/// What has been timed in part counts as well, should it end here.
+void BenchRun::save_so_far() {
+  std::vector<ResultRow> rows = rows_;
+  std::ranges::move(comparison_->so_far(), std::back_inserter(rows_));
+  save(false);
+  kept_ = rows_.size();
+  rows_ = std::move(rows);
+}
+
+void BenchRun::run_trajectories() {
+  for (std::size_t course = 0; course < workload_.courses.size(); ++course) {
+    comparison_->begin(course, description_.query);
+    save_so_far();
+  }
+  for (std::size_t course = 0; course < workload_.courses.size(); ++course) end_trajectory(course);
+}
+
+void BenchRun::end_trajectory(std::size_t course) {
+  std::vector<ResultRow> rows = comparison_->end();
   if (rows.empty()) return;
   for (ResultRow& row : rows)
     row.repeat = repeat_command(selectors_, mesh_of(selectors_), named(), workload_, row);
   rows_.insert(rows_.end(), rows.begin(), rows.end());
-  save(false);
+  save_so_far();
   progress_.clear();
   out_.write(fmt::format("\n{} ({})\n{}{}", workload_.trajectories[course], course_text(workload_, course),
                          timing_table(rows), verdict(rows, comparison_->steadiness().back())));
@@ -161,11 +182,11 @@ int BenchRun::run() {
                          length_text(workload_, workload_.reach.value_or(workload_.radius)),
                          length_text(workload_, workload_.radius)));
   try {
-    for (std::size_t course = 0; course < workload_.courses.size(); ++course) run_trajectory(course);
+    run_trajectories();
   } catch (const Interrupted&) {
     progress_.clear();
-    save(false);
-    fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", rows_.size());
+    save_so_far();
+    fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", kept_);
     return exit_interrupted;
   }
   save(true);

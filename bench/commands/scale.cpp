@@ -173,7 +173,8 @@ std::vector<ResultRow> ScaleRun::run_course(Comparison& comparison, const Worklo
   std::vector<ResultRow> rows = comparison.run(course, description_.query);
   progress_.clear();
   out_.write(fmt::format("\n{}, {} ({})\n{}{}", workload.mesh_name, workload.trajectories[course],
-                         course_text(workload, course), timing_table(rows), verdict(rows, comparison.steadiness().back())));
+                         course_text(workload, course), timing_table(rows),
+                         verdict(rows, comparison.steadiness().back())));
   out_.finish();
   return rows;
 }

@@ -37,7 +37,7 @@ struct FrontierPoint {
   std::string form;  ///< "scan", "fast level" (as published), "tree", "grid" (fast and exact)
   double clustering = 0;
   std::size_t triangles = 0, spheres = 0;
-  GeometricError error;          ///< from the smooth surface
+  GeometricError error;               ///< from the smooth surface
   std::optional<double> ns = {};      ///< per query; nothing where it was not timed
   std::optional<double> ns_p99 = {};  ///< what 99 of 100 queries are done in (interleaved_timing.h)
   bool best = false;                  ///< none of those compared is both faster and at most as far off
