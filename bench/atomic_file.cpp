@@ -1,13 +1,13 @@
 #include "bench/atomic_file.h"
 
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <utility>
 
 #include <unistd.h>
 
 #include "bench/failures.h"
+#include "bench/system_limit.h"
 
 namespace touchmark::bench {
 
@@ -59,7 +59,7 @@ void AtomicFile::discard() const {
 }
 
 void AtomicFile::fail(int error) const {
-  throw ResourceError("cannot write " + path_ + ": " + std::strerror(error));
+  throw ResourceError("cannot write " + path_ + ": " + described_with_limit(error));
 }
 
 }  // namespace touchmark::bench

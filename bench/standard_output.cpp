@@ -3,11 +3,11 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
-#include <cstring>
 
 #include <fmt/format.h>
 
 #include "bench/failures.h"
+#include "bench/system_limit.h"
 
 namespace touchmark::bench {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 /// After a failed write.
 bool refuse_or_stop(int error) {
   if (error == EPIPE) return false;
-  throw ResourceError(fmt::format("cannot write to standard output: {}", std::strerror(error)));
+  throw ResourceError(fmt::format("cannot write to standard output: {}", described_with_limit(error)));
 }
 
 }  // namespace

@@ -190,7 +190,9 @@ int BenchRun::run() {
     return exit_interrupted;
   }
   save(true);
-  const std::string failures = list_of_failures(rows_, faulty_rows_shown);
+  std::vector<ResultRow> broken;  // what others err by is in the table
+  std::copy_if(rows_.begin(), rows_.end(), std::back_inserter(broken), claim_is_broken);
+  const std::string failures = list_of_failures(broken, faulty_rows_shown);
   out_.write(fmt::format("\n{}{}", judged_answers(rows_), failures.empty() ? "" : "\n" + failures));
   out_.finish();
   const bool faulty = tell_faults(rows_, [](const ResultRow& row) { return row.trajectory; });

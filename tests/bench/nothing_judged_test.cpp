@@ -63,6 +63,13 @@ TEST(NothingJudged, InStressIsAFailureOfOneThatClaimsExactness) {
   EXPECT_FALSE(says(outcome.out, "as claimed")) << outcome.out;
 }
 
+TEST(NothingJudged, AfterAnUpdateIsAFailureOfOneThatClaimsExactnessAndCrashes) {
+  const Outcome outcome = run_hostile({"update", "--mesh", "icosphere:1", "--steps", "20", "--shares", "100%",
+                                       "--detector", "aborts-at-build"});
+  EXPECT_EQ(outcome.status, 1) << outcome.out;
+  EXPECT_EQ(outcome.err, "touchmark: aborts-at-build after 100 % moved: crashed:SIGABRT\n");
+}
+
 TEST(NothingJudged, OfQueriesThatNobodyAnswersIsInconclusive) {
   const std::vector<std::string> sweeps{"--mesh", "cube",    "--trajectory", "slide",      "--steps",
                                         "20",     "--query", "sweep",        "--detector", "touches-only"};

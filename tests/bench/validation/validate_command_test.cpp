@@ -125,6 +125,9 @@ TEST_F(Validate, NamesLineColumnAndValueOfAWrongField) {
       {"longest_miss_run_10khz", {"50000"}},
       {"cpu_ns_per_query", {"nan", ""}},
       {"answers_checksum", {"", "12", "XY34567812345678"}},
+      {"judged", {"0", "51", ""}},
+      {"beyond_tolerance", {"51", "-1", ""}},
+      {"rounding", {"51", "few", ""}},
   };
   for (const auto& [column, values] : wrong) {
     for (const std::string& value : values) {
