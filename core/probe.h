@@ -39,8 +39,9 @@ struct Contact {
   Side side = Side::unasked;  ///< of the centre; detectors leave it, core/sign/signed_detector.h fills it in
 };
 
-/// The first touch along a sweep: `fraction` in [0, 1] of the way, 0 when touching at the start;
-/// `contact` is the contact of the probe standing there.
+/// The first touch along a sweep: `fraction` in [0, 1] of the way, 0 where and only where the probe touches
+/// at the start; rounded down, so that no touch is earlier. `contact` is the contact of the probe standing
+/// there.
 struct Impact {
   double fraction = 0;
   Contact contact;

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/oracle/oracle.h"
+#include "bench/stress/hard_ways.h"
 #include "bench/stress/near_ties.h"
 #include "bench/verify.h"
 #include "tests/bench/oracle/hard_meshes.h"
@@ -337,6 +338,49 @@ TEST(ExactFormsOnTheMove, AgreeAlongACoherentWay) {
     examination.ask_all("sweeps on the move", Query::sweep, steps_at(way, constant(radius), constant(0)));
   }
 }
+
+/// Grazing, beginning an ulp beside the surface, along it and through its corners, at 2^50 times the mesh's
+/// size from the origin as at it: the oracle excuses nothing.
+class ExactFormsOnHardWays : public testing::TestWithParam<int> {
+ protected:
+  static TriangleMesh some_triangles() {
+    HardCases hard(37);
+    std::vector<HardCases::Corners> triangles;
+    for (int i = 0; i < 30; ++i)
+      triangles.push_back(i % 3 == 0 ? hard.needle() : i % 3 == 1 ? hard.on_lattice() : hard.plain());
+    return mesh_of(triangles);
+  }
+};
+
+TEST_P(ExactFormsOnHardWays, HitExactlyWhereTheyHit) {
+  const Vec3 offset =
+      GetParam() == 0 ? Vec3(Vec3::Zero()) : Vec3(std::ldexp(1.0, GetParam()) * Vec3(1, -0.7, 0.3));
+  for (const TriangleMesh& whole : {octasphere(5), some_triangles()}) {
+    const TriangleMesh mesh = whole.transformed(1, offset);
+    const std::vector<Step> steps = bench::HardWays(mesh, 41).course(500);
+    Examination(mesh).ask_all("hard ways", Query::sweep, steps);
+    // Lazily made, and following from elsewhere.
+    bench::ContestantOf<BruteForce> reference(BruteForce::build(mesh));
+    const std::vector<Answer> expected = ask(reference, Query::sweep, steps);
+    const auto expect_same = [&]<class D>(const char* name, D detector) {
+      bench::ContestantOf<D> contestant(std::move(detector));
+      EXPECT_EQ(first_difference(ask(contestant, Query::sweep, steps), expected), steps.size()) << name;
+    };
+    expect_same("grid-group, lazy", GridGroup::build(mesh, {.making = GridGroup::Making::lazy}));
+    expect_same("sphere-cluster, lazy", SphereCluster::build(mesh, {.making = SphereCluster::Making::lazy}));
+    const TriangleMesh elsewhere = whole.transformed(1.01, offset);
+    const auto follow = [&]<class D>(const char* name, D detector) {
+      detector.update(mesh);
+      expect_same(name, std::move(detector));
+    };
+    follow("aabb-tree, updated", AabbTree::build(elsewhere));
+    follow("grid-group, updated", GridGroup::build(elsewhere));
+    follow("sphere-cluster, updated", SphereCluster::build(elsewhere));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Offsets, ExactFormsOnHardWays, testing::Values(0, 20, 40, 50),
+                         [](const auto& offset) { return "by_2_to_the_" + std::to_string(offset.param); });
 
 template <class D>
 struct Case {

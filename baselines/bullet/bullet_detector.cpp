@@ -339,16 +339,17 @@ struct BulletDetector::Queries {
     HitCandidate first;
     model.near(sweep.from, sweep.to, sweep.radius, [&](std::uint32_t triangle) {
       ++session.work.triangles;
-      const auto fraction = sweep_hit(model.triangles[triangle], sweep, std::min(first.fraction, 1.0));
+      const auto fraction = sweep_hit(model.triangles[triangle], sweep, std::min(first.fraction, 1.0),
+                                      session.work.exact_decisions);
       if (fraction) first = std::min(first, HitCandidate{*fraction, triangle});
     });
     if (first.index >= model.triangles.size()) return std::nullopt;
     if (!(first.fraction > 0)) {  // of all the triangles touched at the start the nearest one counts
-      const std::optional<Contact> contact = nearest(sweep.from, sweep.radius);
-      return contact ? std::optional(Impact{0, *contact}) : std::nullopt;
+      if (const std::optional<Contact> contact = nearest(sweep.from, sweep.radius))
+        return Impact{0, *contact};
     }
-    return Impact{first.fraction, contact_on(model.triangles[first.index], position_at(sweep, first.fraction),
-                                             model.id(first.index))};
+    return Impact{first.fraction,
+                  contact_on_way(model.triangles[first.index], sweep, first.fraction, model.id(first.index))};
   }
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <numbers>
 
 #include <Eigen/Geometry>
@@ -539,6 +540,32 @@ TEST_F(LyingSweep, WithinTheDeclaredAccuracyIsUnresolved) {
   EXPECT_EQ(tally_with(1e-3), Counts{.unresolved = 1});
   EXPECT_EQ(tally_with(1e-5), Counts{.false_contacts = 1});
   EXPECT_EQ(tally_with(infinity), Counts{.false_contacts = 1});
+}
+
+/// Above a plate, by one ulp wherever that matters.
+TEST_F(LyingSweep, WhoDecidesExactlyIsExcusedNothing) {
+  const TriangleMesh flat = plate(3);
+  const Oracle truth(flat);
+  const auto told = [&](double from, double to, double size, std::optional<double> fraction) {
+    const std::vector<Sweep> sweep = {{{1.25, 1.25, from}, {1.25, 1.25, to}, size}};
+    const double height = from + fraction.value_or(0) * (to - from);
+    const Answer hit = Answer::of({Vec3(1.25, 1.25, 0), Vec3(0, 0, 1), height, 8}, fraction.value_or(0));
+    return counts(judge(truth, truth.solve(sweep), sweep, std::vector<Answer>{fraction ? hit : Answer{}},
+                        touchmark::certified));
+  };
+  const double above = std::nextafter(0.5, 1), below = std::nextafter(0.5, 0);
+  EXPECT_EQ(told(0.5, 0.25, 0.5, 0), Counts{});
+  EXPECT_EQ(told(0.5, 0.25, 0.5, 5e-324), Counts{.missed = 1});
+  EXPECT_EQ(told(above, 0.25, 0.5, 5e-324), Counts{});
+  EXPECT_EQ(told(above, 0.25, 0.5, 0), Counts{.false_contacts = 1});
+  EXPECT_EQ(told(1, 0, 0.5, 0.5), Counts{});
+  EXPECT_EQ(told(1, 0, 0.5, above), Counts{.missed = 1});
+  EXPECT_EQ(told(1, 0, 0.5, 0.5 - 1e-14), Counts{});
+  EXPECT_EQ(told(1, 0, 0.5, 0.5 - 1e-12), Counts{.false_contacts = 1});
+  EXPECT_EQ(told(1, 0.5, 0.5, 1), Counts{});
+  EXPECT_EQ(told(1, 0.5, 0.5, std::nullopt), Counts{.missed = 1});
+  EXPECT_EQ(told(1, 0.5, below, 1), Counts{.false_contacts = 1});
+  EXPECT_EQ(told(1, 0.5, below, std::nullopt), Counts{});
 }
 
 TEST(Tally, AddsCountsAndKeepsTheLargestErrors) {

@@ -51,6 +51,30 @@ void expect_oracle_agrees(const HardCase& c) {
 
 class ExactDecision : public testing::TestWithParam<HardFamily> {};
 
+/// Ways to the point from another case's, at the radii where their distance may begin to be within.
+TEST_P(ExactDecision, OfPartsOfAWayIsTheOracles) {
+  HardCases hard(62);
+  std::size_t within = 0, beyond = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const HardCase c = placed(GetParam(), hard, i);
+    const Vec3 from = i % 3 == 0 ? c.point : Vec3(c.triangle[0] + 3 * (c.triangle[1] - c.point));
+    if (!from.allFinite()) continue;
+    const double fraction = i % 2 == 0 ? 1 : std::round(hard.fraction() * 0x1p53) / 0x1p53;
+    const double distance = bench::nearest_exactly(c.point, {&c.triangle, 1}).high;
+    for (const double radius : radii(std::min(distance, largest))) {
+      const bool expected = bench::compare_part_distance(from, c.point, fraction, c.triangle, radius) <= 0;
+      ASSERT_EQ(way_within_exactly(c.triangle, from, c.point, fraction, radius), expected)
+          << "case " << i << ", radius " << radius << ", fraction " << fraction;
+      ++(expected ? within : beyond);
+      if (fraction == 1) {
+        ASSERT_EQ(bench::compare_segment_distance(from, c.point, c.triangle, radius) <= 0, expected);
+      }
+    }
+  }
+  EXPECT_GT(within, 500U);
+  EXPECT_GT(beyond, 20U);
+}
+
 TEST_P(ExactDecision, IsTheOracles) {
   HardCases hard(60);
   for (int i = 0; i < 4000; ++i) {
