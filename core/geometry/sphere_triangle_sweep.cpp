@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/geometry/exact_decision.h"
 #include "core/geometry/way_gap.h"
