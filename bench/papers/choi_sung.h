@@ -56,8 +56,8 @@ struct ChoiSungRow {
   double tightness = 0;           ///< mesh units, the paper's formula
   double relative_tightness = 1;  ///< to level 0 without clustering
   // Empty until timed. The published two-level scan, and what may replace it: exact, too.
-  std::optional<Timed> scan, tree;
-  std::optional<Timed> grid;  ///< knows no clustering: of unclustered rows only
+  std::optional<TimedTurns> scan, tree;
+  std::optional<TimedTurns> grid;  ///< knows no clustering: of unclustered rows only
 };
 
 struct ChoiSungResult {

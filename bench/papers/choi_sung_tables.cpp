@@ -13,8 +13,8 @@ std::string ratio(double ns, double other_ns) {
   return ns > 0 && other_ns > 0 ? fmt::format("{:.4g}", ns / other_ns) : "";
 }
 
-double ns_of(const std::optional<Timed>& timed) { return timed ? timed->ns : 0; }
-std::string work_of(const std::optional<Timed>& timed) {
+double ns_of(const std::optional<TimedTurns>& timed) { return timed ? timed->ns : 0; }
+std::string work_of(const std::optional<TimedTurns>& timed) {
   return timed ? fmt::format("{:.1f}", timed->work) : "";
 }
 

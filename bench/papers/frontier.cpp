@@ -44,7 +44,7 @@ class Exploration {
     } catch (const Interrupted&) {
     }
     for (std::size_t i = 0; i < result_.points.size(); ++i) {
-      const Timed timed = timing_.timed(i);
+      const TimedTurns timed = timing_.timed(i);
       if (timed.ns > 0) result_.points[i].ns = timed.ns;
       result_.points[i].ns_p99 = timed.ns_p99;
     }

@@ -89,8 +89,8 @@ void InterleavedTiming::run(const TimingEffort& effort,
   }
 }
 
-Timed InterleavedTiming::timed(std::size_t detector) const {
-  Timed timed = entries_[detector].timed;
+TimedTurns InterleavedTiming::timed(std::size_t detector) const {
+  TimedTurns timed = entries_[detector].timed;
   const Entry& entry = entries_[detector];
   timed.ns = median(entry.turn_ns);
   if (!entry.step_ns.empty()) {

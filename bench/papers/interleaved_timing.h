@@ -20,8 +20,8 @@ struct TimingEffort {
   double least_turn_ns = 10e6;  ///< a turn replays the course until it has lasted so long
 };
 
-/// What a detector did on the course.
-struct Timed {
+/// What a detector did on the course, turn by turn.
+struct TimedTurns {
   double ns = 0;  ///< per query, median over the rounds; 0 before the first
   /// What 99 of 100 queries are done in, each step's median over the rounds; nothing before the first. At
   /// least the clock's own cost: it cannot tell shorter queries apart.
@@ -44,12 +44,12 @@ class InterleavedTiming {
   void run(const TimingEffort& effort,
            const std::function<void(std::size_t round, std::size_t detector)>& progress);
 
-  Timed timed(std::size_t detector) const;
+  TimedTurns timed(std::size_t detector) const;
 
  private:
   struct Entry {
     std::unique_ptr<Contestant> contestant;
-    Timed timed;
+    TimedTurns timed;
     std::int64_t passes = 0;                   ///< in a turn; 0: not known yet
     std::vector<double> turn_ns;               ///< per query, one a round
     std::vector<std::vector<double>> step_ns;  ///< by round and step

@@ -37,7 +37,7 @@ struct ParkJangRow {
   std::string form;        ///< "cube" or "sphere", as published; "ungrouped"; "direct": the fast exact form
   double cell = 0;         ///< edge, mesh units; 0 without
   std::size_t groups = 0;  ///< 0 without
-  std::optional<Timed> timed;
+  std::optional<TimedTurns> timed;
 };
 
 struct ParkJangResult {

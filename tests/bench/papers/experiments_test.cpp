@@ -245,7 +245,7 @@ TEST(ParkJang, SaysOfItsMeshesOnlyWhatCameOut) {
 TEST(ParkJang, FindsTheBestCountAndThoseNearIt) {
   ParkJangResult result;
   const auto add = [&](const char* form, std::size_t groups, double ns) {
-    result.rows.push_back({"m", 100, form, 0, groups, Timed{.ns = ns}});
+    result.rows.push_back({"m", 100, form, 0, groups, TimedTurns{.ns = ns}});
   };
   add("ungrouped", 0, 1000);
   add("cube", 1, 1010);
