@@ -79,6 +79,7 @@ ContestantInfo aabb_tree() {
                          "float: mesh, boxes, kernel and distances in single precision; touches and nearest, "
                          "no side, nothing certified"),
                   certified_option(),
+                  updated_option(),
                   side_option()};
   info.build = [=](const TriangleMesh& mesh, const OptionValues& values) {
     const std::size_t leaf_size = values.count("leaf_size");
@@ -134,6 +135,7 @@ ContestantInfo grid_group() {
       {"bytes_per_triangle", OptionKind::number, {}, "400", "direct: what the structure may take"},
       certified_option(),
       choice("build", makings, "lazy: groups and cells are made by the first queries that want them"),
+      updated_option(),
       side_option()};
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
     GridGroup::Options options;
@@ -180,6 +182,7 @@ ContestantInfo sphere_cluster() {
       choice("prepare", no_or_yes,
              "true: list triangles for the next step in the idle rest of a tick, clocked apart"),
       choice("simd", widths, "tree: no wider instructions than these, nor than the processor's"),
+      updated_option(),
       side_option()};
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
     SphereCluster::Options options;
@@ -383,8 +386,16 @@ const std::vector<std::string> compared_by_default{"brute-force",
 
 // What verify runs besides: every other exact form, and the rivals' forms that answer differently.
 const std::vector<std::string> verified_besides{"aabb-tree:precision=float",
+                                                "aabb-tree:updated=true",
                                                 "grid-group:cell=1%",
+                                                "grid-group:build=lazy",
+                                                "grid-group:updated=true",
+                                                "grid-group:build=lazy,updated=true",
                                                 "sphere-cluster:clustering=2%",
+                                                "sphere-cluster:build=lazy",
+                                                "sphere-cluster:prepare=true",
+                                                "sphere-cluster:updated=true",
+                                                "sphere-cluster:build=lazy,updated=true",
                                                 "sphere-cluster:lookup=scan,clustering=2%",
                                                 "sphere-cluster:lookup=scan,clustering=2%,precise=false",
                                                 "fcl:bv=obb",

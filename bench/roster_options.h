@@ -1,8 +1,11 @@
 /// How roster.cpp ties the names of options on the command line to values of a detector's Options.
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <limits>
 #include <memory>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -11,6 +14,7 @@
 #include "bench/contestant.h"
 #include "bench/contestant_info.h"
 #include "bench/remarks.h"
+#include "bench/update/displaced.h"
 #include "core/sign/signed_detector.h"
 
 namespace touchmark::bench {
@@ -32,7 +36,42 @@ inline bool asks_for_side(const OptionValues& values) {
   return side != values.all().end() && side->second == "on";
 }
 
-/// The same with the option above, and with what `remark_on(detector)` has to say of it, unless that is
+/// Whether a detector is to have followed its mesh, for those that can: to verify updates by any question.
+inline const char* const updated_key = "updated";
+
+inline OptionInfo updated_option() {
+  return {updated_key,
+          OptionKind::choice,
+          {"false", "true"},
+          "false",
+          "true: built of the mesh with some vertices elsewhere, asked, then updated to it"};
+}
+
+inline bool is_updated(const OptionValues& values) {
+  const auto updated = values.all().find(updated_key);
+  return updated != values.all().end() && updated->second == "true";
+}
+
+/// Built of the mesh, or made to follow it there. Before it does, it is asked here and there, so that
+/// something of what is made later is there to be kept.
+template <Detector D, class Options>
+D built(const TriangleMesh& mesh, const Options& options, const OptionValues& values) {
+  if constexpr (Updates<D> && AnswersNearest<D>) {
+    if (is_updated(values)) {
+      constexpr std::size_t most_asked = 500;
+      D detector = D::build(displaced(mesh, 1), options);
+      typename D::Session session;
+      const std::span<const Vec3> vertices = mesh.vertices();
+      for (std::size_t i = 0; i < vertices.size(); i += 1 + vertices.size() / most_asked)
+        detector.nearest({vertices[i], 0}, std::numeric_limits<double>::infinity(), session);
+      detector.update(mesh);
+      return detector;
+    }
+  }
+  return D::build(mesh, options);
+}
+
+/// The same with the options above, and with what `remark_on(detector)` has to say of it, unless that is
 /// empty.
 template <Detector D, Idle idle = Idle::wasted>
 std::unique_ptr<Contestant> contestant(const TriangleMesh& mesh, const typename D::Options& options,
@@ -48,7 +87,8 @@ std::unique_ptr<Contestant> contestant(const TriangleMesh& mesh, const typename 
     if (std::string text = remark_on ? remark_on(*plain) : ""; !text.empty()) remark(std::move(text));
     return std::make_unique<ContestantOf<Built, idle>>(std::move(detector));
   };
-  return asks_for_side(values) ? with(Signed<D>::build(mesh, options)) : with(D::build(mesh, options));
+  return asks_for_side(values) ? with(built<Signed<D>>(mesh, options, values))
+                               : with(built<D>(mesh, options, values));
 }
 
 /// A choice's names with what they stand for. The first one is the default.

@@ -11,7 +11,10 @@ std::vector<Vec3> hard_centers(const TriangleMesh& mesh, std::size_t count, std:
   HardCases hard(seed);
   std::vector<Vec3> centers;
   const Aabb& box = mesh.bounds();
-  const double size = std::max(mesh.diagonal(), std::numeric_limits<double>::min());
+  // The box's diagonal, also where the squares of its sides leave the range of double.
+  const bool fits = mesh.diagonal() > 1e-150 && mesh.diagonal() < 1e150;
+  const double size =
+      std::max(fits ? mesh.diagonal() : box.extent().stableNorm(), std::numeric_limits<double>::min());
   centers.push_back(box.center());
   Vec3 mean = Vec3::Zero();
   for (const Vec3& v : mesh.vertices()) mean += (v - box.min) / static_cast<double>(mesh.vertices().size());

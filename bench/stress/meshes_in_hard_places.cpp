@@ -1,3 +1,4 @@
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -26,7 +27,9 @@ std::vector<Workload> thresholds(std::uint64_t seed, std::size_t probes) {
 std::vector<Workload> scales(std::uint64_t seed, std::size_t probes) {
   std::vector<NamedMesh> meshes;
   const TriangleMesh mesh = soup(triangles_moved);
-  for (const double scale : {1e-9, 1e-6, 1e-3, 1e3, 1e6, 1e9})
+  // To both ends of the range of double, and on both sides of where squares and fourth powers leave it.
+  for (const double scale : {1e-300, 1e-150, 1e-90, 1e-60, 1e-39, 1e-20, 1e-9, 1e-3, 1e3, 1e9, 1e20, 1e38,
+                             1e60, 1e90, 1e150, 1e300})
     meshes.push_back({fmt::format("soup@scale={:g}", scale), mesh.transformed(scale, Vec3::Zero())});
   return hard_questions(std::move(meshes), seed, probes);
 }
@@ -34,11 +37,17 @@ std::vector<Workload> scales(std::uint64_t seed, std::size_t probes) {
 std::vector<Workload> offsets(std::uint64_t seed, std::size_t probes) {
   HardCases hard(seed);
   std::vector<NamedMesh> meshes;
-  for (const double offset : {1e3, 1e6, 1e9}) {
-    meshes.push_back({fmt::format("soup moved by {:g}", offset),
-                      soup(triangles_moved).transformed(1, offset * hard.vector())});
-    meshes.push_back(
-        {fmt::format("torus moved by {:g}", offset), torus(12, 8).transformed(1, offset * hard.vector())});
+  const auto add = [&](const char* name, const TriangleMesh& mesh, int exponent) {
+    // By that many of its longest side along one axis, and by any part of them along the others.
+    Vec3 place = hard.vector();
+    place[static_cast<int>(hard.below(3))] = hard.below(2) == 0 ? -1 : 1;
+    const double offset = std::ldexp(mesh.bounds().extent().maxCoeff(), exponent);
+    meshes.push_back({fmt::format("{} moved by 2^{}", name, exponent), mesh.transformed(1, offset * place)});
+  };
+  // Up to where a mesh is a few doubles wide.
+  for (const int exponent : {10, 20, 28, 31, 34, 38, 42, 46, 50}) {
+    add("soup", soup(triangles_moved), exponent);
+    add("torus", torus(12, 8), exponent);
   }
   return hard_questions(std::move(meshes), seed, probes);
 }
