@@ -3,6 +3,7 @@
 
 usage: install_test.py BUILD_DIRECTORY
 """
+import ctypes
 import os
 import pathlib
 import re
@@ -14,6 +15,42 @@ import unittest
 
 HERE = pathlib.Path(__file__).resolve().parent
 BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
+
+# A plug-in with the installed library inside.
+PLUGIN = """#include <exception>
+
+#include <core/brute_force/brute_force.h>
+#include <core/grid_group/grid_group.h>
+#include <core/mesh_io/mesh_io.h>
+#include <core/sphere_cluster/sphere_cluster.h>
+
+namespace {
+
+template <class D>
+double distance_by(const touchmark::TriangleMesh& mesh, const touchmark::Vec3& center, double reach) {
+  const D detector = D::build(mesh);
+  typename D::Session session;
+  const auto contact = detector.nearest({center, 0}, reach, session);
+  return contact ? contact->distance : -1;
+}
+
+}  // namespace
+
+/// The distance of a point from the mesh in a file, -1 beyond the reach; -2 where detectors differ, -3 where
+/// the file cannot be read.
+extern "C" double distance_from(const char* file, double x, double y, double z, double reach) {
+  try {
+    const touchmark::TriangleMesh mesh = touchmark::load_mesh(file);
+    const touchmark::Vec3 center(x, y, z);
+    const double distance = distance_by<touchmark::BruteForce>(mesh, center, reach);
+    const bool same = distance_by<touchmark::GridGroup>(mesh, center, reach) == distance &&
+                      distance_by<touchmark::SphereCluster>(mesh, center, reach) == distance;
+    return same ? distance : -2;
+  } catch (const std::exception&) {
+    return -3;
+  }
+}
+"""
 
 
 def run(*command, **options):
@@ -73,6 +110,23 @@ class Install(unittest.TestCase):
         run("cmake", "-S", source, "-B", build, f"-DCMAKE_PREFIX_PATH={self.prefix}", "-DLIBRARY=mesh_io")
         run("cmake", "--build", build)
         run(build / "example", source / "one.off")
+
+    def test_a_plug_in_has_the_library_inside_and_can_be_loaded(self):
+        source = self.source / "plugin"
+        source.mkdir()
+        shutil.copy(HERE / "CMakeLists.txt", source)
+        (source / "plugin.cpp").write_text(PLUGIN, encoding="utf-8")
+        (source / "one.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", encoding="utf-8")
+        build = source / "build"
+        run("cmake", "-S", source, "-B", build, f"-DCMAKE_PREFIX_PATH={self.prefix}", "-DLIBRARY=mesh_io")
+        run("cmake", "--build", build)
+        distance_from = ctypes.CDLL(str(build / "plugin.so")).distance_from
+        distance_from.restype = ctypes.c_double
+        distance_from.argtypes = [ctypes.c_char_p] + 4 * [ctypes.c_double]
+        mesh = os.fsencode(source / "one.off")
+        self.assertEqual(distance_from(mesh, 0.25, 0.25, 2, 3), 2)
+        self.assertEqual(distance_from(mesh, 0.25, 0.25, 2, 1), -1)
+        self.assertEqual(distance_from(os.fsencode(source / "none.off"), 0, 0, 0, 1), -3)
 
     def test_no_installed_header_needs_one_that_is_not(self):
         include = self.prefix / "include" / "touchmark"
