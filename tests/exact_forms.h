@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bench/contestant.h"
+#include "bench/update/displaced.h"
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
 #include "core/grid_group/grid_group.h"
@@ -35,7 +36,17 @@ inline std::vector<ExactForm> exact_forms(const TriangleMesh& mesh) {
       Grid::build(mesh, {.shape = Grid::Shape::sphere, .lookup = Grid::Lookup::scan}));
   add("grid-group, direct", Grid::build(mesh));
   add("grid-group, direct, small cells", Grid::build(mesh, {.cell = 0.2 * some}));
+  // Some groups are made when the mesh is still elsewhere.
+  const auto updated = [&]<class D>(D detector) {
+    typename D::Session session;
+    for (const Vec3& v : mesh.vertices()) detector.nearest({v, 0}, some, session);
+    detector.update(mesh);
+    return detector;
+  };
+  const TriangleMesh before = bench::displaced(mesh, 1);
+  add("grid-group, direct, updated", updated(Grid::build(before)));
   add("grid-group, direct, lazy", Grid::build(mesh, {.making = Grid::Making::lazy}));
+  add("grid-group, direct, lazy, updated", updated(Grid::build(before, {.making = Grid::Making::lazy})));
   using Cluster = SphereCluster;
   add("sphere-cluster, scan", Cluster::build(mesh, {.lookup = Cluster::Lookup::scan}));
   add("sphere-cluster, scan, clustered",
@@ -44,7 +55,10 @@ inline std::vector<ExactForm> exact_forms(const TriangleMesh& mesh) {
   add("sphere-cluster, tree, portable", Cluster::build(mesh, {.widest = Simd::portable}));
   add("sphere-cluster, tree, avx2", Cluster::build(mesh, {.widest = Simd::avx2}));
   add("sphere-cluster, tree, clustered", Cluster::build(mesh, {.clustering = some}));
+  add("sphere-cluster, tree, updated", updated(Cluster::build(before)));
   add("sphere-cluster, tree, lazy", Cluster::build(mesh, {.making = Cluster::Making::lazy}));
+  add("sphere-cluster, tree, lazy, updated",
+      updated(Cluster::build(before, {.making = Cluster::Making::lazy})));
   return forms;
 }
 

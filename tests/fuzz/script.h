@@ -59,12 +59,26 @@ class Script {
   std::size_t at_ = 0;
 };
 
+/// No way at all, one of the mesh's own size or so, or as far as doubles tell its corners apart and farther.
+inline Vec3 read_shift(Script& script) {
+  switch (script.below(4)) {
+    case 1:
+      return script.vector();
+    case 2:
+      return std::ldexp(1.0, 20 + static_cast<int>(script.below(36))) * script.vector();
+    case 3:
+      return Vec3::Constant(std::ldexp(1.0, 20 + static_cast<int>(script.below(36))));
+    default:
+      return Vec3::Zero();
+  }
+}
+
 /// 1 to 16 triangles of 3 to 10 vertices, and in one of four meshes up to seven copies of them, each moved on
 /// from the last, for hierarchies of some depth: those take the most time. Throws MeshError where the scale
 /// leaves the range of double.
 inline TriangleMesh read_mesh(Script& script) {
   const double scale = script.magnitude();
-  const Vec3 shift = script.flag() ? script.vector() : Vec3(Vec3::Zero());
+  const Vec3 shift = read_shift(script);
   const std::size_t given = 3 + script.below(8), copies = script.below(4) == 0 ? 1 + script.below(8) : 1;
   const Vec3 step = copies > 1 ? script.vector() : Vec3(Vec3::Zero());
   std::vector<Vec3> vertices(given);

@@ -213,7 +213,7 @@ ParkJangResult two_meshes(double gained_by_the_larger) {
   result.finished = true;
   const auto add = [&](const char* mesh, std::size_t triangles, double gained) {
     const auto row = [&](const char* form, std::size_t groups, double ns) {
-      result.rows.push_back({mesh, triangles, form, 0, groups, Timed{.ns = ns}});
+      result.rows.push_back({mesh, triangles, form, 0, groups, TimedTurns{.ns = ns}});
     };
     row("ungrouped", 0, 1000);
     row("cube", 1, 1010);
