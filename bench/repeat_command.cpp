@@ -28,7 +28,13 @@ std::string repeat_command(const Selectors& selectors, const std::string& mesh,
       fmt::format("touchmark query --mesh {}{} --trajectory {} --detector {} --query {} --radius {}",
                   quoted(mesh), selectors.normalize ? " --normalize" : "", quoted(trajectories[course]),
                   quoted(row.contestant()), name_of(row.query), quoted(selectors.radius));
-  if (!selectors.reach.empty()) command += " --reach " + quoted(selectors.reach);
+  const auto add = [&](const char* option, const std::string& value) {
+    if (!value.empty()) command += fmt::format(" {} {}", option, quoted(value));
+  };
+  add("--reach", selectors.reach);
+  add("--columns", selectors.motion.columns);
+  add("--motion-scale", selectors.motion.scale);
+  add("--rate", selectors.motion.rate);
   return command +
          fmt::format(" --steps {} --seed {} --step ", workload.courses[course].size(), selectors.seed);
 }

@@ -2,6 +2,7 @@
 /// exit status and its line.
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <fstream>
 #include <regex>
@@ -194,6 +195,16 @@ std::vector<std::string> commands_in(const std::string& text, const std::string&
   return commands;
 }
 
+/// 40 steps in metres along a meridian of the unit sphere of millimetres, under names of their own.
+std::string motion_in_metres() {
+  const std::string path = ::testing::TempDir() + "motion_in_metres.csv";
+  std::ofstream file(path);
+  file << "a,b,c\n";
+  for (int i = 0; i < 40; ++i)
+    file << 0.001 * std::cos(0.01 * i) << ',' << 0.001 * std::sin(0.01 * i) << ",0\n";
+  return path;
+}
+
 TEST(WrongAnswers, AreToldWithTheCommandsThatRepeatThem) {
   const std::string told[] = {
       run_hostile({"verify", "--mesh", "icosphere:2", "--steps", "40", "--trajectory", "slide", "--query",
@@ -201,6 +212,9 @@ TEST(WrongAnswers, AreToldWithTheCommandsThatRepeatThem) {
           .out,
       run_hostile({"bench", "--mesh", "icosphere:2", "--steps", "40", "--trajectory", "slide", "--quick",
                    "--detector", "lies"})
+          .out,
+      run_hostile({"verify", "--mesh", "icosphere:2", "--trajectory", motion_in_metres(), "--columns",
+                   "x=a,y=b,z=c", "--motion-scale", "1000", "--query", "nearest", "--detector", "lies"})
           .out,
       run_hostile({"stress", "--family", "thresholds", "--probes", "60", "--detector", "lies"}).out};
   for (const std::string& text : told) {
