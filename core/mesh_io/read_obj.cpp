@@ -89,7 +89,7 @@ TriangleMesh read_obj(std::string_view bytes) {
   read_vertices(cursor, mesh);
   VerticesThere vertices{0, mesh.vertex_count()};
   std::vector<std::uint32_t> corners;
-  for (; !cursor.at_end(); cursor.skip_line()) {
+  for (; !cursor.at_end() && !is_padding(cursor.rest()); cursor.skip_line()) {
     const std::string_view statement = cursor.word();
     if (statement == "v") {
       ++vertices.so_far;

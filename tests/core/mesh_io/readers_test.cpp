@@ -94,6 +94,12 @@ TEST(ReadObj, AFaceMayStandBeforeItsVertices) {
             "line 1: face 0 names vertex -1 of 0 so far");
 }
 
+TEST(ReadObj, PaddingMayFollowTheLastLine) {
+  EXPECT_EQ(read_obj(square_obj + "f 1 2 3\n" + std::string("\0\0\x1a\n", 4)).size(), 1u);
+  EXPECT_EQ(refusal(read_obj, square_obj + std::string("\0\nf 1 2 3\n", 10)),
+            "line 5: unknown statement '?'");
+}
+
 TEST(ReadObj, SkipsCurvesAndRefusesFreeFormSurfacesByName) {
   EXPECT_EQ(read_obj(square_obj + "cstype bspline\ndeg 3\ncurv 0 1 1 2 3 4\nparm u 0 0 1 1\nend\n"
                                   "curv2 1 2 3\nsp 1\nf 1 2 3\n")
