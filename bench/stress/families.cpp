@@ -59,6 +59,9 @@ constexpr std::array list{
     Family{"near-ties",
            "two or more triangles as far but for rounding: turned images, and where the nearest changes",
            false, &stress::near_ties},
+    Family{"shared-features",
+           "hundreds of triangles as near by one corner, edge or face, or each by a place of its own", false,
+           &stress::shared_features},
 };
 
 }  // namespace

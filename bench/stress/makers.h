@@ -45,6 +45,9 @@ std::vector<Workload> motions(std::uint64_t seed, std::size_t probes);
 // near_ties.cpp
 std::vector<Workload> near_ties(std::uint64_t seed, std::size_t probes);
 
+// shared_features.cpp
+std::vector<Workload> shared_features(std::uint64_t seed, std::size_t probes);
+
 // ordinary.cpp
 std::vector<Workload> ordinary(std::uint64_t seed, std::size_t probes);
 

@@ -193,7 +193,10 @@ std::optional<Feature> sure_feature(const PreparedTriangle& t, const Vec3& point
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = i == 2 ? 0 : i + 1, from = squared[j] < squared[i] ? j : i;
     const Beside beside = beside_edge(t, i, from, point, to[from], squared[from]);
-    if (beside.side > 0 && beside.between_ends) return edge_between(t.corner[i], t.corner[j]);
+    if (beside.side >= 0 && beside.between_ends) {
+      const Feature edge = edge_between(t.corner[i], t.corner[j]);
+      if (beside.side > 0 || SharedPlace(edge, point).is_nearest_of(t)) return edge;
+    }
     is_over = is_over && beside.side < 0;
   }
   if (is_over) return Feature{t.corner, 3};
@@ -258,6 +261,17 @@ SharedPlace::SharedPlace(const Feature& feature, const Vec3& point) noexcept : f
   if (!is_known_) return;
   const DoubleDouble part = dot(w, e) / length;
   for (std::size_t k = 0; k < 3; ++k) offset_[static_cast<Eigen::Index>(k)] = (w[k] - e[k] * part).rounded();
+  // Along an axis, the offset is what the other two coordinates differ by.
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const auto is_level = [&](Eigen::Index axis) {
+      return are_level(feature_, axis) && two_sum(point[axis], -from[axis]).low == 0;
+    };
+    if (!is_level((k + 1) % 3) || !is_level((k + 2) % 3)) continue;
+    offset_ = point - from;
+    offset_[k] = 0;
+    is_exact_ = true;
+    return;
+  }
   // Off by 2^-96 |w| at most: below a rounding of its length, then.
   const double nearer = std::max({std::abs(w[0].high), std::abs(w[1].high), std::abs(w[2].high)});
   is_known_ = offset_.cwiseAbs().maxCoeff() > 0x1p-42 * nearer;
@@ -285,7 +299,9 @@ bool SharedPlace::is_surely_behind(const Vec3& corner) const noexcept {
   const double along = way.dot(offset_);
   const int sign = sure_sign(along, roundings * roundings * squared * offset_.squaredNorm());
   if (sign != 0 || !is_exact_) return sign < 0;
-  return is_exactly_across(feature_.corner[0] + offset_, feature_.corner[0], corner);
+  const Vec3& from = feature_.corner[0];
+  const Vec3 point = from + offset_;
+  return point - from == offset_ && is_exactly_across(point, from, corner);
 }
 
 bool SharedPlace::is_nearest_of(const PreparedTriangle& triangle) const noexcept {

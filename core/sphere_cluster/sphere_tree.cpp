@@ -59,7 +59,7 @@ struct TouchVisitor {
   const TreeParts& tree;
   const Vec3& center;
   double radius;
-  WithinRadius is_within;
+  double error;  ///< of a computed distance
   bool certified;
   float limit = -1;
   float enough = -1;  ///< in the tree's frame: a triangle no farther is surely within the radius
@@ -72,13 +72,19 @@ struct TouchVisitor {
     const double distance = std::sqrt(found.squared);
     least = std::min(least, distance);
     const bool within =
-        certified ? is_within(tree.triangles[at], distance, work.exact_decisions) : distance <= radius;
+        certified && !(std::abs(distance - radius) > error) ? decide(at, distance) : distance <= radius;
     if (!within) return;
     keep(at, distance);
   }
   void take_within(std::uint32_t at) noexcept { keep(at, radius); }
 
+  std::optional<WithinRadius> is_within{};
+
  private:
+  [[gnu::cold, gnu::noinline]] bool decide(std::uint32_t at, double distance) noexcept {
+    if (!is_within) is_within.emplace(center, radius, error);
+    return (*is_within)(tree.triangles[at], distance, work.exact_decisions);
+  }
   void keep(std::uint32_t at, double distance) noexcept {
     kept_at = at;
     least = distance;
@@ -231,8 +237,7 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
     if ((memory.nearest + moved) * (1 + 0x1p-40) + slack_at(point) <= radius) return true;
     // It is still near what it touched, unless it came from elsewhere.
     if (std::abs(memory.nearest - moved) <= radius) {
-      TouchVisitor visitor{
-          parts_, center, radius, {center, radius, frame_.kernel_error(point.tau)}, certified_};
+      TouchVisitor visitor{parts_, center, radius, frame_.kernel_error(point.tau), certified_};
       show(memory.last, visitor);
       work += visitor.work;
       if (visitor.kept_at != nowhere) {
@@ -246,7 +251,7 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
       (samples_later_ && is_far_once_sampled(point, center, radius, memory, most, work)))
     return false;
   const double error = frame_.kernel_error(point.tau);
-  TouchVisitor visitor{parts_, center, radius, {center, radius, error}, certified_};
+  TouchVisitor visitor{parts_, center, radius, error, certified_};
   visitor.limit = frame_.limit((radius + error) * (radius + error));
   visitor.enough = frame_.at_most(radius - error);
   const float unseen = descend(point, visitor, most);

@@ -1,0 +1,22 @@
+/// Meshes whose triangles are all as near to some point: by a corner or an edge that they share, in one
+/// plane, or each by a place of its own.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/triangle_mesh.h"
+
+namespace touchmark::bench {
+
+struct SharedFeature {
+  std::string name;
+  TriangleMesh mesh;
+  std::vector<Vec3> centers;
+};
+
+/// Of about so many triangles, at least 64. The same for the same number.
+std::vector<SharedFeature> shared_feature_meshes(std::size_t triangles);
+
+}  // namespace touchmark::bench
