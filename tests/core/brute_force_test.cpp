@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/geometry/sphere_triangle_sweep.h"
+
 namespace touchmark {
 namespace {
 
@@ -76,8 +78,9 @@ TEST(BruteForce, ASweepStopsAtTheFirstOfTwoLayers) {
   const auto impact = detector.first_hit({{1, 1, 5}, {1, 1, -3}, 0.5}, session);
   ASSERT_TRUE(impact);
   EXPECT_EQ(impact->contact.triangle, 1u);
-  EXPECT_NEAR(impact->fraction, 3.5 / 8, 1e-14);
-  EXPECT_NEAR(impact->contact.distance, 0.5, 1e-14);
+  EXPECT_LE(impact->fraction, 3.5 / 8);
+  EXPECT_GE(impact->fraction, 3.5 / 8 - most_early_gap(5, 8) / 8);
+  EXPECT_NEAR(impact->contact.distance, 0.5, 2 * most_early_gap(5, 8));
 }
 
 TEST(BruteForce, ASweepThatStartsTouchingGivesTheNearestTriangleThere) {

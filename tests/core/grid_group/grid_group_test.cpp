@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/brute_force/brute_force.h"
+#include "core/geometry/sphere_triangle_sweep.h"
 #include "tests/core/grid_group/meshes.h"
 #include "tests/core/touch_then_nearest.h"
 
@@ -151,7 +152,8 @@ TEST(GridGroup, ASweepStopsAtTheSurface) {
     GridGroup::Session session;
     const auto impact = detector.first_hit({{0.75, 0.75, 2}, {0.75, 0.75, -2}, 0.5}, session);
     ASSERT_TRUE(impact);
-    EXPECT_NEAR(impact->fraction, 1.5 / 4, 1e-15);
+    EXPECT_LE(impact->fraction, 1.5 / 4);
+    EXPECT_GE(impact->fraction, 1.5 / 4 - most_early_gap(2, 4) / 4);
     EXPECT_EQ(impact->contact.triangle, 1u);
     EXPECT_FALSE(detector.first_hit({{0.75, 0.75, 2}, {0.75, 0.75, 0.6}, 0.5}, session));
     EXPECT_FALSE(detector.first_hit({{3, 3, 2}, {3, 3, -2}, 0.5}, session));
