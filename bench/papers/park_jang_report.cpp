@@ -25,7 +25,7 @@ std::string unknown_mesh(const std::string& what, std::vector<ParkJangBest> trie
   std::vector<double> values;
   for (const ParkJangBest& best : tried) values.push_back(value(best));
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  text += fmt::format("; on the meshes tried {} {} {:.3g} to {:.3g}", what,
+  text += fmt::format("; on the meshes tried {} {} {:.4g} to {:.4g}", what,
                       std::is_sorted(values.begin(), values.end()) ? "grows with the triangles, from" : "is",
                       *least, *most);
   return text + (*least <= printed && printed <= *most ? ": a mesh between them would give the printed one"
