@@ -6,8 +6,8 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <optional>
 #include <numbers>
+#include <optional>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
