@@ -35,8 +35,7 @@ inline std::uint64_t left_of(std::uint64_t most, std::uint64_t spent) noexcept {
 
 /// The triangles in any order, `bounds` theirs, `ids` by the mesh's order and empty where they are the same.
 /// For any finite numbers, and nothing for others, in a unit of its own where their fourth powers would leave
-/// the range of double; they are counted once, and again where rounding could tell
-/// the nearest.
+/// the range of double; they are counted once, and in such a unit twice.
 struct EveryTriangle {
   std::span<const PreparedTriangle> triangles;
   const Aabb& bounds;

@@ -10,8 +10,8 @@
 /// 4. Whole numbers compare the squares. Those of the nearest so far are kept.
 /// Before the last two, the places and triangles that they last found not to be nearer are known again.
 /// So many triangles about one corner or edge, or in one place, cost about as much again as their kernel
-/// distances; N different places as far but for rounding 2 to 20 times that; and whole numbers for each are
-/// needed only by N different edges or faces whose distances agree to 2^-97.
+/// distances; N different places as far but for rounding 3 to 35 times that; and whole numbers for each, 20
+/// to 100 times, are needed only by N different edges or faces whose distances agree to 2^-97.
 #pragma once
 
 #include <array>
