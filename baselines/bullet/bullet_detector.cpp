@@ -345,8 +345,9 @@ struct BulletDetector::Queries {
     });
     if (first.index >= model.triangles.size()) return std::nullopt;
     if (!(first.fraction > 0)) {  // of all the triangles touched at the start the nearest one counts
-      if (const std::optional<Contact> contact = nearest(sweep.from, sweep.radius))
-        return Impact{0, *contact};
+      // Doubles, which decide its other contacts, may find it beyond the radius.
+      constexpr double any_reach = std::numeric_limits<double>::infinity();
+      if (const std::optional<Contact> contact = nearest(sweep.from, any_reach)) return Impact{0, *contact};
     }
     return Impact{first.fraction,
                   contact_on_way(model.triangles[first.index], sweep, first.fraction, model.id(first.index))};

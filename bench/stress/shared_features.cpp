@@ -131,15 +131,32 @@ std::vector<SharedFeature> shared_feature_meshes(std::size_t triangles) {
 
 namespace stress {
 
-std::vector<Workload> shared_features(std::uint64_t, std::size_t probes) {
+namespace {
+
+/// These centres first, then others about them, from a diagonal away to hardly beside them.
+std::vector<Vec3> centers_about(const std::vector<Vec3>& given, double diagonal, std::size_t count,
+                                HardCases& hard) {
+  std::vector<Vec3> centers(given.begin(),
+                            given.begin() + static_cast<std::ptrdiff_t>(std::min(count, given.size())));
+  while (centers.size() < count) {
+    const double way = std::ldexp(diagonal, -static_cast<int>(hard.below(60)));
+    centers.push_back(given[hard.below(given.size())] + way * hard.vector());
+  }
+  return centers;
+}
+
+}  // namespace
+
+std::vector<Workload> shared_features(std::uint64_t seed, std::size_t probes) {
   std::vector<SharedFeature> all = shared_feature_meshes(200);
+  HardCases hard(seed);
   std::vector<Workload> workloads;
   const std::size_t centers_each = share_of(probes, 3 * all.size());
   for (SharedFeature& shared : all) {
-    shared.centers.resize(std::min(shared.centers.size(), centers_each));
+    shared.centers = centers_about(shared.centers, shared.mesh.diagonal(), centers_each, hard);
     std::vector<Step> course = at_the_exact_distance(shared.mesh, shared.centers);
-    for (const Vec3& center : shared.centers)
-      course.push_back(asked(center, 2 * Oracle(shared.mesh).solve(center).high));
+    const Oracle oracle(shared.mesh);
+    for (const Vec3& center : shared.centers) course.push_back(asked(center, 2 * oracle.solve(center).high));
     workloads.push_back(about({std::move(shared.name), std::move(shared.mesh)},
                               "as near to all by a shared place", std::move(course)));
   }

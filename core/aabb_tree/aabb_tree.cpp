@@ -310,8 +310,8 @@ std::optional<Impact> AabbTree::first_hit(const Sweep& sweep, Session& session) 
   if (first.index >= triangles_.size()) return std::nullopt;
   // Of all the triangles that are touched at the start the nearest one counts.
   if (first.fraction == 0) {
-    if (const auto start = nearest({sweep.from, sweep.radius}, sweep.radius, session))
-      return Impact{0, *start};
+    const double reach = certified_ ? sweep.radius : any_reach;
+    if (const auto start = nearest({sweep.from, sweep.radius}, reach, session)) return Impact{0, *start};
   }
   return Impact{first.fraction, contact_on_way(triangles_[kept_at], sweep, first.fraction, id(first.index))};
 }

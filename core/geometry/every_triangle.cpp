@@ -43,8 +43,10 @@ std::optional<Impact> EveryTriangle::first_hit(const Sweep& sweep, Work& work) c
   work.triangles += triangles.size();
   if (hit == nullptr) return std::nullopt;
   // Of all the triangles that are touched at the start the nearest one counts.
-  if (first.fraction == 0)
-    if (const auto start = nearest(sweep.from, sweep.radius, work)) return Impact{0, *start};
+  if (first.fraction == 0) {
+    const double reach = certified ? sweep.radius : any_reach;
+    if (const auto start = nearest(sweep.from, reach, work)) return Impact{0, *start};
+  }
   return Impact{first.fraction, contact_on_way(*hit, sweep, first.fraction, id(first.index))};
 }
 

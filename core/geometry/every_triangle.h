@@ -28,6 +28,10 @@ inline std::uint64_t most_work_before_all(std::size_t triangles) noexcept {
 
 inline constexpr std::uint64_t any_work = std::numeric_limits<std::uint64_t>::max();
 
+/// The reach at the start of a sweep that touches there by whole numbers, where contact is decided by
+/// doubles: these may find it beyond the radius.
+inline constexpr double any_reach = std::numeric_limits<double>::infinity();
+
 /// What is left of it after `spent`.
 inline std::uint64_t left_of(std::uint64_t most, std::uint64_t spent) noexcept {
   return most > spent ? most - spent : 0;

@@ -177,7 +177,8 @@ std::optional<Impact> DirectGrid::impact_on(const Sweep& sweep, double fraction,
                                             DirectMemory& memory, Work& work) const noexcept {
   // Of all the triangles that are touched at the start the nearest one counts.
   if (fraction == 0) {
-    if (const auto start = nearest(sweep.from, sweep.radius, memory, work)) return Impact{0, *start};
+    const double reach = certified_ ? sweep.radius : any_reach;
+    if (const auto start = nearest(sweep.from, reach, memory, work)) return Impact{0, *start};
   }
   return Impact{fraction, contact_on_way(store_.exact[place], sweep, fraction, store_.id(place))};
 }

@@ -1,6 +1,7 @@
 #include "core/sphere_cluster/sphere_tree.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 
@@ -54,43 +55,63 @@ struct NearestVisitor {
   }
 };
 
-/// Is content with any triangle within the radius. What doubles leave open is decided exactly at once.
+/// Is content with any triangle that is surely within the radius, and keeps those that doubles leave open.
 struct TouchVisitor {
+  /// Not an aggregate, whose initialization would clear all of what is yet to be written.
+  TouchVisitor(const TreeParts& parts, const Vec3& point, double touch_radius, double kernel_error,
+               bool is_certified) noexcept
+      : tree(parts),
+        center(point),
+        radius(touch_radius),
+        within(is_certified ? -kernel_error : std::numeric_limits<double>::denorm_min()),
+        open_up_to(is_certified ? kernel_error : -std::numeric_limits<double>::infinity()) {}
+
   const TreeParts& tree;
   const Vec3& center;
   double radius;
-  double error;  ///< of a computed distance
-  bool certified;
+  double within;      ///< a computed distance that exceeds the radius by less than this is surely within it
+  double open_up_to;  ///< one that exceeds it by more than this is surely not
   float limit = -1;
   float enough = -1;  ///< in the tree's frame: a triangle no farther is surely within the radius
   Work work{};
   double least = std::numeric_limits<double>::infinity();  ///< distance of the one kept, else of those shown
   std::uint32_t kept_at = nowhere;
+  std::uint32_t open_count = 0;
+  std::array<std::uint32_t, 16> open;  ///< the first of those that are left open
 
   bool wants(std::uint32_t) const noexcept { return kept_at == nowhere; }
   void take(std::uint32_t at, const Offset& found) noexcept {
     const double distance = std::sqrt(found.squared);
     least = std::min(least, distance);
-    const bool within =
-        certified && !(std::abs(distance - radius) > error) ? decide(at, distance) : distance <= radius;
-    if (!within) return;
-    keep(at, distance);
+    const double excess = distance - radius;
+    if (excess < within) return keep(at, distance);
+    if (excess <= open_up_to) leave_open(at);
   }
   void take_within(std::uint32_t at) noexcept { keep(at, radius); }
-
-  std::optional<WithinRadius> is_within{};
-
- private:
-  [[gnu::cold, gnu::noinline]] bool decide(std::uint32_t at, double distance) noexcept {
-    if (!is_within) is_within.emplace(center, radius, error);
-    return (*is_within)(tree.triangles[at], distance, work.exact_decisions);
-  }
+  bool leaves_too_many_open() const noexcept { return kept_at == nowhere && open_count > open.size(); }
   void keep(std::uint32_t at, double distance) noexcept {
     kept_at = at;
     least = distance;
     limit = -1;  // nothing is within it: the search ends
   }
+
+ private:
+  void leave_open(std::uint32_t at) noexcept {
+    if (open_count < open.size()) open[open_count] = at;
+    ++open_count;
+  }
 };
+
+/// Keeps the first of those that doubles left open which is within the radius, if there is one.
+[[gnu::cold, gnu::noinline]] void decide_open(TouchVisitor& visitor, double error, Work& work) noexcept {
+  WithinRadius is_within(visitor.center, visitor.radius, error);
+  const std::size_t count = std::min<std::size_t>(visitor.open_count, visitor.open.size());
+  for (std::size_t i = 0; i < count && visitor.kept_at == nowhere; ++i) {
+    const PreparedTriangle& triangle = visitor.tree.triangles[visitor.open[i]];
+    const double distance = std::sqrt(squared_distance(triangle, visitor.center));
+    if (is_within(triangle, distance, work.exact_decisions)) visitor.keep(visitor.open[i], distance);
+  }
+}
 
 /// Wants nothing: a search for it brings what it looks at nearer to the processor.
 struct FetchVisitor {
@@ -237,8 +258,9 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
     if ((memory.nearest + moved) * (1 + 0x1p-40) + slack_at(point) <= radius) return true;
     // It is still near what it touched, unless it came from elsewhere.
     if (std::abs(memory.nearest - moved) <= radius) {
-      TouchVisitor visitor{parts_, center, radius, frame_.kernel_error(point.tau), certified_};
+      TouchVisitor visitor(parts_, center, radius, frame_.kernel_error(point.tau), certified_);
       show(memory.last, visitor);
+      if (visitor.open_count > 0) decide_open(visitor, frame_.kernel_error(point.tau), work);
       work += visitor.work;
       if (visitor.kept_at != nowhere) {
         remember_touch(center, -1, visitor.least, memory);
@@ -251,12 +273,13 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
       (samples_later_ && is_far_once_sampled(point, center, radius, memory, most, work)))
     return false;
   const double error = frame_.kernel_error(point.tau);
-  TouchVisitor visitor{parts_, center, radius, error, certified_};
+  TouchVisitor visitor(parts_, center, radius, error, certified_);
   visitor.limit = frame_.limit((radius + error) * (radius + error));
   visitor.enough = frame_.at_most(radius - error);
   const float unseen = descend(point, visitor, most);
   work += visitor.work;
-  if (unseen == spheres::gave_up) {
+  if (visitor.kept_at == nowhere && visitor.open_count > 0) decide_open(visitor, error, work);
+  if (unseen == spheres::gave_up || visitor.leaves_too_many_open()) {
     memory.free = -1;
     memory.nearest = infinity;
     return all().touches(probe, work);

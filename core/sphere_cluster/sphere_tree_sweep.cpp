@@ -66,6 +66,9 @@ std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, 
   }
   work += visitor.work;
   if (visitor.first.index >= parts_.triangles.size()) return std::nullopt;
+  if (visitor.first.fraction == 0) {
+    if (const auto start = nearest(sweep.from, any_reach, memory, work)) return Impact{0, *start};
+  }
   return Impact{visitor.first.fraction, contact_on_way(parts_.triangles[visitor.kept_at], sweep,
                                                        visitor.first.fraction, id(visitor.first.index))};
 }

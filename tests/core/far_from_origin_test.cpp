@@ -12,6 +12,7 @@
 #include "bench/update/displaced.h"
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
+#include "core/geometry/every_triangle.h"
 #include "core/geometry/plane_filter.h"
 #include "core/grid_group/cell_tree.h"
 #include "core/grid_group/grid_group.h"
@@ -107,7 +108,7 @@ TEST(CellTreeFarAway, KnowsTheDistanceFromTheMiddleOfEachCell) {
         Random random(7);
         for (int i = 0; rough && i < 100; ++i) {
           const Vec3 place = somewhere(random, 1.03);
-          if (cells.holds(place)) cells.settle(place, store, tree, work);
+          if (cells.holds(place)) cells.settle(place, store, tree, any_work, work);
         }
         expect_true_distances(cells, mesh, store.frame, !rough);
       }

@@ -77,7 +77,7 @@ class Plot(unittest.TestCase):
         self.write(GOOD, apart, {**apart, "detector": "old", "beyond_tolerance": "", "rounding": ""})
         self.assertEqual(self.plot(self.directory, "--only", "errors").returncode, 0)
         errors = (self.directory / "plots" / "errors.svg").read_text(encoding="utf-8")
-        for text in ("2 (0.2 %)", "5 (0.5 %)", "7 (0.7 %)", "distance off by rounding, less than that"):
+        for text in ("0.2 % (2 of 1,000)", "0.5 % (5 of 1,000)", "0.7 % (7 of 1,000)", "distance off by rounding, less than that"):
             self.assertEqual(errors.count(f"<!-- {text} -->"), 1, text)
 
     def test_gives_the_same_bytes_for_the_same_numbers(self):

@@ -176,6 +176,7 @@ TEST_F(Validate, WantsThoseThatClaimExactnessToAgree) {
   const std::string fresh = std::exchange(csv(), content_of(folder.file("results.csv")));
   const std::string other_answers = with("decisions_checksum", 3, "0123456789abcdef"), other_steps = [] {
     const std::string before = std::exchange(csv(), with("decisions_checksum", 3, "0123456789abcdef"));
+    csv() = with("judged", 3, "49");
     std::string text = with("steps", 3, "49");
     csv() = before;
     return text;
