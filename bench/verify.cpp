@@ -283,7 +283,9 @@ void Judge::sweep(const SweepTruth& truth, const Sweep& sweep, const Answer& ans
   } else if (answer.fraction > 0 && surely_touches(sweep.from, position, sweep.radius, tolerance)) {
     ++tally.missed;
   } else {
-    contact(there, position, answer, slack, tally);
+    const bool claims_exactness = answer.fraction > 0 && accuracy_.guarantee == Guarantee::exact;
+    const double early = claims_exactness ? sweep_gap(sweep, answer.triangle) : 0;
+    contact(there, position, answer, slack + early, tally);
   }
 }
 

@@ -151,7 +151,7 @@ std::vector<Workload> shared_features(std::uint64_t seed, std::size_t probes) {
   std::vector<SharedFeature> all = shared_feature_meshes(200);
   HardCases hard(seed);
   std::vector<Workload> workloads;
-  const std::size_t centers_each = share_of(probes, 3 * all.size());
+  const std::size_t centers_each = share_of(probes, 4 * all.size());
   for (SharedFeature& shared : all) {
     shared.centers = centers_about(shared.centers, shared.mesh.diagonal(), centers_each, hard);
     std::vector<Step> course = at_the_exact_distance(shared.mesh, shared.centers);
