@@ -169,9 +169,9 @@ inline void show(const TreeParts& tree, std::uint32_t at, Visitor& visitor) noex
 
 /// Shows the visitor every triangle that may be within its limit, nearest volumes first. Returns a lower
 /// bound of the squared distance to what it was not shown, or gave_up when the visitor's work has come to
-/// more than `most` before the end.
+/// more than `most` before the end. Never inlined: whoever mostly answers without it would pay for its frame.
 template <class Visitor>
-float descend(const TreeParts& tree, const FilterPoint& point, std::uint64_t most,
+[[gnu::noinline]] float descend(const TreeParts& tree, const FilterPoint& point, std::uint64_t most,
               Visitor& visitor) noexcept {
   const Point p = spread(point);
   Wide unseen = Wide{} + farthest;
