@@ -215,7 +215,10 @@ bool is_same_place(const Feature& a, const Feature& b) noexcept {
     // Along an axis, the other two coordinates are those of all the line.
     return (a0 == b0 && a1 == b1) || (a0 == b1 && a1 == b0) || level[0] + level[1] + level[2] >= 2;
   }
-  const auto is_of_b = [&](const Vec3& corner) { return corner == b0 || corner == b1 || corner == b2; };
+  // The whole feature: clang 14 lets no lambda see parts of one that have names of their own.
+  const auto is_of_b = [&b](const Vec3& corner) {
+    return std::find(b.corner.begin(), b.corner.end(), corner) != b.corner.end();
+  };
   return level[0] || level[1] || level[2] || (is_of_b(a0) && is_of_b(a1) && is_of_b(a2));
 }
 
