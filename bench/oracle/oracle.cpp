@@ -245,7 +245,8 @@ bool Oracle::any_near(const Sweep& sweep, double fraction, bool only_end, double
 }
 
 bool Oracle::touches_before(const Sweep& sweep, double fraction) const {
-  const auto& [from, to, radius] = sweep;
+  const Vec3 &from = sweep.from, &to = sweep.to;
+  const double radius = sweep.radius;
   const auto touched = [&](const Triangle& triangle) {
     const std::strong_ordering order = compare_part_distance(from, to, fraction, triangle, radius);
     if (order != 0) return order < 0;
