@@ -8,7 +8,7 @@
 
 namespace touchmark {
 bool EveryTriangle::touches(const Probe& probe, Work& work) const noexcept {
-  if (!(probe.radius >= 0)) return false;
+  if (!(probe.radius >= 0) || !probe.center.allFinite()) return false;
   const double error = certified ? distance_error(bounds, probe.center) : 0;
   if (std::isinf(error)) return nearest(probe.center, probe.radius, work).has_value();
   std::uint64_t tested = 0;

@@ -69,6 +69,13 @@ TEST(BruteForce, AProbeThatIsNotANumberTouchesNothing) {
   const Vec3 nan = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
   EXPECT_FALSE(detector.nearest({nan, 1}, infinity, session));
   EXPECT_FALSE(detector.touches({nan, 1}, session));
+  // The largest of several differences forgets a NaN that is not the first of them.
+  for (int axis = 0; axis < 3; ++axis) {
+    Vec3 center(5, 5, 5);
+    center[axis] = std::numeric_limits<double>::quiet_NaN();
+    for (const double radius : {1.0, 1e300, infinity})
+      EXPECT_FALSE(detector.touches({center, radius}, session));
+  }
 }
 
 TEST(BruteForce, ASweepStopsAtTheFirstOfTwoLayers) {
