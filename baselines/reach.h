@@ -27,7 +27,7 @@ inline bool out_of_reach(const Aabb& bounds, const Vec3& center, double reach) n
   return (bounds.min - center).cwiseMax(center - bounds.max).maxCoeff() > reach;
 }
 
-/// The same of a ball on its way.
+/// True if the whole way is farther from the mesh than the radius along some axis.
 inline bool out_of_reach(const Aabb& bounds, const Sweep& sweep) noexcept {
   const Vec3 before = bounds.min - sweep.from.cwiseMax(sweep.to);
   const Vec3 behind = sweep.from.cwiseMin(sweep.to) - bounds.max;

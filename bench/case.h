@@ -32,7 +32,7 @@ class Case {
 
   /// Builds if that was not done, asks the first question, finds how many steps there is time for.
   void introduce();
-  /// The same, with the steps and repetitions of another contestant's case.
+  /// Introduces it with the steps and repetitions of another contestant's case.
   void introduce_like(const Case& other);
   /// Has the steps answered and judged, before anything is timed; once more by `stored`, unless that is null:
   /// the truths of the scene as the contestant's library stores it.

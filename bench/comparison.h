@@ -51,9 +51,9 @@ class Comparison {
   /// The rows of one trajectory, in the contestants' order. Throws ResourceError or Interrupted.
   std::vector<ResultRow> run(std::size_t course, Query query);
 
-  /// The same in two parts, between which others may be begun: a machine that is slow for some seconds is
-  /// then slow for a part of each trajectory's rounds, not for all of one's. end() is of the first that was
-  /// begun.
+  /// Runs a trajectory in two parts, between which others may be begun: a machine that is slow for some
+  /// seconds is then slow for a part of each trajectory's rounds, not for all of one's. end() is of the first
+  /// that was begun.
   void begin(std::size_t course, Query query);
   std::vector<ResultRow> end();
   /// The rows of those that were begun and not ended, with the repetitions that they have got, if any.
@@ -63,7 +63,7 @@ class Comparison {
   /// What the oracle finds out about a course serves all queries.
   void run_all(const std::vector<Query>& queries, std::vector<ResultRow>& rows);
 
-  /// Of every course and query that was timed, in the order of the runs.
+  /// Returns how steady each course and query was that was timed, in the order of the runs.
   const std::vector<Steadiness>& steadiness() const noexcept { return steadiness_; }
 
   /// Not asked for, because the filter leaves them out: pairs of trajectory and contestant.

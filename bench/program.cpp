@@ -38,7 +38,7 @@ std::string one_line(std::string text) {
 }
 
 int fail(int status, std::string_view what) {
-  // Where nothing can be written there is nobody to tell.
+  // A line that cannot be written is given up: there is nobody to tell.
   const std::string line = fmt::format("touchmark: {}\n", one_line(std::string(what)));
   std::fwrite(line.data(), 1, line.size(), stderr);
   return status;

@@ -19,7 +19,7 @@
 
 namespace touchmark::bench {
 
-/// Of fewer, one in a thousand is none: no 99.9 % is told of them.
+/// Fewer steps have no 99.9 %: one in a thousand of them is none.
 inline constexpr std::size_t steps_for_p999 = 1000;
 
 /// How long queries took when the trajectory was replayed without a clock inside.

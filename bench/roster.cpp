@@ -40,7 +40,7 @@ namespace {
 const Names<bool> yes_or_no{{"true", true}, {"false", false}};
 const Names<bool> no_or_yes{{"false", false}, {"true", true}};
 
-/// The same for every rival: see baselines/README.md.
+/// Every rival takes these two, see baselines/README.md.
 const Names<baselines::Asking> askings{{"checked", baselines::Asking::checked},
                                        {"plain", baselines::Asking::plain}};
 OptionInfo query_option() {

@@ -71,7 +71,7 @@ D built(const TriangleMesh& mesh, const Options& options, const OptionValues& va
   return D::build(mesh, options);
 }
 
-/// The same with the options above, and with what `remark_on(detector)` has to say of it, unless that is
+/// Builds it with the options above, and with what `remark_on(detector)` has to say of it, unless that is
 /// empty.
 template <Detector D, Idle idle = Idle::wasted>
 std::unique_ptr<Contestant> contestant(const TriangleMesh& mesh, const typename D::Options& options,

@@ -28,7 +28,7 @@ struct UndisturbedTime {
 
 class PieceTimes {
  public:
-  /// Of each piece's samples the value that this share is not above.
+  /// The share of each piece's samples that take no longer than what counts for it.
   static constexpr double quantile = 0.15;
 
   /// Each stratum of a weight above 0 has a piece.
