@@ -8,7 +8,7 @@
 #include <limits>
 #include <optional>
 
-#include "core/geometry/aabb.h"
+#include "core/aabb.h"
 #include "core/probe.h"
 
 namespace touchmark::baselines {

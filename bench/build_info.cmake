@@ -1,4 +1,4 @@
-# Writes what bench/build_info.cpp reports: configuration.h now, commit.h at every build.
+# Writes what bench/results/build_info.cpp reports: configuration.h now, commit.h at every build.
 string(TOUPPER "CMAKE_CXX_FLAGS_${CMAKE_BUILD_TYPE}" flags_of_type)
 get_target_property(project_flags touchmark_flags INTERFACE_COMPILE_OPTIONS)
 list(FILTER project_flags EXCLUDE REGEX "^\\$<|^-W")

@@ -1,5 +1,5 @@
-#include "bench/program.h"
-#include "bench/roster.h"
+#include "bench/cli/program.h"
+#include "bench/contestants/roster.h"
 
 int main(int argc, char** argv) {
   return touchmark::bench::run_program(argc, argv, touchmark::bench::roster());

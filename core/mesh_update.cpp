@@ -40,13 +40,4 @@ void Connectivity::expect(const TriangleMesh& mesh) const {
   }
 }
 
-bool has_moved(const PreparedTriangle& triangle, const TriangleMesh& mesh) noexcept {
-  for (int k = 0; k < 3; ++k) {
-    const Vec3& corner = triangle.corner[static_cast<std::size_t>(k)];
-    if (std::memcmp(corner.data(), mesh.corner(triangle.index, k).data(), 3 * sizeof(double)) != 0)
-      return true;
-  }
-  return false;
-}
-
 }  // namespace touchmark

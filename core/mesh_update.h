@@ -7,7 +7,6 @@
 #include <cstdint>
 
 #include "core/detector.h"
-#include "core/geometry/point_triangle.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark {
@@ -37,8 +36,5 @@ class Connectivity {
   std::size_t triangles_ = 0;
   std::uint64_t corners_and_ids_ = 0;
 };
-
-/// Does the mesh have the triangle's corners elsewhere now? By their bits: -0 is not 0.
-bool has_moved(const PreparedTriangle& triangle, const TriangleMesh& mesh) noexcept;
 
 }  // namespace touchmark

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "core/geometry/aabb.h"
+#include "core/aabb.h"
 #include "core/probe.h"
 
 namespace touchmark {

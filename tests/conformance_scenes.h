@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/scenes.h"
-#include "bench/stress/hard_centers.h"
+#include "bench/experiments/stress/hard_centers.h"
+#include "bench/scenes/scenes.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark {

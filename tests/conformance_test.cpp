@@ -16,9 +16,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "bench/contestant.h"
-#include "bench/roster.h"
-#include "bench/verify.h"
+#include "bench/contestants/contestant.h"
+#include "bench/contestants/roster.h"
+#include "bench/oracle/judge.h"
 #include "core/brute_force/brute_force.h"
 #include "tests/conformance_scenes.h"
 

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "bench/contestant.h"
-#include "bench/update/displaced.h"
+#include "bench/contestants/contestant.h"
+#include "bench/scenes/displaced.h"
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
 #include "core/grid_group/grid_group.h"

@@ -11,10 +11,10 @@
 
 #include <gtest/gtest.h>
 
+#include "bench/experiments/stress/hard_ways.h"
+#include "bench/experiments/stress/near_ties.h"
+#include "bench/oracle/judge.h"
 #include "bench/oracle/oracle.h"
-#include "bench/stress/hard_ways.h"
-#include "bench/stress/near_ties.h"
-#include "bench/verify.h"
 #include "tests/bench/oracle/hard_meshes.h"
 
 namespace touchmark {

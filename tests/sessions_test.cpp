@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/answer.h"
+#include "bench/workload/answer.h"
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
 #include "core/grid_group/grid_group.h"

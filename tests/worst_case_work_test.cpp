@@ -1,6 +1,6 @@
 // What a step looks at is counted, and in the worst case at most twice what brute force looks at, and a
 // little: by our forms and the plain reference. The published scans look at what the papers let them look at
-// (tests/core/grid_group/scan_work_test.cpp).
+// (tests/core/grid_group/published/scan_work_test.cpp).
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>

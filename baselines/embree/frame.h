@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/geometry/aabb.h"
+#include "core/aabb.h"
 
 namespace touchmark::baselines {
 

@@ -12,7 +12,7 @@
 
 #include "bench/oracle/exact_distance.h"
 #include "bench/oracle/exact_integers.h"
-#include "bench/random.h"
+#include "bench/support/random.h"
 
 namespace touchmark::bench {
 namespace {

@@ -11,12 +11,12 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/aabb.h"
 #include "core/detector.h"
-#include "core/geometry/aabb.h"
-#include "core/geometry/certified_nearest.h"
-#include "core/geometry/every_triangle.h"
 #include "core/geometry/point_triangle.h"
 #include "core/mesh_update.h"
+#include "core/search/certified_nearest.h"
+#include "core/search/linear_scan.h"
 
 namespace touchmark {
 

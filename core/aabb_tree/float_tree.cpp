@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 
 #include "core/aabb_tree/aabb_tree.h"
-#include "core/geometry/certified_nearest.h"
 #include "core/geometry/point_triangle_kernel.h"
+#include "core/search/certified_nearest.h"
 
 namespace touchmark {
 namespace {

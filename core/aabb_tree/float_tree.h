@@ -18,8 +18,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/aabb.h"
 #include "core/detector.h"
-#include "core/geometry/aabb.h"
 #include "core/geometry/point_triangle.h"
 #include "core/probe.h"
 #include "core/triangle_mesh.h"

@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
+#include "core/aabb.h"
 #include "core/detector.h"
-#include "core/geometry/aabb.h"
-#include "core/geometry/every_triangle.h"
 #include "core/geometry/point_triangle.h"
 #include "core/mesh_update.h"
+#include "core/search/linear_scan.h"
 
 namespace touchmark {
 

@@ -5,8 +5,8 @@
 
 #include <Eigen/Geometry>
 
-#include "core/geometry/double_double.h"
-#include "core/geometry/exact_decision.h"
+#include "core/exact/distance_predicates.h"
+#include "core/exact/double_double.h"
 #include "core/geometry/point_triangle_kernel.h"
 
 namespace touchmark {
@@ -138,6 +138,15 @@ Contact contact_at(const PreparedTriangle& triangle, const Vec3& point, const Of
   const bool coincident = !(distance > 0);
   return {point - offset.vector, coincident ? face_normal(triangle) : Vec3(offset.vector / distance),
           distance, id};
+}
+
+bool has_moved(const PreparedTriangle& triangle, const TriangleMesh& mesh) noexcept {
+  for (int k = 0; k < 3; ++k) {
+    const Vec3& corner = triangle.corner[static_cast<std::size_t>(k)];
+    if (std::memcmp(corner.data(), mesh.corner(triangle.index, k).data(), 3 * sizeof(double)) != 0)
+      return true;
+  }
+  return false;
 }
 
 }  // namespace touchmark

@@ -97,4 +97,7 @@ inline double culling_slack(double largest_difference) noexcept {
   return 128 * (std::numeric_limits<double>::epsilon() / 2) * largest_difference;
 }
 
+/// Returns true if the mesh has the triangle's corners elsewhere now. Compares bits: -0 is not 0.
+bool has_moved(const PreparedTriangle& triangle, const TriangleMesh& mesh) noexcept;
+
 }  // namespace touchmark

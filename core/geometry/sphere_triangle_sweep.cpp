@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/geometry/exact_decision.h"
+#include "core/exact/distance_predicates.h"
 #include "core/geometry/way_gap.h"
 
 namespace touchmark {

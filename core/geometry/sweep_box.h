@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/geometry/aabb.h"
+#include "core/aabb.h"
 #include "core/geometry/point_triangle.h"
 #include "core/geometry/sphere_triangle_sweep.h"
 #include "core/probe.h"

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "core/geometry/aabb.h"
+#include "core/aabb.h"
 #include "core/probe.h"
 
 namespace touchmark {

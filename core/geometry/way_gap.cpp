@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "core/geometry/certified_nearest.h"
+#include "core/geometry/distance_error.h"
 
 namespace touchmark {
 namespace {

@@ -17,8 +17,8 @@
 
 #include "core/brute_force/brute_force.h"
 #include "core/detector.h"
-#include "core/grid_group/direct_grid.h"
-#include "core/grid_group/scan_grid.h"
+#include "core/grid_group/direct/direct_grid.h"
+#include "core/grid_group/published/scan_grid.h"
 #include "core/mesh_update.h"
 
 namespace touchmark {

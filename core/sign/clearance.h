@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "core/geometry/aabb.h"
+#include "core/aabb.h"
 #include "core/sign/pseudonormals.h"
 #include "core/sign/triangle_tree.h"
 

@@ -9,9 +9,9 @@
 
 #include <Eigen/Geometry>
 
-#include "core/geometry/certified_nearest.h"
-#include "core/geometry/orientation.h"
+#include "core/exact/orientation.h"
 #include "core/geometry/point_triangle.h"
+#include "core/search/certified_nearest.h"
 #include "core/sign/clearance.h"
 #include "core/sign/open_edges.h"
 #include "core/sign/volume.h"

@@ -22,8 +22,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/aabb.h"
 #include "core/detector.h"
-#include "core/geometry/aabb.h"
 #include "core/sign/pseudonormals.h"
 #include "core/sign/winding.h"
 

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/geometry/aabb.h"
-#include "core/geometry/exact_decision.h"
+#include "core/aabb.h"
+#include "core/exact/distance_predicates.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::sign {

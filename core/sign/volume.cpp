@@ -6,8 +6,8 @@
 
 #include <Eigen/Geometry>
 
-#include "core/geometry/exact_grid.h"
-#include "core/geometry/exact_integer.h"
+#include "core/exact/big_integer.h"
+#include "core/exact/integer_lattice.h"
 
 namespace touchmark::sign {
 namespace {

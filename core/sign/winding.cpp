@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include "core/geometry/exact_decision.h"
-#include "core/geometry/orientation.h"
+#include "core/exact/distance_predicates.h"
+#include "core/exact/orientation.h"
 
 namespace touchmark::sign {
 namespace {

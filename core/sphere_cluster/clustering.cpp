@@ -7,7 +7,7 @@
 #include <numeric>
 #include <unordered_map>
 
-#include "core/sphere_cluster/triangle_spheres.h"
+#include "core/sphere_cluster/published/triangle_spheres.h"
 
 namespace touchmark {
 namespace {

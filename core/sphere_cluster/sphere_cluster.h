@@ -9,9 +9,9 @@
 #include "core/detector.h"
 #include "core/mesh_update.h"
 #include "core/sphere_cluster/clustering.h"
-#include "core/sphere_cluster/fast_level.h"
-#include "core/sphere_cluster/sphere_scan.h"
-#include "core/sphere_cluster/sphere_tree.h"
+#include "core/sphere_cluster/published/fast_level.h"
+#include "core/sphere_cluster/published/sphere_scan.h"
+#include "core/sphere_cluster/tree/cylinder_bvh.h"
 
 namespace touchmark {
 

@@ -114,7 +114,7 @@ def plugin(source, folder, driver=False):
     folder.mkdir(parents=True, exist_ok=True)
     launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
     steps = (
-        ["cmake", "-S", ROOT / "bench" / "regression", "-B", build, "-G", "Ninja", "-Wno-dev", "-DCMAKE_BUILD_TYPE=Release",
+        ["cmake", "-S", ROOT / "bench" / "regression" / "driver", "-B", build, "-G", "Ninja", "-Wno-dev", "-DCMAKE_BUILD_TYPE=Release",
          f"-DTOUCHMARK_SOURCE={source}", f"-DTOUCHMARK_GATE_DRIVER={'ON' if driver else 'OFF'}", *launcher],
         ["cmake", "--build", build],
     )

@@ -1,6 +1,6 @@
 // The distance that `nearest` reports is within 16 u M of the true one (u = 2^-53, M the largest coordinate
 // difference between the centre and the triangle's corners): over the worst triangles there are, and by
-// climbing from each towards greater error. The analysis is in core/geometry/certified_nearest.h; it allows
+// climbing from each towards greater error. The analysis is in core/search/certified_nearest.h; it allows
 // 14.8.
 #include <algorithm>
 #include <cmath>
@@ -13,11 +13,11 @@
 
 #include "bench/oracle/exact_distance.h"
 #include "bench/oracle/oracle.h"
+#include "core/aabb.h"
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
-#include "core/geometry/aabb.h"
-#include "core/geometry/every_triangle.h"
 #include "core/grid_group/grid_group.h"
+#include "core/search/linear_scan.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 #include "tests/bench/oracle/hard_triangles.h"
 

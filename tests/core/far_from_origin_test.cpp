@@ -8,14 +8,14 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/random.h"
-#include "bench/update/displaced.h"
+#include "bench/scenes/displaced.h"
+#include "bench/support/random.h"
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
-#include "core/geometry/every_triangle.h"
-#include "core/geometry/plane_filter.h"
-#include "core/grid_group/cell_tree.h"
+#include "core/grid_group/direct/cell_tree.h"
 #include "core/grid_group/grid_group.h"
+#include "core/search/linear_scan.h"
+#include "core/search/plane_filter.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 #include "tests/core/sphere_cluster/test_meshes.h"
 

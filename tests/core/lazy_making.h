@@ -11,8 +11,8 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/answer.h"
-#include "bench/random.h"
+#include "bench/support/random.h"
+#include "bench/workload/answer.h"
 #include "core/probe.h"
 #include "tests/core/sphere_cluster/test_meshes.h"
 

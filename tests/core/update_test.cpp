@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/answer.h"
-#include "bench/random.h"
+#include "bench/support/random.h"
+#include "bench/workload/answer.h"
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
 #include "core/grid_group/grid_group.h"

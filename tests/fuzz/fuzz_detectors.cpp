@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "bench/oracle/judge.h"
 #include "bench/oracle/oracle.h"
-#include "bench/verify.h"
 #include "tests/exact_forms.h"
 #include "tests/fuzz/script.h"
 #include "tests/fuzz/target.h"

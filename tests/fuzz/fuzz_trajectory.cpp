@@ -5,7 +5,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "bench/trajectory_csv.h"
+#include "bench/trajectories/trajectory_csv.h"
 #include "tests/fuzz/target.h"
 
 namespace touchmark::fuzz {

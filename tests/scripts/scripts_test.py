@@ -129,10 +129,10 @@ class CheckLayers(unittest.TestCase):
         with tempfile.TemporaryDirectory() as root:
             file = pathlib.Path(root) / "core" / "probe.h"
             file.parent.mkdir()
-            file.write_text('#pragma once\n#include "bench/answer.h"\n', encoding="utf-8")
+            file.write_text('#pragma once\n#include "bench/workload/answer.h"\n', encoding="utf-8")
             done = run(SCRIPTS / "check_layers", "--root", root)
         self.assertEqual(done.returncode, 1)
-        self.assertEqual(done.stderr, 'core/probe.h:2: #include "bench/answer.h": core must not include bench\n')
+        self.assertEqual(done.stderr, 'core/probe.h:2: #include "bench/workload/answer.h": core must not include bench\n')
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/stress/hard_cases.h"
+#include "bench/experiments/stress/hard_cases.h"
 
 namespace touchmark {
 

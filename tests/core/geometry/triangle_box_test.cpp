@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/random.h"
+#include "bench/support/random.h"
 
 namespace touchmark {
 namespace {

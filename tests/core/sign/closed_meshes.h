@@ -8,8 +8,8 @@
 
 #include <Eigen/Geometry>
 
-#include "bench/generated_scenes.h"
-#include "bench/random.h"
+#include "bench/scenes/generated_scenes.h"
+#include "bench/support/random.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark {

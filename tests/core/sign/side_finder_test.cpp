@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "bench/oracle/exact_winding.h"
+#include "bench/oracle/judge.h"
 #include "bench/oracle/oracle.h"
-#include "bench/verify.h"
 #include "core/brute_force/brute_force.h"
 #include "core/sign/signed_detector.h"
 #include "tests/core/sign/closed_meshes.h"

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/sphere_cluster/triangle_spheres.h"
+#include "core/sphere_cluster/published/triangle_spheres.h"
 #include "tests/core/sphere_cluster/test_meshes.h"
 
 namespace touchmark {

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "core/mesh_io/mesh_io.h"
-#include "core/sphere_cluster/triangle_spheres.h"
+#include "core/sphere_cluster/published/triangle_spheres.h"
 #include "core/subdivision/mesh_measures.h"
 #include "core/subdivision/subdivision.h"
 

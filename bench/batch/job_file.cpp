@@ -1,0 +1,68 @@
+#include "bench/batch/job_file.h"
+
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "bench/results/results_csv.h"
+#include "bench/results/validation/json_schema.h"
+#include "bench/results/validation/located_json.h"
+#include "bench/results/validation/run_check.h"
+
+namespace touchmark::bench {
+namespace {
+
+constexpr int job_schema = 1;
+
+nlohmann::json form_of_jobs() {
+  nlohmann::json columns = nlohmann::json::object();
+  for (const std::string& column : results_columns()) columns[column] = {{"type", "string"}};
+  return {{"type", "object"},
+          {"required", {"schema", "id", "machine", "run", "row"}},
+          {"properties",
+           {{"schema", {{"const", job_schema}}},
+            {"id", {{"type", "string"}, {"pattern", "^[0-9a-f]{16}$"}}},
+            {"machine", {{"type", "string"}, {"pattern", "^[0-9a-f]{16}$"}}},
+            {"run", nlohmann::json::parse(run_schema)},
+            {"row", {{"type", "object"}, {"required", results_columns()}, {"properties", columns}}}}}};
+}
+
+}  // namespace
+
+std::string JobResult::json() const {
+  nlohmann::ordered_json row = nlohmann::ordered_json::object();
+  const std::vector<std::string> columns = results_columns();
+  for (std::size_t i = 0; i < columns.size(); ++i) row[columns[i]] = fields[i];
+  const nlohmann::ordered_json job{
+      {"schema", job_schema}, {"id", id}, {"machine", machine}, {"row", row}, {"run", run}};
+  return job.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
+}
+
+std::filesystem::path job_path(const std::filesystem::path& folder, const std::string& id) {
+  return folder / (id + ".json");
+}
+
+JobResult read_job(const std::string& path) {
+  static const JsonSchema form(form_of_jobs());
+  Faults faults;
+  const std::optional<LocatedJson> document = read_located_json(path, faults);
+  if (document) form.check(path, *document, faults);
+  if (!faults.empty()) throw std::invalid_argument(line_of(faults.front()) + " (not a finished job)");
+  const nlohmann::json& job = document->value;
+  JobResult result{job.at("id"), job.at("machine"), job.at("run"), {}};
+  for (const std::string& column : results_columns()) result.fields.push_back(job.at("row").at(column));
+  return result;
+}
+
+bool is_finished(const std::filesystem::path& folder, const std::string& id) {
+  std::error_code ignored;
+  const std::filesystem::path path = job_path(folder, id);
+  if (!std::filesystem::exists(path, ignored)) return false;
+  try {
+    return read_job(path).id == id;
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
+}
+
+}  // namespace touchmark::bench

@@ -1,0 +1,153 @@
+#include "bench/batch/manifest.h"
+
+#include <array>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "bench/results/system_info.h"
+#include "bench/results/validation/json_schema.h"
+#include "bench/results/validation/located_json.h"
+#include "bench/scenes/scenes.h"
+#include "bench/support/numbers.h"
+#include "bench/trajectories/trajectories.h"
+#include "bench/workload/content_hash.h"
+#include "bench/workload/query_name.h"
+
+namespace touchmark::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* manifest_form = R"({
+  "type": "object", "required": ["schema", "version", "effort", "scenes"],
+  "properties": {
+    "schema": {"const": 1},
+    "version": {"type": "string"},
+    "effort": {"enum": ["full", "quick", "accuracy"]},
+    "scenes": {"type": "array", "minItems": 1, "items": {
+      "type": "object",
+      "required": ["mesh", "normalize", "mesh_fnv1a", "trajectory", "course_fnv1a", "steps", "seed", "radius", "reach",
+                   "query", "jobs"],
+      "properties": {
+        "mesh": {"type": "string", "minLength": 1},
+        "normalize": {"type": "boolean"},
+        "mesh_fnv1a": {"type": "string", "pattern": "^[0-9a-f]{16}$"},
+        "trajectory": {"type": "string", "minLength": 1},
+        "course_fnv1a": {"type": "string", "pattern": "^[0-9a-f]{16}$"},
+        "steps": {"type": "integer", "minimum": 1},
+        "seed": {"type": "integer", "minimum": 0},
+        "radius": {"type": "string", "minLength": 1},
+        "reach": {"type": "string"},
+        "columns": {"type": "string"},
+        "motion_scale": {"type": "string"},
+        "rate": {"type": "string"},
+        "query": {"enum": ["touches", "nearest", "sweep"]},
+        "jobs": {"type": "array", "minItems": 1, "items": {
+          "type": "object", "required": ["id", "detector"],
+          "properties": {"id": {"type": "string", "pattern": "^[0-9a-f]{16}$"},
+                         "detector": {"type": "string", "minLength": 1}}}}
+      }}}
+  }})";
+
+std::uint64_t hash_in(const nlohmann::json& json) { return parse_hex(json.get<std::string>()).value(); }
+
+/// The keys of a motion's options, which are there where they were given.
+template <class Motion>
+auto motion_texts(Motion& motion) {
+  return std::array{std::pair{"columns", &motion.columns}, std::pair{"motion_scale", &motion.scale},
+                    std::pair{"rate", &motion.rate}};
+}
+
+Json json_of(const SweepScene& scene) {
+  Json jobs = Json::array();
+  for (const SweepJob& job : scene.jobs) jobs.push_back({{"id", job.id}, {"detector", job.detector}});
+  Json json{{"mesh", scene.mesh},
+            {"normalize", scene.normalize},
+            {"mesh_fnv1a", hex(scene.mesh_hash)},
+            {"trajectory", scene.trajectory},
+            {"course_fnv1a", hex(scene.course_hash)},
+            {"steps", scene.steps},
+            {"seed", scene.seed},
+            {"radius", scene.radius},
+            {"reach", scene.reach},
+            {"query", name_of(scene.query)},
+            {"jobs", jobs}};
+  for (const auto& [key, value] : motion_texts(scene.motion))
+    if (!value->empty()) json[key] = *value;
+  return json;
+}
+
+SweepScene scene_of(const nlohmann::json& json) {
+  SweepScene scene;
+  scene.mesh = json.at("mesh");
+  scene.normalize = json.at("normalize");
+  scene.mesh_hash = hash_in(json.at("mesh_fnv1a"));
+  scene.trajectory = json.at("trajectory");
+  scene.course_hash = hash_in(json.at("course_fnv1a"));
+  scene.steps = json.at("steps");
+  scene.seed = json.at("seed");
+  scene.radius = json.at("radius");
+  scene.reach = json.at("reach");
+  scene.query = query_named(json.at("query").get<std::string>()).value();
+  for (const auto& [key, value] : motion_texts(scene.motion)) *value = json.value(key, "");
+  for (const nlohmann::json& job : json.at("jobs")) scene.jobs.push_back({job.at("id"), job.at("detector")});
+  return scene;
+}
+
+}  // namespace
+
+std::string Manifest::json() const {
+  Json all = Json::array();
+  for (const SweepScene& scene : scenes) all.push_back(json_of(scene));
+  const Json json{{"schema", manifest_schema}, {"version", version}, {"effort", effort}, {"scenes", all}};
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+Manifest Manifest::read(const std::string& path) {
+  static const JsonSchema form(nlohmann::json::parse(manifest_form));
+  Faults faults;
+  const std::optional<LocatedJson> document = read_located_json(path, faults);
+  if (document) form.check(path, *document, faults);
+  if (!faults.empty()) throw std::invalid_argument(line_of(faults.front()));
+  Manifest manifest{document->value.at("version"), document->value.at("effort"), {}};
+  for (const nlohmann::json& scene : document->value.at("scenes")) manifest.scenes.push_back(scene_of(scene));
+  return manifest;
+}
+
+std::size_t Manifest::jobs() const noexcept {
+  std::size_t count = 0;
+  for (const SweepScene& scene : scenes) count += scene.jobs.size();
+  return count;
+}
+
+std::string job_id(const SweepScene& scene, const std::string& detector, const std::string& effort,
+                   const std::string& version) {
+  ContentHash hash;
+  for (const std::uint64_t number : {scene.mesh_hash, scene.course_hash, scene.seed}) hash.add(hex(number));
+  for (const std::string& text : {std::string(name_of(scene.query)), detector, effort, version})
+    hash.add(text);
+  return hex(hash.value());
+}
+
+Effort effort_named(const std::string& name) {
+  if (name == "full") return {};
+  if (name == "quick") return quick_effort;
+  if (name == "accuracy") return accuracy_effort;
+  throw std::invalid_argument(fmt::format("effort \"{}\" is not one of full, quick, accuracy", name));
+}
+
+Workload workload_of(const SweepScene& scene, const Roster& roster) {
+  Selectors selectors;
+  selectors.radius = scene.radius;
+  selectors.reach = scene.reach;
+  selectors.seed = std::to_string(scene.seed);
+  selectors.steps = std::to_string(scene.steps);
+  if (!is_generated(scene.trajectory)) selectors.motion = scene.motion;
+  return make_workload(without_directories(scene.mesh), load_mesh(scene.mesh, scene.normalize),
+                       check(selectors, roster), {scene.trajectory}, scene.steps);
+}
+
+}  // namespace touchmark::bench

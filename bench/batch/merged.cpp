@@ -1,0 +1,123 @@
+#include "bench/batch/merged.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "bench/results/results_csv.h"
+#include "bench/results/validation/column_rules.h"
+
+namespace touchmark::bench {
+namespace {
+
+std::string member(const nlohmann::json& run, const char* name) {
+  const nlohmann::json& value = run.at(name);
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+/// Times of jobs with the same identity may stand in one table.
+std::string identity_of(const JobResult& job) {
+  const auto of = [&](const char* name) { return member(job.run, name); };
+  return fmt::format("{}, {} cores, machine {}, commit {}, {} {}{}, {}", of("cpu"), of("cores"), job.machine,
+                     of("commit"), of("build_type"), of("compiler"), of("native") == "true" ? " native" : "",
+                     of("flags"));
+}
+
+std::vector<std::string> sorting_key(const FoundJob& job) {
+  const std::vector<std::string> columns = results_columns();
+  std::vector<std::string> key;
+  for (const char* name :
+       {"mesh", "trajectory", "query", "radius", "reach", "detector", "options", "run_id"}) {
+    const auto at = std::find(columns.begin(), columns.end(), name) - columns.begin();
+    key.push_back(job.result.fields[static_cast<std::size_t>(at)]);
+  }
+  key.push_back(job.result.id);
+  return key;
+}
+
+std::map<std::string, std::size_t> places_of(const Manifest& manifest) {
+  std::map<std::string, std::size_t> places;
+  for (const SweepScene& scene : manifest.scenes) {
+    for (const SweepJob& job : scene.jobs) places.emplace(job.id, places.size());
+  }
+  return places;
+}
+
+void expect_all_of(const std::map<std::string, std::size_t>& places, const std::vector<FoundJob>& jobs) {
+  std::set<std::string> found;
+  for (const FoundJob& job : jobs) found.insert(job.result.id);
+  std::size_t missing = 0;
+  std::string first;
+  for (const auto& [id, place] : places) {
+    if (found.contains(id)) continue;
+    if (missing++ == 0) first = id;
+  }
+  if (missing == 0) return;
+  throw std::invalid_argument(
+      fmt::format("{} of the manifest's {} jobs are missing, one is {}", missing, places.size(), first));
+}
+
+}  // namespace
+
+FoundJob found_job(const std::string& path) {
+  FoundJob job{path, read_job(path), false};
+  job.timed = job.result.run.at("effort").at("repetitions").get<std::size_t>() > 0;
+  return job;
+}
+
+void drop_times(FoundJob& job) {
+  job.timed = false;
+  for (std::size_t i = 0; i < job.result.fields.size(); ++i) {
+    const Presence presence = column_rules()[i].presence;
+    if (presence == Presence::built || presence == Presence::timed) job.result.fields[i].clear();
+  }
+}
+
+void expect_one_machine(const std::vector<FoundJob>& jobs) {
+  std::map<std::string, std::vector<const FoundJob*>> machines;
+  for (const FoundJob& job : jobs) {
+    if (job.timed) machines[identity_of(job.result)].push_back(&job);
+  }
+  if (machines.size() < 2) return;
+  std::string list;
+  for (const auto& [identity, of_it] : machines) {
+    list += fmt::format("{}{} jobs ({} and others) on {}", list.empty() ? "" : "; ", of_it.size(),
+                        of_it.front()->path, identity);
+  }
+  throw std::invalid_argument(fmt::format(
+      "times of {} machines or builds do not mix: {} (--accuracy-only merges what does not depend on them, "
+      "--machine takes those of one)",
+      machines.size(), list));
+}
+
+std::vector<FoundJob> in_order(std::vector<FoundJob> jobs, const std::optional<Manifest>& manifest) {
+  const std::map<std::string, std::size_t> places =
+      manifest ? places_of(*manifest) : std::map<std::string, std::size_t>{};
+  if (manifest) {
+    std::erase_if(jobs, [&](const FoundJob& job) { return !places.contains(job.result.id); });
+    expect_all_of(places, jobs);
+  }
+  const auto place_of = [&](const FoundJob& job) { return manifest ? places.at(job.result.id) : 0; };
+  std::sort(jobs.begin(), jobs.end(), [&](const FoundJob& a, const FoundJob& b) {
+    return std::pair(place_of(a), sorting_key(a)) < std::pair(place_of(b), sorting_key(b));
+  });
+  const auto same = [](const FoundJob& a, const FoundJob& b) {
+    return a.result.id == b.result.id && a.result.fields == b.result.fields;
+  };
+  jobs.erase(std::unique(jobs.begin(), jobs.end(), same), jobs.end());
+  std::map<std::string, const FoundJob*> timed;
+  for (const FoundJob& job : jobs) {
+    if (!job.timed) continue;
+    const auto [other, first] = timed.emplace(job.result.id, &job);
+    if (!first) {
+      throw std::invalid_argument(
+          fmt::format("job {} was timed twice: {} and {}", job.result.id, other->second->path, job.path));
+    }
+  }
+  return jobs;
+}
+
+}  // namespace touchmark::bench

@@ -1,0 +1,98 @@
+#include "bench/cli/benchmark_flags.h"
+
+#include <regex>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "bench/support/numbers.h"
+#include "bench/workers/throughput.h"
+
+namespace touchmark::bench {
+namespace {
+
+constexpr std::size_t most_repetitions = 10000;
+constexpr double longest_repetition_s = 3600;
+
+/// "--name=value" to the pair; a flag alone has the value "true", as in the library.
+std::pair<std::string, std::string> split_flag(const std::string& argument) {
+  const std::size_t equals = argument.find('=');
+  if (equals == std::string::npos) return {argument, "true"};
+  return {argument.substr(0, equals), argument.substr(equals + 1)};
+}
+
+std::invalid_argument bad_value(std::string_view name, std::string_view value, std::string_view expected) {
+  return std::invalid_argument(fmt::format("{} \"{}\" is not {}", name, value, expected));
+}
+
+std::size_t parse_repetitions(const std::string& name, const std::string& value) {
+  const auto count = parse_count(value);
+  if (!count || *count < 1 || *count > most_repetitions) {
+    throw bad_value(name, value, fmt::format("a whole number from 1 to {}", most_repetitions));
+  }
+  return *count;
+}
+
+double parse_min_time(const std::string& name, const std::string& value) {
+  // Newer releases of the library write "0.5s".
+  const std::string_view number =
+      std::string_view(value).substr(0, value.ends_with('s') ? value.size() - 1 : value.size());
+  const auto seconds = parse_number(number);
+  if (!seconds || !(*seconds > 0) || *seconds > longest_repetition_s) {
+    throw bad_value(name, value,
+                    fmt::format("a time in seconds, above 0 and at most {}", longest_repetition_s));
+  }
+  return *seconds;
+}
+
+/// An extended regular expression that must match somewhere; a leading '-' turns it round; "all" is ".".
+std::function<bool(const std::string&)> parse_filter(const std::string& name, const std::string& value) {
+  const bool negated = value.starts_with('-');
+  const std::string pattern = value == "all" ? "." : value.substr(negated ? 1 : 0);
+  try {
+    return
+        [expression = std::regex(pattern, std::regex::extended), negated](const std::string& name_of_case) {
+          return std::regex_search(name_of_case, expression) != negated;
+        };
+  } catch (const std::regex_error&) {
+    throw bad_value(name, value, "a regular expression");
+  }
+}
+
+void take(BenchmarkFlags& flags, const std::string& argument) {
+  const auto [name, value] = split_flag(argument);
+  if (name == "--benchmark_repetitions") {
+    flags.repetitions = parse_repetitions(name, value);
+  } else if (name == "--benchmark_min_time") {
+    flags.min_time_s = parse_min_time(name, value);
+  } else if (name == "--benchmark_filter") {
+    flags.wanted = parse_filter(name, value);
+  } else if (name == "--benchmark_list_tests") {
+    flags.list_tests = value != "false";
+  } else if (name == "--benchmark_out" || name == "--benchmark_out_format" || name == "--benchmark_format") {
+    throw std::invalid_argument(name + " is not available: results go to --out DIR as results.csv");
+  } else {
+    flags.forwarded.push_back(argument);
+  }
+}
+
+}  // namespace
+
+BenchmarkFlags parse_benchmark_flags(const std::vector<std::string>& arguments) {
+  BenchmarkFlags flags;
+  flags.wanted = [](const std::string&) { return true; };
+  for (const std::string& argument : arguments) {
+    if (!argument.starts_with("--benchmark_")) {
+      throw std::invalid_argument(fmt::format("unknown argument \"{}\"", argument));
+    }
+    take(flags, argument);
+  }
+  for (const std::string& unknown : initialize_throughput(flags.forwarded)) {
+    throw std::invalid_argument(fmt::format("Google Benchmark does not know \"{}\"", unknown));
+  }
+  return flags;
+}
+
+}  // namespace touchmark::bench

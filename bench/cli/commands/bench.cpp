@@ -1,0 +1,239 @@
+/// `touchmark bench`: verify, then time, every contestant on every trajectory; print the table; leave
+/// results.csv and run.json.
+#include <algorithm>
+#include <chrono>
+#include <iterator>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "bench/cli/benchmark_flags.h"
+#include "bench/cli/program.h"
+#include "bench/cli/repeat_command.h"
+#include "bench/cli/selectors.h"
+#include "bench/cli/worker_options.h"
+#include "bench/measurement/comparison.h"
+#include "bench/results/report_table.h"
+#include "bench/results/results_csv.h"
+#include "bench/results/results_folder.h"
+#include "bench/results/run_json.h"
+#include "bench/results/verification_report.h"
+#include "bench/scenes/scenes.h"
+#include "bench/support/denormals.h"
+#include "bench/support/interrupt.h"
+#include "bench/support/progress.h"
+#include "bench/support/standard_output.h"
+#include "bench/workload/query_name.h"
+
+namespace touchmark::bench {
+namespace {
+
+constexpr std::size_t faulty_rows_shown = 20;
+const std::vector<std::string> default_trajectories{"slide", "approach", "hover", "jump"};
+
+struct BenchOptions {
+  Selectors selectors;
+  std::string out;
+  bool quick = false;
+  bool frontier = false;
+  bool work = false;
+  WorkerSelectors workers;
+};
+
+Effort effort_for(const BenchOptions& options, const BenchmarkFlags& flags) {
+  Effort effort;
+  if (options.quick) effort = quick_effort;
+  effort.repetitions = flags.repetitions.value_or(effort.repetitions);
+  if (flags.min_time_s) effort.repetition_ns = *flags.min_time_s * 1e9;
+  return effort;
+}
+
+std::string mesh_of(const Selectors& selectors) {
+  return selectors.meshes.empty() ? default_scene() : selectors.meshes.front();
+}
+
+/// The whole run, from the checked command line to the last row.
+class BenchRun {
+ public:
+  BenchRun(const ProgramContext& context, const BenchOptions& options, const BenchmarkFlags& flags);
+
+  /// An exit status. Throws ResourceError.
+  int run();
+  void list_cases();
+
+ private:
+  void run_trajectories();
+  void end_trajectory(std::size_t course);
+  void save_so_far();
+  void save(bool finished) const;
+  bool wanted(const std::string& trajectory, const std::string& contestant) const {
+    return flags_.wanted(contestant + "/" + trajectory);
+  }
+
+  const std::vector<std::string>& named() const {
+    return selectors_.trajectories.empty() ? default_trajectories : selectors_.trajectories;
+  }
+
+  BenchmarkFlags flags_;
+  Selectors selectors_;
+  CheckedSelectors selection_;
+  std::optional<ResultsFolder> folder_;
+  RunDescription description_;
+  Workload workload_;
+  std::optional<Comparison> comparison_;
+  ProgressLine progress_;
+  StandardOutput out_;
+  bool shows_work_;
+  std::vector<ResultRow> rows_;
+  std::size_t kept_ = 0;  ///< rows that were last saved
+};
+
+Workload workload_for(const BenchOptions& options, const CheckedSelectors& selection) {
+  const Selectors& selectors = options.selectors;
+  const std::string mesh = mesh_of(selectors);
+  return make_workload(without_directories(mesh), load_mesh(mesh, selectors.normalize), selection,
+                       selectors.trajectories.empty() ? default_trajectories : selectors.trajectories,
+                       options.quick ? 5000 : 20000);
+}
+
+BenchRun::BenchRun(const ProgramContext& context, const BenchOptions& options, const BenchmarkFlags& flags)
+    : flags_(flags),
+      selectors_(options.selectors),
+      selection_(check(options.selectors, context.roster)),
+      description_(begun_run(context.argc, context.argv)),
+      workload_(workload_for(options, selection_)),
+      shows_work_(options.work) {
+  if (!options.out.empty() && !flags.list_tests) folder_.emplace(options.out);
+  description_.flushed_to_zero = restore_denormals();
+  description_.query = selection_.queries.front();
+  description_.seed = selection_.seed;
+  description_.effort = effort_for(options, flags);
+  description_.core = core_for_workers();
+  WorkerOptions workers = worker_options(options.workers);
+  workers.flags = flags.forwarded;
+  workers.core = description_.core;
+  comparison_.emplace(context.roster, workload_, selection_.contestants, workers, description_.effort,
+                      selection_.seed);
+  comparison_->set_filter([this](const std::string& trajectory, const std::string& contestant) {
+    return wanted(trajectory, contestant);
+  });
+  comparison_->set_progress([this](const std::string& trajectory, const std::string& contestant) {
+    progress_.show(fmt::format("{}: {}", trajectory, contestant));
+  });
+}
+
+void BenchRun::list_cases() {
+  for (const std::string& trajectory : workload_.trajectories) {
+    for (const ContestantSpec& spec : selection_.contestants) {
+      if (wanted(trajectory, spec.text())) out_.write(fmt::format("{}/{}\n", spec.text(), trajectory));
+    }
+  }
+}
+
+void BenchRun::save(bool finished) const {
+  if (!folder_) return;
+  RunDescription description = description_;
+  description.finished = finished;
+  description.steadiness = comparison_->steadiness();
+  description.left_out = comparison_->left_out();
+  folder_->write(results_csv(description.run_id, rows_),
+                 run_json(description, workload_, comparison_->contestants()));
+}
+
+/// What has been timed in part counts as well, should it end here.
+void BenchRun::save_so_far() {
+  std::vector<ResultRow> rows = rows_;
+  std::ranges::move(comparison_->so_far(), std::back_inserter(rows_));
+  save(false);
+  kept_ = rows_.size();
+  rows_ = std::move(rows);
+}
+
+void BenchRun::run_trajectories() {
+  for (std::size_t course = 0; course < workload_.courses.size(); ++course) {
+    comparison_->begin(course, description_.query);
+    save_so_far();
+  }
+  for (std::size_t course = 0; course < workload_.courses.size(); ++course) end_trajectory(course);
+}
+
+void BenchRun::end_trajectory(std::size_t course) {
+  std::vector<ResultRow> rows = comparison_->end();
+  if (rows.empty()) return;
+  for (ResultRow& row : rows)
+    row.repeat = repeat_command(selectors_, mesh_of(selectors_), named(), workload_, row);
+  rows_.insert(rows_.end(), rows.begin(), rows.end());
+  save_so_far();
+  progress_.clear();
+  out_.write(fmt::format("\n{} ({})\n{}{}", workload_.trajectories[course], course_text(workload_, course),
+                         timing_table(rows), verdict(rows, comparison_->steadiness().back())));
+  if (shows_work_) out_.write('\n' + work_table(rows));
+  out_.finish();
+}
+
+int BenchRun::run() {
+  watch_for_interrupts();
+  out_.write(fmt::format("{}: {} triangles, {} within {}, radius {}\n", workload_.mesh_name,
+                         workload_.mesh.size(), name_of(description_.query),
+                         length_text(workload_, workload_.reach.value_or(workload_.radius)),
+                         length_text(workload_, workload_.radius)));
+  try {
+    run_trajectories();
+  } catch (const Interrupted&) {
+    progress_.clear();
+    save_so_far();
+    fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", kept_);
+    return exit_interrupted;
+  }
+  save(true);
+  std::vector<ResultRow> broken;  // what others err by is in the table
+  std::copy_if(rows_.begin(), rows_.end(), std::back_inserter(broken), claim_is_broken);
+  const std::string failures = list_of_failures(broken, faulty_rows_shown);
+  out_.write(fmt::format("\n{}{}", judged_answers(rows_), failures.empty() ? "" : "\n" + failures));
+  out_.finish();
+  const bool faulty = tell_faults(rows_, [](const ResultRow& row) { return row.trajectory; });
+  return rows_.empty() ? exit_done : status_of(rows_, faulty);
+}
+
+}  // namespace
+
+void add_bench(CLI::App& program, ProgramContext& context) {
+  const auto options = std::make_shared<BenchOptions>();
+  CLI::App* command =
+      program.add_subcommand("bench", "verify and time contestants on identical trajectories");
+  add_selectors(*command, options->selectors);
+  add_unit(*command, options->selectors.unit);
+  command->add_option("--out", options->out, "folder for results.csv and run.json")->type_name("DIR");
+  command
+      ->add_flag("--frontier", options->frontier,
+                 "every contestant over the options that trade accuracy for time (see the plot time_error)")
+      ->excludes("--detector");
+  command->add_flag("--work", options->work, "also what a step looked at, and so what it skipped");
+  command->add_flag("--quick", options->quick, "fewer steps and repetitions");
+  add_worker_selectors(*command, options->workers);
+  command->allow_extras();
+  command->footer(
+      "Any --benchmark_* flag of Google Benchmark may be added: --benchmark_repetitions=9,\n"
+      "--benchmark_min_time=0.2, --benchmark_filter=REGEX on contestant/trajectory.\n"
+      "Example: touchmark bench --mesh bunny --trajectory slide --detector grid-group --detector "
+      "fcl:bv=obbrss "
+      "--out results/today\n"
+      "         touchmark bench --mesh part.stl --unit mm --trajectory hand.csv --motion-scale 1000 --rate "
+      "1000\n");
+  command->final_callback([options, command, &context] {
+    const BenchmarkFlags flags = parse_benchmark_flags(command->remaining());
+    if (options->frontier) {
+      for (const ContestantSpec& spec : context.roster.frontier())
+        options->selectors.detectors.push_back(spec.text());
+    }
+    BenchRun run(context, *options, flags);
+    if (flags.list_tests) return run.list_cases();
+    context.status = run.run();
+  });
+}
+
+}  // namespace touchmark::bench

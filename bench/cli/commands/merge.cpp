@@ -1,0 +1,93 @@
+/// `touchmark merge`: the job files of a sweep as one results CSV.
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "bench/batch/merged.h"
+#include "bench/cli/program.h"
+#include "bench/results/results_csv.h"
+#include "bench/support/atomic_file.h"
+#include "bench/support/numbers.h"
+
+namespace touchmark::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct MergeOptions {
+  std::vector<std::string> paths;
+  std::string out, manifest, machine;
+  bool accuracy_only = false;
+};
+
+bool is_job_file(const fs::path& path) { return path.extension() == ".json" && is_hex(path.stem().string()); }
+
+std::vector<FoundJob> jobs_of(const std::vector<std::string>& folders) {
+  std::vector<FoundJob> jobs;
+  for (const std::string& folder : folders) {
+    std::vector<std::string> paths;
+    try {
+      for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+        if (is_job_file(entry.path())) paths.push_back(entry.path().string());
+      }
+    } catch (const fs::filesystem_error& error) {
+      throw std::invalid_argument(fmt::format("{}: {}", folder, error.code().message()));
+    }
+    if (paths.empty()) throw std::invalid_argument(fmt::format("{}: no finished job in it", folder));
+    std::sort(paths.begin(), paths.end());
+    for (const std::string& path : paths) jobs.push_back(found_job(path));
+  }
+  return jobs;
+}
+
+void keep_machine(std::vector<FoundJob>& jobs, const std::string& machine) {
+  std::erase_if(jobs, [&](const FoundJob& job) { return !job.result.machine.starts_with(machine); });
+  if (jobs.empty())
+    throw std::invalid_argument(fmt::format("--machine \"{}\": no job is from there", machine));
+}
+
+void merge(const MergeOptions& options) {
+  std::optional<Manifest> manifest;
+  if (!options.manifest.empty()) manifest = Manifest::read(options.manifest);
+  std::vector<FoundJob> jobs = jobs_of(options.paths);
+  if (!options.machine.empty()) keep_machine(jobs, options.machine);
+  if (!options.accuracy_only) expect_one_machine(jobs);
+  for (FoundJob& job : jobs) {
+    if (options.accuracy_only || !job.timed) drop_times(job);
+  }
+  jobs = in_order(std::move(jobs), manifest);
+  AtomicFile file(options.out);
+  file.write(csv_line(results_columns()));
+  for (const FoundJob& job : jobs) file.write(csv_line(job.result.fields));
+  file.commit();
+  fmt::print(stderr, "touchmark: {} rows\n", jobs.size());
+}
+
+}  // namespace
+
+void add_merge(CLI::App& program, ProgramContext&) {
+  const auto options = std::make_shared<MergeOptions>();
+  CLI::App* command = program.add_subcommand("merge", "make one results CSV of the jobs of a sweep");
+  command->add_option("dir", options->paths, "folders of touchmark run")->type_name("DIR")->required();
+  command->add_option("--out", options->out, "the CSV file")->type_name("FILE")->required();
+  command->add_option("--manifest", options->manifest, "its jobs in its order; none may be missing")
+      ->type_name("FILE");
+  command->add_flag("--accuracy-only", options->accuracy_only,
+                    "leave out times and heap_bytes; the rest may come from any machines");
+  command->add_option("--machine", options->machine, "only jobs of the machine whose code begins so")
+      ->type_name("CODE");
+  command->footer(
+      "Times of different machines, or of different builds, do not mix: status 2, and which they are.\n"
+      "Example: touchmark merge jobs --manifest sweep.json --out results.csv\n"
+      "         touchmark merge here/jobs there/jobs --accuracy-only --out accuracy.csv\n");
+  command->final_callback([options] { merge(*options); });
+}
+
+}  // namespace touchmark::bench

@@ -1,0 +1,185 @@
+/// `touchmark mesh`: what a mesh is like, and finer ones.
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "bench/cli/commands/mesh_commands.h"
+#include "bench/cli/program.h"
+#include "bench/cli/selectors.h"
+#include "bench/scenes/mesh_report.h"
+#include "bench/scenes/scenes.h"
+#include "bench/support/available_memory.h"
+#include "bench/support/standard_output.h"
+
+namespace touchmark::bench {
+namespace {
+
+struct InfoOptions {
+  std::string mesh;
+  bool normalize = false;
+  bool json = false;
+  std::string unit;
+};
+
+/// What report_on takes for a triangle.
+constexpr double bytes_reported_on = 400;
+
+const char* yes_or_no(bool value) { return value ? "yes" : "no"; }
+
+std::string coordinates(const Vec3& v) { return fmt::format("{} {} {}", v.x(), v.y(), v.z()); }
+
+const char* name_of(SideFinder::Way way) {
+  switch (way) {
+    case SideFinder::Way::pseudonormals:
+      return "pseudonormals";
+    case SideFinder::Way::crossings:
+      return "crossings";
+    case SideFinder::Way::winding_number:
+      return "winding_number";
+    case SideFinder::Way::none:
+      return "none";
+  }
+  return "";
+}
+
+struct Metric {
+  const char* what;
+  double value;
+};
+
+/// Sizes in metres, square metres and cubic metres.
+std::vector<Metric> metrics_of(const MeshReport& report, const LengthUnit& unit) {
+  const double m = unit.metres;
+  const Vec3 size = report.bounds.max - report.bounds.min;
+  std::vector<Metric> metrics{{"size_x_m", size.x() * m},
+                              {"size_y_m", size.y() * m},
+                              {"size_z_m", size.z() * m},
+                              {"diagonal_m", report.diagonal * m},
+                              {"area_m2", report.area * m * m}};
+  if (report.volume) metrics.push_back({"volume_m3", *report.volume * m * m * m});
+  metrics.push_back({"shortest_edge_m", report.shortest_edge * m});
+  metrics.push_back({"mean_edge_m", report.mean_edge * m});
+  metrics.push_back({"longest_edge_m", report.longest_edge * m});
+  return metrics;
+}
+
+std::string as_text(const MeshReport& report, const std::optional<LengthUnit>& unit) {
+  std::string text;
+  const auto line = [&text](const char* what, const auto& value) {
+    text += fmt::format("{}: {}\n", what, value);
+  };
+  line("triangles", report.triangles);
+  line("faces", report.faces);
+  line("vertices", report.vertices);
+  line("positions", report.positions);
+  line("bounds_min", coordinates(report.bounds.min));
+  line("bounds_max", coordinates(report.bounds.max));
+  line("diagonal", report.diagonal);
+  line("degenerate_triangles", report.degenerate);
+  line("edges", report.edges);
+  line("boundary_edges", report.boundary_edges);
+  line("non_manifold_edges", report.non_manifold_edges);
+  line("euler_characteristic", report.euler_characteristic);
+  line("closed", yes_or_no(report.closed));
+  line("oriented", yes_or_no(report.oriented));
+  line("area", report.area);
+  if (report.volume) line("volume", *report.volume);
+  line("shortest_edge", report.shortest_edge);
+  line("mean_edge", report.mean_edge);
+  line("longest_edge", report.longest_edge);
+  line("worst_aspect_ratio", report.worst_aspect_ratio);
+  line("sides_by", name_of(report.sides.way));
+  line("simple_triangles", report.sides.simple_triangles);
+  line("open_edges", report.sides.open_edges);
+  line("contrary_edges", report.sides.contrary_edges);
+  line("inside_out", yes_or_no(report.sides.inside_out));
+  if (unit) {
+    line("unit", unit->name);
+    for (const Metric& metric : metrics_of(report, *unit)) line(metric.what, metric.value);
+  }
+  return text;
+}
+
+std::string as_json(const std::string& mesh, const MeshReport& report,
+                    const std::optional<LengthUnit>& unit) {
+  const auto triple = [](const Vec3& v) { return nlohmann::ordered_json{v.x(), v.y(), v.z()}; };
+  nlohmann::ordered_json json;
+  json["mesh"] = mesh;
+  json["triangles"] = report.triangles;
+  json["faces"] = report.faces;
+  json["vertices"] = report.vertices;
+  json["positions"] = report.positions;
+  json["bounds_min"] = triple(report.bounds.min);
+  json["bounds_max"] = triple(report.bounds.max);
+  json["diagonal"] = report.diagonal;
+  json["degenerate_triangles"] = report.degenerate;
+  json["edges"] = report.edges;
+  json["boundary_edges"] = report.boundary_edges;
+  json["non_manifold_edges"] = report.non_manifold_edges;
+  json["euler_characteristic"] = report.euler_characteristic;
+  json["closed"] = report.closed;
+  json["oriented"] = report.oriented;
+  json["area"] = report.area;
+  json["volume"] = report.volume ? nlohmann::ordered_json(*report.volume) : nlohmann::ordered_json();
+  json["shortest_edge"] = report.shortest_edge;
+  json["mean_edge"] = report.mean_edge;
+  json["longest_edge"] = report.longest_edge;
+  json["worst_aspect_ratio"] = report.worst_aspect_ratio;
+  json["sides_by"] = name_of(report.sides.way);
+  json["simple_triangles"] = report.sides.simple_triangles;
+  json["open_edges"] = report.sides.open_edges;
+  json["contrary_edges"] = report.sides.contrary_edges;
+  json["inside_out"] = report.sides.inside_out;
+  if (unit) {
+    json["unit"] = unit->name;
+    for (const Metric& metric : metrics_of(report, *unit)) json[metric.what] = metric.value;
+  }
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+void add_info(CLI::App& mesh_command) {
+  const auto options = std::make_shared<InfoOptions>();
+  CLI::App* command = mesh_command.add_subcommand("info", "size, connections, measures; one line each");
+  add_mesh_options(*command, options->mesh, options->normalize);
+  command->add_flag("--json", options->json, "as JSON");
+  add_unit(*command, options->unit);
+  command->footer(
+      "Example: touchmark mesh info bunny@normalize\n"
+      "         touchmark mesh info part.stl --unit mm\n");
+  command->final_callback([options] {
+    const std::optional<LengthUnit> unit = checked_unit(options->unit);
+    const TriangleMesh mesh = load_mesh(options->mesh, options->normalize);
+    require_memory(fmt::format("edges and sides of {} triangles", mesh.size()),
+                   bytes_reported_on * static_cast<double>(mesh.size()));
+    const MeshReport report = report_on(mesh);
+    StandardOutput out;
+    out.write(options->json ? as_json(options->mesh, report, unit) : as_text(report, unit));
+    out.finish();
+  });
+}
+
+}  // namespace
+
+void add_mesh_options(CLI::App& command, std::string& mesh, bool& normalize) {
+  command.add_option("--mesh,mesh", mesh, "a scene (touchmark list) or a mesh file")
+      ->type_name("MESH")
+      ->required();
+  command.add_flag("--normalize", normalize, "scale to box diagonal 1 about the origin first");
+}
+
+void add_mesh(CLI::App& program, ProgramContext&) {
+  CLI::App* command =
+      program.add_subcommand("mesh", "what a mesh is like, and finer ones: info, measure, subdivide");
+  command->require_subcommand(1);
+  command->footer("Example: touchmark mesh info bunny\n");
+  add_info(*command);
+  add_mesh_measure(*command);
+  add_mesh_subdivide(*command);
+}
+
+}  // namespace touchmark::bench

@@ -1,0 +1,115 @@
+/// `touchmark mesh measure`: what Choi & Sung 2017 measure on a mesh.
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "bench/cli/commands/mesh_commands.h"
+#include "bench/cli/selectors.h"
+#include "bench/scenes/scenes.h"
+#include "bench/support/numbers.h"
+#include "bench/support/standard_output.h"
+#include "core/sphere_cluster/published/triangle_spheres.h"
+#include "core/subdivision/mesh_measures.h"
+
+namespace touchmark::bench {
+namespace {
+
+struct MeasureOptions {
+  std::string mesh;
+  bool normalize = false;
+  std::string center = "0,0,0";
+  bool json = false;
+};
+
+/// "x,y,z".
+Vec3 parse_center(const std::string& text) {
+  Vec3 center = Vec3::Zero();
+  std::size_t begin = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::size_t comma = axis < 2 ? text.find(',', begin) : text.size();
+    const std::optional<double> number =
+        comma == std::string::npos ? std::nullopt : parse_number(text.substr(begin, comma - begin));
+    if (!number || !std::isfinite(*number))
+      throw std::invalid_argument(fmt::format("--center {}: three numbers, as 0,0.5,-1", text));
+    center[axis] = *number;
+    begin = comma + 1;
+  }
+  return center;
+}
+
+/// One sphere a triangle, as without clustering.
+std::optional<double> tightness_of(const TriangleMesh& mesh) {
+  std::vector<Vec3> centers;
+  std::vector<double> radii;
+  for (const Sphere& sphere : triangle_spheres(mesh)) {
+    centers.push_back(sphere.center);
+    radii.push_back(sphere.radius);
+  }
+  return tightness(centers, radii, centers);
+}
+
+nlohmann::ordered_json measures_of(const TriangleMesh& mesh, const Vec3& center) {
+  const EdgeStatistics edges = edge_statistics(mesh);
+  nlohmann::ordered_json measures;
+  measures["triangles"] = mesh.size();
+  measures["area"] = area(mesh);
+  measures["mean_triangle_area"] = mean_triangle_area(mesh);
+  measures["signed_volume"] = signed_volume(mesh);
+  measures["absolute_volume"] = absolute_volume(mesh, center);
+  measures["spheres"] = mesh.size();
+  measures["tightness"] = tightness_of(mesh).value();  // every centroid is the centre of its own sphere
+  measures["edges"] = edges.edges;
+  measures["boundary_edges"] = edges.boundary;
+  measures["seam_edges"] = edges.seams;
+  measures["closed"] = edges.closed();
+  measures["shortest_edge"] = edges.shortest;
+  measures["mean_edge"] = edges.mean;
+  measures["longest_edge"] = edges.longest;
+  return measures;
+}
+
+std::string as_text(const nlohmann::ordered_json& measures) {
+  std::string text;
+  for (const auto& [name, value] : measures.items()) {
+    if (value.is_boolean())
+      text += fmt::format("{}: {}\n", name, value.get<bool>() ? "yes" : "no");
+    else if (value.is_number_integer())
+      text += fmt::format("{}: {}\n", name, value.get<std::uint64_t>());
+    else
+      text += fmt::format("{}: {}\n", name, value.get<double>());
+  }
+  return text;
+}
+
+}  // namespace
+
+void add_mesh_measure(CLI::App& mesh_command) {
+  const auto options = std::make_shared<MeasureOptions>();
+  CLI::App* command =
+      mesh_command.add_subcommand("measure", "area, volume and tightness as Choi & Sung 2017 define them");
+  add_mesh_options(*command, options->mesh, options->normalize);
+  command
+      ->add_option("--center", options->center, "tip of the tetrahedra whose absolute volumes are added up")
+      ->type_name("X,Y,Z")
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "as JSON");
+  command->footer("Example: touchmark mesh measure bunny\n");
+  command->final_callback([options] {
+    const Vec3 center = parse_center(options->center);
+    nlohmann::ordered_json measures = measures_of(load_mesh(options->mesh, options->normalize), center);
+    StandardOutput out;
+    out.write(options->json ? measures.dump(2) + "\n" : as_text(measures));
+    out.finish();
+  });
+}
+
+}  // namespace touchmark::bench

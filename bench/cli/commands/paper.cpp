@@ -1,0 +1,17 @@
+/// `touchmark paper`: the two papers' experiments again, side by side with what was printed.
+#include <CLI/CLI.hpp>
+
+#include "bench/cli/commands/paper_commands.h"
+#include "bench/cli/program.h"
+
+namespace touchmark::bench {
+
+void add_paper(CLI::App& program, ProgramContext& context) {
+  CLI::App* command = program.add_subcommand("paper", "a paper's experiment, beside the numbers it prints");
+  command->require_subcommand(1);
+  command->footer("Example: touchmark paper choi-sung-2017 --out results/papers/choi-sung-2017\n");
+  add_paper_park_jang(*command, context);
+  add_paper_choi_sung(*command, context);
+}
+
+}  // namespace touchmark::bench

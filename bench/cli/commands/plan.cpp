@@ -1,0 +1,185 @@
+/// `touchmark plan`: a sweep as a manifest of jobs, for `touchmark run` on one machine or many.
+#include <algorithm>
+#include <memory>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "bench/batch/manifest.h"
+#include "bench/cli/program.h"
+#include "bench/cli/selectors.h"
+#include "bench/results/build_info.h"
+#include "bench/scenes/scenes.h"
+#include "bench/support/atomic_file.h"
+#include "bench/support/progress.h"
+#include "bench/support/standard_output.h"
+#include "bench/workload/content_hash.h"
+#include "bench/workload/query_name.h"
+
+namespace touchmark::bench {
+namespace {
+
+struct PlanOptions {
+  std::vector<std::string> meshes, trajectories, detectors, queries, radii, reaches, seeds;
+  std::string steps, effort = "full", out;
+  bool normalize = false;
+  MotionSelectors motion;
+};
+
+std::vector<Query> checked_queries(const std::vector<std::string>& names) {
+  std::vector<Query> queries;
+  for (const std::string& name : names) {
+    const std::optional<Query> query = query_named(name);
+    if (!query && name != "all") {
+      throw std::invalid_argument(
+          fmt::format("--query \"{}\" is not one of touches, nearest, sweep, all", name));
+    }
+    if (query) queries.push_back(*query);
+    if (name == "all") queries.insert(queries.end(), all_queries.begin(), all_queries.end());
+  }
+  return queries.empty() ? std::vector{Query::nearest} : queries;
+}
+
+std::vector<std::string> or_else(std::vector<std::string> given, std::vector<std::string> otherwise) {
+  return given.empty() ? std::move(otherwise) : std::move(given);
+}
+
+class Planner {
+ public:
+  Planner(const Roster& roster, const PlanOptions& options)
+      : roster_(roster), options_(options), queries_(checked_queries(options.queries)) {
+    effort_named(options.effort);
+    manifest_.version = build_info().version;
+    manifest_.effort = options.effort;
+  }
+
+  Manifest plan() {
+    for (const std::string& mesh : or_else(options_.meshes, {default_scene()})) plan_mesh(mesh);
+    return std::move(manifest_);
+  }
+
+ private:
+  void plan_mesh(const std::string& mesh);
+  void plan_courses(const std::string& mesh, const TriangleMesh& loaded, const Selectors& selectors);
+  void add_scene(SweepScene scene, const std::vector<ContestantSpec>& contestants);
+
+  const Roster& roster_;
+  const PlanOptions& options_;
+  std::vector<Query> queries_;
+  Manifest manifest_;
+  std::set<std::string> ids_;
+  ProgressLine progress_;
+};
+
+void Planner::plan_mesh(const std::string& mesh) {
+  const TriangleMesh loaded = load_mesh(mesh, options_.normalize);
+  Selectors selectors;
+  selectors.detectors = options_.detectors;
+  selectors.steps = options_.steps;
+  selectors.motion = options_.motion;
+  for (const std::string& radius : or_else(options_.radii, {selectors.radius})) {
+    for (const std::string& reach : or_else(options_.reaches, {""})) {
+      for (const std::string& seed : or_else(options_.seeds, {selectors.seed})) {
+        selectors.radius = radius;
+        selectors.reach = reach;
+        selectors.seed = seed;
+        plan_courses(mesh, loaded, selectors);
+      }
+    }
+  }
+}
+
+void Planner::plan_courses(const std::string& mesh, const TriangleMesh& loaded, const Selectors& selectors) {
+  const CheckedSelectors selection = check(selectors, roster_);
+  const std::vector<std::string> trajectories =
+      or_else(options_.trajectories, {"slide", "approach", "hover", "jump"});
+  progress_.show(fmt::format("{}, radius {}, seed {}", mesh, selectors.radius, selectors.seed));
+  const std::size_t default_steps = options_.effort == "quick" ? 5000 : 20000;
+  const Workload workload = make_workload(mesh, loaded, selection, trajectories, default_steps);
+  for (std::size_t i = 0; i < trajectories.size(); ++i) {
+    for (const Query query : queries_) {
+      SweepScene scene{mesh,
+                       options_.normalize,
+                       hash_of(loaded),
+                       trajectories[i],
+                       hash_of(workload.courses[i]),
+                       workload.courses[i].size(),
+                       selection.seed,
+                       selectors.radius,
+                       selectors.reach,
+                       query,
+                       {},
+                       options_.motion};
+      add_scene(std::move(scene), selection.contestants);
+    }
+  }
+}
+
+/// A job that was planned before, by its content, is not planned again.
+void Planner::add_scene(SweepScene scene, const std::vector<ContestantSpec>& contestants) {
+  for (const ContestantSpec& contestant : contestants) {
+    const std::string id = job_id(scene, contestant.text(), manifest_.effort, manifest_.version);
+    if (ids_.insert(id).second) scene.jobs.push_back({id, contestant.text()});
+  }
+  if (!scene.jobs.empty()) manifest_.scenes.push_back(std::move(scene));
+}
+
+void run(const Roster& roster, const PlanOptions& options) {
+  const Manifest manifest = Planner(roster, options).plan();
+  if (options.out.empty()) {
+    StandardOutput out;
+    out.write(manifest.json());
+    out.finish();
+    return;
+  }
+  AtomicFile file(options.out);
+  file.write(manifest.json());
+  file.commit();
+  fmt::print(stderr, "touchmark: {} jobs in {} scenes\n", manifest.jobs(), manifest.scenes.size());
+}
+
+}  // namespace
+
+void add_plan(CLI::App& program, ProgramContext& context) {
+  const auto options = std::make_shared<PlanOptions>();
+  CLI::App* command =
+      program.add_subcommand("plan",
+                             "write down a sweep: every mesh, trajectory, query and parameter with "
+                             "every detector");
+  const auto many = [command](const char* name, std::vector<std::string>& values, const char* what,
+                              const char* type) {
+    command->add_option(name, values, fmt::format("{}; repeatable", what))
+        ->type_name(type)
+        ->expected(1)
+        ->take_all();
+  };
+  many("--mesh", options->meshes, "a scene (touchmark list) or a mesh file", "MESH");
+  many("--trajectory", options->trajectories, "a name (touchmark list) or a motion file, CSV", "T");
+  many("--detector", options->detectors, "a contestant (touchmark list); default: those of bench", "D");
+  many("--query", options->queries, "touches, nearest, sweep or all; default: nearest", "QUERY");
+  many("--radius", options->radii, "the probe's; default: 0.5%", "LENGTH");
+  many("--reach", options->reaches, "how far nearest looks; default: the radius", "LENGTH");
+  many("--seed", options->seeds, "of trajectories and of the order of measuring; default: 1", "N");
+  add_motion_selectors(*command, options->motion);
+  command->add_flag("--normalize", options->normalize, "scale meshes to box diagonal 1 about the origin");
+  command->add_option("--steps", options->steps, "steps a trajectory")->type_name("N");
+  command
+      ->add_option("--effort", options->effort,
+                   "full, quick, or accuracy: verified only, so that many may run side by side")
+      ->type_name("WORD")
+      ->capture_default_str();
+  command->add_option("--out", options->out, "file for the manifest; default: standard output")
+      ->type_name("FILE");
+  command->footer(
+      "Example: touchmark plan --mesh bunny --mesh dragon:3 --radius 0.5% --radius 2% --query all --out "
+      "sweep.json\n"
+      "         touchmark run --manifest sweep.json --shard 1/1 --out jobs && touchmark merge jobs --out "
+      "results.csv\n");
+  command->final_callback([options, &context] { run(context.roster, *options); });
+}
+
+}  // namespace touchmark::bench

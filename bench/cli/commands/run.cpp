@@ -1,0 +1,194 @@
+/// `touchmark run`: one shard of a planned sweep. What is finished is not run again.
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "bench/batch/job_file.h"
+#include "bench/batch/manifest.h"
+#include "bench/cli/program.h"
+#include "bench/cli/worker_options.h"
+#include "bench/measurement/comparison.h"
+#include "bench/results/build_info.h"
+#include "bench/results/results_csv.h"
+#include "bench/results/results_folder.h"
+#include "bench/results/run_json.h"
+#include "bench/support/denormals.h"
+#include "bench/support/interrupt.h"
+#include "bench/support/numbers.h"
+#include "bench/support/progress.h"
+#include "bench/workload/content_hash.h"
+
+namespace touchmark::bench {
+namespace {
+
+struct RunOptions {
+  std::string manifest, shard = "1/1", out;
+  WorkerSelectors workers;
+};
+
+struct Shard {
+  std::size_t which = 1;  ///< from 1
+  std::size_t count = 1;
+
+  bool has(std::size_t scene) const { return scene % count == which - 1; }
+};
+
+Shard checked_shard(const std::string& text) {
+  const std::size_t slash = std::min(text.find('/'), text.size() - 1);
+  const std::uint64_t which = parse_count(text.substr(0, slash)).value_or(0);
+  const std::uint64_t count = parse_count(text.substr(slash + 1)).value_or(0);
+  if (which < 1 || which > count) {
+    throw std::invalid_argument(fmt::format("--shard \"{}\" is not i/N, i from 1 to N", text));
+  }
+  return {which, count};
+}
+
+class SweepRun {
+ public:
+  SweepRun(const ProgramContext& context, const RunOptions& options)
+      : context_(context),
+        options_(options),
+        manifest_(Manifest::read(options.manifest)),
+        shard_(checked_shard(options.shard)),
+        effort_(effort_named(manifest_.effort)),
+        folder_(options.out) {
+    if (manifest_.version != build_info().version) {
+      throw std::invalid_argument(fmt::format("{}: planned by version {}, this is {}: plan it anew",
+                                              options.manifest, manifest_.version, build_info().version));
+    }
+  }
+
+  int run();
+
+ private:
+  void run_scene(const SweepScene& scene);
+  std::vector<ContestantSpec> missing_of(const SweepScene& scene) const;
+  Workload planned_workload(const SweepScene& scene) const;
+  RunDescription description_of(const SweepScene& scene) const;
+
+  const ProgramContext& context_;
+  const RunOptions& options_;
+  Manifest manifest_;
+  Shard shard_;
+  Effort effort_;
+  ResultsFolder folder_;
+  ProgressLine progress_;
+  std::size_t skipped_ = 0, done_ = 0;
+};
+
+std::vector<ContestantSpec> SweepRun::missing_of(const SweepScene& scene) const {
+  std::vector<ContestantSpec> missing;
+  for (const SweepJob& job : scene.jobs) {
+    ContestantSpec spec = context_.roster.parse(job.detector);
+    if (job_id(scene, spec.text(), manifest_.effort, manifest_.version) != job.id) {
+      throw std::invalid_argument(
+          fmt::format("{}: job {} does not have the id of what it describes", options_.manifest, job.id));
+    }
+    if (!is_finished(options_.out, job.id)) missing.push_back(std::move(spec));
+  }
+  return missing;
+}
+
+Workload SweepRun::planned_workload(const SweepScene& scene) const {
+  Workload workload = workload_of(scene, context_.roster);
+  const auto expect = [&](const char* what, const std::string& name, std::uint64_t then, std::uint64_t now) {
+    if (then == now) return;
+    throw std::invalid_argument(fmt::format(
+        "{} \"{}\" is not the one that was planned: fnv1a {:016x}, not {:016x}", what, name, now, then));
+  };
+  expect("mesh", scene.mesh, scene.mesh_hash, hash_of(workload.mesh));
+  expect("trajectory", scene.trajectory, scene.course_hash, hash_of(workload.courses.front()));
+  return workload;
+}
+
+RunDescription SweepRun::description_of(const SweepScene& scene) const {
+  RunDescription description = begun_run(context_.argc, context_.argv);
+  description.query = scene.query;
+  description.seed = scene.seed;
+  description.effort = effort_;
+  // Runs that only verify may go side by side, and would all sit on that one core.
+  if (effort_.repetitions > 0) description.core = core_for_workers();
+  return description;
+}
+
+void SweepRun::run_scene(const SweepScene& scene) {
+  const std::vector<ContestantSpec> missing = missing_of(scene);
+  skipped_ += scene.jobs.size() - missing.size();
+  if (missing.empty()) return;
+  if (missing.size() < scene.jobs.size() && effort_.repetitions > 0) {
+    progress_.clear();
+    fmt::print(
+        stderr,
+        "touchmark: {}, {}: {} of {} jobs were finished before; the others get another run_id: compare times "
+        "within one\n",
+        scene.mesh, scene.trajectory, scene.jobs.size() - missing.size(), scene.jobs.size());
+  }
+  const Workload workload = planned_workload(scene);
+  RunDescription description = description_of(scene);
+  WorkerOptions workers = worker_options(options_.workers);
+  workers.core = description.core;
+  workers.calibrate_clock = effort_.repetitions > 0;
+  Comparison comparison(context_.roster, workload, missing, workers, effort_, scene.seed);
+  comparison.set_progress([&](const std::string& trajectory, const std::string& contestant) {
+    progress_.show(fmt::format("{}, {}: {}", workload.mesh_name, trajectory, contestant));
+  });
+  const std::vector<ResultRow> rows = comparison.run(0, scene.query);
+  description.steadiness = comparison.steadiness();
+  const auto run = nlohmann::json::parse(run_json(description, workload, comparison.contestants()));
+  for (const ResultRow& row : rows) {
+    const std::string id = job_id(scene, row.contestant(), manifest_.effort, manifest_.version);
+    const JobResult job{id, machine_fingerprint(), run, results_fields(description.run_id, row)};
+    folder_.write_file(job_path("", id), job.json());
+    ++done_;
+  }
+}
+
+int SweepRun::run() {
+  watch_for_interrupts();
+  restore_denormals();
+  int status = exit_done;
+  try {
+    for (std::size_t scene = 0; scene < manifest_.scenes.size(); ++scene) {
+      if (shard_.has(scene)) run_scene(manifest_.scenes[scene]);
+    }
+  } catch (const Interrupted&) {
+    status = exit_interrupted;
+  }
+  progress_.clear();
+  fmt::print(stderr, "touchmark: {}shard {}: {} jobs done, {} were finished before\n",
+             status == exit_done ? "" : "interrupted; ", options_.shard, done_, skipped_);
+  return status;
+}
+
+}  // namespace
+
+void add_run(CLI::App& program, ProgramContext& context) {
+  const auto options = std::make_shared<RunOptions>();
+  CLI::App* command = program.add_subcommand("run", "run one shard of a planned sweep");
+  command->add_option("--manifest", options->manifest, "what touchmark plan wrote")
+      ->type_name("FILE")
+      ->required();
+  command
+      ->add_option("--shard", options->shard,
+                   "the i-th of N parts; all rivals of a scene are in one part, and timed in one run")
+      ->type_name("i/N")
+      ->capture_default_str();
+  command->add_option("--out", options->out, "folder for one file a job; finished ones are not run again")
+      ->type_name("DIR")
+      ->required();
+  add_worker_selectors(*command, options->workers);
+  command->footer(
+      "May be stopped and started again. Mesh and trajectory files are found from the current folder, as "
+      "they\n"
+      "were when the sweep was planned.\n"
+      "Example: touchmark run --manifest sweep.json --shard 3/8 --out jobs\n");
+  command->final_callback([options, &context] { context.status = SweepRun(context, *options).run(); });
+}
+
+}  // namespace touchmark::bench

@@ -1,0 +1,167 @@
+/// `touchmark tune`: the level of subdivision and the clustering distance that hold a wanted rate at the
+/// least geometric error, the question that Choi & Sung 2017 leave to future work.
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "bench/cli/program.h"
+#include "bench/experiments/papers/frontier.h"
+#include "bench/experiments/papers/paper_options.h"
+#include "bench/experiments/papers/tuning.h"
+#include "bench/results/results_folder.h"
+#include "bench/scenes/scenes.h"
+#include "bench/support/denormals.h"
+#include "bench/support/interrupt.h"
+#include "bench/support/progress.h"
+#include "bench/support/standard_output.h"
+#include "bench/support/text_table.h"
+
+namespace touchmark::bench {
+namespace {
+
+struct TuneOptions {
+  std::string mesh, rate, levels, threshold = "1%";
+  std::vector<std::string> methods, clusterings;
+  PaperOptions common{"", "0.5%", "", "1", false};
+};
+
+std::vector<SubdivisionMethod> checked_methods(const std::vector<std::string>& names) {
+  std::vector<SubdivisionMethod> methods;
+  for (const std::string& name : names) {
+    const std::optional<SubdivisionMethod> method = subdivision_method(name);
+    if (!method)
+      throw std::invalid_argument(
+          fmt::format("--method \"{}\" is not a subdivision method (mesh subdivide)", name));
+    methods.push_back(*method);
+  }
+  return methods.empty() ? std::vector{SubdivisionMethod::ls3} : methods;
+}
+
+std::vector<double> checked_clusterings(const std::vector<std::string>& texts, const TriangleMesh& mesh) {
+  std::vector<double> distances;
+  for (const std::string& text : texts)
+    distances.push_back(checked_finite_length("--clustering", text).in_mesh_units(mesh));
+  if (!distances.empty()) return distances;
+  for (const double times : {0.0, 0.5, 1.0, 2.0, 4.0})
+    distances.push_back(times * choi_sung_clustering_percent / 100 * mesh.diagonal());
+  return distances;
+}
+
+FrontierSettings checked(const TuneOptions& options, const TriangleMesh& mesh) {
+  const bool quick = options.common.quick;
+  FrontierSettings settings;
+  settings.methods = checked_methods(options.methods);
+  settings.levels = static_cast<int>(checked_number("--levels", options.levels, 0, 8, quick ? 1 : 3));
+  settings.threshold = checked_finite_length("--threshold", options.threshold).in_mesh_units(mesh);
+  settings.clusterings = checked_clusterings(options.clusterings, mesh);
+  settings.radius = checked_finite_length("--radius", options.common.radius).in_mesh_units(mesh);
+  settings.steps = checked_number("--steps", options.common.steps, 1, 1'000'000, quick ? 50 : 1000);
+  settings.seed = checked_seed(options.common.seed);
+  if (quick) {
+    settings.samples = 100;
+    settings.effort = {2, 1e5};
+  }
+  return settings;
+}
+
+double percent_of(double error, double diagonal) { return diagonal > 0 ? 100 * error / diagonal : 0; }
+
+std::string table_of(const FrontierResult& result, double diagonal, double rate) {
+  TextTable table({"surface", "form", "clustering", "triangles", "spheres", "error %", "99 % within us", "Hz",
+                   "in time", "best"});
+  for (const FrontierPoint& p : result.points) {
+    table.add({fmt::format("{} {}", p.method, p.level), p.form, fmt::format("{:.4g}", p.clustering),
+               std::to_string(p.triangles), std::to_string(p.spheres),
+               fmt::format("{:.4f}", percent_of(p.error.mean, diagonal)),
+               p.ns_p99 ? fmt::format("{:.3g}", *p.ns_p99 * 1e-3) : "",
+               p.ns_p99 ? fmt::format("{:.4g}", 1e9 / *p.ns_p99) : "", holds_rate(p, rate) ? "yes" : "no",
+               p.best ? "*" : ""});
+  }
+  return table.text();
+}
+
+std::string description(const char* which, const std::optional<FrontierPoint>& point,
+                        const TuneOptions& options, double diagonal) {
+  if (!point || !point->ns_p99) return fmt::format("{}: none holds {} Hz\n", which, options.rate);
+  std::string text = fmt::format(
+      "{}: {} level {}, {}, mean error {:.4f} % of the box diagonal, 99 of 100 queries within {:.4g} us\n",
+      which, point->method, point->level, detector_of(*point), percent_of(point->error.mean, diagonal),
+      *point->ns_p99 * 1e-3);
+  if (point->level > 0) {
+    text += fmt::format(
+        "  touchmark mesh subdivide --mesh {} --method {} --levels {} --threshold {} --form meshlab --output "
+        "fine.ply\n",
+        options.mesh, point->method, point->level, options.threshold);
+  }
+  text += fmt::format("  touchmark bench --mesh {} --detector {}\n",
+                      point->level > 0 ? "fine.ply" : options.mesh, detector_of(*point));
+  return text;
+}
+
+int run(const TuneOptions& options) {
+  const double rate = checked_positive("--rate", options.rate);
+  const TriangleMesh mesh = load_scene(options.mesh);
+  const FrontierSettings settings = checked(options, mesh);
+  std::optional<ResultsFolder> folder;
+  if (!options.common.out.empty()) folder.emplace(options.common.out);
+  watch_for_interrupts();
+  restore_denormals();
+  ProgressLine progress;
+  const FrontierResult result =
+      run_frontier(mesh, settings, [&](const std::string& what) { progress.show(what); });
+  progress.clear();
+  if (folder) folder->write_file("tune.csv", frontier_table(result, mesh.diagonal()).csv());
+  if (!result.finished) {
+    fmt::print(stderr, "touchmark: interrupted; {} rows are kept\n", result.points.size());
+    return exit_interrupted;
+  }
+  for (const std::string& what : result.left_out) fmt::print(stderr, "touchmark: left out: {}\n", what);
+  const Tuned tuned = tune(result, rate);
+  StandardOutput out;
+  out.write(table_of(result, mesh.diagonal(), rate));
+  out.write(description("as published", tuned.published, options, mesh.diagonal()));
+  out.write(description("fast and exact", tuned.fast, options, mesh.diagonal()));
+  out.finish();
+  return tuned.published || tuned.fast ? exit_done : exit_check_failed;
+}
+
+}  // namespace
+
+void add_tune(CLI::App& program, ProgramContext& context) {
+  const auto options = std::make_shared<TuneOptions>();
+  CLI::App* command = program.add_subcommand(
+      "tune", "the subdivision level and clustering that hold a rate at the least geometric error");
+  command->add_option("--mesh,mesh", options->mesh, "a scene (touchmark list) or a mesh file")
+      ->type_name("MESH")
+      ->required();
+  command->add_option("--rate", options->rate, "queries a second that 99 of 100 must be fast enough for")
+      ->type_name("HZ")
+      ->required();
+  command->add_option("--method", options->methods, "of subdivision, repeatable; without it ls3")
+      ->type_name("METHOD")
+      ->expected(1)
+      ->take_all();
+  command->add_option("--levels", options->levels, "up to how many (3)")->type_name("N");
+  command
+      ->add_option("--threshold", options->threshold,
+                   "only longer edges split: mesh units or % of the diagonal")
+      ->type_name("LENGTH")
+      ->capture_default_str();
+  command
+      ->add_option("--clustering", options->clusterings,
+                   "distance, repeatable; without it 0 and half to four times the paper's")
+      ->type_name("LENGTH")
+      ->expected(1)
+      ->take_all();
+  add_paper_options(*command, options->common);
+  command->footer(
+      "Exit status 1: nothing tried holds the rate.\nExample: touchmark tune --rate 1000 --mesh bunny\n");
+  command->final_callback([options, &context] { context.status = run(*options); });
+}
+
+}  // namespace touchmark::bench

@@ -1,0 +1,168 @@
+/// `touchmark update`: a mesh changes its shape; what does that cost each contestant, against building anew,
+/// and are its answers right afterwards?
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "bench/cli/program.h"
+#include "bench/cli/selectors.h"
+#include "bench/cli/worker_options.h"
+#include "bench/experiments/update/update_row.h"
+#include "bench/experiments/update/update_run.h"
+#include "bench/results/results_folder.h"
+#include "bench/results/run_json.h"
+#include "bench/scenes/scenes.h"
+#include "bench/support/denormals.h"
+#include "bench/support/interrupt.h"
+#include "bench/support/progress.h"
+#include "bench/support/standard_output.h"
+#include "bench/trajectories/motion_path.h"
+
+namespace touchmark::bench {
+namespace {
+
+// Ours, and rivals with an update of their own or in the form that is fastest to build; the others are asked
+// so that it shows that they have none.
+constexpr std::string_view asked_by_default[] = {"brute-force",
+                                                 "aabb-tree",
+                                                 "grid-group",
+                                                 "sphere-cluster",
+                                                 "fcl",
+                                                 "fcl:bv=aabb,method=distance,narrow=exact",
+                                                 "bullet",
+                                                 "bullet:method=callback,frame=fitted",
+                                                 "embree",
+                                                 "embree:quality=refit",
+                                                 "libccd+aabb:algorithm=mpr",
+                                                 "cgal:kernel=simple,hint=bounded"};
+
+struct UpdateOptions {
+  Selectors selectors;
+  std::string shares = "1%,10%,100%";
+  std::string out;
+  WorkerSelectors workers;
+};
+
+double checked_share(std::string_view text) {
+  const std::optional<Length> share = parse_length(text);
+  const double value = share ? (share->percent ? share->value / 100 : share->value) : 0;
+  if (!(value > 0 && value <= 1)) {
+    throw std::invalid_argument(
+        fmt::format("--shares: \"{}\" is not a share of the vertices above 0 and at most 100%", text));
+  }
+  return value;
+}
+
+std::vector<double> checked_shares(std::string_view text) {
+  std::vector<double> shares;
+  for (;;) {
+    const std::size_t comma = text.find(',');
+    shares.push_back(checked_share(text.substr(0, comma)));
+    if (comma == std::string_view::npos) return shares;
+    text.remove_prefix(comma + 1);
+  }
+}
+
+CheckedSelectors checked(const Selectors& selectors, const Roster& roster) {
+  CheckedSelectors selection = check(selectors, roster);
+  if (!selectors.detectors.empty()) return selection;
+  selection.contestants.clear();
+  for (const std::string_view text : asked_by_default) {
+    ContestantSpec spec = roster.parse(std::string(text));
+    if (roster.find(spec.name).built()) selection.contestants.push_back(std::move(spec));
+  }
+  return selection;
+}
+
+std::string checked_trajectory(const std::vector<std::string>& names) {
+  if (names.size() > 1)
+    throw std::invalid_argument(
+        fmt::format("--trajectory \"{}\" is one too many: update takes one", names[1]));
+  return names.empty() ? "slide" : names.front();
+}
+
+int update(const ProgramContext& context, const UpdateOptions& options) {
+  const CheckedSelectors selection = checked(options.selectors, context.roster);
+  const std::vector<double> shares = checked_shares(options.shares);
+  const std::string trajectory = checked_trajectory(options.selectors.trajectories);
+  WorkerOptions workers = worker_options(options.workers);
+  workers.calibrate_clock = false;
+  RunDescription description = begun_run(context.argc, context.argv);
+  description.flushed_to_zero = restore_denormals();
+  description.query = selection.queries.front();
+  description.seed = selection.seed;
+  description.core = workers.core = core_for_workers();
+  std::optional<ResultsFolder> folder;
+  if (!options.out.empty()) folder.emplace(options.out);
+
+  const std::string name =
+      options.selectors.meshes.empty() ? default_scene() : options.selectors.meshes.front();
+  ProgressLine progress;
+  progress.show(fmt::format("{}: deforming it", without_directories(name)));
+  UpdateRun run(context.roster, selection.contestants, selection, without_directories(name),
+                load_mesh(name, options.selectors.normalize), shares, trajectory, workers);
+  watch_for_interrupts();
+  std::vector<UpdateRow> rows;
+  int status = exit_done;
+  try {
+    for (std::size_t i = 0; i < selection.contestants.size(); ++i) {
+      const std::vector<UpdateRow> more = run.run(i, [&](double share) {
+        progress.show(fmt::format("{}, {:g} %: {}", run.workload().mesh_name, 100 * share,
+                                  selection.contestants[i].text()));
+      });
+      rows.insert(rows.end(), more.begin(), more.end());
+    }
+  } catch (const Interrupted&) {
+    status = exit_interrupted;
+    description.finished = false;
+  }
+  progress.clear();
+  StandardOutput().write(update_table(rows));
+  if (folder) {
+    folder->write_file("update.csv", update_csv(rows));
+    folder->write_file("run.json", run_json(description, run.workload(), run.contestants()));
+  }
+  if (status == exit_interrupted)
+    fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", rows.size());
+  for (const UpdateRow& row : rows) {
+    const bool crashed = row.status.starts_with("crashed") &&
+                         context.roster.parse(row.contestant()).claimed == Guarantee::exact;
+    if (!row.broke_its_word() && !crashed) continue;
+    if (status == exit_done) status = exit_check_failed;
+    fmt::print(stderr, "touchmark: {} after {:g} % moved: {}\n", row.contestant(), 100 * row.share,
+               crashed ? row.status : "answers are not as exact as claimed");
+  }
+  return status;
+}
+
+}  // namespace
+
+void add_update(CLI::App& program, ProgramContext& context) {
+  const auto options = std::make_shared<UpdateOptions>();
+  CLI::App* command = program.add_subcommand(
+      "update", "what it costs that the mesh changes its shape, against building anew");
+  add_selectors(*command, options->selectors);
+  command
+      ->add_option("--shares", options->shares,
+                   "of the vertices that move: a dent for less than 100%, a wave through all for 100%")
+      ->type_name("S,S,...")
+      ->capture_default_str();
+  add_unit(*command, options->selectors.unit);
+  command->add_option("--out", options->out, "folder for update.csv and run.json")->type_name("DIR");
+  add_worker_selectors(*command, options->workers);
+  command->footer(
+      "Updates and builds take turns, in a process for each contestant; afterwards its answers along the\n"
+      "trajectory and about what moved are judged by the exact oracle. Exit status 1 if one that claims\n"
+      "exactness is wrong or crashes. A contestant without an update of its own is \"unsupported\".\n"
+      "Example: touchmark update --mesh bunny --detector sphere-cluster --detector embree --out "
+      "out/update\n");
+  command->final_callback([options, &context] { context.status = update(context, *options); });
+}
+
+}  // namespace touchmark::bench

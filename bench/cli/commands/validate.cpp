@@ -1,0 +1,128 @@
+/// `touchmark validate`: are recorded results what they should be?
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "bench/cli/program.h"
+#include "bench/experiments/stress/stress_check.h"
+#include "bench/results/validation/located_json.h"
+#include "bench/results/validation/results_check.h"
+#include "bench/results/validation/run_check.h"
+#include "bench/support/standard_output.h"
+
+namespace touchmark::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_run_json(const fs::path& path) { return path.extension() == ".json"; }
+
+/// The CSV files and run.json files anywhere below, in the order of their names.
+std::vector<std::string> files_below(const std::string& folder) {
+  std::vector<std::string> files;
+  try {
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+      const fs::path& path = entry.path();
+      if (entry.is_regular_file() && (path.extension() == ".csv" || path.filename() == "run.json")) {
+        files.push_back(path.string());
+      }
+    }
+  } catch (const fs::filesystem_error& error) {
+    throw std::invalid_argument(fmt::format("{}: {}", folder, error.code().message()));
+  }
+  if (files.empty())
+    throw std::invalid_argument(fmt::format("{}: no CSV file and no run.json in it", folder));
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<std::string> files_of(const std::vector<std::string>& paths) {
+  std::vector<std::string> files;
+  for (const std::string& path : paths) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (!fs::exists(status)) throw std::invalid_argument(fmt::format("{}: no such file or folder", path));
+    if (!fs::is_directory(status)) {
+      files.push_back(path);
+    } else {
+      const std::vector<std::string> below = files_below(path);
+      files.insert(files.end(), below.begin(), below.end());
+    }
+  }
+  return files;
+}
+
+std::string check_json(const std::string& path, Faults& faults) {
+  const std::optional<LocatedJson> run = read_located_json(path, faults);
+  if (run) check_run(path, *run, faults);
+  return "run";
+}
+
+bool is_stress_csv(const fs::path& path) { return path.filename() == "stress.csv"; }
+
+/// The run.json beside a results.csv or stress.csv; its own faults are reported where it is checked itself.
+std::optional<LocatedJson> run_beside(const fs::path& path) {
+  const fs::path beside = path.parent_path() / "run.json";
+  if ((path.filename() != "results.csv" && !is_stress_csv(path)) || !fs::exists(beside)) return std::nullopt;
+  Faults reported_elsewhere;
+  std::optional<LocatedJson> run = read_located_json(beside, reported_elsewhere);
+  return run && run->value.is_object() ? std::move(run) : std::nullopt;
+}
+
+std::string check_csv(const std::string& path, Faults& faults) {
+  const CsvTable table = read_csv_table(path, faults);
+  check_form(table, faults);
+  const std::optional<LocatedJson> run = run_beside(path);
+  const nlohmann::json* about = run ? &run->value : nullptr;
+  if (is_stress_csv(path)) {
+    check_stress(table, about, faults);
+    return fmt::format("stress, {} rows", table.records.size());
+  }
+  const bool results =
+      fs::path(path).filename() == "results.csv" || table.has("run_id") || table.has("answers_checksum");
+  if (results) check_results(table, about, faults);
+  return fmt::format("{}, {} rows", results ? "results" : "another table, checked for its form only",
+                     table.records.size());
+}
+
+int validate(const std::vector<std::string>& paths) {
+  StandardOutput out;
+  std::size_t total = 0;
+  const std::vector<std::string> files = files_of(paths);
+  for (const std::string& path : files) {
+    Faults faults;
+    const std::string kind = is_run_json(path) ? check_json(path, faults) : check_csv(path, faults);
+    for (const Fault& fault : faults) out.write(line_of(fault) + "\n");
+    if (faults.empty()) out.write(fmt::format("{}: fine ({})\n", path, kind));
+    total += faults.size();
+  }
+  if (total > 0) out.write(fmt::format("{} faults in {} files\n", total, files.size()));
+  out.finish();
+  return total > 0 ? exit_check_failed : exit_done;
+}
+
+}  // namespace
+
+void add_validate(CLI::App& program, ProgramContext& context) {
+  const auto paths = std::make_shared<std::vector<std::string>>();
+  CLI::App* command = program.add_subcommand("validate", "check recorded results: CSV files and run.json");
+  command
+      ->add_option("path", *paths,
+                   "results.csv, stress.csv, run.json, or folders that hold some; other CSV files are "
+                   "checked for their form")
+      ->type_name("FILE|DIR")
+      ->required();
+  command->footer(
+      "Prints a line for each fault: file, line, column, value, and what is wrong. Exit status 1 if there is "
+      "any.\nExample: touchmark validate results/*/*\n");
+  command->final_callback([paths, &context] { context.status = validate(*paths); });
+}
+
+}  // namespace touchmark::bench

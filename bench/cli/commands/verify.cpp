@@ -1,0 +1,154 @@
+/// `touchmark verify`: every contestant's answers against the oracle; without --mesh on every scene, also far
+/// from the origin, tiny and huge.
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "bench/cli/program.h"
+#include "bench/cli/repeat_command.h"
+#include "bench/cli/selectors.h"
+#include "bench/cli/worker_options.h"
+#include "bench/measurement/comparison.h"
+#include "bench/results/results_csv.h"
+#include "bench/results/results_folder.h"
+#include "bench/results/run_json.h"
+#include "bench/results/verification_report.h"
+#include "bench/scenes/scenes.h"
+#include "bench/support/denormals.h"
+#include "bench/support/interrupt.h"
+#include "bench/support/progress.h"
+#include "bench/support/standard_output.h"
+#include "bench/trajectories/trajectories.h"
+#include "bench/workload/query_name.h"
+
+namespace touchmark::bench {
+namespace {
+
+constexpr std::size_t steps_on_every_scene = 200;
+constexpr std::size_t steps_on_a_mesh = 2000;
+constexpr std::size_t failures_shown = 40;
+
+struct VerifyOptions {
+  Selectors selectors;
+  std::string out;
+  WorkerSelectors workers;
+};
+
+std::vector<std::string> meshes_for(const VerifyOptions& options) {
+  if (!options.selectors.meshes.empty()) return options.selectors.meshes;
+  std::vector<std::string> meshes;
+  for (const SceneInfo& scene : scenes()) {
+    if (scene.example.empty()) continue;
+    for (const char* modifier : {"", "@offset=1e6", "@scale=1e-6", "@scale=1e6"}) {
+      meshes.push_back(scene.example + modifier);
+    }
+  }
+  return meshes;
+}
+
+std::vector<std::string> trajectories_for(const VerifyOptions& options) {
+  if (!options.selectors.trajectories.empty()) return options.selectors.trajectories;
+  std::vector<std::string> names;
+  for (const TrajectoryInfo& trajectory : trajectories()) names.push_back(trajectory.name);
+  return names;
+}
+
+class VerifyRun {
+ public:
+  VerifyRun(const Roster& roster, const VerifyOptions& options)
+      : roster_(roster),
+        options_(options),
+        selection_(check(options.selectors, roster, Variety::many)),
+        workers_(worker_options(options.workers)) {
+    workers_.calibrate_clock = false;
+    if (!options.out.empty()) folder_.emplace(options.out);
+  }
+
+  int run();
+
+ private:
+  void verify_mesh(const std::string& mesh);
+  int report(bool finished);
+
+  const Roster& roster_;
+  VerifyOptions options_;
+  CheckedSelectors selection_;
+  WorkerOptions workers_;
+  std::optional<ResultsFolder> folder_;
+  ProgressLine progress_;
+  std::vector<ResultRow> rows_;
+};
+
+void VerifyRun::verify_mesh(const std::string& mesh) {
+  const std::size_t steps = options_.selectors.meshes.empty() ? steps_on_every_scene : steps_on_a_mesh;
+  const Workload workload =
+      make_workload(without_directories(mesh), load_mesh(mesh, options_.selectors.normalize), selection_,
+                    trajectories_for(options_), steps);
+  Comparison comparison(roster_, workload, selection_.contestants, workers_, accuracy_effort,
+                        selection_.seed);
+  comparison.set_progress([&](const std::string& trajectory, const std::string& contestant) {
+    progress_.show(fmt::format("{}, {}: {}", workload.mesh_name, trajectory, contestant));
+  });
+  const std::size_t before = rows_.size();
+  const auto say_how_to_repeat = [&] {
+    for (std::size_t i = before; i < rows_.size(); ++i)
+      rows_[i].repeat =
+          repeat_command(options_.selectors, mesh, trajectories_for(options_), workload, rows_[i]);
+  };
+  try {
+    comparison.run_all(selection_.queries, rows_);
+  } catch (const Interrupted&) {
+    say_how_to_repeat();
+    throw;
+  }
+  say_how_to_repeat();
+}
+
+int VerifyRun::report(bool finished) {
+  progress_.clear();
+  const std::string failures = list_of_failures(rows_, failures_shown);
+  StandardOutput().write(verification_table(rows_) + (failures.empty() ? "" : "\n" + failures));
+  if (folder_) folder_->write(results_csv(new_run_id(system_info()), rows_));
+  if (!finished) {
+    fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", rows_.size());
+    return exit_interrupted;
+  }
+  return status_of(rows_, std::any_of(rows_.begin(), rows_.end(), claim_is_broken));
+}
+
+int VerifyRun::run() {
+  watch_for_interrupts();
+  restore_denormals();
+  try {
+    for (const std::string& mesh : meshes_for(options_)) verify_mesh(mesh);
+  } catch (const Interrupted&) {
+    return report(false);
+  }
+  return report(true);
+}
+
+}  // namespace
+
+void add_verify(CLI::App& program, ProgramContext& context) {
+  const auto options = std::make_shared<VerifyOptions>();
+  options->selectors.query = "all";
+  CLI::App* command = program.add_subcommand("verify", "check contestants' answers against the exact oracle");
+  add_selectors(*command, options->selectors, Variety::many);
+  command->add_option("--out", options->out, "folder for results.csv")->type_name("DIR");
+  add_worker_selectors(*command, options->workers);
+  command->footer(
+      "Without --mesh: every scene that needs no file, also at an offset of 1e6 and scaled by 1e-6 and 1e6.\n"
+      "Exit status 1 if a contestant that claims exactness is wrong, crashes or does not come back; 3 if "
+      "memory or\n"
+      "another limit of the machine kept one from being judged; 4 if nothing was judged.\n"
+      "Example: touchmark verify --mesh bunny --trajectory slide --detector grid-group --radius 0.5%\n");
+  command->final_callback(
+      [options, &context] { context.status = VerifyRun(context.roster, *options).run(); });
+}
+
+}  // namespace touchmark::bench

@@ -1,0 +1,106 @@
+#include "bench/cli/program.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <new>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "bench/results/build_info.h"
+#include "bench/support/did_you_mean.h"
+#include "bench/support/standard_descriptors.h"
+#include "bench/support/standard_output.h"
+#include "bench/support/system_limit.h"
+#include "core/triangle_mesh.h"
+
+namespace touchmark::bench {
+namespace {
+
+using AddCommand = void (*)(CLI::App& program, ProgramContext& context);
+
+// One line a command.
+constexpr AddCommand commands[] = {
+    add_bench, add_verify, add_stress, add_scale, add_update, add_list,  add_mesh,     add_query,
+    add_paper, add_tune,   add_gate,   add_plan,  add_run,    add_merge, add_validate,
+};
+
+/// One line whatever the library or a file put into it.
+std::string one_line(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+int fail(int status, std::string_view what) {
+  // A line that cannot be written is given up: there is nobody to tell.
+  const std::string line = fmt::format("touchmark: {}\n", one_line(std::string(what)));
+  std::fwrite(line.data(), 1, line.size(), stderr);
+  return status;
+}
+
+std::string complaint_about_command(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands(nullptr)) names.push_back(command->get_name());
+  const std::vector<std::string> words = program.remaining();
+  if (words.empty()) return fmt::format("a command is missing: one of {}", fmt::join(names, ", "));
+  return fmt::format("unknown command \"{}\"; the nearest names: {}", words.front(),
+                     near_names(words.front(), names));
+}
+
+int parse_and_run(CLI::App& program, ProgramContext& context) {
+  try {
+    program.parse(context.argc, context.argv);
+  } catch (const CLI::Success& asked) {  // for help or the version
+    std::ostringstream text;
+    program.exit(asked, text, text);
+    StandardOutput().write(text.str());
+    return exit_done;
+  } catch (const CLI::ParseError& error) {
+    return fail(exit_bad_input, fmt::format("{} (touchmark --help)", one_line(error.what())));
+  }
+  if (program.get_subcommands().empty()) return fail(exit_bad_input, complaint_about_command(program));
+  return context.status;
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv, const Roster& roster) {
+  try {
+    reserve_standard_descriptors();
+  } catch (const ResourceError& error) {
+    return fail(exit_resources, error.what());
+  }
+  survive_limits();
+  ProgramContext context{roster, argc, argv};
+  CLI::App program("Which collision detector can serve a haptic loop.", "touchmark");
+  program.set_version_flag("--version", std::string("touchmark ") + build_info().version);
+  program.require_subcommand(0, 1);
+  program.footer("Example: touchmark bench --mesh bunny --trajectory slide --out results/today\n");
+  for (const AddCommand add : commands) add(program, context);
+  program.allow_extras();  // after the commands, which must not inherit it
+
+  try {
+    StandardOutput out;
+    const int status = parse_and_run(program, context);
+    out.finish();
+    return status;
+  } catch (const std::invalid_argument& error) {
+    return fail(exit_bad_input, error.what());
+  } catch (const MeshError& error) {
+    return fail(exit_bad_input, error.what());
+  } catch (const ResourceError& error) {
+    return fail(exit_resources, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(exit_resources, "out of memory" + memory_limit());
+  } catch (const std::system_error& error) {
+    return fail(exit_resources, error.what() + limit_behind(error.code().value()));
+  }
+}
+
+}  // namespace touchmark::bench

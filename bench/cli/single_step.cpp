@@ -1,0 +1,79 @@
+#include "bench/cli/single_step.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "bench/contestants/roster_options.h"
+#include "bench/results/answer_rows.h"
+#include "bench/support/available_memory.h"
+#include "bench/support/failures.h"
+#include "bench/workload/query_name.h"
+
+namespace touchmark::bench {
+namespace {
+
+constexpr std::string_view refusal_mark = "refused: ";
+
+}  // namespace
+
+/// The worker's end as the user caused it, or as the contestant's failure.
+[[noreturn]] void explain(const WorkerFailure& failure, const std::string& contestant) {
+  const std::string_view what = failure.what();
+  if (what.starts_with(refusal_mark)) {
+    const std::string_view why = what.substr(refusal_mark.size());
+    if (why.starts_with(no_memory)) throw ResourceError(fmt::format("{}: {}", contestant, why));
+    throw std::invalid_argument(fmt::format("{}: {}", contestant, why));
+  }
+  throw ResourceError(fmt::format("{} did not answer: {}", contestant, what));
+}
+
+void check_it_answers(const Built& built, Query query, const std::string& contestant) {
+  for (const Query known : built.queries) {
+    if (known == query) return;
+  }
+  throw std::invalid_argument(fmt::format("{} does not answer --query {}", contestant, name_of(query)));
+}
+
+std::string rows_of_step(const Roster& roster, const Workload& workload, const WorkerOptions& workers,
+                         const ContestantSpec& spec, const Task& task, std::size_t step,
+                         SessionBefore session) {
+  const std::vector<Step>& course = workload.courses[task.course];
+  if (step >= course.size()) {
+    throw std::invalid_argument(
+        fmt::format("--step \"{}\" is none of the {} steps, which begin at 0", step, course.size()));
+  }
+  // No later step: it might be one that the contestant does not survive.
+  Workload until = workload;
+  until.trajectories = {workload.trajectories[task.course]};
+  until.courses.assign(
+      1, std::vector<Step>(course.begin(), course.begin() + static_cast<std::ptrdiff_t>(step) + 1));
+  const Task all{0, task.query, step + 1};
+  const WorkerStage stage(until, workers);
+  ContestantProcess process(stage, spec, roster.find(spec.name).worker_program(spec.values));
+  const bool with_side = asks_for_side(spec.values);
+  std::string replayed, fresh;
+  try {
+    check_it_answers(process.build(), task.query, spec.text());
+    process.answer(all);
+    append_answer_row(replayed, task.query, step, course[step], stage.room().answers(step + 1)[step],
+                      with_side);
+    process.answer_afresh(all, step);
+    append_answer_row(fresh, task.query, step, course[step], stage.room().answers(1).front(), with_side);
+  } catch (const WorkerFailure& failure) {
+    explain(failure, spec.text());
+  }
+  const bool wants_fresh = session == SessionBefore::fresh;
+  if (replayed != fresh) {
+    fmt::print(stderr, "touchmark: {} answers otherwise with {}: {}", spec.text(),
+               wants_fresh ? "the session replayed from the start" : "a fresh session",
+               wants_fresh ? replayed : fresh);
+  }
+  return answer_header(task.query, with_side) + (wants_fresh ? fresh : replayed);
+}
+
+}  // namespace touchmark::bench

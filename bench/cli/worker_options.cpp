@@ -1,0 +1,35 @@
+#include "bench/cli/worker_options.h"
+
+#include <stdexcept>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "bench/support/numbers.h"
+
+namespace touchmark::bench {
+
+void add_worker_selectors(CLI::App& command, WorkerSelectors& selectors) {
+  command
+      .add_option("--timeout", selectors.timeout,
+                  "seconds a contestant may take for one build or one pass before it is given up")
+      ->type_name("S");
+  command.add_flag("--worker-output", selectors.show_output, "let the contestants' libraries print");
+}
+
+WorkerOptions worker_options(const WorkerSelectors& selectors) {
+  WorkerOptions options;
+  options.show_output = selectors.show_output;
+  if (selectors.timeout.empty()) return options;
+  constexpr double longest_s = 86400;
+  const std::optional<double> seconds = parse_number(selectors.timeout);
+  if (!seconds || !(*seconds > 0) || *seconds > longest_s) {
+    throw std::invalid_argument(fmt::format(
+        "--timeout \"{}\" is not a time in seconds, above 0 and at most {}", selectors.timeout, longest_s));
+  }
+  options.build_patience = options.order_patience =
+      std::chrono::milliseconds(static_cast<std::chrono::milliseconds::rep>(*seconds * 1000) + 1);
+  return options;
+}
+
+}  // namespace touchmark::bench

@@ -1,0 +1,19 @@
+#include "bench/contestants/build_notes.h"
+
+#include <utility>
+
+namespace touchmark::bench {
+namespace {
+
+std::vector<std::string>& kept() {
+  static std::vector<std::string> remarks;
+  return remarks;
+}
+
+}  // namespace
+
+void remark(std::string text) { kept().push_back(std::move(text)); }
+
+std::vector<std::string> take_remarks() { return std::exchange(kept(), {}); }
+
+}  // namespace touchmark::bench

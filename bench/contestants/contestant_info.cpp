@@ -1,0 +1,207 @@
+#include "bench/contestants/contestant_info.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "bench/support/did_you_mean.h"
+#include "bench/support/length.h"
+#include "bench/support/numbers.h"
+
+namespace touchmark::bench {
+namespace {
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (;;) {
+    const std::size_t end = text.find(separator);
+    parts.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
+const OptionInfo& find_option(const ContestantInfo& contestant, std::string_view key) {
+  const auto found = std::find_if(contestant.options.begin(), contestant.options.end(),
+                                  [&](const OptionInfo& option) { return option.key == key; });
+  if (found != contestant.options.end()) return *found;
+  if (contestant.options.empty()) {
+    throw std::invalid_argument(fmt::format("{} has no option \"{}\": it takes none", contestant.name, key));
+  }
+  std::vector<std::string> keys;
+  for (const OptionInfo& option : contestant.options) keys.push_back(option.key);
+  throw std::invalid_argument(
+      fmt::format("{} has no option \"{}\"; its options: {}", contestant.name, key, fmt::join(keys, ", ")));
+}
+
+/// What is expected of the value, if it is not that; else empty.
+std::string complaint(const OptionInfo& option, std::string_view value) {
+  switch (option.kind) {
+    case OptionKind::choice:
+      if (std::find(option.choices.begin(), option.choices.end(), value) != option.choices.end()) return "";
+      return fmt::format("none of {}", fmt::join(option.choices, ", "));
+    case OptionKind::number:
+      return parse_number(value).value_or(-1) >= 0 ? "" : "not a number of 0 or more";
+    case OptionKind::count:
+      return parse_count(value) ? "" : "not a whole number of 0 or more";
+    case OptionKind::length:
+      return parse_length(value) ? "" : "not a length of 0 or more, as 0.01 or 0.5%";
+  }
+  return "";
+}
+
+void check_value(const ContestantInfo& contestant, const OptionInfo& option, std::string_view value) {
+  const std::string wrong = complaint(option, value);
+  if (wrong.empty()) return;
+  throw std::invalid_argument(fmt::format("{}: {}=\"{}\" is {}", contestant.name, option.key, value, wrong));
+}
+
+Guarantee guarantee_named(std::string_view name) {
+  if (name == "exact") return Guarantee::exact;
+  if (name == "conservative") return Guarantee::conservative;
+  if (name == "approximate") return Guarantee::approximate;
+  throw std::invalid_argument(fmt::format("\"{}\" is not exact, conservative or approximate", name));
+}
+
+/// Is every "key=value", joined by " with ", among the chosen ones?
+bool all_chosen(std::string_view conditions, const OptionValues& values) {
+  constexpr std::string_view with = " with ";
+  for (;;) {
+    const std::size_t end = conditions.find(with);
+    const std::string_view pair = conditions.substr(0, end);
+    const std::size_t equals = pair.find('=');
+    const auto chosen = values.all().find(std::string(pair.substr(0, equals)));
+    if (equals == std::string_view::npos || chosen == values.all().end()) {
+      throw std::invalid_argument(fmt::format("\"{}\" is not an option and its value", pair));
+    }
+    if (chosen->second != pair.substr(equals + 1)) return false;
+    if (end == std::string_view::npos) return true;
+    conditions.remove_prefix(end + with.size());
+  }
+}
+
+/// The pairs as written, checked. Throws for what is not key=value, an unknown or repeated key, a bad value.
+std::map<std::string, std::string> parse_options(const ContestantInfo& contestant, std::string_view text) {
+  std::map<std::string, std::string> written;
+  for (const std::string_view pair : split(text, ',')) {
+    const std::size_t equals = pair.find('=');
+    if (equals == std::string_view::npos) {
+      throw std::invalid_argument(fmt::format("{}: \"{}\" is not key=value", contestant.name, pair));
+    }
+    const OptionInfo& option = find_option(contestant, pair.substr(0, equals));
+    const std::string_view value = pair.substr(equals + 1);
+    check_value(contestant, option, value);
+    if (!written.emplace(option.key, value).second) {
+      throw std::invalid_argument(fmt::format("{}: {} is given twice", contestant.name, option.key));
+    }
+  }
+  return written;
+}
+
+}  // namespace
+
+std::optional<Guarantee> claimed_guarantee(const std::string& accuracy, const OptionValues& values) {
+  if (accuracy.empty()) return std::nullopt;
+  std::optional<Guarantee> claimed;
+  for (std::string_view part : split(accuracy, ';')) {
+    if (!claimed) {
+      claimed = guarantee_named(part);
+      continue;
+    }
+    part.remove_prefix(std::min(part.find_first_not_of(' '), part.size()));
+    const std::size_t colon = part.find(": ");
+    if (colon == std::string_view::npos) {
+      throw std::invalid_argument(fmt::format("\"{}\" is not KEY=VALUE: GUARANTEE", part));
+    }
+    if (all_chosen(part.substr(0, colon), values)) claimed = guarantee_named(part.substr(colon + 2));
+  }
+  return claimed;
+}
+
+double OptionValues::number(const std::string& key) const { return parse_number(text(key)).value(); }
+
+std::size_t OptionValues::count(const std::string& key) const { return parse_count(text(key)).value(); }
+
+double OptionValues::length(const std::string& key, const TriangleMesh& mesh) const {
+  return parse_length(text(key)).value().in_mesh_units(mesh);
+}
+
+bool ContestantInfo::answers(Query query) const noexcept {
+  return std::find(queries.begin(), queries.end(), query) != queries.end();
+}
+
+Roster::Roster(std::vector<ContestantInfo> contestants, std::vector<std::string> default_set,
+               std::vector<std::string> verified_besides, std::vector<std::string> frontier)
+    : contestants_(std::move(contestants)),
+      default_set_(std::move(default_set)),
+      verified_besides_(std::move(verified_besides)),
+      frontier_(std::move(frontier)) {}
+
+const ContestantInfo& Roster::find(const std::string& name) const {
+  const auto found = std::find_if(contestants_.begin(), contestants_.end(),
+                                  [&](const ContestantInfo& info) { return info.name == name; });
+  if (found != contestants_.end()) return *found;
+  std::vector<std::string> names;
+  for (const ContestantInfo& info : contestants_) names.push_back(info.name);
+  throw std::invalid_argument(
+      fmt::format("unknown contestant \"{}\"; the nearest names: {}", name, near_names(name, names)));
+}
+
+ContestantSpec Roster::parse(const std::string& text) const {
+  const std::size_t colon = text.find(':');
+  const ContestantInfo& contestant = find(text.substr(0, colon));
+  std::map<std::string, std::string> written;
+  if (colon != std::string::npos) written = parse_options(contestant, text.substr(colon + 1));
+
+  std::vector<std::string> in_order;
+  std::map<std::string, std::string> values;
+  for (const OptionInfo& option : contestant.options) {
+    const auto given = written.find(option.key);
+    if (given != written.end()) in_order.push_back(option.key + "=" + given->second);
+    values.emplace(option.key, given != written.end() ? given->second : option.default_value);
+  }
+  OptionValues chosen(std::move(values));
+  const std::optional<Guarantee> claimed = claimed_guarantee(contestant.accuracy, chosen);
+  return {contestant.name, fmt::format("{}", fmt::join(in_order, ",")), std::move(chosen), claimed};
+}
+
+void Roster::add_built(std::vector<ContestantSpec>& specs, const std::vector<std::string>& texts) const {
+  for (const std::string& text : texts) {
+    if (find(text.substr(0, text.find(':'))).built()) specs.push_back(parse(text));
+  }
+}
+
+std::vector<ContestantSpec> Roster::default_set() const {
+  std::vector<ContestantSpec> specs;
+  add_built(specs, default_set_);
+  return specs;
+}
+
+std::vector<ContestantSpec> Roster::frontier() const {
+  std::vector<ContestantSpec> specs;
+  add_built(specs, frontier_);
+  return specs;
+}
+
+std::vector<ContestantSpec> Roster::thorough_set() const {
+  std::vector<ContestantSpec> specs = default_set();
+  add_built(specs, verified_besides_);
+  return specs;
+}
+
+void Roster::require_memory_for(const ContestantSpec& spec, std::size_t triangles) const {
+  require_memory_for_triangles(triangles, find(spec.name).bytes_per_triangle(spec.values));
+}
+
+std::unique_ptr<Contestant> Roster::build(const ContestantSpec& spec, const TriangleMesh& mesh) const {
+  const ContestantInfo& contestant = find(spec.name);
+  if (!contestant.built()) throw std::invalid_argument(contestant.name + " is not built into this program");
+  return contestant.build(mesh, spec.values);
+}
+
+}  // namespace touchmark::bench

@@ -1,0 +1,128 @@
+/// What can be chosen on the command line: contestants, their options, and `NAME[:key=value,...]`.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/contestants/contestant.h"
+#include "bench/contestants/storage_rounding.h"
+#include "bench/support/available_memory.h"
+#include "core/triangle_mesh.h"
+
+namespace touchmark::bench {
+
+enum class OptionKind {
+  choice,
+  number,  ///< 0 or more
+  count,   ///< a whole number of 0 or more
+  length   ///< 0 or more, in mesh units or in percent of the mesh's box diagonal
+};
+
+struct OptionInfo {
+  std::string key;
+  OptionKind kind = OptionKind::choice;
+  std::vector<std::string> choices;  ///< of a choice
+  std::string default_value;
+  std::string summary;  ///< one line
+};
+
+/// Every option of a contestant with its value, checked against its OptionInfo.
+class OptionValues {
+ public:
+  explicit OptionValues(std::map<std::string, std::string> values) : values_(std::move(values)) {}
+
+  const std::string& text(const std::string& key) const { return values_.at(key); }
+  double number(const std::string& key) const;
+  std::size_t count(const std::string& key) const;
+  double length(const std::string& key, const TriangleMesh& mesh) const;  ///< in mesh units
+  bool flag(const std::string& key) const { return text(key) == "true"; }
+  const std::map<std::string, std::string>& all() const noexcept { return values_; }
+
+ private:
+  std::map<std::string, std::string> values_;
+};
+
+using BuildContestant = std::function<std::unique_ptr<Contestant>(const TriangleMesh&, const OptionValues&)>;
+
+/// The program beside this one that most contestants run in.
+inline constexpr const char* default_worker_program = "touchmark-worker";
+
+struct ContestantInfo {
+  std::string name;
+  std::string summary;  ///< one line
+  /// What its forms claim: "GUARANTEE" or "GUARANTEE; KEY=VALUE[ with KEY=VALUE]: GUARANTEE[; ...]", of which
+  /// the last whose options are chosen holds.
+  std::string accuracy;
+  std::vector<Query> queries;
+  std::vector<OptionInfo> options;
+  /// Throws std::invalid_argument or MeshError for options or a mesh it refuses. Empty: not built in.
+  BuildContestant build;
+  /// What it surely takes, and so must be there before it is built.
+  std::function<double(const OptionValues&)> bytes_per_triangle = [](const OptionValues&) {
+    return least_bytes_per_triangle;
+  };
+  /// Which program beside this one runs it.
+  std::function<std::string(const OptionValues&)> worker_program = [](const OptionValues&) {
+    return std::string(default_worker_program);
+  };
+
+  /// What its library keeps of coordinates where it decides by other numbers than the given ones; else empty.
+  std::function<std::optional<Storing>(const TriangleMesh&, const OptionValues&)> storing =
+      [](const TriangleMesh&, const OptionValues&) { return std::nullopt; };
+
+  bool built() const noexcept { return static_cast<bool>(build); }
+  bool answers(Query query) const noexcept;
+};
+
+/// A contestant as chosen: the name and the options that were written out.
+struct ContestantSpec {
+  std::string name;
+  std::string options;  ///< "key=value,key=value" in the contestant's own order; empty: all defaults
+  OptionValues values;
+  std::optional<Guarantee> claimed;  ///< by its entry, so known before it is built; nothing: none
+
+  std::string text() const { return options.empty() ? name : name + ":" + options; }
+};
+
+/// The guarantee that an `accuracy` of the form above claims for these options; nothing where it is empty.
+/// Throws std::invalid_argument for another form.
+std::optional<Guarantee> claimed_guarantee(const std::string& accuracy, const OptionValues& values);
+
+/// All contestants, and those that are compared or verified when none is named.
+class Roster {
+ public:
+  Roster(std::vector<ContestantInfo> contestants, std::vector<std::string> default_set,
+         std::vector<std::string> verified_besides = {}, std::vector<std::string> frontier = {});
+
+  const std::vector<ContestantInfo>& contestants() const noexcept { return contestants_; }
+  /// Throws std::invalid_argument; an unknown name's message lists the nearest ones.
+  const ContestantInfo& find(const std::string& name) const;
+  /// `NAME[:key=value,...]`. Throws std::invalid_argument naming the name, key or value that is wrong.
+  ContestantSpec parse(const std::string& text) const;
+  /// The default set, without those that are not built in.
+  std::vector<ContestantSpec> default_set() const;
+  /// The default set and the forms that only verify runs.
+  std::vector<ContestantSpec> thorough_set() const;
+  /// Every contestant over the options that trade accuracy for time.
+  std::vector<ContestantSpec> frontier() const;
+  /// Throws ResourceError where there is less memory than the contestant takes for so many triangles. For
+  /// what builds it, to be asked before a clock starts: the answer comes from the system.
+  void require_memory_for(const ContestantSpec& spec, std::size_t triangles) const;
+  /// Throws what the contestant's build throws, or std::invalid_argument when it is not built in.
+  std::unique_ptr<Contestant> build(const ContestantSpec& spec, const TriangleMesh& mesh) const;
+
+ private:
+  void add_built(std::vector<ContestantSpec>& specs, const std::vector<std::string>& texts) const;
+
+  std::vector<ContestantInfo> contestants_;
+  std::vector<std::string> default_set_;
+  std::vector<std::string> verified_besides_;
+  std::vector<std::string> frontier_;
+};
+
+}  // namespace touchmark::bench

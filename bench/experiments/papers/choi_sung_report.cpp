@@ -1,0 +1,160 @@
+#include "bench/experiments/papers/choi_sung_report.h"
+
+#include <algorithm>
+#include <functional>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "bench/experiments/papers/paper_report.h"
+
+namespace touchmark::bench {
+namespace {
+
+std::string setting(const PaperMesh& mesh, const ChoiSungSettings& settings, const ChoiSungResult& result) {
+  const bool own = is_choi_sungs_bunny(mesh.mesh);
+  return fmt::format(
+      "Subdivided as MeshLab does it: edges longer than {:.6g} split ({} % of level 0's diagonal, at every "
+      "level; "
+      "Catmull-Clark has no threshold and interpolates linearly). Clustering distance {:.6g}{}, triangles "
+      "visited {}. "
+      "{} steps of a slide over level 0, probe radius {:.6g}, seed {}: the same for every surface. "
+      "Detection time is one query of the published two levels: the probe against every sphere, then the "
+      "triangles of "
+      "the spheres it meets; the update rate is its inverse. tests_per_query counts spheres and triangles "
+      "and is the "
+      "same on every machine.\n\n{}{}",
+      choi_sung_threshold_percent / 100 * mesh.mesh.diagonal(), choi_sung_threshold_percent,
+      settings.clustering,
+      own ? " (the paper's 0.02 in its own unit: this distance gives its 728 spheres at level 0)" : "",
+      settings.order == VisitOrder::mesh ? "in the mesh's order" : "breadth-first over their edges",
+      settings.steps, settings.radius, settings.seed,
+      result.answers_agree ? "The exact forms (scan, tree, grid) answered every step alike, bit for bit.\n"
+                           : "THE EXACT FORMS DISAGREED: see table1.csv.\n",
+      result.finished ? "" : "INTERRUPTED: what follows is incomplete.\n");
+}
+
+/// A surface that has shrunk away from the path is touched less, and that is cheaper.
+std::string contact_shares(const ChoiSungSettings& settings, const ChoiSungResult& result) {
+  std::string shares;
+  for (const SubdivisionMethod method : choi_sung_methods) {
+    const ChoiSungRow* row = find_row(result, method, settings.levels, false);
+    if (row == nullptr || !row->scan) continue;
+    shares +=
+        fmt::format("{}{} {:.0f} %", shares.empty() ? "" : ", ", name_of(method),
+                    100.0 * static_cast<double>(row->scan->contacts) / static_cast<double>(settings.steps));
+  }
+  return fmt::format(
+      "\nSteps in contact at level {}: {}. Where a method shrinks the surface away from the path (Loop), its "
+      "times are in "
+      "part those of free motion, and look better than a slide over that surface would.\n",
+      settings.levels, shares);
+}
+
+constexpr const char* what_is_missing =
+    "The images of Tables 1 and 2 are not in the text at hand; of their numbers only those of LS3 (Table 3 "
+    "and the "
+    "Discussion) and the rankings in words can be compared. Table 2's appearance is the authors' own "
+    "judgement; here "
+    "it is scored by the creases that remain (length-weighted root mean square of the angle between "
+    "neighbouring "
+    "faces), and every criterion linearly from 0 for the worst method to 5 for the best.\n";
+
+/// The last row of LS3: what the fast forms do to the paper's trade-off.
+std::string fast_forms_verdict(const ChoiSungResult& result) {
+  const ChoiSungRow* single = find_row(result, SubdivisionMethod::ls3, 3, false);
+  const ChoiSungRow* clustered = find_row(result, SubdivisionMethod::ls3, 3, true);
+  if (single == nullptr || clustered == nullptr || !single->tree || !single->grid || single->tree->ns <= 0 ||
+      single->grid->ns <= 0) {
+    return "";
+  }
+  const double tree = single->scan->ns / single->tree->ns, grid = single->scan->ns / single->grid->ns;
+  std::string text = fmt::format(
+      "On LS3 level 3 ({} triangles) the exact tree answers {:.0f} times and the exact grid {:.0f} times as "
+      "many queries a second as the published scan without clustering, and {:.0f} and {:.0f} times as many "
+      "as "
+      "with it.",
+      single->surface.triangles, tree, grid, clustered->scan->ns / single->tree->ns,
+      clustered->scan->ns / single->grid->ns);
+  const ChoiSungRow* original = find_row(result, SubdivisionMethod::ls3, 0, false);
+  if (original != nullptr && original->tree && original->grid && original->tree->ns > 0) {
+    text += fmt::format(
+        " From level 0 to level 3 a query of the scan comes to take {:.3g} times as long, of the tree {:.3g} "
+        "times and of the grid {:.3g} times.",
+        single->scan->ns / original->scan->ns, single->tree->ns / original->tree->ns,
+        single->grid->ns / original->grid->ns);
+  }
+  return text + "\n";
+}
+
+/// Times apart from all else.
+std::string by_kind(const std::vector<Claim>& claims) {
+  std::vector<Claim> times, others;
+  for (const Claim& claim : claims) {
+    const bool timed =
+        claim.what.find("detect") != std::string::npos || claim.what.find("rate") != std::string::npos;
+    (timed ? times : others).push_back(claim);
+  }
+  return fmt::format("\n- Counts, ratios of counts, shapes and rankings: {}\n- Times and update rates: {}\n",
+                     summary(others), summary(times));
+}
+
+/// The configurations that nothing beats, first among the published forms, then among all.
+std::string frontier_section(const PaperMesh& mesh, const FrontierResult& frontier) {
+  const auto published = [](const FrontierPoint& point) {
+    return point.form == "scan" || point.form == "fast level";
+  };
+  const auto best = [&](const std::function<bool(const FrontierPoint&)>& among) {
+    FrontierResult chosen = frontier;
+    mark_best(chosen.points, among);
+    std::erase_if(chosen.points, [](const FrontierPoint& point) { return !point.best; });
+    std::sort(chosen.points.begin(), chosen.points.end(),
+              [](const FrontierPoint& a, const FrontierPoint& b) { return a.ns < b.ns; });
+    return frontier_table(chosen, mesh.mesh.diagonal()).markdown();
+  };
+  std::string text = fmt::format(
+      "Error: |distance answered - distance to the smooth surface| at probes a tenth of the box diagonal off "
+      "it. The "
+      "smooth surface is LS3 after {} levels without a threshold ({} triangles), for every method: its own "
+      "limit would "
+      "excuse what a method does to the shape. The fast level answers with spheres, so its error holds their "
+      "radii. "
+      "{} configurations are in frontier.csv; those that none beats in both time and mean error:\n\n",
+      frontier.reference_levels, frontier.reference_triangles, frontier.points.size());
+  text += "As published:\n\n" + best(published);
+  text += "\nWith the fast exact forms:\n\n" + best([](const FrontierPoint&) { return true; });
+  return text;
+}
+
+}  // namespace
+
+std::string choi_sung_report(const PaperMesh& mesh, const ChoiSungSettings& settings,
+                             const ChoiSungResult& result, const FrontierResult& frontier) {
+  const std::vector<Claim> claims = choi_sung_claims(result, is_choi_sungs_bunny(mesh.mesh));
+  std::string text = "# Choi & Sung 2017, reproduced\n\n";
+  text +=
+      "A. R. Choi and M. Y. Sung, \"Performance improvement of haptic collision detection using subdivision "
+      "surface "
+      "and sphere clustering\", PLoS ONE 12(9), 2017.\n\n";
+  text += report_setting(mesh) + "\n" + setting(mesh, settings, result) + "\n" + summary(claims) + "\n" +
+          by_kind(claims) + contact_shares(settings, result);
+  const auto section = [&text](const char* title, const std::string& body) {
+    text += fmt::format("\n## {}\n\n{}", title, body);
+  };
+  section("Number by number", claims_markdown(claims));
+  section("The tool's triangles",
+          "What the paper's tool, MeshLab, makes of the paper's mesh at its threshold. Only LS3's are "
+          "printed (as "
+          "spheres).\n\n" +
+              claims_markdown(choi_sung_tool_counts(result, is_choi_sungs_bunny(mesh.mesh))));
+  section("What cannot be compared", what_is_missing);
+  section("Table 1", choi_sung_table1(result).markdown());
+  section("Table 2", choi_sung_table2(result).markdown());
+  section("Table 3 (LS3)", choi_sung_table3(result).markdown());
+  section("With the fast exact forms",
+          fast_forms_verdict(result) + "\n" + choi_sung_fast_table(result).markdown());
+  if (!frontier.points.empty()) section("Run time against error", frontier_section(mesh, frontier));
+  return text;
+}
+
+}  // namespace touchmark::bench

@@ -1,0 +1,34 @@
+/// The CSV files and the report on Choi & Sung.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/experiments/papers/choi_sung.h"
+#include "bench/experiments/papers/claims.h"
+#include "bench/experiments/papers/frontier.h"
+#include "bench/experiments/papers/table.h"
+
+namespace touchmark::bench {
+
+/// Table 1 in full, with what it leaves out: one row a surface, without and with clustering.
+Table choi_sung_table1(const ChoiSungResult& result);
+/// The scores; empty unless the run was finished.
+Table choi_sung_table2(const ChoiSungResult& result);
+/// LS3 without and with clustering, and the reduction ratios.
+Table choi_sung_table3(const ChoiSungResult& result);
+/// The same queries by the exact fast forms, and how many times the published scan's update rate they hold.
+Table choi_sung_fast_table(const ChoiSungResult& result);
+
+/// Number by number. `own_mesh`: it is the mesh of the paper.
+std::vector<Claim> choi_sung_claims(const ChoiSungResult& result, bool own_mesh);
+
+/// The triangles of every surface, beside what the paper's tool makes of the paper's mesh: not printed but
+/// for LS3.
+std::vector<Claim> choi_sung_tool_counts(const ChoiSungResult& result, bool own_mesh);
+
+/// report.md.
+std::string choi_sung_report(const PaperMesh& mesh, const ChoiSungSettings& settings,
+                             const ChoiSungResult& result, const FrontierResult& frontier);
+
+}  // namespace touchmark::bench

@@ -1,0 +1,38 @@
+/// What a paper says, beside what came out here: the reports' list, number by number.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/experiments/papers/table.h"
+
+namespace touchmark::bench {
+
+/// How a number agrees with the printed one.
+enum class Agreement { yes, nearly, no, not_printed };
+
+struct Claim {
+  std::string where;       ///< in the paper: "Table 3, level 1"
+  std::string what;        ///< of what
+  std::string printed;     ///< "?" where no copy at hand shows it
+  std::string reproduced;  ///< empty where it was not measured
+  Agreement agreement = Agreement::not_printed;
+  std::string why = {};  ///< the reason where they differ
+};
+
+/// yes when equal after rounding to `digits` decimals, nearly within `tolerance` (relative), else no.
+Claim number_claim(std::string where, std::string what, double printed, double reproduced, int digits,
+                   double tolerance, std::string why_not);
+
+/// A statement that holds or does not.
+Claim statement_claim(std::string where, std::string statement, bool holds, std::string reproduced,
+                      std::string why_not);
+
+Table claims_table(const std::vector<Claim>& claims);
+/// The same in Markdown, reasons numbered and told below the table.
+std::string claims_markdown(const std::vector<Claim>& claims);
+
+/// "23 of 40 agree, 5 nearly, 12 do not".
+std::string summary(const std::vector<Claim>& claims);
+
+}  // namespace touchmark::bench

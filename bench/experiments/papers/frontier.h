@@ -1,0 +1,66 @@
+/// Run time against error as one frontier: what the paper leaves to future work. Every subdivision method and
+/// level, every clustering, the fast level alone and the precise one, as published and in the fast exact
+/// forms.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/experiments/papers/choi_sung.h"
+#include "bench/experiments/papers/geometric_error.h"
+#include "bench/experiments/papers/interleaved_timing.h"
+#include "bench/experiments/papers/table.h"
+
+namespace touchmark::bench {
+
+struct FrontierSettings {
+  std::vector<SubdivisionMethod> methods{choi_sung_methods.begin(), choi_sung_methods.end()};
+  int levels = 3;
+  double threshold = 0;             ///< mesh units: edges longer than this split; 0: all do
+  std::vector<double> clusterings;  ///< mesh units; 0 among them: a sphere a triangle
+  bool fast_forms = true;           ///< the exact tree and grid besides the published scans
+  double radius = 0;                ///< of the probe that is timed, mesh units
+  std::size_t steps = 500;
+  std::size_t samples = 2000;  ///< of the error
+  std::uint64_t seed = 1;
+  std::size_t most_triangles = 500'000;  ///< a level with more is left out
+  TimingEffort effort;
+};
+
+struct FrontierPoint {
+  std::string method;  ///< "original" at level 0
+  int level = 0;
+  std::string form;  ///< "scan", "fast level" (as published), "tree", "grid" (fast and exact)
+  double clustering = 0;
+  std::size_t triangles = 0, spheres = 0;
+  GeometricError error;               ///< from the smooth surface
+  std::optional<double> ns = {};      ///< per query; nothing where it was not timed
+  std::optional<double> ns_p99 = {};  ///< what 99 of 100 queries are done in (interleaved_timing.h)
+  bool best = false;                  ///< none of those compared is both faster and at most as far off
+};
+
+struct FrontierResult {
+  std::vector<FrontierPoint> points;
+  std::size_t reference_triangles = 0;
+  int reference_levels = 0;
+  std::vector<std::string> left_out;  ///< "loop level 3: ... triangles"
+  bool finished = false;
+};
+
+/// The reference: LS3, up to `levels` + 2 levels with every edge split, in place of its limit surface. One
+/// surface for all methods, since a method's own limit would excuse what it does to the shape (mid-point's is
+/// the coarse mesh).
+FrontierResult run_frontier(const TriangleMesh& original, const FrontierSettings& settings,
+                            const Narrate& narrate);
+
+/// Marks the points that no other of those for which `among` holds beats.
+void mark_best(std::vector<FrontierPoint>& points, const std::function<bool(const FrontierPoint&)>& among);
+
+/// `diagonal`: of the original mesh, for errors in percent of it.
+Table frontier_table(const FrontierResult& result, double diagonal);
+
+}  // namespace touchmark::bench

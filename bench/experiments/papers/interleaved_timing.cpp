@@ -1,0 +1,104 @@
+#include "bench/experiments/papers/interleaved_timing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "bench/measurement/latency.h"
+#include "bench/support/interrupt.h"
+#include "bench/support/median.h"
+#include "bench/support/processor_time.h"
+#include "bench/support/random.h"
+
+namespace touchmark::bench {
+namespace {
+
+std::vector<std::size_t> shuffled(std::size_t count, Random& random) {
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  random.shuffle(order);
+  return order;
+}
+
+}  // namespace
+
+InterleavedTiming::InterleavedTiming(std::span<const Step> steps, Query query, std::uint64_t seed)
+    : course_{query, steps}, seed_(seed) {}
+
+std::size_t InterleavedTiming::add(std::unique_ptr<Contestant> contestant) {
+  check_for_interrupt();
+  Entry entry;
+  entry.contestant = std::move(contestant);
+  answer_once(entry);
+  entries_.push_back(std::move(entry));
+  return entries_.size() - 1;
+}
+
+void InterleavedTiming::answer_once(Entry& entry) const {
+  const std::size_t steps = course_.steps.size();
+  std::vector<Answer> answers(steps);
+  std::vector<std::uint64_t> work(steps);
+  entry.contestant->answer(course_, {0, steps}, answers, work);
+  Checksum checksum;
+  for (const Answer& answer : answers) {
+    checksum.add(answer);
+    entry.timed.contacts += answer.found;
+  }
+  entry.timed.answers = checksum.value();
+  entry.timed.work = static_cast<double>(std::accumulate(work.begin(), work.end(), std::uint64_t{0})) /
+                     static_cast<double>(steps);
+  entry.contestant->forget();
+}
+
+void InterleavedTiming::turn(Entry& entry, double least_turn_ns) const {
+  const auto replay = [&](std::int64_t passes) {
+    Checksum checksum;
+    const double start = processor_ns();
+    for (std::int64_t i = 0; i < passes; ++i)
+      entry.contestant->replay(course_, {0, course_.steps.size()}, checksum);
+    return std::max(processor_ns() - start, 1.0);
+  };
+  if (entry.passes == 0)
+    entry.passes = static_cast<std::int64_t>(std::clamp(std::ceil(least_turn_ns / replay(1)), 1.0, 1e6));
+  const double ns = replay(entry.passes);
+  entry.turn_ns.push_back(ns / static_cast<double>(entry.passes) / static_cast<double>(course_.steps.size()));
+  clock_steps(entry);
+}
+
+void InterleavedTiming::clock_steps(Entry& entry) const {
+  std::vector<std::uint64_t> ticks(course_.steps.size());
+  Checksum checksum;
+  entry.contestant->replay_clocked(course_, {0, course_.steps.size()}, checksum, ticks, {});
+  std::vector<double> ns;
+  ns.reserve(ticks.size());
+  for (const std::uint64_t step : ticks)
+    ns.push_back(std::max(static_cast<double>(step) * clock_.ns_per_tick - clock_.cost_ns, 0.0));
+  entry.step_ns.push_back(std::move(ns));
+}
+
+void InterleavedTiming::run(const TimingEffort& effort,
+                            const std::function<void(std::size_t, std::size_t)>& progress) {
+  Random random(seed_);
+  for (std::size_t round = 0; round < effort.rounds; ++round) {
+    for (const std::size_t detector : shuffled(entries_.size(), random)) {
+      check_for_interrupt();
+      progress(round, detector);
+      turn(entries_[detector], effort.least_turn_ns);
+    }
+  }
+}
+
+TimedTurns InterleavedTiming::timed(std::size_t detector) const {
+  TimedTurns timed = entries_[detector].timed;
+  const Entry& entry = entries_[detector];
+  timed.ns = median(entry.turn_ns);
+  if (!entry.step_ns.empty()) {
+    const double measured =
+        summarize_latency(median_per_step(entry.step_ns), {{0, course_.steps.size()}}).p99;
+    timed.ns_p99 = std::max({measured, clock_.cost_ns, clock_.ns_per_tick});
+  }
+  return timed;
+}
+
+}  // namespace touchmark::bench

@@ -1,0 +1,23 @@
+/// The steps that all detectors of one experiment are asked about.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bench/contestants/contestant.h"
+#include "bench/trajectories/trajectories.h"
+
+namespace touchmark::bench {
+
+/// One probe of this radius a position of the trajectory, and as far as that radius is looked.
+inline std::vector<Step> paper_course(const std::string& trajectory, const TriangleMesh& mesh,
+                                      std::size_t steps, std::uint64_t seed, double radius) {
+  std::vector<Step> course;
+  for (const Vec3& position : make_trajectory(trajectory, mesh, {steps, seed, radius}).positions)
+    course.push_back({{position, radius}, radius});
+  return course;
+}
+
+}  // namespace touchmark::bench

@@ -1,0 +1,95 @@
+#include "bench/experiments/papers/paper_meshes.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "bench/experiments/papers/decimation.h"
+#include "bench/results/system_info.h"
+#include "bench/scenes/scenes.h"
+
+namespace touchmark::bench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t choi_sung_triangles = 902;
+constexpr double choi_sung_diagonal = 2.61541;
+
+/// Where meshes may lie that no package ships: $TOUCHMARK_MODELS, or ../shared/models beside the working
+/// folder or beside the repository that the program was built in (its path is
+/// REPOSITORY/build/PRESET/bin/touchmark).
+std::vector<fs::path> model_folders() {
+  if (const char* folder = std::getenv("TOUCHMARK_MODELS")) return {folder};
+  std::vector<fs::path> folders{fs::path("..") / "shared" / "models"};
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (!error) {
+    const fs::path repository = program.parent_path().parent_path().parent_path().parent_path();
+    folders.push_back(repository.parent_path() / "shared" / "models");
+  }
+  return folders;
+}
+
+std::optional<fs::path> model(const char* file) {
+  std::error_code ignored;
+  for (const fs::path& folder : model_folders()) {
+    if (fs::is_regular_file(folder / file, ignored)) return folder / file;
+  }
+  return std::nullopt;
+}
+
+PaperMesh decimated(const std::string& scene, std::size_t triangles) {
+  TriangleMesh mesh = decimate(load_scene(scene), triangles);
+  std::string origin =
+      fmt::format("{} decimated to {} triangles (OpenMesh, quadric error)", scene, mesh.size());
+  return {fmt::format("{}-{}", without_directories(scene), mesh.size()), std::move(mesh), std::move(origin)};
+}
+
+PaperMesh requested_mesh(const std::string& name) {
+  return {without_directories(name), load_scene(name), "as asked for with --mesh"};
+}
+
+}  // namespace
+
+bool is_choi_sungs_bunny(const TriangleMesh& mesh) {
+  return mesh.size() == choi_sung_triangles && std::abs(mesh.diagonal() - choi_sung_diagonal) < 5e-6;
+}
+
+PaperMesh choi_sung_mesh(const std::string& requested) {
+  if (!requested.empty()) {
+    PaperMesh mesh = requested_mesh(requested);
+    if (is_choi_sungs_bunny(mesh.mesh)) mesh.origin = "the paper's own";
+    return mesh;
+  }
+  if (const std::optional<fs::path> file = model("bunny-902.ply"))
+    return {file->filename().string(), load_scene(file->string()), "the paper's own"};
+  PaperMesh mesh = decimated(default_scene(), choi_sung_triangles);
+  mesh.origin += ", in place of the paper's own, which is not here: its counts cannot come out";
+  return mesh;
+}
+
+std::vector<PaperMesh> park_jang_meshes(const std::vector<std::string>& requested, bool quick) {
+  std::vector<PaperMesh> meshes;
+  for (const std::string& name : requested) meshes.push_back(requested_mesh(name));
+  if (!requested.empty()) return meshes;
+  const std::string whole = default_scene();
+  const std::pair<const char*, std::size_t> stanford[] = {
+      {"bun_zipper_res4.ply", 948}, {"bun_zipper_res3.ply", 3851}, {"bun_zipper_res2.ply", 16301}};
+  for (const auto& [file, triangles] : stanford) {
+    if (const std::optional<fs::path> path = model(file))
+      meshes.push_back({file, load_scene(path->string()), "of the Stanford laboratory"});
+    else if (can_decimate())
+      meshes.push_back(decimated(whole, triangles));
+    if (quick && !meshes.empty()) return meshes;
+  }
+  meshes.push_back({whole, load_scene(whole), "whole"});
+  return meshes;
+}
+
+}  // namespace touchmark::bench

@@ -1,0 +1,15 @@
+/// What every report begins with.
+#pragma once
+
+#include <string>
+
+#include "bench/experiments/papers/paper_meshes.h"
+
+namespace touchmark::bench {
+
+/// Machine, compiler and commit, the mesh, and what the times are.
+std::string report_setting(const PaperMesh& mesh);
+/// The machine's line alone.
+std::string report_machine();
+
+}  // namespace touchmark::bench

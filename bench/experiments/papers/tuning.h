@@ -1,0 +1,25 @@
+/// Which of many measured configurations to take.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "bench/experiments/papers/frontier.h"
+
+namespace touchmark::bench {
+
+struct Tuned {
+  std::optional<FrontierPoint> published;  ///< of the scans and the fast level
+  std::optional<FrontierPoint> fast;       ///< of the tree and the grid
+};
+
+/// Do 99 of 100 queries end within a period of `rate` Hz?
+bool holds_rate(const FrontierPoint& point, double rate);
+
+/// Of those that hold the rate the one of the least mean error, of several the fastest.
+Tuned tune(const FrontierResult& result, double rate);
+
+/// As --detector takes it.
+std::string detector_of(const FrontierPoint& point);
+
+}  // namespace touchmark::bench

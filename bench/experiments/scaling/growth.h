@@ -1,0 +1,38 @@
+/// How a contestant grows with the mesh: power laws through the rows of a comparison on meshes of several
+/// sizes, as scaling.csv and as a table.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/experiments/scaling/power_law.h"
+#include "bench/measurement/result_row.h"
+
+namespace touchmark::bench {
+
+/// One quantity of one contestant on the meshes of one family along one trajectory.
+struct Growth {
+  std::string detector;
+  std::string options;
+  std::string family;  ///< see family_of
+  std::string trajectory;
+  Query query = Query::nearest;
+  std::string_view quantity;  ///< its column in results.csv
+  std::size_t least_triangles = 0;
+  std::size_t most_triangles = 0;
+  PowerLaw law;
+
+  std::string contestant() const { return options.empty() ? detector : detector + ":" + options; }
+};
+
+/// Of rows with status ok; where they are of fewer than two sizes there is nothing to tell.
+std::vector<Growth> growth_of(const std::vector<ResultRow>& rows);
+
+std::string scaling_csv(const std::vector<Growth>& growths);
+
+/// A table for each family and trajectory: exponents and their intervals.
+std::string growth_table(const std::vector<Growth>& growths);
+
+}  // namespace touchmark::bench

@@ -1,0 +1,57 @@
+#include "bench/experiments/stress/near_ties.h"
+
+#include <utility>
+
+#include "bench/experiments/stress/makers.h"
+#include "bench/experiments/stress/questions.h"
+#include "bench/scenes/generated_scenes.h"
+
+namespace touchmark::bench::stress {
+namespace {
+
+/// A reach of twice the distance, so that it is not the reach that makes a search look closer.
+std::vector<Step> well_within_reach(const Oracle& oracle, const std::vector<Vec3>& centers) {
+  std::vector<Step> course;
+  for (const Vec3& center : centers) course.push_back(asked(center, 2 * oracle.solve(center).high));
+  return course;
+}
+
+Workload turned(HardCases& hard, std::size_t probes) {
+  TriangleMesh mesh = turned_images(hard, 12);
+  std::vector<Vec3> centers;
+  while (centers.size() < probes) centers.push_back(on_the_diagonal(hard));
+  std::vector<Step> course = well_within_reach(Oracle(mesh), centers);
+  return about({"turned images", std::move(mesh)}, "on the axis of turning", std::move(course));
+}
+
+/// `way`: how far apart the ends are between which the nearest changes, at most.
+Workload between(NamedMesh named, HardCases& hard, double way, std::size_t probes) {
+  const Oracle oracle(named.mesh);
+  std::vector<Vec3> centers;
+  const double size = 0.5 * named.mesh.diagonal();
+  while (centers.size() < probes) {
+    const Vec3 from = named.mesh.bounds().center() + hard.magnitude(-2, 0.5) * size * hard.vector();
+    const Vec3 place = where_the_nearest_changes(oracle, from, from + way * size * hard.vector());
+    for (const Vec3& neighbour : with_neighbours(place, hard))
+      if (centers.size() < probes) centers.push_back(neighbour);
+  }
+  std::vector<Step> course = well_within_reach(oracle, centers);
+  return about(std::move(named), "where the nearest changes", std::move(course));
+}
+
+}  // namespace
+
+std::vector<Workload> near_ties(std::uint64_t seed, std::size_t probes) {
+  HardCases hard(seed);
+  const std::size_t each = share_of(probes, 4);
+  std::vector<HardCases::Corners> soup;
+  for (int i = 0; i < 80; ++i) soup.push_back(i % 4 == 0 ? hard.needle() : hard.plain());
+  std::vector<Workload> workloads;
+  workloads.push_back(turned(hard, each));
+  workloads.push_back(turned(hard, each));
+  workloads.push_back(between({"needles and others", mesh_of(soup)}, hard, 0.5, each));
+  workloads.push_back(between({"icosphere", icosphere(2)}, hard, 0.2, each));
+  return workloads;
+}
+
+}  // namespace touchmark::bench::stress

@@ -1,0 +1,14 @@
+/// Is a file a stress.csv of schema 1, and does it agree with itself and with its run.json?
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "bench/results/validation/fault.h"
+#include "bench/results/validation/results_check.h"
+
+namespace touchmark::bench {
+
+/// `run` is the run.json beside the file, if there is one.
+void check_stress(const CsvTable& table, const nlohmann::json* run, Faults& faults);
+
+}  // namespace touchmark::bench

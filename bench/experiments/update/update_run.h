@@ -1,0 +1,61 @@
+/// One mesh, deformed in several ways, and what every contestant makes of it: how long updates and builds
+/// take, and whether the answers afterwards are right.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/contestants/contestant_info.h"
+#include "bench/experiments/update/update_row.h"
+#include "bench/ground_truth/ground_truth.h"
+#include "bench/oracle/oracle.h"
+#include "bench/scenes/deformation.h"
+#include "bench/workers/contestant_process.h"
+#include "bench/workload/workload.h"
+#include "core/triangle_mesh.h"
+
+namespace touchmark::bench {
+
+class UpdateRun {
+ public:
+  /// Throws std::invalid_argument or MeshError.
+  UpdateRun(const Roster& roster, const std::vector<ContestantSpec>& contestants, const Selection& selection,
+            std::string mesh_name, const TriangleMesh& mesh, const std::vector<double>& shares,
+            const std::string& trajectory, const WorkerOptions& workers);
+
+  /// A row for each share. Whatever the worker does is the status of the rest of them; only ResourceError and
+  /// Interrupted are thrown.
+  std::vector<UpdateRow> run(std::size_t contestant, const std::function<void(double share)>& progress);
+
+  const Workload& workload() const noexcept { return workload_; }
+  const std::deque<ContestantProcess>& contestants() const noexcept { return processes_; }
+
+ private:
+  /// A deformed mesh with what is asked of it: first the trajectory, then probes about what moved.
+  struct Scene {
+    Scene(const TriangleMesh& mesh, const Deformation& how);
+
+    Deformation deformation;
+    TriangleMesh mesh;
+    std::size_t moved;
+    Oracle oracle;
+    std::vector<Truths> truths;  // one a course
+  };
+  static constexpr std::size_t courses_a_scene = 2;
+
+  void measure(ContestantProcess& process, std::size_t scene, UpdateRow& row);
+  Task task_for(std::size_t course) const;
+  Timed timed(ContestantProcess& process, const Task& task) const;
+
+  Query query_;
+  std::vector<std::unique_ptr<Scene>> scenes_;
+  Workload workload_;
+  WorkerStage stage_;
+  std::deque<ContestantProcess> processes_;
+};
+
+}  // namespace touchmark::bench

@@ -1,0 +1,130 @@
+#include "bench/ground_truth/ground_truth.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "bench/support/interrupt.h"
+#include "bench/workload/sample_steps.h"
+
+namespace touchmark::bench {
+namespace {
+
+/// Often enough for Ctrl-C, seldom enough for threads to be worth starting.
+constexpr std::size_t solved_at_once = 2048;
+constexpr std::size_t wrong_answers_kept = 3;
+
+}  // namespace
+
+Truths::Truths(const Oracle& oracle, std::span<const Step> steps) : oracle_(oracle) {
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const Probe& now = steps[i].probe;
+    probes_.questions.push_back(now);
+    reaches_.push_back(steps[i].reach);
+    sweeps_.questions.push_back({steps[i > 0 ? i - 1 : 0].probe.center, now.center, now.radius});
+  }
+}
+
+template <class Question, class TruthType>
+void Truths::Asked<Question, TruthType>::solve(const Oracle& oracle, const std::vector<Window>& windows) {
+  truths.resize(questions.size());
+  known.resize(questions.size());
+  std::vector<std::size_t> unknown;
+  for (const Window& window : windows) {
+    for (std::size_t i = window.begin; i < window.end; ++i) {
+      if (!known[i]) unknown.push_back(i);
+    }
+  }
+  for (std::size_t begin = 0; begin < unknown.size(); begin += solved_at_once) {
+    check_for_interrupt();
+    const std::span<const std::size_t> some =
+        std::span(unknown).subspan(begin, std::min(solved_at_once, unknown.size() - begin));
+    std::vector<Question> wanted;
+    for (const std::size_t i : some) wanted.push_back(questions[i]);
+    const std::vector<TruthType> solved = oracle.solve(std::span<const Question>(wanted));
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      truths[some[i]] = solved[i];
+      known[some[i]] = true;
+    }
+  }
+}
+
+std::vector<double> Truths::distances(const std::vector<std::size_t>& steps) {
+  std::vector<Window> windows;
+  for (const std::size_t step : steps) windows.push_back({step, step + 1});
+  probes_.solve(oracle_, joined(windows));
+  std::vector<double> distances;
+  for (const std::size_t step : steps) {
+    const Truth& truth = probes_.truths[step];
+    distances.push_back(truth.defined ? truth.high : std::numeric_limits<double>::infinity());
+  }
+  return distances;
+}
+
+Tally Truths::judge(Query query, const std::vector<Window>& windows, std::span<const Answer> answers,
+                    const Accuracy& accuracy, const Reported& reported, std::vector<WrongAnswer>* wrong) {
+  query == Query::sweep ? sweeps_.solve(oracle_, windows) : probes_.solve(oracle_, windows);
+  Tally tally;
+  if (wrong != nullptr) wrong->clear();
+  std::size_t done = 0;
+  for (const Window& window : windows) {
+    check_for_interrupt();
+    Charges charges;
+    tally += judge(query, window, answers.subspan(done, window.size()), accuracy, reported, charges);
+    for (const Charge& one : charges.kept()) {
+      if (wrong == nullptr || wrong->size() == wrong_answers_kept) break;
+      wrong->push_back(wrong_answer(query, window.begin + one.step, answers[done + one.step], one.tally));
+    }
+    done += window.size();
+  }
+  return tally;
+}
+
+WrongAnswer Truths::wrong_answer(Query query, std::size_t step, const Answer& got,
+                                 const Tally& charged) const {
+  WrongAnswer wrong;
+  wrong.step = step;
+  wrong.query = query;
+  wrong.asked = {probes_.questions[step], reaches_[step]};
+  wrong.got = got;
+  wrong.charged = charged;
+  if (query == Query::sweep) {
+    const Sweep& sweep = sweeps_.questions[step];
+    wrong.from = sweep.from;
+    wrong.found = sweeps_.truths[step].hit;
+    if (got.found != 0)
+      wrong.truth = oracle_.solve(Vec3(sweep.from + got.fraction * (sweep.to - sweep.from)));
+  } else {
+    wrong.truth = probes_.truths[step];
+    const Vec3& center = wrong.asked.probe.center;
+    wrong.found = oracle_.within(wrong.truth, center,
+                                 query == Query::touches ? wrong.asked.probe.radius : reaches_[step]);
+    if (charged.wrong_side > 0) wrong.side = oracle_.side(center);
+  }
+  const auto ids = oracle_.mesh().ids();
+  if (wrong.truth.defined) wrong.triangle = ids.empty() ? wrong.truth.triangle : ids[wrong.truth.triangle];
+  return wrong;
+}
+
+Tally Truths::judge(Query query, Window window, std::span<const Answer> answers, const Accuracy& accuracy,
+                    const Reported& reported, Charges& charges) const {
+  if (query == Query::sweep) {
+    return bench::judge(oracle_, std::span(sweeps_.truths).subspan(window.begin, window.size()),
+                        std::span(sweeps_.questions).subspan(window.begin, window.size()), answers, accuracy,
+                        reported, &charges);
+  }
+  // The judge takes one reach; recorded trajectories may change theirs from step to step.
+  Tally tally;
+  for (std::size_t begin = window.begin, end = begin; begin < window.end; begin = end) {
+    while (end < window.end && reaches_[end] == reaches_[begin]) ++end;
+    if (end == begin) ++end;  // a reach that is not a number equals nothing
+    Charges of_this_reach;
+    tally +=
+        bench::judge(oracle_, std::span(probes_.truths).subspan(begin, end - begin), query,
+                     std::span(probes_.questions).subspan(begin, end - begin), reaches_[begin],
+                     answers.subspan(begin - window.begin, end - begin), accuracy, reported, &of_this_reach);
+    charges.merge(of_this_reach, begin - window.begin);
+  }
+  return tally;
+}
+
+}  // namespace touchmark::bench

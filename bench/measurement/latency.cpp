@@ -1,0 +1,59 @@
+#include "bench/measurement/latency.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace touchmark::bench {
+namespace {
+
+/// The least value that at least `fraction` of all are not above.
+double percentile(const std::vector<double>& sorted, double fraction) {
+  const double rank = std::ceil(fraction * static_cast<double>(sorted.size()));
+  return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
+}
+
+DeadlineMisses count_misses(std::span<const double> ns, const std::vector<Window>& windows,
+                            double period_ns) {
+  DeadlineMisses count;
+  std::size_t step = 0;
+  for (const Window& window : windows) {
+    std::size_t run = 0;  // steps on both sides of a gap are no neighbours
+    for (const std::size_t end = step + window.size(); step < end; ++step) {
+      run = ns[step] > period_ns ? run + 1 : 0;
+      count.misses += run > 0 ? 1 : 0;
+      count.longest_run = std::max(count.longest_run, run);
+    }
+  }
+  return count;
+}
+
+}  // namespace
+
+LatencySummary summarize_latency(std::span<const double> ns, const std::vector<Window>& windows) {
+  std::vector<double> sorted(ns.begin(), ns.end());
+  std::sort(sorted.begin(), sorted.end());
+  LatencySummary summary;
+  summary.p50 = percentile(sorted, 0.5);
+  summary.p90 = percentile(sorted, 0.9);
+  summary.p99 = percentile(sorted, 0.99);
+  summary.p999 = percentile(sorted, 0.999);
+  summary.max = sorted.back();
+  for (std::size_t i = 0; i < deadlines_hz.size(); ++i) {
+    summary.deadlines[i] = count_misses(ns, windows, 1e9 / deadlines_hz[i]);
+  }
+  return summary;
+}
+
+std::vector<double> median_per_step(const std::vector<std::vector<double>>& passes) {
+  std::vector<double> medians(passes.front().size());
+  std::vector<double> one_step(passes.size());
+  for (std::size_t step = 0; step < medians.size(); ++step) {
+    for (std::size_t pass = 0; pass < passes.size(); ++pass) one_step[pass] = passes[pass][step];
+    const auto middle = one_step.begin() + static_cast<std::ptrdiff_t>((passes.size() - 1) / 2);
+    std::nth_element(one_step.begin(), middle, one_step.end());
+    medians[step] = *middle;
+  }
+  return medians;
+}
+
+}  // namespace touchmark::bench

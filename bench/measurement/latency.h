@@ -1,0 +1,33 @@
+/// What the servo loop sees: how long single steps take, and how many come too late.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "bench/contestants/contestant.h"
+
+namespace touchmark::bench {
+
+/// The haptic convention is 1 kHz; texture needs 4 to 10 kHz (Choi & Tan 2004).
+inline constexpr std::array<double, 3> deadlines_hz{1000, 4000, 10000};
+
+struct DeadlineMisses {
+  std::size_t misses = 0;       ///< steps that took longer than the period
+  std::size_t longest_run = 0;  ///< of neighbouring steps that all did
+};
+
+struct LatencySummary {
+  double p50 = 0, p90 = 0, p99 = 0, p999 = 0, max = 0;  ///< ns, nearest rank
+  std::array<DeadlineMisses, deadlines_hz.size()> deadlines;
+};
+
+/// `ns` holds the windows' steps one after the other. At least one step.
+LatencySummary summarize_latency(std::span<const double> ns, const std::vector<Window>& windows);
+
+/// The same steps timed several times: each step's median, so that one interruption by the operating system
+/// does not count as the detector's. All passes have the same length; at least one.
+std::vector<double> median_per_step(const std::vector<std::vector<double>>& passes);
+
+}  // namespace touchmark::bench

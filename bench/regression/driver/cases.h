@@ -1,0 +1,29 @@
+/// What the regression gate asks of every build. A case keeps its name for as long as it asks the same.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "bench/regression/driver/plugin.h"
+
+namespace touchmark::bench::regression {
+
+struct Case {
+  const char* detector;  ///< as the plug-in knows it
+  const char* scene;     ///< as load_scene knows it
+  const char* trajectory;
+  TouchmarkGateQuery query;
+  std::size_t steps;
+  bool timed;  ///< else only its answers and its work are compared
+
+  /// DETECTOR/SCENE/TRAJECTORY/QUERY
+  std::string name() const;
+  /// Does the mesh come from a file that another machine may lack, or have another edition of?
+  bool needs_file() const;
+};
+
+/// Those of one scene and detector stand together.
+std::span<const Case> cases();
+
+}  // namespace touchmark::bench::regression

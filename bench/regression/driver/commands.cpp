@@ -1,0 +1,179 @@
+#include "bench/regression/driver/commands.h"
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#if __has_include(<valgrind/callgrind.h>)
+#include <valgrind/callgrind.h>
+#define TOUCHMARK_HAS_CALLGRIND 1
+#else
+#define TOUCHMARK_HAS_CALLGRIND 0
+#endif
+
+#include "bench/regression/driver/cases.h"
+#include "bench/regression/driver/plugin_library.h"
+#include "bench/regression/driver/workloads.h"
+#include "bench/support/atomic_file.h"
+#include "bench/support/failures.h"
+#include "bench/support/processor_time.h"
+#include "bench/support/random.h"
+
+namespace touchmark::bench::regression {
+namespace {
+
+std::string answers_row(const PluginLibrary& plugin, Workloads& workloads, const Case& asked) {
+  const std::string start = fmt::format("\"{}\",{:d},", asked.name(), asked.needs_file());
+  if (!workloads.available(asked)) return start + ",,,,,,,the mesh is not installed\n";
+  const Workload workload = workloads.of(asked);
+  try {
+    const auto detector = plugin.build(asked.detector, workload.mesh);
+    const TouchmarkGateResult answer = plugin.answer(detector, workload.pass);
+    const TouchmarkGateResult replay = plugin.replay(detector, workload.pass);
+    const bool same = answer.answers == replay.answers;
+    return start + fmt::format("{:016x},{},{},{},{},{:016x},{:016x},{}\n", workload.inputs, answer.cells,
+                               answer.spheres, answer.boxes, answer.triangles, answer.answers, answer.details,
+                               same ? "" : "a second pass answered otherwise");
+  } catch (const std::runtime_error& refusal) {
+    return start + fmt::format(",,,,,,,\"{}\"\n", refusal.what());
+  }
+}
+
+/// Cases one after the other that share scene and detector, so that these are built once.
+using Group = std::vector<Case>;
+
+bool share_detector(const Case& a, const Case& b) {
+  return std::string_view(a.detector) == b.detector && std::string_view(a.scene) == b.scene;
+}
+
+/// Those whose mesh is here. Throws std::invalid_argument when `only` names what is no timed case.
+std::vector<Group> timed_groups(const std::vector<std::string>& only, Workloads& workloads) {
+  std::vector<Group> groups;
+  std::size_t found = 0;
+  for (const Case& asked : cases()) {
+    const bool wanted = only.empty() || std::find(only.begin(), only.end(), asked.name()) != only.end();
+    if (!asked.timed || !wanted) continue;
+    ++found;
+    if (!workloads.available(asked)) continue;
+    if (groups.empty() || !share_detector(groups.back().front(), asked)) groups.emplace_back();
+    groups.back().push_back(asked);
+  }
+  if (found < only.size())
+    throw std::invalid_argument(
+        fmt::format("{} of {} names are no timed cases", only.size() - found, only.size()));
+  return groups;
+}
+
+class Sitting {
+ public:
+  Sitting(const std::array<PluginLibrary, 3>& plugins, const std::array<double, 3>& again, Random& random)
+      : plugins_(plugins), again_(again), random_(random) {}
+
+  /// False when one of the plug-ins refuses.
+  bool build(const char* detector, const TouchmarkGateMesh& mesh) {
+    for (auto& old : detectors_) old.reset();
+    try {
+      for (const std::size_t i : random_order()) detectors_[i] = plugins_[i].build(detector, mesh);
+    } catch (const std::runtime_error&) {
+      return false;
+    }
+    return true;
+  }
+
+  /// A turn begins with an untimed pass, so that none pays for what the one before left in the caches.
+  std::array<double, 3> round(const TouchmarkGatePass& pass) {
+    std::array<double, 3> ns = {};
+    for (const std::size_t i : random_order()) {
+      TouchmarkGatePass mine = pass;
+      (void)plugins_[i].replay(detectors_[i], mine);
+      mine.again = again_[i];
+      const double before = processor_ns();
+      (void)plugins_[i].replay(detectors_[i], mine);
+      ns[i] = processor_ns() - before;
+    }
+    return ns;
+  }
+
+ private:
+  std::array<std::size_t, 3> random_order() {
+    std::array<std::size_t, 3> order = {0, 1, 2};
+    random_.shuffle(order);
+    return order;
+  }
+
+  const std::array<PluginLibrary, 3>& plugins_;
+  const std::array<double, 3>& again_;
+  Random& random_;
+  std::array<PluginLibrary::Detector, 3> detectors_;
+};
+
+}  // namespace
+
+void write_answers(const std::string& plugin, const std::string& out) {
+  const PluginLibrary library(plugin);
+  Workloads workloads;
+  AtomicFile file(out);
+  file.write("case,needs_file,inputs,cells,spheres,boxes,triangles,answers,details,note\n");
+  for (const Case& asked : cases()) file.write(answers_row(library, workloads, asked));
+  file.commit();
+}
+
+void count_instructions(const std::string& plugin, double again) {
+#if TOUCHMARK_HAS_CALLGRIND
+  const PluginLibrary library(plugin);
+  Workloads workloads;
+  for (const Group& group : timed_groups({}, workloads)) {
+    const Case& first = group.front();
+    PluginLibrary::Detector detector;
+    try {
+      detector = library.build(first.detector, workloads.of(first).mesh);
+    } catch (const std::runtime_error&) {
+      continue;  // the answers say so
+    }
+    for (const Case& asked : group) {
+      const std::string name = asked.name();  // the dump takes it when it is made
+      TouchmarkGatePass pass = workloads.of(asked).pass;
+      pass.again = again;
+      CALLGRIND_START_INSTRUMENTATION;
+      CALLGRIND_ZERO_STATS;
+      (void)library.replay(detector, pass);
+      CALLGRIND_DUMP_STATS_AT(name.c_str());
+      CALLGRIND_STOP_INSTRUMENTATION;
+    }
+  }
+#else
+  (void)plugin, (void)again;
+  throw ResourceError("built without valgrind's headers: install valgrind and build again");
+#endif
+}
+
+void write_times(const Timing& timing, const std::string& out) {
+  const std::array<PluginLibrary, 3> plugins = {PluginLibrary(timing.base), PluginLibrary(timing.control),
+                                                PluginLibrary(timing.head)};
+  const std::array<double, 3> again = {timing.base_again, timing.base_again, timing.head_again};
+  Workloads workloads;
+  const std::vector<Group> groups = timed_groups(timing.only, workloads);
+  Random random(timing.seed);
+  AtomicFile file(out);
+  file.write("case,sitting,round,base_ns,control_ns,head_ns\n");
+  for (std::size_t sitting = 0; sitting < timing.sittings; ++sitting) {
+    for (const Group& group : groups) {
+      Sitting now(plugins, again, random);
+      if (!now.build(group.front().detector, workloads.of(group.front()).mesh)) continue;
+      for (const Case& asked : group) {
+        const Workload workload = workloads.of(asked);
+        for (std::size_t round = 0; round < timing.rounds; ++round) {
+          const auto ns = now.round(workload.pass);
+          file.write(
+              fmt::format("\"{}\",{},{},{},{},{}\n", asked.name(), sitting, round, ns[0], ns[1], ns[2]));
+        }
+      }
+    }
+  }
+  file.commit();
+}
+
+}  // namespace touchmark::bench::regression

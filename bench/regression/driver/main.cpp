@@ -1,0 +1,84 @@
+/// The measuring half of the regression gate; scripts/regress builds it, runs it and judges.
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "bench/regression/driver/cases.h"
+#include "bench/regression/driver/commands.h"
+#include "bench/support/denormals.h"
+#include "bench/support/failures.h"
+
+namespace {
+
+using namespace touchmark::bench;
+
+int fail(int status, const std::string& what) {
+  fmt::print(stderr, "touchmark-regression: {}\n", what);
+  return status;
+}
+
+void list_cases() {
+  for (const regression::Case& listed : regression::cases())
+    fmt::print("{}{}\n", listed.name(), listed.timed ? "" : " (not timed)");
+}
+
+void add_share(CLI::App& command, const std::string& flag, double& share, const std::string& what) {
+  command.add_option(flag, share, what)->check(CLI::Range(0., 1.));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  restore_denormals();
+  CLI::App program("Measures builds of the core for scripts/regress.", "touchmark-regression");
+  program.require_subcommand(1);
+  program.footer(
+      "Example: touchmark-regression answers --plugin build/regress/head/plugin.so --out answers.csv\n");
+  std::string plugin, out;
+  double again = 0;
+  regression::Timing timing;
+
+  program.add_subcommand("list", "the pinned cases")->callback(list_cases);
+
+  auto* const answers = program.add_subcommand("answers", "work counters and checksums of every case");
+  answers->add_option("--plugin", plugin)->required();
+  answers->add_option("--out", out)->required();
+  answers->callback([&] { regression::write_answers(plugin, out); });
+
+  auto* const instructions = program.add_subcommand("instructions", "under callgrind: a dump for every case");
+  instructions->add_option("--plugin", plugin)->required();
+  add_share(*instructions, "--again", again, "share of the steps to ask twice");
+  instructions->callback([&] { regression::count_instructions(plugin, again); });
+
+  auto* const times = program.add_subcommand("times", "three builds in one process, in random order");
+  times->add_option("--base", timing.base)->required();
+  times->add_option("--control", timing.control, "a copy of base")->required();
+  times->add_option("--head", timing.head)->required();
+  times->add_option("--case", timing.only, "only these");
+  times->add_option("--seed", timing.seed);
+  times->add_option("--sittings", timing.sittings);
+  times->add_option("--rounds", timing.rounds);
+  add_share(*times, "--base-again", timing.base_again, "share of the steps that base and control ask twice");
+  add_share(*times, "--head-again", timing.head_again, "share of the steps that head asks twice");
+  times->add_option("--out", out)->required();
+  times->callback([&] { regression::write_times(timing, out); });
+
+  try {
+    program.parse(argc, argv);
+    return exit_done;
+  } catch (const CLI::Success& asked) {
+    return program.exit(asked);
+  } catch (const CLI::ParseError& error) {
+    return fail(exit_bad_input, error.what());
+  } catch (const std::invalid_argument& error) {
+    return fail(exit_bad_input, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(exit_resources, "out of memory");
+  } catch (const std::exception& error) {
+    return fail(exit_resources, error.what());
+  }
+}

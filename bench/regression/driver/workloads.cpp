@@ -1,0 +1,81 @@
+#include "bench/regression/driver/workloads.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "bench/scenes/scenes.h"
+#include "bench/trajectories/trajectories.h"
+
+namespace touchmark::bench::regression {
+namespace {
+
+constexpr double radius_of_diagonal = 0.005;
+
+std::vector<double> flat(std::span<const Vec3> points) {
+  std::vector<double> numbers;
+  numbers.reserve(3 * points.size());
+  for (const Vec3& p : points) numbers.insert(numbers.end(), {p.x(), p.y(), p.z()});
+  return numbers;
+}
+
+/// FNV-1a, a word at a time.
+class Fingerprint {
+ public:
+  void add(std::uint64_t word) noexcept { value_ = (value_ ^ word) * 0x100000001b3ULL; }
+  void add(const double* numbers, std::size_t count) noexcept {
+    for (std::size_t i = 0; i < count; ++i) add(std::bit_cast<std::uint64_t>(numbers[i]));
+  }
+  std::uint64_t value() const noexcept { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325ULL;
+};
+
+std::uint64_t fingerprint(const Workload& workload) {
+  Fingerprint print;
+  print.add(workload.mesh.vertices, 3 * workload.mesh.vertex_count);
+  for (std::size_t i = 0; i < 3 * workload.mesh.triangle_count; ++i) print.add(workload.mesh.triangles[i]);
+  print.add(workload.pass.centers, 3 * workload.pass.count);
+  print.add(&workload.pass.radius, 1);
+  print.add(&workload.pass.reach, 1);
+  return print.value();
+}
+
+}  // namespace
+
+bool Workloads::available(const Case& asked) {
+  if (!asked.needs_file()) return true;
+  const std::vector<SceneInfo> known = scenes();
+  return std::any_of(known.begin(), known.end(),
+                     [&](const SceneInfo& info) { return info.name == asked.scene && info.available; });
+}
+
+const Workloads::Scene& Workloads::scene(const std::string& name) {
+  const auto found = scenes_.find(name);
+  if (found != scenes_.end()) return found->second;
+  TriangleMesh mesh = load_scene(name);
+  std::vector<double> vertices = flat(mesh.vertices());
+  std::vector<std::uint32_t> triangles;
+  triangles.reserve(3 * mesh.size());
+  for (const TriangleMesh::Corners& corners : mesh.triangles())
+    triangles.insert(triangles.end(), corners.begin(), corners.end());
+  return scenes_.emplace(name, Scene{std::move(mesh), std::move(vertices), std::move(triangles)})
+      .first->second;
+}
+
+Workload Workloads::of(const Case& asked) {
+  const Scene& scene = this->scene(asked.scene);
+  const double radius = radius_of_diagonal * scene.mesh.diagonal();
+  std::vector<double>& centers =
+      centers_[{asked.scene + std::string(1, '/') + asked.trajectory, asked.steps}];
+  if (centers.empty())
+    centers = flat(make_trajectory(asked.trajectory, scene.mesh, {asked.steps, 1, radius}).positions);
+  Workload workload;
+  workload.mesh = {scene.vertices.data(), scene.vertices.size() / 3, scene.triangles.data(),
+                   scene.triangles.size() / 3};
+  workload.pass = {asked.query, centers.data(), centers.size() / 3, radius, radius, 0};
+  workload.inputs = fingerprint(workload);
+  return workload;
+}
+
+}  // namespace touchmark::bench::regression

@@ -1,0 +1,24 @@
+/// What the gate found, as people and as programs read it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/regression/gate/baseline.h"
+#include "bench/regression/gate/judge.h"
+
+namespace touchmark::bench {
+
+struct GateLine {
+  GateKey key;
+  std::optional<RatioInterval> baseline;  ///< nothing while one is written
+  Judgement judgement;
+  std::string answers = "-";  ///< "same", "-" where the baseline does not say, or what differs
+  std::string verdict;
+};
+
+std::string gate_table(const std::vector<GateLine>& lines);
+std::string gate_csv(const std::vector<GateLine>& lines, double tolerance);
+
+}  // namespace touchmark::bench

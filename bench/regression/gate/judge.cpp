@@ -1,0 +1,48 @@
+#include "bench/regression/gate/judge.h"
+
+#include <cmath>
+
+namespace touchmark::bench {
+
+std::string_view name_of(Verdict verdict) noexcept {
+  switch (verdict) {
+    case Verdict::pass:
+      return "pass";
+    case Verdict::faster:
+      return "faster";
+    case Verdict::slower:
+      return "SLOWER";
+    case Verdict::inconclusive:
+      return "inconclusive";
+  }
+  return "";
+}
+
+bool control_holds(const Batch& batch, double tolerance) noexcept {
+  return batch.control.low >= 1 / (1 + tolerance) && batch.control.high <= 1 + tolerance;
+}
+
+Judgement judge(double baseline, double tolerance, const std::function<Batch()>& next_batch) {
+  constexpr int agreeing = 2;
+  const double limit = baseline * (1 + tolerance);
+  const double half_way = baseline * std::sqrt(1 + tolerance);
+  Judgement judgement;
+  int slower = 0, in_doubt = 0;
+  while (judgement.batches < most_batches) {
+    judgement.batch = next_batch();
+    ++judgement.batches;
+    if (!control_holds(judgement.batch, tolerance)) continue;
+    const RatioInterval& ratio = judgement.batch.ratio;
+    if (ratio.low > limit) {
+      if (++slower < agreeing) continue;
+      judgement.verdict = Verdict::slower;
+      return judgement;
+    }
+    if (ratio.ratio > half_way && ++in_doubt < agreeing) continue;
+    judgement.verdict = ratio.high < baseline / (1 + tolerance) ? Verdict::faster : Verdict::pass;
+    return judgement;
+  }
+  return judgement;
+}
+
+}  // namespace touchmark::bench

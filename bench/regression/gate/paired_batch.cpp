@@ -1,0 +1,153 @@
+#include "bench/regression/gate/paired_batch.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "bench/ground_truth/ground_truth.h"
+#include "bench/support/interrupt.h"
+#include "bench/support/random.h"
+#include "bench/workload/sample_steps.h"
+
+namespace touchmark::bench {
+
+/// One of the three, with the times of its turns.
+class PairedBatches::Contender {
+ public:
+  Contender(const PairedBatches& batches, const ContestantSpec& spec)
+      : batches_(batches),
+        process_(batches.stage_, spec, batches.roster_.find(spec.name).worker_program(spec.values)),
+        task_{batches.pair_.course, batches.pair_.query, 1} {}
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw GateFailure(fmt::format("{} on {}: {}", process_.spec().text(),
+                                  batches_.workload_.trajectories[task_.course], what));
+  }
+
+  template <class Action>
+  auto attempt(Action action) {
+    try {
+      return action();
+    } catch (const WorkerFailure& failure) {
+      fail(failure.what());
+    }
+  }
+
+ public:
+  void build() {
+    const Built& built = attempt([&] { return process_.build(); });
+    if (std::find(built.queries.begin(), built.queries.end(), task_.query) == built.queries.end()) {
+      fail("does not answer this query");
+    }
+    accuracy_ = built.accuracy;
+  }
+
+  double ns_per_query(double budget_ns) {
+    return std::max(attempt([&] { return process_.calibrate(task_, budget_ns); }).ns_per_query, 1.0);
+  }
+
+  /// Before anything is timed.
+  GateAnswers answer(std::size_t steps, Truths& truths) {
+    task_.steps = steps;
+    const std::vector<Window> windows = plan_windows(batches_.workload_.courses[task_.course].size(), steps);
+    const Answered answered = attempt([&] { return process_.answer(task_); });
+    const OutputRoom& room = batches_.stage_.room();
+    const std::size_t count = steps_in(windows);
+    checksum_ = answered.checksum;
+    const Tally tally = truths.judge(task_.query, windows, room.answers(count), accuracy_);
+    judged_ += tally.judged;
+    if (!keeps_its_word(tally, accuracy_)) {
+      fail("gives wrong answers (touchmark verify says which)");
+    }
+    return {checksum_, summarize_work(room.work(count), answered.work)};
+  }
+
+  /// One turn that is not counted tells how many passes a turn has.
+  void warm_up(double turn_ns) {
+    const double pass_ns = timed(1) * static_cast<double>(task_.steps);
+    passes_ = static_cast<std::int64_t>(std::clamp(turn_ns / std::max(pass_ns, 1.0), 1.0, 1e6));
+  }
+
+  void turn() { log_ns_.push_back(std::log(std::max(timed(passes_), 1e-3))); }
+  const std::vector<double>& log_ns() const noexcept { return log_ns_; }
+  std::uint64_t judged() const noexcept { return judged_; }
+
+ private:
+  double timed(std::int64_t passes) {
+    const Timed timed = attempt([&] { return process_.time(task_, passes); });
+    if (!timed.steady || timed.checksum != checksum_) fail("answers otherwise when it is timed");
+    return timed.cpu_ns_per_query;
+  }
+
+  const PairedBatches& batches_;
+  ContestantProcess process_;
+  Task task_;
+  Accuracy accuracy_;
+  std::uint64_t checksum_ = 0;
+  std::uint64_t judged_ = 0;
+  std::int64_t passes_ = 1;
+  std::vector<double> log_ns_;
+};
+
+namespace {
+
+std::vector<double> differences(const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<double> result(a.size());
+  std::transform(a.begin(), a.end(), b.begin(), result.begin(), std::minus<>());
+  return result;
+}
+
+}  // namespace
+
+PairedBatches::PairedBatches(const Roster& roster, const Workload& workload, const WorkerStage& stage,
+                             const Oracle& oracle, GatePair pair, const GateEffort& effort, std::size_t steps,
+                             std::uint64_t seed)
+    : roster_(roster),
+      workload_(workload),
+      stage_(stage),
+      oracle_(oracle),
+      pair_(std::move(pair)),
+      effort_(effort),
+      steps_(steps),
+      seed_(seed) {}
+
+void PairedBatches::choose_steps(Contender& detector, Contender& reference) {
+  const double budget = effort_.longest_pass_ns;
+  const double slower = std::max(detector.ns_per_query(budget), reference.ns_per_query(budget));
+  const std::size_t all = workload_.courses[pair_.course].size();
+  const double wanted = std::clamp(budget / slower, 1.0, static_cast<double>(all));
+  steps_ = steps_in(plan_windows(all, static_cast<std::size_t>(wanted)));
+}
+
+Batch PairedBatches::measure() {
+  std::array<Contender, 3> contenders{Contender(*this, pair_.detector), Contender(*this, pair_.reference),
+                                      Contender(*this, pair_.reference)};
+  for (Contender& contender : contenders) contender.build();
+  auto& [detector, reference, control] = contenders;
+  if (steps_ == 0) choose_steps(detector, reference);
+  Truths truths(oracle_, workload_.courses[pair_.course]);
+  answers_ = detector.answer(steps_, truths);
+  reference.answer(steps_, truths);
+  control.answer(steps_, truths);
+  for (const Contender& contender : contenders) judged_ += contender.judged();
+  for (Contender& contender : contenders) contender.warm_up(effort_.turn_ns);
+
+  Random random(seed_++);
+  std::array<std::size_t, 3> order{0, 1, 2};
+  for (std::size_t round = 0; round < effort_.rounds; ++round) {
+    random.shuffle(order);
+    for (const std::size_t which : order) {
+      check_for_interrupt();
+      contenders[which].turn();
+    }
+  }
+  log_ratios_ = differences(detector.log_ns(), reference.log_ns());
+  return {median_ratio(log_ratios_, seed_),
+          median_ratio(differences(control.log_ns(), reference.log_ns()), seed_)};
+}
+
+}  // namespace touchmark::bench

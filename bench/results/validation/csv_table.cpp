@@ -1,0 +1,68 @@
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "bench/results/validation/results_check.h"
+#include "bench/support/csv_reader.h"
+
+namespace touchmark::bench {
+
+bool CsvTable::has(const std::string& column) const {
+  return std::find(header.begin(), header.end(), column) != header.end();
+}
+
+std::string CsvTable::field(const CsvRecord& record, const std::string& column) const {
+  const auto at = static_cast<std::size_t>(std::find(header.begin(), header.end(), column) - header.begin());
+  return at < header.size() && at < record.fields.size() ? record.fields[at] : "";
+}
+
+bool begins_with_columns(const CsvTable& table, const std::vector<std::string_view>& names,
+                         std::size_t at_least, Faults& faults) {
+  const std::size_t given = table.header.size();
+  for (std::size_t i = 0; i < std::max(at_least, std::min(given, names.size())); ++i) {
+    const std::string found = i < given ? table.header[i] : "";
+    if (found == names[i]) continue;
+    faults.push_back(
+        {table.path, 1, fmt::format("header, column {}", i + 1), found, fmt::format("is not {}", names[i])});
+    return false;
+  }
+  return true;
+}
+
+CsvTable read_csv_table(const std::string& path, Faults& faults) {
+  CsvTable table{path, {}, {}};
+  CsvReader reader(path);
+  try {
+    if (!reader.next(table.header)) faults.push_back({path, 0, "", "", "the file is empty"});
+    for (std::vector<std::string> fields; reader.next(fields);) {
+      table.records.push_back({reader.line(), fields});
+    }
+  } catch (const std::invalid_argument& error) {
+    // It says "path:line: what" itself.
+    const std::string text = error.what();
+    const std::string known = fmt::format("{}:{}: ", path, reader.line());
+    faults.push_back(
+        {path, reader.line(), "", "", text.starts_with(known) ? text.substr(known.size()) : text});
+  }
+  return table;
+}
+
+void check_form(const CsvTable& table, Faults& faults) {
+  std::set<std::string> names;
+  for (const std::string& name : table.header) {
+    if (name.empty()) faults.push_back({table.path, 1, "header", name, "is a column without a name"});
+    if (!name.empty() && !names.insert(name).second) {
+      faults.push_back({table.path, 1, "header", name, "is there twice"});
+    }
+  }
+  for (const CsvRecord& record : table.records) {
+    if (record.fields.size() == table.header.size()) continue;
+    faults.push_back(
+        {table.path, record.line, "", "",
+         fmt::format("the line has {} fields, the header {}", record.fields.size(), table.header.size())});
+  }
+}
+
+}  // namespace touchmark::bench

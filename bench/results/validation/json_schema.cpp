@@ -1,0 +1,203 @@
+#include "bench/results/validation/json_schema.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <regex>
+#include <stdexcept>
+#include <string_view>
+
+#include <fmt/format.h>
+
+namespace touchmark::bench {
+namespace {
+
+using Json = nlohmann::json;
+
+struct Place {
+  std::string pointer;
+  const Json& value;
+};
+
+void check(const Json& schema, const Place& place, std::vector<SchemaFault>& faults);
+
+bool has_type(const Json& value, std::string_view type) {
+  if (type == "integer") {
+    return value.is_number_integer() ||
+           (value.is_number_float() && value.get<double>() == std::trunc(value.get<double>()));
+  }
+  return (type == "object" && value.is_object()) || (type == "array" && value.is_array()) ||
+         (type == "string" && value.is_string()) || (type == "number" && value.is_number()) ||
+         (type == "boolean" && value.is_boolean()) || (type == "null" && value.is_null());
+}
+
+/// Of objects and arrays only what they are: they may be nested deeper than dump() can recur.
+std::string shown(const Json& value) {
+  if (value.is_object()) return fmt::format("{{{} members}}", value.size());
+  if (value.is_array()) return fmt::format("[{} items]", value.size());
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+void fail(const Place& place, std::string wrong, std::vector<SchemaFault>& faults) {
+  faults.push_back({place.pointer, shown(place.value), std::move(wrong)});
+}
+
+std::string child(const Place& place, const std::string& key) { return place.pointer + "/" + key; }
+
+void check_members(const Json& schemas, const Place& place, std::vector<SchemaFault>& faults) {
+  if (!place.value.is_object()) return;
+  for (const auto& [key, member] : place.value.items()) {
+    if (schemas.contains(key)) check(schemas[key], {child(place, key), member}, faults);
+  }
+}
+
+void check_required(const Json& keys, const Place& place, std::vector<SchemaFault>& faults) {
+  if (!place.value.is_object()) return;
+  for (const Json& key : keys) {
+    if (place.value.contains(key.get<std::string>())) continue;
+    faults.push_back({child(place, key), "", "is missing"});
+  }
+}
+
+/// Of the members that `properties` does not name: no such are in use beside it.
+void check_every_member(const Json& schema, const Place& place, std::vector<SchemaFault>& faults) {
+  if (!place.value.is_object()) return;
+  for (const auto& [key, member] : place.value.items()) check(schema, {child(place, key), member}, faults);
+}
+
+void check_items(const Json& schema, const Place& place, std::vector<SchemaFault>& faults) {
+  if (!place.value.is_array()) return;
+  for (std::size_t i = 0; i < place.value.size(); ++i) {
+    check(schema, {child(place, std::to_string(i)), place.value[i]}, faults);
+  }
+}
+
+void check_pattern(const Json& keyword, const Place& place, std::vector<SchemaFault>& faults) {
+  if (!place.value.is_string()) return;
+  constexpr std::size_t longest = 4096;  // the library's matcher recurs once a character
+  const auto& pattern = keyword.get_ref<const std::string&>();
+  const auto& text = place.value.get_ref<const std::string&>();
+  if (text.size() > longest || !std::regex_search(text, std::regex(pattern))) {
+    fail(place, fmt::format("does not match {}", pattern), faults);
+  }
+}
+
+void check_any_of(const Json& schemas, const Place& place, std::vector<SchemaFault>& faults) {
+  for (const Json& schema : schemas) {
+    std::vector<SchemaFault> within;
+    check(schema, place, within);
+    if (within.empty()) return;
+  }
+  fail(place, fmt::format("is none of {}", schemas.dump()), faults);
+}
+
+void check_type(const Json& types, const Place& place, std::vector<SchemaFault>& faults) {
+  if (!has_type(place.value, types.get<std::string>())) {
+    fail(place, fmt::format("is not of type {}", types.get<std::string>()), faults);
+  }
+}
+
+void check_size(const Json& limit, const Place& place, std::vector<SchemaFault>& faults, bool least) {
+  if (!place.value.is_array()) return;
+  const std::size_t size = place.value.size(), bound = limit.get<std::size_t>();
+  if (least ? size < bound : size > bound) {
+    fail(place, fmt::format("has {} items, not at {} {}", size, least ? "least" : "most", bound), faults);
+  }
+}
+
+using Check = void (*)(const Json& keyword, const Place& place, std::vector<SchemaFault>& faults);
+
+struct Keyword {
+  std::string_view name;
+  Check check;
+};
+
+constexpr std::array keywords{
+    Keyword{"type", &check_type},
+    Keyword{"properties", &check_members},
+    Keyword{"required", &check_required},
+    Keyword{"additionalProperties", &check_every_member},
+    Keyword{"items", &check_items},
+    Keyword{"pattern", &check_pattern},
+    Keyword{"anyOf", &check_any_of},
+    Keyword{"const",
+            [](const Json& keyword, const Place& place, std::vector<SchemaFault>& faults) {
+              if (place.value != keyword) fail(place, fmt::format("is not {}", keyword.dump()), faults);
+            }},
+    Keyword{"enum",
+            [](const Json& keyword, const Place& place, std::vector<SchemaFault>& faults) {
+              if (std::find(keyword.begin(), keyword.end(), place.value) != keyword.end()) return;
+              fail(place, fmt::format("is none of {}", keyword.dump()), faults);
+            }},
+    Keyword{"minLength",
+            [](const Json& keyword, const Place& place, std::vector<SchemaFault>& faults) {
+              if (!place.value.is_string()) return;
+              if (place.value.get_ref<const std::string&>().size() >= keyword.get<std::size_t>()) return;
+              fail(place, "is too short", faults);
+            }},
+    Keyword{"minimum",
+            [](const Json& keyword, const Place& place, std::vector<SchemaFault>& faults) {
+              if (place.value.is_number() && place.value < keyword) {
+                fail(place, fmt::format("is below {}", keyword.dump()), faults);
+              }
+            }},
+    Keyword{"maximum",
+            [](const Json& keyword, const Place& place, std::vector<SchemaFault>& faults) {
+              if (place.value.is_number() && place.value > keyword) {
+                fail(place, fmt::format("is above {}", keyword.dump()), faults);
+              }
+            }},
+    Keyword{"minItems", [](const Json& keyword, const Place& place,
+                           std::vector<SchemaFault>& faults) { check_size(keyword, place, faults, true); }},
+    Keyword{"maxItems", [](const Json& keyword, const Place& place,
+                           std::vector<SchemaFault>& faults) { check_size(keyword, place, faults, false); }},
+};
+
+constexpr std::array notes{"$schema", "$id", "title", "description"};
+
+const Keyword* keyword_named(const std::string& name) {
+  const auto* const found = std::find_if(keywords.begin(), keywords.end(),
+                                         [&](const Keyword& keyword) { return keyword.name == name; });
+  return found == keywords.end() ? nullptr : &*found;
+}
+
+void check(const Json& schema, const Place& place, std::vector<SchemaFault>& faults) {
+  for (const auto& [name, value] : schema.items()) {
+    if (const Keyword* const keyword = keyword_named(name)) keyword->check(value, place, faults);
+  }
+}
+
+/// Throws for what check() would pass over.
+void expect_known_keywords(const Json& schema) {
+  if (!schema.is_object()) throw std::logic_error("a schema is not an object: " + schema.dump());
+  for (const auto& [name, value] : schema.items()) {
+    const bool is_note = std::find(notes.begin(), notes.end(), name) != notes.end();
+    if (!is_note && keyword_named(name) == nullptr) throw std::logic_error("unknown schema keyword " + name);
+    if (name == "items" || name == "additionalProperties") expect_known_keywords(value);
+    if (name == "properties" || name == "anyOf") {
+      for (const Json& within : value) expect_known_keywords(within);
+    }
+  }
+  if (schema.contains("properties") && schema.contains("additionalProperties")) {
+    throw std::logic_error("properties and additionalProperties of one schema");
+  }
+}
+
+}  // namespace
+
+JsonSchema::JsonSchema(nlohmann::json schema) : schema_(std::move(schema)) { expect_known_keywords(schema_); }
+
+std::vector<SchemaFault> JsonSchema::check(const nlohmann::json& document) const {
+  std::vector<SchemaFault> faults;
+  bench::check(schema_, {"", document}, faults);
+  return faults;
+}
+
+void JsonSchema::check(const std::string& path, const LocatedJson& document, Faults& faults) const {
+  for (const SchemaFault& fault : check(document.value)) {
+    faults.push_back({path, document.line_of(fault.pointer), fault.pointer.empty() ? "/" : fault.pointer,
+                      fault.value, fault.wrong});
+  }
+}
+
+}  // namespace touchmark::bench

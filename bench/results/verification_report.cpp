@@ -1,0 +1,163 @@
+#include "bench/results/verification_report.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "bench/support/available_memory.h"
+#include "bench/support/failures.h"
+#include "bench/support/text_table.h"
+#include "bench/workload/query_name.h"
+
+namespace touchmark::bench {
+namespace {
+
+/// All rows of one contestant together.
+struct Summary {
+  std::string contestant;
+  std::string guarantee;
+  Tally tally;
+  std::size_t unsupported = 0;
+  std::size_t refused = 0;
+  std::size_t crashed = 0;
+  std::size_t timed_out = 0;
+  std::size_t broken = 0;
+  std::string short_of_memory;  ///< the first status that says so
+};
+
+bool answered(const ResultRow& row) { return row.status == "ok"; }
+constexpr std::string_view refusal = "refused: ";
+bool declined(const ResultRow& row) {
+  return row.status == "unsupported" || row.status.starts_with(refusal) ||
+         row.status.starts_with("skipped: ");
+}
+
+void add(Summary& summary, const ResultRow& row) {
+  if (row.tally) summary.tally += *row.tally;
+  if (row.claim()) summary.guarantee = guarantee_name(row);
+  summary.unsupported += row.status == "unsupported" ? 1 : 0;
+  summary.refused += row.status.starts_with("refused") ? 1 : 0;
+  summary.crashed += row.status.starts_with("crashed") ? 1 : 0;
+  summary.timed_out += row.status == "timeout" ? 1 : 0;
+  summary.broken += claim_is_broken(row) ? 1 : 0;
+  if (is_short_of_memory(row) && summary.short_of_memory.empty()) summary.short_of_memory = row.status;
+}
+
+std::vector<Summary> summarize(const std::vector<ResultRow>& rows) {
+  std::vector<Summary> summaries;
+  for (const ResultRow& row : rows) {
+    const std::string name = row.contestant();
+    auto found = std::find_if(summaries.begin(), summaries.end(),
+                              [&](const Summary& summary) { return summary.contestant == name; });
+    if (found == summaries.end()) {
+      summaries.emplace_back().contestant = name;
+      found = summaries.end() - 1;
+    }
+    add(*found, row);
+  }
+  return summaries;
+}
+
+bool without_fault(const ResultRow& row) {
+  if (declined(row)) return true;
+  if (!answered(row) || !row.tally) return false;
+  return !row.tally->charged();
+}
+
+std::string failure(const ResultRow& row) {
+  std::string line = fmt::format("{} {}: {}, {}, {}: ", claim_is_broken(row) ? "BROKEN" : "faulty",
+                                 row.contestant(), row.mesh, row.trajectory, name_of(row.query));
+  if (!answered(row)) return line + row.status;
+  const Tally& tally = *row.tally;
+  return line + fmt::format("of {} answers {}; largest distance error {:.3g} of the diagonal", tally.judged,
+                            charges_of(tally), tally.max_distance_error_of_diagonal);
+}
+
+/// Each of the row's wrong answers, and the command that repeats it.
+std::string wrong_answers(const ResultRow& row) {
+  std::string text;
+  for (const WrongAnswer& wrong : row.wrong) {
+    text += fmt::format("  {}\n", described(wrong));
+    if (!row.repeat.empty()) text += fmt::format("    {}{}\n", row.repeat, wrong.step);
+  }
+  return text;
+}
+
+}  // namespace
+
+bool claim_is_broken(const ResultRow& row) {
+  if (row.broke_its_word()) return true;
+  return row.claims_exactness() && !answered(row) && !declined(row);
+}
+
+std::string_view verdict_on(bool broken, std::uint64_t judged) noexcept {
+  if (broken) return "BROKEN";
+  return judged == 0 ? "nothing judged" : "as claimed";
+}
+
+bool is_short_of_memory(const ResultRow& row) {
+  return row.status.starts_with(refusal) && row.status.substr(refusal.size()).starts_with(no_memory);
+}
+
+std::string judged_answers(const std::vector<ResultRow>& rows) {
+  std::uint64_t judged = 0;
+  for (const ResultRow& row : rows) judged += row.tally ? row.tally->judged : 0;
+  return fmt::format("{} answers judged exactly\n", judged);
+}
+
+int status_of(const std::vector<ResultRow>& rows, bool faulty) {
+  if (faulty) return exit_check_failed;
+  std::uint64_t judged = 0;
+  int status = exit_done;
+  for (const Summary& one : summarize(rows)) {
+    judged += one.tally.judged;
+    if (one.tally.judged > 0 || one.short_of_memory.empty()) continue;
+    fmt::print(stderr, "touchmark: {}: nothing judged: {}\n", one.contestant, one.short_of_memory);
+    status = exit_resources;
+  }
+  if (status != exit_done || judged > 0) return status;
+  fmt::print(stderr, "touchmark: inconclusive: 0 answers were judged\n");
+  return exit_inconclusive;
+}
+
+std::string verification_table(const std::vector<ResultRow>& rows) {
+  TextTable table({"detector", "guarantee", "answers", "missed", "false", "triangle", "distance", "point",
+                   "normal", "side", "no number", "rounding", "unresolved", "error/diag", "unsupported",
+                   "refused", "crashed", "timeout", "verdict"});
+  const auto count = [](std::uint64_t value) { return fmt::format("{}", value); };
+  for (const Summary& one : summarize(rows)) {
+    const Tally& tally = one.tally;
+    table.add({one.contestant, one.guarantee, count(tally.judged), count(tally.missed),
+               count(tally.false_contacts), count(tally.wrong_triangle), count(tally.beyond_bound),
+               count(tally.wrong_point), count(tally.wrong_normal), count(tally.wrong_side),
+               count(tally.malformed), count(tally.rounding), count(tally.unresolved),
+               fmt::format("{:.2g}", tally.max_distance_error_of_diagonal), count(one.unsupported),
+               count(one.refused), count(one.crashed), count(one.timed_out),
+               std::string(verdict_on(one.broken > 0, tally.judged))});
+  }
+  return table.text() + judged_answers(rows);
+}
+
+std::string list_of_failures(const std::vector<ResultRow>& rows, std::size_t most) {
+  std::vector<const ResultRow*> failures;
+  for (const ResultRow& row : rows) {
+    if (!without_fault(row)) failures.push_back(&row);
+  }
+  // Broken claims first: they are what the exit status is about.
+  std::stable_partition(failures.begin(), failures.end(),
+                        [](const ResultRow* row) { return claim_is_broken(*row); });
+  std::string text;
+  std::set<std::string> told;
+  for (std::size_t i = 0; i < std::min(most, failures.size()); ++i) {
+    text += failure(*failures[i]) + '\n';
+    const bool is_first = !failures[i]->wrong.empty() && told.insert(failures[i]->contestant()).second;
+    if (is_first) text += wrong_answers(*failures[i]);
+  }
+  if (failures.size() > most) text += fmt::format("and {} more\n", failures.size() - most);
+  return text;
+}
+
+}  // namespace touchmark::bench

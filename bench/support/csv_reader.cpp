@@ -1,0 +1,188 @@
+#include "bench/support/csv_reader.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace touchmark::bench {
+namespace {
+
+constexpr std::size_t longest_field = 1 << 16;  // a file without commas or line ends must not fill the memory
+constexpr std::size_t most_fields = 1 << 16;
+constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+
+bool ends_record(int c) { return c == '\n' || c == EOF; }
+
+bool is_letter(char c) noexcept { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+/// The mark that begins a comment and the rest, or nothing.
+std::optional<std::string_view> comment_in(std::string_view line) noexcept {
+  const std::size_t first = line.find_first_not_of(" \t");
+  if (first == line.npos) return std::nullopt;
+  line.remove_prefix(first);
+  for (const std::string_view mark : {"#", "%", "//"}) {
+    if (line.starts_with(mark)) return line.substr(mark.size());
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+char separator_of(std::string_view line) noexcept {
+  std::size_t commas = 0, semicolons = 0, tabs = 0;
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"') quoted = !quoted;
+    if (quoted) continue;
+    commas += c == ',' ? 1 : 0;
+    semicolons += c == ';' ? 1 : 0;
+    tabs += c == '\t' ? 1 : 0;
+  }
+  constexpr std::size_t least = 2;  // three columns
+  if (!has_words(line)) return semicolons >= least ? ';' : tabs >= least ? '\t' : ',';
+  if (commas >= semicolons && commas >= tabs) return ',';
+  return semicolons >= tabs ? ';' : '\t';
+}
+
+bool has_words(std::string_view line) noexcept {
+  return std::any_of(line.begin(), line.end(), [](char c) { return is_letter(c) && c != 'e' && c != 'E'; });
+}
+
+CsvReader::CsvReader(std::string path) : path_(std::move(path)), buffer_(1 << 16) {
+  try {
+    file_ = std::make_unique<mesh_io::InputFile>(path_);
+  } catch (const mesh_io::InputError& failure) {
+    throw error(failure.what());
+  }
+  if (!fill()) return;
+  const std::string_view begin(buffer_.data(), filled_);
+  if (begin.starts_with(byte_order_mark)) at_ = byte_order_mark.size();
+  if (begin.starts_with("\xff\xfe") || begin.starts_with("\xfe\xff"))
+    throw error("is UTF-16 text: save it as UTF-8 (\"CSV UTF-8\" in spreadsheets)");
+}
+
+void CsvReader::accept_any_dialect() {
+  has_comments_ = true;
+  skip_what_is_no_record();
+  const std::string_view directive = "sep=", line = line_ahead();
+  if (line.starts_with(directive) && line.size() > directive.size()) {
+    separator_ = line[directive.size()];
+    skip_line();
+  } else {
+    separator_ = separator_of(line);
+  }
+  if (separator_ == '"' || separator_ == '\r' || separator_ == '\n')
+    throw error("the first line names no separator");
+}
+
+std::invalid_argument CsvReader::error(const std::string& what) const {
+  return std::invalid_argument(record_line_ > 0 ? fmt::format("{}:{}: {}", path_, record_line_, what)
+                                                : fmt::format("{}: {}", path_, what));
+}
+
+bool CsvReader::next(std::vector<std::string>& fields) {
+  skip_what_is_no_record();
+  if (peek() == EOF) return false;
+  record_line_ = line_;
+  fields.clear();
+  int last = separator_;
+  while (last == separator_) {
+    if (fields.size() == most_fields) throw error("a record has more than 65536 fields");
+    fields.emplace_back();
+    last = read_field(fields.back());
+  }
+  return true;
+}
+
+/// Reads up to the separator or the end of the record, and returns which it was.
+int CsvReader::read_field(std::string& field) {
+  if (peek() == '"') return read_quoted(field);
+  int c = get();
+  for (; c != separator_ && !ends_record(c); c = get()) {
+    if (field.size() >= longest_field) throw error("a field is longer than 64 KiB");
+    field.push_back(static_cast<char>(c));
+  }
+  if (ends_record(c) && !field.empty() && field.back() == '\r') field.pop_back();
+  return c;
+}
+
+int CsvReader::read_quoted(std::string& field) {
+  get();  // the quote
+  for (int c = get(); c != '"' || peek() == '"'; c = get()) {
+    if (c == EOF) throw error("a quote is never closed");
+    if (field.size() >= longest_field) throw error("a field is longer than 64 KiB");
+    if (c == '"') get();  // two quotes stand for one
+    field.push_back(static_cast<char>(c));
+  }
+  int c = get();
+  if (c == '\r' && ends_record(peek())) c = get();
+  if (c != separator_ && !ends_record(c)) throw error("text follows a closing quote");
+  return c;
+}
+
+int CsvReader::get() {
+  const int c = peek();
+  if (c == EOF) return c;
+  ++at_;
+  if (c == '\n') ++line_;
+  return c;
+}
+
+int CsvReader::peek() {
+  if (at_ >= filled_ && !fill()) return EOF;
+  return static_cast<unsigned char>(buffer_[at_]);
+}
+
+/// Reads until the buffer is full or the file ends: a pipe brings a little at a time.
+bool CsvReader::fill() {
+  // What has not been taken yet goes to the front.
+  std::move(buffer_.begin() + static_cast<std::ptrdiff_t>(at_),
+            buffer_.begin() + static_cast<std::ptrdiff_t>(filled_), buffer_.begin());
+  filled_ -= at_;
+  at_ = 0;
+  try {
+    for (std::size_t more = 1; more > 0 && filled_ < buffer_.size(); filled_ += more)
+      more = file_->read(buffer_.data() + filled_, buffer_.size() - filled_);
+  } catch (const mesh_io::InputError& failure) {
+    throw error(failure.what());
+  }
+  return filled_ > 0;
+}
+
+/// The line that comes next, or as much of it as the buffer holds; it is not taken.
+std::string_view CsvReader::line_ahead() {
+  std::string_view ahead(buffer_.data() + at_, filled_ - at_);
+  if (ahead.find('\n') == ahead.npos) {
+    fill();
+    ahead = std::string_view(buffer_.data() + at_, filled_ - at_);
+  }
+  return ahead.substr(0, ahead.find('\n'));
+}
+
+void CsvReader::skip_line() {
+  while (!ends_record(peek())) get();
+  get();
+}
+
+/// True if a comment was there; it is kept as far as the buffer holds it.
+bool CsvReader::skip_comment() {
+  const int c = peek();
+  if (c != '#' && c != '%' && c != '/' && c != ' ' && c != '\t') return false;
+  const std::optional<std::string_view> comment = comment_in(line_ahead());
+  if (!comment) return false;
+  last_comment_ = comment->substr(0, comment->find_last_not_of('\r') + 1);
+  skip_line();
+  return true;
+}
+
+void CsvReader::skip_what_is_no_record() {
+  for (;;) {
+    while (peek() == '\n' || peek() == '\r') get();
+    if (!has_comments_ || !skip_comment()) return;
+  }
+}
+
+}  // namespace touchmark::bench

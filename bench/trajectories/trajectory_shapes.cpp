@@ -1,0 +1,222 @@
+#include "bench/trajectories/trajectory_shapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "bench/trajectories/motion_path.h"
+#include "bench/trajectories/surface.h"
+
+namespace touchmark::bench {
+namespace {
+
+/// Short runs move faster, so that they too come down on the surface several times.
+double pace(std::size_t steps) { return std::clamp(static_cast<double>(steps) / 8000, 0.0, 1.0); }
+
+std::size_t ticks(double count) { return static_cast<std::size_t>(std::max(1.0, std::ceil(count))); }
+
+/// As far beyond the surface as half a ball reaches: in contact whatever the radius.
+Vec3 pressed(const Place& place, double radius) { return place.point - 0.5 * radius * place.normal; }
+
+/// On the ray from the surface through the centre, no farther than `height`.
+Vec3 held_to(const Contact& contact, const Vec3& center, double height) {
+  return contact.distance <= height ? center : Vec3(contact.point + height * contact.normal);
+}
+
+/// Notices a motion that gets nowhere: caught in a corner, or on one of a soup's shreds with dead ends all
+/// round.
+class Progress {
+ public:
+  explicit Progress(double least_extent) : least_extent_(least_extent) {}
+
+  void dead_end() { ++dead_ends_; }
+  bool stalled(const Vec3& position) {
+    visited_.extend(position);
+    if (dead_ends_ >= most_dead_ends) return true;
+    if (++ticks_ < ticks_watched) return false;
+    const bool confined = !(visited_.diagonal() > least_extent_);
+    visited_ = {};
+    ticks_ = 0;
+    return confined;
+  }
+  void restart() { *this = Progress(least_extent_); }
+
+ private:
+  static constexpr int ticks_watched = 1024, most_dead_ends = 32;
+  double least_extent_;
+  int ticks_ = 0, dead_ends_ = 0;
+  Aabb visited_;
+};
+
+}  // namespace
+
+// Every tick goes one step along the heading, and back towards the nearest point where that left the ball's
+// reach. The way back is at most as long as the step, as the distance changes by no more than the centre
+// moves: so no step is longer than two.
+Positions slide(Motion motion) {
+  Surface surface(motion.mesh);
+  const double step = 0.0005 * motion.diagonal;
+  const double highest = 0.9 * motion.radius;
+  Positions path;
+  path.reserve(motion.steps);
+  Vec3 heading = Vec3::Zero();
+  Progress progress(0.1 * motion.diagonal);
+  const auto land = [&] {
+    const Place place = surface.random_place(motion.random);
+    path.push_back(place.point + 0.5 * highest * place.normal);
+    heading = motion.random.direction();
+    progress.restart();
+  };
+  land();
+  Contact contact = surface.nearest(path.back());
+  double wanted = 0.5;  // height of the centre over the surface, in `highest`
+  while (path.size() < motion.steps) {
+    const Vec3 from = path.back();
+    heading += 0.05 * motion.random.direction();
+    heading -= heading.dot(contact.normal) * contact.normal;
+    // On an edge of a bare point's way the next face may lie across the heading: any direction will do.
+    heading = heading.norm() > 0.01 ? heading.normalized() : motion.random.direction();
+    wanted = std::clamp(wanted + motion.random.between(-0.02, 0.02), 0.05, 0.95);
+    const double rise = highest > 0 ? 0.5 * (wanted - contact.distance / highest) : 0;
+    const Vec3 to = from + step * (heading + rise * contact.normal).normalized();
+    contact = surface.nearest(to);
+    path.push_back(held_to(contact, to, highest));
+    if (!((path.back() - from).norm() > 0.25 * step)) {
+      heading = motion.random.direction();
+      progress.dead_end();
+    }
+    if (progress.stalled(path.back())) {
+      path.pop_back();
+      land();
+      contact = surface.nearest(path.back());
+    }
+  }
+  return path;
+}
+
+Positions approach(Motion motion) {
+  Surface surface(motion.mesh);
+  const double slowness = pace(motion.steps);
+  const std::size_t way_in = ticks(600 * slowness), press = ticks(60 * slowness);
+  Path path(motion.steps);
+  while (!path.full()) {
+    const Place place = surface.random_place(motion.random);
+    const Vec3 start = place.point + 0.3 * motion.diagonal * place.normal;
+    const Vec3 light = place.point + 0.5 * motion.radius * place.normal;
+    const Vec3 firm = pressed(place, motion.radius);
+    // To the next start in a straight line, through the object if need be.
+    path.go(start, ticks(1000 * slowness * path.distance_to(start) / motion.diagonal));
+    path.go(firm, way_in);
+    for (int i = 0; i < 2; ++i) {
+      path.go(light, press);
+      path.go(firm, press);
+    }
+    path.go(start, way_in);
+  }
+  return std::move(path).positions();
+}
+
+// A step out of the band is taken again with another heading; the step back always exists.
+Positions hover(Motion motion) {
+  Surface surface(motion.mesh);
+  const double step = 0.001 * motion.diagonal;
+  const double nearest = 0.02 * motion.diagonal, farthest = 0.3 * motion.diagonal;
+  // The nearest point of a centre stays nearest all the way to it, so this starts in the band for certain.
+  const Vec3 outside = motion.mesh.bounds().center() + 2 * motion.diagonal * motion.random.direction();
+  const Contact first = surface.nearest(outside);
+  Positions path = {first.point + motion.random.between(0.1, 0.2) * motion.diagonal * first.normal};
+  path.reserve(motion.steps);
+  Vec3 heading = motion.random.direction();
+  constexpr int attempts = 16;
+  while (path.size() < motion.steps) {
+    const Vec3 from = path.back();
+    heading = (heading + 0.05 * motion.random.direction()).normalized();
+    Vec3 next = from;
+    for (int i = 0; i < attempts; ++i) {
+      const Vec3 to = from + step * heading;
+      const Contact contact = surface.nearest(to);
+      if (contact.distance >= nearest && contact.distance <= farthest) {
+        next = to;
+        break;
+      }
+      const bool too_near = contact.distance < nearest;
+      const Vec3 away = too_near ? contact.normal : Vec3(-contact.normal);
+      heading = (away + motion.random.direction()).normalized();
+    }
+    path.push_back(next);
+  }
+  return path;
+}
+
+Positions jump(Motion motion) {
+  const Aabb& box = motion.mesh.bounds();
+  // A flat mesh's box gets some height, or every point would lie in its plane.
+  const Vec3 half = 0.6 * box.extent().cwiseMax(Vec3::Constant(0.1 * motion.diagonal));
+  Positions path;
+  path.reserve(motion.steps);
+  for (std::size_t i = 0; i < motion.steps; ++i) {
+    const double x = motion.random.between(-1, 1), y = motion.random.between(-1, 1),
+                 z = motion.random.between(-1, 1);
+    path.push_back(box.center() + half.cwiseProduct(Vec3(x, y, z)));
+  }
+  return path;
+}
+
+Positions tap(Motion motion) {
+  Surface surface(motion.mesh);
+  const double slowness = pace(motion.steps);
+  const std::size_t stroke = ticks(20 * slowness);
+  Path path(motion.steps);
+  while (!path.full()) {
+    const Place place = surface.random_place(motion.random);
+    const Vec3 lifted = place.point + (2 * motion.radius + 0.01 * motion.diagonal) * place.normal;
+    path.go(lifted, ticks(200 * slowness * path.distance_to(lifted) / motion.diagonal));
+    for (int i = 0; i < 3; ++i) {
+      path.go(pressed(place, motion.radius), stroke);
+      path.go(lifted, stroke);
+    }
+  }
+  return std::move(path).positions();
+}
+
+namespace {
+
+/// The thinnest few of many random places.
+std::vector<Place> thin_places(Surface& surface, Motion& motion) {
+  struct Measured {
+    double thickness;
+    Place place;
+  };
+  std::vector<Measured> found;
+  for (int i = 0; i < 256; ++i) {
+    const Place place = surface.random_place(motion.random);
+    found.push_back({surface.thickness(place, motion.diagonal), place});
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Measured& a, const Measured& b) { return a.thickness < b.thickness; });
+  std::vector<Place> thinnest;
+  for (std::size_t i = 0; i < 64; ++i) thinnest.push_back(found[i].place);
+  return thinnest;
+}
+
+}  // namespace
+
+Positions cross(Motion motion) {
+  Surface surface(motion.mesh);
+  const double speed = std::clamp(4 * motion.radius, 0.01 * motion.diagonal, 0.5 * motion.diagonal);
+  const double run_up = std::max(0.1 * motion.diagonal, 3 * speed);
+  const std::vector<Place> places = thin_places(surface, motion);
+  Path path(motion.steps);
+  while (!path.full()) {
+    const Place& place = places[motion.random.below(places.size())];
+    // Not always square on: tilted by up to 45 degrees.
+    const Vec3 way = (place.normal + motion.random.unit() * motion.random.direction()).normalized();
+    const Vec3 a = place.point + run_up * way, b = place.point - run_up * way;
+    const bool outwards = motion.random.below(2) == 0;
+    path.fly(outwards ? b : a, speed);
+    path.fly(outwards ? a : b, speed);
+  }
+  return std::move(path).positions();
+}
+
+}  // namespace touchmark::bench

@@ -1,0 +1,32 @@
+/// How each generated trajectory moves. One function a trajectory; trajectories.cpp lists them.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "bench/support/random.h"
+#include "core/probe.h"
+#include "core/triangle_mesh.h"
+
+namespace touchmark::bench {
+
+/// What all of them are given. `steps` positions come back.
+struct Motion {
+  const TriangleMesh& mesh;
+  std::size_t steps;  ///< at least 1
+  Random random;
+  double diagonal;  ///< the unit of length, > 0: the mesh's diagonal, or a stand-in where that is zero
+  double radius;    ///< the probe's, cut to 0.05 diagonal: a larger ball would not follow the surface
+};
+
+using Positions = std::vector<Vec3>;
+
+Positions slide(Motion motion);
+Positions approach(Motion motion);
+Positions hover(Motion motion);
+Positions jump(Motion motion);
+Positions tap(Motion motion);
+Positions edge(Motion motion);
+Positions cross(Motion motion);
+
+}  // namespace touchmark::bench

@@ -1,0 +1,140 @@
+#include "bench/workers/throughput.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <utility>
+
+#include <benchmark/benchmark.h>
+
+#include "bench/support/processor_time.h"
+#include "bench/workload/sample_steps.h"
+
+namespace touchmark::bench {
+namespace {
+
+/// Keeps the one run's times. The library's own reporters write elsewhere, and its CSV one aborts when
+/// counters differ.
+class KeepTimesPerPass : public benchmark::BenchmarkReporter {
+ public:
+  bool ReportContext(const Context&) override { return true; }
+  void ReportRuns(const std::vector<Run>& runs) override {
+    for (const Run& run : runs) {
+      if (run.run_type != Run::RT_Iteration || run.iterations == 0) continue;
+      const double passes = static_cast<double>(run.iterations);
+      elapsed_ns_ = run.real_accumulated_time * 1e9 / passes;
+      cpu_ns_ = run.cpu_accumulated_time * 1e9 / passes;
+    }
+  }
+  double elapsed_ns() const noexcept { return elapsed_ns_; }
+  double cpu_ns() const noexcept { return cpu_ns_; }
+
+ private:
+  double elapsed_ns_ = 0;
+  double cpu_ns_ = 0;
+};
+
+/// Compares each pass's answers with the first one's.
+class AnswersOfPasses {
+ public:
+  explicit AnswersOfPasses(Throughput& result) : result_(result) {}
+  void add(const Checksum& checksum) {
+    result_.steady = result_.steady && (first_ || checksum.value() == result_.checksum);
+    result_.checksum = checksum.value();
+    first_ = false;
+  }
+
+ private:
+  Throughput& result_;
+  bool first_ = true;
+};
+
+/// Elapsed and processor time from its construction on; reading the second one is outside of the first.
+class SampleClock {
+ public:
+  void stop(double passes, Throughput& result) const {
+    const Clock::time_point end = Clock::now();
+    const double processor = processor_ns() - processor_start_;
+    const double elapsed = std::chrono::duration<double, std::nano>(end - start_).count();
+    constexpr double undisturbed = 1.2;  // elapsed over processor time, at most
+    result.samples.push_back(std::min(elapsed, processor) / passes);
+    result.interrupted += elapsed > undisturbed * processor ? 1 : 0;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double processor_start_ = processor_ns();
+  Clock::time_point start_ = Clock::now();
+};
+
+/// Runs `pass` so many times, at least once, and fills in the times of a query.
+template <class Pass>
+void run_passes(const Pass& pass, std::int64_t passes, double queries_a_pass, Throughput& result) {
+  const auto run = [&](benchmark::State& state) {
+    for (auto _ : state) pass();
+  };
+  benchmark::ClearRegisteredBenchmarks();
+  benchmark::RegisterBenchmark("replay", run)
+      ->UseRealTime()
+      ->MeasureProcessCPUTime()
+      ->Iterations(std::max<std::int64_t>(passes, 1))
+      ->Repetitions(1);
+  KeepTimesPerPass reporter;
+  benchmark::RunSpecifiedBenchmarks(&reporter, nullptr, "^replay");
+  result.ns_per_query = reporter.elapsed_ns() / queries_a_pass;
+  result.cpu_ns_per_query = reporter.cpu_ns() / queries_a_pass;
+}
+
+}  // namespace
+
+std::vector<std::string> initialize_throughput(const std::vector<std::string>& flags) {
+  static std::vector<std::string> arguments;  // the library keeps pointers into them
+  arguments = flags;
+  arguments.insert(arguments.begin(), "touchmark");
+  std::vector<char*> pointers;
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  int count = static_cast<int>(pointers.size());
+  pointers.push_back(nullptr);
+  benchmark::Initialize(&count, pointers.data());
+  return {pointers.begin() + 1, pointers.begin() + std::max(count, 1)};
+}
+
+Throughput measure_throughput(Contestant& contestant, const Course& course,
+                              const std::vector<Window>& windows, std::int64_t passes) {
+  Throughput result;
+  AnswersOfPasses answers(result);
+  run_passes(
+      [&] {
+        Checksum checksum;
+        for (const Window& window : windows) contestant.replay(course, window, checksum);
+        answers.add(checksum);
+      },
+      passes, static_cast<double>(steps_in(windows)), result);
+  return result;
+}
+
+Throughput sample_throughput(Contestant& contestant, const Course& course, const std::vector<Window>& windows,
+                             std::int64_t passes, std::int64_t together) {
+  assert(together == 1 || windows.size() == 1);
+  Throughput result;
+  AnswersOfPasses answers(result);
+  result.samples.reserve(windows.size() * static_cast<std::size_t>(std::max<std::int64_t>(passes, 1)));
+  const auto pass = [&] {
+    Checksum checksum;
+    for (const Window& window : windows) {
+      const SampleClock clock;
+      for (std::int64_t i = 0; i < together; ++i) {
+        if (i > 0) answers.add(std::exchange(checksum, Checksum()));
+        contestant.replay(course, window, checksum);
+      }
+      clock.stop(static_cast<double>(together), result);
+    }
+    answers.add(checksum);
+  };
+  Checksum unused;
+  contestant.replay(course, windows.back(), unused);
+  run_passes(pass, passes, static_cast<double>(steps_in(windows)) * static_cast<double>(together), result);
+  return result;
+}
+
+}  // namespace touchmark::bench

@@ -1,0 +1,13 @@
+/// The inside of a worker process: builds one contestant and does what the program orders, see
+/// worker_protocol.h.
+#pragma once
+
+#include "bench/contestants/contestant_info.h"
+
+namespace touchmark::bench {
+
+/// What a worker program's main function returns. Arguments are --benchmark_* flags. Ends when the program
+/// closes the control socket.
+int run_worker(int argc, char** argv, const Roster& roster);
+
+}  // namespace touchmark::bench

@@ -1,0 +1,206 @@
+#include "bench/workers/worker_process.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+#include <thread>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <sched.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "bench/support/failures.h"
+#include "bench/support/interrupt.h"
+#include "bench/support/system_limit.h"
+#include "bench/workers/worker_protocol.h"
+
+namespace touchmark::bench {
+namespace {
+
+/// The exit status of a program that could not be loaded, as the dynamic loader and shells have it.
+constexpr int not_loaded = 127;
+constexpr std::string_view start_error_key = "start_error";
+constexpr std::string_view start_error_begin = "{\"start_error\":";
+
+std::filesystem::path beside_this_program(const std::string& program) {
+  std::error_code ignored;
+  return std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / program;
+}
+
+/// Everything the child needs, prepared before fork: after it only async-signal-safe calls are allowed.
+struct Exec {
+  std::string path;
+  std::vector<std::string> arguments;
+  std::vector<char*> argv;
+
+  explicit Exec(const WorkerLaunch& launch) : path(beside_this_program(launch.program)) {
+    arguments.push_back(path);
+    arguments.insert(arguments.end(), launch.flags.begin(), launch.flags.end());
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    argv.push_back(nullptr);
+  }
+};
+
+/// The three descriptors at their agreed numbers. Moved up first, so that none is overwritten by another.
+bool place_descriptors(int control, int input, int output) {
+  constexpr int above = std::max({worker_control, worker_input, worker_output}) + 1;
+  const std::array<int, 3> from{fcntl(control, F_DUPFD_CLOEXEC, above), fcntl(input, F_DUPFD_CLOEXEC, above),
+                                fcntl(output, F_DUPFD_CLOEXEC, above)};
+  constexpr std::array<int, 3> to{worker_control, worker_input, worker_output};
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    if (from[i] < 0 || dup2(from[i], to[i]) < 0) return false;
+  }
+  return true;
+}
+
+/// In place of the worker that could not be started, its first reply. Only what a child may do before exec.
+void tell_start_error(int control, int error) {
+  std::array<char, 32> line{};
+  std::size_t begin = line.size();
+  line[--begin] = '\n';
+  line[--begin] = '}';
+  do {
+    line[--begin] = static_cast<char>('0' + error % 10);
+    error /= 10;
+  } while (error > 0);
+  for (std::size_t i = start_error_begin.size(); i > 0; --i) line[--begin] = start_error_begin[i - 1];
+  const ssize_t ignored = send(control, line.data() + begin, line.size() - begin, MSG_NOSIGNAL);
+  static_cast<void>(ignored);
+}
+
+void silence_output() {
+  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  dup2(nowhere, STDOUT_FILENO);
+  dup2(nowhere, STDERR_FILENO);
+}
+
+void restrict_to_core(int core) {
+  cpu_set_t cores;
+  CPU_ZERO(&cores);
+  CPU_SET(static_cast<unsigned>(core), &cores);
+  sched_setaffinity(0, sizeof cores, &cores);  // if refused, the worker runs anywhere
+}
+
+[[noreturn]] void become_worker(const WorkerLaunch& launch, const Exec& exec, int control, pid_t parent) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (getppid() != parent) _exit(exit_resources);  // it died before the line above
+  // Ctrl-C goes to the whole foreground group; the program decides what it means.
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_IGN);
+  if (!launch.show_output) silence_output();
+  if (launch.core) restrict_to_core(*launch.core);
+  // The control is moved first, so that it is there to tell by whatever fails after it.
+  if (place_descriptors(control, launch.input, launch.output)) execv(exec.path.c_str(), exec.argv.data());
+  // F_DUPFD says EINVAL where the limit on descriptors does not admit the number.
+  tell_start_error(control, errno == EINVAL ? EMFILE : errno);
+  _exit(not_loaded);
+}
+
+std::string how_it_ended(int status) {
+  if (WIFSIGNALED(status)) {
+    const char* name = sigabbrev_np(WTERMSIG(status));
+    return name != nullptr ? fmt::format("crashed:SIG{}", name) : fmt::format("crashed:{}", WTERMSIG(status));
+  }
+  return fmt::format("crashed:exit {}", WEXITSTATUS(status));
+}
+
+}  // namespace
+
+bool worker_program_exists(const std::string& program) {
+  return access(beside_this_program(program).c_str(), X_OK) == 0;
+}
+
+WorkerProcess::WorkerProcess(const WorkerLaunch& launch) : program_(launch.program) {
+  if (!worker_program_exists(launch.program)) {
+    throw ResourceError(fmt::format("the program {} is not beside this one", launch.program));
+  }
+  std::array<int, 2> sockets{};
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets.data()) != 0) {
+    throw ResourceError(fmt::format("cannot talk to a worker: {}", described_with_limit(errno)));
+  }
+  const Exec exec(launch);
+  const pid_t parent = getpid();
+  process_ = fork();
+  if (process_ == 0) become_worker(launch, exec, sockets[1], parent);
+  const int error = errno;
+  close(sockets[1]);
+  if (process_ < 0) {
+    close(sockets[0]);
+    throw ResourceError(fmt::format("cannot start a worker: {}", described_with_limit(error)));
+  }
+  control_ = sockets[0];
+  channel_ = LineChannel(control_);
+}
+
+WorkerProcess::~WorkerProcess() {
+  if (process_ > 0) kill(process_, SIGKILL);
+  end();
+}
+
+WorkerProcess::Ending WorkerProcess::end() {
+  if (control_ >= 0) close(std::exchange(control_, -1));
+  if (process_ <= 0) return {};
+  Ending ending;
+  rusage used{};
+  // Closing the socket ends an orderly worker; one that lingers is killed.
+  for (int waited_ms = 0; wait4(process_, &ending.status, WNOHANG, &used) == 0; ++waited_ms) {
+    if (waited_ms == 2000) kill(process_, SIGKILL);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  process_ = -1;
+  ending.out_of_time = WIFSIGNALED(ending.status) && used_up_its_time(used);
+  return ending;
+}
+
+void WorkerProcess::explain(const Ending& ending) const {
+  if (ending.out_of_time) throw ResourceError(fmt::format("{}: {}", program_, time_limit()));
+  const std::string how = how_it_ended(ending.status);
+  if (replied_) throw WorkerFailure(how);
+  if (WIFEXITED(ending.status) && WEXITSTATUS(ending.status) == not_loaded) {
+    throw ResourceError(
+        fmt::format("{} cannot be loaded: a library is missing, or there is too little memory{}", program_,
+                    memory_limit()));
+  }
+  throw ResourceError(
+      fmt::format("{} ended before it knew whom to run: {}{}", program_, how, memory_limit()));
+}
+
+nlohmann::json WorkerProcess::ask(const nlohmann::json& order, std::chrono::milliseconds patience) {
+  if (process_ <= 0) throw WorkerFailure("ended");
+  channel_.send(order.dump());  // one that is gone may have left a reply that says why
+  std::string line;
+  const auto deadline = std::chrono::steady_clock::now() + patience;
+  switch (channel_.receive(line, deadline, check_for_interrupt)) {
+    case LineChannel::Outcome::line:
+      break;
+    case LineChannel::Outcome::closed:
+      explain(end());
+    case LineChannel::Outcome::late:
+      kill(process_, SIGKILL);
+      end();
+      throw WorkerFailure("timeout");
+  }
+  nlohmann::json reply = nlohmann::json::parse(line);
+  if (const auto error = reply.find(start_error_key); error != reply.end()) {
+    end();
+    throw ResourceError(
+        fmt::format("cannot start {}: {}", program_, described_with_limit(error->get<int>())));
+  }
+  if (const auto what = reply.find(out_of_resources); what != reply.end()) {
+    end();
+    throw ResourceError(fmt::format("{}: {}", program_, what->get<std::string>()));
+  }
+  replied_ = true;
+  return reply;
+}
+
+}  // namespace touchmark::bench

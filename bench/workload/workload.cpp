@@ -1,0 +1,123 @@
+#include "bench/workload/workload.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "bench/support/available_memory.h"
+#include "bench/support/progress.h"
+#include "bench/trajectories/trajectories.h"
+
+namespace touchmark::bench {
+namespace {
+
+std::vector<Step> course_along(const Trajectory& trajectory, double radius, std::optional<double> reach) {
+  std::vector<Step> course(trajectory.size());
+  for (std::size_t i = 0; i < course.size(); ++i) {
+    course[i].probe = {trajectory.positions[i], trajectory.radii.empty() ? radius : trajectory.radii[i]};
+    course[i].reach = reach.value_or(course[i].probe.radius);
+  }
+  return course;
+}
+
+/// A recorded trajectory is replayed whole unless --steps says otherwise (0 stands for that).
+std::size_t steps_of(const std::string& name, const Selection& selection, std::size_t default_steps) {
+  if (selection.steps) return *selection.steps;
+  return is_generated(name) ? default_steps : 0;
+}
+
+/// In this process and the workers': a position, the step here, in the shared memory and there, and the
+/// answer with its work.
+constexpr std::size_t bytes_a_step = sizeof(Vec3) + 3 * sizeof(Step) + sizeof(Answer) + sizeof(std::uint64_t);
+
+void require_memory_for(const std::vector<std::string>& trajectories, const Selection& selection,
+                        std::size_t default_steps) {
+  double steps = 0;
+  for (const std::string& name : trajectories)
+    steps += static_cast<double>(steps_of(name, selection, default_steps));
+  require_memory(fmt::format("trajectory {}: {:.0f} steps", fmt::join(trajectories, ", "), steps),
+                 steps * bytes_a_step);
+}
+
+/// A step is a millisecond where no times say otherwise.
+Motion motion_of(const Trajectory& trajectory) {
+  Motion motion{0, 0, trajectory.recorded};
+  double way = 0, duration = 0;
+  for (std::size_t i = 1; i < trajectory.size(); ++i) {
+    const double piece = (trajectory.positions[i] - trajectory.positions[i - 1]).stableNorm();
+    const double time = trajectory.times_s.empty() ? 1e-3 : trajectory.times_s[i] - trajectory.times_s[i - 1];
+    way += piece;
+    duration += time;
+    motion.max_speed = std::max(motion.max_speed, piece / time);
+  }
+  if (duration > 0) motion.mean_speed = way / duration;
+  return motion;
+}
+
+void say_that_rows_are_steps(const Trajectory& trajectory) {
+  if (!trajectory.recorded || trajectory.recorded->resampled_hz) return;
+  const std::optional<double> rate = trajectory.recorded->rate_hz();
+  note_once(fmt::format("{}: each row is a step, whatever the time ({}{:.6g} s); --rate HZ resamples by time",
+                        trajectory.name, rate ? fmt::format("{:.6g} Hz, ", *rate) : "",
+                        trajectory.recorded->duration_s));
+}
+
+void expect_a_motion_file(const std::vector<std::string>& trajectories, const MotionOptions& options) {
+  if (options.are_given() && std::all_of(trajectories.begin(), trajectories.end(), &is_generated)) {
+    throw std::invalid_argument(fmt::format("{} is of motion files, and no --trajectory is one",
+                                            options.columns   ? "--columns"
+                                            : options.rate_hz ? "--rate"
+                                                              : "--motion-scale"));
+  }
+}
+
+}  // namespace
+
+Workload make_workload(std::string mesh_name, TriangleMesh mesh, const Selection& selection,
+                       const std::vector<std::string>& trajectories, std::size_t default_steps) {
+  Workload workload{std::move(mesh_name), std::move(mesh), 0, {}, {}, {}};
+  constexpr double bytes_a_triangle = 100;  // for sampling the surface, and the workers' copy
+  require_memory(fmt::format("trajectories on {} triangles", workload.mesh.size()),
+                 bytes_a_triangle * static_cast<double>(workload.mesh.size()));
+  workload.radius = selection.radius.in_mesh_units(workload.mesh);
+  if (selection.reach) workload.reach = selection.reach->in_mesh_units(workload.mesh);
+  workload.unit = selection.unit;
+  expect_a_motion_file(trajectories, selection.motion);
+  require_memory_for(trajectories, selection, default_steps);
+  for (const std::string& name : trajectories) {
+    const Trajectory trajectory = make_trajectory(
+        name, workload.mesh,
+        {steps_of(name, selection, default_steps), selection.seed, workload.radius, selection.motion});
+    say_that_rows_are_steps(trajectory);
+    workload.motions.push_back(motion_of(trajectory));
+    workload.trajectories.push_back(trajectory.name);
+    workload.courses.push_back(course_along(trajectory, workload.radius, workload.reach));
+  }
+  return workload;
+}
+
+std::string length_text(const Workload& workload, double length) {
+  return workload.unit ? fmt::format("{:.6g} {}", length, workload.unit->name)
+                       : fmt::format("{:.6g}", length);
+}
+
+std::string course_text(const Workload& workload, std::size_t course) {
+  std::string text = fmt::format("{} steps", workload.courses[course].size());
+  if (course >= workload.motions.size()) return text;
+  const Motion& motion = workload.motions[course];
+  if (motion.recorded) {
+    text += fmt::format(", {:.6g} s", motion.recorded->duration_s);
+    if (const auto rate = motion.recorded->rate_hz()) text += fmt::format(" at {:.6g} Hz", *rate);
+    if (const auto& rate = motion.recorded->resampled_hz)
+      text += fmt::format(", resampled to {:.6g} Hz", *rate);
+  }
+  if (workload.unit) {
+    text += fmt::format(", mean speed {:.3g} m/s, at most {:.3g} m/s",
+                        motion.mean_speed * workload.unit->metres, motion.max_speed * workload.unit->metres);
+  }
+  return text;
+}
+
+}  // namespace touchmark::bench

@@ -1,0 +1,28 @@
+/// The square of a distance as a quotient of whole numbers, kept so that many can be compared with one.
+#pragma once
+
+#include <compare>
+
+#include "core/exact/big_integer.h"
+#include "core/exact/feature.h"
+#include "core/exact/integer_lattice.h"
+#include "core/probe.h"
+
+namespace touchmark::exact {
+
+/// A square in units of 4^exponent of a grid.
+struct Square {
+  Integer<6> numerator;
+  Integer<4> denominator;
+};
+
+inline std::strong_ordering compare(const Square& a, const Square& b) noexcept {
+  return a.numerator * b.denominator <=> b.numerator * a.denominator;
+}
+
+/// Of the point from the corner, the line or the plane of the feature, on a grid that holds all of them.
+Square square(const Grid& grid, const Feature& feature, const Vec3& point) noexcept;
+/// Of the point from the triangle.
+Square square(const Grid& grid, const TriangleCorners& triangle, const Vec3& point) noexcept;
+
+}  // namespace touchmark::exact

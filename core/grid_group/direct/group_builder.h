@@ -1,0 +1,43 @@
+/// Makes every triangle's group, at once or after some triangles moved.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/aabb.h"
+#include "core/grid_group/direct/group_finder.h"
+#include "core/grid_group/direct/groups.h"
+
+namespace touchmark::grid {
+
+class GroupBuilder {
+ public:
+  /// `lead`: see GroupFinder. No more than `most_bytes` are taken; triangles that come too late get no
+  /// members.
+  GroupBuilder(const TriangleStore& store, const BoxTree& tree, double lead, std::size_t most_bytes)
+      : store_(store), lead_(lead), most_bytes_(most_bytes), finder_(store, tree, lead, {.sharing = 0.2}) {}
+
+  Groups build();
+  /// None yet, and room for them.
+  Groups unmade() const;
+  /// Of the triangles of these groups, after some moved within these boxes of the frame. Where groups grow,
+  /// those that changed are unmade again.
+  Groups rebuild(const Groups& groups, const std::vector<Aabb>& moved);
+  /// Did the bytes run out?
+  bool ran_out() const noexcept { return ran_out_; }
+
+ private:
+  void start();
+  void add(std::uint32_t place, const GroupFinder::Found& found);
+  bool changes(std::uint32_t place, const std::vector<Aabb>& moved) const noexcept;
+
+  const TriangleStore& store_;
+  double lead_;
+  std::size_t most_bytes_;
+  GroupFinder finder_;
+  Groups groups_;
+  bool ran_out_ = false;
+};
+
+}  // namespace touchmark::grid

@@ -1,0 +1,161 @@
+#include "core/grid_group/direct/group_finder.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <utility>
+
+namespace touchmark::grid {
+namespace {
+
+/// Beyond the sides by this part of the inradius: more keeps a sliding probe longer with one group, and makes
+/// the groups larger.
+constexpr double growth = 0.3;
+/// Over and under the triangle by this part of its size at first, and by less where the groups would be too
+/// large.
+constexpr double first_height = 1.0, least_height = 0.2, shrinking = 0.6;
+static_assert(first_height * shrinking * shrinking * shrinking * shrinking < least_height &&
+              GroupFinder::most_looks >= 4);
+
+// Of a ball about the triangle the footprint grown is within 1.6 radii, its size below 1.65, so the highest
+// prism within 3.25; and no point of that is farther than 2.25 from the triangle. What is nearest there comes
+// into 5.5.
+static_assert(growth <= 0.3 && first_height <= 1 && GroupFinder::reach_in_radii >= 6);
+
+Lanes load(const float* from) noexcept {
+  Lanes lanes;
+  std::memcpy(&lanes, from, sizeof lanes);
+  return lanes;
+}
+
+bool apart(const EightBoxes& boxes, std::size_t child, const Aabb& box) noexcept {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const int axis = static_cast<int>(k);
+    if (static_cast<double>(boxes.min[k][child / 4][child % 4]) > box.max[axis] ||
+        static_cast<double>(boxes.max[k][child / 4][child % 4]) < box.min[axis])
+      return true;
+  }
+  return false;
+}
+
+bool reaches(const TriangleBall& ball, const Aabb& box) noexcept {
+  const double radius = static_cast<double>(ball.radius) * (1 + 0x1p-20) + 0x1p-20;
+  return box.padded(radius).contains(
+      Vec3(static_cast<double>(ball.x), static_cast<double>(ball.y), static_cast<double>(ball.z)));
+}
+
+}  // namespace
+
+GroupFinder::Found GroupFinder::find(std::uint32_t place) noexcept {
+  const Footprint footprint(store_.exact[place], store_.frame);
+  // A margin that single precision does not see would serve no point.
+  const bool visible =
+      growth * footprint.inradius > static_cast<double>(store_.frame.tau(footprint.incenter));
+  if (footprint.normal.isZero(0) || !visible) return {};
+  const double height = find_members(footprint);
+  if (member_count_ == 0 || member_count_ > Groups::most_members) return {};
+  for (std::size_t i = member_count_; i < Groups::rounded_up(member_count_); ++i)
+    members_[i] = members_[member_count_ - 1];
+  // Rounded down, so that single precision serves no point outside.
+  constexpr double down = 1 - 0x1p-22;
+  return {{members_.data(), member_count_},
+          static_cast<float>(height * down),
+          static_cast<float>(growth * footprint.inradius * down)};
+}
+
+Work GroupFinder::take_work() noexcept { return std::exchange(work_, Work{}); }
+
+/// Leaves the members of the highest prism with no more than many, or of the lowest; none when the mesh is
+/// too dense there. Returns the prism's height.
+double GroupFinder::find_members(const Footprint& footprint) noexcept {
+  double height = first_height * footprint.size;
+  const Prism highest(footprint, growth, height, lead_, store_.frame);
+  Aabb box;
+  for (const Vec3& corner : footprint.grown(growth)) {
+    box.extend(corner + height * footprint.normal);
+    box.extend(corner - height * footprint.normal);
+  }
+  member_count_ = 0;
+  if (!gather(box.padded(highest.farthest() + lead_))) return 0;
+  select_members(highest);
+  while (member_count_ > Groups::many_members && shrinking * height >= least_height * footprint.size) {
+    height *= shrinking;
+    const Prism lower(footprint, growth, height, lead_, store_.frame);
+    // What a higher prism can do without, a lower one can.
+    work_.triangles += member_count_;
+    const auto end = members_.begin() + static_cast<std::ptrdiff_t>(member_count_);
+    const auto kept = std::remove_if(members_.begin(), end, [&](std::uint32_t place) {
+      return lower.excludes(store_.planes[place], store_.balls[place]);
+    });
+    member_count_ = static_cast<std::size_t>(kept - members_.begin());
+  }
+  return height;
+}
+
+void GroupFinder::select_members(const Prism& prism) noexcept {
+  work_.triangles += near_count_;
+  for (std::size_t at = 0; at < near_count_; at += 4) {
+    unsigned left =
+        prism.balls_left(load(&near_x_[at]), load(&near_y_[at]), load(&near_z_[at]), load(&near_radius_[at]));
+    for (; left != 0; left &= left - 1) {
+      const std::size_t i = at + static_cast<std::size_t>(std::countr_zero(left));
+      if (i >= near_count_) break;  // behind the last are its copies
+      const std::uint32_t place = near_[i];
+      if (!prism.excludes(store_.planes[place], store_.balls[place])) members_[member_count_++] = place;
+    }
+  }
+}
+
+/// Makes near_ hold every triangle that reaches into the box, or says that they are too many.
+bool GroupFinder::gather(const Aabb& box) noexcept {
+  if (gathered_.contains(box.min) && gathered_.contains(box.max)) return true;
+  gathered_ = box.padded(effort_.sharing * box.extent().maxCoeff());
+  if (!gather_blocks(gathered_)) {
+    gathered_ = Aabb();
+    return false;
+  }
+  const std::size_t whole = near_count_ == 0 ? 0 : (near_count_ + 3) / 4 * 4;
+  for (std::size_t i = 0; i < whole; ++i) {
+    const TriangleBall& ball = store_.balls[near_[std::min(i, near_count_ - 1)]];
+    near_x_[i] = ball.x;
+    near_y_[i] = ball.y;
+    near_z_[i] = ball.z;
+    near_radius_[i] = ball.radius;
+  }
+  return true;
+}
+
+bool GroupFinder::gather_blocks(const Aabb& box) noexcept {
+  struct Node {
+    std::uint32_t level, index;
+  };
+  near_count_ = 0;
+  // As in BoxStack: seven siblings a level, and the last level's eight.
+  std::array<Node, 8 * 11> waiting;
+  std::size_t count = 1;
+  waiting[0] = {static_cast<std::uint32_t>(tree_.levels()) - 1, 0};
+  std::uint64_t boxes_seen = 0;
+  while (count > 0) {
+    const Node node = waiting[--count];
+    const EightBoxes& boxes = tree_.node(node.level, node.index);
+    boxes_seen += BoxTree::arity;
+    work_.boxes += BoxTree::arity;
+    if (boxes_seen > effort_.most_boxes) return false;
+    for (std::uint32_t i = 0; i < BoxTree::arity; ++i) {
+      if (apart(boxes, i, box)) continue;
+      const std::uint32_t child = node.index * BoxTree::arity + i;
+      if (node.level > 0) {
+        waiting[count++] = {node.level - 1, child};
+        continue;
+      }
+      const std::uint32_t first = child * TriangleStore::block_size;
+      for (std::uint32_t place = first; place < std::min(first + TriangleStore::block_size, store_.size());
+           ++place)
+        if (reaches(store_.balls[place], box)) near_[near_count_++] = place;
+      if (near_count_ > std::min<std::uint64_t>(most_near, effort_.most_near)) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace touchmark::grid

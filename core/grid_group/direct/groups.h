@@ -1,0 +1,104 @@
+/// The group of a triangle: all triangles that can be nearest to a point close to it.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/search/plane_filter.h"
+
+namespace touchmark::grid {
+
+/// Valid from `height` under the triangle's plane to `height` over it, up to `margin` beyond its sides, in
+/// the filter's frame; nowhere when there are no members.
+class Group {
+ public:
+  Group() = default;
+  Group(std::uint32_t first, std::size_t count, float height, float margin) noexcept
+      : first_(first), count_(static_cast<std::uint16_t>(count)), height_(height), margin_(margin) {}
+
+  std::size_t count() const noexcept {  ///< of members
+    return std::atomic_ref(count_).load(std::memory_order_acquire);
+  }
+  float height() const noexcept { return std::atomic_ref(height_).load(std::memory_order_acquire); }
+  float margin() const noexcept { return margin_; }  ///< where there are members
+
+  /// Is the point with these values of the triangle's planes surely where the group is valid?
+  bool serves(Lanes values, float tau) const noexcept {
+    const float beside = most_beside(values);
+    return std::abs(values[0]) + tau <= height() && beside + tau <= margin_;
+  }
+
+ private:
+  friend class Groups;
+  std::uint32_t first_ = 0;  ///< member
+  // Whoever sees the count sees the first member, and whoever sees the height sees all.
+  mutable std::uint16_t count_ = 0;
+  mutable std::uint16_t state_ = 0;
+  mutable float height_ = -1;
+  float margin_ = -1;
+};
+
+/// By place in the TriangleStore. Those that are not made yet may be made while others are read, by any
+/// thread, each by one: it claims the group, and puts it. Nothing waits and nothing takes memory then.
+class Groups {
+ public:
+  /// More than many only where a lower prism would not help.
+  static constexpr std::size_t many_members = 32, most_members = 64;
+
+  Groups() = default;
+  /// None is made, and there is room for so many members.
+  Groups(std::size_t places, std::size_t members);
+  /// Copies what is made; what is being made meanwhile is not.
+  Groups(const Groups& other);
+  Groups& operator=(const Groups& other) { return *this = Groups(other); }
+  Groups(Groups&&) noexcept = default;
+  Groups& operator=(Groups&&) noexcept = default;
+  ~Groups() = default;
+
+  /// One without members where it is not made yet.
+  const Group& of(std::uint32_t place) const noexcept { return groups_[place]; }
+  std::span<const std::uint32_t> members(const Group& group) const noexcept {
+    const std::size_t count = group.count();
+    return {members_.data() + group.first_, count};
+  }
+  /// Behind the members lie copies of the last, up to a multiple of eight.
+  static constexpr std::size_t rounded_up(std::size_t members) { return (members + 7) / 8 * 8; }
+
+  bool waits(std::uint32_t place) const noexcept {
+    return std::atomic_ref(groups_[place].state_).load(std::memory_order_relaxed) == unmade;
+  }
+  /// Is it the caller who has to put it?
+  bool claim(std::uint32_t place) const noexcept {
+    std::uint16_t expected = unmade;
+    return waits(place) && std::atomic_ref(groups_[place].state_)
+                               .compare_exchange_strong(expected, in_making, std::memory_order_relaxed);
+  }
+  /// Members with their copies behind them. Without any where there is no room for them.
+  void put(std::uint32_t place, std::span<const std::uint32_t> members, float height,
+           float margin) const noexcept;
+
+  bool grows() const noexcept { return grows_; }
+  /// Of the groups that have members.
+  std::size_t count() const noexcept { return std::atomic_ref(count_).load(std::memory_order_relaxed); }
+  std::size_t bytes() const noexcept {
+    return groups_.capacity() * sizeof(Group) + members_.capacity() * sizeof(std::uint32_t);
+  }
+
+ private:
+  friend class GroupBuilder;
+  static constexpr std::uint16_t made = 0, unmade = 1, in_making = 2;  ///< states of a group
+
+  bool grows_ = false;
+  // What is not made belongs to nobody but who has claimed it.
+  mutable std::vector<Group> groups_;
+  mutable std::vector<std::uint32_t> members_;
+  mutable std::size_t taken_ = 0;  ///< of members_, where it grows
+  mutable std::size_t count_ = 0;
+};
+
+}  // namespace touchmark::grid

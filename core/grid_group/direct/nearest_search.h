@@ -1,0 +1,162 @@
+/// The nearest of the triangles that a search comes by: filter in single precision, decide in double.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "core/grid_group/direct/box_tree.h"
+#include "core/grid_group/direct/exact_offset.h"
+#include "core/grid_group/direct/group_filter.h"
+#include "core/grid_group/direct/triangle_store.h"
+#include "core/search/closest_candidates.h"
+#include "core/search/linear_scan.h"
+#include "core/simd/prefetch.h"
+
+namespace touchmark::grid {
+
+/// Starts at the reach, with room for the kernel's error, and tightens it with every triangle found.
+class NearestSearch {
+ public:
+  /// The store's frame covers `center`, which is kept by reference.
+  NearestSearch(const TriangleStore& store, const Vec3& center, double reach) noexcept
+      : NearestSearch(store, center, store.frame.point(center), reach) {}
+  NearestSearch(const TriangleStore&, const Vec3&&, double) = delete;
+  /// `point` is the centre in that frame.
+  NearestSearch(const TriangleStore& store, const Vec3& center, const FilterPoint& point,
+                double reach) noexcept
+      : store_(store),
+        center_(center),
+        point_(point),
+        error_(store.frame.kernel_error(point_.tau)),
+        limit_(store.frame.limit((reach + error_) * (reach + error_))),
+        so_far_(store.exact.data(), center, error_) {}
+
+  bool found() const noexcept { return found_; }
+  std::uint32_t place() const noexcept { return place_; }  ///< of the nearest
+  /// Of the nearest, as the exact kernel gives it; when there is one.
+  Offset offset() const noexcept {
+    const PreparedTriangle& triangle = store_.exact[place_];
+    if (known_) return offset_;
+    return over_face_ ? offset_over_face(triangle, center_) : exact_offset(triangle, center_);
+  }
+  /// Of the nearest ones, is it surely the first? When there is one.
+  bool is_surely_first() const noexcept { return so_far_.is_surely_first(error_); }
+  /// The exactly nearest, the first where several are, when there is one; counts where whole numbers decide.
+  const PreparedTriangle& exactly_nearest(std::uint64_t& exact_decisions) const noexcept;
+  /// From now on any triangle surely within the distance ends the search: then `within` bounds the distance
+  /// of the one found, and else it is infinite.
+  void be_content_with(double distance) noexcept {
+    enough_ = distance;
+    enough_high_ = store_.frame.at_most(distance);
+  }
+  double within() const noexcept { return within_; }
+  const FilterPoint& point() const noexcept { return point_; }
+  double error() const noexcept { return error_; }                 ///< of a computed distance
+  std::uint64_t triangles() const noexcept { return triangles_; }  ///< tested
+  std::uint64_t boxes() const noexcept { return boxes_; }          ///< tested
+
+  /// Can the triangle be within the limit, as far as its planes tell?
+  bool may_be_near(std::uint32_t place) noexcept {
+    ++triangles_;
+    return least_squared(plane_values(store_.planes[place], point_), point_) <= limit_;
+  }
+
+  void consider(std::uint32_t place) noexcept {
+    ++triangles_;
+    decide(place);
+  }
+
+  /// All there is to consider, and the first. Afterwards something is found unless nothing is within the
+  /// limit. Returns a lower bound of the squared distance to all of them, in the frame.
+  float consider_group(std::span<const std::uint32_t> members) noexcept;
+
+  /// A guess at the nearest member, by the filter alone.
+  std::uint32_t closest_of(std::span<const std::uint32_t> members) noexcept;
+
+  /// Visits the tree nearest first. False when it has tested more than `most` triangles and boxes before the
+  /// end.
+  bool consider_tree(const BoxTree& tree, std::uint64_t most = any_work) noexcept {
+    BoxStack stack;
+    visit(tree, static_cast<std::uint32_t>(tree.levels()) - 1, 0, stack);
+    while (!stack.empty()) {
+      if (triangles_ + boxes_ > most) return false;
+      const BoxStack::Entry next = stack.pop();
+      if (next.bound > limit_) continue;
+      if (next.level > 0) {
+        visit(tree, next.level - 1, next.index, stack);
+      } else {
+        consider_block(next.index);
+        if (is_content()) break;
+      }
+    }
+    return true;
+  }
+
+ private:
+  bool is_content() const noexcept { return within_ < enough_; }
+  GroupBounds filter(std::span<const std::uint32_t> members) const noexcept;
+  /// Bit i is set for member i.
+  std::uint64_t within_limit(const GroupBounds& bounds, std::size_t members) const noexcept;
+
+  void visit(const BoxTree& tree, std::uint32_t level, std::uint32_t node, BoxStack& stack) noexcept {
+    boxes_ += BoxTree::arity;
+    const std::size_t base = stack.size();
+    stack.push(lower_bounds(tree.node(level, node), point_), limit_, node, level);
+    for (const BoxStack::Entry& child : stack.from(base)) {
+      if (level > 0)
+        prefetch_lines(&tree.node(level - 1, child.index), sizeof(EightBoxes));
+      else
+        prefetch_lines(&store_.planes[child.index * TriangleStore::block_size],
+                       TriangleStore::block_size * sizeof(TrianglePlanes));
+    }
+  }
+  void consider_block(std::uint32_t block) noexcept {
+    const std::uint32_t first = block * TriangleStore::block_size;
+    triangles_ += TriangleStore::block_size;
+    for (std::uint32_t at = first; at < first + TriangleStore::block_size; at += 4) {
+      const TrianglePlanes* planes = &store_.planes[at];
+      const Lanes bounds = lower_bounds(planes[0], planes[1], planes[2], planes[3], point_);
+      for (unsigned left = at_most(bounds, limit_); left != 0; left &= left - 1)
+        decide(at + static_cast<std::uint32_t>(std::countr_zero(left)));
+      if (is_content()) return;
+    }
+  }
+  void decide(std::uint32_t place) noexcept {
+    const PreparedTriangle& triangle = store_.exact[place];
+    const Offset offset = exact_offset(triangle, center_);
+    if (!so_far_.take({offset.squared, triangle.index}, place)) return;
+    offset_ = offset;
+    place_ = place;
+    found_ = known_ = true;
+    limit_ = std::min(limit_, store_.frame.limit(offset.squared));
+    if (enough_ > 0) within_ = std::min(within_, std::sqrt(offset.squared));
+  }
+  std::uint64_t without_far_balls(std::uint64_t left, std::span<const std::uint32_t> members) const noexcept;
+  /// Is it, by its ball, farther than the limit?
+  bool ball_excludes(std::uint32_t place) const noexcept;
+
+  const TriangleStore& store_;
+  const Vec3& center_;
+  FilterPoint point_;
+  double error_;
+  float limit_;
+  bool found_ = false;
+  bool known_ = false;  ///< offset_, and so_far_ with it
+  double enough_ = -1;
+  float enough_high_ = -1;  ///< the same in the frame
+  double within_ = std::numeric_limits<double>::infinity();
+  bool over_face_ = false;  ///< is the point surely over the face of the triangle found?
+  std::uint32_t place_ = 0;
+  NearestSoFar so_far_;
+  Offset offset_{Vec3::Zero(), 0};
+  std::uint64_t triangles_ = 0;
+  std::uint64_t boxes_ = 0;
+};
+
+}  // namespace touchmark::grid

@@ -1,0 +1,133 @@
+#include "core/grid_group/direct/prism.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+namespace touchmark::grid {
+Footprint::Footprint(const PreparedTriangle& triangle, const FilterFrame& frame) noexcept
+    : normal(triangle.normal) {
+  for (std::size_t i = 0; i < 3; ++i) corner[i] = frame.to_frame(triangle.corner[i]);
+  const Vec3 to1 = corner[1] - corner[0], to2 = corner[2] - corner[0];
+  const std::array<double, 3> opposite = {(to2 - to1).norm(), to2.norm(), to1.norm()};
+  const double perimeter = opposite[0] + opposite[1] + opposite[2];
+  const double twice_area = to1.cross(to2).norm();
+  for (std::size_t i = 0; i < 3; ++i) incenter_weights[i] = opposite[i] / perimeter;
+  incenter = corner[0] + incenter_weights[1] * to1 + incenter_weights[2] * to2;
+  inradius = twice_area / perimeter;
+  size = std::sqrt(twice_area);
+}
+
+std::array<Vec3, 3> Footprint::grown(double growth) const noexcept {
+  std::array<Vec3, 3> out;
+  for (std::size_t i = 0; i < 3; ++i) out[i] = incenter + (1 + growth) * (corner[i] - incenter);
+  return out;
+}
+
+Prism::Prism(const Footprint& footprint, double growth, double height, double lead,
+             const FilterFrame& frame) noexcept {
+  place_points(footprint, growth, height, frame);
+  set_limits(footprint, growth, height, lead);
+  set_ball_limits(footprint, height, lead);
+}
+
+void Prism::place_points(const Footprint& footprint, double growth, double height,
+                         const FilterFrame& frame) noexcept {
+  const std::array<Vec3, 3> corner = footprint.grown(growth);
+  for (int i = 0; i <= cuts; ++i) {
+    for (int j = 0; i + j <= cuts; ++j)
+      base_[number(i, j)] = corner[0] + (i * (corner[1] - corner[0]) + j * (corner[2] - corner[0])) / cuts;
+  }
+  for (std::size_t k = 0; k < 4 * vectors; ++k) {
+    const std::size_t point = std::min(k, points - 1);  // the last stands for what is left over
+    const Vec3 p =
+        base_[point % points_an_end] + (point < points_an_end ? -height : height) * footprint.normal;
+    x_[k / 4][k % 4] = static_cast<float>(p.x());
+    y_[k / 4][k % 4] = static_cast<float>(p.y());
+    z_[k / 4][k % 4] = static_cast<float>(p.z());
+    tau_ = std::max(tau_, frame.tau(p));
+  }
+}
+
+void Prism::set_limits(const Footprint& footprint, double growth, double height, double lead) noexcept {
+  // A part's witness is the point of the footprint near its middle. The greatest limit of the parts that meet
+  // in a point decides there, the same at both ends.
+  std::array<double, points_an_end> across{};
+  const auto part = [&](std::array<std::array<int, 2>, 3> corners) {
+    std::array<double, 3> weights{};
+    for (const auto& [i, j] : corners) {
+      const std::array<int, 3> steps = {cuts - i - j, i, j};
+      for (std::size_t k = 0; k < 3; ++k) weights[k] += static_cast<double>(steps[k]) / (3 * cuts);
+    }
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      weights[k] = std::max((1 + growth) * weights[k] - growth * footprint.incenter_weights[k], 0.0);
+      sum += weights[k];
+    }
+    const Vec3 witness = (weights[0] * footprint.corner[0] + weights[1] * footprint.corner[1] +
+                          weights[2] * footprint.corner[2]) /
+                         sum;
+    for (const auto& [i, j] : corners) {
+      double& most = across[number(i, j)];
+      most = std::max(most, (base_[number(i, j)] - witness).squaredNorm());
+    }
+  };
+  for (int i = 0; i < cuts; ++i) {
+    for (int j = 0; i + j < cuts; ++j) {
+      part({{{i, j}, {i + 1, j}, {i, j + 1}}});
+      if (i + j + 1 < cuts) part({{{i + 1, j}, {i, j + 1}, {i + 1, j + 1}}});
+    }
+  }
+  for (std::size_t k = 0; k < 4 * vectors; ++k) {
+    const double squared = across[std::min(k, points - 1) % points_an_end] + height * height;
+    const double distance = std::sqrt(squared) + 4 * static_cast<double>(tau_);
+    farthest_ = std::max(farthest_, distance);
+    limit_[k / 4][k % 4] = static_cast<float>(distance * distance);
+  }
+  // To lose by `lead` at distance x, the square must lose by lead (2x + lead), wherever x is in the prism.
+  const auto room = static_cast<float>(lead * (2 * farthest_ + lead));
+  for (Lanes& limit : limit_) limit = (limit + room) * (1 + 0x1p-20f);
+}
+
+void Prism::set_ball_limits(const Footprint& footprint, double height, double lead) noexcept {
+  // The whole prism as one part, its witness the incenter.
+  const std::array<Vec3, 3> corner = {base_[number(0, 0)], base_[number(cuts, 0)], base_[number(0, cuts)]};
+  double farthest = 0;
+  for (const Vec3& c : corner) farthest = std::max(farthest, (c - footprint.incenter).norm() + height);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Vec3 p = corner[i % 3] + (i < 3 ? -height : height) * footprint.normal;
+    const double distance = std::sqrt((p - footprint.incenter).squaredNorm() + lead * (2 * farthest + lead));
+    corner_limits_[i] = {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()),
+                         static_cast<float>(distance + 4 * static_cast<double>(tau_))};
+  }
+}
+
+unsigned Prism::balls_left(Lanes x, Lanes y, Lanes z, Lanes radius) const noexcept {
+  const auto ahead = [&](const BallLimit& at) {  // what exceeds 0 is excluded
+    const Lanes dx = x - at.x, dy = y - at.y, dz = z - at.z, beyond = radius + at.limit;
+    return (dx * dx + dy * dy + dz * dz) * (1 - 0x1p-20f) - beyond * beyond;
+  };
+  Lanes least = ahead(corner_limits_[0]);
+  for (std::size_t i = 1; i < 6; ++i) least = lesser_of(least, ahead(corner_limits_[i]));
+  return at_most(least, 0);
+}
+
+bool Prism::excludes(const TrianglePlanes& t, const TriangleBall& ball) const noexcept {
+  const Lanes zero = {0, 0, 0, 0};
+  for (std::size_t i = 0; i < vectors; ++i) {
+    const auto value = [&](int plane) {
+      return ((x_[i] * t.x[plane] + y_[i] * t.y[plane]) + z_[i] * t.z[plane]) + t.offset[plane];
+    };
+    const Lanes face = value(0), distance = greater_of(face, -face);
+    const Lanes height = greater_of(distance - tau_, zero);
+    const Lanes beside = greater_of(value(1), greater_of(value(2), value(3))) - tau_;
+    const Lanes excess = greater_of(beside, zero);
+    if (all_exceed(height * height + excess * excess, limit_[i])) continue;
+    const Lanes round = greater_of(excess, beyond_ball(ball, x_[i], y_[i], z_[i], distance, tau_));
+    if (!all_exceed(height * height + round * round, limit_[i])) return false;
+  }
+  return true;
+}
+
+}  // namespace touchmark::grid

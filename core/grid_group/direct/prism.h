@@ -1,0 +1,78 @@
+/// The space over, under and a little beside a triangle, and the test that decides which triangles matter in
+/// it.
+///
+/// Let w be any point of the mesh and f(p) = d(p, T)^2 - |p - w|^2 - margin. As a minimum over q in T of
+/// functions linear in p, f is concave, so over a convex body it is least at a corner: if f > 0 at all
+/// corners, T is farther than w from every point of the body and can be left out. A prism is cut into slim
+/// ones, each with a witness w of its own on the triangle it stands on; T is left out when every part can do
+/// without it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "core/geometry/point_triangle.h"
+#include "core/grid_group/direct/triangle_store.h"
+#include "core/search/plane_filter.h"
+
+namespace touchmark::grid {
+
+/// A triangle in the filter's frame.
+struct Footprint {
+  std::array<Vec3, 3> corner;
+  Vec3 normal;  ///< unit, or zero: then there is no prism
+  Vec3 incenter;
+  std::array<double, 3> incenter_weights;  ///< barycentric
+  double inradius = 0;
+  double size = 0;  ///< square root of twice the area
+
+  Footprint(const PreparedTriangle& triangle, const FilterFrame& frame) noexcept;
+  /// The triangle whose sides lie `growth` inradii outside this one's.
+  std::array<Vec3, 3> grown(double growth) const noexcept;
+};
+
+class Prism {
+ public:
+  /// From `height` under the grown footprint to `height` over it. A triangle that is left out is farther than
+  /// the footprint by `lead` at least, everywhere in the prism. Lengths in the frame.
+  Prism(const Footprint& footprint, double growth, double height, double lead,
+        const FilterFrame& frame) noexcept;
+
+  /// Is the triangle surely not nearest anywhere in the prism?
+  bool excludes(const TrianglePlanes& triangle, const TriangleBall& ball) const noexcept;
+  /// A quick look at four balls first: bit i is set unless the same holds for whatever is in ball i.
+  unsigned balls_left(Lanes x, Lanes y, Lanes z, Lanes radius) const noexcept;
+  /// No point of the prism is farther than this from its footprint.
+  double farthest() const noexcept { return farthest_; }
+
+ private:
+  /// The footprint's sides are cut in so many.
+  static constexpr int cuts = 2;
+  static constexpr std::size_t points_an_end = (cuts + 1) * (cuts + 2) / 2;
+  static constexpr std::size_t points = 2 * points_an_end;
+  static constexpr std::size_t vectors = (points + 3) / 4;
+  using AtPoints = std::array<Lanes, vectors>;
+
+  /// Of the lattice point that is i cuts from corner 0 towards 1 and j towards 2.
+  static constexpr std::size_t number(int i, int j) {
+    const int before = i * (2 * cuts + 3 - i) / 2;  // in the rows of smaller i
+    return static_cast<std::size_t>(before + j);
+  }
+  void place_points(const Footprint& footprint, double growth, double height,
+                    const FilterFrame& frame) noexcept;
+  void set_limits(const Footprint& footprint, double growth, double height, double lead) noexcept;
+  void set_ball_limits(const Footprint& footprint, double height, double lead) noexcept;
+
+  std::array<Vec3, points_an_end> base_;
+  AtPoints x_, y_, z_;
+  AtPoints limit_;  ///< squared distances beyond which a triangle loses
+  /// A point, and the distance from it beyond which a ball loses there.
+  struct BallLimit {
+    float x, y, z, limit;
+  };
+  std::array<BallLimit, 6> corner_limits_;
+  float tau_ = 0;
+  double farthest_ = 0;
+};
+
+}  // namespace touchmark::grid

@@ -1,0 +1,61 @@
+/// The mesh's triangles as the direct form keeps them: near in space, near in memory, eight to a block.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/aabb.h"
+#include "core/geometry/point_triangle.h"
+#include "core/search/plane_filter.h"
+#include "core/triangle_mesh.h"
+
+namespace touchmark::grid {
+
+/// A ball about a point of the triangle's plane that holds the triangle, in the filter's frame: it bounds the
+/// distance well beyond a corner, where the four planes do not.
+struct TriangleBall {
+  float x, y, z, radius;
+};
+
+/// How far beyond a triangle's ball the foot of four points in its plane surely lies; `height` is the
+/// distance to that plane. 0 or less where it may lie in the ball.
+inline Lanes beyond_ball(const TriangleBall& ball, Lanes x, Lanes y, Lanes z, Lanes height,
+                         float tau) noexcept {
+  const auto magnitude = [](Lanes v) { return greater_of(v, -v); };
+  const Lanes dx = x - ball.x, dy = y - ball.y, dz = z - ball.z;
+  // |p - c|^2 is off by 2 |p - c| times the rounding of p and c and by five roundings of its own, the height
+  // by tau: all together less than twice tau |p - c|, tau being eight roundings of |p| + |c|.
+  const Lanes rounding = 2 * tau * (magnitude(dx) + magnitude(dy) + magnitude(dz));
+  const Lanes along = ((dx * dx + dy * dy) + dz * dz) - rounding - (height + tau) * (height + tau);
+  return square_root(greater_of(along, Lanes{0, 0, 0, 0})) - (ball.radius + 4 * tau);
+}
+
+/// Places are positions in an order that halves the mesh again and again across its longest side;
+/// `exact[place].index` is the position in the mesh. `planes` is filled up to whole blocks with triangles
+/// infinitely far away, which have no `exact`.
+struct TriangleStore {
+  static constexpr std::uint32_t block_size = 8;
+
+  FilterFrame frame;
+  std::vector<PreparedTriangle> exact;
+  std::vector<TrianglePlanes> planes;
+  std::vector<TriangleBall> balls;
+  bool fourth_powers_fit = false;  ///< of the mesh's extent, into the range of double
+  std::vector<TriangleId> ids;     ///< by position in the mesh; empty when they are the positions
+
+  /// The mesh's box must fit (FilterFrame::fits).
+  static TriangleStore build(const TriangleMesh& mesh);
+  /// The mesh's same triangles where they are now, in the frame as it is; places stay. Returns boxes, in the
+  /// frame, each of which holds some triangles that moved, as they were and as they are.
+  std::vector<Aabb> move(const TriangleMesh& mesh);
+
+  std::uint32_t size() const noexcept { return static_cast<std::uint32_t>(exact.size()); }
+  TriangleId id(std::uint32_t place) const noexcept {
+    const std::uint32_t index = exact[place].index;
+    return ids.empty() ? index : ids[index];
+  }
+  std::size_t bytes() const noexcept;
+};
+
+}  // namespace touchmark::grid

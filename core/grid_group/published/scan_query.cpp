@@ -1,0 +1,129 @@
+/// Collision detection as published: the HIP against every group, then the triangles of the groups that hold
+/// it.
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/sphere_triangle_sweep.h"
+#include "core/geometry/sweep_box.h"
+#include "core/grid_group/published/scan_grid.h"
+#include "core/search/certified_nearest.h"
+
+namespace touchmark::grid {
+namespace {
+
+/// Within the x, y and z ranges widened by `by`? Written so that a NaN is held.
+bool holds(const Aabb& box, const Vec3& point, double by) noexcept {
+  bool outside = false;
+  for (int k = 0; k < 3; ++k) {
+    outside |= point[k] < box.min[k] - by;
+    outside |= point[k] > box.max[k] + by;
+  }
+  return !outside;
+}
+
+bool holds(const Sphere& sphere, const Vec3& point, double by) noexcept {
+  const double radius = sphere.radius + by;
+  return !((point - sphere.center).squaredNorm() > radius * radius);
+}
+
+bool passes(const Aabb& box, const Sweep& sweep, double by) noexcept {
+  return enters(box, sweep, by, 1) <= 1;
+}
+
+bool passes(const Sphere& sphere, const Sweep& sweep, double by) noexcept {
+  const Vec3 way = sweep.to - sweep.from, to_center = sphere.center - sweep.from;
+  const double squared = way.squaredNorm();
+  const double nearest = squared > 0 ? std::clamp(to_center.dot(way) / squared, 0.0, 1.0) : 0;
+  const double radius = sphere.radius + by;
+  return !((to_center - nearest * way).squaredNorm() > radius * radius);
+}
+
+}  // namespace
+
+template <class Visit>
+bool ScanGrid::search_members(std::size_t group, Work& work, const Visit& visit) const noexcept {
+  const std::span<const std::uint32_t> triangles = members(group);
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    if (visit(triangles_[triangles[i]])) {
+      work.triangles += i + 1;
+      return true;
+    }
+  }
+  work.triangles += triangles.size();
+  return false;
+}
+
+template <class Visit>
+void ScanGrid::search(const Vec3& center, double reach, Work& work, const Visit& visit) const noexcept {
+  // The kernel may call near what is this much farther.
+  const double by = reach + culling_slack(largest_difference(bounds_, center));
+  const auto scan = [&](const auto& shapes) {
+    for (std::size_t group = 0; group < shapes.size(); ++group) {
+      ++work.cells;
+      if (holds(shapes[group], center, by) && search_members(group, work, visit)) return;
+    }
+  };
+  boxes_.empty() ? scan(spheres_) : scan(boxes_);
+}
+
+bool ScanGrid::touches(const Probe& probe, Work& work) const noexcept {
+  const Vec3& center = probe.center;
+  if (!(probe.radius >= 0)) return false;
+  const double error = distance_error(bounds_, center);
+  if (std::isinf(error)) return all().touches(probe, work);
+  bool touching = false;
+  WithinRadius is_within(center, probe.radius, error);
+  const auto visit = [&](const PreparedTriangle& triangle) {
+    const double distance = std::sqrt(squared_distance(triangle, center));
+    return touching = is_within(triangle, distance, work.exact_decisions);
+  };
+  search(center, probe.radius + error, work, visit);
+  return touching;
+}
+
+std::optional<Contact> ScanGrid::nearest(const Vec3& center, double reach, Work& work) const noexcept {
+  if (!(reach >= 0)) return std::nullopt;
+  const double error = distance_error(bounds_, center);
+  if (std::isinf(error)) return all().nearest(center, reach, work);
+  NearestSoFar so_far(triangles_.data(), center, error);
+  const auto consider = [&](const PreparedTriangle& triangle) {
+    so_far.take({squared_distance(triangle, center), triangle.index}, triangle.index);
+    return false;
+  };
+  search(center, reach + error, work, consider);
+  if (!so_far.found()) return std::nullopt;
+  const double distance = std::sqrt(so_far.best().squared_distance);
+  if (!is_certain_first(so_far, triangles_, distance, center, reach, error))
+    return nearest_of_ties(so_far, center, reach, error, ids_, work.exact_decisions);
+  if (distance > reach) return std::nullopt;
+  return contact_on(triangles_[so_far.at()], center, id(so_far.at()));
+}
+
+std::optional<Impact> ScanGrid::first_hit(const Sweep& sweep, Work& work) const noexcept {
+  if (!(sweep.radius >= 0)) return std::nullopt;
+  const double difference = largest_difference(bounds_, sweep);
+  if (!fourth_powers_fit(difference)) return all().first_hit(sweep, work);
+  const double by = sweep_widening(sweep, difference);
+  HitCandidate first;
+  const auto scan = [&](const auto& shapes) {
+    for (std::size_t group = 0; group < shapes.size(); ++group) {
+      ++work.cells;
+      if (!passes(shapes[group], sweep, by)) continue;
+      search_members(group, work, [&](const PreparedTriangle& triangle) {
+        const std::optional<double> hit =
+            sweep_hit(triangle, sweep, std::min(first.fraction, 1.0), work.exact_decisions);
+        if (hit) first = std::min(first, HitCandidate{*hit, triangle.index});
+        return false;
+      });
+    }
+  };
+  boxes_.empty() ? scan(spheres_) : scan(boxes_);
+  if (first.index >= triangles_.size()) return std::nullopt;
+  // Of all the triangles that are touched at the start the nearest one counts.
+  if (first.fraction == 0)
+    if (const auto start = nearest(sweep.from, sweep.radius, work)) return Impact{0, *start};
+  return Impact{first.fraction,
+                contact_on_way(triangles_[first.index], sweep, first.fraction, id(first.index))};
+}
+
+}  // namespace touchmark::grid

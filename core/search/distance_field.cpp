@@ -1,0 +1,96 @@
+#include "core/search/distance_field.h"
+
+namespace touchmark {
+
+SampleLattice::SampleLattice(const Eigen::Vector3f& min, const Eigen::Vector3f& max, std::uint32_t most) {
+  const Eigen::Vector3f extent = max - min;
+  // The box and its surroundings in cubes, of which there are at most so many.
+  const auto counts = [&](float edge) {
+    std::array<std::uint32_t, 3> count;
+    for (int k = 0; k < 3; ++k)
+      count[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(1.2F * extent[k] / edge) + 1;
+    return count;
+  };
+  edge_ = 1.2F * extent.maxCoeff() / std::cbrt(static_cast<float>(most));
+  // A flat box needs fewer cubes than it may have, so they may be smaller, but not without end.
+  constexpr float finer = 0.9F;
+  const float finest = extent.maxCoeff() / 128;
+  const auto fits = [&](float edge) {
+    const std::array<std::uint32_t, 3> count = counts(edge);
+    return std::uint64_t{count[0]} * count[1] * count[2] <= most;
+  };
+  while (!fits(edge_)) edge_ /= finer;
+  while (edge_ > finest && fits(edge_ * finer)) edge_ *= finer;
+  set_count(counts(edge_));
+  per_edge_ = 1 / edge_;
+  for (int k = 0; k < 3; ++k) {
+    const auto axis = static_cast<std::size_t>(k);
+    const float middle = 0.5F * (min[k] + max[k]), half = 0.5F * edge_ * static_cast<float>(count_[axis]);
+    min_[axis] = std::min(middle - half, min[k]);
+    max_[axis] = std::max(middle + half, max[k]);
+  }
+}
+
+void SampleLattice::set_count(const std::array<std::uint32_t, 3>& count) noexcept {
+  count_ = count;
+  for (std::size_t axis = 0; axis < 3; ++axis) last_[axis] = static_cast<float>(count[axis] - 1);
+}
+
+SampleLattice SampleLattice::halved() const noexcept {
+  SampleLattice half = *this;
+  half.edge_ *= 0.5F;
+  half.per_edge_ *= 2;
+  half.set_count({2 * count_[0], 2 * count_[1], 2 * count_[2]});
+  return half;
+}
+
+DistanceGrid::DistanceGrid(const Eigen::Vector3f& min, const Eigen::Vector3f& max, std::size_t triangles) {
+  // As many as pay: a quarter of a megabyte stays in the second cache, and no more than four bytes a
+  // triangle.
+  constexpr std::size_t fewest = 8, most = std::size_t{1} << 15;
+  coarse_ = SampleLattice(min, max, static_cast<std::uint32_t>(std::clamp(triangles / 2, fewest, most)));
+  fine_ = coarse_.halved();
+  constexpr float steps_an_edge = 8;
+  step_ = std::ldexp(1.0F, std::ilogb(fine_.edge() / steps_an_edge));
+}
+
+DistanceGrid DistanceGrid::around(const FilterFrame& frame, const Aabb& bounds, std::size_t triangles) {
+  // The samples lie within a tenth and a cube of the mesh's box, whose coordinates are below 2. Their places
+  // are rounded when they are taken, and half of the 2^-23 that a sample may be off by is left for the rest.
+  constexpr double largest = 4;
+  if (!(frame.from_frame_error(largest) < 0x1p-24)) return {};
+  const Aabb box = frame.to_frame(bounds);
+  return {box.min.cast<float>(), box.max.cast<float>(), triangles};
+}
+
+// Away from the surface, one of the eight is nearly behind the point.
+float DistanceGrid::at_least_by_eight(const FilterPoint& p) const noexcept {
+  if (fine_steps_.empty()) return 0;
+  const Lanes point = lanes_of(p), nearest = fine_.clamped(point);
+  const LaneBits first = fine_.first_about(nearest);
+  const Lanes to_first = nearest - fine_.middle(first), to_second = nearest - fine_.middle(first + 1);
+  const Lanes first_squared = to_first * to_first, second_squared = to_second * to_second;
+  // A lane for each of four cubes in a plane.
+  const Lanes across = __builtin_shufflevector(first_squared, second_squared, 0, 4, 0, 4) +
+                       __builtin_shufflevector(first_squared, second_squared, 1, 1, 5, 5);
+  const std::uint32_t row = fine_.count(0), plane = row * fine_.count(1);
+  const auto steps = [&](std::uint32_t at) {
+    return Lanes{static_cast<float>(fine_steps_[at]), static_cast<float>(fine_steps_[at + 1]),
+                 static_cast<float>(fine_steps_[at + row]), static_cast<float>(fine_steps_[at + row + 1])};
+  };
+  const std::uint32_t at = fine_.index(first);
+  const Lanes within = greater_of(steps(at) * step_ - square_root(across + first_squared[2]),
+                                  steps(at + plane) * step_ - square_root(across + second_squared[2]));
+  return beyond_box(p, point - nearest,
+                    std::max(std::max(within[0], within[1]), std::max(within[2], within[3])));
+}
+
+bool DistanceGrid::holds(const FilterFrame& frame, const Aabb& bounds) const noexcept {
+  const Aabb box = frame.to_frame(bounds);
+  const Eigen::Vector3f min = box.min.cast<float>(), max = box.max.cast<float>();
+  for (int k = 0; k < 3; ++k)
+    if (min[k] < fine_.min(k) || max[k] > fine_.max(k)) return false;
+  return true;
+}
+
+}  // namespace touchmark

@@ -1,0 +1,61 @@
+#include "core/search/linear_scan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/sphere_triangle_sweep.h"
+#include "core/search/certified_nearest.h"
+
+namespace touchmark {
+bool EveryTriangle::touches(const Probe& probe, Work& work) const noexcept {
+  if (!(probe.radius >= 0) || !probe.center.allFinite()) return false;
+  const double error = certified ? distance_error(bounds, probe.center) : 0;
+  if (std::isinf(error)) return nearest(probe.center, probe.radius, work).has_value();
+  std::uint64_t tested = 0;
+  WithinRadius is_within(probe.center, probe.radius, error);
+  const bool touching =
+      std::any_of(triangles.begin(), triangles.end(), [&](const PreparedTriangle& triangle) {
+        ++tested;
+        const double distance = std::sqrt(squared_distance(triangle, probe.center));
+        if (!certified) return distance <= probe.radius;
+        return is_within(triangle, distance, work.exact_decisions);
+      });
+  work.triangles += tested;
+  return touching;
+}
+
+std::optional<Contact> EveryTriangle::nearest(const Vec3& center, double reach, Work& work) const noexcept {
+  return certified ? nearest_of_all(triangles, bounds, center, reach, ids, work)
+                   : nearest_as_computed(center, reach, work);
+}
+
+std::optional<Impact> EveryTriangle::first_hit(const Sweep& sweep, Work& work) const noexcept {
+  if (!(sweep.radius >= 0)) return std::nullopt;
+  HitCandidate first;
+  const PreparedTriangle* hit = nullptr;
+  for (const PreparedTriangle& triangle : triangles) {
+    const std::optional<double> fraction =
+        sweep_hit(triangle, sweep, std::min(first.fraction, 1.0), work.exact_decisions);
+    if (!fraction || !(HitCandidate{*fraction, triangle.index} < first)) continue;
+    first = {*fraction, triangle.index};
+    hit = &triangle;
+  }
+  work.triangles += triangles.size();
+  if (hit == nullptr) return std::nullopt;
+  // Of all the triangles that are touched at the start the nearest one counts.
+  if (first.fraction == 0) {
+    const double reach = certified ? sweep.radius : any_reach;
+    if (const auto start = nearest(sweep.from, reach, work)) return Impact{0, *start};
+  }
+  return Impact{first.fraction, contact_on_way(*hit, sweep, first.fraction, id(first.index))};
+}
+
+std::optional<Contact> EveryTriangle::nearest_as_computed(const Vec3& center, double reach,
+                                                          Work& work) const noexcept {
+  const auto [triangle, candidate] = touchmark::nearest_as_computed(triangles, center);
+  work.triangles += triangles.size();
+  if (triangle == nullptr || std::sqrt(candidate.squared_distance) > reach) return std::nullopt;
+  return contact_on(*triangle, center, id(candidate.index));
+}
+
+}  // namespace touchmark

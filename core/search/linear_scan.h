@@ -1,0 +1,58 @@
+/// What brute force does, for whoever falls back on it: a look at every triangle.
+///
+/// A hierarchy costs most where it is of no use: where everything is equally near, or equal. So each query of
+/// our forms that has looked at as much as there are triangles, and a little, ends with these. It so costs at
+/// most twice what brute force does, and a little, whatever the scene; and answers the same bits. The
+/// published scans end with these only for numbers that their own arithmetic cannot hold.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "core/aabb.h"
+#include "core/detector.h"
+#include "core/geometry/point_triangle.h"
+#include "core/probe.h"
+#include "core/triangle_mesh.h"
+
+namespace touchmark {
+
+/// What a query may look at before it ends with a look at every triangle. The little is a few nodes of eight
+/// and their blocks, so that small meshes are searched like any other.
+inline std::uint64_t most_work_before_all(std::size_t triangles) noexcept {
+  constexpr std::uint64_t little = 64;
+  return triangles + little;
+}
+
+inline constexpr std::uint64_t any_work = std::numeric_limits<std::uint64_t>::max();
+
+/// The reach at the start of a sweep that touches there by whole numbers, where contact is decided by
+/// doubles: these may find it beyond the radius.
+inline constexpr double any_reach = std::numeric_limits<double>::infinity();
+
+/// What is left of it after `spent`.
+inline std::uint64_t left_of(std::uint64_t most, std::uint64_t spent) noexcept {
+  return most > spent ? most - spent : 0;
+}
+
+/// The triangles in any order, `bounds` theirs, `ids` by the mesh's order and empty where they are the same.
+/// For any finite numbers, and nothing for others, in a unit of its own where their fourth powers would leave
+/// the range of double; they are counted once, and in such a unit twice.
+struct EveryTriangle {
+  std::span<const PreparedTriangle> triangles;
+  const Aabb& bounds;
+  std::span<const TriangleId> ids;
+  bool certified = true;  ///< false: contact as doubles have it
+
+  bool touches(const Probe& probe, Work& work) const noexcept;
+  std::optional<Contact> nearest(const Vec3& center, double reach, Work& work) const noexcept;
+  std::optional<Impact> first_hit(const Sweep& sweep, Work& work) const noexcept;
+
+ private:
+  std::optional<Contact> nearest_as_computed(const Vec3& center, double reach, Work& work) const noexcept;
+  TriangleId id(std::uint32_t index) const noexcept { return ids.empty() ? index : ids[index]; }
+};
+
+}  // namespace touchmark

@@ -1,0 +1,196 @@
+#include "core/search/nearest_of_ties.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/search/certified_nearest.h"
+#include "core/search/shared_feature.h"
+
+namespace touchmark {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+double largest_difference(const PreparedTriangle& triangle, const Vec3& center) noexcept {
+  double largest = 0;
+  for (const Vec3& corner : triangle.corner)
+    largest = std::max(largest, (corner - center).cwiseAbs().maxCoeff());
+  return largest;
+}
+
+std::optional<Feature> feature_of(const PreparedTriangle& triangle, const Vec3& center) noexcept {
+  if (!features_fit(largest_difference(triangle, center))) return std::nullopt;
+  return sure_feature(triangle, center);
+}
+
+}  // namespace
+
+Rival::Rival(const PreparedTriangle& triangle, const Vec3& center) noexcept
+    : triangle_(&triangle), feature_(feature_of(triangle, center)) {}
+
+const SquaredDistance& Rival::squared(const Vec3& center) noexcept {
+  if (!squared_) {
+    squared_ = feature_ ? squared_distance(*feature_, center) : SquaredDistance{{}, infinity};
+  }
+  return *squared_;
+}
+
+const std::optional<CloseFoot>& Rival::foot(const Vec3& center) noexcept {
+  if (!foot_is_sought_) foot_ = close_foot(triangle_->corner, center);
+  foot_is_sought_ = true;
+  return foot_;
+}
+
+void Rival::add_to(exact::Grid& grid) const noexcept {
+  grid.add(feature_ ? feature_->corner : triangle_->corner);
+}
+
+exact::Square Rival::square(const exact::Grid& grid, const Vec3& center) const noexcept {
+  return feature_ ? exact::square(grid, *feature_, center) : exact::square(grid, triangle_->corner, center);
+}
+
+std::optional<bool> KnownTriangles::is_as_far(const PreparedTriangle& triangle) const noexcept {
+  for (std::size_t i = 0; i < std::min(count_, known_.size()); ++i)
+    if (have_same_corners(known_[i].triangle->corner, triangle.corner)) return known_[i].as_far;
+  return std::nullopt;
+}
+
+void NearestOfTies::consider(const PreparedTriangle& triangle) noexcept {
+  if (nearest_) {
+    if (&triangle == first_ || &triangle == &nearest_->triangle()) return;
+    const bool shares = place_ && place_->is_nearest_of(triangle);
+    std::optional<Rival> rival;
+    const std::partial_ordering order =
+        shares ? std::partial_ordering::equivalent : compare(rival.emplace(triangle, center_));
+    if (order == 0 && triangle.index < first_->index) first_ = &triangle;
+    if (order >= 0) return;
+    nearest_ = *rival;
+  } else {
+    nearest_.emplace(triangle, center_);
+  }
+  first_ = &triangle;
+  place_.reset();
+  if (nearest_->feature()) place_.emplace(*nearest_->feature(), center_);
+  grid_.reset();
+  known_count_ = 0;
+  known_triangles_.clear();
+}
+
+std::partial_ordering NearestOfTies::compare(Rival& rival) noexcept {
+  const auto &own = rival.feature(), &least = nearest_->feature();
+  if (own && least) {
+    if (is_same_place(*own, *least)) return std::partial_ordering::equivalent;
+    const std::partial_ordering order =
+        touchmark::compare(rival.squared(center_), nearest_->squared(center_));
+    if (order != std::partial_ordering::unordered) return order;
+    if (own->corners == 3 && least->corners == 3) {
+      const std::partial_ordering inside =
+          compare_inside(rival.triangle().corner, nearest_->triangle().corner, center_);
+      if (inside != std::partial_ordering::unordered) return inside;
+    }
+    return compare_exactly(rival);
+  }
+  if (const std::optional<bool> as_far = known_triangles_.is_as_far(rival.triangle()))
+    return *as_far ? std::partial_ordering::equivalent : std::partial_ordering::greater;
+  const std::partial_ordering order = compare_closely(rival);
+  if (order >= 0) known_triangles_.add(rival.triangle(), order == 0);
+  return order;
+}
+
+std::partial_ordering NearestOfTies::compare_closely(Rival& rival) noexcept {
+  const std::partial_ordering order = compare_feet(rival);
+  return order != std::partial_ordering::unordered ? order : compare_exactly(rival);
+}
+
+std::partial_ordering NearestOfTies::compare_feet(Rival& rival) noexcept {
+  const TriangleCorners &a = rival.triangle().corner, &b = nearest_->triangle().corner;
+  if (have_same_corners(a, b)) return std::partial_ordering::equivalent;
+  const std::optional<CloseFoot>&own = rival.foot(center_), &least = nearest_->foot(center_);
+  if (!own || !least) return std::partial_ordering::unordered;
+  const std::partial_ordering order = touchmark::compare(own->foot, least->foot);
+  if (order != std::partial_ordering::unordered) return order;
+  if (on_same_feature(*own, *least)) return std::partial_ordering::equivalent;
+  if (is_nearer_inside(*least, b, *own)) return std::partial_ordering::greater;
+  if (is_nearer_inside(*own, a, *least)) return std::partial_ordering::less;
+  if (own->inside && least->inside) return compare_inside(a, b, center_);
+  return std::partial_ordering::unordered;
+}
+
+std::strong_ordering NearestOfTies::compare_exactly(const Rival& rival) noexcept {
+  const auto known_end = known_.begin() + static_cast<std::ptrdiff_t>(std::min(known_count_, most_known));
+  if (rival.feature()) {
+    const auto known = std::find_if(known_.begin(), known_end, [&](const Known& other) {
+      return is_same_place(*rival.feature(), other.place);
+    });
+    if (known != known_end)
+      return known->as_far ? std::strong_ordering::equal : std::strong_ordering::greater;
+  }
+  ++exact_decisions_;
+  exact::Grid grid = grid_.value_or(exact::Grid());
+  if (!grid_) {
+    grid.add(center_);
+    nearest_->add_to(grid);
+  }
+  rival.add_to(grid);
+  if (!grid_ || grid.exponent() != grid_->exponent()) {
+    grid_ = grid;
+    square_ = nearest_->square(grid, center_);
+  }
+  const std::strong_ordering order = exact::compare(rival.square(grid, center_), square_);
+  if (order >= 0 && rival.feature()) known_[known_count_++ % most_known] = {*rival.feature(), order == 0};
+  return order;
+}
+
+bool NearestOfTies::is_within(const Foot& foot, double reach) noexcept {
+  if (std::isinf(reach)) return true;
+  const std::partial_ordering order = touchmark::compare(foot, {.distance = {reach, 0}});
+  if (order != std::partial_ordering::unordered) return order <= 0;
+  ++exact_decisions_;
+  return within_exactly(first_->corner, center_, reach);
+}
+
+std::optional<Contact> NearestOfTies::contact(double reach, double error,
+                                              std::span<const TriangleId> ids) noexcept {
+  if (first_ == nullptr) return std::nullopt;
+  const PreparedTriangle& triangle = *first_;
+  const TriangleId id = ids.empty() ? triangle.index : ids[triangle.index];
+  // The same bits as where the search was certain of this triangle at once.
+  const double computed = std::sqrt(touchmark::squared_distance(triangle, center_));
+  if (is_certain_on(triangle, computed, center_, reach, error)) {
+    if (computed > reach) return std::nullopt;
+    return contact_on(triangle, center_, id);
+  }
+  const std::optional<CloseFoot> close = close_foot(triangle.corner, center_);
+  if (!close) ++exact_decisions_;
+  const Foot foot = close ? close->foot : foot_exactly(triangle.corner, center_);
+  if (!is_within(foot, reach)) return std::nullopt;
+  const bool coincident = foot.direction.isZero(0);
+  return Contact{center_ - foot.offset, coincident ? face_normal(triangle) : foot.direction,
+                 std::min(foot.distance.rounded(), reach), id};
+}
+
+bool WithinRadius::decide(const PreparedTriangle& triangle, std::uint64_t& exact_decisions) noexcept {
+  if (outside_ && outside_->is_nearest_of(triangle)) return false;
+  Rival rival(triangle, center_);
+  if (!rival.feature() && known_outside_.is_as_far(triangle)) return false;
+  std::partial_ordering order = touchmark::compare(rival.squared(center_), squared(radius_));
+  if (order == std::partial_ordering::unordered) {
+    if (const std::optional<CloseFoot>& close = rival.foot(center_))
+      order = touchmark::compare(close->foot, {.distance = {radius_, 0}});
+  }
+  bool within = order <= 0;
+  if (order == std::partial_ordering::unordered) {
+    ++exact_decisions;
+    within = within_exactly(triangle.corner, center_, radius_);
+  }
+  if (within) return true;
+  if (rival.feature()) {
+    outside_.emplace(*rival.feature(), center_);
+  } else {
+    known_outside_.add(triangle, false);
+  }
+  return false;
+}
+
+}  // namespace touchmark

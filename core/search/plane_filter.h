@@ -1,0 +1,272 @@
+/// A single-precision lower bound of the distance to a triangle, four triangles at a time: what is farther
+/// than the best distance known need not meet the exact kernel.
+///
+/// A triangle is four planes: its face, and through each side the plane perpendicular to the face. The height
+/// over the face and the greatest excess beyond a side are orthogonal, so the sum of their squares is at most
+/// the squared distance; it is equal over the face and beside a side, and falls short only beyond a corner.
+/// The pad `tau` taken off both makes that true of what single precision computes.
+///
+/// How to use it:
+///   const FilterFrame frame = FilterFrame::around(mesh.bounds());
+///   std::vector<TrianglePlanes> planes;              // one of planes_of(prepared[i], frame) a triangle
+///   const FilterPoint point = frame.point(center);   // a finite one
+///   const float limit = frame.limit(best_squared);   // mesh units squared; infinity passes everything
+///   Lanes bounds = lower_bounds(planes[a], planes[b], planes[c], planes[d], point);
+///   for (unsigned left = at_most(bounds, limit); left != 0; left &= left - 1)
+///     ... lane std::countr_zero(left) needs squared_distance(prepared, center)
+/// Whatever is left out has squared_distance() > best_squared, so no tie is lost either. Frame and filter
+/// work for every finite mesh whose box FilterFrame::fits; beyond that, do without.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
+#include "core/aabb.h"
+#include "core/geometry/point_triangle.h"
+#include "core/probe.h"
+
+namespace touchmark {
+
+/// Four floats that the compiler keeps in one register, on every machine (GCC and clang vector extension).
+using Lanes [[gnu::vector_size(16)]] = float;
+using LaneBits [[gnu::vector_size(16)]] = int;
+
+/// Lane 0 is the face, lanes 1 to 3 the sides, outwards; in the filter's frame. One cache line.
+struct alignas(64) TrianglePlanes {
+  Lanes x, y, z, offset;
+};
+static_assert(sizeof(TrianglePlanes) == 64);
+
+/// The query point in the filter's frame, and what rounding may do to a plane's value there.
+struct FilterPoint {
+  float x, y, z;
+  float tau;
+};
+
+/// Puts the middle of the mesh at 0 and its extent near 1, by a power of two, so that nothing overflows and
+/// scaling rounds nothing.
+class FilterFrame {
+ public:
+  FilterFrame() = default;
+  /// `bounds` must fit.
+  static FilterFrame around(const Aabb& bounds) noexcept;
+  /// Is the box's extent far enough from the ends of the range of double that squares of differences neither
+  /// overflow nor vanish? A box of zero extent does not fit.
+  static bool fits(const Aabb& bounds) noexcept;
+
+  /// From now on it serves a mesh of this box as well. False, and nothing changes, where the box is not about
+  /// as large as the one the frame is around, or elsewhere.
+  bool widen(const Aabb& bounds) noexcept;
+
+  /// Is the point close enough for single precision (2^20 extents)? A NaN is not.
+  bool covers(const Vec3& center) const noexcept {
+    const Vec3 p = to_frame(center);
+    return std::abs(p.x()) < 0x1p20 && std::abs(p.y()) < 0x1p20 && std::abs(p.z()) < 0x1p20;
+  }
+  /// A quicker test on the point in this frame. It says no to some that are covered.
+  static bool covers(const FilterPoint& point) noexcept {
+    return point.tau < static_cast<float>(0x1p20 * tau_per_unit);
+  }
+  FilterPoint point(const Vec3& center) const noexcept {
+    const Vec3 p = to_frame(center);
+    return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), tau(p)};
+  }
+  Vec3 to_frame(const Vec3& point) const noexcept { return scale_ * (point - origin_); }
+  Aabb to_frame(const Aabb& box) const noexcept { return {to_frame(box.min), to_frame(box.max)}; }
+  /// A point of this frame in the mesh's, rounded to the doubles there: far from 0 these are far apart, and
+  /// what is measured at the result holds of the point only within from_frame_error.
+  Vec3 from_frame(const Vec3& in_frame) const noexcept { return origin_ + in_frame * unit_; }
+  /// In this frame, at most the way from a point whose coordinates are within `largest` of 0 to where
+  /// from_frame puts it. The product by a power of two is exact; the sum is rounded once a coordinate, by u
+  /// of itself, u = 2^-53, and a vector is no longer than the sum of its coordinates. A quarter more than
+  /// that.
+  double from_frame_error(double largest) const noexcept {
+    constexpr double u = std::numeric_limits<double>::epsilon() / 2;
+    return 1.25 * u * (origin_.lpNorm<1>() * scale_ + 3 * largest);
+  }
+  /// What rounding may do to a plane's value at this point of the frame.
+  float tau(const Vec3& in_frame) const noexcept {
+    const double reach = std::abs(in_frame.x()) + std::abs(in_frame.y()) + std::abs(in_frame.z()) + radius_;
+    return static_cast<float>(reach * tau_per_unit);
+  }
+  /// At least the distance_error of certified_nearest.h, in mesh units, at the point whose tau this is, and
+  /// quicker to have: tau is 2^-21 of a length that exceeds every coordinate difference, and this is twice
+  /// that error of it.
+  double kernel_error(float tau) const noexcept { return static_cast<double>(tau) * 0x1p-23 * unit_; }
+  /// A squared distance of the mesh's frame as a limit on lower bounds, rounded up.
+  float limit(double squared_distance) const noexcept {
+    const double limit = squared_distance * squared_scale_ * (1 + 0x1p-20) + 0x1p-120;
+    return limit < most ? static_cast<float>(limit) : most;
+  }
+  /// A distance of the mesh's frame in this one, rounded down.
+  float at_most(double distance) const noexcept {
+    return static_cast<float>(std::min(distance * scale_ * (1 - 0x1p-20), double{most}));
+  }
+  /// A distance of this frame in the mesh's, rounded up.
+  double at_least(float distance) const noexcept {
+    return static_cast<double>(distance) * (1 + 0x1p-20) * unit_;
+  }
+  /// A lower bound as a squared distance of the mesh's frame, rounded down.
+  double squared(float lower_bound) const noexcept {
+    return static_cast<double>(lower_bound) * (1 - 0x1p-20) / squared_scale_;
+  }
+  const Vec3& origin() const noexcept { return origin_; }
+  double scale() const noexcept { return scale_; }
+  /// Of this frame, in the mesh's: a power of two, as the scale is.
+  double unit() const noexcept { return unit_; }
+  /// Of a ball about the frame's middle that holds the mesh, in the frame.
+  double radius() const noexcept { return radius_; }
+
+  /// u = 2^-24. The point, the normal and the offset are rounded once each, the three products once, the
+  /// three sums once: at most 6u(|x||n| + |offset|). Two more u, the kernel's own slack (2^-46) included.
+  static constexpr double tau_per_unit = 8 * 0x1p-24;
+
+ private:
+  static constexpr float most = std::numeric_limits<float>::max();
+
+  /// From the frame's origin to the farthest point of the box, in the frame.
+  double radius_of(const Aabb& bounds) const noexcept;
+
+  Vec3 origin_ = Vec3::Zero();
+  double scale_ = 1;
+  double unit_ = 1;
+  double squared_scale_ = 1;
+  double radius_ = 1;  ///< bound on |offset|: no vertex is farther from the origin, in the frame
+};
+
+/// A triangle without a normal (collinear corners) gets planes that bound nothing: it always meets the
+/// kernel.
+TrianglePlanes planes_of(const PreparedTriangle& triangle, const FilterFrame& frame) noexcept;
+
+inline Lanes broadcast(float x) noexcept { return Lanes{x, x, x, x}; }
+inline Lanes greater_of(Lanes a, Lanes b) noexcept { return a > b ? a : b; }
+inline Lanes lesser_of(Lanes a, Lanes b) noexcept { return a < b ? a : b; }
+
+inline Lanes square_root(Lanes a) noexcept {
+#ifdef __SSE2__
+  return reinterpret_cast<Lanes>(_mm_sqrt_ps(reinterpret_cast<__m128>(a)));
+#else
+  return Lanes{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])};
+#endif
+}
+
+/// A point in every lane, for loops over many triangles.
+struct PointLanes {
+  Lanes x, y, z, tau;
+
+  explicit PointLanes(const FilterPoint& p) noexcept
+      : x(broadcast(p.x)), y(broadcast(p.y)), z(broadcast(p.z)), tau(broadcast(p.tau)) {}
+};
+
+/// Values of one triangle's planes.
+inline Lanes plane_values(const TrianglePlanes& planes, const PointLanes& p) noexcept {
+  return ((planes.x * p.x + planes.y * p.y) + planes.z * p.z) + planes.offset;
+}
+inline Lanes plane_values(const TrianglePlanes& planes, const FilterPoint& p) noexcept {
+  return plane_values(planes, PointLanes(p));
+}
+
+/// How far the point is beyond the side that it is farthest beyond; negative inside the prism over the face.
+inline float most_beside(Lanes values) noexcept {
+  return std::max(values[1], std::max(values[2], values[3]));
+}
+
+/// A lower bound of the squared distance to the triangle of these values, in the frame.
+inline float least_squared(Lanes values, const FilterPoint& p) noexcept {
+  const float beside = most_beside(values);
+  const float height = std::max(std::abs(values[0]) - p.tau, 0.0F), excess = std::max(beside - p.tau, 0.0F);
+  return height * height + excess * excess;
+}
+
+/// Bounds from above use the corners where two sides meet. Off these by s beyond the side with the outward
+/// normal n and by t beyond the one with m, either of which may be negative, the point is, in the face's
+/// plane, sqrt((s^2 + t^2 - 2 st c) / (1 - c^2)) away, with c = n.m: off an acute corner, where c is below 0.
+/// As long as 1 - |c| is 1/64, s and t that are off by tau change that by 8 sqrt(2) tau, with the height's
+/// tau 11.4 tau in all. Its square comes out within a relative 2^-12: c is off by 10 u at most, so what is
+/// above by 24 u (s^2 + t^2), of which 1/64 is left at least, and what is below by 22 u.
+inline constexpr float sharpest_cosine = -63.0F / 64;
+inline constexpr float corner_tau = 16, corner_excess = 1 + 0x1p-12F;
+
+/// At least the distance to the triangle, in the frame, where it is known: the values are those of its
+/// planes, and the point is surely over its face, or it has a corner that is not too sharp. Else infinity.
+inline float most_distance(const TrianglePlanes& planes, Lanes values, const FilterPoint& p) noexcept {
+  constexpr float unknown = std::numeric_limits<float>::infinity();
+  const auto next = [](Lanes of) { return __builtin_shufflevector(of, of, 0, 2, 3, 1); };
+  const Lanes cosine = planes.x * next(planes.x) + planes.y * next(planes.y) + planes.z * next(planes.z);
+  const Lanes t = next(values);
+  const Lanes squared =
+      ((values * values + t * t) - (cosine + cosine) * (values * t)) / (1 - cosine * cosine);
+  const LaneBits is_known = (cosine < 0) & (cosine > sharpest_cosine);
+  const Lanes to_corner = is_known ? squared : broadcast(unknown);
+  const float beside = most_beside(values);
+  const float across = std::min(to_corner[1], std::min(to_corner[2], to_corner[3])) * corner_excess;
+  const float height = std::abs(values[0]);
+  if (beside <= -p.tau) return height + 2 * p.tau;
+  return std::sqrt(height * height + across) + corner_tau * p.tau;
+}
+
+/// Where a point is to four triangles, a lane each: its distance to the face's plane, and how far it is
+/// beyond the side it is farthest beyond; negative inside the prism over the face. Both within tau.
+struct PlaneLanes {
+  Lanes height, beside;
+};
+
+inline PlaneLanes plane_lanes(const TrianglePlanes& a, const TrianglePlanes& b, const TrianglePlanes& c,
+                              const TrianglePlanes& d, const PointLanes& p) noexcept {
+  const Lanes va = plane_values(a, p), vb = plane_values(b, p), vc = plane_values(c, p),
+              vd = plane_values(d, p);
+  // Transpose: from four planes of one triangle to one plane of four triangles.
+  const Lanes ab_low = __builtin_shufflevector(va, vb, 0, 4, 1, 5);
+  const Lanes ab_high = __builtin_shufflevector(va, vb, 2, 6, 3, 7);
+  const Lanes cd_low = __builtin_shufflevector(vc, vd, 0, 4, 1, 5);
+  const Lanes cd_high = __builtin_shufflevector(vc, vd, 2, 6, 3, 7);
+  const Lanes face = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5);
+  const Lanes side1 = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
+  const Lanes side2 = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
+  const Lanes side3 = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
+  return {greater_of(face, -face), greater_of(side1, greater_of(side2, side3))};
+}
+
+/// Lower bounds of the squared distances, in the frame.
+inline Lanes lower_bounds(const PlaneLanes& values, const PointLanes& p) noexcept {
+  const Lanes zero = {0, 0, 0, 0};
+  const Lanes height = greater_of(values.height - p.tau, zero),
+              excess = greater_of(values.beside - p.tau, zero);
+  return height * height + excess * excess;
+}
+inline Lanes lower_bounds(const TrianglePlanes& a, const TrianglePlanes& b, const TrianglePlanes& c,
+                          const TrianglePlanes& d, const PointLanes& p) noexcept {
+  return lower_bounds(plane_lanes(a, b, c, d, p), p);
+}
+inline Lanes lower_bounds(const TrianglePlanes& a, const TrianglePlanes& b, const TrianglePlanes& c,
+                          const TrianglePlanes& d, const FilterPoint& p) noexcept {
+  return lower_bounds(a, b, c, d, PointLanes(p));
+}
+
+/// Is each lane greater than its counterpart?
+inline bool all_exceed(Lanes values, Lanes limits) noexcept {
+  const LaneBits beyond = values > limits;
+#ifdef __SSE2__
+  return _mm_movemask_ps(reinterpret_cast<__m128>(beyond)) == 0xf;
+#else
+  return (beyond[0] & beyond[1] & beyond[2] & beyond[3]) != 0;
+#endif
+}
+
+/// Bit i is set when lane i is at most the limit.
+inline unsigned at_most(Lanes values, float limit) noexcept {
+  const LaneBits below = values <= limit;
+#ifdef __SSE2__
+  return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(below)));
+#else
+  return static_cast<unsigned>((below[0] & 1) | (below[1] & 2) | (below[2] & 4) | (below[3] & 8));
+#endif
+}
+
+}  // namespace touchmark

@@ -1,0 +1,97 @@
+#include "core/sphere_cluster/published/fast_level.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/geometry/sphere_triangle_sweep.h"
+#include "core/sphere_cluster/search_bounds.h"
+
+namespace touchmark {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// When a point on the way first comes within `radius` of `center`; infinity when it does not. For a way that
+/// starts outside.
+double first_within(const Sweep& sweep, const Vec3& center, double radius) noexcept {
+  const Vec3 way = sweep.to - sweep.from, to = center - sweep.from;
+  const double along = to.dot(way);
+  if (!(along > 0)) return infinity;
+  const double outside = to.squaredNorm() - radius * radius;
+  const double discriminant = along * along - way.squaredNorm() * outside;
+  if (!(discriminant >= 0)) return infinity;
+  const double fraction = std::max(outside, 0.0) / (along + std::sqrt(discriminant));
+  return fraction <= 1 ? fraction : infinity;
+}
+
+}  // namespace
+
+FastLevel::FastLevel(const TriangleMesh& mesh, const SphereClusters& clusters) : spheres_(clusters.spheres) {
+  ids_.reserve(clusters.size());
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    ids_.push_back(mesh.id(clusters.triangles_of(i).front()));
+    error_bound_ = std::max(error_bound_, spheres_[i].radius);
+  }
+  const Vec3 farthest = mesh.bounds().min.cwiseAbs().cwiseMax(mesh.bounds().max.cwiseAbs());
+  error_bound_ += 4 * std::numeric_limits<double>::epsilon() * farthest.maxCoeff();
+}
+
+double FastLevel::gap(std::size_t sphere, const Vec3& center) const noexcept {
+  return (center - spheres_[sphere].center).norm() - spheres_[sphere].radius;
+}
+
+Contact FastLevel::contact_with(std::size_t sphere, const Vec3& center) const noexcept {
+  const Vec3 out = center - spheres_[sphere].center;
+  const double length = out.norm();
+  const Vec3 normal = length > 0 ? Vec3(out / length) : Vec3(Vec3::UnitZ());
+  const double distance = std::max(length - spheres_[sphere].radius, 0.0);
+  return {center - distance * normal, normal, distance, ids_[sphere]};
+}
+
+bool FastLevel::touches(const Probe& probe, Work& work) const noexcept {
+  std::size_t tested = 0;
+  while (tested < spheres_.size())
+    if (gap(tested++, probe.center) <= probe.radius && probe.radius >= 0) {
+      work.spheres += tested;
+      return true;
+    }
+  work.spheres += tested;
+  return false;
+}
+
+std::optional<Contact> FastLevel::nearest(const Vec3& center, double reach, Work& work) const noexcept {
+  double least = infinity;
+  std::size_t nearest = spheres_.size();
+  for (std::size_t i = 0; i < spheres_.size(); ++i) {
+    const double gap_here = gap(i, center);
+    if (!(gap_here < least)) continue;
+    least = gap_here;
+    nearest = i;
+  }
+  work.spheres += spheres_.size();
+  if (nearest == spheres_.size() || !(std::max(least, 0.0) <= reach)) return std::nullopt;
+  return contact_with(nearest, center);
+}
+
+std::optional<Impact> FastLevel::first_hit(const Sweep& sweep, Work& work) const noexcept {
+  if (const auto start = nearest(sweep.from, sweep.radius, work)) return Impact{0, *start};
+  const double reach = sweep.radius + sweep_slack(sweep);
+  double first = infinity;
+  std::size_t hit = spheres_.size();
+  for (std::size_t i = 0; i < spheres_.size(); ++i) {
+    const double fraction = first_within(sweep, spheres_[i].center, grown_radius(spheres_[i].radius, reach));
+    if (!(fraction < first)) continue;
+    first = fraction;
+    hit = i;
+  }
+  work.spheres += spheres_.size();
+  if (hit == spheres_.size()) return std::nullopt;
+  return Impact{first, contact_with(hit, position_at(sweep, first))};
+}
+
+std::size_t FastLevel::bytes() const noexcept {
+  return spheres_.capacity() * sizeof(Sphere) + ids_.capacity() * sizeof(TriangleId);
+}
+
+}  // namespace touchmark

@@ -1,0 +1,149 @@
+#include "core/sphere_cluster/published/sphere_scan.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include "core/geometry/sphere_triangle_sweep.h"
+#include "core/geometry/sweep_box.h"
+#include "core/search/certified_nearest.h"
+#include "core/sphere_cluster/search_bounds.h"
+
+namespace touchmark {
+namespace {
+
+/// Calls `found(i)` for every i < count with outside(i) false, in order, until it returns true. `outside` is
+/// evaluated in blocks without a branch, so that it vectorises.
+template <class Outside, class Found>
+bool for_each_held(std::size_t count, const Outside& outside, const Found& found) noexcept {
+  constexpr std::size_t block = 32;
+  std::array<std::uint8_t, block> out;
+  for (std::size_t begin = 0; begin < count; begin += block) {
+    const std::size_t size = std::min(block, count - begin);
+    std::uint8_t all_out = 1;
+    for (std::size_t i = 0; i < size; ++i) {
+      out[i] = outside(begin + i);
+      all_out &= out[i];
+    }
+    if (all_out != 0) continue;
+    for (std::size_t i = 0; i < size; ++i)
+      if (out[i] == 0 && found(begin + i)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+SphereScan::SphereScan(const TriangleMesh& mesh, const SphereClusters& clusters)
+    : bounds_(mesh.bounds()), first_(clusters.first), ids_(mesh.ids().begin(), mesh.ids().end()) {
+  for (const Sphere& sphere : clusters.spheres) {
+    x_.push_back(sphere.center.x());
+    y_.push_back(sphere.center.y());
+    z_.push_back(sphere.center.z());
+    radius_.push_back(sphere.radius);
+  }
+  triangles_.reserve(mesh.size());
+  for (const std::uint32_t triangle : clusters.members) triangles_.push_back(prepare(mesh, triangle));
+}
+
+void SphereScan::search(std::size_t sphere, const Vec3& center, NearestSoFar& so_far,
+                        Work& work) const noexcept {
+  for (std::uint32_t i = first_[sphere]; i < first_[sphere + 1]; ++i)
+    so_far.take({squared_distance(triangles_[i], center), triangles_[i].index}, i);
+  work.triangles += first_[sphere + 1] - first_[sphere];
+}
+
+template <class Found>
+bool SphereScan::for_each_met(const Vec3& center, double reach, const Found& found) const noexcept {
+  const double px = center.x(), py = center.y(), pz = center.z();
+  const auto outside = [&](std::size_t i) noexcept {
+    const double dx = x_[i] - px, dy = y_[i] - py, dz = z_[i] - pz;
+    const double grown = grown_radius(radius_[i], reach);
+    return static_cast<std::uint8_t>(dx * dx + dy * dy + dz * dz > grown * grown);
+  };
+  return for_each_held(x_.size(), outside, found);
+}
+
+bool SphereScan::touches(const Probe& probe, Work& work) const noexcept {
+  const Vec3& center = probe.center;
+  if (!(probe.radius >= 0)) return false;
+  const double error = distance_error(bounds_, center);
+  if (std::isinf(error)) return all().touches(probe, work);
+  std::size_t tested = 0;
+  WithinRadius is_within(center, probe.radius, error);
+  const bool touching = for_each_met(center, probe.radius + error, [&](std::size_t sphere) noexcept {
+    tested = sphere;
+    for (std::size_t i = first_[sphere]; i < first_[sphere + 1]; ++i) {
+      ++work.triangles;
+      const double distance = std::sqrt(squared_distance(triangles_[i], center));
+      if (is_within(triangles_[i], distance, work.exact_decisions)) return true;
+    }
+    return false;
+  });
+  work.spheres += touching ? tested + 1 : x_.size();
+  return touching;
+}
+
+std::optional<Contact> SphereScan::nearest(const Vec3& center, double reach, Work& work) const noexcept {
+  if (!(reach >= 0)) return std::nullopt;
+  const double error = distance_error(bounds_, center);
+  if (std::isinf(error)) return all().nearest(center, reach, work);
+  NearestSoFar so_far(triangles_.data(), center, error);
+  for_each_met(center, reach + error, [&](std::size_t sphere) noexcept {
+    search(sphere, center, so_far, work);
+    return false;
+  });
+  work.spheres += x_.size();
+  if (!so_far.found()) return std::nullopt;
+  const double distance = std::sqrt(so_far.best().squared_distance);
+  if (!is_certain_first(so_far, triangles_, distance, center, reach, error))
+    return nearest_of_ties(so_far, center, reach, error, ids_, work.exact_decisions);
+  if (distance > reach) return std::nullopt;
+  return contact_on(triangles_[so_far.at()], center, id(so_far.best().index));
+}
+
+/// The spheres that the way meets hold the triangles near its start, too: one look at the spheres is enough.
+std::optional<Impact> SphereScan::first_hit(const Sweep& sweep, Work& work) const noexcept {
+  if (!(sweep.radius >= 0)) return std::nullopt;
+  const double error = distance_error(bounds_, sweep.from);
+  const double difference = largest_difference(bounds_, sweep);
+  if (std::isinf(error) || !fourth_powers_fit(difference)) return all().first_hit(sweep, work);
+  const double reach = std::max(sweep_widening(sweep, difference), sweep.radius + error);
+  const auto outside = [&](std::size_t i) noexcept {
+    const double grown = grown_radius(radius_[i], reach);
+    const double squared = squared_distance_to_way(sweep, 1, {x_[i], y_[i], z_[i]});
+    return static_cast<std::uint8_t>(squared > grown * grown);
+  };
+  HitCandidate first;
+  std::size_t kept_at = 0;
+  NearestSoFar at_start(triangles_.data(), sweep.from, error);
+  for_each_held(x_.size(), outside, [&](std::size_t sphere) noexcept {
+    search(sphere, sweep.from, at_start, work);
+    for (std::size_t i = first_[sphere]; i < first_[sphere + 1]; ++i) {
+      const auto fraction =
+          sweep_hit(triangles_[i], sweep, std::min(first.fraction, 1.0), work.exact_decisions);
+      if (!fraction || !(HitCandidate{*fraction, triangles_[i].index} < first)) continue;
+      first = {*fraction, triangles_[i].index};
+      kept_at = i;
+    }
+    return false;
+  });
+  work.spheres += x_.size();
+  if (first.index >= triangles_.size()) return std::nullopt;
+  const double distance = std::sqrt(at_start.best().squared_distance);
+  if (first.fraction > 0)
+    return Impact{first.fraction,
+                  contact_on_way(triangles_[kept_at], sweep, first.fraction, id(first.index))};
+  // Of all the triangles that are touched at the start the nearest one counts.
+  if (is_certain_first(at_start, triangles_, distance, sweep.from, sweep.radius, error))
+    return Impact{0, contact_on(triangles_[at_start.at()], sweep.from, id(at_start.best().index))};
+  return Impact{0, *nearest(sweep.from, sweep.radius, work)};
+}
+
+std::size_t SphereScan::bytes() const noexcept {
+  return 4 * x_.capacity() * sizeof(double) + first_.capacity() * sizeof(std::uint32_t) +
+         triangles_.capacity() * sizeof(PreparedTriangle) + ids_.capacity() * sizeof(TriangleId);
+}
+
+}  // namespace touchmark

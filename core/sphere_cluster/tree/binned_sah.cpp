@@ -1,0 +1,219 @@
+#include "core/sphere_cluster/tree/binned_sah.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <iterator>
+#include <limits>
+
+#include "core/sphere_cluster/tree/node.h"
+
+namespace touchmark::spheres {
+namespace {
+
+constexpr std::size_t bins_an_axis = 16;
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+/// Of a box; in any order of the axes.
+float half_area(Lanes min, Lanes max) noexcept {
+  const Lanes d = greater_of(max - min, Lanes{});
+  const Lanes faces = d * __builtin_shufflevector(d, d, 1, 2, 0, 3);
+  return faces[0] + faces[1] + faces[2];
+}
+
+/// Which bins the numbers are in; what rounding puts beyond the last is in the last.
+LaneBits bins_of(Lanes key, Lanes origin, Lanes scale) noexcept {
+  constexpr float within_the_last = static_cast<float>(bins_an_axis) - 0.5F;
+  return __builtin_convertvector(lesser_of((key - origin) * scale, broadcast(within_the_last)), LaneBits);
+}
+
+/// The triangles of a bin, or of several.
+struct Bin {
+  Lanes min = broadcast(infinity), max = broadcast(-infinity);
+  std::uint32_t count = 0;
+
+  void add(const Bin& other) noexcept {
+    min = lesser_of(min, other.min);
+    max = greater_of(max, other.max);
+    count += other.count;
+  }
+  /// Blocks times the chance that a search meets them.
+  float cost() const noexcept {
+    return half_area(min, max) * static_cast<float>((count + tree_width - 1) / tree_width);
+  }
+};
+
+}  // namespace
+
+TriangleSplitter::TriangleSplitter(const TriangleMesh& mesh, const SphereClusters& clusters,
+                                   const FilterFrame& frame) {
+  const auto local = [&](const Vec3& point) {
+    const Vec3 p = frame.to_frame(point);
+    return std::array{static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
+  };
+  items_.reserve(mesh.size());
+  const bool clustered = clusters.size() < mesh.size();
+  for (std::uint32_t cluster = 0; cluster < clusters.size(); ++cluster) {
+    if (clustered) {
+      const std::array<float, 3> center = local(clusters.spheres[cluster].center);
+      cluster_keys_.push_back(2 * Lanes{center[0], center[1], center[2], 0});
+    }
+    for (const std::uint32_t triangle : clusters.triangles_of(cluster)) {
+      const std::array<float, 3> a = local(mesh.corner(triangle, 0)), b = local(mesh.corner(triangle, 1)),
+                                 c = local(mesh.corner(triangle, 2));
+      Item item{{}, triangle, {}, cluster};
+      for (std::size_t k = 0; k < 3; ++k) {
+        item.min[k] = std::min({a[k], b[k], c[k]});
+        item.max[k] = std::max({a[k], b[k], c[k]});
+      }
+      items_.push_back(item);
+    }
+  }
+  aside_.resize(items_.size());
+}
+
+TriangleSplitter::Box TriangleSplitter::box_of(const Item& item) noexcept {
+  static_assert(sizeof(Item) == 2 * sizeof(Lanes));
+  constexpr LaneBits coordinates = {-1, -1, -1, 0};
+  // One by one: of an array of both the compiler makes a copy in pieces, which takes longer to read than to
+  // write.
+  LaneBits min, max;
+  std::memcpy(&min, reinterpret_cast<const std::byte*>(&item), sizeof min);
+  std::memcpy(&max, reinterpret_cast<const std::byte*>(&item) + sizeof min, sizeof max);
+  return {reinterpret_cast<Lanes>(min & coordinates), reinterpret_cast<Lanes>(max & coordinates)};
+}
+
+Lanes TriangleSplitter::key_of(const Item& item, Key key) const noexcept {
+  if (key == Key::cluster) return cluster_keys_[item.cluster];
+  const Box box = box_of(item);
+  return box.min + box.max;
+}
+
+float TriangleSplitter::key_of(const Item& item, Key key, int axis) const noexcept {
+  if (key == Key::cluster) return cluster_keys_[item.cluster][axis];
+  return item.min[static_cast<std::size_t>(axis)] + item.max[static_cast<std::size_t>(axis)];
+}
+
+float TriangleSplitter::area(const TriangleRange& range) const noexcept {
+  Box all = box_of(items_[range.begin]);
+  for (std::uint32_t i = range.begin + 1; i < range.end; ++i) {
+    const Box box = box_of(items_[i]);
+    all = {lesser_of(all.min, box.min), greater_of(all.max, box.max)};
+  }
+  return half_area(all.min, all.max);
+}
+
+/// Of the keys.
+TriangleSplitter::Box TriangleSplitter::spread(const TriangleRange& range, Key key) const noexcept {
+  Box all{key_of(items_[range.begin], key), key_of(items_[range.begin], key)};
+  for (std::uint32_t i = range.begin + 1; i < range.end; ++i) {
+    const Lanes at = key_of(items_[i], key);
+    all = {lesser_of(all.min, at), greater_of(all.max, at)};
+  }
+  return all;
+}
+
+/// The cheapest of the places between two bins; nothing when all of the range is in one bin.
+std::optional<TriangleSplitter::Cut> TriangleSplitter::cheapest_cut(const TriangleRange& range, Key key,
+                                                                    const Bins& bins) const noexcept {
+  std::array<std::array<Bin, bins_an_axis>, 3> bin;
+  for (std::uint32_t i = range.begin; i < range.end; ++i) {
+    const LaneBits at = bins_of(key_of(items_[i], key), bins.origin, bins.scale);
+    const Box box = box_of(items_[i]);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      bin[axis][static_cast<std::size_t>(at[axis])].add({box.min, box.max, 1});
+  }
+  std::optional<Cut> cheapest;
+  float least = infinity;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::array<float, bins_an_axis> right_cost;
+    Bin right;
+    for (std::size_t b = bins_an_axis - 1; b > 0; --b) {
+      right.add(bin[axis][b]);
+      right_cost[b] = right.count > 0 ? right.cost() : infinity;
+    }
+    Bin left;
+    for (std::size_t b = 1; b < bins_an_axis; ++b) {
+      left.add(bin[axis][b - 1]);
+      if (left.count == 0 || !(left.cost() + right_cost[b] < least)) continue;
+      least = left.cost() + right_cost[b];
+      cheapest = {static_cast<int>(axis), b, left.count};
+    }
+  }
+  return cheapest;
+}
+
+/// Left of the place whatever is less along the axis: by its bin, and then the few that are one too many on a
+/// side.
+void TriangleSplitter::part_at(const TriangleRange& range, std::uint32_t place, Key key, const Bins& bins,
+                               const Cut& cut) {
+  const float origin = bins.origin[cut.axis], scale = bins.scale[cut.axis];
+  // As bins_of has it: what is in the last bin is beyond every cut, so nothing needs to be put there.
+  const auto first_bin_right = static_cast<float>(cut.bin);
+  Item *left = items_.data() + range.begin, *right = aside_.data();
+  // Each to both sides, and kept on one: which one it is, no branch predictor knows.
+  for (std::uint32_t i = range.begin; i < range.end; ++i) {
+    const Item item = items_[i];
+    const bool is_left = (key_of(item, key, cut.axis) - origin) * scale < first_bin_right;
+    *left = item;
+    *right = item;
+    left += is_left;
+    right += !is_left;
+  }
+  std::copy(aside_.data(), right, left);
+  const auto found = static_cast<std::uint32_t>(left - items_.data());
+  const auto less = [&](const Item& a, const Item& b) {
+    const float x = key_of(a, key, cut.axis), y = key_of(b, key, cut.axis);
+    return x != y ? x < y : a.triangle < b.triangle;
+  };
+  if (found > place)
+    std::partial_sort(std::make_reverse_iterator(left), std::make_reverse_iterator(items_.data() + place),
+                      std::make_reverse_iterator(items_.data() + range.begin),
+                      [&](const Item& a, const Item& b) { return less(b, a); });
+  else
+    std::partial_sort(left, items_.data() + place, items_.data() + range.end, less);
+}
+
+/// The same for any place.
+void TriangleSplitter::halve(const TriangleRange& range, std::uint32_t place, Key key, int axis) {
+  std::nth_element(items_.begin() + range.begin, items_.begin() + place, items_.begin() + range.end,
+                   [&](const Item& a, const Item& b) {
+                     const float x = key_of(a, key, axis), y = key_of(b, key, axis);
+                     return x != y ? x < y : a.triangle < b.triangle;
+                   });
+}
+
+std::pair<TriangleRange, TriangleRange> TriangleSplitter::split(const TriangleRange& range) {
+  const auto is_spread = [](const Box& box) {
+    const Lanes extent = box.max - box.min;
+    return extent[0] > 0 || extent[1] > 0 || extent[2] > 0;
+  };
+  Key key = cluster_keys_.empty() ? Key::triangle : Key::cluster;
+  Box box = spread(range, key);
+  if (key == Key::cluster && !is_spread(box)) {
+    key = Key::triangle;
+    box = spread(range, key);
+  }
+  const Lanes extent = box.max - box.min;
+  // A little less than whole bins, so that the last number is in the last bin.
+  const Lanes per_extent = broadcast(static_cast<float>(bins_an_axis) * (1 - 0x1p-20F)) / extent;
+  const Bins bins{box.min, extent > Lanes{} ? per_extent : Lanes{}};
+  // Whole blocks on the left.
+  const auto place_of = [&](std::uint32_t left) {
+    const std::uint32_t blocks = (left + tree_width / 2) / tree_width;
+    const std::uint32_t most = (range.size() - 1) / tree_width;
+    return range.begin + tree_width * std::clamp(blocks, 1U, most);
+  };
+  std::optional<Cut> cut;
+  if (range.depth < most_uneven_splits) cut = cheapest_cut(range, key, bins);
+  const std::uint32_t place = place_of(cut ? cut->left : range.size() / 2);
+  if (cut) {
+    part_at(range, place, key, bins, *cut);
+  } else {
+    const int longer = extent[1] > extent[0] ? 1 : 0;
+    halve(range, place, key, extent[2] > extent[longer] ? 2 : longer);
+  }
+  return {{range.begin, place, range.depth + 1}, {place, range.end, range.depth + 1}};
+}
+
+}  // namespace touchmark::spheres

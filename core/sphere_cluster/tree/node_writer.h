@@ -1,0 +1,72 @@
+/// How triangles and bounds get into the hierarchy's arrays, when it is built and when it is moved.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "core/search/plane_filter.h"
+#include "core/sphere_cluster/tree/bounding_cylinder.h"
+#include "core/sphere_cluster/tree/node.h"
+#include "core/triangle_mesh.h"
+
+namespace touchmark::spheres {
+
+/// Bounds the triangles added since the last bound(). To be kept: it keeps its memory.
+class BoundOfTriangles {
+ public:
+  BoundOfTriangles(const TriangleMesh& mesh, const FilterFrame& frame)
+      : mesh_(mesh), frame_(frame), added_(mesh.vertices().size(), 0) {}
+
+  void add(std::uint32_t triangle) {
+    std::array<Vec3, 3> v;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t vertex = mesh_.triangles()[triangle][k];
+      v[k] = frame_.to_frame(mesh_.vertices()[vertex]);
+      if (std::exchange(added_[vertex], bounds_) != bounds_) points_.add(v[k]);
+    }
+    normal_ += (v[1] - v[0]).cross(v[2] - v[0]);
+  }
+  SlabbedSphere bound() {
+    const SlabbedSphere found = bound_points(points_, normal_);
+    points_.clear();
+    normal_ = Vec3::Zero();
+    ++bounds_;
+    return found;
+  }
+
+ private:
+  const TriangleMesh& mesh_;
+  const FilterFrame& frame_;
+  /// Triangles share their vertices: which bound a vertex was last added to, the first being 1.
+  std::vector<std::uint32_t> added_;
+  std::uint32_t bounds_ = 1;
+  PointList points_;
+  Vec3 normal_ = Vec3::Zero();
+};
+
+inline void set_child(TreeNode& node, std::size_t i, const SlabbedSphere& bound) noexcept {
+  node.x[i] = bound.center.x();
+  node.y[i] = bound.center.y();
+  node.z[i] = bound.center.z();
+  node.radius[i] = bound.radius;
+  node.normal_x[i] = bound.normal.x();
+  node.normal_y[i] = bound.normal.y();
+  node.normal_z[i] = bound.normal.z();
+  node.half[i] = bound.half;
+}
+
+inline void set_triangle(TriangleBlock& block, std::size_t i, const TrianglePlanes& planes) noexcept {
+  for (int k = 0; k < 4; ++k) {
+    block.x[k][i] = planes.x[k];
+    block.y[k][i] = planes.y[k];
+    block.z[k][i] = planes.z[k];
+    block.offset[k][i] = planes.offset[k];
+  }
+}
+
+}  // namespace touchmark::spheres

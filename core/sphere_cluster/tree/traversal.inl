@@ -1,0 +1,382 @@
+// The search itself, written once and included once an instruction set (tree_search.h), in a namespace that
+// defines Wide, a vector of `lanes` floats, and its square_root, bits_of and pack, and may define split. The
+// same operations in the same order, so that all visit the same nodes and give the same bits.
+
+inline Wide load(const float* from) noexcept {
+  Wide values;
+  std::memcpy(&values, from, sizeof values);
+  return values;
+}
+inline void store(float* to, Wide values) noexcept { std::memcpy(to, &values, sizeof values); }
+inline Wide larger(Wide a, Wide b) noexcept { return a > b ? a : b; }
+inline Wide smaller(Wide a, Wide b) noexcept { return a < b ? a : b; }
+
+struct Point {
+  Wide x, y, z, tau;
+};
+
+/// Lower bounds of the squared distances to the children's slabbed spheres. The height over the slab and the
+/// excess beyond the radius are orthogonal, so their squares add up.
+template <class Children>
+inline Wide child_bounds(const Children& node, std::size_t at, const Point& p) noexcept {
+  const Wide x = p.x - load(node.x + at), y = p.y - load(node.y + at), z = p.z - load(node.z + at);
+  const Wide along =
+      x * load(node.normal_x + at) + y * load(node.normal_y + at) + z * load(node.normal_z + at);
+  const Wide squared = x * x + y * y + z * z;
+  const Wide across = square_root(larger(squared * difference_rounding - along * along, Wide{}));
+  const Wide height = larger(larger(along, -along) - load(node.half + at) - p.tau, Wide{});
+  const Wide excess = larger(across - load(node.radius + at) - p.tau, Wide{});
+  return height * height + excess * excess;
+}
+
+/// A plane of each triangle: its normal, and its value at the point.
+struct Planes {
+  Wide x, y, z, value;
+};
+
+inline Planes planes_at(const TriangleBlock& block, std::size_t k, std::size_t at, const Point& p) noexcept {
+  const Wide x = load(block.x[k] + at), y = load(block.y[k] + at), z = load(block.z[k] + at);
+  return {x, y, z, ((p.x * x + p.y * y) + p.z * z) + load(block.offset[k] + at)};
+}
+
+inline Wide cosine_between(const Planes& a, const Planes& b) noexcept {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+/// Squared, and times the square of the sine: how far what is s beyond one side and t beyond the next is from
+/// the corner between them.
+inline Wide off_corner(Wide s, Wide t, Wide cosine) noexcept {
+  return (s * s + t * t) - (cosine + cosine) * (s * t);
+}
+
+/// Lower bounds of the squared distances to the triangles: the plane filter of core/search/plane_filter.h
+/// on plain arrays.
+inline Wide triangle_bounds(const TriangleBlock& block, std::size_t at, const Point& p) noexcept {
+  const Wide face = planes_at(block, 0, at, p).value;
+  const Wide side = larger(planes_at(block, 1, at, p).value,
+                           larger(planes_at(block, 2, at, p).value, planes_at(block, 3, at, p).value));
+  const Wide height = larger(larger(face, -face) - p.tau, Wide{});
+  const Wide excess = larger(side - p.tau, Wide{});
+  return height * height + excess * excess;
+}
+
+/// The same, with what is known beyond corners below 90 degrees, for twice as many instructions. Whatever is
+/// s > 0 beyond a side with the outward normal n and t > 0 beyond the next with m, in the face's plane, is as
+/// far from where these meet as (s^2 + t^2 - 2 st c) / (1 - c^2), squared, at least, with c = n.m below 0.
+inline Wide corner_bounds(const TriangleBlock& block, std::size_t at, const Point& p) noexcept {
+  const Wide face = planes_at(block, 0, at, p).value;
+  std::array<Planes, 3> side;
+  std::array<Wide, 3> excess;
+  Wide across{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    side[i] = planes_at(block, i + 1, at, p);
+    excess[i] = larger(side[i].value - p.tau, Wide{});
+    across = larger(across, excess[i] * excess[i]);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = i == 2 ? 0 : i + 1;
+    const Wide s = excess[i], t = excess[j];
+    const Wide cosine = cosine_between(side[i], side[j]);
+    const Wide squared = off_corner(s, t, cosine) / ((1 + sine_rounding) - cosine * cosine);
+    const Wide product = smaller(smaller(s, t), -cosine);
+    across = product > 0 ? larger(across, squared) : across;
+  }
+  const Wide height = larger(larger(face, -face) - p.tau, Wide{});
+  return height * height + across * corner_rounding;
+}
+
+/// Those of a block's triangles that are surely within a distance, as most_distance of
+/// core/search/plane_filter.h tells.
+inline unsigned surely_within(const TriangleBlock& block, float distance, const Point& p) noexcept {
+  unsigned near = 0;
+  for (std::size_t at = 0; at < tree_width; at += lanes) {
+    const Wide face = planes_at(block, 0, at, p).value;
+    const Wide height = larger(face, -face);
+    std::array<Planes, 3> side;
+    for (std::size_t i = 0; i < 3; ++i) side[i] = planes_at(block, i + 1, at, p);
+    const Wide beside = larger(side[0].value, larger(side[1].value, side[2].value));
+    WideBits found = (height <= distance - 2 * p.tau) & (beside <= -p.tau);
+    const Wide room = distance - corner_tau * p.tau;
+    const Wide most = room > 0 ? room * room - height * height : Wide{} - 1;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = i == 2 ? 0 : i + 1;
+      const Wide cosine = cosine_between(side[i], side[j]);
+      const Wide squared = off_corner(side[i].value, side[j].value, cosine);
+      found |= (squared * corner_excess <= most * (1 - cosine * cosine)) & (cosine < 0) &
+               (cosine > sharpest_cosine);
+    }
+    near |= bits_of(found) << at;
+  }
+  return near;
+}
+
+inline Point spread(const FilterPoint& p) noexcept {
+  return {Wide{} + p.x, Wide{} + p.y, Wide{} + p.z, Wide{} + p.tau};
+}
+
+/// Those that are at most the limit, as bits; `unseen` falls to the least of the others. A template, so that
+/// an instruction set's own one goes before it.
+template <class Float>
+inline unsigned split(Wide bounds, Float limit, Wide& unseen) noexcept {
+  const WideBits is_near = bounds <= limit;
+  const Wide kept = is_near ? unseen : bounds;
+  unseen = unseen < kept ? unseen : kept;
+  return bits_of(is_near);
+}
+
+/// Those of eight bounds that are at most the limit, as bits; `unseen` falls to the least of the others.
+template <class Bounds>
+inline unsigned within(const Bounds& bounds_at, float limit, Wide& unseen) noexcept {
+  unsigned near = 0;
+  for (std::size_t at = 0; at < tree_width; at += lanes) near |= split(bounds_at(at), limit, unseen) << at;
+  return near;
+}
+
+inline float least_lane(Wide values) noexcept {
+  float least = values[0];
+  for (std::size_t i = 1; i < lanes; ++i) least = values[i] < least ? values[i] : least;
+  return least;
+}
+
+/// A node's lines, or as many of a block.
+inline void prefetch(const TreeParts& tree, TreeRef ref) noexcept {
+  const void* const start = ref.is_block() ? static_cast<const void*>(&tree.blocks[ref.index()])
+                                           : static_cast<const void*>(&tree.nodes[ref.index()]);
+  prefetch_lines(start, sizeof(TreeNode));
+}
+
+inline void prefetch(const PreparedTriangle& triangle) noexcept {
+  prefetch_lines(&triangle, sizeof triangle);
+}
+
+/// Takes the lowest bit off.
+inline std::uint32_t take(unsigned& bits) noexcept {
+  const auto lowest = static_cast<std::uint32_t>(std::countr_zero(bits));
+  bits &= bits - 1;
+  return lowest;
+}
+
+/// Where a block's triangles are kept.
+inline std::array<std::uint32_t, tree_width> places_in(TreeRef block) noexcept {
+  std::array<std::uint32_t, tree_width> places;
+  for (std::uint32_t k = 0; k < tree_width; ++k) places[k] = block.index() * tree_width + k;
+  return places;
+}
+
+template <class Visitor>
+inline void show(const TreeParts& tree, std::uint32_t at, Visitor& visitor) noexcept {
+  if (visitor.wants(at)) visitor.take(at, kernel(tree.triangles[at], visitor.center));
+}
+
+/// Shows the visitor every triangle that may be within its limit, nearest volumes first. Returns a lower
+/// bound of the squared distance to what it was not shown, or gave_up when the visitor's work has come to
+/// more than `most` before the end. Never inlined: whoever mostly answers without it would pay for its frame.
+template <class Visitor>
+[[gnu::noinline]] float descend(const TreeParts& tree, const FilterPoint& point, std::uint64_t most,
+                                Visitor& visitor) noexcept {
+  const Point p = spread(point);
+  Wide unseen = Wide{} + farthest;
+  std::array<Waiting, most_waiting> waiting;
+  std::size_t count = 1;
+  waiting[0] = {0, TreeRef{0}};
+  while (count > 0) {
+    const Waiting next = waiting[--count];
+    if (next.bound > visitor.limit) {
+      unseen = smaller(unseen, Wide{} + next.bound);
+      continue;
+    }
+    if (visitor.work.spheres + visitor.work.triangles > most) return gave_up;
+    const std::uint32_t index = next.ref.index();
+    if (next.ref.is_block()) {
+      const TriangleBlock& block = tree.blocks[index];
+      const bool far = visitor.limit > tree.far;
+      alignas(64) std::array<float, tree_width> bound;
+      unsigned near = within(
+          [&](std::size_t at) {
+            const Wide bounds = far ? corner_bounds(block, at, p) : triangle_bounds(block, at, p);
+            store(bound.data() + at, bounds);
+            return bounds;
+          },
+          visitor.limit, unseen);
+      visitor.work.triangles += tree_width;
+      if (near == 0) continue;
+      if constexpr (requires { visitor.take_within(index); }) {
+        if (unsigned sure = surely_within(block, visitor.enough, p); sure != 0) {
+          visitor.take_within(index * tree_width + take(sure));
+          break;
+        }
+      }
+      for (unsigned left = near; left != 0;) prefetch(tree.triangles[index * tree_width + take(left)]);
+      // The most promising one first: it may be nearer than others can be.
+      unsigned left = near;
+      std::uint32_t first = take(left);
+      while (left != 0) {
+        const std::uint32_t other = take(left);
+        first = bound[other] < bound[first] ? other : first;
+      }
+      show(tree, index * tree_width + first, visitor);
+      near &= ~(1U << first);
+      near &= within([&](std::size_t at) { return load(bound.data() + at); }, visitor.limit, unseen);
+      while (near != 0) show(tree, index * tree_width + take(near), visitor);
+      continue;
+    }
+    const TreeNode& node = tree.nodes[index];
+    alignas(64) std::array<float, tree_width> bound;
+    unsigned near = within(
+        [&](std::size_t at) {
+          const Wide bounds = child_bounds(node, at, p);
+          store(bound.data() + at, bounds);
+          return bounds;
+        },
+        visitor.limit, unseen);
+    visitor.work.spheres += tree_width;
+    const std::size_t base = count;
+    while (near != 0) {
+      const std::uint32_t child = take(near);
+      prefetch(tree, node.child[child]);
+      std::size_t at = count++;
+      for (; at > base && waiting[at - 1].bound < bound[child]; --at) waiting[at] = waiting[at - 1];
+      waiting[at] = {bound[child], node.child[child]};
+    }
+  }
+  return least_lane(unseen);
+}
+
+/// Which children are blocks, as bits.
+inline unsigned blocks_of(const TreeNode& node) noexcept {
+  unsigned blocks = 0;
+  for (std::size_t at = 0; at < tree_width; at += lanes) {
+    WideBits child;
+    std::memcpy(&child, node.child + at, sizeof child);
+    blocks |= bits_of(child < 0) << at;
+  }
+  return blocks;
+}
+
+/// Lists the blocks within the list's rest. False when there are too many, or too many nodes, or after `most`
+/// spheres.
+inline bool list_blocks(const TreeParts& tree, const FilterPoint& point, std::uint64_t most, NearBlocks& list,
+                        Work& work) noexcept {
+  const Point p = spread(point);
+  const float limit = list.rest * list.rest * (1 + 0x1p-20F);
+  Wide unseen = Wide{} + farthest;
+  // First come, first served: what is fetched ahead has time to arrive.
+  std::array<std::uint32_t, NearBlocks::most_nodes> waiting;
+  std::size_t count = 1;
+  waiting[0] = 0;
+  for (std::size_t next = 0; next < count; ++next) {
+    if (work.spheres > most || count + tree_width > waiting.size()) return false;
+    const TreeNode& node = tree.nodes[waiting[next]];
+    const unsigned near = within([&](std::size_t at) { return child_bounds(node, at, p); }, limit, unseen);
+    work.spheres += tree_width;
+    const unsigned blocks = near & blocks_of(node);
+    for (unsigned deeper = near & ~blocks; deeper != 0;) {
+      const TreeRef child = node.child[take(deeper)];
+      prefetch(tree, child);
+      waiting[count++] = child.index();
+    }
+    if (blocks == 0) continue;
+    const auto more = static_cast<std::uint32_t>(std::popcount(blocks));
+    if (list.count + more > NearBlocks::capacity) return false;
+    const std::uint32_t to = list.count;
+    pack(list.x + to, node.x, blocks);
+    pack(list.y + to, node.y, blocks);
+    pack(list.z + to, node.z, blocks);
+    pack(list.radius + to, node.radius, blocks);
+    pack(list.normal_x + to, node.normal_x, blocks);
+    pack(list.normal_y + to, node.normal_y, blocks);
+    pack(list.normal_z + to, node.normal_z, blocks);
+    pack(list.half + to, node.half, blocks);
+    pack(list.child + to, node.child, blocks);
+    list.count += more;
+  }
+  list.finish();
+  return true;
+}
+
+/// Puts those of the blocks' triangles that may be within the limit one after the other; returns how many.
+inline std::size_t filter(const TreeParts& tree, std::span<const TreeRef> blocks, const Point& p, float limit,
+                          Wide& unseen, std::uint32_t* left) noexcept {
+  std::size_t count = 0;
+  for (const TreeRef ref : blocks) {
+    const TriangleBlock& block = tree.blocks[ref.index()];
+    const unsigned near =
+        within([&](std::size_t at) { return triangle_bounds(block, at, p); }, limit, unseen);
+    pack(left + count, places_in(ref).data(), near);
+    count += static_cast<std::size_t>(std::popcount(near));
+  }
+  return count;
+}
+
+/// Shows those of the blocks' triangles that may be within the limit, looking closely at corners, the most
+/// promising one first: it is often nearer than the others can be. Apart from the loop for what is near,
+/// which has no register to spare.
+template <class Visitor>
+[[gnu::noinline]] void show_far(const TreeParts& tree, std::span<const TreeRef> blocks, const Point& p,
+                                Wide& unseen, Visitor& visitor) noexcept {
+  std::array<std::uint32_t, NearBlocks::room * tree_width> left;
+  std::array<float, NearBlocks::room * tree_width> bound;
+  std::size_t count = 0;
+  for (const TreeRef ref : blocks) {
+    const TriangleBlock& block = tree.blocks[ref.index()];
+    alignas(64) std::array<float, tree_width> bounds;
+    const unsigned near = within(
+        [&](std::size_t at) {
+          const Wide some = corner_bounds(block, at, p);
+          store(bounds.data() + at, some);
+          return some;
+        },
+        visitor.limit, unseen);
+    pack(left.data() + count, places_in(ref).data(), near);
+    pack(bound.data() + count, bounds.data(), near);
+    count += static_cast<std::size_t>(std::popcount(near));
+  }
+  if (count == 0) return;
+  for (std::size_t k = 0; k < count; ++k) prefetch(tree.triangles[left[k]]);
+  std::size_t first = 0;
+  for (std::size_t k = 1; k < count; ++k) first = bound[k] < bound[first] ? k : first;
+  show(tree, left[first], visitor);
+  float skipped = farthest;
+  for (std::size_t k = 0; k < count; ++k) {
+    if (k == first) continue;
+    if (bound[k] > visitor.limit)
+      skipped = std::min(skipped, bound[k]);
+    else
+      show(tree, left[k], visitor);
+  }
+  unseen = smaller(unseen, Wide{} + skipped);
+}
+
+/// As descend, when every triangle within the visitor's limit is in a listed block. `moved`: from the list's
+/// anchor. In passes, so that no call and no branch on what was found interrupts the wide arithmetic.
+template <class Visitor>
+float search_listed(const TreeParts& tree, const FilterPoint& point, const NearBlocks& list, float moved,
+                    std::uint64_t most, Visitor& visitor) noexcept {
+  const Point p = spread(point);
+  const float limit = visitor.limit;
+  Wide unseen = Wide{} + farthest;
+  // What the filters let through is packed, not looped over: how much that is no branch predictor knows.
+  std::array<TreeRef, NearBlocks::room> blocks;
+  std::size_t block_count = 0;
+  for (std::uint32_t first = 0; first < list.count; first += tree_width) {
+    const unsigned near =
+        within([&](std::size_t at) { return child_bounds(list, first + at, p); }, limit, unseen);
+    pack(blocks.data() + block_count, list.child + first, near);
+    block_count += static_cast<std::size_t>(std::popcount(near));
+    visitor.work.spheres += tree_width;
+  }
+  visitor.work.triangles += block_count * tree_width;
+  if (visitor.work.spheres + visitor.work.triangles > most) return gave_up;
+  for (std::size_t i = 0; i < block_count; ++i) prefetch(tree, blocks[i]);
+  const std::span<const TreeRef> near_blocks(blocks.data(), block_count);
+  if (limit > tree.far) {
+    show_far(tree, near_blocks, p, unseen, visitor);
+  } else {
+    std::array<std::uint32_t, NearBlocks::room * tree_width> left;
+    const std::size_t left_count = filter(tree, near_blocks, p, limit, unseen, left.data());
+    for (std::size_t k = 0; k < left_count; ++k) prefetch(tree.triangles[left[k]]);
+    for (std::size_t k = 0; k < left_count; ++k) show(tree, left[k], visitor);
+  }
+  const float rest = std::max(list.rest - moved, 0.0F);
+  return std::min(rest * rest, least_lane(unseen));
+}

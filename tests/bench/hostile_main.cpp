@@ -1,7 +1,0 @@
-/// The touchmark program with nothing but bad contestants.
-#include "bench/program.h"
-#include "tests/bench/hostile_roster.h"
-
-int main(int argc, char** argv) {
-  return touchmark::bench::run_program(argc, argv, touchmark::bench::hostile_roster());
-}

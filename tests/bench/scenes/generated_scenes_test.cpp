@@ -1,0 +1,208 @@
+#include "bench/scenes/generated_scenes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "bench/scenes/mesh_report.h"
+#include "bench/scenes/portable_sincos.h"
+
+namespace touchmark::bench {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+
+/// A closed surface, oriented outwards, of the given genus.
+void expect_solid(const MeshReport& report, int genus) {
+  EXPECT_TRUE(report.closed);
+  EXPECT_TRUE(report.oriented);
+  EXPECT_EQ(report.euler_characteristic, 2 - 2 * genus);
+  EXPECT_EQ(report.degenerate, 0u);
+  EXPECT_EQ(report.positions, report.vertices);
+  EXPECT_GT(report.volume.value_or(-1), 0);
+}
+
+TEST(Turn, AgreesWithTheLibraryToOneRounding) {
+  for (int i = -1000; i <= 3000; ++i) {
+    const double fraction = i / 997.0;
+    const Turn direction = turn(fraction);
+    EXPECT_NEAR(direction.cos, std::cos(2 * pi * fraction), 1e-15 * (1 + std::abs(fraction)));
+    EXPECT_NEAR(direction.sin, std::sin(2 * pi * fraction), 1e-15 * (1 + std::abs(fraction)));
+  }
+  EXPECT_EQ(turn(0.25).cos, 0);
+  EXPECT_EQ(turn(0.5).cos, -1);
+}
+
+TEST(GeneratedScenes, AnIcosphereApproachesTheUnitSphere) {
+  double missing = 0;
+  for (unsigned levels = 1; levels <= 5; ++levels) {
+    const TriangleMesh mesh = icosphere(levels);
+    const MeshReport report = report_on(mesh);
+    expect_solid(report, 0);
+    EXPECT_EQ(report.triangles, std::size_t{20} << (2 * levels));
+    for (const Vec3& vertex : mesh.vertices()) ASSERT_NEAR(vertex.norm(), 1, 4e-16);
+    EXPECT_LT(report.worst_aspect_ratio, 1.5);
+    // The chords' error falls by four a level, once they are short.
+    const double still_missing = 4 * pi / 3 - report.volume.value();
+    if (levels > 1) {
+      EXPECT_NEAR(missing / still_missing, 4, 0.3);
+    }
+    missing = still_missing;
+  }
+}
+
+TEST(GeneratedScenes, ATorusHasAHoleAndPappusVolume) {
+  const MeshReport report = report_on(torus(200, 100));
+  expect_solid(report, 1);
+  EXPECT_EQ(report.triangles, 40000u);
+  EXPECT_NEAR(report.volume.value() / (2 * pi * pi * 0.16), 1, 2e-3);
+  EXPECT_NEAR(report.area / (4 * pi * pi * 0.4), 1, 2e-3);
+  expect_solid(report_on(torus(3, 3)), 1);
+}
+
+TEST(GeneratedScenes, TheThinPlateIsAThousandTimesWiderThanThick) {
+  const MeshReport report = report_on(thin_plate());
+  expect_solid(report, 0);
+  EXPECT_EQ(report.triangles, 4352u);
+  EXPECT_EQ(report.bounds.extent(), Vec3(1, 1, thin_plate_thickness));
+  EXPECT_NEAR(report.volume.value(), thin_plate_thickness, 1e-15);
+}
+
+TEST(GeneratedScenes, TheCubeHasVolumeOneAndTwelveTriangles) {
+  const MeshReport report = report_on(cube());
+  expect_solid(report, 0);
+  EXPECT_EQ(report.triangles, 12u);
+  EXPECT_EQ(report.volume.value(), 1);
+  EXPECT_EQ(report.area, 6);
+}
+
+TEST(GeneratedScenes, TheWedgeIsTwoDegreesSharp) {
+  const MeshReport report = report_on(wedge());
+  expect_solid(report, 0);
+  const Vec3 extent = report.bounds.extent();
+  EXPECT_NEAR(2 * std::atan(extent.z() / 2 / extent.x()), 2 * pi / 180, 1e-15);
+  EXPECT_NEAR(report.volume.value(), extent.x() * extent.y() * extent.z() / 2, 1e-16);
+}
+
+TEST(GeneratedScenes, TheSingleTriangleIsEquilateral) {
+  const MeshReport report = report_on(single_triangle());
+  EXPECT_EQ(report.triangles, 1u);
+  EXPECT_NEAR(report.shortest_edge, 1, 1e-15);
+  EXPECT_NEAR(report.longest_edge, 1, 1e-15);
+}
+
+TEST(GeneratedScenes, ANoisySphereHasAsManyTrianglesAsAskedFor) {
+  for (std::uint64_t triangles = 6; triangles < 400; ++triangles) {
+    const MeshReport report = report_on(noisy_sphere(triangles));
+    EXPECT_EQ(report.triangles, triangles / 2 * 2);
+    expect_solid(report, 0);
+    if (HasFailure()) FAIL() << triangles << " triangles";
+  }
+}
+
+TEST(GeneratedScenes, ANoisySphereIsRoughButWellShaped) {
+  const TriangleMesh mesh = noisy_sphere(100'000);
+  const MeshReport report = report_on(mesh);
+  expect_solid(report, 0);
+  double nearest = 2, farthest = 0;
+  for (std::size_t t = 0; t < mesh.size(); ++t) {
+    const Vec3 &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
+    nearest = std::min(nearest, a.norm());
+    farthest = std::max(farthest, a.norm());
+    ASSERT_GT((b - a).cross(c - a).dot(a), 0) << "star-shaped about the origin, triangle " << t;
+  }
+  EXPECT_GT(nearest, 0.85);
+  EXPECT_LT(nearest, 0.98);
+  EXPECT_LT(farthest, 1.15);
+  EXPECT_GT(farthest, 1.02);
+  EXPECT_LT(report.worst_aspect_ratio, 20);
+  EXPECT_LT(report.longest_edge, 4 * report.mean_edge);
+}
+
+TEST(GeneratedScenes, TheSliverFanNarrowsToATenthOfABillionth) {
+  const TriangleMesh mesh = sliver_fan();
+  ASSERT_EQ(mesh.size(), 1000u);
+  const Vec3 apex = mesh.corner(0, 0);
+  double sum = 0;
+  for (std::size_t t = 0; t < mesh.size(); ++t) {
+    ASSERT_EQ(mesh.corner(t, 0), apex);
+    const double rim = (mesh.corner(t, 2) - mesh.corner(t, 1)).norm();
+    ASSERT_GT(rim, 0);
+    sum += rim;
+  }
+  EXPECT_NEAR(sum, 2 * pi, 1e-2);
+  EXPECT_GT(report_on(mesh).worst_aspect_ratio, 1e9);
+}
+
+TEST(GeneratedScenes, SoupIsUnconnectedInTheUnitCube) {
+  const TriangleMesh mesh = soup(1000);
+  const MeshReport report = report_on(mesh);
+  EXPECT_EQ(report.triangles, 1000u);
+  EXPECT_EQ(report.boundary_edges, 3000u);
+  EXPECT_TRUE((report.bounds.min.array() >= 0).all() && (report.bounds.max.array() <= 1).all());
+  EXPECT_GT(report.diagonal, 1.5);
+  EXPECT_GT(report.longest_edge, 0.1);
+  EXPECT_LE(report.longest_edge, 0.3);
+}
+
+TEST(GeneratedScenes, SoupOfMoreBeginsWithSoupOfFewer) {
+  const TriangleMesh few = soup(10), more = soup(20);
+  EXPECT_TRUE(std::equal(few.vertices().begin(), few.vertices().end(), more.vertices().begin()));
+}
+
+TEST(GeneratedScenes, DegenerateMixesPointsSegmentsAndGoodTriangles) {
+  const TriangleMesh mesh = degenerate();
+  const MeshReport report = report_on(mesh);
+  EXPECT_EQ(report.triangles, 160u);
+  EXPECT_EQ(report.degenerate, 80u);
+  std::size_t points = 0, segments = 0, collinear = 0;
+  for (std::size_t t = 0; t < mesh.size(); ++t) {
+    const Vec3 &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
+    const int equal = (a == b) + (b == c) + (c == a);
+    points += equal == 3;
+    segments += equal == 1;
+    collinear += equal == 0 && (b - a).cross(c - a).isZero(0);  // dyadic: the products are exact
+  }
+  EXPECT_EQ(points, 10u);
+  EXPECT_EQ(segments, 40u);
+  EXPECT_EQ(collinear, 30u);
+}
+
+TEST(GeneratedScenes, DoubledUsesEveryEdgeSixTimes) {
+  const TriangleMesh mesh = doubled();
+  const MeshReport report = report_on(mesh);
+  EXPECT_EQ(report.triangles, 960u);
+  EXPECT_EQ(report.edges, 480u);
+  EXPECT_EQ(report.non_manifold_edges, 480u);
+}
+
+TEST(GeneratedScenes, NeedlesAndCapsReachAspectRatiosOf1e15) {
+  for (const bool needle : {true, false}) {
+    const TriangleMesh mesh = needle ? needles() : caps();
+    ASSERT_EQ(mesh.size(), 192u);
+    double height = 1;
+    for (std::size_t t = 0; t < mesh.size(); ++t) {
+      if (t % 64 == 0) height = 1;
+      const Vec3 &a = mesh.corner(t, 0), &b = mesh.corner(t, 1), &c = mesh.corner(t, 2);
+      std::array<double, 3> edges = {(b - a).norm(), (c - b).norm(), (a - c).norm()};
+      std::sort(edges.begin(), edges.end());
+      const double longest = needle ? std::hypot(1, height) : std::max(1.0, std::hypot(0.5, height));
+      EXPECT_NEAR(aspect_ratio(a, b, c) * height / (longest * longest), 1, 1e-3) << t;
+      if (needle && height < 1) {
+        EXPECT_NEAR(edges[0] / height, 1, 1e-9) << t;
+      }
+      if (!needle && height < 0.1) {
+        EXPECT_NEAR(edges[0] + edges[1], edges[2], 4 * height) << t;
+      }
+      if (t % 4 == 3) height /= 10;
+    }
+    EXPECT_GT(report_on(mesh).worst_aspect_ratio, 0.9e15);
+  }
+}
+
+}  // namespace
+}  // namespace touchmark::bench

@@ -1,0 +1,380 @@
+#include "bench/trajectories/trajectory_csv.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "bench/trajectories/trajectories.h"
+
+namespace touchmark::bench {
+namespace {
+
+/// A directory of its own for each test, removed at its end.
+class TrajectoryCsv : public testing::Test {
+ protected:
+  TrajectoryCsv()
+      : directory_(std::filesystem::temp_directory_path() /
+                   (std::string("touchmark_") +
+                    testing::UnitTest::GetInstance()->current_test_info()->name() +
+                    std::to_string(::getpid()))) {
+    std::filesystem::create_directories(directory_);
+  }
+  ~TrajectoryCsv() override { std::filesystem::remove_all(directory_); }
+
+  std::string file(const std::string& text, const std::string& name = "path.csv") const {
+    const std::string path = directory_ / name;
+    std::ofstream(path, std::ios::binary) << text;
+    return path;
+  }
+  Trajectory read(const std::string& text, const MotionOptions& options = {}) const {
+    return read_trajectory(file(text), 0, options);
+  }
+
+  /// The message without the directory.
+  std::string complaint(const std::string& text, const MotionOptions& options = {}) const {
+    try {
+      read(text, options);
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what()).substr(directory_.string().size() + 1);
+    }
+    return "accepted";
+  }
+
+  std::filesystem::path directory_;
+};
+
+const std::vector<Vec3> two = {{1, 2, 3}, {-4, 5e-1, 6}};
+
+TEST_F(TrajectoryCsv, ReadsThePlainForm) {
+  const Trajectory path = read("x,y,z\n1,2,3\n-4,5e-1,6\n");
+  EXPECT_EQ(path.positions, two);
+  EXPECT_TRUE(path.radii.empty());
+  EXPECT_TRUE(path.times_s.empty());
+}
+
+TEST_F(TrajectoryCsv, TakesColumnsInAnyOrderAndIgnoresOthers) {
+  const Trajectory path =
+      read("force,z,radius,y,note,time_s,x\n9,3,.5,2,hello,0,1\n9,6,0,.5,\"a,b\",0.25,-4\n");
+  EXPECT_EQ(path.positions, two);
+  EXPECT_EQ(path.radii, (std::vector<double>{0.5, 0}));
+  EXPECT_EQ(path.times_s, (std::vector<double>{0, 0.25}));
+}
+
+TEST_F(TrajectoryCsv, AcceptsWhatSpreadsheetsWrite) {
+  for (const char* text : {
+           "x,y,z\r\n1,2,3\r\n-4,5e-1,6\r\n",                      // CRLF
+           "x,y,z\n1,2,3\n-4,5e-1,6",                              // no newline at the end
+           "x,y,z\r\n1,2,3\r\n-4,5e-1,6\r",                        // half a line end
+           "\"x\",\"y\",\"z\"\r\n\"1\",2,3\r\n-4,5e-1,\"6\"\r\n",  // quotes
+           "\xef\xbb\xbfx,y,z\n1,2,3\n-4,5e-1,6\n",                // byte order mark
+           " x , y\t, z\n 1,\t2 , +3\n-4, 5e-1 , 6.000\n",         // spaces
+           "\n\nx,y,z\n\n1,2,3\n\r\n-4,5e-1,6\n\n",                // empty lines
+       }) {
+    EXPECT_EQ(read(text).positions, two) << text;
+  }
+}
+
+TEST_F(TrajectoryCsv, NamesTheLineAndColumnOfWhatIsWrong) {
+  EXPECT_EQ(complaint(""), "path.csv: the file is empty: it needs a header that names x, y and z");
+  EXPECT_EQ(complaint("\n\n"), "path.csv: the file is empty: it needs a header that names x, y and z");
+  const std::string must_name = "it must name x, y and z, or --columns say which they are";
+  EXPECT_EQ(complaint("x,y\n1,2\n"), "path.csv:1: the header 'x,y' has no column z: " + must_name);
+  EXPECT_EQ(complaint("1,2,3\n"), "path.csv:1: the header '1,2,3' has no column x: " + must_name);
+  EXPECT_EQ(complaint("# made by hand\n\n1,2,3\n"),
+            "path.csv:3: the header '1,2,3' has no column x: " + must_name);
+  EXPECT_EQ(complaint("X,X,Y,Z\n1,2,3,4\n"), "path.csv:1: the header names column x twice");
+  EXPECT_EQ(complaint("x,y,z,y\n1,2,3,4\n"), "path.csv:1: the header names column y twice");
+  EXPECT_EQ(complaint("x,y,z\n"), "path.csv:1: no row follows the header");
+  EXPECT_EQ(complaint("x,y,z\n1,2,3\n1,two,3\n"), "path.csv:3: column y: 'two' is not a number");
+  EXPECT_EQ(complaint("x,y,z\n1,\x1b[2J,3\n"), "path.csv:2: column y: '?[2J' is not a number");
+  EXPECT_EQ(complaint("x,y,z\n1,2,\n"), "path.csv:2: column z: '' is not a number");
+  EXPECT_EQ(complaint("x,y,z\n1,2,3 4\n"), "path.csv:2: column z: '3 4' is not a number");
+  EXPECT_EQ(complaint("x,y,z\n0x1,2,3\n"), "path.csv:2: column x: '0x1' is not a number");
+  EXPECT_EQ(complaint("x,y,z\n+-1,2,3\n"), "path.csv:2: column x: '+-1' is not a number");
+  EXPECT_EQ(complaint("x,y,z\n1,nan,3\n"), "path.csv:2: column y: 'nan' is not finite");
+  EXPECT_EQ(complaint("x,y,z\n1,2,-inf\n"), "path.csv:2: column z: '-inf' is not finite");
+  EXPECT_EQ(complaint("x,y,z\n1,2,1e999\n"), "path.csv:2: column z: '1e999' is beyond the range of a double");
+  EXPECT_EQ(complaint("x,y,z,radius\n1,2,3,-0.5\n"), "path.csv:2: column radius: '-0.5' is negative");
+  EXPECT_EQ(complaint("x,y,z,radius\n1,2,3,inf\n"), "path.csv:2: column radius: 'inf' is not finite");
+  EXPECT_EQ(
+      complaint("x,y,z,time_s\n1,2,3,1\n1,2,3,0.5\n"),
+      "path.csv:3: column time_s: '0.5' is not after the row before (--columns without time does not read "
+      "times)");
+  EXPECT_EQ(
+      complaint("x,y,z,T\n1,2,3,1\n1,2,3,1\n"),
+      "path.csv:3: column T: '1' is not after the row before (--columns without time does not read times)");
+  EXPECT_EQ(complaint("x,y,z\n1,2\n"), "path.csv:2: the row has 2 fields, the header 3");
+  EXPECT_EQ(complaint("x,y,z\n1,2,3,4\n"), "path.csv:2: the row has 4 fields, the header 3");
+  EXPECT_EQ(complaint("x,y,z\n1,2,\"3\n"), "path.csv:2: a quote is never closed");
+  EXPECT_EQ(complaint("x,y,z\n1,2,\"3\"4\n"), "path.csv:2: text follows a closing quote");
+  EXPECT_EQ(complaint("x,y,z\n1,2," + std::string(1 << 17, '3') + "\n"),
+            "path.csv:2: a field is longer than 64 KiB");
+}
+
+TEST_F(TrajectoryCsv, SemicolonsAndTabsSeparateToo) {
+  for (const char* text : {
+           "x;y;z\n1;2;3\n-4;0.5;6\n",
+           "x;y;z\n1;2;3\n-4;0,5;6,0\n",  // decimal commas
+           "x\ty\tz\n1\t2\t3\n-4\t5e-1\t6\n",
+           "x\ty\tz\n1\t2\t3\n-4\t0,5\t6\n",
+           "\"x\";\"y\";\"z\"\r\n\"1,0\";2;3\r\n-4;0,5;6\r\n",
+           "sep=;\r\nx;y;z\r\n1;2;3\r\n-4;0,5;6\r\n",  // Excel
+           "sep=|\nx|y|z\n1|2|3\n-4|0,5|6\n",
+           "\xef\xbb\xbfx;y;z;;\r\n1;2;3;;\r\n-4;0,5;6;;\r\n;;;;\r\n",  // empty columns and rows
+           "x,y,z\n1,2,3,\n-4,.5,6,,\n",
+           "x,y,z,\"a;b;c;d\"\n1,2,3,4\n-4,.5,6,7\n",
+       }) {
+    EXPECT_EQ(read(text).positions, two) << text;
+  }
+}
+
+TEST_F(TrajectoryCsv, RefusesMixedOrMisplacedDecimalMarks) {
+  EXPECT_EQ(complaint("x;y;z\n1.5;2;3\n1;2,5;3\n"),
+            "path.csv:3: column y: '2,5' has a decimal comma, numbers above a decimal point");
+  EXPECT_EQ(complaint("x;y;z\n1,5;2;3\n1;2.5;3\n"),
+            "path.csv:3: column y: '2.5' has a decimal point, numbers above a decimal comma");
+  EXPECT_EQ(complaint("x;y;z\n1;1.234,5;3\n"), "path.csv:2: column y: '1.234,5' is not a number");
+  EXPECT_EQ(complaint("x,y,z\n1,\"0,5\",3\n"),
+            "path.csv:2: column y: '0,5' is not a number (decimal commas need ; or tabs between columns)");
+  EXPECT_EQ(complaint("x,y,z\n0,5,1,5,2,5\n"), "path.csv:2: the row has 6 fields, the header 3");
+}
+
+TEST_F(TrajectoryCsv, SkipsCommentsAndReadsTheHeaderThatNumpyWrites) {
+  for (const char* text : {
+           "# recorded\n% by hand\n// today\nx,y,z\n# first\n1,2,3\n  # second\n-4,.5,6\n# end",
+           "# recorded\n# x,y,z\n1,2,3\n-4,.5,6\n",
+           "#X;Y;Z\r\n1;2;3\r\n-4;0,5;6\r\n",
+           "%\"pos.x\",\"pos.y\",\"pos.z\"\n1,2,3\n-4,.5,6\n",
+       }) {
+    EXPECT_EQ(read(text).positions, two) << text;
+  }
+  const std::string long_comment(200'000, '#');
+  EXPECT_EQ(read(long_comment + "\nx;y;z\n1;2;3\n" + long_comment + "\n-4;.5;6\n").positions, two);
+}
+
+TEST_F(TrajectoryCsv, KnowsTheNamesOfPositions) {
+  for (const char* header : {"X,Y,Z", "px,py,pz", "PX,PY,PZ", "posX,posY,posZ", "pos_x,pos_y,pos_z",
+                             "Pos x,Pos y,Pos z", "position.x,position.y,position.z", "hip-x,hip-y,hip-z"}) {
+    EXPECT_EQ(read(std::string(header) + "\n1,2,3\n-4,.5,6\n").positions, two) << header;
+  }
+  // Those first in the list, and as they are written.
+  EXPECT_EQ(read("px,py,pz,x,y,z,X\n9,9,9,1,2,3,9\n9,9,9,-4,.5,6,9\n").positions, two);
+}
+
+TEST_F(TrajectoryCsv, TimesMayBeInMilliseconds) {
+  EXPECT_EQ(read("Time,x,y,z\n0.5,1,2,3\n1,-4,.5,6\n").times_s, (std::vector<double>{0.5, 1}));
+  EXPECT_EQ(read("t_ms,x,y,z\n500,1,2,3\n1000,-4,.5,6\n").times_s, (std::vector<double>{0.5, 1}));
+}
+
+TEST_F(TrajectoryCsv, ColumnsAreChosenByNameOrNumber) {
+  MotionOptions options;
+  options.columns = parse_columns("x=3,y=height,z=1,time_ms=clock,radius=5");
+  const Trajectory path = read("a,clock,b,Height,c\n3,0,1,2,0.25\n6,4,-4,.5,0.5\n", options);
+  EXPECT_EQ(path.positions, two);
+  EXPECT_EQ(path.times_s, (std::vector<double>{0, 0.004}));
+  EXPECT_EQ(path.radii, (std::vector<double>{0.25, 0.5}));
+
+  options.columns = parse_columns("x=2,y=3,z=4");
+  for (const char* text :
+       {"0;1;2;3\n0;-4;0,5;6\n", "a;b;c;d\n0;1;2;3\n0;-4;0,5;6\n", "time_s,x,y,z\n0,1,2,3\n0,-4,.5,6\n"}) {
+    const Trajectory chosen = read(text, options);
+    EXPECT_EQ(chosen.positions, two) << text;
+    EXPECT_TRUE(chosen.times_s.empty()) << text;
+  }
+  EXPECT_EQ(complaint("a,b\n1,2\n", options), "path.csv:1: --columns: there is no column 3 of 2");
+  options.columns = parse_columns("x=a,y=b,z=Q");
+  EXPECT_EQ(complaint("a,b\n1,2\n", options), "path.csv:1: --columns: the header has no column 'Q'");
+}
+
+TEST_F(TrajectoryCsv, TheScaleIsOfCoordinatesAndRadii) {
+  MotionOptions options;
+  options.scale = 1000;
+  const Trajectory path = read("x,y,z,radius,time_s\n0.001,0.002,0.003,0.5,1\n", options);
+  EXPECT_EQ(path.positions[0], Vec3(0.001 * 1000, 0.002 * 1000, 0.003 * 1000));
+  EXPECT_EQ(path.radii[0], 500);
+  EXPECT_EQ(path.times_s[0], 1);
+  options.scale = 1e300;
+  EXPECT_EQ(complaint("x,y,z\n0,1e10,0\n", options),
+            "path.csv:2: column y: '1e10' times --motion-scale is beyond the range of a double");
+}
+
+TEST_F(TrajectoryCsv, RowsWithTimesAreStepsWhereTheyAreEvenlySpaced) {
+  const Trajectory path = read("time_s,x,y,z\n10,0,0,0\n10.001,1,0,0\n10.0024,2,0,0\n10.003,3,0,0\n");
+  EXPECT_EQ(path.size(), 4u);
+  ASSERT_TRUE(path.recorded);
+  EXPECT_EQ(path.recorded->rows, 4u);
+  EXPECT_NEAR(path.recorded->duration_s, 0.003, 1e-14);
+  EXPECT_NEAR(*path.recorded->rate_hz(), 1000, 1e-8);
+  EXPECT_FALSE(path.recorded->resampled_hz);
+  EXPECT_FALSE(read("x,y,z\n1,2,3\n").recorded);
+  EXPECT_EQ(
+      complaint("time_s,x,y,z\n0,0,0,0\n# lost one\n0.001,1,0,0\n0.003,2,0,0\n0.004,3,0,0\n"),
+      "path.csv:5: column time_s: 0.002 s after the row before, longer than the usual interval: rows are not "
+      "evenly spaced; --rate HZ resamples them");
+}
+
+TEST_F(TrajectoryCsv, ResamplesByTimeAlongStraightLines) {
+  MotionOptions options;
+  options.rate_hz = 1000;
+  const Trajectory path =
+      read("time_s,x,y,z,radius\n7,0,0,0,1\n7.002,2,0,-4,3\n7.003,3,1,-4,3\n7.0055,3,6,-4,3\n", options);
+  // At 0, 1, 2, 3, 4 and 5 ms; what comes after the last tick is left.
+  const std::vector<Vec3> expected = {{0, 0, 0}, {1, 0, -2}, {2, 0, -4}, {3, 1, -4}, {3, 3, -4}, {3, 5, -4}};
+  ASSERT_EQ(path.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_LT((path.positions[i] - expected[i]).norm(), 1e-9) << i;  // times near 7 are off by 1e-15
+  EXPECT_NEAR(path.radii[1], 2, 1e-9);
+  EXPECT_EQ(path.recorded->rows, 4u);
+  EXPECT_EQ(path.recorded->resampled_hz, 1000);
+  EXPECT_EQ(complaint("x,y,z\n1,2,3\n", options),
+            "path.csv:1: --rate needs times, and the header has no column time_s (or --columns name none)");
+  EXPECT_EQ(complaint("t,x,y,z\n0,0,0,0\n1e9,1,2,3\n", options),
+            "path.csv: 1000000000 s at --rate 1000 are 1000000000001 steps, more than 100000000");
+}
+
+// Decimal times are not those of a clock; at the clock's own rate just the rows come out nevertheless.
+TEST_F(TrajectoryCsv, AtItsOwnRateAMotionKeepsItsRows) {
+  for (const double start : {0.0, 0.1, 1.7e9}) {
+    std::string text = "time_s,x,y,z\n";
+    std::vector<Vec3> rows;
+    for (int i = 0; i < 3000; ++i) {
+      std::ostringstream row;
+      row.precision(15);
+      row << start + i / 1000.0 << ',' << 0.1 * i << ",0.3,-0.7\n";
+      text += row.str();
+      rows.emplace_back(0.1 * i, 0.3, -0.7);
+    }
+    MotionOptions options;
+    options.rate_hz = 1000;
+    const Trajectory path = read(text, options);
+    ASSERT_EQ(path.size(), rows.size()) << start;
+    for (std::size_t i = 0; i < rows.size(); ++i) ASSERT_LT((path.positions[i] - rows[i]).norm(), 1e-9) << i;
+    // The first steps are the same ones, wherever reading stops.
+    const Trajectory few = read_trajectory(file(text), 100, options);
+    ASSERT_EQ(few.size(), 100u);
+    for (std::size_t i = 0; i < few.size(); ++i) ASSERT_EQ(few.positions[i], path.positions[i]) << i;
+  }
+}
+
+TEST_F(TrajectoryCsv, OptionsAreRefusedByNameAndValue) {
+  const auto refusal = [](const std::string& columns, const std::string& scale, const std::string& rate) {
+    try {
+      parse_motion_options(columns, scale, rate);
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  const std::string form = "; write x=COL,y=COL,z=COL[,time=COL][,radius=COL], COL a name or a number from 1";
+  EXPECT_EQ(refusal("x=1,y=2", "", ""), "--columns \"x=1,y=2\": z is missing" + form);
+  EXPECT_EQ(refusal("x=1,y=2,z=0", "", ""), "--columns \"x=1,y=2,z=0\": columns are counted from 1" + form);
+  EXPECT_EQ(refusal("x=1,x=2,z=3", "", ""), "--columns \"x=1,x=2,z=3\": \"x=2\" is one x too many" + form);
+  EXPECT_EQ(refusal("x=,y=2,z=3", "", ""), "--columns \"x=,y=2,z=3\": a column is empty" + form);
+  EXPECT_EQ(refusal("1,2,3", "", ""), "--columns \"1,2,3\": \"1\" is not KEY=COL with a known key" + form);
+  for (const char* bad : {"0", "-1", "inf", "nan", "1e-320", "fast"}) {
+    EXPECT_EQ(refusal("", bad, ""),
+              "--motion-scale \"" + std::string(bad) + "\" is not a finite number above 0");
+    EXPECT_EQ(refusal("", "", bad), "--rate \"" + std::string(bad) + "\" is not a finite number above 0");
+  }
+}
+
+TEST_F(TrajectoryCsv, RefusesUtf16AndPipesThatNobodyWritesTo) {
+  EXPECT_EQ(complaint(std::string("\xff\xfex\0,\0", 6)),
+            "path.csv: is UTF-16 text: save it as UTF-8 (\"CSV UTF-8\" in spreadsheets)");
+  const std::string pipe = directory_ / "pipe.csv";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  try {
+    read_trajectory(pipe);
+    ADD_FAILURE() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_EQ(error.what(), pipe + ": is a pipe that nobody writes to");
+  }
+  std::thread writer([&] { std::ofstream(pipe) << "x,y,z\n1,2,3\n-4,.5,6\n"; });
+  EXPECT_EQ(read_trajectory(pipe).positions, two);
+  writer.join();
+}
+
+TEST_F(TrajectoryCsv, CountsLinesInsideQuotes) {
+  EXPECT_EQ(complaint("x,y,z,note\n1,2,3,\"a\nb\"\n1,?,3,c\n"), "path.csv:4: column y: '?' is not a number");
+}
+
+TEST_F(TrajectoryCsv, RefusesWhatIsNoFile) {
+  EXPECT_THROW(read_trajectory(directory_ / "missing.csv"), std::invalid_argument);
+  EXPECT_THROW(read_trajectory(directory_), std::invalid_argument);
+}
+
+TEST_F(TrajectoryCsv, KeepsTheFirstRowsOfALongFile) {
+  EXPECT_EQ(read_trajectory(file("x,y,z\n1,2,3\n-4,5e-1,6\n7,8,9\n"), 2).positions, two);
+}
+
+TEST_F(TrajectoryCsv, ReadsAFileOfManyBuffers) {
+  std::string text = "x,y,z\n";
+  for (int i = 0; i < 50'000; ++i) text += std::to_string(i) + "," + std::to_string(2 * i) + ",0.125\n";
+  const Trajectory path = read(text);
+  ASSERT_EQ(path.size(), 50'000u);
+  for (int i = 0; i < 50'000; ++i)
+    ASSERT_EQ(path.positions[static_cast<std::size_t>(i)], Vec3(i, 2 * i, 0.125));
+}
+
+TEST_F(TrajectoryCsv, WritesWhatReadsBackToTheSameBits) {
+  const Trajectory written{"odd numbers",
+                           {{0.1, -1.0 / 3, 5e-324}, {1e6 + 1e-10, 1.7976931348623157e308, -0.0}},
+                           {0.005, 0},
+                           {0, 0.001}};
+  const std::string path = directory_ / "out.csv";
+  write_trajectory(written, path);
+  const Trajectory back = read_trajectory(path);
+  EXPECT_EQ(back.positions, written.positions);
+  EXPECT_TRUE(std::signbit(back.positions[1].z()));
+  EXPECT_EQ(back.radii, written.radii);
+  EXPECT_EQ(back.times_s, written.times_s);
+}
+
+TEST_F(TrajectoryCsv, WritesTheShortestText) {
+  const std::string path = directory_ / "out.csv";
+  write_trajectory({"short", {{0.1, 2, 1e22}}, {}, {}}, path);
+  std::stringstream text;
+  text << std::ifstream(path).rdbuf();
+  EXPECT_EQ(text.str(), "x,y,z\n0.1,2,1e+22\n");
+}
+
+TEST_F(TrajectoryCsv, LeavesNothingBehindWhereItCannotWrite) {
+  const std::string path = directory_ / "no such folder" / "out.csv";
+  try {
+    write_trajectory({"lost", two, {}, {}}, path);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(error.what(), "cannot write " + path + ": No such file or directory");
+  }
+  std::filesystem::create_directory(directory_ / "taken.csv");
+  EXPECT_THROW(write_trajectory({"lost", two, {}, {}}, directory_ / "taken.csv"), std::runtime_error);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory_), {}), 1);
+}
+
+TEST_F(TrajectoryCsv, WritesIntoDevicesWithoutReplacingThem) {
+  write_trajectory({"gone", two, {}, {}}, "/dev/null");
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+TEST_F(TrajectoryCsv, FailsOnAFullDisk) {
+  Trajectory large{"large", std::vector<Vec3>(10'000, two[1]), {}, {}};
+  EXPECT_THROW(write_trajectory(large, "/dev/full"), std::runtime_error);
+}
+
+TEST_F(TrajectoryCsv, IsATrajectoryLikeAnyOther) {
+  const TriangleMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  const std::string path = file("x,y,z\n1,2,3\n-4,5e-1,6\n");
+  EXPECT_EQ(make_trajectory(path, mesh).positions, two);
+  EXPECT_EQ(make_trajectory(path, mesh, {1, 1, 0}).size(), 1u);
+  EXPECT_THROW(make_trajectory("missing.csv", mesh), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace touchmark::bench

@@ -1,0 +1,7 @@
+/// The touchmark program with nothing but bad contestants.
+#include "bench/cli/program.h"
+#include "tests/bench/workers/hostile_roster.h"
+
+int main(int argc, char** argv) {
+  return touchmark::bench::run_program(argc, argv, touchmark::bench::hostile_roster());
+}

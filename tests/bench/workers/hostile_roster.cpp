@@ -1,0 +1,188 @@
+#include "tests/bench/workers/hostile_roster.h"
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include <unistd.h>
+
+#include "core/brute_force/brute_force.h"
+#include "core/grid_group/grid_group.h"
+
+namespace touchmark::bench {
+namespace {
+
+[[noreturn]] void hang() {
+  for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
+}
+
+/// What the answers so far have cost, in the nanoseconds that their contestants claim to need.
+std::atomic<std::int64_t> spent_ns = 0;
+
+/// BruteForce, with something that happens to each answer of `nearest`.
+template <class Misdeed>
+class Misbehaving {
+ public:
+  struct Options {};
+  using Session = BruteForce::Session;
+
+  static Misbehaving build(const TriangleMesh& mesh, const Options&) {
+    Misdeed::at_build();
+    return Misbehaving(BruteForce::build(mesh));
+  }
+  std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept {
+    spent_ns += Misdeed::cost_ns();
+    return Misdeed::at_answer(detector_.nearest(probe, reach, session));
+  }
+  std::size_t bytes() const noexcept { return detector_.bytes(); }
+  Accuracy accuracy() const noexcept { return detector_.accuracy(); }
+
+ private:
+  explicit Misbehaving(BruteForce detector) : detector_(std::move(detector)) {}
+  BruteForce detector_;
+};
+
+struct Honest {
+  static void at_build() {}
+  static std::optional<Contact> at_answer(std::optional<Contact> contact) { return contact; }
+  static std::int64_t cost_ns() { return 10000; }
+};
+struct Aborts : Honest {
+  static std::optional<Contact> at_answer(const std::optional<Contact>&) { std::abort(); }
+};
+struct AbortsAtBuild : Honest {
+  static void at_build() { std::abort(); }
+};
+struct DividesByZero : Honest {
+  static std::optional<Contact> at_answer(const std::optional<Contact>&) {
+    std::raise(SIGFPE);  // what an integer division by zero does, without the undefined behaviour
+    return std::nullopt;
+  }
+};
+struct Throws : Honest {
+  static std::optional<Contact> at_answer(const std::optional<Contact>&) {
+    throw std::runtime_error("from a query that is noexcept");
+  }
+};
+struct Exits : Honest {
+  static std::optional<Contact> at_answer(const std::optional<Contact>&) { _exit(7); }
+};
+struct Hangs : Honest {
+  static std::optional<Contact> at_answer(const std::optional<Contact>&) { hang(); }
+};
+struct HangsAtBuild : Honest {
+  static void at_build() { hang(); }
+};
+struct Refuses : Honest {
+  static void at_build() { throw std::invalid_argument("no mesh is good enough"); }
+};
+struct Lies : Honest {
+  static std::optional<Contact> at_answer(std::optional<Contact> contact) {
+    if (contact) contact->distance *= 1.0001;
+    return contact;
+  }
+};
+/// Right while it is being verified, wrong when it is timed. Verifying 40 steps takes fewer than 200 answers.
+struct Fickle : Honest {
+  static std::optional<Contact> at_answer(std::optional<Contact> contact) {
+    static std::atomic<int> answers = 0;
+    if (contact && ++answers > 200) contact->distance = 0;
+    return contact;
+  }
+};
+
+const char* environment(const char* name, const char* otherwise) {
+  const char* value = std::getenv(name);
+  return value != nullptr ? value : otherwise;
+}
+
+/// As slow as the test says.
+struct Paced : Honest {
+  static std::int64_t cost_ns() {
+    static const int cost = std::atoi(environment("TOUCHMARK_TEST_COST_NS", "10000"));
+    return cost;
+  }
+};
+/// Slower by another process: each build, counted in a file, adds to it.
+struct Moody : Honest {
+  static void at_build() {
+    std::FILE* const file = std::fopen(environment("TOUCHMARK_TEST_COUNTER", "/dev/null"), "ab");
+    if (file == nullptr) return;
+    std::fputc('x', file);
+    builds() = std::ftell(file);
+    std::fclose(file);
+  }
+  static std::int64_t cost_ns() { return 10000 * builds(); }
+  static long& builds() {
+    static long count = 1;
+    return count;
+  }
+};
+
+/// Says in a file that it is being built, and then does not answer.
+struct Stalls : Moody {
+  static std::optional<Contact> at_answer(const std::optional<Contact>&) { hang(); }
+};
+
+struct TouchesOnly {
+  struct Options {};
+  using Session = BruteForce::Session;
+  BruteForce detector;
+  static TouchesOnly build(const TriangleMesh& mesh, const Options&) { return {BruteForce::build(mesh)}; }
+  bool touches(const Probe& probe, Session& session) const noexcept {
+    return detector.touches(probe, session);
+  }
+  std::size_t bytes() const noexcept { return detector.bytes(); }
+  Accuracy accuracy() const noexcept { return detector.accuracy(); }
+};
+
+template <Detector D>
+ContestantInfo contestant(std::string name) {
+  ContestantInfo info;
+  info.name = std::move(name);
+  info.accuracy = "exact";
+  info.queries = queries_of<D>();
+  info.build = [](const TriangleMesh& mesh, const OptionValues&) -> std::unique_ptr<Contestant> {
+    return std::make_unique<ContestantOf<D>>(D::build(mesh, {}));
+  };
+  info.worker_program = [](const OptionValues&) { return "touchmark-hostile-worker"; };
+  return info;
+}
+
+ContestantInfo makes_later() {
+  ContestantInfo info = contestant<GridGroup>("makes-later");
+  info.build = [](const TriangleMesh& mesh, const OptionValues&) -> std::unique_ptr<Contestant> {
+    return std::make_unique<ContestantOf<GridGroup>>(
+        GridGroup::build(mesh, {.making = GridGroup::Making::lazy}));
+  };
+  return info;
+}
+
+}  // namespace
+
+std::int64_t hostile_ns() noexcept { return spent_ns; }
+
+const Roster& hostile_roster() {
+  static const Roster all(
+      {contestant<Misbehaving<Honest>>("honest"), contestant<Misbehaving<Aborts>>("aborts"),
+       contestant<Misbehaving<AbortsAtBuild>>("aborts-at-build"),
+       contestant<Misbehaving<DividesByZero>>("divides-by-zero"), contestant<Misbehaving<Throws>>("throws"),
+       contestant<Misbehaving<Exits>>("exits"), contestant<Misbehaving<Hangs>>("hangs"),
+       contestant<Misbehaving<HangsAtBuild>>("hangs-at-build"), contestant<Misbehaving<Refuses>>("refuses"),
+       contestant<Misbehaving<Lies>>("lies"), contestant<Misbehaving<Fickle>>("fickle"),
+       contestant<TouchesOnly>("touches-only"), contestant<Misbehaving<Paced>>("paced"),
+       contestant<Misbehaving<Moody>>("moody"), contestant<Misbehaving<Stalls>>("stalls"), makes_later()},
+      {"honest"});
+  return all;
+}
+
+}  // namespace touchmark::bench

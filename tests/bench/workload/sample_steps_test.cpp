@@ -1,0 +1,56 @@
+#include "bench/workload/sample_steps.h"
+
+#include <gtest/gtest.h>
+
+namespace touchmark::bench {
+namespace {
+
+TEST(Windows, AreTheWholeWayWhereThereIsTimeForIt) {
+  for (const std::size_t wanted : {100U, 101U, 1000000U}) {
+    const std::vector<Window> windows = plan_windows(100, wanted);
+    ASSERT_EQ(windows.size(), 1U);
+    EXPECT_EQ(windows[0].begin, 0U);
+    EXPECT_EQ(windows[0].end, 100U);
+  }
+}
+
+TEST(Windows, AreSplitIntoEqualPartsAndJoinedAgain) {
+  for (const std::size_t parts : {1U, 2U, 3U, 7U, 100U, 1000U}) {
+    const std::vector<Window> some = split({5, 105}, parts);
+    ASSERT_EQ(some.size(), std::min<std::size_t>(parts, 100));
+    for (const Window& window : some) EXPECT_LE(window.size(), 100 / some.size() + 1);
+    const std::vector<Window> whole = joined(some);
+    ASSERT_EQ(whole.size(), 1U);
+    EXPECT_EQ(whole[0].begin, 5U);
+    EXPECT_EQ(whole[0].end, 105U);
+  }
+  EXPECT_EQ(joined({{0, 2}, {3, 4}, {4, 6}}).size(), 2U);
+}
+
+TEST(Windows, AreDisjointAscendingAndInsideWhateverTheCounts) {
+  for (std::size_t total = 1; total < 200; ++total) {
+    for (std::size_t wanted = 0; wanted < total; ++wanted) {
+      std::size_t end = 0;
+      const std::vector<Window> windows = plan_windows(total, wanted);
+      for (const Window& window : windows) {
+        ASSERT_GE(window.begin, end);
+        ASSERT_GT(window.end, window.begin);
+        ASSERT_LE(window.end, total);
+        end = window.end;
+      }
+      ASSERT_GE(steps_in(windows), 1U);
+      ASSERT_LE(steps_in(windows), std::max<std::size_t>(wanted, 1));
+    }
+  }
+}
+
+TEST(Windows, AreSpreadOverTheWholeWayAndAlmostAsManyStepsAsWanted) {
+  const std::vector<Window> windows = plan_windows(20000, 1000);
+  EXPECT_GE(steps_in(windows), 900U);
+  EXPECT_EQ(windows.front().begin, 0U);
+  EXPECT_GT(windows.back().end, 18000U);
+  EXPECT_GE(windows.front().size(), 16U);  // neighbours, so that a session can profit
+}
+
+}  // namespace
+}  // namespace touchmark::bench

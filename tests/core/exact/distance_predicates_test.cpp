@@ -1,0 +1,151 @@
+// Decisions of core/geometry against the oracle's, which share no code: whole numbers of fixed size against
+// those of a library that takes what it needs.
+#include "core/exact/distance_predicates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "bench/oracle/exact_distance.h"
+#include "tests/bench/oracle/hard_triangles.h"
+
+namespace touchmark {
+namespace {
+
+using Corners = HardCases::Corners;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double largest = std::numeric_limits<double>::max();
+constexpr double smallest = std::numeric_limits<double>::denorm_min();
+
+/// The distance, rounded, an ulp to each side, and what is far from it.
+std::vector<double> radii(double distance) {
+  return {distance, std::nextafter(distance, 0.0), std::nextafter(distance, infinity), 0, 2 * distance,
+          infinity};
+}
+
+bool within_by_oracle(const HardCase& c, double radius) {
+  return radius >= 0 && bench::compare_distance(c.point, c.triangle, radius) <= 0;
+}
+
+void expect_oracle_agrees(const HardCase& c) {
+  const bench::ExactNearest truth = bench::nearest_exactly(c.point, {&c.triangle, 1});
+  for (const double radius : radii(std::min(truth.high, largest)))
+    ASSERT_EQ(within_exactly(c.triangle, c.point, radius), within_by_oracle(c, radius)) << radius;
+  const Foot foot = foot_exactly(c.triangle, c.point);
+  ASSERT_EQ(foot.distance.high, truth.high);
+  if (std::isinf(truth.high)) return;
+  if (truth.high > 1e-250) {
+    ASSERT_NEAR(foot.distance.low, truth.low, 0x1p-96 * truth.high);
+  }
+  ASSERT_NEAR((foot.direction - truth.direction).norm(), 0, 1e-15);
+  // The offset is the direction times the distance, as far as doubles can tell.
+  const double scale = std::clamp(truth.high, 0x1p-1000, 0x1p1000);
+  if (scale == truth.high) {
+    ASSERT_NEAR((foot.offset / scale - truth.direction).norm(), 0, 1e-15);
+  }
+}
+
+class ExactDecision : public testing::TestWithParam<HardFamily> {};
+
+/// Ways to the point from another case's, at the radii where their distance may begin to be within.
+TEST_P(ExactDecision, OfPartsOfAWayIsTheOracles) {
+  HardCases hard(62);
+  std::size_t within = 0, beyond = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const HardCase c = placed(GetParam(), hard, i);
+    const Vec3 from = i % 3 == 0 ? c.point : Vec3(c.triangle[0] + 3 * (c.triangle[1] - c.point));
+    if (!from.allFinite()) continue;
+    const double fraction = i % 2 == 0 ? 1 : std::round(hard.fraction() * 0x1p53) / 0x1p53;
+    const double distance = bench::nearest_exactly(c.point, {&c.triangle, 1}).high;
+    for (const double radius : radii(std::min(distance, largest))) {
+      const bool expected = bench::compare_part_distance(from, c.point, fraction, c.triangle, radius) <= 0;
+      ASSERT_EQ(way_within_exactly(c.triangle, from, c.point, fraction, radius), expected)
+          << "case " << i << ", radius " << radius << ", fraction " << fraction;
+      ++(expected ? within : beyond);
+      if (fraction == 1) {
+        ASSERT_EQ(bench::compare_segment_distance(from, c.point, c.triangle, radius) <= 0, expected);
+      }
+    }
+  }
+  EXPECT_GT(within, 500U);
+  EXPECT_GT(beyond, 20U);
+}
+
+TEST_P(ExactDecision, IsTheOracles) {
+  HardCases hard(60);
+  for (int i = 0; i < 4000; ++i) {
+    ASSERT_NO_FATAL_FAILURE(expect_oracle_agrees(placed(GetParam(), hard, i))) << "case " << i;
+  }
+}
+
+TEST_P(ExactDecision, IsTheOraclesWhereverInTheRangeOfDouble) {
+  HardCases hard(61);
+  for (int i = 0; i < 1000; ++i) {
+    HardCase c{GetParam().triangle(hard), Vec3::Zero()};
+    c.point = hard.point_about(c.triangle);
+    // At either end, or each corner at a size of its own.
+    const double common = i % 3 == 0 ? 0x1p1000 : 0x1p-1060;
+    for (Vec3* v : c.vectors()) *v *= i % 3 == 2 ? hard.magnitude(-300, 300) : common;
+    ASSERT_NO_FATAL_FAILURE(expect_oracle_agrees(c)) << "case " << i;
+  }
+}
+
+TEST_P(ExactDecision, OrdersTrianglesAsTheOracleDoes) {
+  HardCases hard(62);
+  for (int i = 0; i < 2000; ++i) {
+    const Corners a = GetParam().triangle(hard);
+    // Beside each other, so that ties are common, or anything.
+    const Corners b = i % 2 == 0 ? Corners{a[1], a[0], hard.lattice()} : GetParam().triangle(hard);
+    const Vec3 point = hard.point_about(a);
+    const std::array<bench::Triangle, 2> forward = {a, b}, backward = {b, a};
+    const std::size_t first = bench::nearest_exactly(point, forward).which;
+    const std::size_t second = bench::nearest_exactly(point, backward).which;
+    const auto order = first == 1    ? std::strong_ordering::greater
+                       : second == 1 ? std::strong_ordering::less
+                                     : std::strong_ordering::equal;
+    ASSERT_TRUE(compare_exactly(a, b, point) == order) << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, ExactDecision, testing::ValuesIn(hard_families()),
+                         [](const auto& family) { return family.param.name; });
+
+TEST(ExactDecisions, TheWholeRangeOfDoubleAtOnce) {
+  const Corners triangle = {Vec3(largest, smallest, 0), Vec3(-largest, largest, smallest),
+                            Vec3(smallest, -largest, largest)};
+  for (const Vec3& point : {Vec3(0, 0, 0), Vec3(smallest, smallest, smallest), Vec3(-largest, 1, largest)})
+    expect_oracle_agrees({triangle, point});
+}
+
+TEST(ExactDecisions, OnTheTriangleTheDistanceIsZeroAndHasNoDirection) {
+  const Corners triangle = {Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
+  for (const Vec3& point : {Vec3(1, 1, 0), Vec3(2, 0, 0), Vec3(0, 4, 0)}) {
+    EXPECT_TRUE(within_exactly(triangle, point, 0));
+    EXPECT_EQ(foot_exactly(triangle, point).distance.high, 0);
+    EXPECT_EQ(foot_exactly(triangle, point).direction, Vec3::Zero());
+  }
+  EXPECT_FALSE(within_exactly(triangle, {1, 1, smallest}, 0));
+  EXPECT_TRUE(within_exactly(triangle, {1, 1, smallest}, smallest));
+}
+
+TEST(ExactDecisions, WhatIsNotFiniteOrNegativeIsNotWithin) {
+  const Corners triangle = {Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(within_exactly(triangle, {nan, 0, 0}, 1));
+  EXPECT_FALSE(within_exactly(triangle, {infinity, 0, 0}, infinity));
+  EXPECT_FALSE(within_exactly(triangle, {1, 1, 0}, -1));
+  EXPECT_FALSE(within_exactly(triangle, {1, 1, 0}, nan));
+}
+
+TEST(ExactDecisions, TheNormalOfACapAsThinAsCoordinatesAllow) {
+  const Vec3 normal = normal_exactly({Vec3(1, 1, 1), Vec3(-1, -1, 1), Vec3(0x1p-50, -0x1p-50, 1)});
+  EXPECT_EQ(normal, Vec3(0, 0, 1));
+  EXPECT_EQ(normal_exactly({Vec3(1, 1, 1), Vec3(3, 3, 3), Vec3(2, 2, 2)}), Vec3::Zero());
+}
+
+}  // namespace
+}  // namespace touchmark

@@ -1,0 +1,134 @@
+#include "core/search/distance_field.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "core/brute_force/brute_force.h"
+#include "tests/core/sphere_cluster/test_meshes.h"
+
+namespace touchmark {
+namespace {
+
+using test::Random;
+
+TriangleMesh plate(double width, double height) {
+  std::vector<Vec3> vertices = {
+      {-width, -height, 0}, {width, -height, 0}, {width, height, 0}, {-width, height, 0}};
+  return {std::move(vertices), {{0, 1, 2}, {0, 2, 3}}};
+}
+
+std::vector<TriangleMesh> meshes() {
+  return {test::bumpy_sphere(6, 0.1, 1), test::soup(200, 0.1, 2), plate(1, 0.7), plate(1, 1e-3)};
+}
+
+double distance_to(const BruteForce& mesh, const Vec3& point) {
+  BruteForce::Session session;
+  return mesh.nearest({point, 0}, std::numeric_limits<double>::infinity(), session)->distance;
+}
+
+/// What a detector would make of the mesh, its samples known no better than `least` times the distance.
+struct Grid {
+  explicit Grid(const TriangleMesh& mesh, double least = 1, std::size_t most_samples = 1'000'000)
+      : brute(BruteForce::build(mesh, {})), frame(FilterFrame::around(mesh.bounds())) {
+    const Vec3 low = frame.to_frame(mesh.bounds().min), high = frame.to_frame(mesh.bounds().max);
+    grid = DistanceGrid(low.cast<float>(), high.cast<float>(), mesh.size());
+    grid.fill([&](const Vec3& place, double most) {
+      if (samples++ == most_samples) return DistanceGrid::Interval{-1, -1};
+      const double distance = frame.scale() * distance_to(brute, frame.origin() + place / frame.scale());
+      EXPECT_LE(distance, most);
+      return DistanceGrid::Interval{least * distance, distance};
+    });
+  }
+  double distance(const Vec3& in_frame) const {
+    return frame.scale() * distance_to(brute, frame.origin() + in_frame / frame.scale());
+  }
+  FilterPoint point(const Vec3& in_frame) const {
+    return frame.point(frame.origin() + in_frame / frame.scale());
+  }
+
+  BruteForce brute;
+  FilterFrame frame;
+  DistanceGrid grid;
+  std::size_t samples = 0;
+};
+
+TEST(DistanceGrid, BoundsTheDistanceInsideAndFarOutside) {
+  Random random(3);
+  for (const TriangleMesh& mesh : meshes()) {
+    const Grid known(mesh), roughly(mesh, 0.8);
+    for (int i = 0; i < 3000; ++i) {
+      const Vec3 p = random.vector(i % 3 == 0 ? 0.7 : i % 3 == 1 ? 3 : 1e5);
+      const double distance = known.distance(p);
+      for (const Grid* grid : {&known, &roughly}) {
+        EXPECT_LE(static_cast<double>(grid->grid.at_least(grid->point(p))), distance) << p.transpose();
+        EXPECT_LE(static_cast<double>(grid->grid.at_least_by_eight(grid->point(p))), distance)
+            << p.transpose();
+        EXPECT_GE(static_cast<double>(grid->grid.at_most(grid->point(p))), distance) << p.transpose();
+      }
+    }
+  }
+}
+
+TEST(DistanceGrid, KnowsThatAPointIsFar) {
+  Random random(4);
+  const TriangleMesh mesh = test::bumpy_sphere(20, 0.02, 1);
+  const Grid known(mesh);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 p = random.vector(4);
+    const double distance = known.distance(p);
+    if (distance < 0.2) continue;  // two cubes' edges
+    EXPECT_GT(static_cast<double>(known.grid.at_least(known.point(p))), 0.3 * distance) << p.transpose();
+    if (p.lpNorm<Eigen::Infinity>() < 0.5) {
+      EXPECT_LT(static_cast<double>(known.grid.at_most(known.point(p))), 2 * distance + 0.2) << p.transpose();
+    }
+  }
+}
+
+TEST(DistanceGrid, KnowsMoreByEight) {
+  Random random(7);
+  const TriangleMesh mesh = test::bumpy_sphere(20, 0.02, 1);
+  const Grid known(mesh);
+  double missing_by_one = 0, missing_by_eight = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 p = random.vector(0.6);  // within the samples' box
+    const double distance = known.distance(p);
+    missing_by_one += distance - static_cast<double>(known.grid.at_least(known.point(p)));
+    missing_by_eight += distance - static_cast<double>(known.grid.at_least_by_eight(known.point(p)));
+  }
+  EXPECT_LT(missing_by_eight, 0.6 * missing_by_one);
+}
+
+TEST(DistanceGrid, WhereSamplingEndsNothingIsClaimed) {
+  Random random(5);
+  for (const TriangleMesh& mesh : meshes()) {
+    const std::size_t all = Grid(mesh).samples;
+    for (const std::size_t most : {std::size_t{0}, std::size_t{1}, all / 2}) {
+      const Grid cut(mesh, 1, most);
+      for (int i = 0; i < 500; ++i) {
+        const Vec3 p = random.vector(1.5);
+        EXPECT_LE(static_cast<double>(cut.grid.at_least(cut.point(p))), cut.distance(p));
+        EXPECT_LE(static_cast<double>(cut.grid.at_least_by_eight(cut.point(p))), cut.distance(p));
+        EXPECT_GE(static_cast<double>(cut.grid.at_most(cut.point(p))), cut.distance(p));
+      }
+    }
+  }
+}
+
+TEST(DistanceGrid, ClaimsNothingBeforeItIsFilled) {
+  const FilterPoint point{0.1F, 0.2F, 0.3F, 1e-6F};
+  EXPECT_LE(DistanceGrid().at_least(point), 0);
+  EXPECT_LE(DistanceGrid().at_least_by_eight(point), 0);
+  EXPECT_EQ(DistanceGrid().at_most(point), std::numeric_limits<float>::infinity());
+}
+
+TEST(DistanceGrid, StaysSmallForAFewTriangles) {
+  for (const TriangleMesh& mesh : meshes())
+    EXPECT_LE(Grid(mesh).grid.bytes(), std::max<std::size_t>(5 * mesh.size(), 128));
+}
+
+}  // namespace
+}  // namespace touchmark

@@ -1,0 +1,141 @@
+// Hundreds of triangles as near by one shared place, or each by its own: the exact answers, and what they
+// cost in decisions by whole numbers, each of which takes as long as a hundred distances in doubles.
+#include "core/search/nearest_of_ties.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "bench/experiments/stress/shared_features.h"
+#include "bench/oracle/exact_distance.h"
+#include "bench/oracle/oracle.h"
+#include "tests/bench/oracle/hard_triangles.h"
+#include "tests/exact_forms.h"
+
+namespace touchmark {
+namespace {
+
+using bench::Answer;
+using bench::Query;
+using bench::Step;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Whole numbers may name the nearest, measure it, and compare it with the reach; and now and then decide
+/// whether a point is exactly across an oblique corner from a triangle.
+std::uint64_t most_decisions(const TriangleMesh& mesh) { return 4 + mesh.size() / 16; }
+
+std::vector<Step> steps_about(const bench::SharedFeature& shared) {
+  const bench::Oracle oracle(shared.mesh);
+  std::vector<Step> steps;
+  for (const Vec3& center : shared.centers) {
+    const double distance = oracle.solve(center).high;
+    for (const double length :
+         {distance, std::nextafter(distance, 0.0), std::nextafter(distance, infinity), infinity})
+      steps.push_back({{center, length}, length});
+  }
+  return steps;
+}
+
+TEST(SharedFeatures, AreDecidedAsTheOracleDoesWithFewWholeNumbers) {
+  for (const bench::SharedFeature& shared : bench::shared_feature_meshes(300)) {
+    const bench::Oracle oracle(shared.mesh);
+    const std::vector<Step> steps = steps_about(shared);
+    std::vector<bench::Truth> truths;
+    for (const Step& step : steps) truths.push_back(oracle.solve(step.probe.center));
+    for (const ExactForm& form : exact_forms(shared.mesh)) {
+      for (const Query query : {Query::touches, Query::nearest}) {
+        form.detector->forget();
+        for (std::size_t i = 0; i < steps.size(); ++i) {
+          const std::string where = shared.name + ", " + form.name + ", step " + std::to_string(i);
+          Answer answer;
+          std::uint64_t work = 0;
+          const std::uint64_t before = form.detector->work().exact_decisions;
+          form.detector->answer({query, {&steps[i], 1}}, {0, 1}, {&answer, 1}, {&work, 1});
+          // As published, grid groups look at a triangle once for each group that it is in.
+          if (!form.name.starts_with("grid-group, scan")) {
+            EXPECT_LE(form.detector->work().exact_decisions - before, most_decisions(shared.mesh)) << where;
+          }
+          const bool within = oracle.within(truths[i], steps[i].probe.center, steps[i].reach);
+          ASSERT_EQ(answer.found != 0, within) << where;
+          if (query == Query::nearest && within) {
+            ASSERT_EQ(answer.triangle, truths[i].triangle) << where;
+          }
+        }
+      }
+    }
+  }
+}
+
+class SureFeatures : public testing::TestWithParam<HardFamily> {};
+
+TEST_P(SureFeatures, AreAsFarAsTheTriangle) {
+  HardCases hard(90);
+  int sure = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const HardCase c = placed(GetParam(), hard, i);
+    if (!features_fit(c.largest_difference())) continue;
+    const PreparedTriangle triangle = prepare(c.triangle[0], c.triangle[1], c.triangle[2], 0);
+    const std::optional<Feature> feature = sure_feature(triangle, c.point);
+    if (!feature) continue;
+    ++sure;
+    const bench::ExactNearest truth = bench::nearest_exactly(c.point, {&c.triangle, 1});
+    const SquaredDistance squared = squared_distance(*feature, c.point);
+    // The square of the oracle's two halves, but for that of the lower one and the oracle's rounding.
+    const DoubleDouble expected = DoubleDouble{truth.high, truth.low} * DoubleDouble{truth.high, truth.low};
+    const double off = (squared.value.high - expected.high) + (squared.value.low - expected.low);
+    EXPECT_LE(std::abs(off), squared.error + 0x1p-96 * expected.high) << i;
+  }
+  if (GetParam().name == "plain") {
+    EXPECT_GT(sure, 3000);
+  }
+}
+
+TEST_P(SureFeatures, ThatAreSharedAreTies) {
+  HardCases hard(91);
+  int ties = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const HardCases::Corners a = GetParam().triangle(hard);
+    const HardCases::Corners b = i % 2 == 0 ? HardCases::Corners{a[1], a[0], hard.vector()}
+                                            : HardCases::Corners{hard.vector(), a[0], hard.vector()};
+    // On a shared corner or edge, or anywhere.
+    const Vec3 point = i % 5 == 0 ? a[0] : i % 5 == 1 ? Vec3(0.5 * (a[0] + a[1])) : hard.point_about(a);
+    const std::optional<Feature> feature = sure_feature(prepare(a[0], a[1], a[2], 0), point);
+    if (!feature) continue;
+    const PreparedTriangle other = prepare(b[0], b[1], b[2], 1);
+    if (!SharedPlace(*feature, point).is_nearest_of(other)) continue;
+    ++ties;
+    ASSERT_TRUE(compare_exactly(a, b, point) == 0) << i;
+  }
+  EXPECT_GT(ties, 100);
+}
+
+TEST_P(SureFeatures, OfTwoTrianglesCompareAsWholeNumbersDo) {
+  HardCases hard(92);
+  for (int i = 0; i < 2000; ++i) {
+    HardCases::Corners a = GetParam().triangle(hard);
+    const Vec3 point = hard.point_about(a);
+    // Its image, exactly as far, and sometimes an ulp off.
+    HardCases::Corners b;
+    for (std::size_t k = 0; k < 3; ++k) b[k] = Vec3(a[k].y(), a[k].z(), a[k].x());
+    const Vec3 center = Vec3::Constant(point.x());
+    if (i % 2 == 0) b[0].x() = std::nextafter(b[0].x(), infinity);
+    const PreparedTriangle first = prepare(a[0], a[1], a[2], 0), second = prepare(b[0], b[1], b[2], 1);
+    NearestOfTies ties(center);
+    ties.consider(second);
+    ties.consider(first);
+    const bool second_is_nearer = compare_exactly(b, a, center) < 0;
+    ASSERT_EQ(ties.nearest()->index, second_is_nearer ? 1U : 0U) << i;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, SureFeatures, testing::ValuesIn(hard_families()),
+                         [](const auto& family) { return family.param.name; });
+
+}  // namespace
+}  // namespace touchmark

@@ -1,0 +1,87 @@
+// Where doubles say for certain that two triangles are equally near because they share their nearest point:
+// the oracle agrees wherever they say so, and they say so wherever the point is well off the borders.
+#include "core/search/shared_feature.h"
+
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "bench/experiments/stress/near_ties.h"
+#include "bench/oracle/oracle.h"
+#include "tests/bench/oracle/hard_meshes.h"
+
+namespace touchmark {
+namespace {
+
+PreparedTriangle prepared(const HardCases::Corners& t) { return prepare(t[0], t[1], t[2], 0); }
+
+/// In either order: beside a border the one may be certain where the other is not.
+bool share(const HardCases::Corners& a, const HardCases::Corners& b, const Vec3& point) {
+  return surely_share_nearest(prepared(a), prepared(b), point) ||
+         surely_share_nearest(prepared(b), prepared(a), point);
+}
+
+/// The oracle names the first of exact ties.
+bool are_equally_near(const HardCases::Corners& a, const HardCases::Corners& b, const Vec3& point) {
+  const TriangleMesh one = mesh_of({a, b}), other = mesh_of({b, a});
+  return bench::Oracle(one, 1).solve(point).triangle == 0 &&
+         bench::Oracle(other, 1).solve(point).triangle == 0;
+}
+
+const Vec3 p(0, 0, 0), q(1, 0, 0), left(0.5, 1, -0.25), right(0.5, -1, -0.25);
+
+TEST(SharedFeature, IsTheRidgeThatThePointIsOver) {
+  EXPECT_TRUE(share({p, q, left}, {q, p, right}, {0.4, 0.01, 0.5}));
+  EXPECT_TRUE(share({q, left, p}, {right, q, p}, {0.9, 0, 3}));
+}
+
+TEST(SharedFeature, IsTheEndOfTheRidge) {
+  EXPECT_TRUE(share({p, q, left}, {q, p, right}, {-0.4, 0, 0.5}));
+  EXPECT_TRUE(share({p, q, left}, {right, q, p}, {1.4, 0.1, 0.2}));
+  EXPECT_TRUE(share({p, q, left}, {p, right, Vec3(-1, -1, -1)}, {-0.2, -0.1, 4}));
+}
+
+TEST(SharedFeature, IsNoneOverAFaceOrOnABorder) {
+  EXPECT_FALSE(share({p, q, left}, {q, p, right}, {0.5, 0.5, 0.5})) << "over a face";
+  EXPECT_FALSE(share({p, q, left}, {q, p, right}, {0, 0, 0.5})) << "where the ridge ends";
+  EXPECT_FALSE(share({p, q, Vec3(0, 1, 0)}, {q, p, Vec3(0, -1, 0)}, {0.5, 0, 0.5})) << "a flat ridge";
+  EXPECT_FALSE(share({p, q, left}, {q, p, right}, {0.5, 0, 0})) << "on the ridge";
+}
+
+TEST(SharedFeature, IsNoneOfTrianglesThatMeetElsewhere) {
+  EXPECT_FALSE(share({p, q, left}, {p, right, Vec3(-1, -1, -1)}, {1.3, 0, 0.2}));
+  EXPECT_FALSE(share({p, q, left}, {right, Vec3(5, 5, 5), Vec3(4, 5, 5)}, {0.4, 0.01, 0.5}));
+}
+
+TEST(SharedFeature, IsAllOfTheSameTriangleTurnedOrOpposed) {
+  for (const HardCases::Corners& other : {HardCases::Corners{q, left, p}, HardCases::Corners{left, q, p}})
+    EXPECT_TRUE(share({p, q, left}, other, {0.5, 0.3, 0.5}));
+  EXPECT_FALSE(share({p, p, q}, {p, q, left}, {0.5, 0.3, 0.5})) << "its corners are among the other's only";
+  EXPECT_TRUE(share({p, p, q}, {q, q, p}, {0.5, 0.3, 0.5}));
+}
+
+/// On the borders between features and beside them, and anywhere: what is said for certain is so.
+TEST(SharedFeature, IsNeverClaimedWhereTheDistancesDiffer) {
+  HardCases hard(31);
+  int claimed = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 a = hard.vector(), b = a + hard.magnitude(-3, 0) * hard.vector();
+    const HardCases::Corners one = {a, b, a + hard.magnitude(-3, 0) * hard.vector()};
+    const HardCases::Corners other = {b, a, i % 2 == 0 ? Vec3(hard.vector()) : Vec3(2 * a - one[2])};
+    const TriangleMesh both = mesh_of({one, other});
+    const bench::Oracle oracle(both, 1);
+    const Vec3 from = hard.point_about(one);
+    const Vec3 place = bench::where_the_nearest_changes(oracle, from, from + 0.5 * hard.vector());
+    std::vector<Vec3> points = bench::with_neighbours(place, hard);
+    points.push_back(from);
+    for (const Vec3& point : points) {
+      if (!share(one, other, point)) continue;
+      ++claimed;
+      EXPECT_TRUE(are_equally_near(one, other, point)) << i;
+    }
+  }
+  EXPECT_GT(claimed, 100);
+}
+
+}  // namespace
+}  // namespace touchmark

@@ -1,0 +1,110 @@
+// The bounds that a search leaves triangles out by. All instruction sets compute the same; see
+// sphere_cluster_test.
+#include "core/sphere_cluster/tree/traversal.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/sphere_cluster/tree/node_writer.h"
+#include "tests/bench/oracle/hard_triangles.h"
+
+namespace touchmark::spheres {
+namespace {
+
+using Bounds = portable::Wide (*)(const TriangleBlock&, std::size_t, const portable::Point&) noexcept;
+
+/// Of the block's first triangle.
+float first_of(Bounds bounds, const TriangleBlock& block, const FilterPoint& point) {
+  return bounds(block, 0, portable::spread(point))[0];
+}
+
+struct Alone {
+  /// `times`: how many times its own size the mesh is that it is of.
+  explicit Alone(const HardCases::Corners& c, double times = 0) : triangle(prepare(c[0], c[1], c[2], 0)) {
+    Aabb box;
+    for (const Vec3& corner : c) box.extend(corner);
+    box.extend(box.min + times * box.extent().maxCoeff() * Vec3::Ones());
+    fits = FilterFrame::fits(box);
+    if (!fits) return;
+    frame = FilterFrame::around(box);
+    set_triangle(block, 0, planes_of(triangle, frame));
+  }
+  PreparedTriangle triangle;
+  bool fits;
+  FilterFrame frame;
+  TriangleBlock block{};
+};
+
+class TriangleBounds : public testing::TestWithParam<HardFamily> {};
+
+TEST_P(TriangleBounds, NeverExceedTheDistance) {
+  HardCases hard(90);
+  int asked = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const HardCase c = placed(GetParam(), hard, i);
+    const Alone alone(c.triangle);
+    // From afar what is beyond corners counts most.
+    const Vec3 center =
+        i % 5 == 0 ? Vec3(c.triangle[0] + hard.magnitude(0, 4) * (c.point - c.triangle[0])) : c.point;
+    if (!alone.fits || !alone.frame.covers(center)) continue;
+    ++asked;
+    const FilterPoint point = alone.frame.point(center);
+    const float limit = alone.frame.limit(squared_distance(alone.triangle, center));
+    const float plain = first_of(portable::triangle_bounds, alone.block, point);
+    const float closer = first_of(portable::corner_bounds, alone.block, point);
+    ASSERT_LE(plain, limit) << i;
+    ASSERT_LE(closer, limit) << i;
+    ASSERT_GE(closer, plain * (1 - 0x1p-16F)) << i;
+  }
+  if (GetParam().name == "plain") {
+    EXPECT_GT(asked, 15000);
+  }
+}
+
+TEST_P(TriangleBounds, FromAboveNeverFallShortOfTheDistance) {
+  HardCases hard(91);
+  int near = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const HardCase c = placed(GetParam(), hard, i);
+    const Alone alone(c.triangle, i % 2 == 0 ? 0 : hard.magnitude(0, 9));
+    if (!alone.fits || !alone.frame.covers(c.point)) continue;
+    const FilterPoint point = alone.frame.point(c.point);
+    const double distance = std::sqrt(squared_distance(alone.triangle, c.point));
+    const auto is_within = [&](double radius) {
+      return (portable::surely_within(alone.block, alone.frame.at_most(radius), portable::spread(point)) &
+              1) != 0;
+    };
+    const double error = alone.frame.kernel_error(point.tau);
+    ASSERT_FALSE(is_within(distance - error)) << i;
+    const TrianglePlanes planes = planes_of(alone.triangle, alone.frame);
+    ASSERT_GE(alone.frame.at_least(most_distance(planes, plane_values(planes, point), point)),
+              distance - error)
+        << i;
+    if (is_within(1.01 * distance)) ++near;
+  }
+  if (GetParam().name == "plain") {
+    EXPECT_GT(near, 100);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, TriangleBounds, testing::ValuesIn(hard_families()),
+                         [](const auto& family) { return family.param.name; });
+
+TEST(CornerBounds, AreTheDistanceOffASharpCorner) {
+  const Alone alone({Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(2, 4, 0)});
+  for (const Vec3& center :
+       {Vec3(-3, -1, 0.5), Vec3(7, -1, -2), Vec3(2, 9, 1), Vec3(2, 1, 3), Vec3(2, -3, 4)}) {
+    const FilterPoint point = alone.frame.point(center);
+    const double squared = squared_distance(alone.triangle, center);
+    EXPECT_NEAR(alone.frame.squared(first_of(portable::corner_bounds, alone.block, point)) / squared, 1, 1e-4)
+        << center.transpose();
+  }
+  // Where it takes both sides, the greater excess alone falls short.
+  const FilterPoint below = alone.frame.point({-3, -1, 0.5});
+  EXPECT_LT(first_of(portable::triangle_bounds, alone.block, below),
+            0.9F * first_of(portable::corner_bounds, alone.block, below));
+}
+
+}  // namespace
+}  // namespace touchmark::spheres
