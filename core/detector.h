@@ -117,8 +117,8 @@ concept Prepares = Detector<D> && requires(const D& detector, typename D::Sessio
 
 /// May leave parts of itself to the first queries that want them, which then cost more and answer the same.
 template <class D>
-concept MakesLater = Detector<D> && requires(const D& detector) {
-  { detector.makes_later() }
+concept BuildsLazily = Detector<D> && requires(const D& detector) {
+  { detector.builds_lazily() }
   noexcept->std::same_as<bool>;
 };
 

@@ -72,7 +72,7 @@ class FloatTree {
   static bool surely_over_face(const Triangle& t, const std::array<Point, 3>& to,
                                const std::array<float, 3>& squared) noexcept;
   static Offset offset_from(const Triangle& t, const Point& point) noexcept;
-  float slack(const Point& center) const noexcept;
+  float culling_pad(const Point& center) const noexcept;
   /// Calls consider(place) for the triangles of every leaf whose box is within limit(), nearest boxes first,
   /// until it returns true.
   template <class Limit, class Consider>

@@ -19,16 +19,16 @@ void BruteForce::update(const TriangleMesh& mesh) {
 }
 
 bool BruteForce::touches(const Probe& probe, Session& session) const noexcept {
-  return all().touches(probe, session.work);
+  return scan().touches(probe, session.work);
 }
 
 std::optional<Contact> BruteForce::nearest(const Probe& probe, double reach,
                                            Session& session) const noexcept {
-  return all().nearest(probe.center, reach, session.work);
+  return scan().nearest(probe.center, reach, session.work);
 }
 
 std::optional<Impact> BruteForce::first_hit(const Sweep& sweep, Session& session) const noexcept {
-  return all().first_hit(sweep, session.work);
+  return scan().first_hit(sweep, session.work);
 }
 
 std::size_t BruteForce::bytes() const noexcept {

@@ -33,7 +33,7 @@ class BruteForce {
   Accuracy accuracy() const noexcept { return certified; }
 
  private:
-  EveryTriangle all() const noexcept { return {triangles_, bounds_, ids_}; }
+  LinearScan scan() const noexcept { return {triangles_, bounds_, ids_}; }
 
   Connectivity connectivity_;
   Aabb bounds_;

@@ -93,7 +93,7 @@ Vec3 face_normal(const PreparedTriangle& triangle) noexcept;
 /// distance exceed its true one, anywhere in a query whose coordinates differ by at most
 /// `largest_difference`: a volume may be skipped only if its distance minus this exceeds the best distance so
 /// far. Twice kernel_relative_error and more: a sweep's touch is decided within that error on top.
-inline double culling_slack(double largest_difference) noexcept {
+inline double culling_pad(double largest_difference) noexcept {
   return 128 * (std::numeric_limits<double>::epsilon() / 2) * largest_difference;
 }
 

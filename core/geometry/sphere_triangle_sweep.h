@@ -34,8 +34,8 @@ double position_error(const Sweep& sweep) noexcept;
 
 /// By how much the distance at a reported fraction may exceed the radius: 384 u S, S the largest coordinate
 /// difference from the way's start to the triangle's corners plus the way's largest coordinate. See above.
-inline double most_early_gap(double start_difference, double largest_way) noexcept {
-  return 384 * (std::numeric_limits<double>::epsilon() / 2) * (start_difference + largest_way);
+inline double max_early_gap(double start_difference, double largest_path) noexcept {
+  return 384 * (std::numeric_limits<double>::epsilon() / 2) * (start_difference + largest_path);
 }
 
 /// The fraction in [0, limit] of the way at which the triangle is first touched, or nothing; see above. The
@@ -52,8 +52,8 @@ inline std::optional<double> sweep_hit(const PreparedTriangle& triangle, const S
 
 /// The contact of the ball at this fraction of the way with this triangle. The position is not rounded to a
 /// point first: only its differences to the triangle are.
-Contact contact_on_way(const PreparedTriangle& triangle, const Sweep& sweep, double fraction,
-                       TriangleId id) noexcept;
+Contact contact_on_path(const PreparedTriangle& triangle, const Sweep& sweep, double fraction,
+                        TriangleId id) noexcept;
 
 /// Where the probe stands at a fraction of the way, rounded; exact at 0 and 1.
 inline Vec3 position_at(const Sweep& sweep, double fraction) noexcept {

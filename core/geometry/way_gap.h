@@ -60,7 +60,7 @@ class WayGap {
   /// `fraction`? May say no where they do.
   bool surely_touches(double fraction, const Sample& there, double more) const noexcept;
 
-  double most_error() const noexcept { return error_; }
+  double max_error() const noexcept { return error_; }
   /// A bound on all lengths: finite, and their fourth powers are in range.
   bool is_defined() const noexcept { return defined_; }
   double unit() const noexcept { return unit_; }
@@ -79,7 +79,7 @@ class WayGap {
   std::array<Vec3, 3> edge_;   ///< from each corner to the next
   std::array<Vec3, 3> side_;   ///< normal to the face and the edge, inward, as long as the edge
   std::array<double, 3> squared_edge_;
-  Vec3 way_;
+  Vec3 path_;
   double radius_;
   double size_;  ///< S
   double length_;

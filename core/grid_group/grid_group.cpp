@@ -6,21 +6,21 @@
 namespace touchmark {
 namespace {
 
-constexpr double least_bytes_per_triangle = 200;
+constexpr double min_bytes_per_triangle = 200;
 
 void check(const GridGroup::Options& options) {
   if (!(options.cell >= 0)) {
     throw std::invalid_argument("grid-group: cell is " + std::to_string(options.cell) + ", not 0 or more");
   }
-  if (!(options.bytes_per_triangle >= least_bytes_per_triangle)) {
+  if (!(options.bytes_per_triangle >= min_bytes_per_triangle)) {
     throw std::invalid_argument("grid-group: bytes_per_triangle is " +
                                 std::to_string(options.bytes_per_triangle) + ", less than " +
-                                std::to_string(least_bytes_per_triangle));
+                                std::to_string(min_bytes_per_triangle));
   }
   if (!options.certified && options.lookup == GridGroup::Lookup::scan) {
     throw std::invalid_argument("grid-group: certified=false is for lookup=direct, not for scan");
   }
-  if (options.making == GridGroup::Making::lazy && options.lookup == GridGroup::Lookup::scan) {
+  if (options.construction == GridGroup::Construction::lazy && options.lookup == GridGroup::Lookup::scan) {
     throw std::invalid_argument("grid-group: build=lazy is for lookup=direct, not for scan");
   }
 }
@@ -45,8 +45,9 @@ GridGroup GridGroup::build(const TriangleMesh& mesh, const Options& options) {
   } else if (options.lookup == Lookup::scan) {
     detector.form_ = grid::ScanGrid::build(mesh, {options.shape, options.cell, options.groups});
   } else {
-    detector.form_ = grid::DirectGrid::build(
-        mesh, {options.cell, options.bytes_per_triangle, options.certified, options.making == Making::lazy});
+    detector.form_ =
+        grid::DirectGrid::build(mesh, {options.cell, options.bytes_per_triangle, options.certified,
+                                       options.construction == Construction::lazy});
   }
   return detector;
 }

@@ -28,7 +28,7 @@ class GridGroup {
   using Shape = grid::Shape;
   enum class Lookup { scan, direct };
   /// Of the groups, direct only. Answers are the same.
-  enum class Making {
+  enum class Construction {
     whole,  ///< all in build()
     lazy    ///< each by the first query that misses it, one a query at most, which takes a few microseconds
   };
@@ -40,7 +40,7 @@ class GridGroup {
     double bytes_per_triangle =
         400;                ///< direct: what the structure may take, mesh copy included (200 at least)
     bool certified = true;  ///< false, direct only: as doubles have it, to measure what certainty costs
-    Making making = Making::whole;
+    Construction construction = Construction::whole;
   };
   struct Session {
     Work work;
@@ -57,17 +57,17 @@ class GridGroup {
 
   // Inline as far as free space: there a query is a few comparisons, less than a call.
   bool touches(const Probe& probe, Session& session) const noexcept {
-    return !surely_free(probe.center, probe.radius, session) && look_for_touch(probe, session);
+    return !is_clear(probe.center, probe.radius, session) && look_for_touch(probe, session);
   }
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept {
-    if (surely_free(probe.center, reach, session)) return std::nullopt;
+    if (is_clear(probe.center, reach, session)) return std::nullopt;
     return look_for_nearest(probe, reach, session);
   }
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept;
 
   std::size_t bytes() const noexcept;
   Accuracy accuracy() const noexcept;
-  bool makes_later() const noexcept { return options_.making == Making::lazy; }
+  bool builds_lazily() const noexcept { return options_.construction == Construction::lazy; }
 
   /// Scan: groups tested by every query. Direct: triangles that have one.
   std::size_t groups() const noexcept;
@@ -77,9 +77,9 @@ class GridGroup {
   bool coarsened() const noexcept;
 
  private:
-  bool surely_free(const Vec3& center, double reach, const Session& session) const noexcept {
+  bool is_clear(const Vec3& center, double reach, const Session& session) const noexcept {
     const auto* direct = std::get_if<grid::DirectGrid>(&form_);
-    return direct != nullptr && direct->surely_free(center, reach, session.memory);
+    return direct != nullptr && direct->is_clear(center, reach, session.memory);
   }
   bool look_for_touch(const Probe& probe, Session& session) const noexcept;
   std::optional<Contact> look_for_nearest(const Probe& probe, double reach, Session& session) const noexcept;

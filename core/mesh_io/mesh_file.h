@@ -71,7 +71,7 @@ std::int64_t parse_integer(std::string_view word, std::string_view what, const T
 class MeshBuilder {
  public:
   /// Of a polygon whose ears are clipped, which takes the cube of it at worst.
-  static constexpr std::size_t most_clipped_corners = 1024;
+  static constexpr std::size_t max_clipped_corners = 1024;
 
   void reserve(std::size_t vertices, std::size_t faces);
   void add_vertex(const Vec3& position) { vertices_.push_back(position); }
@@ -96,11 +96,10 @@ class MeshBuilder {
     };
     if (corners.size() < 3) fail("; a face has at least 3");
     if (corners.size() == 3) return add_triangle(corners[0], corners[1], corners[2]);
-    if (corners.size() <= most_clipped_corners) return add_polygon(corners, clipped_ears(vertices_, corners));
+    if (corners.size() <= max_clipped_corners) return add_polygon(corners, clipped_ears(vertices_, corners));
     const std::vector<PolygonTriangle> triangles = fan(vertices_, corners);
     if (triangles.empty()) {
-      fail(" and is not convex; " + std::to_string(most_clipped_corners) +
-           " are the most of one that is not");
+      fail(" and is not convex; " + std::to_string(max_clipped_corners) + " are the most of one that is not");
     }
     add_polygon(corners, triangles);
   }

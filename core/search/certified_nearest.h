@@ -74,22 +74,22 @@ inline bool is_certain_on(const PreparedTriangle& triangle, double distance, con
   double largest = 0;
   for (const Vec3& corner : triangle.corner)
     largest = std::max(largest, (center - corner).cwiseAbs().maxCoeff());
-  constexpr double roundings = 8 * (std::numeric_limits<double>::epsilon() / 2);
-  return distance > error || distance <= roundings * largest;
+  constexpr double relative_error = 8 * (std::numeric_limits<double>::epsilon() / 2);
+  return distance > error || distance <= relative_error * largest;
 }
 
 /// And is the triangle of the least computed distance the one to name?
-inline bool is_certain_first(const NearestSoFar& so_far, std::span<const PreparedTriangle> triangles,
+inline bool is_certain_first(const ClosestCandidates& candidates, std::span<const PreparedTriangle> triangles,
                              double distance, const Vec3& center, double reach, double error) noexcept {
   return (is_certain(distance, reach, error) ||
-          is_certain_on(triangles[so_far.at()], distance, center, reach, error)) &&
-         so_far.is_surely_first(error);
+          is_certain_on(triangles[candidates.at()], distance, center, reach, error)) &&
+         candidates.is_surely_first(error);
 }
 
 /// What `nearest` answers where is_certain says no, or the nearest as computed is not surely the first of the
 /// nearest: of those that the search has taken, which was shown all whose computed distance is at most the
 /// least one, or the reach, and the error.
-[[gnu::noinline, gnu::cold]] std::optional<Contact> nearest_of_ties(const NearestSoFar& so_far,
+[[gnu::noinline, gnu::cold]] std::optional<Contact> nearest_of_ties(const ClosestCandidates& candidates,
                                                                     const Vec3& center, double reach,
                                                                     double error,
                                                                     std::span<const TriangleId> ids,

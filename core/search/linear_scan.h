@@ -21,7 +21,7 @@ namespace touchmark {
 
 /// What a query may look at before it ends with a look at every triangle. The little is a few nodes of eight
 /// and their blocks, so that small meshes are searched like any other.
-inline std::uint64_t most_work_before_all(std::size_t triangles) noexcept {
+inline std::uint64_t work_budget(std::size_t triangles) noexcept {
   constexpr std::uint64_t little = 64;
   return triangles + little;
 }
@@ -33,14 +33,14 @@ inline constexpr std::uint64_t any_work = std::numeric_limits<std::uint64_t>::ma
 inline constexpr double any_reach = std::numeric_limits<double>::infinity();
 
 /// What is left of it after `spent`.
-inline std::uint64_t left_of(std::uint64_t most, std::uint64_t spent) noexcept {
-  return most > spent ? most - spent : 0;
+inline std::uint64_t remaining(std::uint64_t budget, std::uint64_t spent) noexcept {
+  return budget > spent ? budget - spent : 0;
 }
 
 /// The triangles in any order, `bounds` theirs, `ids` by the mesh's order and empty where they are the same.
 /// For any finite numbers, and nothing for others, in a unit of its own where their fourth powers would leave
 /// the range of double; they are counted once, and in such a unit twice.
-struct EveryTriangle {
+struct LinearScan {
   std::span<const PreparedTriangle> triangles;
   const Aabb& bounds;
   std::span<const TriangleId> ids;

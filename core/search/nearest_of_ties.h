@@ -31,25 +31,25 @@
 namespace touchmark {
 
 /// A triangle that doubles do not tell from others as near, and what has been found out about it so far.
-class Rival {
+class TiedTriangle {
  public:
-  Rival(const PreparedTriangle& triangle, const Vec3& center) noexcept;
+  TiedTriangle(const PreparedTriangle& triangle, const Vec3& center) noexcept;
 
   const PreparedTriangle& triangle() const noexcept { return *triangle_; }
   /// The feature that is nearest, where doubles are sure of it.
   const std::optional<Feature>& feature() const noexcept { return feature_; }
   const SquaredDistance& squared(const Vec3& center) noexcept;
   /// Nothing where 106 bits do not tell.
-  const std::optional<CloseFoot>& foot(const Vec3& center) noexcept;
-  void add_to(exact::Grid& grid) const noexcept;
-  exact::Square square(const exact::Grid& grid, const Vec3& center) const noexcept;
+  const std::optional<PreciseClosestPoint>& closest(const Vec3& center) noexcept;
+  void add_to(exact::Lattice& lattice) const noexcept;
+  exact::Square square(const exact::Lattice& lattice, const Vec3& center) const noexcept;
 
  private:
   const PreparedTriangle* triangle_;
   std::optional<Feature> feature_;
   std::optional<SquaredDistance> squared_;
-  std::optional<CloseFoot> foot_;
-  bool foot_is_sought_ = false;
+  std::optional<PreciseClosestPoint> closest_;
+  bool closest_is_known_ = false;
 };
 
 /// The last triangles found not to be nearer, or not within a radius, and whether they were as far: another
@@ -90,26 +90,26 @@ class NearestOfTies {
 
  private:
   /// How the rival compares with the nearest so far.
-  std::partial_ordering compare(Rival& rival) noexcept;
-  std::partial_ordering compare_closely(Rival& rival) noexcept;
-  std::partial_ordering compare_feet(Rival& rival) noexcept;
-  std::strong_ordering compare_exactly(const Rival& rival) noexcept;
-  bool is_within(const Foot& foot, double reach) noexcept;
+  std::partial_ordering compare(TiedTriangle& tied) noexcept;
+  std::partial_ordering compare_closely(TiedTriangle& tied) noexcept;
+  std::partial_ordering compare_closest_points(TiedTriangle& tied) noexcept;
+  std::strong_ordering compare_exactly(const TiedTriangle& tied) noexcept;
+  bool is_within(const ClosestPoint& closest, double reach) noexcept;
 
   /// Places that whole numbers found to be no nearer than the nearest so far.
   struct Known {
-    Feature place;
+    Feature location;
     bool as_far;
   };
-  static constexpr std::size_t most_known = 8;
+  static constexpr std::size_t max_known = 8;
 
   const Vec3& center_;
   const PreparedTriangle* first_ = nullptr;  ///< of those as far as the nearest
-  std::optional<Rival> nearest_;             ///< one of them
-  std::optional<SharedPlace> place_;         ///< its place
-  std::optional<exact::Grid> grid_;          ///< of its square, where that is known
+  std::optional<TiedTriangle> nearest_;      ///< one of them
+  std::optional<SharedFeature> location_;    ///< its place
+  std::optional<exact::Lattice> lattice_;    ///< of its square, where that is known
   exact::Square square_;
-  std::array<Known, most_known> known_;
+  std::array<Known, max_known> known_;
   std::size_t known_count_ = 0;
   KnownTriangles known_triangles_;
   std::uint64_t exact_decisions_ = 0;
@@ -136,7 +136,7 @@ class WithinRadius {
   const Vec3& center_;
   double radius_;
   double error_;  ///< of a computed distance
-  std::optional<SharedPlace> outside_;
+  std::optional<SharedFeature> outside_;
   KnownTriangles known_outside_;
 };
 

@@ -28,7 +28,7 @@ inline bool features_fit(double largest_difference) noexcept {
 
 /// Is it the same corner, edge or face, or on the same line or plane across coordinate axes? The nearest
 /// points that are on both then are the same point.
-bool is_same_place(const Feature& a, const Feature& b) noexcept;
+bool is_same_location(const Feature& a, const Feature& b) noexcept;
 
 /// The square of a distance, and what it may be off by: infinity where that is not known.
 struct SquaredDistance {
@@ -47,10 +47,10 @@ SquaredDistance squared(double radius) noexcept;
 std::partial_ordering compare(const SquaredDistance& a, const SquaredDistance& b) noexcept;
 
 /// What many triangles may share: a corner or an edge, and how the point lies about it.
-class SharedPlace {
+class SharedFeature {
  public:
   /// Of a feature that is surely nearest to the point.
-  SharedPlace(const Feature& feature, const Vec3& point) noexcept;
+  SharedFeature(const Feature& feature, const Vec3& point) noexcept;
 
   /// Has the triangle the same corner or edge, and is that surely nearest, or the same corners where it is a
   /// face? Then it is exactly as far. False says nothing.

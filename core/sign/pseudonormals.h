@@ -29,7 +29,7 @@ class Pseudonormals {
     double distance = 0;         ///< its length
     /// From that point to the features of the face that it does not lie on, before their angles count; on a
     /// vertex the shortest edge there.
-    double room = 0;
+    double gap = 0;
     /// The pseudonormal's share of the offset's direction: above 0 outside. The normal is scaled such that
     /// minus this is twice the integral of the offset's direction over the solid's directions as that point
     /// sees them: 2 pi in front of a plane, and never more.
@@ -59,9 +59,9 @@ class Pseudonormals {
  private:
   void sum_up_vertices(const TriangleSurface& surface);
   std::optional<Reading> on_face(std::uint32_t face, const Vec3& center, const Vec3& offset,
-                                 double room) const noexcept;
+                                 double gap) const noexcept;
   std::optional<Reading> on_edge(std::uint32_t face, std::uint32_t s, const Vec3& offset,
-                                 double room) const noexcept;
+                                 double gap) const noexcept;
   std::optional<Reading> on_vertex(std::uint32_t face, std::uint32_t s, const Vec3& offset) const noexcept;
 
   std::vector<Vec3> positions_;

@@ -14,7 +14,7 @@ SphereCluster SphereCluster::build(const TriangleMesh& mesh, const Options& opti
   const bool has_tree = options.lookup == Lookup::tree && options.precise;
   if (!has_tree && !options.certified)
     throw std::invalid_argument("sphere-cluster: certified=false is for lookup=tree with precise=true");
-  if (!has_tree && options.making == Making::lazy)
+  if (!has_tree && options.construction == Construction::lazy)
     throw std::invalid_argument("sphere-cluster: build=lazy is for lookup=tree with precise=true");
   SphereCluster detector;
   detector.options_ = options;
@@ -26,8 +26,9 @@ SphereCluster SphereCluster::build(const TriangleMesh& mesh, const Options& opti
   } else if (options.lookup == Lookup::scan) {
     detector.scan_ = SphereScan(mesh, detector.clusters_);
   } else {
-    detector.tree_ = SphereTree(mesh, detector.clusters_,
-                                {options.widest, options.certified, options.making == Making::lazy});
+    detector.tree_ =
+        SphereTree(mesh, detector.clusters_,
+                   {options.widest, options.certified, options.construction == Construction::lazy});
   }
   return detector;
 }

@@ -39,7 +39,7 @@ void check(const SubdivisionOptions& options) {
 }
 
 /// Sides of faces and edges are counted in 32 bits.
-constexpr std::size_t most_triangles = 1'000'000'000;
+constexpr std::size_t triangle_limit = 1'000'000'000;
 
 bool splits_faces(SubdivisionMethod method) noexcept {
   return method == SubdivisionMethod::catmull_clark || method == SubdivisionMethod::catmull_clark_linear;
@@ -47,7 +47,7 @@ bool splits_faces(SubdivisionMethod method) noexcept {
 
 /// Throws MeshError when the level's triangles are too many.
 void require_room(std::size_t triangles, int level, const SubdivisionOptions& options) {
-  const std::size_t limit = std::min(options.max_triangles, most_triangles);
+  const std::size_t limit = std::min(options.max_triangles, triangle_limit);
   if (triangles <= limit) return;
   throw MeshError("level " + std::to_string(level) + " of " + std::string(name_of(options.method)) +
                   " would have " + std::to_string(triangles) + " triangles, more than " +

@@ -10,6 +10,7 @@
 
 #include "core/grid_group/direct/triangle_store.h"
 #include "core/search/plane_filter.h"
+#include "core/simd/lanes.h"
 
 namespace touchmark::grid {
 
@@ -46,8 +47,8 @@ inline std::array<Lanes, 2> lower_bounds(const EightBoxes& boxes, const FilterPo
   std::array<Lanes, 2> squared = {zero, zero};
   for (std::size_t half = 0; half < 2; ++half) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const Lanes outside = greater_of(boxes.min[k][half] - point[k], point[k] - boxes.max[k][half]);
-      const Lanes excess = greater_of(outside - p.tau, zero);
+      const Lanes outside = simd::max(boxes.min[k][half] - point[k], point[k] - boxes.max[k][half]);
+      const Lanes excess = simd::max(outside - p.plane_error, zero);
       squared[half] += excess * excess;
     }
   }

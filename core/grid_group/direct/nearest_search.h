@@ -16,6 +16,7 @@
 #include "core/grid_group/direct/triangle_store.h"
 #include "core/search/closest_candidates.h"
 #include "core/search/linear_scan.h"
+#include "core/simd/lanes.h"
 #include "core/simd/prefetch.h"
 
 namespace touchmark::grid {
@@ -33,27 +34,27 @@ class NearestSearch {
       : store_(store),
         center_(center),
         point_(point),
-        error_(store.frame.kernel_error(point_.tau)),
+        error_(store.frame.kernel_error(point_.plane_error)),
         limit_(store.frame.limit((reach + error_) * (reach + error_))),
-        so_far_(store.exact.data(), center, error_) {}
+        candidates_(store.exact.data(), center, error_) {}
 
   bool found() const noexcept { return found_; }
-  std::uint32_t place() const noexcept { return place_; }  ///< of the nearest
+  std::uint32_t slot() const noexcept { return slot_; }  ///< of the nearest
   /// Of the nearest, as the exact kernel gives it; when there is one.
   Offset offset() const noexcept {
-    const PreparedTriangle& triangle = store_.exact[place_];
+    const PreparedTriangle& triangle = store_.exact[slot_];
     if (known_) return offset_;
     return over_face_ ? offset_over_face(triangle, center_) : exact_offset(triangle, center_);
   }
   /// Of the nearest ones, is it surely the first? When there is one.
-  bool is_surely_first() const noexcept { return so_far_.is_surely_first(error_); }
+  bool is_surely_first() const noexcept { return candidates_.is_surely_first(error_); }
   /// The exactly nearest, the first where several are, when there is one; counts where whole numbers decide.
   const PreparedTriangle& exactly_nearest(std::uint64_t& exact_decisions) const noexcept;
   /// From now on any triangle surely within the distance ends the search: then `within` bounds the distance
   /// of the one found, and else it is infinite.
   void be_content_with(double distance) noexcept {
     enough_ = distance;
-    enough_high_ = store_.frame.at_most(distance);
+    enough_high_ = store_.frame.to_frame_rounded_down(distance);
   }
   double within() const noexcept { return within_; }
   const FilterPoint& point() const noexcept { return point_; }
@@ -62,14 +63,14 @@ class NearestSearch {
   std::uint64_t boxes() const noexcept { return boxes_; }          ///< tested
 
   /// Can the triangle be within the limit, as far as its planes tell?
-  bool may_be_near(std::uint32_t place) noexcept {
+  bool may_be_near(std::uint32_t slot) noexcept {
     ++triangles_;
-    return least_squared(plane_values(store_.planes[place], point_), point_) <= limit_;
+    return squared_lower_bound(plane_values(store_.planes[slot], point_), point_) <= limit_;
   }
 
-  void consider(std::uint32_t place) noexcept {
+  void consider(std::uint32_t slot) noexcept {
     ++triangles_;
-    decide(place);
+    decide(slot);
   }
 
   /// All there is to consider, and the first. Afterwards something is found unless nothing is within the
@@ -79,13 +80,13 @@ class NearestSearch {
   /// A guess at the nearest member, by the filter alone.
   std::uint32_t closest_of(std::span<const std::uint32_t> members) noexcept;
 
-  /// Visits the tree nearest first. False when it has tested more than `most` triangles and boxes before the
-  /// end.
-  bool consider_tree(const BoxTree& tree, std::uint64_t most = any_work) noexcept {
+  /// Visits the tree nearest first. False when it has tested more than `budget` triangles and boxes before
+  /// the end.
+  bool consider_tree(const BoxTree& tree, std::uint64_t budget = any_work) noexcept {
     BoxStack stack;
     visit(tree, static_cast<std::uint32_t>(tree.levels()) - 1, 0, stack);
     while (!stack.empty()) {
-      if (triangles_ + boxes_ > most) return false;
+      if (triangles_ + boxes_ > budget) return false;
       const BoxStack::Entry next = stack.pop();
       if (next.bound > limit_) continue;
       if (next.level > 0) {
@@ -127,19 +128,19 @@ class NearestSearch {
       if (is_content()) return;
     }
   }
-  void decide(std::uint32_t place) noexcept {
-    const PreparedTriangle& triangle = store_.exact[place];
+  void decide(std::uint32_t slot) noexcept {
+    const PreparedTriangle& triangle = store_.exact[slot];
     const Offset offset = exact_offset(triangle, center_);
-    if (!so_far_.take({offset.squared, triangle.index}, place)) return;
+    if (!candidates_.update({offset.squared, triangle.index}, slot)) return;
     offset_ = offset;
-    place_ = place;
+    slot_ = slot;
     found_ = known_ = true;
     limit_ = std::min(limit_, store_.frame.limit(offset.squared));
     if (enough_ > 0) within_ = std::min(within_, std::sqrt(offset.squared));
   }
   std::uint64_t without_far_balls(std::uint64_t left, std::span<const std::uint32_t> members) const noexcept;
   /// Is it, by its ball, farther than the limit?
-  bool ball_excludes(std::uint32_t place) const noexcept;
+  bool ball_excludes(std::uint32_t slot) const noexcept;
 
   const TriangleStore& store_;
   const Vec3& center_;
@@ -147,13 +148,13 @@ class NearestSearch {
   double error_;
   float limit_;
   bool found_ = false;
-  bool known_ = false;  ///< offset_, and so_far_ with it
+  bool known_ = false;  ///< offset_, and candidates_ with it
   double enough_ = -1;
   float enough_high_ = -1;  ///< the same in the frame
   double within_ = std::numeric_limits<double>::infinity();
   bool over_face_ = false;  ///< is the point surely over the face of the triangle found?
-  std::uint32_t place_ = 0;
-  NearestSoFar so_far_;
+  std::uint32_t slot_ = 0;
+  ClosestCandidates candidates_;
   Offset offset_{Vec3::Zero(), 0};
   std::uint64_t triangles_ = 0;
   std::uint64_t boxes_ = 0;

@@ -14,11 +14,12 @@
 #include "core/geometry/point_triangle.h"
 #include "core/grid_group/direct/triangle_store.h"
 #include "core/search/plane_filter.h"
+#include "core/simd/lanes.h"
 
 namespace touchmark::grid {
 
 /// A triangle in the filter's frame.
-struct Footprint {
+struct FaceFrame {
   std::array<Vec3, 3> corner;
   Vec3 normal;  ///< unit, or zero: then there is no prism
   Vec3 incenter;
@@ -26,7 +27,7 @@ struct Footprint {
   double inradius = 0;
   double size = 0;  ///< square root of twice the area
 
-  Footprint(const PreparedTriangle& triangle, const FilterFrame& frame) noexcept;
+  FaceFrame(const PreparedTriangle& triangle, const FilterFrame& frame) noexcept;
   /// The triangle whose sides lie `growth` inradii outside this one's.
   std::array<Vec3, 3> grown(double growth) const noexcept;
 };
@@ -34,8 +35,8 @@ struct Footprint {
 class Prism {
  public:
   /// From `height` under the grown footprint to `height` over it. A triangle that is left out is farther than
-  /// the footprint by `lead` at least, everywhere in the prism. Lengths in the frame.
-  Prism(const Footprint& footprint, double growth, double height, double lead,
+  /// the footprint by `exclusion_margin` at least, everywhere in the prism. Lengths in the frame.
+  Prism(const FaceFrame& face_frame, double growth, double height, double exclusion_margin,
         const FilterFrame& frame) noexcept;
 
   /// Is the triangle surely not nearest anywhere in the prism?
@@ -58,10 +59,11 @@ class Prism {
     const int before = i * (2 * cuts + 3 - i) / 2;  // in the rows of smaller i
     return static_cast<std::size_t>(before + j);
   }
-  void place_points(const Footprint& footprint, double growth, double height,
-                    const FilterFrame& frame) noexcept;
-  void set_limits(const Footprint& footprint, double growth, double height, double lead) noexcept;
-  void set_ball_limits(const Footprint& footprint, double height, double lead) noexcept;
+  void set_points(const FaceFrame& face_frame, double growth, double height,
+                  const FilterFrame& frame) noexcept;
+  void set_limits(const FaceFrame& face_frame, double growth, double height,
+                  double exclusion_margin) noexcept;
+  void set_ball_limits(const FaceFrame& face_frame, double height, double exclusion_margin) noexcept;
 
   std::array<Vec3, points_an_end> base_;
   AtPoints x_, y_, z_;
@@ -71,7 +73,7 @@ class Prism {
     float x, y, z, limit;
   };
   std::array<BallLimit, 6> corner_limits_;
-  float tau_ = 0;
+  float plane_error_ = 0;
   double farthest_ = 0;
 };
 

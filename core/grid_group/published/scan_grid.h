@@ -55,7 +55,7 @@ class ScanGrid {
   template <class Visit>
   void search(const Vec3& center, double reach, Work& work, const Visit& visit) const noexcept;
   /// For numbers whose squares or fourth powers leave the range of double.
-  EveryTriangle all() const noexcept { return {triangles_, bounds_, ids_}; }
+  LinearScan fallback() const noexcept { return {triangles_, bounds_, ids_}; }
   template <class Visit>
   bool search_members(std::size_t group, Work& work, const Visit& visit) const noexcept;
   TriangleId id(std::uint32_t triangle) const noexcept { return ids_.empty() ? triangle : ids_[triangle]; }

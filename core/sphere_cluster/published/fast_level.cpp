@@ -76,7 +76,7 @@ std::optional<Contact> FastLevel::nearest(const Vec3& center, double reach, Work
 
 std::optional<Impact> FastLevel::first_hit(const Sweep& sweep, Work& work) const noexcept {
   if (const auto start = nearest(sweep.from, sweep.radius, work)) return Impact{0, *start};
-  const double reach = sweep.radius + sweep_slack(sweep);
+  const double reach = sweep.radius + sweep_pad(sweep);
   double first = infinity;
   std::size_t hit = spheres_.size();
   for (std::size_t i = 0; i < spheres_.size(); ++i) {

@@ -28,9 +28,10 @@ class SphereScan {
   std::size_t bytes() const noexcept;
 
  private:
-  EveryTriangle all() const noexcept { return {triangles_, bounds_, ids_}; }
+  LinearScan fallback() const noexcept { return {triangles_, bounds_, ids_}; }
   TriangleId id(std::uint32_t index) const noexcept { return ids_.empty() ? index : ids_[index]; }
-  void search(std::size_t sphere, const Vec3& center, NearestSoFar& so_far, Work& work) const noexcept;
+  void search(std::size_t sphere, const Vec3& center, ClosestCandidates& candidates,
+              Work& work) const noexcept;
 
   /// Calls found(i) for every sphere i that reaches within `reach` of the centre, until it returns true.
   template <class Found>

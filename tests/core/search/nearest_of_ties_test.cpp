@@ -108,7 +108,7 @@ TEST_P(SureFeatures, ThatAreSharedAreTies) {
     const std::optional<Feature> feature = sure_feature(prepare(a[0], a[1], a[2], 0), point);
     if (!feature) continue;
     const PreparedTriangle other = prepare(b[0], b[1], b[2], 1);
-    if (!SharedPlace(*feature, point).is_nearest_of(other)) continue;
+    if (!SharedFeature(*feature, point).is_nearest_of(other)) continue;
     ++ties;
     ASSERT_TRUE(compare_exactly(a, b, point) == 0) << i;
   }
