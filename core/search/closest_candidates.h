@@ -23,6 +23,9 @@ class ClosestCandidates {
       : closeness_(0x1p47 * error * error), triangles_(triangles), center_(&center) {}
   ClosestCandidates(const PreparedTriangle*, const Vec3&&, double) = delete;
 
+  /// From now on only the nearest as computed is remembered. Before anything is taken.
+  void keep_no_ties() noexcept { closeness_ = 0; }
+
   bool found() const noexcept { return at_ != nowhere; }
   const Candidate& best() const noexcept { return best_; }
   std::uint32_t at() const noexcept { return at_; }  ///< where it is kept

@@ -24,6 +24,18 @@ std::optional<Feature> feature_of(const PreparedTriangle& triangle, const Vec3& 
   return sure_feature(triangle, center);
 }
 
+/// No point of the triangle is nearer than its plane.
+SquaredDistance squared_off_plane(const PreparedTriangle& triangle, const Vec3& center) noexcept {
+  if (!features_fit(largest_difference(triangle, center))) return {{}, infinity};
+  return squared_distance(Feature{triangle.corner, 3}, center);
+}
+
+/// With d off by e, its square is off by 2 d e + e^2; and by 2^-100 of it for the product, or by underflow.
+SquaredDistance square_of(const ClosestPoint& closest) noexcept {
+  const double d = closest.distance.high, e = closest.error;
+  return {closest.distance * closest.distance, 3 * d * e + 2 * e * e + 0x1p-99 * d * d + 0x1p-900};
+}
+
 }  // namespace
 
 TiedTriangle::TiedTriangle(const PreparedTriangle& triangle, const Vec3& center) noexcept
@@ -61,17 +73,23 @@ void NearestOfTies::consider(const PreparedTriangle& triangle) noexcept {
   if (nearest_) {
     if (&triangle == first_ || &triangle == &nearest_->triangle()) return;
     const bool shares = location_ && location_->is_nearest_of(triangle);
+    std::partial_ordering order = std::partial_ordering::equivalent;
+    if (!shares) {
+      if (!corner_) corner_.emplace(nearest_->triangle().corner, center_);
+      order = corner_->compare(triangle.corner);
+    }
     std::optional<TiedTriangle> tied;
-    const std::partial_ordering order =
-        shares ? std::partial_ordering::equivalent : compare(tied.emplace(triangle, center_));
+    if (order == std::partial_ordering::unordered) order = compare(tied.emplace(triangle, center_));
     if (order == 0 && triangle.index < first_->index) first_ = &triangle;
     if (order >= 0) return;
-    nearest_ = *tied;
+    nearest_ = tied ? *tied : TiedTriangle(triangle, center_);
   } else {
     nearest_.emplace(triangle, center_);
   }
   first_ = &triangle;
   location_.reset();
+  corner_.reset();
+  squared_.reset();
   if (nearest_->feature()) location_.emplace(*nearest_->feature(), center_);
   lattice_.reset();
   known_count_ = 0;
@@ -93,9 +111,22 @@ std::partial_ordering NearestOfTies::compare(TiedTriangle& tied) noexcept {
   }
   if (const std::optional<bool> as_far = known_triangles_.is_as_far(tied.triangle()))
     return *as_far ? std::partial_ordering::equivalent : std::partial_ordering::greater;
+  if (touchmark::compare(squared_off_plane(tied.triangle(), center_), squared_of_nearest()) > 0)
+    return std::partial_ordering::greater;
   const std::partial_ordering order = compare_closely(tied);
   if (order >= 0) known_triangles_.add(tied.triangle(), order == 0);
   return order;
+}
+
+const SquaredDistance& NearestOfTies::squared_of_nearest() noexcept {
+  if (!squared_) {
+    const std::optional<PreciseClosestPoint>* close =
+        nearest_->feature() ? nullptr : &nearest_->closest(center_);
+    squared_ = close == nullptr ? nearest_->squared(center_)
+               : *close         ? square_of((*close)->closest)
+                                : SquaredDistance{{}, infinity};
+  }
+  return *squared_;
 }
 
 std::partial_ordering NearestOfTies::compare_closely(TiedTriangle& tied) noexcept {
@@ -174,6 +205,8 @@ bool WithinRadius::decide(const PreparedTriangle& triangle, std::uint64_t& exact
   if (outside_ && outside_->is_nearest_of(triangle)) return false;
   TiedTriangle tied(triangle, center_);
   if (!tied.feature() && known_outside_.is_as_far(triangle)) return false;
+  if (!tied.feature() && touchmark::compare(squared_off_plane(triangle, center_), squared(radius_)) > 0)
+    return false;
   std::partial_ordering order = touchmark::compare(tied.squared(center_), squared(radius_));
   if (order == std::partial_ordering::unordered) {
     if (const std::optional<PreciseClosestPoint>& close = tied.closest(center_))

@@ -6,8 +6,9 @@
 ///    they are as far. Some comparisons of coordinates and two dot products.
 /// 2. Doubles are sure which corner, edge or face is nearest: it is the same place, or 106 bits tell the
 ///    squares of the distances apart.
-/// 3. 106 bits find the nearest point (precise_closest_point.h) and tell the distances apart.
-/// 4. Whole numbers compare the squares. Those of the nearest so far are kept.
+/// 3. Bounds of a few products in 106 bits tell: by the corner that both have, or the plane (tie_bounds.h).
+/// 4. 106 bits find the nearest point (precise_closest_point.h) and tell the distances apart.
+/// 5. Whole numbers compare the squares. Those of the nearest so far are kept.
 /// Before the last two, the places and triangles that they last found not to be nearer are known again.
 /// So many triangles about one corner or edge, or in one place, cost about as much again as their kernel
 /// distances; N different places as far but for rounding 3 to 35 times that; and whole numbers for each, 20
@@ -27,6 +28,7 @@
 #include "core/geometry/point_triangle.h"
 #include "core/probe.h"
 #include "core/search/sure_feature.h"
+#include "core/search/tie_bounds.h"
 
 namespace touchmark {
 
@@ -91,6 +93,7 @@ class NearestOfTies {
  private:
   /// How the rival compares with the nearest so far.
   std::partial_ordering compare(TiedTriangle& tied) noexcept;
+  const SquaredDistance& squared_of_nearest() noexcept;
   std::partial_ordering compare_closely(TiedTriangle& tied) noexcept;
   std::partial_ordering compare_closest_points(TiedTriangle& tied) noexcept;
   std::strong_ordering compare_exactly(const TiedTriangle& tied) noexcept;
@@ -107,6 +110,8 @@ class NearestOfTies {
   const PreparedTriangle* first_ = nullptr;  ///< of those as far as the nearest
   std::optional<TiedTriangle> nearest_;      ///< one of them
   std::optional<SharedFeature> location_;    ///< its place
+  std::optional<BesideCorner> corner_;       ///< its corner
+  std::optional<SquaredDistance> squared_;   ///< of it, where that was asked for
   std::optional<exact::Lattice> lattice_;    ///< of its square, where that is known
   exact::Square square_;
   std::array<Known, max_known> known_;

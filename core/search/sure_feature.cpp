@@ -39,8 +39,8 @@ bool is_exactly_across(const Vec3& to, const Vec3& from, const Vec3& end) noexce
     const DoubleDouble a = two_sum(to[k], -from[k]);
     if (a.high == 0) continue;
     const DoubleDouble b = two_sum(end[k], -from[k]);
-    if (a.low != 0 || b.low != 0) return false;
     if (b.high == 0) continue;
+    if (a.low != 0 || b.low != 0) return false;
     if (std::abs(a.high) < min_length || std::abs(b.high) < min_length) return false;
     const DoubleDouble product = two_product(a.high, b.high), total = two_sum(sum, product.high);
     if (product.low != 0 || total.low != 0) return false;
@@ -275,9 +275,11 @@ SharedFeature::SharedFeature(const Feature& feature, const Vec3& point) noexcept
     is_exact_ = true;
     return;
   }
-  // Off by 2^-96 |w| at most: below a rounding of its length, then.
+  // Off by 2^-96 |w| at most in each coordinate, so by 2^-94 of the largest one of w.
   const double nearer = std::max({std::abs(w[0].high), std::abs(w[1].high), std::abs(w[2].high)});
-  is_known_ = offset_.cwiseAbs().maxCoeff() > 0x1p-42 * nearer;
+  const double largest = offset_.cwiseAbs().maxCoeff();
+  is_known_ = largest > 0x1p-80 * nearer;
+  if (is_known_) roundings_ += 0x1p-94 * nearer / largest;
   if (is_known_ || !is_exactly_on_line(point, from, end)) return;
   // It is on the edge: so it is on whatever has that.
   is_known_ = is_exact_ = true;
@@ -286,9 +288,7 @@ SharedFeature::SharedFeature(const Feature& feature, const Vec3& point) noexcept
 
 /// Behind the plane through the nearest point across the way to the point is nothing nearer.
 bool SharedFeature::is_surely_behind(const Vec3& corner) const noexcept {
-  // Two units for the offset, one for the difference, three for the products and sums; an edge's offset is
-  // across it but for those two, so that either end will do: the nearer one to the corner.
-  constexpr double relative_error = 16 * unit_roundoff;
+  // An edge's true offset is across it, so that either end will do: the nearer one to the corner.
   if (is_exact_ && offset_.isZero(0)) return true;
   Vec3 to_corner = corner - feature_.corner[0];
   double squared = to_corner.squaredNorm();
@@ -300,7 +300,7 @@ bool SharedFeature::is_surely_behind(const Vec3& corner) const noexcept {
     }
   }
   const double along = to_corner.dot(offset_);
-  const int sign = sure_sign(along, relative_error * relative_error * squared * offset_.squaredNorm());
+  const int sign = sure_sign(along, roundings_ * roundings_ * squared * offset_.squaredNorm());
   if (sign != 0 || !is_exact_) return sign < 0;
   const Vec3& from = feature_.corner[0];
   const Vec3 point = from + offset_;

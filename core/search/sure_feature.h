@@ -7,6 +7,7 @@
 
 #include <array>
 #include <compare>
+#include <limits>
 #include <optional>
 
 #include "core/exact/double_double.h"
@@ -60,9 +61,12 @@ class SharedFeature {
   bool is_surely_behind(const Vec3& corner) const noexcept;
 
   Feature feature_;
-  Vec3 offset_ = Vec3::Zero();  ///< from the nearest point to the point, to within two roundings
-  bool is_known_ = true;        ///< that offset is
-  bool is_exact_ = false;       ///< to the last bit
+  Vec3 offset_ = Vec3::Zero();  ///< from the nearest point to the point, rounded
+  /// What products with the offset may be off by, of the lengths: two units for it, one for a difference,
+  /// three for products and sums, and what more the offset is off by.
+  double roundings_ = 8 * std::numeric_limits<double>::epsilon();
+  bool is_known_ = true;   ///< that offset is
+  bool is_exact_ = false;  ///< to the last bit
 };
 
 }  // namespace touchmark

@@ -127,10 +127,11 @@ class DirectGrid {
   }
   /// The nearest triangle, or none when nothing is within reach. One that is found may still be beyond it, by
   /// a rounding of the filter; then `squared_lower` bounds the squared distance to all. To `touch`, any
-  /// triangle surely within the reach is as good: then `within` bounds its distance, and no more is told.
+  /// triangle within the reach is as good: then `within` bounds its distance and no more is told, and else
+  /// nothing touches.
   struct Located {
     const PreparedTriangle* triangle = nullptr;
-    /// The exactly nearest one; null where `triangle` surely is that, or to touch it does not matter.
+    /// The exactly nearest one; null where `triangle` surely is that, or to touch.
     const PreparedTriangle* exactly = nullptr;
     Offset offset{Vec3::Zero(), 0};
     double squared_lower = 0;

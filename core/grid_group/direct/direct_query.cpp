@@ -43,8 +43,10 @@ DirectGrid::Located DirectGrid::locate(const Vec3& center, const FilterPoint& po
   // To touch, a look at one triangle may do.
   const auto does = [&](std::uint32_t slot) {
     if (!to_touch) return false;
-    located.within = upper_bound_to(slot, point, work);
-    return located.within < enough;
+    const double within = upper_bound_to(slot, point, work);
+    if (!(within < enough)) return false;
+    located.within = within;
+    return true;
   };
   if (memory.is_near() && does(memory.slot)) return located;
   const Vec3 before = memory.center;
@@ -55,7 +57,7 @@ DirectGrid::Located DirectGrid::locate(const Vec3& center, const FilterPoint& po
     return located;
   }
   NearestSearch search(store_, center, point, reach);
-  if (to_touch) search.be_content_with(enough);
+  if (to_touch) search.seek_touch(reach, certified_);
   // A cell's triangle may be a neighbour of the one that is needed. Where it is beyond the reach most often
   // all are, and after a jump its neighbours are not worth a look each.
   const bool near = start.group != nullptr || search.may_be_near(start.slot) ||
@@ -78,23 +80,29 @@ DirectGrid::Located DirectGrid::locate(const Vec3& center, const FilterPoint& po
   }
   work.triangles += search.triangles();
   work.boxes += search.boxes();
-  if (to_touch && search.within() < enough) {
-    memory.slot = search.slot();
-    return {.plane_error = point.plane_error, .within = search.within()};
+  if (exhausted && !search.touches()) {
+    work.exact_decisions += search.exact_decisions();
+    return {.exhausted = true};
   }
-  if (exhausted) return {.exhausted = true};
   if (!search.found()) {
     remember(center, search.point().plane_error, std::sqrt(squared_lower), infinity, memory);
     return {};
   }
+  const bool is_content = to_touch && search.touches();
+  const Offset offset = is_content ? Offset{} : search.offset();
+  if (to_touch) {
+    const bool touching = is_content || search.touches_at_last(offset.squared);
+    work.exact_decisions += search.exact_decisions();
+    if (touching) {
+      memory.slot = search.slot();
+      return {.plane_error = point.plane_error, .within = search.within()};
+    }
+  }
   memory.slot = search.slot();
-  const Offset offset = search.offset();
-  // To touch, what is exactly nearest matters only where doubles leave open whether it is within the reach.
-  const bool is_sure =
-      to_touch ? std::abs(std::sqrt(offset.squared) - reach) > search.error() : search.is_surely_first();
   const PreparedTriangle* found = &store_.exact[search.slot()];
+  const bool is_first = to_touch || !certified_ || search.is_surely_first();
   return {found,
-          is_sure || !certified_ ? nullptr : &search.exactly_nearest(work.exact_decisions),
+          is_first ? nullptr : &search.exactly_nearest(work.exact_decisions),
           offset,
           squared_lower,
           search.point().plane_error,
@@ -109,16 +117,14 @@ bool DirectGrid::touches(const Probe& probe, DirectMemory& memory, Work& work) c
   if (memory.moved_less(probe.center, probe.radius - memory.upper)) return true;
   const Located located = locate<Sought::touch>(probe.center, point, probe.radius, memory, work);
   if (located.exhausted) return fallback().touches(probe, work);
-  if (located.within < probe.radius) {
+  if (located.within < infinity) {
     remember(probe.center, located.plane_error, 0, located.within, memory);
     return true;
   }
   if (located.triangle == nullptr) return false;
   const double distance = std::sqrt(located.offset.squared);
-  const bool touching =
-      located.exactly == nullptr
-          ? distance <= probe.radius
-          : contact_of(*located.exactly, probe.center, probe.radius, located.error, work).has_value();
+  // What doubles left open does not touch: else it would be within.
+  const bool touching = distance <= probe.radius && !(certified_ && probe.radius - distance <= located.error);
   const double lower = touching ? distance : std::min(std::sqrt(located.squared_lower), distance);
   remember(probe.center, located.plane_error, lower, distance, memory);
   return touching;

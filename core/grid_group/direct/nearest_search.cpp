@@ -4,8 +4,6 @@
 #include <bit>
 #include <cassert>
 
-#include "core/search/nearest_of_ties.h"
-
 namespace touchmark::grid {
 namespace {
 
@@ -75,6 +73,34 @@ const PreparedTriangle& NearestSearch::exactly_nearest(std::uint64_t& exact_deci
   candidates_.pass_to(ties);
   exact_decisions += candidates_.exact_decisions() + ties.exact_decisions();
   return *ties.nearest();
+}
+
+bool NearestSearch::decide_last(double squared) noexcept {
+  if (!known_) leave_open(slot_, squared);
+  decide_open();
+  return touches();
+}
+
+/// Decides before there is no more room: a point on the border of very many then ends at the first that
+/// touches.
+void NearestSearch::leave_open(std::uint32_t slot, double squared) noexcept {
+  if (touches() || !(std::abs(std::sqrt(squared) - radius_) <= error_)) return;
+  open_[open_count_++] = slot;
+  if (open_count_ == open_.size()) decide_open();
+}
+
+/// Ends the search at the first that is within the radius, if there is one.
+void NearestSearch::decide_open() noexcept {
+  if (!is_within_) is_within_.emplace(center_, radius_, error_);
+  for (const std::uint32_t slot : std::span(open_).first(open_count_)) {
+    const double distance = std::sqrt(exact_offset(store_.exact[slot], center_).squared);
+    if (!(*is_within_)(store_.exact[slot], distance, exact_decisions_)) continue;
+    slot_ = slot;
+    within_ = distance;
+    enough_ = std::numeric_limits<double>::infinity();
+    break;
+  }
+  open_count_ = 0;
 }
 
 std::uint32_t NearestSearch::closest_of(std::span<const std::uint32_t> members) noexcept {

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "core/grid_group/direct/box_tree.h"
@@ -16,7 +17,7 @@
 #include "core/grid_group/direct/triangle_store.h"
 #include "core/search/closest_candidates.h"
 #include "core/search/linear_scan.h"
-#include "core/simd/lanes.h"
+#include "core/search/nearest_of_ties.h"
 #include "core/simd/prefetch.h"
 
 namespace touchmark::grid {
@@ -50,13 +51,26 @@ class NearestSearch {
   bool is_surely_first() const noexcept { return candidates_.is_surely_first(error_); }
   /// The exactly nearest, the first where several are, when there is one; counts where whole numbers decide.
   const PreparedTriangle& exactly_nearest(std::uint64_t& exact_decisions) const noexcept;
-  /// From now on any triangle surely within the distance ends the search: then `within` bounds the distance
-  /// of the one found, and else it is infinite.
-  void be_content_with(double distance) noexcept {
-    enough_ = distance;
-    enough_high_ = store_.frame.to_frame_rounded_down(distance);
+  /// From now on any triangle within the radius ends the search, and no ties are kept. Those that doubles
+  /// leave open are decided exactly, if `certified`. Before anything is considered.
+  void seek_touch(double radius, bool certified) noexcept {
+    candidates_.keep_no_ties();
+    radius_ = radius;
+    enough_ = radius - error_;
+    enough_high_ = store_.frame.to_frame_rounded_down(enough_);
+    if (!certified) return;
+    // With room for the roundings of these, and of the root and the difference in leave_open: below 8 units.
+    constexpr double error = 0x1p-48;
+    const double from = std::max(enough_, 0.0), to = radius + error_;
+    open_from_ = from * from * (1 - error);
+    open_to_ = to * to * (1 + error);
   }
+  /// Was a triangle found within the radius? Then `within` bounds its distance, and `slot` is its.
+  bool touches() const noexcept { return within_ < enough_; }
   double within() const noexcept { return within_; }
+  /// The same at the end of the search: decides what is still open. For the squared distance of the nearest.
+  bool touches_at_last(double squared) noexcept { return is_open(squared) && decide_last(squared); }
+  std::uint64_t exact_decisions() const noexcept { return exact_decisions_; }
   const FilterPoint& point() const noexcept { return point_; }
   double error() const noexcept { return error_; }                 ///< of a computed distance
   std::uint64_t triangles() const noexcept { return triangles_; }  ///< tested
@@ -93,14 +107,13 @@ class NearestSearch {
         visit(tree, next.level - 1, next.index, stack);
       } else {
         consider_block(next.index);
-        if (is_content()) break;
+        if (touches()) break;
       }
     }
     return true;
   }
 
  private:
-  bool is_content() const noexcept { return within_ < enough_; }
   GroupBounds filter(std::span<const std::uint32_t> members) const noexcept;
   /// Bit i is set for member i.
   std::uint64_t within_limit(const GroupBounds& bounds, std::size_t members) const noexcept;
@@ -125,12 +138,13 @@ class NearestSearch {
       const Lanes bounds = lower_bounds(planes[0], planes[1], planes[2], planes[3], point_);
       for (unsigned left = at_most(bounds, limit_); left != 0; left &= left - 1)
         decide(at + static_cast<std::uint32_t>(std::countr_zero(left)));
-      if (is_content()) return;
+      if (touches()) return;
     }
   }
   void decide(std::uint32_t slot) noexcept {
     const PreparedTriangle& triangle = store_.exact[slot];
     const Offset offset = exact_offset(triangle, center_);
+    if (is_open(offset.squared)) leave_open(slot, offset.squared);
     if (!candidates_.update({offset.squared, triangle.index}, slot)) return;
     offset_ = offset;
     slot_ = slot;
@@ -138,6 +152,11 @@ class NearestSearch {
     limit_ = std::min(limit_, store_.frame.limit(offset.squared));
     if (enough_ > 0) within_ = std::min(within_, std::sqrt(offset.squared));
   }
+  /// Do doubles leave open whether this is within the radius, or nearly so?
+  bool is_open(double squared) const noexcept { return squared >= open_from_ && squared <= open_to_; }
+  [[gnu::cold, gnu::noinline]] bool decide_last(double squared) noexcept;
+  [[gnu::cold, gnu::noinline]] void leave_open(std::uint32_t slot, double squared) noexcept;
+  void decide_open() noexcept;
   std::uint64_t without_far_balls(std::uint64_t left, std::span<const std::uint32_t> members) const noexcept;
   /// Is it, by its ball, farther than the limit?
   bool ball_excludes(std::uint32_t slot) const noexcept;
@@ -152,12 +171,19 @@ class NearestSearch {
   double enough_ = -1;
   float enough_high_ = -1;  ///< the same in the frame
   double within_ = std::numeric_limits<double>::infinity();
+  double radius_ = 0;  ///< what touches is within it
+  /// Squares of distances about the radius; from infinity where nothing is left open.
+  double open_from_ = std::numeric_limits<double>::infinity(), open_to_ = -1;
   bool over_face_ = false;  ///< is the point surely over the face of the triangle found?
   std::uint32_t slot_ = 0;
   ClosestCandidates candidates_;
   Offset offset_{Vec3::Zero(), 0};
   std::uint64_t triangles_ = 0;
   std::uint64_t boxes_ = 0;
+  std::uint64_t exact_decisions_ = 0;
+  std::uint32_t open_count_ = 0;
+  std::optional<WithinRadius> is_within_;  ///< what deciding these has told of the others
+  std::array<std::uint32_t, 16> open_;     ///< places that doubles leave open, not decided yet
 };
 
 }  // namespace touchmark::grid
