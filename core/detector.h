@@ -106,16 +106,16 @@ concept AnswersSweep = Detector<D> &&
   noexcept->std::same_as<std::optional<Impact>>;
 };
 
-/// Can use the idle rest of a servo tick: `prepare` does ahead what the next query would else have to do
-/// first. It never changes an answer, does a bounded amount of work, and may be called or not after any
-/// query.
+/// Uses the idle rest of a servo tick: `prepare` does ahead what the next query would else have to do first.
+/// It never changes an answer, does a bounded amount of work, and may be called or not after any query.
 template <class D>
 concept Prepares = Detector<D> && requires(const D& detector, typename D::Session& session) {
   { detector.prepare(session) }
   noexcept->std::same_as<void>;
 };
 
-/// May leave parts of itself to the first queries that want them, which then cost more and answer the same.
+/// Supports lazy construction: the first queries build what they need. Those cost more; answers do not
+/// change.
 template <class D>
 concept BuildsLazily = Detector<D> && requires(const D& detector) {
   { detector.builds_lazily() }

@@ -41,7 +41,7 @@ class TriangleMesh {
   const Vec3& corner(std::size_t triangle, int which) const noexcept {
     return vertices_[triangles_[triangle][static_cast<std::size_t>(which)]];
   }
-  /// Of the vertices that triangles use.
+  /// Returns the box of the vertices that triangles use.
   const Aabb& bounds() const noexcept { return bounds_; }
   double diagonal() const noexcept { return bounds_.diagonal(); }
 

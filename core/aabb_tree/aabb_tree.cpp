@@ -159,7 +159,8 @@ AabbTree AabbTree::build(const TriangleMesh& mesh, const Options& options) {
   return tree;
 }
 
-/// Of a query, as the surface area heuristic has it: how often a node is looked into times what is in it.
+/// Returns the cost of a query by the surface area heuristic: how often a node is looked into times what is
+/// in it.
 double AabbTree::expected_cost() const noexcept {
   double cost = 0;
   for (const Node& node : nodes_) cost += half_area(node.box) * std::max(node.count, 2U);

@@ -28,8 +28,8 @@ class AabbTree {
   };
   struct Session {
     Work work;
-    /// Where the triangle of the last contact is kept, if there was one: `touches` asks it first, and its
-    /// distance bounds `nearest`.
+    /// Slot of the triangle of the last contact, if there was one: `touches` asks it first, and its distance
+    /// bounds `nearest`.
     std::uint32_t last = no_triangle;
   };
   static constexpr std::uint32_t no_triangle = std::numeric_limits<std::uint32_t>::max();
@@ -87,7 +87,7 @@ class AabbTree {
   };
   /// Splits halve from `halving_level` on, so 32 more levels reach a single triangle of 2^32.
   static constexpr std::size_t halving_level = 48, max_levels = halving_level + 34;
-  static constexpr double max_growth = 2;  ///< of expected_cost
+  static constexpr double max_growth = 2;  ///< factor of expected_cost
 
   class Builder;
 

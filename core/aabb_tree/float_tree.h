@@ -42,7 +42,7 @@ class FloatTree {
   };
   struct Session {
     Work work;
-    std::uint32_t last = 0;  ///< where the last nearest triangle is kept: its distance bounds the next search
+    std::uint32_t last = 0;  ///< slot of the last nearest triangle: its distance bounds the next search
   };
 
   /// Throws as AabbTree::build does.

@@ -51,7 +51,7 @@ inline std::size_t add(Limbs a, Limbs b, Limb* sum) noexcept {
   return a.size() + 1;
 }
 
-/// The same for a - b, a >= b.
+/// Returns how many limbs the difference a - b has. a >= b.
 inline std::size_t subtract(Limbs a, Limbs b, Limb* difference) noexcept {
   Limb borrow = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -62,7 +62,7 @@ inline std::size_t subtract(Limbs a, Limbs b, Limb* difference) noexcept {
   return trimmed(difference, a.size());
 }
 
-/// The same for a * b.
+/// Returns how many limbs the product has.
 inline std::size_t multiply(Limbs a, Limbs b, Limb* product) noexcept {
   std::fill_n(product, a.size() + b.size(), 0);
   for (std::size_t i = 0; i < a.size(); ++i) {

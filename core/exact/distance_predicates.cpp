@@ -157,7 +157,8 @@ std::array<Scaled, 3> scaled(const Vector<degree>& v) noexcept {
   return {v[0].scaled(), v[1].scaled(), v[2].scaled()};
 }
 
-/// Of a distance to 98 bits. Where its lower half underflows, or it is beyond all doubles, nothing is known.
+/// Returns the error of a distance to 98 bits. Where its lower half underflows, or it is beyond all doubles,
+/// nothing is known.
 double error_of(double distance) noexcept {
   const bool known = distance > 0x1p-900 && !std::isinf(distance);
   return known ? 0x1p-97 * distance : std::numeric_limits<double>::infinity();

@@ -35,7 +35,7 @@ struct ClosestPoint {
   DoubleDouble distance;          ///< infinite beyond all doubles
   double error = 0;               ///< bound of the distance's; infinite where none is known
   Vec3 offset = Vec3::Zero();     ///< from the foot to the point
-  Vec3 direction = Vec3::Zero();  ///< the same, unit; zero where the distance is 0
+  Vec3 direction = Vec3::Zero();  ///< unit vector along the offset; zero where the distance is 0
 };
 
 /// How the distances compare; unordered where their errors do not tell.

@@ -20,9 +20,10 @@ inline std::strong_ordering compare(const Square& a, const Square& b) noexcept {
   return a.numerator * b.denominator <=> b.numerator * a.denominator;
 }
 
-/// Of the point from the corner, the line or the plane of the feature, on a grid that holds all of them.
+/// Returns the squared distance of the point from the corner, the line or the plane of the feature, on a
+/// lattice that holds all of them.
 Square square(const Lattice& lattice, const Feature& feature, const Vec3& point) noexcept;
-/// Of the point from the triangle.
+/// Returns the squared distance of the point from the triangle, on a lattice that holds both.
 Square square(const Lattice& lattice, const TriangleCorners& triangle, const Vec3& point) noexcept;
 
 }  // namespace touchmark::exact

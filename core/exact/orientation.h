@@ -11,7 +11,8 @@ namespace touchmark {
 /// their plane.
 int side_of_plane(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& p) noexcept;
 
-/// The same in the plane of x and y: the sign of (b - a) x (p - a), 1 where p is to the left of a to b.
+/// Returns the side in the plane of x and y: the sign of (b - a) x (p - a), 1 where p is to the left of a to
+/// b.
 int side_of_line_xy(const Vec3& a, const Vec3& b, const Vec3& p) noexcept;
 
 }  // namespace touchmark

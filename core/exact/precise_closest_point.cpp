@@ -51,7 +51,7 @@ std::optional<int> sign_of_sum(
   return sum[terms - 1] > 0 ? 1 : -1;
 }
 
-/// Of a d - b c.
+/// Returns the sign of a d - b c, or nothing where a product might underflow.
 std::optional<int> sign_of_determinant(DoubleDouble a, DoubleDouble b, DoubleDouble c,
                                        DoubleDouble d) noexcept {
   return sign_of_sum<2>({{{a, d}, {-b, c}}});
@@ -151,7 +151,7 @@ PreciseClosestPoint on_level_face(const Vector& w, std::size_t axis) noexcept {
   return close;
 }
 
-/// Of a side's value in over_face: 320 m^4 v.
+/// Bounds the error of a side's value in over_face: 320 m^4 v.
 double side_error(double m) noexcept { return 0x1p-93 * (m * m) * (m * m); }
 
 bool has_corner(const TriangleCorners& triangle, const Vec3& position) noexcept {
@@ -162,7 +162,7 @@ struct Interval {
   double middle, error;
 };
 
-/// Of any coordinate of the corners from the point's.
+/// Returns the largest coordinate difference between the corners and the point.
 double largest_difference(const TriangleCorners& triangle, const Vec3& point) noexcept {
   double largest = 0;
   for (const Vec3& corner : triangle) largest = std::max(largest, (corner - point).cwiseAbs().maxCoeff());

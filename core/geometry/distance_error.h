@@ -1,5 +1,5 @@
-/// What any computed distance of a query may be off by, and the unit in which it can be computed. The derivation
-/// is in search/certified_nearest.h.
+/// What any computed distance of a query may be off by, and the unit in which it can be computed. The
+/// derivation is in search/certified_nearest.h.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ inline double largest_difference(const Aabb& box, const Vec3& point) noexcept {
   return (point - box.min).cwiseAbs().cwiseMax((point - box.max).cwiseAbs()).maxCoeff();
 }
 
-/// The same for any point of a way: a convex function is greatest at an end.
+/// The largest coordinate difference for any point of a path: a convex function is greatest at an end.
 inline double largest_difference(const Aabb& box, const Sweep& sweep) noexcept {
   return std::max(largest_difference(box, sweep.from), largest_difference(box, sweep.to));
 }

@@ -38,7 +38,7 @@ DoubleDouble minor(DoubleDouble a, DoubleDouble b, DoubleDouble c, DoubleDouble 
   return a * d - b * c;
 }
 
-/// The same triangle, but for a power of two, where squares of its sides would leave the range of double.
+/// Returns the triangle scaled by a power of two where squares of its sides would leave the range of double.
 std::array<Vec3, 3> in_range(const std::array<Vec3, 3>& v) noexcept {
   constexpr int largest = 400, max_exponent = 1000;
   const double extent = std::max({(v[1] - v[0]).cwiseAbs().maxCoeff(), (v[2] - v[1]).cwiseAbs().maxCoeff(),

@@ -66,7 +66,7 @@ struct NearestAsComputed {
 NearestAsComputed nearest_as_computed(std::span<const PreparedTriangle> triangles,
                                       const Vec3& point) noexcept;
 
-/// The same triangle in another unit. `scale` is a power of two, so that nothing rounds.
+/// Returns the triangle in another unit. `scale` is a power of two, so that nothing rounds.
 PreparedTriangle scaled(const PreparedTriangle& triangle, double scale) noexcept;
 
 /// The vector from a triangle's nearest point to the query point, and its squared length.
@@ -82,7 +82,7 @@ Offset offset_from(const PreparedTriangle& triangle, const Vec3& point) noexcept
 
 /// The contact on this triangle: `distance` is the square root of squared_distance(triangle, point).
 Contact contact_on(const PreparedTriangle& triangle, const Vec3& point, TriangleId id) noexcept;
-/// The same where offset_from(triangle, point) is known.
+/// The contact on this triangle where offset_from(triangle, point) is known.
 Contact contact_at(const PreparedTriangle& triangle, const Vec3& point, const Offset& offset,
                    TriangleId id) noexcept;
 

@@ -76,8 +76,8 @@ std::optional<double> FirstTouch::settle(const Reached& reached) noexcept {
   return std::max(reached.fraction, smallest);
 }
 
-/// Where steps lead nowhere, since the way grazes: by halving, exactly where the slope drowns in rounding. At
-/// `high` or before it the gap is at most twice the error.
+/// Halves the rest of the path where steps lead nowhere, since the path grazes; decides exactly where the
+/// slope drowns in rounding. At `high` or before it the gap is at most twice the error.
 std::optional<double> FirstTouch::halve(const Reached& reached) noexcept {
   constexpr double grid = 0x1p53, narrow = 0x1p-52;
   ++exact_decisions_;

@@ -55,7 +55,7 @@ inline std::optional<double> sweep_hit(const PreparedTriangle& triangle, const S
 Contact contact_on_path(const PreparedTriangle& triangle, const Sweep& sweep, double fraction,
                         TriangleId id) noexcept;
 
-/// Where the probe stands at a fraction of the way, rounded; exact at 0 and 1.
+/// Returns where the probe stands at a fraction of the path, rounded; exact at 0 and 1.
 inline Vec3 position_at(const Sweep& sweep, double fraction) noexcept {
   return fraction < 1 ? Vec3(sweep.from + fraction * (sweep.to - sweep.from)) : sweep.to;
 }

@@ -1,4 +1,4 @@
-/// Where a moving ball first comes near a box: the culling test of every first_hit.
+/// Finds where a moving ball first comes near a box: the culling test of every first_hit.
 #pragma once
 
 #include <algorithm>

@@ -25,7 +25,7 @@ void check(const GridGroup::Options& options) {
   }
 }
 
-/// Where all corners coincide every triangle is the same point, so the first stands for all.
+/// Returns a mesh of the first triangle alone, which stands for all where all corners coincide.
 TriangleMesh first_triangle(const TriangleMesh& mesh) {
   const std::vector<Vec3> corners = {mesh.corner(0, 0), mesh.corner(0, 1), mesh.corner(0, 2)};
   return {corners, {{0, 1, 2}}, {mesh.id(0)}};

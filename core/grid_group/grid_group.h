@@ -27,13 +27,13 @@ class GridGroup {
  public:
   using Shape = grid::Shape;
   enum class Lookup { scan, direct };
-  /// Of the groups, direct only. Answers are the same.
+  /// When the groups are built, direct only. Answers are the same.
   enum class Construction {
     whole,  ///< all in build()
     lazy    ///< each by the first query that misses it, one a query at most, which takes a few microseconds
   };
   struct Options {
-    Shape shape = Shape::cube;  ///< of the groups; scan only
+    Shape shape = Shape::cube;  ///< shape of the groups; scan only
     Lookup lookup = Lookup::direct;
     double cell = 0;         ///< edge of a cell, direct: of the smallest; mesh units; 0: choose
     std::size_t groups = 0;  ///< scan with cell = 0: aim at about so many groups; 0: choose

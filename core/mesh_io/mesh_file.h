@@ -24,7 +24,7 @@ std::string_view without_byte_order_mark(std::string_view bytes);
 /// with.
 bool is_padding(std::string_view bytes) noexcept;
 
-/// Where a reader stands in a text: whitespace-separated words, counted by line. Handles LF, CR LF and CR.
+/// The position of a reader in a text: whitespace-separated words, counted by line. Handles LF, CR LF and CR.
 class TextCursor {
  public:
   /// `comment` starts a comment that runs to the end of its line; 0 for none.
@@ -70,7 +70,7 @@ std::int64_t parse_integer(std::string_view word, std::string_view what, const T
 /// stands: its fail(message) throws MeshError with the line or the byte.
 class MeshBuilder {
  public:
-  /// Of a polygon whose ears are clipped, which takes the cube of it at worst.
+  /// The most corners of a polygon whose ears are clipped, which takes the cube of their number at worst.
   static constexpr std::size_t max_clipped_corners = 1024;
 
   void reserve(std::size_t vertices, std::size_t faces);

@@ -66,8 +66,9 @@ inline bool is_certain(double distance, double reach, double error) noexcept {
   return distance > error && std::abs(distance - reach) > error;
 }
 
-/// The same with regard to the triangle of that distance: on it but for rounding, below 8 u M, the distance
-/// is good as it is. The true one is not negative, and that of this triangle not above 15 u M.
+/// Does the least computed distance decide, with regard to the triangle of that distance? On it but for
+/// rounding, below 8 u M, the distance is good as it is. The true one is not negative, and that of this
+/// triangle not above 15 u M.
 inline bool is_certain_on(const PreparedTriangle& triangle, double distance, const Vec3& center, double reach,
                           double error) noexcept {
   if (!(std::abs(distance - reach) > error)) return false;
@@ -78,7 +79,7 @@ inline bool is_certain_on(const PreparedTriangle& triangle, double distance, con
   return distance > error || distance <= relative_error * largest;
 }
 
-/// And is the triangle of the least computed distance the one to name?
+/// Does the least computed distance decide, and is its triangle the one to name?
 inline bool is_certain_first(const ClosestCandidates& candidates, std::span<const PreparedTriangle> triangles,
                              double distance, const Vec3& center, double reach, double error) noexcept {
   return (is_certain(distance, reach, error) ||
@@ -95,9 +96,9 @@ inline bool is_certain_first(const ClosestCandidates& candidates, std::span<cons
                                                                     std::span<const TriangleId> ids,
                                                                     std::uint64_t& exact_decisions) noexcept;
 
-/// The same answer by a look at every triangle, for any finite numbers: where distance_error is infinite they
-/// are measured as scaled by a power of two. `bounds` are the triangles'; nothing for a centre that is not
-/// finite. Every look at a triangle is counted: two, where they are measured so.
+/// Returns the answer of `nearest` by a look at every triangle, for any finite numbers: where distance_error
+/// is infinite they are measured as scaled by a power of two. `bounds` are the triangles'; nothing for a
+/// centre that is not finite. Every look at a triangle is counted: two, where they are measured so.
 std::optional<Contact> nearest_of_all(std::span<const PreparedTriangle> triangles, const Aabb& bounds,
                                       const Vec3& center, double reach, std::span<const TriangleId> ids,
                                       Work& work) noexcept;

@@ -9,7 +9,7 @@
 
 namespace touchmark {
 
-/// Of more than there is room for only the exactly nearest is remembered, the first where several are.
+/// Keeps only the exactly nearest where there are more than fit, the first where several are.
 void ClosestCandidates::compact() noexcept {
   if (closeness_ == 0) {
     tie_count_ = 0;

@@ -28,7 +28,7 @@ class ClosestCandidates {
 
   bool found() const noexcept { return at_ != nowhere; }
   const Candidate& best() const noexcept { return best_; }
-  std::uint32_t at() const noexcept { return at_; }  ///< where it is kept
+  std::uint32_t at() const noexcept { return at_; }  ///< slot of the best
 
   /// Triangles may come in any order, and more than once. Is it the nearest now, and was not before?
   bool update(const Candidate& candidate, std::uint32_t at) noexcept {
@@ -51,8 +51,8 @@ class ClosestCandidates {
     return true;
   }
 
-  /// Of those taken, is it surely a nearest one and, of those that are exactly as near, the first? `error` as
-  /// above.
+  /// Returns true if the best is surely a nearest one of those taken and, of those that are exactly as near,
+  /// the first. `error` is as above.
   bool is_surely_first(double error) const noexcept { return tie_count_ == 0 || beats_ties(error); }
   /// The exactly nearest of those taken is among these: shows `ties` the best and what rounding may have put
   /// behind it.
@@ -71,8 +71,8 @@ class ClosestCandidates {
   [[gnu::cold, gnu::noinline]] void compact() noexcept;
   bool beats_ties(double error) const noexcept;
 
-  /// Of the squares of distances d that are apart by at most the error E: (d + E)^2 - d^2 = E (2 d + E), and
-  /// d <= sqrt(3) M.
+  /// Bounds how far apart squares of distances d are that differ by at most the error E: (d + E)^2 - d^2 = E
+  /// (2 d + E), and d <= sqrt(3) M.
   double closeness_;
   double limit_ = std::numeric_limits<double>::infinity();  ///< farther than the best by that
   Candidate best_;

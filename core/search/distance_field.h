@@ -51,8 +51,8 @@ class SampleLattice {
   Lanes clamped(Lanes point) const noexcept { return simd::min(simd::max(point, min_), max_); }
   /// The cube that a point of the box is in; the nearest one to a point beyond.
   LaneBits cube_of(Lanes point) const noexcept { return whole((point - min_) * per_edge_, last_); }
-  /// Of the eight cubes whose middles are about a point of the box, the first in each direction. Where there
-  /// are two in each.
+  /// Returns the first in each direction of the eight cubes whose middles are around a point of the box.
+  /// There must be two in each direction.
   LaneBits first_around(Lanes point) const noexcept {
     return whole((point - min_) * per_edge_ - 0.5F, last_ - 1);
   }
@@ -85,8 +85,8 @@ class DistanceField {
   DistanceField() = default;
   /// A lattice to be filled for so many triangles whose box this is, in the frame.
   DistanceField(const Eigen::Vector3f& min, const Eigen::Vector3f& max, std::size_t triangles);
-  /// The same for a mesh whose box this is. One that stays empty, and of which nothing is known, where the
-  /// mesh is so far from 0 that rounding a sample's place would count.
+  /// Returns a lattice to be filled for a mesh whose box this is. It stays empty, and nothing is known of it,
+  /// where the mesh is so far from 0 that rounding a sample's position would count.
   static DistanceField around(const FilterFrame& frame, const Aabb& bounds, std::size_t triangles);
   /// What it takes when it is filled at once, at most.
   static std::size_t max_bytes(std::size_t triangles) noexcept {
@@ -104,8 +104,9 @@ class DistanceField {
   /// Leaves all of that to sample_near.
   void fill_lazily();
   bool is_lazy() const noexcept { return !unsampled_.empty(); }
-  /// Where that was left to be done: takes a sample that says more of the point, by one call of distance_at.
-  /// False where there is none, or nothing was left. Any thread may, at any time; what it finds is the same.
+  /// Takes a sample that says more of the point, by one call of distance_at, where fill_lazily left that to
+  /// be done. Returns false where there is none, or nothing was left. Any thread may, at any time; what it
+  /// finds is the same.
   template <class DistanceAt>
   bool sample_near(const FilterPoint& point, const DistanceAt& distance_at) const;
   /// After a part of the mesh has moved, within the lattice's box: fills anew, or leaves it to sample_near as
@@ -118,11 +119,11 @@ class DistanceField {
   /// Is a mesh of this box within the lattice's?
   bool holds(const FilterFrame& frame, const Aabb& bounds) const noexcept;
 
-  /// No part of the mesh is nearer than this. May be negative.
+  /// Returns a lower bound of the distance: no part of the mesh is nearer. May be negative.
   float lower_bound(const FilterPoint& point) const noexcept;
-  /// Nor than this, which takes longer and, as a rule, is more.
+  /// Returns a tighter lower bound from the 8 surrounding samples, at about twice the cost.
   float tight_lower_bound(const FilterPoint& point) const noexcept;
-  /// Some part of the mesh is this near, or infinity.
+  /// Returns an upper bound of the distance, or infinity: some part of the mesh is at most this far.
   float upper_bound(const FilterPoint& point) const noexcept;
   std::size_t bytes() const noexcept {
     return fine_steps_.bytes() + coarse_steps_.bytes() + unsampled_.bytes();
@@ -187,8 +188,8 @@ class DistanceField {
   SampleLattice coarse_, fine_;
   float step_ = 1;            ///< a power of two: multiples are exact
   SharedBytes fine_steps_;    ///< the distance is at least so many steps
-  SharedBytes coarse_steps_;  ///< and at most so many; the last: nothing is known
-  /// Of a coarse cube whose samples are taken later: bits of the eighths of which nothing is known yet.
+  SharedBytes coarse_steps_;  ///< the distance is at most so many steps; the last value: nothing is known
+  /// By coarse cube, with lazy construction: bits of the eighths of which nothing is known yet.
   SharedBytes unsampled_;
 };
 
@@ -274,7 +275,7 @@ inline void DistanceField::fill_lazily() {
   unsampled_ = SharedBytes(coarse_.size(), all_eighths);
 }
 
-/// Of a coarse cube first the middle, then, where that is near, the middle of the eighth.
+/// Samples the middle of a coarse cube first, then, where that is near, the middle of the eighth.
 template <class DistanceAt>
 bool DistanceField::sample_near(const FilterPoint& p, const DistanceAt& distance_at) const {
   if (unsampled_.empty()) return false;
@@ -299,8 +300,8 @@ bool DistanceField::sample_near(const FilterPoint& p, const DistanceAt& distance
   return true;
 }
 
-/// Where all that moved was and is farther than the mesh was, bounds from below and from above stay true: of
-/// the middle, and with room for the way there and back of its eighths.
+/// Bounds from below and from above stay true where all that moved was and is farther than the mesh was: of
+/// the middle, and padded for the path there and back of its eighths.
 template <class DistanceAt>
 void DistanceField::refill(const DistanceAt& distance_at, std::span<const Aabb> moved) {
   std::vector<bool> changed(coarse_.size(), false);

@@ -79,7 +79,7 @@ class NearestOfTies {
   explicit NearestOfTies(const Vec3& center) noexcept : center_(center) {}
   explicit NearestOfTies(const Vec3&&) = delete;
 
-  /// Of several as far it keeps the first of the mesh.
+  /// Keeps the nearest, and of several as far the first of the mesh.
   void consider(const PreparedTriangle& triangle) noexcept;
   /// The nearest of those considered; null where there were none.
   const PreparedTriangle* nearest() const noexcept { return first_; }
@@ -107,12 +107,12 @@ class NearestOfTies {
   static constexpr std::size_t max_known = 8;
 
   const Vec3& center_;
-  const PreparedTriangle* first_ = nullptr;  ///< of those as far as the nearest
+  const PreparedTriangle* first_ = nullptr;  ///< first of those as far as the nearest
   std::optional<TiedTriangle> nearest_;      ///< one of them
   std::optional<SharedFeature> location_;    ///< its place
   std::optional<BesideCorner> corner_;       ///< its corner
-  std::optional<SquaredDistance> squared_;   ///< of it, where that was asked for
-  std::optional<exact::Lattice> lattice_;    ///< of its square, where that is known
+  std::optional<SquaredDistance> squared_;   ///< its squared distance, where that was asked for
+  std::optional<exact::Lattice> lattice_;    ///< lattice of its square, where that is known
   exact::Square square_;
   std::array<Known, max_known> known_;
   std::size_t known_count_ = 0;
@@ -140,7 +140,7 @@ class WithinRadius {
 
   const Vec3& center_;
   double radius_;
-  double error_;  ///< of a computed distance
+  double error_;  ///< bounds the error of a computed distance
   std::optional<SharedFeature> outside_;
   KnownTriangles known_outside_;
 };

@@ -113,9 +113,9 @@ class FilterFrame {
   }
   const Vec3& origin() const noexcept { return origin_; }
   double scale() const noexcept { return scale_; }
-  /// Of this frame, in the mesh's: a power of two, as the scale is.
+  /// Returns this frame's unit of length in the mesh's: a power of two, as the scale is.
   double unit() const noexcept { return unit_; }
-  /// Of a ball about the frame's middle that holds the mesh, in the frame.
+  /// Returns the radius of a ball around the frame's middle that holds the mesh, in the frame.
   double radius() const noexcept { return radius_; }
 
   /// u = 2^-24. The point, the normal and the offset are rounded once each, the three products once, the
@@ -195,8 +195,9 @@ inline float distance_upper_bound(const TrianglePlanes& planes, Lanes values, co
   return std::sqrt(height * height + across) + corner_pad * p.plane_error;
 }
 
-/// Where a point is to four triangles, a lane each: its distance to the face's plane, and how far it is
-/// beyond the side it is farthest beyond; negative inside the prism over the face. Both within tau.
+/// The position of a point relative to four triangles, a lane each: its distance to the face's plane, and how
+/// far it is beyond the side it is farthest beyond; negative inside the prism over the face. Both are within
+/// plane_error.
 struct PlaneLanes {
   Lanes height, side_excess;
 };

@@ -75,7 +75,8 @@ bool is_surely_behind_corner(const Vec3& point, const Vec3& to, double to_square
   return sign < 0 || (sign == 0 && is_exactly_across(point, corner, end));
 }
 
-/// Where the point is to the edge from corner i to the next, `to` being from corner `near` of them.
+/// The position of a point relative to the edge from corner i to the next, `to` being from corner `near` of
+/// them.
 struct EdgeSide {
   int side = 0;  ///< 1: surely off the triangle or on its edge, -1: surely over it
   bool between_ends = false;
@@ -279,7 +280,7 @@ SharedFeature::SharedFeature(const Feature& feature, const Vec3& point) noexcept
   const double nearer = std::max({std::abs(w[0].high), std::abs(w[1].high), std::abs(w[2].high)});
   const double largest = offset_.cwiseAbs().maxCoeff();
   is_known_ = largest > 0x1p-80 * nearer;
-  if (is_known_) roundings_ += 0x1p-94 * nearer / largest;
+  if (is_known_) relative_error_ += 0x1p-94 * nearer / largest;
   if (is_known_ || !is_exactly_on_line(point, from, end)) return;
   // It is on the edge: so it is on whatever has that.
   is_known_ = is_exact_ = true;
@@ -300,7 +301,7 @@ bool SharedFeature::is_surely_behind(const Vec3& corner) const noexcept {
     }
   }
   const double along = to_corner.dot(offset_);
-  const int sign = sure_sign(along, roundings_ * roundings_ * squared * offset_.squaredNorm());
+  const int sign = sure_sign(along, relative_error_ * relative_error_ * squared * offset_.squaredNorm());
   if (sign != 0 || !is_exact_) return sign < 0;
   const Vec3& from = feature_.corner[0];
   const Vec3 point = from + offset_;

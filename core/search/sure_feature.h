@@ -37,9 +37,9 @@ struct SquaredDistance {
   double error = 0;
 };
 
-/// Of the point from the corner itself, the line or the plane of the feature: a few times as long as the
-/// kernel takes. The error is 0 where nothing was rounded: off corners of few digits, and over faces across a
-/// coordinate axis.
+/// Returns the squared distance of the point from the corner itself, the line or the plane of the feature:
+/// takes a few times as long as the kernel. The error is 0 where nothing was rounded: off corners of few
+/// digits, and over faces across a coordinate axis.
 SquaredDistance squared_distance(const Feature& feature, const Vec3& point) noexcept;
 /// The square of a radius, at least 0.
 SquaredDistance squared(double radius) noexcept;
@@ -50,7 +50,7 @@ std::partial_ordering compare(const SquaredDistance& a, const SquaredDistance& b
 /// What many triangles may share: a corner or an edge, and how the point lies about it.
 class SharedFeature {
  public:
-  /// Of a feature that is surely nearest to the point.
+  /// Takes a feature that is surely nearest to the point.
   SharedFeature(const Feature& feature, const Vec3& point) noexcept;
 
   /// Has the triangle the same corner or edge, and is that surely nearest, or the same corners where it is a
@@ -64,7 +64,7 @@ class SharedFeature {
   Vec3 offset_ = Vec3::Zero();  ///< from the nearest point to the point, rounded
   /// What products with the offset may be off by, of the lengths: two units for it, one for a difference,
   /// three for products and sums, and what more the offset is off by.
-  double roundings_ = 8 * std::numeric_limits<double>::epsilon();
+  double relative_error_ = 8 * std::numeric_limits<double>::epsilon();
   bool is_known_ = true;   ///< that offset is
   bool is_exact_ = false;  ///< to the last bit
 };

@@ -36,7 +36,7 @@ class BesideCorner {
 
   Vec3 corner_;
   double_double::Vector offset_;  ///< from the corner to the point, exact
-  double length_;                 ///< of that, rounded
+  double length_;                 ///< length of the offset, rounded
   Advance own_;
 };
 

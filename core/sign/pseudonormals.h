@@ -45,7 +45,7 @@ class Pseudonormals {
   const std::array<std::uint32_t, 3>& corners(std::uint32_t face) const noexcept { return faces_[face]; }
   const Vec3& position(std::uint32_t vertex) const noexcept { return positions_[vertex]; }
   const Vec3& normal(std::uint32_t face) const noexcept { return normals_[face]; }
-  /// Of the face on the other side of side s; no_face on borders and seams.
+  /// Returns the face on the other side of side s; no_face on borders and seams.
   std::uint32_t across(std::uint32_t face, std::size_t s) const noexcept { return across_[3 * face + s]; }
   static constexpr std::uint32_t no_face = std::numeric_limits<std::uint32_t>::max();
   /// Does the vertex have a pseudonormal?
@@ -67,7 +67,7 @@ class Pseudonormals {
   std::vector<Vec3> positions_;
   std::vector<std::array<std::uint32_t, 3>> faces_;
   std::vector<std::uint32_t> across_;
-  std::vector<Vec3> normals_;          ///< of faces, unit; zero without area
+  std::vector<Vec3> normals_;          ///< by face, unit; zero without area
   std::vector<Vec3> vertex_normals_;   ///< sum of angle * normal
   std::vector<double> shortest_edge_;  ///< at a vertex; 0 where it has no pseudonormal
 };

@@ -35,7 +35,7 @@ class TriangleTree {
   struct Node {
     Aabb box;
     std::uint32_t first = 0;  ///< a leaf's first item; else the second child, the first one is the next node
-    std::uint32_t count = 0;  ///< of a leaf's items; 0: not a leaf
+    std::uint32_t count = 0;  ///< number of a leaf's items; 0: not a leaf
   };
   class Builder;
   // Halving 2^32 triangles goes 32 deep, and each step leaves one sibling behind.

@@ -21,10 +21,10 @@ class SphereCluster {
     scan,  ///< as published: every sphere, then the triangles of those that the probe meets
     tree   ///< a hierarchy over them, nearest first
   };
-  /// Of what a tree knows of distances from places all around, tree only. Answers are the same.
+  /// When distances around the mesh are sampled, tree only. Answers are the same.
   enum class Construction {
     whole,  ///< all in build()
-    lazy    ///< of a place by the first query there that wants it, by two rough searches at most
+    lazy    ///< around a point by the first query there that needs it, by two rough searches at most
   };
   struct Options {
     double clustering = 0;  ///< distance between centroids that share a sphere, mesh units; 0: a sphere each

@@ -54,7 +54,8 @@ void require_room(std::size_t triangles, int level, const SubdivisionOptions& op
                   std::to_string(limit));
 }
 
-/// Where all splits, the counts of all levels are known before the first.
+/// Throws where the triangles would be too many. If every triangle splits, the counts of all levels are known
+/// before the first.
 void require_room(std::size_t triangles, const SubdivisionOptions& options) {
   require_room(triangles, 0, options);
   if (!splits_faces(options.method) && options.threshold > 0) return;
@@ -130,8 +131,8 @@ class EdgeSplitting {
     return std::move(refined.points);
   }
 
-  /// Where the vertices are when a trapezoid's diagonals are compared: in the tool the old ones have not
-  /// moved yet.
+  /// Returns the positions by which a trapezoid's diagonals are compared: in the tool the old vertices have
+  /// not moved yet.
   std::vector<Vec3> judged_by(const std::vector<Vec3>& refined) const {
     std::vector<Vec3> positions = refined;
     if (options_.form == SubdivisionForm::meshlab)

@@ -37,7 +37,7 @@ class BoxTree {
 
  private:
   std::vector<EightBoxes> nodes_;
-  std::vector<std::size_t> first_;  ///< of a level's nodes
+  std::vector<std::size_t> first_;  ///< index of each level's first node
 };
 
 /// Lower bounds of the squared distances to eight boxes, in the frame, as safe as the plane filter's.

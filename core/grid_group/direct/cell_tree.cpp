@@ -193,7 +193,7 @@ void CellTree::update(const TriangleStore& store, const BoxTree& tree, const std
   struct Open {
     Vec3 middle;
     std::uint32_t link;
-    double quarter;  ///< of its edge
+    double quarter;  ///< a quarter of the cell's edge
   };
   std::vector<Open> open = {{Vec3::Zero(), links_[root_], 0.5 * half_}};
   while (!open.empty()) {

@@ -42,7 +42,7 @@ class CellTree {
   bool holds(const Vec3& in_frame) const noexcept {
     return std::abs(in_frame.x()) < half_ && std::abs(in_frame.y()) < half_ && std::abs(in_frame.z()) < half_;
   }
-  /// Of the cell that a point of the cube lies in.
+  /// Returns the cell that a point of the cube lies in.
   Cell at(const Vec3& in_frame) const noexcept {
     const Units at = units(in_frame);
     const Found found = find(at);
@@ -109,7 +109,7 @@ class CellTree {
   using Units = std::array<std::uint32_t, 3>;  ///< numbers of a cell of the last possible level
   struct Found {
     std::uint32_t leaf;
-    unsigned shift;  ///< of its level
+    unsigned shift;  ///< the level's distance from the finest one, in levels
   };
   Units units(const Vec3& in_frame) const noexcept {
     return {unit(in_frame.x()), unit(in_frame.y()), unit(in_frame.z())};
@@ -130,9 +130,10 @@ class CellTree {
     return {middle(at[0]), middle(at[1]), middle(at[2])};
   }
 
-  /// Of the middle of a cell, besides from_frame's rounding: it is a sum over the levels when the cells are
-  /// made, and a product and a sum in middle(), each rounded by u = 2^-53 of half the cube's edge or its
-  /// whole; 32 of them in each of three coordinates, and as much again for the difference between the two.
+  /// Bounds the error of a cell's middle besides from_frame's rounding, as a share of half the cube's edge.
+  /// The middle is a sum over the levels when the cells are made, and a product and a sum in middle(), each
+  /// rounded by u = 2^-53 of half the cube's edge or its whole; 32 of them in each of three coordinates, and
+  /// as much again for the difference between the two.
   static constexpr double middle_relative_error = 2 * 3 * 32 * 0x1p-53;
   /// So much a distance is rounded down, relatively and besides: to single precision, and for the kernel's
   /// error.
@@ -149,7 +150,7 @@ class CellTree {
     return static_cast<std::uint32_t>(static_cast<std::int32_t>((along + half_) * units_per_length_));
   }
 
-  double half_ = 0;  ///< of the cube's edge; its middle is the frame's origin
+  double half_ = 0;  ///< half of the cube's edge; the cube's middle is the frame's origin
   double unit_ = 0;  ///< edge of a cell of the last possible level
   double units_per_length_ = 0;
   double middle_error_ = 0;

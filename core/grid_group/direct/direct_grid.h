@@ -27,9 +27,9 @@ struct DirectOptions {
 /// What one haptic point remembers between ticks. Forgetting it changes no answer.
 struct DirectMemory {
   std::uint64_t owner = 0;  ///< the grid that it is about; 0: nothing is remembered
-  std::uint32_t slot = 0;   ///< of a triangle that was near
+  std::uint32_t slot = 0;   ///< slot of a triangle that was near
   Vec3 center = Vec3::Zero();
-  /// Of the distance at that centre, with room for the kernel's error wherever the bounds are put to use. The
+  /// Bounds of the distance at that centre, padded by the kernel's error wherever they are put to use. The
   /// distance changes by the displacement at most.
   double lower = 0, upper = std::numeric_limits<double>::infinity();
 
@@ -63,9 +63,9 @@ class DirectGrid {
                                  Work& work) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, DirectMemory& memory, Work& work) const noexcept;
 
-  /// Where groups grow, a query looks at no more boxes and triangles than this besides those that answer it,
-  /// and with those at no more than twice as many as there are triangles, and a little; a sweep at twice as
-  /// many, for it may ask what is nearest to its start.
+  /// Bounds what lazy construction adds to a query: no more boxes and triangles than this besides those that
+  /// answer it, and with those no more than twice as many as there are triangles, and a little; a sweep at
+  /// twice as many, for it may ask what is nearest to its start.
   static constexpr std::uint64_t max_lazy_work = 10'000;
 
   std::size_t bytes() const noexcept;
@@ -78,11 +78,11 @@ class DirectGrid {
   /// A tick's work is bounded: no more boxes are looked at for a group, and no more of them and of triangles
   /// for a cell.
   static constexpr std::uint64_t max_lazy_looks = 4096;
-  /// Where to look first, where it is not surely free.
+  /// The slot to look at first, where the point is not known to be clear.
   struct Start {
     bool beyond = false;  ///< nothing is within reach
     std::uint32_t slot = 0;
-    const Group* group = nullptr;  ///< of that place, if it serves the point
+    const Group* group = nullptr;  ///< group of that slot, if it covers the point
   };
   void claim(DirectMemory& memory) const noexcept {
     if (memory.owner == serial_) return;
@@ -136,7 +136,7 @@ class DirectGrid {
     Offset offset{Vec3::Zero(), 0};
     double squared_lower = 0;
     float plane_error = 0;   ///< the filter's, at the centre
-    double error = 0;        ///< of a computed distance there
+    double error = 0;        ///< bounds the error of a computed distance there
     bool exhausted = false;  ///< after as much work as all triangles would have been
     double within = std::numeric_limits<double>::infinity();
   };
@@ -171,7 +171,8 @@ class DirectGrid {
   /// The impact of a sweep whose first hit is known.
   std::optional<Impact> impact_on(const Sweep& sweep, double fraction, std::uint32_t slot,
                                   DirectMemory& memory, Work& work) const noexcept;
-  /// Of the exactly nearest triangle, where rounding could tell; nothing where it is beyond the reach.
+  /// Returns the contact with the exactly nearest triangle, where rounding could tell; nothing where it is
+  /// beyond the reach.
   std::optional<Contact> contact_of(const PreparedTriangle& nearest, const Vec3& center, double reach,
                                     double error, Work& work) const noexcept;
   /// Samples distances, or those that the boxes of what moved may have changed.

@@ -29,7 +29,7 @@ class SweepSearch {
 
   bool found() const noexcept { return first_.fraction <= 1; }
   double fraction() const noexcept { return first_.fraction; }
-  std::uint32_t slot() const noexcept { return slot_; }  ///< of the first
+  std::uint32_t slot() const noexcept { return slot_; }  ///< slot of the triangle first hit
 
   /// Those of a group that serves the whole way.
   void consider_group(std::span<const std::uint32_t> members, Work& work) noexcept {

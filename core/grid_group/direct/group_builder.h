@@ -25,8 +25,8 @@ class GroupBuilder {
   Groups build();
   /// None yet, and room for them.
   Groups unbuilt() const;
-  /// Of the triangles of these groups, after some moved within these boxes of the frame. Where groups grow,
-  /// those that changed are unmade again.
+  /// Returns the groups of the same triangles after some moved within these boxes of the frame. With lazy
+  /// construction those that changed are unbuilt again.
   Groups rebuild(const Groups& groups, const std::vector<Aabb>& moved);
   /// Did the bytes run out?
   bool ran_out() const noexcept { return ran_out_; }

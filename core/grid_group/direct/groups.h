@@ -22,11 +22,11 @@ class Group {
   Group(std::uint32_t first, std::size_t count, float height, float margin) noexcept
       : first_(first), count_(static_cast<std::uint16_t>(count)), height_(height), margin_(margin) {}
 
-  std::size_t count() const noexcept {  ///< of members
+  std::size_t count() const noexcept {  ///< number of members
     return std::atomic_ref(count_).load(std::memory_order_acquire);
   }
   float height() const noexcept { return std::atomic_ref(height_).load(std::memory_order_acquire); }
-  float margin() const noexcept { return margin_; }  ///< where there are members
+  float margin() const noexcept { return margin_; }  ///< valid only if there are members
 
   /// Is the point with these values of the triangle's planes surely where the group is valid?
   bool covers(Lanes values, float plane_error) const noexcept {
@@ -85,7 +85,7 @@ class Groups {
            float margin) const noexcept;
 
   bool is_lazy() const noexcept { return lazy_; }
-  /// Of the groups that have members.
+  /// Returns how many groups have members.
   std::size_t count() const noexcept { return std::atomic_ref(count_).load(std::memory_order_relaxed); }
   std::size_t bytes() const noexcept {
     return groups_.capacity() * sizeof(Group) + members_.capacity() * sizeof(std::uint32_t);
@@ -99,7 +99,7 @@ class Groups {
   // What is not made belongs to nobody but who has claimed it.
   mutable std::vector<Group> groups_;
   mutable std::vector<std::uint32_t> members_;
-  mutable std::size_t taken_ = 0;  ///< of members_, where it grows
+  mutable std::size_t taken_ = 0;  ///< how many of members_ are in use, with lazy construction
   mutable std::size_t count_ = 0;
 };
 

@@ -66,7 +66,7 @@ std::uint64_t NearestSearch::without_far_balls(std::uint64_t left,
   return left;
 }
 
-/// Where what was found was never taken, the others were all farther for certain.
+/// Triangles that were not compared in double were all farther for certain.
 const PreparedTriangle& NearestSearch::exactly_nearest(std::uint64_t& exact_decisions) const noexcept {
   if (!known_) return store_.exact[slot_];
   NearestOfTies ties(center_);

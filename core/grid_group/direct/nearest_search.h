@@ -40,14 +40,16 @@ class NearestSearch {
         candidates_(store.exact.data(), center, error_) {}
 
   bool found() const noexcept { return found_; }
-  std::uint32_t slot() const noexcept { return slot_; }  ///< of the nearest
-  /// Of the nearest, as the exact kernel gives it; when there is one.
+  std::uint32_t slot() const noexcept { return slot_; }  ///< slot of the nearest triangle
+  /// Returns the offset from the nearest triangle as the exact kernel gives it. Something must have been
+  /// found.
   Offset offset() const noexcept {
     const PreparedTriangle& triangle = store_.exact[slot_];
     if (known_) return offset_;
     return over_face_ ? offset_over_face(triangle, center_) : exact_offset(triangle, center_);
   }
-  /// Of the nearest ones, is it surely the first? When there is one.
+  /// Returns true if the nearest is surely the first of those exactly as near. Something must have been
+  /// found.
   bool is_surely_first() const noexcept { return candidates_.is_surely_first(error_); }
   /// The exactly nearest, the first where several are, when there is one; counts where whole numbers decide.
   const PreparedTriangle& exactly_nearest(std::uint64_t& exact_decisions) const noexcept;
@@ -68,11 +70,11 @@ class NearestSearch {
   /// Was a triangle found within the radius? Then `within` bounds its distance, and `slot` is its.
   bool touches() const noexcept { return within_ < enough_; }
   double within() const noexcept { return within_; }
-  /// The same at the end of the search: decides what is still open. For the squared distance of the nearest.
+  /// Decides at the end of the search what is still open, for the squared distance of the nearest.
   bool touches_at_last(double squared) noexcept { return is_open(squared) && decide_last(squared); }
   std::uint64_t exact_decisions() const noexcept { return exact_decisions_; }
   const FilterPoint& point() const noexcept { return point_; }
-  double error() const noexcept { return error_; }                 ///< of a computed distance
+  double error() const noexcept { return error_; }  ///< bounds the error of a computed distance
   std::uint64_t triangles() const noexcept { return triangles_; }  ///< tested
   std::uint64_t boxes() const noexcept { return boxes_; }          ///< tested
 
@@ -169,7 +171,7 @@ class NearestSearch {
   bool found_ = false;
   bool known_ = false;  ///< offset_, and candidates_ with it
   double enough_ = -1;
-  float enough_high_ = -1;  ///< the same in the frame
+  float enough_high_ = -1;  ///< `enough_` in the frame
   double within_ = std::numeric_limits<double>::infinity();
   double radius_ = 0;  ///< what touches is within it
   /// Squares of distances about the radius; from infinity where nothing is left open.

@@ -54,7 +54,7 @@ class Prism {
   static constexpr std::size_t vectors = (points + 3) / 4;
   using AtPoints = std::array<Lanes, vectors>;
 
-  /// Of the lattice point that is i cuts from corner 0 towards 1 and j towards 2.
+  /// Returns the number of the lattice point that is i cuts from corner 0 towards 1 and j towards 2.
   static constexpr std::size_t number(int i, int j) {
     const int before = i * (2 * cuts + 3 - i) / 2;  // in the rows of smaller i
     return static_cast<std::size_t>(before + j);

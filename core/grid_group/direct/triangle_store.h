@@ -43,7 +43,7 @@ struct TriangleStore {
   std::vector<PreparedTriangle> exact;
   std::vector<TrianglePlanes> planes;
   std::vector<TriangleBall> balls;
-  bool fourth_powers_fit = false;  ///< of the mesh's extent, into the range of double
+  bool fourth_powers_fit = false;  ///< do fourth powers of the mesh's extent fit the range of double?
   std::vector<TriangleId> ids;     ///< by position in the mesh; empty when they are the positions
 
   /// The mesh's box must fit (FilterFrame::fits).

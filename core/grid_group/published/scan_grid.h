@@ -41,7 +41,8 @@ class ScanGrid {
   double cell() const noexcept { return cell_; }
   bool coarsened() const noexcept { return coarsened_; }
 
-  /// Of a group: the mesh's triangles, and the shape around them (whichever was built; the other is empty).
+  /// Returns the mesh's triangles in a group. boxes() or spheres(), whichever was built, hold the shapes
+  /// around them; the other is empty.
   std::span<const std::uint32_t> members(std::size_t group) const noexcept {
     return std::span(members_).subspan(first_member_[group], first_member_[group + 1] - first_member_[group]);
   }

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t bins_an_axis = 16;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// Of a box; in any order of the axes.
+/// Returns half of the area of a box; in any order of the axes.
 float half_area(Lanes min, Lanes max) noexcept {
   const Lanes d = simd::max(max - min, Lanes{});
   const Lanes faces = d * __builtin_shufflevector(d, d, 1, 2, 0, 3);
@@ -103,7 +103,7 @@ float TriangleSplitter::area(const TriangleRange& range) const noexcept {
   return half_area(all.min, all.max);
 }
 
-/// Of the keys.
+/// Returns the box of the keys.
 TriangleSplitter::Box TriangleSplitter::key_bounds(const TriangleRange& range, Key key) const noexcept {
   Box all{key_of(items_[range.begin], key), key_of(items_[range.begin], key)};
   for (std::uint32_t i = range.begin + 1; i < range.end; ++i) {
@@ -174,7 +174,7 @@ void TriangleSplitter::partition_at(const TriangleRange& range, std::uint32_t po
     std::partial_sort(left, items_.data() + position, items_.data() + range.end, less);
 }
 
-/// The same for any place.
+/// Partitions at any position along the axis.
 void TriangleSplitter::halve(const TriangleRange& range, std::uint32_t position, Key key, int axis) {
   std::nth_element(items_.begin() + range.begin, items_.begin() + position, items_.begin() + range.end,
                    [&](const Item& a, const Item& b) {

@@ -33,7 +33,7 @@ class TriangleSplitter {
 
   /// The mesh's triangle at a place in the order.
   std::uint32_t triangle(std::uint32_t position) const noexcept { return items_[position].triangle; }
-  /// Of the range's box, as a measure of how often a search looks into it.
+  /// Returns half of the area of the range's box, a measure of how often a search looks into it.
   float area(const TriangleRange& range) const noexcept;
   /// The left part holds whole blocks. The range must hold more than one block.
   std::pair<TriangleRange, TriangleRange> split(const TriangleRange& range);

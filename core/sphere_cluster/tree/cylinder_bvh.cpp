@@ -179,8 +179,8 @@ double SphereTree::clearance_from(float unseen, double shown, double pad) const 
   return std::min(std::sqrt(frame_.squared(unseen)), shown * (1 - 0x1p-40)) - pad;
 }
 
-/// The same by what was sampled, which then is what is known of the place: closely where nothing was near,
-/// for else something still is, as a rule.
+/// Is nothing within reach, by what was sampled? Then that is what is remembered of the point. It asks the
+/// tight bound where nothing was near, for else something still is, as a rule.
 [[gnu::always_inline]] inline bool SphereTree::rejects_by_distance_field(const FilterPoint& point,
                                                                          const Vec3& center, double reach,
                                                                          Memory& memory) const noexcept {
@@ -194,8 +194,8 @@ double SphereTree::clearance_from(float unseen, double shown, double pad) const 
   return true;
 }
 
-/// And when the place has its samples, two at most, which take no more than half of the work that a query may
-/// take before it looks at every triangle. `budget` is what is left of that.
+/// Rejects once the point has its samples, two at most, which take no more than half of the work that a query
+/// may take before it looks at every triangle. `budget` is what is left of that.
 bool SphereTree::rejects_once_sampled(const FilterPoint& point, const Vec3& center, double reach,
                                       Memory& memory, std::uint64_t& budget, Work& work) const noexcept {
   // With a reach as long as the mesh no sample helps.
@@ -295,7 +295,7 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
   return true;
 }
 
-/// Of `touches`, whatever it found.
+/// Remembers what `touches` found.
 void SphereTree::remember_touch(const Vec3& center, double clearance, double nearest,
                                 Memory& memory) noexcept {
   memory.move = Vec3::Constant(infinity);
@@ -377,7 +377,7 @@ void SphereTree::look_ahead(Memory& memory, Work& work) const noexcept {
   work += spent;
 }
 
-/// Where the hierarchy does not serve.
+/// Looks at every triangle, where the hierarchy cannot be searched.
 std::optional<Contact> SphereTree::nearest_without(const Vec3& center, double reach,
                                                    Work& work) const noexcept {
   return nearest_of_all(parts_.triangles, bounds_, center, reach, ids_, work);

@@ -26,13 +26,13 @@ class SphereTree {
  public:
   /// What a haptic point remembers between ticks: it changes the cost of an answer, never the answer.
   struct Memory {
-    std::uint64_t tree = 0;      ///< whose memory this is; 0: nobody's
-    Vec3 center = Vec3::Zero();  ///< where the point was
+    std::uint64_t tree = 0;      ///< epoch of the tree that this is about; 0: nothing is remembered
+    Vec3 center = Vec3::Zero();  ///< the point's last position
     double clearance = -1;       ///< no triangle was nearer, all rounding included; -1: nothing is known
     double nearest = std::numeric_limits<double>::infinity();  ///< triangle `last` was that far
     Vec3 move =
         Vec3::Zero();  ///< by which the point had moved then; infinite after `touches`, which lists none
-    std::uint32_t last = 0;  ///< where it is kept
+    std::uint32_t last = 0;  ///< slot of that triangle
     spheres::LeafCache cache;
   };
 
@@ -45,9 +45,9 @@ class SphereTree {
   SphereTree() = default;
   SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters, const Options& options);
 
-  /// The same triangles, some of them elsewhere. What memories hold of before is not believed any more. False
-  /// where the mesh is now of another size or at another place: nothing has changed then, and the tree is to
-  /// be built anew.
+  /// Takes the same triangles, some of them elsewhere. What memories hold of before is not believed any more.
+  /// Returns false where the mesh is now of another size or at another position: nothing has changed then,
+  /// and the tree is to be built anew.
   bool update(const TriangleMesh& mesh);
 
   /// Is it known, without looking, that no triangle is within reach? The distance changes by no more than the
@@ -58,8 +58,8 @@ class SphereTree {
   }
   // Both look, even where it is surely free.
   bool touches(const Probe& probe, Memory& memory, Work& work) const noexcept;
-  /// Where `exhausted` points somewhere, a search that looked at as much as all triangles are ends there,
-  /// with that set and no answer.
+  /// If `exhausted` points somewhere, a search that looked at as much as all triangles are ends there, with
+  /// that set and no answer.
   std::optional<Contact> nearest(const Vec3& center, double reach, Memory& memory, Work& work,
                                  bool* exhausted = nullptr) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, Memory& memory, Work& work) const noexcept;
@@ -67,8 +67,8 @@ class SphereTree {
   bool is_near(const Memory& memory) const noexcept {
     return memory.tree == epoch_ && memory.nearest < std::numeric_limits<double>::infinity();
   }
-  /// Where it is near: lists what a next query may need, and fetches what it does if the point goes on as it
-  /// moved.
+  /// Refills the cache for the next query where the point is near, and fetches what one needs if the point
+  /// goes on as it moved.
   void look_ahead(Memory& memory, Work& work) const noexcept;
   std::size_t bytes() const noexcept;
 
@@ -126,13 +126,13 @@ class SphereTree {
   bool refill(const Vec3& center, const Vec3& move, float distance, Memory& memory, std::uint64_t budget,
               Work& work) const noexcept;
 
-  std::uint64_t epoch_ = 0;  ///< of this tree and its copies
+  std::uint64_t epoch_ = 0;  ///< shared by this tree and its copies
   Simd simd_ = Simd::portable;
   bool searchable_ = false;  ///< else the mesh does not fit the frame, and every triangle is looked at
   Aabb bounds_;
   FilterFrame frame_;
   bool certified_ = true;
-  double radius_ = 0;            ///< of a ball about the frame's origin that holds the mesh
+  double radius_ = 0;            ///< radius of a ball around the frame's origin that holds the mesh
   double mean_leaf_radius_ = 0;  ///< the mean radius of a block
   spheres::TreeParts parts_;
   bool lazy_ = false;

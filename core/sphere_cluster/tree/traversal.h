@@ -44,8 +44,8 @@ inline constexpr float farthest = std::numeric_limits<float>::max();
 /// same for n.v, twice, and n's own length.
 inline constexpr float difference_pad = 1 - 16 * 0x1p-24F;
 
-/// Of a corner's bound, of which no term is negative: the cosine is off by 8 u at most, two for each of the
-/// normals and three of its own, so its square by 16 u and what it is a factor of by 8; ten roundings.
+/// Rounding of a corner's bound, of which no term is negative: the cosine is off by 8 u at most, two for each
+/// of the normals and three of its own, so its square by 16 u and what it is a factor of by 8; ten roundings.
 inline constexpr float sine_error = 0x1p-18F, corner_factor = 1 - 32 * 0x1p-24F;
 
 namespace portable {

@@ -60,9 +60,10 @@ inline Wide triangle_bounds(const TriangleBlock& block, std::size_t at, const Po
   return height * height + excess * excess;
 }
 
-/// The same, with what is known beyond corners below 90 degrees, for twice as many instructions. Whatever is
-/// s > 0 beyond a side with the outward normal n and t > 0 beyond the next with m, in the face's plane, is as
-/// far from where these meet as (s^2 + t^2 - 2 st c) / (1 - c^2), squared, at least, with c = n.m below 0.
+/// Returns lower bounds that use what is known beyond corners below 90 degrees, for twice as many
+/// instructions. Whatever is s > 0 beyond a side with the outward normal n and t > 0 beyond the next with m,
+/// in the face's plane, is as far from where these meet as (s^2 + t^2 - 2 st c) / (1 - c^2), squared, at
+/// least, with c = n.m below 0.
 inline Wide corner_bounds(const TriangleBlock& block, std::size_t at, const Point& p) noexcept {
   const Wide face = planes_at(block, 0, at, p).value;
   std::array<Planes, 3> side;
@@ -156,7 +157,7 @@ inline std::uint32_t pop_lowest(unsigned& bits) noexcept {
   return lowest;
 }
 
-/// Where a block's triangles are kept.
+/// Returns the slots of a block's triangles.
 inline std::array<std::uint32_t, tree_width> slots_in(TreeRef block) noexcept {
   std::array<std::uint32_t, tree_width> slots;
   for (std::uint32_t k = 0; k < tree_width; ++k) slots[k] = block.index() * tree_width + k;
