@@ -19,7 +19,7 @@ struct Probe {
   double radius = 0;
 };
 
-/// The probe's straight way during one servo tick.
+/// The probe's straight path during one servo tick.
 struct Sweep {
   Vec3 from = Vec3::Zero();
   Vec3 to = Vec3::Zero();
@@ -40,7 +40,7 @@ struct Contact {
       Side::unasked;  ///< side of the centre; detectors leave it, core/sign/signed_detector.h fills it in
 };
 
-/// The first touch along a sweep: `fraction` in [0, 1] of the way, 0 where and only where the probe touches
+/// The first touch along a sweep: `fraction` in [0, 1] of the path, 0 where and only where the probe touches
 /// at the start; rounded down, so that no touch is earlier. `contact` is the contact of the probe standing
 /// there.
 struct Impact {

@@ -76,20 +76,20 @@ ExactClosestPoint exact_closest_point(const Lattice& lattice, const TriangleCorn
       {lattice(triangle[0]) - origin, lattice(triangle[1]) - origin, lattice(triangle[2]) - origin});
 }
 
-/// A way as seen from its start: it leads to `path`, the triangle's corners are at `w`.
+/// A path as seen from its start: it leads to `path`, the triangle's corners are at `w`.
 struct ExactPath {
   Vector<1> path;
   std::array<Vector<1>, 3> w;
   BigInteger<2> squared_radius;
 };
 
-/// Does it go through the triangle? A way along the triangle's plane is left to ends, corners and edges.
+/// Does it go through the triangle? A path along the triangle's plane is left to ends, corners and edges.
 bool passes_through(const ExactPath& c) noexcept {
   const Vector<2> normal = cross(c.w[1] - c.w[0], c.w[2] - c.w[0]);
   const BigInteger<3> start = dot(c.w[0], normal), drop = dot(c.path, normal);
   const int sign = drop.sign();
   if (sign == 0) return false;
-  // It meets the plane at start / drop of the way, and there the barycentric coordinates are to each other
+  // It meets the plane at start / drop of the path, and there the barycentric coordinates are to each other
   // as these products.
   if (sign > 0 ? start.sign() < 0 || start > drop : start.sign() > 0 || start < drop) return false;
   for (std::size_t i = 0; i < 3; ++i)

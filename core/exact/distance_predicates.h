@@ -1,6 +1,6 @@
 /// Point-triangle distances of the numbers as they are stored: nothing rounds until the result is known.
 ///
-/// Every decision is a comparison of whole numbers (exact_integer.h), so any finite doubles will do, denormal
+/// Every decision is a comparison of whole numbers (big_integer.h), so any finite doubles will do, denormal
 /// and huge ones alike, and needles, caps and triangles without area. No memory is taken. A call takes
 /// hundreds of times as long as the kernel of point_triangle.h, more where the numbers span the whole range
 /// of double: it is for what the kernel leaves open.
@@ -20,7 +20,7 @@ using TriangleCorners = std::array<Vec3, 3>;
 /// least 0; the radius may be infinite.
 bool within_exactly(const TriangleCorners& triangle, const Vec3& point, double radius) noexcept;
 
-/// Does the part of the way from `from` to `to` up to and with `fraction` come within the radius of the
+/// Does the part of the path from `from` to `to` up to and with `fraction` come within the radius of the
 /// triangle? Exact, for a fraction in [0, 1] that is a multiple of 2^-53; false when a coordinate is not
 /// finite or the radius not at least 0.
 bool path_within_exactly(const TriangleCorners& triangle, const Vec3& from, const Vec3& to, double fraction,

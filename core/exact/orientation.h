@@ -1,5 +1,5 @@
 /// On which side of a plane or a line a point is: the exact sign of a determinant of the stored doubles.
-/// Doubles decide where their rounding cannot matter, whole numbers (exact_integer.h) elsewhere. For finite
+/// Doubles decide where their rounding cannot matter, whole numbers (big_integer.h) elsewhere. For finite
 /// coordinates of any magnitude; no memory is taken.
 #pragma once
 

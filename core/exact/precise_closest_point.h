@@ -1,5 +1,5 @@
 /// The nearest point of a triangle in 106 bits: what is asked between the kernel of point_triangle.h, which
-/// rounds to 53, and the whole numbers of exact_decision.h, which take ten times as long.
+/// rounds to 53, and the whole numbers of distance_predicates.h, which take ten times as long.
 #pragma once
 
 #include <array>

@@ -11,16 +11,16 @@
 
 namespace touchmark {
 
-/// How far from the way, anywhere up to the fraction that sweep_hit tells, a triangle that it finds can be,
+/// How far from the path, anywhere up to the fraction that sweep_hit tells, a triangle that it finds can be,
 /// with room for the test of a bounding volume. `largest_difference` M bounds the coordinate differences
-/// between the way's ends and the mesh.
+/// between the path's ends and the mesh.
 ///
-/// The way's start is within M of a triangle's corners and the way's own coordinates within 2 M, so S is at
+/// The path's start is within M of a triangle's corners and the path's own coordinates within 2 M, so S is at
 /// most 3 M. At its fraction a touched triangle is no farther than the radius and max_early_gap, 1152 u M;
-/// the way is real here, not rounded. `enters` below rounds two differences of at most M and M + the
-/// widening, the way's coordinate and two quotients: with a radius below 4 M as if the box were 26 u M off;
+/// the path is real here, not rounded. `enters` below rounds two differences of at most M and M + the
+/// widening, the path's coordinate and two quotients: with a radius below 4 M as if the box were 26 u M off;
 /// with a larger one every box is met, whatever rounds. In single precision's frame both ends and the boxes'
-/// corners are rounded once more, 6 u M. A distance of a sphere's centre to the way is off by less than 40 u
+/// corners are rounded once more, 6 u M. A distance of a sphere's centre to the path is off by less than 40 u
 /// M. In all less than 1280 u M.
 inline double padded_sweep_radius(const Sweep& sweep, double largest_difference) noexcept {
   return sweep.radius + 1280 * (std::numeric_limits<double>::epsilon() / 2) * largest_difference;

@@ -133,7 +133,7 @@ bool WayGap::surely_touches(double fraction, const Sample& there, double more) c
   if (within > 0 && (there.offset + more * path_).squaredNorm() < within * within) return true;
   const Sample then = at(fraction + more);
   if (then.gap < -then.error) return true;
-  // Over the face all the way between the two, and through it.
+  // Over the face all the path between the two, and through it.
   return there.over_face && then.over_face && there.height * then.height < 0 &&
          std::abs(there.height) > face_error_ && std::abs(then.height) > face_error_;
 }

@@ -36,7 +36,7 @@ class WayGap {
   /// Finite coordinates, a radius of at least 0.
   WayGap(const PreparedTriangle& triangle, const Sweep& sweep) noexcept;
 
-  /// What is known at a fraction of the way. Lengths are in `unit`.
+  /// What is known at a fraction of the path. Lengths are in `unit`.
   struct Sample {
     double gap;  ///< within `error`
     double error;
@@ -51,7 +51,7 @@ class WayGap {
   };
   Sample at(double fraction) const noexcept;
 
-  /// How steeply the gap falls at most, from there on: it is convex, and no steeper than the way is long.
+  /// How steeply the gap falls at most, from there on: it is convex, and no steeper than the path is long.
   double steepest_fall(const Sample& there) const noexcept {
     const double fall = there.slope_error - there.slope;
     return fall < length_ ? fall : length_;
@@ -75,7 +75,7 @@ class WayGap {
   void finish() noexcept;
 
   const PreparedTriangle& triangle_;
-  std::array<Vec3, 3> start_;  ///< from each corner to the way's start
+  std::array<Vec3, 3> start_;  ///< from each corner to the path's start
   std::array<Vec3, 3> edge_;   ///< from each corner to the next
   std::array<Vec3, 3> side_;   ///< normal to the face and the edge, inward, as long as the edge
   std::array<double, 3> squared_edge_;

@@ -55,7 +55,7 @@ class GridGroup {
   /// become of another size or place; the scan is built anew.
   void update(const TriangleMesh& mesh);
 
-  // Inline as far as free space: there a query is a few comparisons, less than a call.
+  // Inline as far as clear space: there a query is a few comparisons, less than a call.
   bool touches(const Probe& probe, Session& session) const noexcept {
     return !is_clear(probe.center, probe.radius, session) && look_for_touch(probe, session);
   }

@@ -24,7 +24,7 @@ void ClosestCandidates::compact() noexcept {
   if (tie_count_ == 1) ties_[0] = *nearest;
 }
 
-/// The rival first that was the nearest when there was no more room.
+/// First the tie that was the nearest when there was no more room.
 void ClosestCandidates::pass_to(NearestOfTies& ties) const noexcept {
   for (const Tie& tie : std::span(ties_).first(tie_count_)) ties.consider(triangles_[tie.at]);
   if (found()) ties.consider(triangles_[at_]);

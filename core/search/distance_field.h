@@ -135,9 +135,9 @@ class DistanceField {
   static constexpr std::uint8_t all_eighths = 255;
 
   /// More than all roundings between two points of the lattice's box: the frame's coordinates are below 2,
-  /// and tau is at least 4 u of them (plane_filter.h), u = 2^-24. The point and its coordinates are rounded
-  /// once each; differences, squares, sums and the root relatively: below 8 u of the box in all. What is left
-  /// holds the rounding of the double kernel as well, 2^-24 tau.
+  /// and plane_error is at least 4 u of them (plane_filter.h), u = 2^-24. The point and its coordinates are
+  /// rounded once each; differences, squares, sums and the root relatively: below 8 u of the box in all. What
+  /// is left holds the rounding of the double kernel as well, 2^-24 plane_error.
   static constexpr float plane_errors_of_pad = 4;
 
   static Lanes lanes_of(const FilterPoint& p) noexcept { return Lanes{p.x, p.y, p.z, 0}; }

@@ -91,7 +91,7 @@ class NearestOfTies {
   std::uint64_t exact_decisions() const noexcept { return exact_decisions_; }
 
  private:
-  /// How the rival compares with the nearest so far.
+  /// How the other compares with the nearest so far.
   std::partial_ordering compare(TiedTriangle& tied) noexcept;
   const SquaredDistance& squared_of_nearest() noexcept;
   std::partial_ordering compare_closely(TiedTriangle& tied) noexcept;

@@ -88,9 +88,9 @@ class FilterFrame {
     const double reach = std::abs(in_frame.x()) + std::abs(in_frame.y()) + std::abs(in_frame.z()) + radius_;
     return static_cast<float>(reach * plane_error_per_unit);
   }
-  /// At least the distance_error of certified_nearest.h, in mesh units, at the point whose tau this is, and
-  /// quicker to have: tau is 2^-21 of a length that exceeds every coordinate difference, and this is twice
-  /// that error of it.
+  /// At least the distance_error of certified_nearest.h, in mesh units, at the point whose plane_error this
+  /// is, and quicker to have: plane_error is 2^-21 of a length that exceeds every coordinate difference, and
+  /// this is twice that error of it.
   double kernel_error(float plane_error) const noexcept {
     return static_cast<double>(plane_error) * 0x1p-23 * unit_;
   }
@@ -171,9 +171,10 @@ inline float squared_lower_bound(Lanes values, const FilterPoint& p) noexcept {
 /// Bounds from above use the corners where two sides meet. Off these by s beyond the side with the outward
 /// normal n and by t beyond the one with m, either of which may be negative, the point is, in the face's
 /// plane, sqrt((s^2 + t^2 - 2 st c) / (1 - c^2)) away, with c = n.m: off an acute corner, where c is below 0.
-/// As long as 1 - |c| is 1/64, s and t that are off by tau change that by 8 sqrt(2) tau, with the height's
-/// tau 11.4 tau in all. Its square comes out within a relative 2^-12: c is off by 10 u at most, so what is
-/// above by 24 u (s^2 + t^2), of which 1/64 is left at least, and what is below by 22 u.
+/// As long as 1 - |c| is 1/64, s and t that are off by plane_error change that by 8 sqrt(2) plane_error, with
+/// the height's plane_error 11.4 plane_error in all. Its square comes out within a relative 2^-12: c is off
+/// by 10 u at most, so what is above by 24 u (s^2 + t^2), of which 1/64 is left at least, and what is below
+/// by 22 u.
 inline constexpr float sharpest_cosine = -63.0F / 64;
 inline constexpr float corner_pad = 16, corner_excess = 1 + 0x1p-12F;
 

@@ -21,14 +21,14 @@ inline double grown_radius(double radius, double reach) noexcept {
 }
 
 /// What the fast level's touch of a sphere may be farther away than the probe's radius and than grown_radius
-/// leaves room for: roundings of the largest difference between the way and a sphere near it, which is at
-/// most the coordinates of both ends and the sphere, and of a position on the way.
+/// leaves room for: roundings of the largest difference between the path and a sphere near it, which is at
+/// most the coordinates of both ends and the sphere, and of a position on the path.
 inline double sweep_pad(const Sweep& sweep) noexcept {
   return 128 * std::numeric_limits<double>::epsilon() *
          (sweep.from.lpNorm<Eigen::Infinity>() + sweep.to.lpNorm<Eigen::Infinity>());
 }
 
-/// The square of the distance from a point to the part [0, limit] of the way.
+/// The square of the distance from a point to the part [0, limit] of the path.
 inline double squared_distance_to_path(const Sweep& sweep, double limit, const Vec3& point) noexcept {
   const Vec3 path = limit * (sweep.to - sweep.from);
   const Vec3 to = point - sweep.from;

@@ -49,7 +49,7 @@ class SphereCluster {
   /// become of another size or place; the scan and the fast level always are.
   void update(const TriangleMesh& mesh);
 
-  // Inline as far as free space: there a query is a few comparisons, less than a call.
+  // Inline as far as clear space: there a query is a few comparisons, less than a call.
   bool touches(const Probe& probe, Session& session) const noexcept {
     return !tree_.is_clear(probe.center, probe.radius, session.memory) && look_for_touch(probe, session);
   }

@@ -1,5 +1,5 @@
 /// A hierarchy of boxes over the blocks of a TriangleStore: eight children a node, no pointers. It serves the
-/// probes that no cell serves.
+/// probes that no cell covers.
 #pragma once
 
 #include <array>

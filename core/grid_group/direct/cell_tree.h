@@ -21,7 +21,7 @@ namespace touchmark::grid {
 struct CellOptions {
   double smallest = 0;  ///< edge, in the frame; 0: as the triangles are
   std::size_t max_bytes = 0;
-  bool lazy = false;  ///< leaves hold what their parents know, until settled
+  bool lazy = false;  ///< leaves hold what their parents know, until built
 };
 
 /// The triangle nearest to a cell's middle, and how far it is: what a query starts from.
@@ -58,7 +58,7 @@ class CellTree {
   /// in which it is rounded.
   double middle_error() const noexcept { return middle_error_; }
   /// Finds what is nearest to the middle of that cell, where that is not known yet; else false. Any thread
-  /// may meanwhile read or settle the same.
+  /// may meanwhile read or build the same.
   bool build_lazily(const Vec3& in_frame, const TriangleStore& store, const BoxTree& tree,
                     std::uint64_t budget, Work& work) const noexcept;
 

@@ -22,7 +22,7 @@ std::size_t bytes_for(const TriangleMesh& mesh, double bytes_per_triangle) {
 }
 
 /// By how much a triangle must lose to be left out of a group, in the frame: the kernel's error twice, and
-/// for sweeps the rounding of the position on the way, which goes with the coordinates. Sixteen times that.
+/// for sweeps the rounding of the position on the path, which goes with the coordinates. Sixteen times that.
 double exclusion_margin_for(const TriangleMesh& mesh, const FilterFrame& frame) {
   const Aabb& box = mesh.bounds();
   const double coordinates = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());

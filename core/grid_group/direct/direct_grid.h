@@ -57,7 +57,7 @@ class DirectGrid {
   bool is_clear(const Vec3& center, double reach, const DirectMemory& memory) const noexcept {
     return memory.owner == serial_ && memory.moved_less(center, memory.lower - reach);
   }
-  // Both look, even where it is surely free.
+  // Both look, even where it is known to be clear.
   bool touches(const Probe& probe, DirectMemory& memory, Work& work) const noexcept;
   std::optional<Contact> nearest(const Vec3& center, double reach, DirectMemory& memory,
                                  Work& work) const noexcept;
@@ -110,7 +110,7 @@ class DirectGrid {
   /// After claims_and_rejects.
   Start start_at(const Vec3& center, const FilterPoint& point, double reach, DirectMemory& memory,
                  Work& work) const noexcept;
-  /// The group of the triangle in this place if it serves the point.
+  /// The group of the triangle in this place if it covers the point.
   /// Always inline: the compiler takes the atomic reads of a group for more than the loads that they are.
   [[gnu::always_inline]] const Group* group_covering(std::uint32_t slot, const FilterPoint& point,
                                                      Work& work) const noexcept {
@@ -144,9 +144,9 @@ class DirectGrid {
   template <Sought sought>
   Located locate(const Vec3& center, const FilterPoint& point, double reach, DirectMemory& memory,
                  Work& work) const noexcept;
-  /// After a query that no group served: where groups grow, makes that of one of the places or looks closer
-  /// at the cell of this centre, what is still to be done.
-  /// `spent`: on the query, in boxes and triangles.
+  /// After a query that no group covered: where construction is lazy, makes that of one of the places or
+  /// looks closer at the cell of this centre, what is still to be done. `spent`: on the query, in boxes and
+  /// triangles.
   void grow(std::uint32_t near, std::uint32_t start, const Vec3& center, std::uint64_t spent,
             Work& work) const noexcept {
     if (groups_.is_lazy()) grow_one(near, start, center, spent, work);
@@ -156,7 +156,7 @@ class DirectGrid {
   void make_group(std::uint32_t slot, std::uint64_t budget, Work& work) const noexcept;
   void remember(const Vec3& center, float plane_error, double lower, double upper,
                 DirectMemory& memory) const noexcept {
-    // Twice culling_pad, for the kernel's error here: tau is 2^-21 of a length above the largest
+    // Twice culling_pad, for the kernel's error here: plane_error is 2^-21 of a length above the largest
     // difference. What the error grows by elsewhere goes with the displacement and is in moved_less.
     const double pad = static_cast<double>(plane_error) * (0x1p-24 * (1 + 0x1p-20)) * store_.frame.unit();
     memory.center = center;
@@ -187,7 +187,7 @@ class DirectGrid {
   BoxTree tree_;
   Groups groups_;
   CellTree cells_;
-  DistanceField distances_;      ///< empty where there is no room for it, or groups grow
+  DistanceField distances_;      ///< empty where there is no room for it, or construction is lazy
   double exclusion_margin_ = 0;  ///< see GroupFinder
   std::size_t max_bytes_ = 0;
   bool coarsened_ = false;

@@ -1,4 +1,4 @@
-/// Nearest and touching: what the session knows, else the group that serves the point, else the hierarchy.
+/// Nearest and touching: what the session knows, else the group that covers the point, else the hierarchy.
 #include <algorithm>
 #include <bit>
 #include <cmath>

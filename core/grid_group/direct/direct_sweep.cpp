@@ -1,4 +1,4 @@
-/// The first touch along a straight way, through the hierarchy of boxes.
+/// The first touch along a straight path, through the hierarchy of boxes.
 #include <algorithm>
 #include <bit>
 #include <cstddef>
@@ -31,7 +31,7 @@ class SweepSearch {
   double fraction() const noexcept { return first_.fraction; }
   std::uint32_t slot() const noexcept { return slot_; }  ///< slot of the triangle first hit
 
-  /// Those of a group that serves the whole way.
+  /// Those of a group that covers the whole path.
   void consider_group(std::span<const std::uint32_t> members, Work& work) noexcept {
     work.triangles += members.size();
     const std::uint32_t* const slot = members.data();  // readable up to a multiple of four
@@ -65,7 +65,7 @@ class SweepSearch {
  private:
   double limit() const noexcept { return std::min(first_.fraction, 1.0); }
 
-  /// Pushes the children that the way meets, the first met on top.
+  /// Pushes the children that the path meets, the first met on top.
   void visit(const BoxTree& tree, std::uint32_t level, std::uint32_t index, BoxStack& stack,
              Work& work) const noexcept {
     const EightBoxes& node = tree.node(level, index);
@@ -84,7 +84,7 @@ class SweepSearch {
     }
   }
 
-  /// What is farther from the way's start than its length can't be met.
+  /// What is farther from the path's start than its length can't be met.
   float within() const noexcept {
     const double farthest = length_ * limit() * (1 + 0x1p-40) + padded_radius_;
     return store_.frame.limit(farthest * farthest);
@@ -136,7 +136,7 @@ std::optional<Impact> DirectGrid::first_hit(const Sweep& sweep, DirectMemory& me
   if (start.beyond) return std::nullopt;
   const std::uint64_t before = work.total();
   SweepSearch search(store_, sweep, padded_radius);
-  // Where a group is valid is convex: it serves the way between two points that it serves.
+  // Where a group is valid is convex: it covers the path between two points that it covers.
   if (start.group != nullptr && group_covering(start.slot, store_.frame.point(sweep.to), work) != nullptr) {
     search.consider_group(groups_.members(*start.group), work);
   } else if (!search.consider_tree(tree_, work_budget(store_.size()), work)) {

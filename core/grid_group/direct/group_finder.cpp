@@ -19,7 +19,7 @@ constexpr double first_height = 1.0, min_height = 0.2, shrinking = 0.6;
 static_assert(first_height * shrinking * shrinking * shrinking * shrinking < min_height &&
               GroupFinder::max_looks >= 4);
 
-// Of a ball about the triangle the footprint grown is within 1.6 radii, its size below 1.65, so the highest
+// Of a ball about the triangle the grown triangle is within 1.6 radii, its size below 1.65, so the highest
 // prism within 3.25; and no point of that is farther than 2.25 from the triangle. What is nearest there comes
 // into 5.5.
 static_assert(growth <= 0.3 && first_height <= 1 && GroupFinder::reach_in_radii >= 6);
@@ -50,7 +50,7 @@ bool reaches(const TriangleBall& ball, const Aabb& box) noexcept {
 
 GroupFinder::Found GroupFinder::find(std::uint32_t slot) noexcept {
   const FaceFrame face_frame(store_.exact[slot], store_.frame);
-  // A margin that single precision does not see would serve no point.
+  // A margin that single precision does not see would cover no point.
   const bool visible =
       growth * face_frame.inradius > static_cast<double>(store_.frame.plane_error(face_frame.incenter));
   if (face_frame.normal.isZero(0) || !visible) return {};
@@ -58,7 +58,7 @@ GroupFinder::Found GroupFinder::find(std::uint32_t slot) noexcept {
   if (member_count_ == 0 || member_count_ > Groups::max_members) return {};
   for (std::size_t i = member_count_; i < Groups::rounded_up(member_count_); ++i)
     members_[i] = members_[member_count_ - 1];
-  // Rounded down, so that single precision serves no point outside.
+  // Rounded down, so that single precision covers no point outside.
   constexpr double down = 1 - 0x1p-22;
   return {{members_.data(), member_count_},
           static_cast<float>(height * down),

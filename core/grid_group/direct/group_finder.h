@@ -36,7 +36,7 @@ class GroupFinder {
     std::span<const std::uint32_t> members;  ///< valid until the next call; behind them copies of the last
     float height = -1, margin = -1;
   };
-  /// No members where no group can serve, or would be too large.
+  /// No members where no group can cover a point, or would be too large.
   Found find(std::uint32_t slot) noexcept;
   /// Boxes and triangles looked at since the last call.
   Work take_work() noexcept;

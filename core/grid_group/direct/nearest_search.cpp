@@ -20,7 +20,7 @@ float NearestSearch::consider_group(std::span<const std::uint32_t> members) noex
   const GroupBounds bounds = filter(members);
   if (bounds.least > limit_) return bounds.least;
   if (bounds.over_face) {
-    // There the distance is the height, to within two tau: one of the filter and one for the kernel.
+    // There the distance is the height, to within two plane errors: one of the filter and one for the kernel.
     const float high = bounds.height + 2 * point_.plane_error;
     if (high < enough_high_) {
       within_ = store_.frame.from_frame_rounded_up(high);

@@ -52,7 +52,7 @@ void Prism::set_points(const FaceFrame& face_frame, double growth, double height
 
 void Prism::set_limits(const FaceFrame& face_frame, double growth, double height,
                        double exclusion_margin) noexcept {
-  // A part's witness is the point of the footprint near its middle. The greatest limit of the parts that meet
+  // A part's witness is the point of the triangle near its middle. The greatest limit of the parts that meet
   // in a point decides there, the same at both ends.
   std::array<double, points_an_end> across{};
   const auto part = [&](std::array<std::array<int, 2>, 3> corners) {
@@ -86,8 +86,8 @@ void Prism::set_limits(const FaceFrame& face_frame, double growth, double height
     farthest_ = std::max(farthest_, distance);
     limit_[k / 4][k % 4] = static_cast<float>(distance * distance);
   }
-  // To lose by `exclusion_margin` at distance x, the square must lose by lead (2x + lead), wherever x is in
-  // the prism.
+  // To lose by `exclusion_margin` at distance x, the square must lose by margin (2x + margin), wherever x is
+  // in the prism.
   const auto pad = static_cast<float>(exclusion_margin * (2 * farthest_ + exclusion_margin));
   for (Lanes& limit : limit_) limit = (limit + pad) * (1 + 0x1p-20f);
 }

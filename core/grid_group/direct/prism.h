@@ -34,8 +34,8 @@ struct FaceFrame {
 
 class Prism {
  public:
-  /// From `height` under the grown footprint to `height` over it. A triangle that is left out is farther than
-  /// the footprint by `exclusion_margin` at least, everywhere in the prism. Lengths in the frame.
+  /// From `height` under the grown triangle to `height` over it. A triangle that is left out is farther than
+  /// the triangle by `exclusion_margin` at least, everywhere in the prism. Lengths in the frame.
   Prism(const FaceFrame& face_frame, double growth, double height, double exclusion_margin,
         const FilterFrame& frame) noexcept;
 
@@ -43,11 +43,11 @@ class Prism {
   bool excludes(const TrianglePlanes& triangle, const TriangleBall& ball) const noexcept;
   /// A quick look at four balls first: bit i is set unless the same holds for whatever is in ball i.
   unsigned balls_left(Lanes x, Lanes y, Lanes z, Lanes radius) const noexcept;
-  /// No point of the prism is farther than this from its footprint.
+  /// No point of the prism is farther than this from its triangle.
   double farthest() const noexcept { return farthest_; }
 
  private:
-  /// The footprint's sides are cut in so many.
+  /// The triangle's sides are cut in so many.
   static constexpr int cuts = 2;
   static constexpr std::size_t points_an_end = (cuts + 1) * (cuts + 2) / 2;
   static constexpr std::size_t points = 2 * points_an_end;

@@ -26,7 +26,8 @@ inline Lanes beyond_ball(const TriangleBall& ball, Lanes x, Lanes y, Lanes z, La
   const auto magnitude = [](Lanes v) { return simd::max(v, -v); };
   const Lanes dx = x - ball.x, dy = y - ball.y, dz = z - ball.z;
   // |p - c|^2 is off by 2 |p - c| times the rounding of p and c and by five roundings of its own, the height
-  // by tau: all together less than twice tau |p - c|, tau being eight roundings of |p| + |c|.
+  // by plane_error: all together less than twice plane_error |p - c|, plane_error being eight roundings of
+  // |p| + |c|.
   const Lanes error = 2 * plane_error * (magnitude(dx) + magnitude(dy) + magnitude(dz));
   const Lanes along =
       ((dx * dx + dy * dy) + dz * dz) - error - (height + plane_error) * (height + plane_error);

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// When a point on the way first comes within `radius` of `center`; infinity when it does not. For a way that
-/// starts outside.
+/// When a point on the path first comes within `radius` of `center`; infinity when it does not. For a path
+/// that starts outside.
 double first_within(const Sweep& sweep, const Vec3& center, double radius) noexcept {
   const Vec3 way = sweep.to - sweep.from, to = center - sweep.from;
   const double along = to.dot(way);

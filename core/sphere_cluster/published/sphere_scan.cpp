@@ -103,7 +103,7 @@ std::optional<Contact> SphereScan::nearest(const Vec3& center, double reach, Wor
   return contact_on(triangles_[candidates.at()], center, id(candidates.best().index));
 }
 
-/// The spheres that the way meets hold the triangles near its start, too: one look at the spheres is enough.
+/// The spheres that the path meets hold the triangles near its start, too: one look at the spheres is enough.
 std::optional<Impact> SphereScan::first_hit(const Sweep& sweep, Work& work) const noexcept {
   if (!(sweep.radius >= 0)) return std::nullopt;
   const double error = distance_error(bounds_, sweep.from);

@@ -362,7 +362,8 @@ void SphereTree::look_ahead(Memory& memory, Work& work) const noexcept {
   if (!(moved <= max_move_in_leaf_radii * mean_leaf_radius_) || memory.cache.cooldown > 0) return;
   const FilterPoint point = frame_.point(memory.center);
   const float distance = static_cast<float>(frame_.scale() * memory.nearest) + 2 * point.plane_error;
-  // A tick's move counts twice: so much farther may the nearest be, and so much farther is the list's anchor.
+  // A tick's move counts twice: so much farther may the nearest be, and so much farther is the cache's
+  // center.
   const float two_moves = static_cast<float>(2 * frame_.scale() * moved);
   const float away = displacement(memory.cache.center, memory.center, point);
   Work spent;

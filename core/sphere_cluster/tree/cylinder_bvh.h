@@ -56,7 +56,7 @@ class SphereTree {
     const double margin = memory.clearance - reach;
     return memory.tree == epoch_ && margin > 0 && (center - memory.center).squaredNorm() < margin * margin;
   }
-  // Both look, even where it is surely free.
+  // Both look, even where it is known to be clear.
   bool touches(const Probe& probe, Memory& memory, Work& work) const noexcept;
   /// If `exhausted` points somewhere, a search that looked at as much as all triangles are ends there, with
   /// that set and no answer.
@@ -110,7 +110,7 @@ class SphereTree {
   /// that is too much work.
   DistanceField::Interval sample(const Vec3& position, double budget, Sampling& sampling) const noexcept;
 
-  // Visitors: see sphere_tree_search.h.
+  // Visitors: see search.h.
   template <class Visitor>
   void visit(std::uint32_t at, Visitor& visitor) const noexcept;
   template <class Visitor>

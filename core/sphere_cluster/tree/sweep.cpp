@@ -36,7 +36,7 @@ struct SweepVisitor {
 
 }  // namespace
 
-// The way is cut into parts, each in a ball about its middle. What can touch the probe on a part is within
+// The path is cut into parts, each in a ball about its middle. What can touch the probe on a part is within
 // the part's half length and the radius of that middle.
 std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, Work& work) const noexcept {
   if (!(sweep.radius >= 0)) return std::nullopt;

@@ -136,7 +136,7 @@ inline void compress(Word* to, const Word* from, unsigned chosen) noexcept {
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
                       _mm256_maskz_compress_epi32(static_cast<__mmask8>(chosen), words));
 }
-/// As tree_search.inl has it, by instructions of its own.
+/// As traversal.inl has it, by instructions of its own.
 inline unsigned split(Wide bounds, float limit, Wide& unseen) noexcept {
   const __mmask8 is_near = _mm256_cmp_ps_mask(bounds, _mm256_set1_ps(limit), _CMP_LE_OQ);
   unseen = _mm256_mask_min_ps(unseen, static_cast<__mmask8>(~is_near), unseen, bounds);

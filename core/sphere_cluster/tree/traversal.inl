@@ -1,4 +1,4 @@
-// The search itself, written once and included once an instruction set (tree_search.h), in a namespace that
+// The search itself, written once and included once an instruction set (traversal.h), in a namespace that
 // defines Wide, a vector of `lanes` floats, and its square_root, to_bits and pack, and may define split. The
 // same operations in the same order, so that all visit the same nodes and give the same bits.
 
@@ -15,8 +15,8 @@ struct Point {
   Wide x, y, z, plane_error;
 };
 
-/// Lower bounds of the squared distances to the children's slabbed spheres. The height over the slab and the
-/// excess beyond the radius are orthogonal, so their squares add up.
+/// Lower bounds of the squared distances to the children's bounding cylinders. The height over the slab and
+/// the excess beyond the radius are orthogonal, so their squares add up.
 template <class Children>
 inline Wide child_bounds(const Children& node, std::size_t at, const Point& p) noexcept {
   const Wide x = p.x - load(node.x + at), y = p.y - load(node.y + at), z = p.z - load(node.z + at);
