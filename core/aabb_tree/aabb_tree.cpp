@@ -154,7 +154,7 @@ AabbTree AabbTree::build(const TriangleMesh& mesh, const Options& options) {
   tree.connectivity_ = Connectivity(mesh);
   tree.certified_ = options.certified;
   tree.triangles_ = prepare(mesh);
-  tree.ids_.assign(mesh.ids().begin(), mesh.ids().end());
+  tree.ids_ = mesh.triangle_ids();
   Builder(tree, options.leaf_size).build();
   return tree;
 }
@@ -273,7 +273,7 @@ std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Sessi
   if (certified_ && !is_certain_first(candidates, triangles_, distance, center, reach, error))
     return nearest_of_ties(candidates, center, reach, error, ids_, work.exact_decisions);
   if (distance > reach) return std::nullopt;
-  return contact_on(triangles_[candidates.at()], center, id(candidates.best().index));
+  return contact_on(triangles_[candidates.at()], center, ids_[candidates.best().index]);
 }
 
 std::optional<Impact> AabbTree::first_hit(const Sweep& sweep, Session& session) const noexcept {
@@ -314,12 +314,12 @@ std::optional<Impact> AabbTree::first_hit(const Sweep& sweep, Session& session) 
     const double reach = certified_ ? sweep.radius : any_reach;
     if (const auto start = nearest({sweep.from, sweep.radius}, reach, session)) return Impact{0, *start};
   }
-  return Impact{first.fraction, contact_on_path(triangles_[kept_at], sweep, first.fraction, id(first.index))};
+  return Impact{first.fraction,
+                contact_on_path(triangles_[kept_at], sweep, first.fraction, ids_[first.index])};
 }
 
 std::size_t AabbTree::bytes() const noexcept {
-  return nodes_.capacity() * sizeof(Node) + triangles_.capacity() * sizeof(PreparedTriangle) +
-         ids_.capacity() * sizeof(TriangleId);
+  return nodes_.capacity() * sizeof(Node) + triangles_.capacity() * sizeof(PreparedTriangle) + ids_.bytes();
 }
 
 }  // namespace touchmark

@@ -99,7 +99,6 @@ class AabbTree {
   std::uint64_t work_limit(const Work& work) const noexcept {
     return work.boxes + work.triangles + work_budget(triangles_.size());
   }
-  TriangleId id(std::uint32_t index) const noexcept { return ids_.empty() ? index : ids_[index]; }
 
   Options options_;
   Connectivity connectivity_;
@@ -107,7 +106,7 @@ class AabbTree {
   bool certified_ = true;
   std::vector<Node> nodes_;
   std::vector<PreparedTriangle> triangles_;  ///< in the order of the leaves
-  std::vector<TriangleId> ids_;              ///< by mesh index; empty when they are the same
+  TriangleIds ids_;
 };
 
 }  // namespace touchmark

@@ -28,7 +28,7 @@ FloatTree FloatTree::build(const TriangleMesh& mesh, const Options& options) {
   FloatTree tree;
   tree.frame_ = FloatFrame::around(mesh.bounds());
   tree.extent_ = 2 * largest_difference(mesh.bounds(), tree.frame_.origin);
-  tree.ids_.assign(mesh.ids().begin(), mesh.ids().end());
+  tree.ids_ = mesh.triangle_ids();
   std::vector<Vec3> stored;
   for (const Vec3& vertex : mesh.vertices()) stored.push_back(tree.frame_.into(vertex).cast<double>());
   // Boxes of floats are floats.
@@ -152,12 +152,11 @@ Contact FloatTree::contact(const Triangle& t, const Vec3& center, const Offset& 
                           ? from_mesh.normalized()
                           : face_normal({{corner(0), corner(1), corner(2)}, t.normal.cast<double>(), 0});
   return {center - from_mesh / frame_.scale, normal, static_cast<double>(distance) / frame_.scale,
-          ids_.empty() ? t.index : ids_[t.index]};
+          ids_[t.index]};
 }
 
 std::size_t FloatTree::bytes() const noexcept {
-  return nodes_.capacity() * sizeof(Node) + triangles_.capacity() * sizeof(Triangle) +
-         ids_.capacity() * sizeof(TriangleId);
+  return nodes_.capacity() * sizeof(Node) + triangles_.capacity() * sizeof(Triangle) + ids_.bytes();
 }
 
 Accuracy FloatTree::accuracy() const noexcept {

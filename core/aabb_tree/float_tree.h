@@ -83,7 +83,7 @@ class FloatTree {
   double extent_ = 0;  ///< the largest, mesh units
   std::vector<Node> nodes_;
   std::vector<Triangle> triangles_;  ///< in the order of the leaves
-  std::vector<TriangleId> ids_;      ///< by mesh index; empty when they are the same
+  TriangleIds ids_;
 };
 
 }  // namespace touchmark

@@ -7,7 +7,7 @@ BruteForce BruteForce::build(const TriangleMesh& mesh, const Options&) {
   detector.connectivity_ = Connectivity(mesh);
   detector.bounds_ = mesh.bounds();
   detector.triangles_ = prepare(mesh);
-  detector.ids_.assign(mesh.ids().begin(), mesh.ids().end());
+  detector.ids_ = mesh.triangle_ids();
   return detector;
 }
 
@@ -32,7 +32,7 @@ std::optional<Impact> BruteForce::first_hit(const Sweep& sweep, Session& session
 }
 
 std::size_t BruteForce::bytes() const noexcept {
-  return triangles_.capacity() * sizeof(PreparedTriangle) + ids_.capacity() * sizeof(TriangleId);
+  return triangles_.capacity() * sizeof(PreparedTriangle) + ids_.bytes();
 }
 
 }  // namespace touchmark

@@ -38,7 +38,7 @@ class BruteForce {
   Connectivity connectivity_;
   Aabb bounds_;
   std::vector<PreparedTriangle> triangles_;
-  std::vector<TriangleId> ids_;
+  TriangleIds ids_;
 };
 
 }  // namespace touchmark

@@ -10,7 +10,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// By kernel distances of a copy scaled by a power of two.
 std::optional<Contact> nearest_at_any_scale(std::span<const PreparedTriangle> triangles, const Aabb& bounds,
-                                            const Vec3& center, double reach, std::span<const TriangleId> ids,
+                                            const Vec3& center, double reach, const TriangleIds& ids,
                                             Work& work) noexcept {
   work.triangles += 2 * triangles.size();
   const double scale = unit_for(largest_difference(bounds, center));
@@ -39,7 +39,7 @@ double unit_for(double largest_difference) noexcept {
 }
 
 std::optional<Contact> nearest_of_ties(const ClosestCandidates& candidates, const Vec3& center, double reach,
-                                       double error, std::span<const TriangleId> ids,
+                                       double error, const TriangleIds& ids,
                                        std::uint64_t& exact_decisions) noexcept {
   NearestOfTies ties(center);
   candidates.pass_to(ties);
@@ -49,7 +49,7 @@ std::optional<Contact> nearest_of_ties(const ClosestCandidates& candidates, cons
 }
 
 std::optional<Contact> nearest_of_all(std::span<const PreparedTriangle> triangles, const Aabb& bounds,
-                                      const Vec3& center, double reach, std::span<const TriangleId> ids,
+                                      const Vec3& center, double reach, const TriangleIds& ids,
                                       Work& work) noexcept {
   if (!center.allFinite() || !(reach >= 0)) return std::nullopt;
   const double error = distance_error(bounds, center);
@@ -66,7 +66,7 @@ std::optional<Contact> nearest_of_all(std::span<const PreparedTriangle> triangle
   if (!is_certain_first(candidates, triangles, distance, center, reach, error))
     return nearest_of_ties(candidates, center, reach, error, ids, work.exact_decisions);
   if (distance > reach) return std::nullopt;
-  return contact_on(nearest, center, ids.empty() ? nearest.index : ids[nearest.index]);
+  return contact_on(nearest, center, ids[nearest.index]);
 }
 
 }  // namespace touchmark

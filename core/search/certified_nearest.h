@@ -92,15 +92,14 @@ inline bool is_certain_first(const ClosestCandidates& candidates, std::span<cons
 /// least one, or the reach, and the error.
 [[gnu::noinline, gnu::cold]] std::optional<Contact> nearest_of_ties(const ClosestCandidates& candidates,
                                                                     const Vec3& center, double reach,
-                                                                    double error,
-                                                                    std::span<const TriangleId> ids,
+                                                                    double error, const TriangleIds& ids,
                                                                     std::uint64_t& exact_decisions) noexcept;
 
 /// Returns the answer of `nearest` by a look at every triangle, for any finite numbers: where distance_error
 /// is infinite they are measured as scaled by a power of two. `bounds` are the triangles'; nothing for a
 /// centre that is not finite. Every look at a triangle is counted: two, where they are measured so.
 std::optional<Contact> nearest_of_all(std::span<const PreparedTriangle> triangles, const Aabb& bounds,
-                                      const Vec3& center, double reach, std::span<const TriangleId> ids,
+                                      const Vec3& center, double reach, const TriangleIds& ids,
                                       Work& work) noexcept;
 
 }  // namespace touchmark

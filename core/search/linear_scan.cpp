@@ -47,7 +47,7 @@ std::optional<Impact> LinearScan::first_hit(const Sweep& sweep, Work& work) cons
     const double reach = certified ? sweep.radius : any_reach;
     if (const auto start = nearest(sweep.from, reach, work)) return Impact{0, *start};
   }
-  return Impact{first.fraction, contact_on_path(*hit, sweep, first.fraction, id(first.index))};
+  return Impact{first.fraction, contact_on_path(*hit, sweep, first.fraction, ids[first.index])};
 }
 
 std::optional<Contact> LinearScan::nearest_as_computed(const Vec3& center, double reach,
@@ -55,7 +55,7 @@ std::optional<Contact> LinearScan::nearest_as_computed(const Vec3& center, doubl
   const auto [triangle, candidate] = touchmark::nearest_as_computed(triangles, center);
   work.triangles += triangles.size();
   if (triangle == nullptr || std::sqrt(candidate.squared_distance) > reach) return std::nullopt;
-  return contact_on(*triangle, center, id(candidate.index));
+  return contact_on(*triangle, center, ids[candidate.index]);
 }
 
 }  // namespace touchmark

@@ -37,13 +37,13 @@ inline std::uint64_t remaining(std::uint64_t budget, std::uint64_t spent) noexce
   return budget > spent ? budget - spent : 0;
 }
 
-/// The triangles in any order, `bounds` theirs, `ids` by the mesh's order and empty where they are the same.
-/// For any finite numbers, and nothing for others, in a unit of its own where their fourth powers would leave
-/// the range of double; they are counted once, and in such a unit twice.
+/// The triangles in any order, `bounds` theirs. For any finite numbers, and nothing for others, in a unit of
+/// its own where their fourth powers would leave the range of double; they are counted once, and in such a
+/// unit twice.
 struct LinearScan {
   std::span<const PreparedTriangle> triangles;
   const Aabb& bounds;
-  std::span<const TriangleId> ids;
+  const TriangleIds& ids;
   bool certified = true;  ///< false: contact as doubles have it
 
   bool touches(const Probe& probe, Work& work) const noexcept;
@@ -52,7 +52,6 @@ struct LinearScan {
 
  private:
   std::optional<Contact> nearest_as_computed(const Vec3& center, double reach, Work& work) const noexcept;
-  TriangleId id(std::uint32_t index) const noexcept { return ids.empty() ? index : ids[index]; }
 };
 
 }  // namespace touchmark

@@ -181,11 +181,10 @@ bool NearestOfTies::is_within(const ClosestPoint& closest, double reach) noexcep
   return within_exactly(first_->corner, center_, reach);
 }
 
-std::optional<Contact> NearestOfTies::contact(double reach, double error,
-                                              std::span<const TriangleId> ids) noexcept {
+std::optional<Contact> NearestOfTies::contact(double reach, double error, const TriangleIds& ids) noexcept {
   if (first_ == nullptr) return std::nullopt;
   const PreparedTriangle& triangle = *first_;
-  const TriangleId id = ids.empty() ? triangle.index : ids[triangle.index];
+  const TriangleId id = ids[triangle.index];
   // The same bits as where the search was certain of this triangle at once.
   const double computed = std::sqrt(touchmark::squared_distance(triangle, center_));
   if (is_certain_on(triangle, computed, center_, reach, error)) {

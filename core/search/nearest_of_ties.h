@@ -29,6 +29,7 @@
 #include "core/probe.h"
 #include "core/search/sure_feature.h"
 #include "core/search/tie_bounds.h"
+#include "core/triangle_ids.h"
 
 namespace touchmark {
 
@@ -83,9 +84,9 @@ class NearestOfTies {
   void consider(const PreparedTriangle& triangle) noexcept;
   /// The nearest of those considered; null where there were none.
   const PreparedTriangle* nearest() const noexcept { return first_; }
-  /// Its contact; nothing when even that is beyond the reach. The kernel's, where that is certain by the
-  /// error. `ids` by the mesh's order, empty where they are the same.
-  std::optional<Contact> contact(double reach, double error, std::span<const TriangleId> ids) noexcept;
+  /// Returns the contact of the nearest, or nothing when even that is beyond the reach. It is the kernel's
+  /// where that is certain by the error.
+  std::optional<Contact> contact(double reach, double error, const TriangleIds& ids) noexcept;
 
   /// How often whole numbers decided.
   std::uint64_t exact_decisions() const noexcept { return exact_decisions_; }

@@ -104,7 +104,7 @@ TriangleStore TriangleStore::build(const TriangleMesh& mesh) {
     store.balls.push_back(ball_around(store.exact.back(), store.frame));
   }
   store.planes.resize(whole, infinitely_far());
-  store.ids.assign(mesh.ids().begin(), mesh.ids().end());
+  store.ids = mesh.triangle_ids();
   return store;
 }
 
@@ -129,7 +129,7 @@ std::vector<Aabb> TriangleStore::move(const TriangleMesh& mesh) {
 
 std::size_t TriangleStore::bytes() const noexcept {
   return exact.capacity() * sizeof(PreparedTriangle) + planes.capacity() * sizeof(TrianglePlanes) +
-         balls.capacity() * sizeof(TriangleBall) + ids.capacity() * sizeof(TriangleId);
+         balls.capacity() * sizeof(TriangleBall) + ids.bytes();
 }
 
 }  // namespace touchmark::grid

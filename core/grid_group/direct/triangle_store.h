@@ -45,7 +45,7 @@ struct TriangleStore {
   std::vector<TrianglePlanes> planes;
   std::vector<TriangleBall> balls;
   bool fourth_powers_fit = false;  ///< do fourth powers of the mesh's extent fit the range of double?
-  std::vector<TriangleId> ids;     ///< by position in the mesh; empty when they are the positions
+  TriangleIds ids;
 
   /// The mesh's box must fit (FilterFrame::fits).
   static TriangleStore build(const TriangleMesh& mesh);
@@ -54,10 +54,7 @@ struct TriangleStore {
   std::vector<Aabb> move(const TriangleMesh& mesh);
 
   std::uint32_t size() const noexcept { return static_cast<std::uint32_t>(exact.size()); }
-  TriangleId id(std::uint32_t slot) const noexcept {
-    const std::uint32_t index = exact[slot].index;
-    return ids.empty() ? index : ids[index];
-  }
+  TriangleId id(std::uint32_t slot) const noexcept { return ids[exact[slot].index]; }
   std::size_t bytes() const noexcept;
 };
 

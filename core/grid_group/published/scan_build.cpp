@@ -84,7 +84,7 @@ ScanGrid ScanGrid::build(const TriangleMesh& mesh, const ScanOptions& options) {
   grid.coarsened_ = grouping.coarsened;
   grid.bounds_ = mesh.bounds();
   grid.triangles_ = prepare(mesh);
-  grid.ids_.assign(mesh.ids().begin(), mesh.ids().end());
+  grid.ids_ = mesh.triangle_ids();
   grid.first_member_.reserve(grouping.groups() + 1);
   grid.members_.reserve(grouping.memberships.size());
   const std::vector<Membership>& memberships = grouping.memberships;
@@ -117,7 +117,7 @@ void ScanGrid::enclose(const TriangleMesh& mesh, Shape shape) {
 std::size_t ScanGrid::bytes() const noexcept {
   return boxes_.capacity() * sizeof(Aabb) + spheres_.capacity() * sizeof(Sphere) +
          first_member_.capacity() * sizeof(std::size_t) + members_.capacity() * sizeof(std::uint32_t) +
-         triangles_.capacity() * sizeof(PreparedTriangle) + ids_.capacity() * sizeof(TriangleId);
+         triangles_.capacity() * sizeof(PreparedTriangle) + ids_.bytes();
 }
 
 }  // namespace touchmark::grid

@@ -59,14 +59,13 @@ class ScanGrid {
   LinearScan fallback() const noexcept { return {triangles_, bounds_, ids_}; }
   template <class Visit>
   bool search_members(std::size_t group, Work& work, const Visit& visit) const noexcept;
-  TriangleId id(std::uint32_t triangle) const noexcept { return ids_.empty() ? triangle : ids_[triangle]; }
 
   std::vector<Aabb> boxes_;
   std::vector<Sphere> spheres_;
   std::vector<std::size_t> first_member_;  ///< one more than groups
   std::vector<std::uint32_t> members_;
   std::vector<PreparedTriangle> triangles_;  ///< in the mesh's order
-  std::vector<TriangleId> ids_;
+  TriangleIds ids_;
   Aabb bounds_;
   double cell_ = 0;
   bool coarsened_ = false;

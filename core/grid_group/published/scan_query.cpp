@@ -96,7 +96,7 @@ std::optional<Contact> ScanGrid::nearest(const Vec3& center, double reach, Work&
   if (!is_certain_first(candidates, triangles_, distance, center, reach, error))
     return nearest_of_ties(candidates, center, reach, error, ids_, work.exact_decisions);
   if (distance > reach) return std::nullopt;
-  return contact_on(triangles_[candidates.at()], center, id(candidates.at()));
+  return contact_on(triangles_[candidates.at()], center, ids_[candidates.at()]);
 }
 
 std::optional<Impact> ScanGrid::first_hit(const Sweep& sweep, Work& work) const noexcept {
@@ -123,7 +123,7 @@ std::optional<Impact> ScanGrid::first_hit(const Sweep& sweep, Work& work) const 
   if (first.fraction == 0)
     if (const auto start = nearest(sweep.from, sweep.radius, work)) return Impact{0, *start};
   return Impact{first.fraction,
-                contact_on_path(triangles_[first.index], sweep, first.fraction, id(first.index))};
+                contact_on_path(triangles_[first.index], sweep, first.fraction, ids_[first.index])};
 }
 
 }  // namespace touchmark::grid

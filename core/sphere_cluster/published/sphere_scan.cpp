@@ -36,7 +36,7 @@ bool for_each_held(std::size_t count, const Outside& outside, const Found& found
 }  // namespace
 
 SphereScan::SphereScan(const TriangleMesh& mesh, const SphereClusters& clusters)
-    : bounds_(mesh.bounds()), first_(clusters.first), ids_(mesh.ids().begin(), mesh.ids().end()) {
+    : bounds_(mesh.bounds()), first_(clusters.first), ids_(mesh.triangle_ids()) {
   for (const Sphere& sphere : clusters.spheres) {
     x_.push_back(sphere.center.x());
     y_.push_back(sphere.center.y());
@@ -100,7 +100,7 @@ std::optional<Contact> SphereScan::nearest(const Vec3& center, double reach, Wor
   if (!is_certain_first(candidates, triangles_, distance, center, reach, error))
     return nearest_of_ties(candidates, center, reach, error, ids_, work.exact_decisions);
   if (distance > reach) return std::nullopt;
-  return contact_on(triangles_[candidates.at()], center, id(candidates.best().index));
+  return contact_on(triangles_[candidates.at()], center, ids_[candidates.best().index]);
 }
 
 /// The spheres that the path meets hold the triangles near its start, too: one look at the spheres is enough.
@@ -134,16 +134,16 @@ std::optional<Impact> SphereScan::first_hit(const Sweep& sweep, Work& work) cons
   const double distance = std::sqrt(at_start.best().squared_distance);
   if (first.fraction > 0)
     return Impact{first.fraction,
-                  contact_on_path(triangles_[kept_at], sweep, first.fraction, id(first.index))};
+                  contact_on_path(triangles_[kept_at], sweep, first.fraction, ids_[first.index])};
   // Of all the triangles that are touched at the start the nearest one counts.
   if (is_certain_first(at_start, triangles_, distance, sweep.from, sweep.radius, error))
-    return Impact{0, contact_on(triangles_[at_start.at()], sweep.from, id(at_start.best().index))};
+    return Impact{0, contact_on(triangles_[at_start.at()], sweep.from, ids_[at_start.best().index])};
   return Impact{0, *nearest(sweep.from, sweep.radius, work)};
 }
 
 std::size_t SphereScan::bytes() const noexcept {
   return 4 * x_.capacity() * sizeof(double) + first_.capacity() * sizeof(std::uint32_t) +
-         triangles_.capacity() * sizeof(PreparedTriangle) + ids_.capacity() * sizeof(TriangleId);
+         triangles_.capacity() * sizeof(PreparedTriangle) + ids_.bytes();
 }
 
 }  // namespace touchmark

@@ -29,7 +29,6 @@ class SphereScan {
 
  private:
   LinearScan fallback() const noexcept { return {triangles_, bounds_, ids_}; }
-  TriangleId id(std::uint32_t index) const noexcept { return ids_.empty() ? index : ids_[index]; }
   void search(std::size_t sphere, const Vec3& center, ClosestCandidates& candidates,
               Work& work) const noexcept;
 
@@ -42,7 +41,7 @@ class SphereScan {
   std::vector<double> x_, y_, z_, radius_;
   std::vector<std::uint32_t> first_;         // sphere i holds triangles_[first_[i]] .. before first_[i + 1]
   std::vector<PreparedTriangle> triangles_;  // in the order of their spheres
-  std::vector<TriangleId> ids_;              // by mesh index; empty when they are the same
+  TriangleIds ids_;
 };
 
 }  // namespace touchmark

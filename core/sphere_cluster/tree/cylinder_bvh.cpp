@@ -138,7 +138,7 @@ SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters,
       bounds_(mesh.bounds()),
       certified_(options.certified),
       lazy_(options.lazy),
-      ids_(mesh.ids().begin(), mesh.ids().end()) {
+      ids_(mesh.triangle_ids()) {
   if (!searchable_) {
     parts_.triangles = prepare(mesh);
     return;
@@ -354,7 +354,7 @@ std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Mem
   }
   if (distance > reach) return std::nullopt;
   return contact_at(parts_.triangles[candidates.at()], center,
-                    {visitor.offset, candidates.best().squared_distance}, id(candidates.best().index));
+                    {visitor.offset, candidates.best().squared_distance}, ids_[candidates.best().index]);
 }
 
 void SphereTree::look_ahead(Memory& memory, Work& work) const noexcept {
@@ -387,8 +387,7 @@ std::optional<Contact> SphereTree::nearest_without(const Vec3& center, double re
 std::size_t SphereTree::bytes() const noexcept {
   return parts_.nodes.capacity() * sizeof(spheres::TreeNode) +
          parts_.blocks.capacity() * sizeof(spheres::TriangleBlock) +
-         parts_.triangles.capacity() * sizeof(PreparedTriangle) + distances_.bytes() +
-         ids_.capacity() * sizeof(TriangleId);
+         parts_.triangles.capacity() * sizeof(PreparedTriangle) + distances_.bytes() + ids_.bytes();
 }
 
 }  // namespace touchmark

@@ -73,7 +73,6 @@ class SphereTree {
   std::size_t bytes() const noexcept;
 
  private:
-  TriangleId id(std::uint32_t index) const noexcept { return ids_.empty() ? index : ids_[index]; }
   bool can_search(const Vec3& center) const noexcept { return searchable_ && frame_.covers(center); }
   bool can_search(const FilterPoint& point) const noexcept {
     return searchable_ && FilterFrame::covers(point);
@@ -137,7 +136,7 @@ class SphereTree {
   spheres::TreeParts parts_;
   bool lazy_ = false;
   DistanceField distances_;
-  std::vector<TriangleId> ids_;  ///< by mesh index; empty when they are the same
+  TriangleIds ids_;
 };
 
 }  // namespace touchmark

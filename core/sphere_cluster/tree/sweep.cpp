@@ -71,7 +71,7 @@ std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, 
     if (const auto start = nearest(sweep.from, any_reach, memory, work)) return Impact{0, *start};
   }
   return Impact{visitor.first.fraction, contact_on_path(parts_.triangles[visitor.kept_at], sweep,
-                                                        visitor.first.fraction, id(visitor.first.index))};
+                                                        visitor.first.fraction, ids_[visitor.first.index])};
 }
 
 }  // namespace touchmark
