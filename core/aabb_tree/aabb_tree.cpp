@@ -267,13 +267,9 @@ std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Sessi
     stack[count++] = far;
     stack[count++] = near;
   }
-  if (!candidates.found()) return std::nullopt;
-  const double distance = std::sqrt(candidates.best().squared_distance);
-  if (distance <= reach) session.last = candidates.at();
-  if (certified_ && !is_certain_first(candidates, triangles_, distance, center, reach, error))
-    return nearest_of_ties(candidates, center, reach, error, ids_, work.exact_decisions);
-  if (distance > reach) return std::nullopt;
-  return contact_on(triangles_[candidates.at()], center, ids_[candidates.best().index]);
+  if (candidates.found() && std::sqrt(candidates.best().squared_distance) <= reach)
+    session.last = candidates.at();
+  return contact_of(candidates, triangles_, center, reach, error, ids_, work, certified_);
 }
 
 std::optional<Impact> AabbTree::first_hit(const Sweep& sweep, Session& session) const noexcept {
@@ -309,13 +305,10 @@ std::optional<Impact> AabbTree::first_hit(const Sweep& sweep, Session& session) 
     }
   }
   if (first.index >= triangles_.size()) return std::nullopt;
-  // Of all the triangles that are touched at the start the nearest one counts.
-  if (first.fraction == 0) {
-    const double reach = certified_ ? sweep.radius : any_reach;
-    if (const auto start = nearest({sweep.from, sweep.radius}, reach, session)) return Impact{0, *start};
-  }
-  return Impact{first.fraction,
-                contact_on_path(triangles_[kept_at], sweep, first.fraction, ids_[first.index])};
+  return impact_on(triangles_[kept_at], sweep, first.fraction, ids_[first.index], certified_,
+                   [&](double reach) {
+                     return nearest({sweep.from, sweep.radius}, reach, session);
+                   });
 }
 
 std::size_t AabbTree::bytes() const noexcept {

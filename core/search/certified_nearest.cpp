@@ -61,12 +61,7 @@ std::optional<Contact> nearest_of_all(std::span<const PreparedTriangle> triangle
   for (std::size_t i = 0; i < triangles.size(); ++i)
     candidates.update({squared_distance(triangles[i], center), triangles[i].index},
                       static_cast<std::uint32_t>(i));
-  const PreparedTriangle& nearest = triangles[candidates.at()];
-  const double distance = std::sqrt(candidates.best().squared_distance);
-  if (!is_certain_first(candidates, triangles, distance, center, reach, error))
-    return nearest_of_ties(candidates, center, reach, error, ids, work.exact_decisions);
-  if (distance > reach) return std::nullopt;
-  return contact_on(nearest, center, ids[nearest.index]);
+  return contact_of(candidates, triangles, center, reach, error, ids, work);
 }
 
 }  // namespace touchmark

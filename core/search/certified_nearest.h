@@ -95,6 +95,22 @@ inline bool is_certain_first(const ClosestCandidates& candidates, std::span<cons
                                                                     double error, const TriangleIds& ids,
                                                                     std::uint64_t& exact_decisions) noexcept;
 
+/// Ends a search for `nearest`: returns the contact of the nearest candidate, or of the exactly nearest where
+/// doubles leave open which that is, or nothing beyond the reach. The search has shown `candidates` what
+/// nearest_of_ties asks for. `certified` is false where contact is as doubles have it.
+inline std::optional<Contact> contact_of(const ClosestCandidates& candidates,
+                                         std::span<const PreparedTriangle> triangles, const Vec3& center,
+                                         double reach, double error, const TriangleIds& ids, Work& work,
+                                         bool certified = true) noexcept {
+  if (!candidates.found()) return std::nullopt;
+  const double distance = std::sqrt(candidates.best().squared_distance);
+  if (certified && !is_certain_first(candidates, triangles, distance, center, reach, error))
+    return nearest_of_ties(candidates, center, reach, error, ids, work.exact_decisions);
+  if (distance > reach) return std::nullopt;
+  const PreparedTriangle& nearest = triangles[candidates.at()];
+  return contact_on(nearest, center, ids[nearest.index]);
+}
+
 /// Returns the answer of `nearest` by a look at every triangle, for any finite numbers: where distance_error
 /// is infinite they are measured as scaled by a power of two. `bounds` are the triangles'; nothing for a
 /// centre that is not finite. Every look at a triangle is counted: two, where they are measured so.

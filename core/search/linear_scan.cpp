@@ -42,12 +42,8 @@ std::optional<Impact> LinearScan::first_hit(const Sweep& sweep, Work& work) cons
   }
   work.triangles += triangles.size();
   if (hit == nullptr) return std::nullopt;
-  // Of all the triangles that are touched at the start the nearest one counts.
-  if (first.fraction == 0) {
-    const double reach = certified ? sweep.radius : any_reach;
-    if (const auto start = nearest(sweep.from, reach, work)) return Impact{0, *start};
-  }
-  return Impact{first.fraction, contact_on_path(*hit, sweep, first.fraction, ids[first.index])};
+  return impact_on(*hit, sweep, first.fraction, ids[first.index], certified,
+                   [&](double reach) { return nearest(sweep.from, reach, work); });
 }
 
 std::optional<Contact> LinearScan::nearest_as_computed(const Vec3& center, double reach,

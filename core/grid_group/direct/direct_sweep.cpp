@@ -176,12 +176,8 @@ std::optional<Impact> DirectGrid::first_hit_of_all(const Sweep& sweep, DirectMem
 
 std::optional<Impact> DirectGrid::impact_on(const Sweep& sweep, double fraction, std::uint32_t slot,
                                             DirectMemory& memory, Work& work) const noexcept {
-  // Of all the triangles that are touched at the start the nearest one counts.
-  if (fraction == 0) {
-    const double reach = certified_ ? sweep.radius : any_reach;
-    if (const auto start = nearest(sweep.from, reach, memory, work)) return Impact{0, *start};
-  }
-  return Impact{fraction, contact_on_path(store_.exact[slot], sweep, fraction, store_.id(slot))};
+  return touchmark::impact_on(store_.exact[slot], sweep, fraction, store_.id(slot), certified_,
+                              [&](double reach) { return nearest(sweep.from, reach, memory, work); });
 }
 
 }  // namespace touchmark::grid

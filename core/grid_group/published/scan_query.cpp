@@ -91,12 +91,7 @@ std::optional<Contact> ScanGrid::nearest(const Vec3& center, double reach, Work&
     return false;
   };
   search(center, reach + error, work, consider);
-  if (!candidates.found()) return std::nullopt;
-  const double distance = std::sqrt(candidates.best().squared_distance);
-  if (!is_certain_first(candidates, triangles_, distance, center, reach, error))
-    return nearest_of_ties(candidates, center, reach, error, ids_, work.exact_decisions);
-  if (distance > reach) return std::nullopt;
-  return contact_on(triangles_[candidates.at()], center, ids_[candidates.at()]);
+  return contact_of(candidates, triangles_, center, reach, error, ids_, work);
 }
 
 std::optional<Impact> ScanGrid::first_hit(const Sweep& sweep, Work& work) const noexcept {
@@ -119,11 +114,8 @@ std::optional<Impact> ScanGrid::first_hit(const Sweep& sweep, Work& work) const 
   };
   boxes_.empty() ? scan(spheres_) : scan(boxes_);
   if (first.index >= triangles_.size()) return std::nullopt;
-  // Of all the triangles that are touched at the start the nearest one counts.
-  if (first.fraction == 0)
-    if (const auto start = nearest(sweep.from, sweep.radius, work)) return Impact{0, *start};
-  return Impact{first.fraction,
-                contact_on_path(triangles_[first.index], sweep, first.fraction, ids_[first.index])};
+  return impact_on(triangles_[first.index], sweep, first.fraction, ids_[first.index], true,
+                   [&](double reach) { return nearest(sweep.from, reach, work); });
 }
 
 }  // namespace touchmark::grid

@@ -95,12 +95,7 @@ std::optional<Contact> SphereScan::nearest(const Vec3& center, double reach, Wor
     return false;
   });
   work.spheres += x_.size();
-  if (!candidates.found()) return std::nullopt;
-  const double distance = std::sqrt(candidates.best().squared_distance);
-  if (!is_certain_first(candidates, triangles_, distance, center, reach, error))
-    return nearest_of_ties(candidates, center, reach, error, ids_, work.exact_decisions);
-  if (distance > reach) return std::nullopt;
-  return contact_on(triangles_[candidates.at()], center, ids_[candidates.best().index]);
+  return contact_of(candidates, triangles_, center, reach, error, ids_, work);
 }
 
 /// The spheres that the path meets hold the triangles near its start, too: one look at the spheres is enough.
@@ -131,14 +126,13 @@ std::optional<Impact> SphereScan::first_hit(const Sweep& sweep, Work& work) cons
   });
   work.spheres += x_.size();
   if (first.index >= triangles_.size()) return std::nullopt;
-  const double distance = std::sqrt(at_start.best().squared_distance);
-  if (first.fraction > 0)
-    return Impact{first.fraction,
-                  contact_on_path(triangles_[kept_at], sweep, first.fraction, ids_[first.index])};
-  // Of all the triangles that are touched at the start the nearest one counts.
-  if (is_certain_first(at_start, triangles_, distance, sweep.from, sweep.radius, error))
-    return Impact{0, contact_on(triangles_[at_start.at()], sweep.from, ids_[at_start.best().index])};
-  return Impact{0, *nearest(sweep.from, sweep.radius, work)};
+  // What is known of the start mostly is enough to say what is nearest there.
+  return impact_on(triangles_[kept_at], sweep, first.fraction, ids_[first.index], true, [&](double reach) {
+    const double distance = std::sqrt(at_start.best().squared_distance);
+    return is_certain_first(at_start, triangles_, distance, sweep.from, reach, error)
+               ? contact_on(triangles_[at_start.at()], sweep.from, ids_[at_start.best().index])
+               : nearest(sweep.from, reach, work);
+  });
 }
 
 std::size_t SphereScan::bytes() const noexcept {

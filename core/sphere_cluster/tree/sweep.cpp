@@ -67,11 +67,9 @@ std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, 
   }
   work += visitor.work;
   if (visitor.first.index >= parts_.triangles.size()) return std::nullopt;
-  if (visitor.first.fraction == 0) {
-    if (const auto start = nearest(sweep.from, any_reach, memory, work)) return Impact{0, *start};
-  }
-  return Impact{visitor.first.fraction, contact_on_path(parts_.triangles[visitor.kept_at], sweep,
-                                                        visitor.first.fraction, ids_[visitor.first.index])};
+  const HitCandidate& first = visitor.first;
+  return impact_on(parts_.triangles[visitor.kept_at], sweep, first.fraction, ids_[first.index], certified_,
+                   [&](double reach_at_start) { return nearest(sweep.from, reach_at_start, memory, work); });
 }
 
 }  // namespace touchmark
