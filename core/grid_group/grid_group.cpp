@@ -59,6 +59,7 @@ void GridGroup::update(const TriangleMesh& mesh) {
 }
 
 bool GridGroup::look_for_touch(const Probe& probe, Session& session) const noexcept {
+  if (!(probe.radius >= 0)) return false;
   if (const auto* direct = std::get_if<grid::DirectGrid>(&form_))
     return direct->touches(probe, session.memory, session.work);
   if (const auto* scan = std::get_if<grid::ScanGrid>(&form_)) return scan->touches(probe, session.work);
@@ -70,6 +71,7 @@ bool GridGroup::look_for_touch(const Probe& probe, Session& session) const noexc
 
 std::optional<Contact> GridGroup::look_for_nearest(const Probe& probe, double reach,
                                                    Session& session) const noexcept {
+  if (!(reach >= 0)) return std::nullopt;
   if (const auto* direct = std::get_if<grid::DirectGrid>(&form_))
     return direct->nearest(probe.center, reach, session.memory, session.work);
   if (const auto* scan = std::get_if<grid::ScanGrid>(&form_))
@@ -81,6 +83,7 @@ std::optional<Contact> GridGroup::look_for_nearest(const Probe& probe, double re
 }
 
 std::optional<Impact> GridGroup::first_hit(const Sweep& sweep, Session& session) const noexcept {
+  if (!(sweep.radius >= 0)) return std::nullopt;
   if (const auto* direct = std::get_if<grid::DirectGrid>(&form_))
     return direct->first_hit(sweep, session.memory, session.work);
   if (const auto* scan = std::get_if<grid::ScanGrid>(&form_)) return scan->first_hit(sweep, session.work);

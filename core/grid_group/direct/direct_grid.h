@@ -57,7 +57,7 @@ class DirectGrid {
   bool is_clear(const Vec3& center, double reach, const DirectMemory& memory) const noexcept {
     return memory.owner == serial_ && memory.moved_less(center, memory.lower - reach);
   }
-  // Both look, even where it is known to be clear.
+  // All look, even where it is known to be clear. A radius or reach must be at least 0.
   bool touches(const Probe& probe, DirectMemory& memory, Work& work) const noexcept;
   std::optional<Contact> nearest(const Vec3& center, double reach, DirectMemory& memory,
                                  Work& work) const noexcept;

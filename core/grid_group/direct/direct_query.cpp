@@ -110,7 +110,6 @@ DirectGrid::Located DirectGrid::locate(const Vec3& center, const FilterPoint& po
 }
 
 bool DirectGrid::touches(const Probe& probe, DirectMemory& memory, Work& work) const noexcept {
-  if (!(probe.radius >= 0)) return false;
   const FilterPoint point = store_.frame.point(probe.center);
   if (!FilterFrame::covers(point)) return far_nearest(probe.center, probe.radius, work).has_value();
   if (claims_and_rejects(probe.center, point, probe.radius, memory)) return false;
@@ -132,7 +131,6 @@ bool DirectGrid::touches(const Probe& probe, DirectMemory& memory, Work& work) c
 
 std::optional<Contact> DirectGrid::nearest(const Vec3& center, double reach, DirectMemory& memory,
                                            Work& work) const noexcept {
-  if (!(reach >= 0)) return std::nullopt;
   const FilterPoint point = store_.frame.point(center);
   if (!FilterFrame::covers(point)) return far_nearest(center, reach, work);
   if (claims_and_rejects(center, point, reach, memory)) return std::nullopt;

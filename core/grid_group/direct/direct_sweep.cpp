@@ -123,7 +123,6 @@ class SweepSearch {
 
 std::optional<Impact> DirectGrid::first_hit(const Sweep& sweep, DirectMemory& memory,
                                             Work& work) const noexcept {
-  if (!(sweep.radius >= 0)) return std::nullopt;
   const double difference = largest_difference(bounds_, sweep);
   if (!fourth_powers_fit(difference)) return fallback().first_hit(sweep, work);
   if (!(store_.frame.covers(sweep.from) && store_.frame.covers(sweep.to))) return far_first_hit(sweep, work);

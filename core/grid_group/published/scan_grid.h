@@ -32,6 +32,7 @@ class ScanGrid {
   /// The mesh's box must fit the filter's frame (FilterFrame::fits).
   static ScanGrid build(const TriangleMesh& mesh, const ScanOptions& options);
 
+  // A radius or reach must be at least 0.
   bool touches(const Probe& probe, Work& work) const noexcept;
   std::optional<Contact> nearest(const Vec3& center, double reach, Work& work) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, Work& work) const noexcept;

@@ -68,7 +68,6 @@ void ScanGrid::search(const Vec3& center, double reach, Work& work, const Visit&
 
 bool ScanGrid::touches(const Probe& probe, Work& work) const noexcept {
   const Vec3& center = probe.center;
-  if (!(probe.radius >= 0)) return false;
   const double error = distance_error(bounds_, center);
   if (std::isinf(error)) return fallback().touches(probe, work);
   bool touching = false;
@@ -82,7 +81,6 @@ bool ScanGrid::touches(const Probe& probe, Work& work) const noexcept {
 }
 
 std::optional<Contact> ScanGrid::nearest(const Vec3& center, double reach, Work& work) const noexcept {
-  if (!(reach >= 0)) return std::nullopt;
   const double error = distance_error(bounds_, center);
   if (std::isinf(error)) return fallback().nearest(center, reach, work);
   ClosestCandidates candidates(triangles_.data(), center, error);
@@ -95,7 +93,6 @@ std::optional<Contact> ScanGrid::nearest(const Vec3& center, double reach, Work&
 }
 
 std::optional<Impact> ScanGrid::first_hit(const Sweep& sweep, Work& work) const noexcept {
-  if (!(sweep.radius >= 0)) return std::nullopt;
   const double difference = largest_difference(bounds_, sweep);
   if (!fourth_powers_fit(difference)) return fallback().first_hit(sweep, work);
   const double by = padded_sweep_radius(sweep, difference);

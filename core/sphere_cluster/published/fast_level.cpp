@@ -52,7 +52,7 @@ Contact FastLevel::contact_with(std::size_t sphere, const Vec3& center) const no
 bool FastLevel::touches(const Probe& probe, Work& work) const noexcept {
   std::size_t tested = 0;
   while (tested < spheres_.size())
-    if (gap(tested++, probe.center) <= probe.radius && probe.radius >= 0) {
+    if (gap(tested++, probe.center) <= probe.radius) {
       work.spheres += tested;
       return true;
     }

@@ -67,7 +67,6 @@ bool SphereScan::for_each_met(const Vec3& center, double reach, const Found& fou
 
 bool SphereScan::touches(const Probe& probe, Work& work) const noexcept {
   const Vec3& center = probe.center;
-  if (!(probe.radius >= 0)) return false;
   const double error = distance_error(bounds_, center);
   if (std::isinf(error)) return fallback().touches(probe, work);
   std::size_t tested = 0;
@@ -86,7 +85,6 @@ bool SphereScan::touches(const Probe& probe, Work& work) const noexcept {
 }
 
 std::optional<Contact> SphereScan::nearest(const Vec3& center, double reach, Work& work) const noexcept {
-  if (!(reach >= 0)) return std::nullopt;
   const double error = distance_error(bounds_, center);
   if (std::isinf(error)) return fallback().nearest(center, reach, work);
   ClosestCandidates candidates(triangles_.data(), center, error);
@@ -100,7 +98,6 @@ std::optional<Contact> SphereScan::nearest(const Vec3& center, double reach, Wor
 
 /// The spheres that the path meets hold the triangles near its start, too: one look at the spheres is enough.
 std::optional<Impact> SphereScan::first_hit(const Sweep& sweep, Work& work) const noexcept {
-  if (!(sweep.radius >= 0)) return std::nullopt;
   const double error = distance_error(bounds_, sweep.from);
   const double difference = largest_difference(bounds_, sweep);
   if (std::isinf(error) || !fourth_powers_fit(difference)) return fallback().first_hit(sweep, work);

@@ -251,7 +251,6 @@ bool SphereTree::refill(const Vec3& center, const Vec3& move, float distance, Me
 bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const noexcept {
   const Vec3& center = probe.center;
   const double radius = probe.radius;
-  if (!(radius >= 0)) return false;
   claim(memory);
   const FilterPoint point = frame_.point(center);
   if (!can_search(point)) return nearest_without(center, radius, work).has_value();
@@ -306,7 +305,6 @@ void SphereTree::remember_touch(const Vec3& center, double clearance, double nea
 
 std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Memory& memory, Work& work,
                                            bool* exhausted) const noexcept {
-  if (!(reach >= 0)) return std::nullopt;
   claim(memory);
   const FilterPoint point = frame_.point(center);
   if (!can_search(point)) return nearest_without(center, reach, work);

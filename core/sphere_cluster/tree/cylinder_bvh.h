@@ -56,7 +56,7 @@ class SphereTree {
     const double margin = memory.clearance - reach;
     return memory.tree == epoch_ && margin > 0 && (center - memory.center).squaredNorm() < margin * margin;
   }
-  // Both look, even where it is known to be clear.
+  // All look, even where it is known to be clear. A radius or reach must be at least 0.
   bool touches(const Probe& probe, Memory& memory, Work& work) const noexcept;
   /// If `exhausted` points somewhere, a search that looked at as much as all triangles are ends there, with
   /// that set and no answer.

@@ -39,7 +39,6 @@ struct SweepVisitor {
 // The path is cut into parts, each in a ball about its middle. What can touch the probe on a part is within
 // the part's half length and the radius of that middle.
 std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, Work& work) const noexcept {
-  if (!(sweep.radius >= 0)) return std::nullopt;
   if (!can_search(sweep.from) || !can_search(sweep.to)) return fallback().first_hit(sweep, work);
   const std::uint64_t before = work.total();
   if (!is_clear(sweep.from, sweep.radius, memory)) {
