@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -9,11 +8,6 @@
 
 namespace touchmark::grid {
 namespace {
-
-std::uint64_t next_epoch() {
-  static std::atomic<std::uint64_t> last = 0;
-  return ++last;
-}
 
 std::size_t bytes_for(const TriangleMesh& mesh, double bytes_per_triangle) {
   const double bytes = bytes_per_triangle * static_cast<double>(mesh.size());
@@ -34,7 +28,7 @@ double exclusion_margin_for(const TriangleMesh& mesh, const FilterFrame& frame) 
 
 DirectGrid DirectGrid::build(const TriangleMesh& mesh, const DirectOptions& options) {
   DirectGrid grid;
-  grid.serial_ = next_epoch();
+  grid.epoch_ = Epoch::next();
   grid.certified_ = options.certified;
   grid.bounds_ = mesh.bounds();
   grid.store_ = TriangleStore::build(mesh);
@@ -55,7 +49,7 @@ DirectGrid DirectGrid::build(const TriangleMesh& mesh, const DirectOptions& opti
 
 bool DirectGrid::update(const TriangleMesh& mesh) {
   if (!FilterFrame::fits(mesh.bounds()) || !store_.frame.widen(mesh.bounds())) return false;
-  serial_ = next_epoch();
+  epoch_ = Epoch::next();
   bounds_ = mesh.bounds();
   const std::vector<Aabb> moved = store_.move(mesh);
   if (moved.empty()) return true;

@@ -13,6 +13,8 @@
 #include "core/grid_group/direct/groups.h"
 #include "core/grid_group/direct/triangle_store.h"
 #include "core/search/distance_field.h"
+#include "core/search/epoch.h"
+#include "core/search/last_distance.h"
 #include "core/search/linear_scan.h"
 
 namespace touchmark::grid {
@@ -24,19 +26,11 @@ struct DirectOptions {
   bool lazy = false;                ///< groups are made by the first queries that miss them, one a query
 };
 
-/// What one haptic point remembers between ticks. Forgetting it changes no answer.
-struct DirectMemory {
-  std::uint64_t owner = 0;  ///< the grid that it is about; 0: nothing is remembered
-  std::uint32_t slot = 0;   ///< slot of a triangle that was near
-  Vec3 center = Vec3::Zero();
-  /// Bounds of the distance at that centre, padded by the kernel's error wherever they are put to use. The
-  /// distance changes by the displacement at most.
-  double lower = 0, upper = std::numeric_limits<double>::infinity();
-
-  /// Was a triangle near?
-  bool is_near() const noexcept { return upper < std::numeric_limits<double>::infinity(); }
-  /// Is this place certainly less than that far from the centre? With room for the rounding of a displacement
-  /// and of what is compared with it.
+/// What one haptic point remembers between ticks. The bounds are padded by the kernel's error wherever they
+/// are put to use.
+struct DirectMemory : LastDistance {
+  /// Returns true if this point is certainly less than that far from the centre, padded for the rounding of a
+  /// displacement and of what is compared with it.
   bool moved_less(const Vec3& to, double by) const noexcept {
     constexpr double shy = 1 - 0x1p-40;
     return by > 0 && (to - center).squaredNorm() < by * by * shy;
@@ -55,7 +49,7 @@ class DirectGrid {
 
   /// Is it known, without looking, that no triangle is within reach?
   bool is_clear(const Vec3& center, double reach, const DirectMemory& memory) const noexcept {
-    return memory.owner == serial_ && memory.moved_less(center, memory.lower - reach);
+    return memory.epoch == epoch_ && memory.moved_less(center, memory.lower - reach);
   }
   // All look, even where it is known to be clear. A radius or reach must be at least 0.
   bool touches(const Probe& probe, DirectMemory& memory, Work& work) const noexcept;
@@ -85,9 +79,9 @@ class DirectGrid {
     const Group* group = nullptr;  ///< group of that slot, if it covers the point
   };
   void claim(DirectMemory& memory) const noexcept {
-    if (memory.owner == serial_) return;
+    if (memory.epoch == epoch_) return;
     memory = DirectMemory();
-    memory.owner = serial_;
+    memory.epoch = epoch_;
   }
   /// Is nothing within reach, by what was sampled? Few bytes, which stay in the cache: what is far needs no
   /// cell. Closely after a jump: a point that comes near slowly meets a group, which tells more.
@@ -181,7 +175,7 @@ class DirectGrid {
   DistanceField::Interval sample(const Vec3& in_frame, double budget, std::uint64_t& left) const noexcept;
   LinearScan fallback() const noexcept { return {store_.exact, bounds_, store_.ids, certified_}; }
 
-  std::uint64_t serial_ = 0;  ///< tells this grid from all others
+  Epoch epoch_;
   Aabb bounds_;
   TriangleStore store_;
   BoxTree tree_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 
 #include "core/search/certified_nearest.h"
@@ -123,16 +122,10 @@ struct FetchVisitor {
   void update(std::uint32_t, const Offset&) const noexcept {}
 };
 
-/// Tells the memories of different trees apart, also where one took another's place in memory. From 1.
-std::uint64_t next_epoch() noexcept {
-  static std::atomic<std::uint64_t> last = 0;
-  return ++last;
-}
-
 }  // namespace
 
 SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters, const Options& options)
-    : epoch_(next_epoch()),
+    : epoch_(Epoch::next()),
       simd_(std::min(options.widest, widest_simd())),
       searchable_(FilterFrame::fits(mesh.bounds())),
       bounds_(mesh.bounds()),
@@ -160,11 +153,9 @@ void SphereTree::measure_leaves() noexcept {
   parts_.far = static_cast<float>(far_in_leaf_radii * far_in_leaf_radii * mean * mean);
 }
 
-void SphereTree::renew() noexcept { epoch_ = next_epoch(); }
-
 void SphereTree::start_anew(Memory& memory) const noexcept {
   memory = {};
-  memory.tree = epoch_;
+  memory.epoch = epoch_;
 }
 
 /// What the kernel's rounding may do, here and wherever `clearance` is going to be used: it grows with the
@@ -185,12 +176,12 @@ double SphereTree::clearance_from(float unseen, double shown, double pad) const 
                                                                          const Vec3& center, double reach,
                                                                          Memory& memory) const noexcept {
   double clearance = static_cast<double>(distances_.lower_bound(point)) * frame_.unit();
-  if (!(clearance > reach) && !(memory.nearest < infinity))
+  if (!(clearance > reach) && !memory.is_near())
     clearance = static_cast<double>(distances_.tight_lower_bound(point)) * frame_.unit();
   if (!(clearance > reach)) return false;
   memory.center = center;
-  memory.clearance = clearance;
-  memory.nearest = std::numeric_limits<double>::infinity();
+  memory.lower = clearance;
+  memory.upper = infinity;
   return true;
 }
 
@@ -200,7 +191,7 @@ bool SphereTree::rejects_once_sampled(const FilterPoint& point, const Vec3& cent
                                       Memory& memory, std::uint64_t& budget, Work& work) const noexcept {
   // With a reach as long as the mesh no sample helps.
   if (!(reach < radius_)) return false;
-  Sampling sampling{budget / 2, memory.last};
+  Sampling sampling{budget / 2, memory.slot};
   bool is_known_far = false;
   while (!is_known_far && distances_.sample_near(point, [&](const Vec3& position, double farthest) {
     return sample(position, farthest, sampling);
@@ -254,17 +245,17 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
   claim(memory);
   const FilterPoint point = frame_.point(center);
   if (!can_search(point)) return nearest_without(center, radius, work).has_value();
-  if (memory.nearest < infinity) {
+  if (memory.is_near()) {
     const double moved = (center - memory.center).norm();
-    if ((memory.nearest + moved) * (1 + 0x1p-40) + clearance_pad(point) <= radius) return true;
+    if ((memory.upper + moved) * (1 + 0x1p-40) + clearance_pad(point) <= radius) return true;
     // It is still near what it touched, unless it came from elsewhere.
-    if (std::abs(memory.nearest - moved) <= radius) {
+    if (std::abs(memory.upper - moved) <= radius) {
       TouchVisitor visitor(parts_, center, radius, frame_.kernel_error(point.plane_error), certified_);
-      visit(memory.last, visitor);
+      visit(memory.slot, visitor);
       if (visitor.open_count > 0) decide_open(visitor, frame_.kernel_error(point.plane_error), work);
       work += visitor.work;
       if (visitor.kept_at != nowhere) {
-        remember_touch(center, -1, visitor.least, memory);
+        remember_touch(center, 0, visitor.least, memory);
         return true;
       }
     }
@@ -281,26 +272,24 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
   work += visitor.work;
   if (visitor.kept_at == nowhere && visitor.open_count > 0) decide_open(visitor, error, work);
   if (unseen == spheres::exhausted || visitor.leaves_too_many_open()) {
-    memory.clearance = -1;
-    memory.nearest = infinity;
+    memory.forget_distance();
     return fallback().touches(probe, work);
   }
   if (visitor.kept_at == nowhere) {
     remember_touch(center, clearance_from(unseen, visitor.least, clearance_pad(point)), infinity, memory);
     return false;
   }
-  remember_touch(center, -1, visitor.least, memory);
-  memory.last = visitor.kept_at;
+  remember_touch(center, 0, visitor.least, memory);
+  memory.slot = visitor.kept_at;
   return true;
 }
 
 /// Remembers what `touches` found.
-void SphereTree::remember_touch(const Vec3& center, double clearance, double nearest,
-                                Memory& memory) noexcept {
+void SphereTree::remember_touch(const Vec3& center, double lower, double upper, Memory& memory) noexcept {
   memory.move = Vec3::Constant(infinity);
   memory.center = center;
-  memory.clearance = clearance;
-  memory.nearest = nearest;
+  memory.lower = lower;
+  memory.upper = upper;
 }
 
 std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Memory& memory, Work& work,
@@ -309,9 +298,9 @@ std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Mem
   const FilterPoint point = frame_.point(center);
   if (!can_search(point)) return nearest_without(center, reach, work);
   bool near = false;
-  if (memory.nearest < infinity) {
+  if (memory.is_near()) {
     const double moved = (center - memory.center).norm();
-    near = moved <= max_move_in_leaf_radii * mean_leaf_radius_ && memory.nearest + moved <= reach;
+    near = moved <= max_move_in_leaf_radii * mean_leaf_radius_ && memory.upper + moved <= reach;
   }
   std::uint64_t budget = work_limit();
   if (!near && (rejects_by_distance_field(point, center, reach, memory) ||
@@ -321,7 +310,7 @@ std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Mem
   NearestVisitor visitor(parts_, frame_, center, frame_.limit((reach + error) * (reach + error)), error);
   float unseen = 0;
   if (near) {
-    visit(memory.last, visitor);
+    visit(memory.slot, visitor);
     unseen = search_near(point, visitor, memory, budget);
   } else {
     const double farthest = distances_.upper_bound(point) * frame_.unit();
@@ -330,8 +319,7 @@ std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Mem
   }
   if (unseen == spheres::exhausted) {
     work += visitor.work;
-    memory.clearance = -1;
-    memory.nearest = infinity;
+    memory.forget_distance();
     if (exhausted == nullptr) return fallback().nearest(center, reach, work);
     *exhausted = true;
     return std::nullopt;
@@ -340,9 +328,9 @@ std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Mem
   const double distance = std::sqrt(candidates.best().squared_distance);
   memory.move = center - memory.center;
   memory.center = center;
-  memory.nearest = distance;
-  memory.last = candidates.at();
-  memory.clearance = clearance_from(unseen, distance, clearance_pad(point));
+  memory.upper = distance;
+  memory.slot = candidates.at();
+  memory.lower = clearance_from(unseen, distance, clearance_pad(point));
   work += visitor.work;
   if (!candidates.found()) return std::nullopt;
   if (certified_ && !(is_certain(distance, reach, error) && candidates.is_surely_first(error))) {
@@ -359,7 +347,7 @@ void SphereTree::look_ahead(Memory& memory, Work& work) const noexcept {
   const double moved = memory.move.norm();
   if (!(moved <= max_move_in_leaf_radii * mean_leaf_radius_) || memory.cache.cooldown > 0) return;
   const FilterPoint point = frame_.point(memory.center);
-  const float distance = static_cast<float>(frame_.scale() * memory.nearest) + 2 * point.plane_error;
+  const float distance = static_cast<float>(frame_.scale() * memory.upper) + 2 * point.plane_error;
   // A tick's move counts twice: so much farther may the nearest be, and so much farther is the cache's
   // center.
   const float two_moves = static_cast<float>(2 * frame_.scale() * moved);
@@ -368,7 +356,7 @@ void SphereTree::look_ahead(Memory& memory, Work& work) const noexcept {
   if (distance + away + ticks_prepared * two_moves < memory.cache.covered_radius ||
       refill(memory.center, memory.move, distance, memory, work_limit(), spent)) {
     const Vec3 next = memory.center + memory.move;
-    const double farthest = memory.nearest + moved;
+    const double farthest = memory.upper + moved;
     FetchVisitor visitor{next, frame_.limit(farthest * farthest)};
     if (can_search(next)) search_cached(frame_.point(next), visitor, memory.cache, 0, work_limit());
     spent += visitor.work;

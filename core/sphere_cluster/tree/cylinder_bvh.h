@@ -12,6 +12,8 @@
 #include "core/detector.h"
 #include "core/geometry/point_triangle.h"
 #include "core/search/distance_field.h"
+#include "core/search/epoch.h"
+#include "core/search/last_distance.h"
 #include "core/search/linear_scan.h"
 #include "core/search/plane_filter.h"
 #include "core/simd/dispatch.h"
@@ -24,15 +26,11 @@ namespace touchmark {
 
 class SphereTree {
  public:
-  /// What a haptic point remembers between ticks: it changes the cost of an answer, never the answer.
-  struct Memory {
-    std::uint64_t tree = 0;      ///< epoch of the tree that this is about; 0: nothing is remembered
-    Vec3 center = Vec3::Zero();  ///< the point's last position
-    double clearance = -1;       ///< no triangle was nearer, all rounding included; -1: nothing is known
-    double nearest = std::numeric_limits<double>::infinity();  ///< triangle `last` was that far
-    Vec3 move =
-        Vec3::Zero();  ///< by which the point had moved then; infinite after `touches`, which lists none
-    std::uint32_t last = 0;  ///< slot of that triangle
+  /// What a haptic point remembers between ticks. The lower bound holds with all rounding included; the upper
+  /// one is the computed distance of the triangle in `slot`.
+  struct Memory : LastDistance {
+    /// By which the point had moved then; infinite after `touches`, which refills no cache.
+    Vec3 move = Vec3::Zero();
     spheres::LeafCache cache;
   };
 
@@ -53,8 +51,8 @@ class SphereTree {
   /// Is it known, without looking, that no triangle is within reach? The distance changes by no more than the
   /// point moves. Of a tree that holds nothing, nothing is known.
   bool is_clear(const Vec3& center, double reach, const Memory& memory) const noexcept {
-    const double margin = memory.clearance - reach;
-    return memory.tree == epoch_ && margin > 0 && (center - memory.center).squaredNorm() < margin * margin;
+    const double margin = memory.lower - reach;
+    return memory.epoch == epoch_ && margin > 0 && (center - memory.center).squaredNorm() < margin * margin;
   }
   // All look, even where it is known to be clear. A radius or reach must be at least 0.
   bool touches(const Probe& probe, Memory& memory, Work& work) const noexcept;
@@ -64,9 +62,7 @@ class SphereTree {
                                  bool* exhausted = nullptr) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, Memory& memory, Work& work) const noexcept;
   /// Did the last query find a triangle?
-  bool is_near(const Memory& memory) const noexcept {
-    return memory.tree == epoch_ && memory.nearest < std::numeric_limits<double>::infinity();
-  }
+  bool is_near(const Memory& memory) const noexcept { return memory.epoch == epoch_ && memory.is_near(); }
   /// Refills the cache for the next query where the point is near, and fetches what one needs if the point
   /// goes on as it moved.
   void look_ahead(Memory& memory, Work& work) const noexcept;
@@ -78,7 +74,7 @@ class SphereTree {
     return searchable_ && FilterFrame::covers(point);
   }
   void claim(Memory& memory) const noexcept {
-    if (memory.tree != epoch_) start_anew(memory);
+    if (memory.epoch != epoch_) start_anew(memory);
   }
   void start_anew(Memory& memory) const noexcept;
   double clearance_pad(const FilterPoint& point) const noexcept;
@@ -88,7 +84,7 @@ class SphereTree {
   [[gnu::noinline]] bool rejects_once_sampled(const FilterPoint& point, const Vec3& center, double reach,
                                               Memory& memory, std::uint64_t& budget,
                                               Work& work) const noexcept;
-  static void remember_touch(const Vec3& center, double clearance, double nearest, Memory& memory) noexcept;
+  static void remember_touch(const Vec3& center, double lower, double upper, Memory& memory) noexcept;
   /// From a point of the mesh's frame to another, in the tree's, at least.
   float displacement(const Vec3& from, const Vec3& to, const FilterPoint& at) const noexcept;
 
@@ -97,7 +93,6 @@ class SphereTree {
   std::optional<Contact> nearest_without(const Vec3& center, double reach, Work& work) const noexcept;
 
   void measure_leaves() noexcept;
-  void renew() noexcept;
   void fill_distances();
   void refill_distances(const spheres::MovedTriangles& moved);
   struct Sampling {
@@ -125,7 +120,7 @@ class SphereTree {
   bool refill(const Vec3& center, const Vec3& move, float distance, Memory& memory, std::uint64_t budget,
               Work& work) const noexcept;
 
-  std::uint64_t epoch_ = 0;  ///< shared by this tree and its copies
+  Epoch epoch_;
   Simd simd_ = Simd::portable;
   bool searchable_ = false;  ///< else the mesh does not fit the frame, and every triangle is looked at
   Aabb bounds_;

@@ -71,7 +71,7 @@ void SphereTree::refill_distances(const spheres::MovedTriangles& moved) {
 
 bool SphereTree::update(const TriangleMesh& mesh) {
   if (!searchable_ || !FilterFrame::fits(mesh.bounds()) || !frame_.widen(mesh.bounds())) return false;
-  renew();
+  epoch_ = Epoch::next();
   bounds_ = mesh.bounds();
   radius_ = frame_.radius() * frame_.unit();
   const spheres::MovedTriangles moved = spheres::refit_tree(parts_, mesh, frame_);
