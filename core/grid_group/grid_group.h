@@ -1,16 +1,15 @@
-/// Triangles grouped by where they are, so that a query looks at few of them: two exact detectors of one
-/// name.
+/// Triangles grouped by where they are, so that a query looks at few of them: two exact detectors in one.
 ///
-/// - scan, as published: J.-S. Park and T.-J. Jang (Journal of Digital Contents Society 19(1), 2018, pp.
-/// 199-204,
-///   in Korean). Space is cut into uniform cells, and a triangle belongs to every cell it touches. A group is
-///   the smallest cuboid or sphere around the triangles of a cell. A query tests the HIP against every group,
-///   then all triangles of the groups that hold it. A probe of radius r enlarges the groups by r.
+/// - scan, as published: J.-S. Park and T.-J. Jang, Journal of Digital Contents Society 19(1), 2018, pages
+///   199-204, in Korean. Space is cut into uniform cells, and a triangle belongs to every cell it touches.
+///   A group is the smallest cuboid or sphere around the triangles of a cell. A query tests the HIP against
+///   every group, then all triangles of the groups that hold it. A probe of radius r enlarges the groups by
+///   r.
 /// - direct, the fast form, shares with the paper that the HIP's position names the triangles to look at:
-///   1. A coarse sampled distance field rejects what is far (core/search/distance_field.h).
+///   1. A sampled distance field rejects what is far (core/search/distance_field.h).
 ///   2. The triangle of the tick before, or else an octree of cells each of which names a triangle near its
 ///      middle, gives the triangle to start from (cell_tree.h).
-///   3. That triangle's group is looked at, if it covers the point: the list of all triangles that can be
+///   3. That triangle's group is looked at if it covers the point: the list of all triangles that can be
 ///      nearest in a prism over the triangle, found when the grid is built (prism.h, groups.h).
 ///   4. Elsewhere a tree of eight-wide boxes over all triangles is searched, nearest first (box_tree.h).
 /// Both are exact at any radius and reach.
