@@ -53,8 +53,8 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> vertices, std::vector<Corners> tria
   }
   for (std::size_t i = 1; i < stored.size(); ++i) {
     if (stored[i] < stored[i - 1]) {
-      throw MeshError("triangle " + std::to_string(i) + " has id " + std::to_string(stored[i]) + " after id " +
-                      std::to_string(stored[i - 1]) + ": ids must not decrease");
+      throw MeshError("triangle " + std::to_string(i) + " has id " + std::to_string(stored[i]) +
+                      " after id " + std::to_string(stored[i - 1]) + ": ids must not decrease");
     }
   }
 }

@@ -70,29 +70,27 @@ bool is_surely_behind_corner(const Vec3& point, const Vec3& to, double to_square
   // One unit for each of the two differences, three for the products and sums.
   constexpr double relative_error = 8 * unit_roundoff;
   const Vec3 edge = end - corner;
-  const double along = to.dot(edge);
-  const int sign = sure_sign(along, relative_error * relative_error * to_squared * edge.squaredNorm());
+  const int sign = sure_sign(to.dot(edge), relative_error * relative_error * to_squared * edge.squaredNorm());
   return sign < 0 || (sign == 0 && is_exactly_across(point, corner, end));
 }
 
-/// The position of a point relative to the edge from corner i to the next, `to` being from corner `near` of
-/// them.
+/// The position of a point relative to an edge.
 struct EdgeSide {
   int side = 0;  ///< 1: surely off the triangle or on its edge, -1: surely over it
   bool between_ends = false;
 };
 
+/// Tells the side of the edge from corner i to the next, of which `near` is the end that `to` begins at.
 EdgeSide side_of_edge(const PreparedTriangle& t, std::size_t i, std::size_t near, const Vec3& point,
                       const Vec3& to, double to_squared) noexcept {
   const std::size_t j = i == 2 ? 0 : i + 1, far = near == i ? j : i;
   const Vec3 edge = t.corner[far] - t.corner[near];
   const double edge_squared = edge.squaredNorm();
   // As in shared_feature.cpp.
-  constexpr double along_relative_error = 8 * unit_roundoff, across_relative_error = 16 * unit_roundoff;
-  const double along_error =
-      2 * along_relative_error * along_relative_error * edge_squared * (to_squared + edge_squared);
+  constexpr double along_part = 8 * unit_roundoff, across_part = 16 * unit_roundoff;
+  const double along_error = 2 * along_part * along_part * edge_squared * (to_squared + edge_squared);
   const double along = to.dot(edge);
-  const double across_error = across_relative_error * across_relative_error * edge_squared * to_squared;
+  const double across_error = across_part * across_part * edge_squared * to_squared;
   const double across = (near == i ? 1 : -1) * to.cross(edge).dot(t.normal);
   EdgeSide edge_side{sure_sign(across, across_error),
                      sure_sign(along, along_error) > 0 && sure_sign(edge_squared - along, along_error) > 0};
@@ -291,16 +289,9 @@ SharedFeature::SharedFeature(const Feature& feature, const Vec3& point) noexcept
 bool SharedFeature::is_surely_behind(const Vec3& corner) const noexcept {
   // An edge's true offset is across it, so that either end will do: the nearer one to the corner.
   if (is_exact_ && offset_.isZero(0)) return true;
-  Vec3 to_corner = corner - feature_.corner[0];
-  double squared = to_corner.squaredNorm();
-  if (feature_.corners == 2) {
-    const Vec3 other = corner - feature_.corner[1];
-    if (other.squaredNorm() < squared) {
-      to_corner = other;
-      squared = other.squaredNorm();
-    }
-  }
-  const double along = to_corner.dot(offset_);
+  const Vec3 from_first = corner - feature_.corner[0], from_second = corner - feature_.corner[1];
+  const Vec3& to_corner = from_second.squaredNorm() < from_first.squaredNorm() ? from_second : from_first;
+  const double along = to_corner.dot(offset_), squared = to_corner.squaredNorm();
   const int sign = sure_sign(along, relative_error_ * relative_error_ * squared * offset_.squaredNorm());
   if (sign != 0 || !is_exact_) return sign < 0;
   const Vec3& from = feature_.corner[0];
