@@ -26,8 +26,9 @@ struct Sweep {
   double radius = 0;
 };
 
-/// On which side of the surface a probe's centre is. Inside is behind the faces, which are counter-clockwise
-/// seen from outside: core/sign/side_finder.h. `undecided` where the mesh does not say, never a guess.
+/// The side of the surface that a probe's centre is on. Inside is behind the faces, which are
+/// counter-clockwise seen from outside: core/sign/side_finder.h. `undecided` where the mesh does not say,
+/// never a guess.
 enum class Side : std::uint8_t { unasked, outside, inside, on_surface, undecided };
 
 /// The point of the mesh nearest to a probe's centre.

@@ -64,7 +64,7 @@ FloatTree::Offset FloatTree::offset_from(const Triangle& t, const Point& point) 
   return kernel::offset_from(t, point, surely_over_face);
 }
 
-/// As culling_pad.
+/// Returns what touchmark::culling_pad does for doubles, for floats.
 float FloatTree::culling_pad(const Point& center) const noexcept {
   const Node& all = nodes_.front();
   return 128 * unit_roundoff *

@@ -149,7 +149,7 @@ class BigInteger {
   }
   friend bool operator==(const BigInteger& a, const BigInteger& b) noexcept { return (a <=> b) == 0; }
 
-  /// To within 2^-104 of it; the fraction is in [1/2, 1], or zero.
+  /// Returns the number to within 2^-104 of it; the fraction is in [1/2, 1], or zero.
   Scaled scaled() const noexcept {
     if (size_ == 0) return {};
     const auto limb = [&](std::size_t from_top) {
@@ -174,7 +174,7 @@ class BigInteger {
     return product;
   }
 
-  /// For the arithmetic of other degrees: where a result goes, and what it became.
+  /// Storage for a result of the arithmetic of other degrees; set() says what it became.
   Limb* storage() noexcept { return limbs_.data(); }
   void set(std::size_t size, bool negative) noexcept {
     size_ = size;

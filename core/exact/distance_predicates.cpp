@@ -37,7 +37,7 @@ ExactClosestPoint at_corner(const Vector<1>& w) noexcept {
   return {dot(w, w), one, {w[0], w[1], w[2]}, one, one};
 }
 
-/// On the segment from w to v. One of no length is its corner.
+/// Returns the closest point of the segment from w to v. A segment of no length is its corner.
 ExactClosestPoint on_segment(const Vector<1>& w, const Vector<1>& v) noexcept {
   const Vector<1> edge = v - w;
   const BigInteger<2> squared = dot(edge, edge), along = -dot(w, edge);

@@ -82,7 +82,7 @@ PreciseClosestPoint at_corner(const Vector& w, const Vec3& corner, double m) noe
   return close;
 }
 
-/// From corner p at w to corner q.
+/// Returns the closest point of the segment from corner p, which is at w, to corner q.
 std::optional<PreciseClosestPoint> on_segment(const Vec3& p, const Vec3& q, const Vector& w,
                                               const Vector& to_q, double m) noexcept {
   const Vector edge = difference(q, p);
@@ -128,7 +128,7 @@ struct Level {
   std::size_t y() const noexcept { return (axis + 2) % 3; }
 };
 
-/// Nothing where the face is oblique or has no area.
+/// Returns the axis that the face is across, or nothing where it is oblique or has no area.
 std::optional<Level> level_of(const TriangleCorners& triangle) noexcept {
   for (Level level{0, 0}; level.axis < 3; ++level.axis) {
     const auto k = static_cast<Eigen::Index>(level.axis);

@@ -18,11 +18,11 @@ struct PreciseClosestPoint {
   bool inside = false;  ///< over the face, and surely off its border
 };
 
-/// Nothing where 106 bits do not tell whether face or border is nearest, or which edge, or where the error of
-/// the distance might exceed 2^-60 of the largest coordinate difference between the point and the corners:
-/// beside the borders between two of them, for needles and what has no area, and where that difference is
-/// below 2^-132, above 2^232 or no number. Over a face across a coordinate axis, its border included, the
-/// distance is exact. A call takes about twenty times as long as the kernel.
+/// Returns the closest point, or nothing where 106 bits do not tell whether face or border is nearest, or
+/// which edge, or where the error of the distance might exceed 2^-60 of the largest coordinate difference
+/// between the point and the corners: next to the borders between two of them, for needles and what has no
+/// area, and where that difference is below 2^-132, above 2^232 or no number. Over a face across a coordinate
+/// axis, its border included, the distance is exact. A call takes about twenty times as long as the kernel.
 std::optional<PreciseClosestPoint> precise_closest_point(const TriangleCorners& triangle,
                                                          const Vec3& point) noexcept;
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 
-/// Inside the prism over the triangle by more than the rounding of the three tests?
+/// Is the point inside the prism over the triangle by more than the rounding of the three tests?
 bool surely_over_face(const PreparedTriangle& t, const std::array<Vec3, 3>& to,
                       const std::array<double, 3>& squared) noexcept {
   // (edge x to) . normal is the distance to the edge's line times |edge|. Its rounding: one unit for each of

@@ -39,7 +39,7 @@ struct PreparedTriangle {
 
 PreparedTriangle prepare(const Vec3& a, const Vec3& b, const Vec3& c, std::uint32_t index) noexcept;
 PreparedTriangle prepare(const TriangleMesh& mesh, std::uint32_t triangle) noexcept;
-/// All of them, in the mesh's order.
+/// Prepares all triangles, in the mesh's order.
 std::vector<PreparedTriangle> prepare(const TriangleMesh& mesh);
 
 /// The square of the distance. Two triangles that share an edge or a vertex give the same bits where that

@@ -51,7 +51,7 @@ class FirstTouch {
   std::uint64_t& exact_decisions_;
 };
 
-/// By Newton's method, aimed at a gap surely above zero; where that has gone too far, by what is safe.
+/// Steps by Newton's method, aimed at a gap surely above zero; where that has gone too far, by what is safe.
 Reached FirstTouch::advance(const Reached& reached) const noexcept {
   const WayGap::Sample& here = reached.here;
   if (here.surely_falls()) {

@@ -29,11 +29,12 @@
 
 namespace touchmark {
 
-/// By how much a position on the path that is rounded to a point (position_at) can be off.
+/// Bounds by how much a position on the path that is rounded to a point (position_at) can be off.
 double position_error(const Sweep& sweep) noexcept;
 
-/// By how much the distance at a reported fraction may exceed the radius: 384 u S, S the largest coordinate
-/// difference from the path's start to the triangle's corners plus the path's largest coordinate. See above.
+/// Bounds by how much the distance at a reported fraction may exceed the radius: 384 u S, S the largest
+/// coordinate difference from the path's start to the triangle's corners plus the path's largest coordinate.
+/// See above.
 inline double max_early_gap(double start_difference, double largest_path) noexcept {
   return 384 * (std::numeric_limits<double>::epsilon() / 2) * (start_difference + largest_path);
 }

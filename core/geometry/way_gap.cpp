@@ -24,8 +24,8 @@ double direction_error(double distance, double error) noexcept {
   return relative < 0.25 ? 2 * std::sqrt(relative * (1 + relative)) : infinity;
 }
 
-/// From the edge between two corners to the point at `to_first` from the one and `to_second` from the other,
-/// measured from the nearer one.
+/// Returns the vector from the edge between two corners to the point at `to_first` from the one and
+/// `to_second` from the other, measured from the nearer one.
 Vec3 from_edge(const Vec3& to_first, const Vec3& to_second, double first, double second, const Vec3& edge,
                double squared_edge) noexcept {
   const bool from_first = first < second;

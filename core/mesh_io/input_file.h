@@ -27,7 +27,7 @@ class InputFile {
   bool is_regular() const noexcept { return kind_ == std::filesystem::file_type::regular; }
   bool is_pipe() const noexcept { return kind_ == std::filesystem::file_type::fifo; }
   bool is_directory() const noexcept { return kind_ == std::filesystem::file_type::directory; }
-  /// In bytes; 0 for all but regular files.
+  /// Returns the size in bytes; 0 for all but regular files.
   std::size_t size() const noexcept { return size_; }
 
  private:

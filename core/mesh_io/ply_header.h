@@ -30,7 +30,7 @@ struct Element {
   std::size_t line = 0;  ///< line of its declaration
   std::vector<Property> properties;
 
-  /// Its place; properties.size() where there is none.
+  /// Returns the property's index; properties.size() where there is none.
   std::size_t find(std::string_view wanted) const {
     const auto found = std::find_if(properties.begin(), properties.end(),
                                     [&](const Property& property) { return property.name == wanted; });

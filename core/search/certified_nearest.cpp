@@ -8,7 +8,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// By kernel distances of a copy scaled by a power of two.
+/// Answers by kernel distances of a copy scaled by a power of two.
 std::optional<Contact> nearest_at_any_scale(std::span<const PreparedTriangle> triangles, const Aabb& bounds,
                                             const Vec3& center, double reach, const TriangleIds& ids,
                                             Work& work) noexcept {

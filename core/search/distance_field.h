@@ -3,7 +3,7 @@
 ///
 /// The distance at p is that at a sampled point c, give or take |p - c|: it changes by no more than the point
 /// moves. Any sample will do, so it does not matter which cell rounding takes a point to be in. All samples
-/// are taken at once, or each when something is first asked of its place.
+/// are taken at once, or each when something is first asked near it.
 #pragma once
 
 #include <algorithm>
@@ -95,17 +95,17 @@ class DistanceField {
     const Lanes squares = v * v;
     return squares[0] + squares[1] + squares[2];
   }
-  /// By one instruction: std::sqrt has errno to think of.
+  /// Returns the root by one instruction: std::sqrt has errno to think of.
   static float root(float x) noexcept { return simd::sqrt(broadcast(x))[0]; }
-  /// At least the distance at a point this far from the lattice's box, in whose nearest point it is at least
-  /// `within`.
+  /// Returns at least the distance at a point this far from the lattice's box, in whose nearest point it is
+  /// at least `within`.
   static float beyond_box(const FilterPoint& point, Lanes to_box, float within) noexcept;
   /// Room for the roundings of two samples' places.
   static constexpr double sample_pad = 0x1p-20;
-  /// Away from the surface the eight samples of a coarse cube are what its own leaves of them: then even a
-  /// point at the corner of a fine cube is known to be half a cube away.
+  /// Returns true away from the surface, where the eight samples of a coarse cube are what its own leaves of
+  /// them: then even a point at the corner of a fine cube is known to be half a cube away.
   bool is_far(double distance) const noexcept { return distance > 2.5 * fine_.edge(); }
-  /// From the middle of a coarse cube to that of an eighth of it.
+  /// The distance from the middle of a coarse cube to that of an eighth of it.
   double to_eighth() const noexcept { return 0.5 * std::sqrt(3.0) * fine_.edge() + sample_pad; }
   static Vec3 middle(const SampleLattice& lattice, std::uint32_t x, std::uint32_t y,
                      std::uint32_t z) noexcept {

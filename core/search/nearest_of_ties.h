@@ -42,7 +42,7 @@ class TiedTriangle {
   /// The feature that is nearest, where doubles are sure of it.
   const std::optional<Feature>& feature() const noexcept { return feature_; }
   const SquaredDistance& squared(const Vec3& center) noexcept;
-  /// Nothing where 106 bits do not tell.
+  /// Returns the closest point, or nothing where 106 bits do not tell.
   const std::optional<PreciseClosestPoint>& closest(const Vec3& center) noexcept;
   void add_to(exact::Lattice& lattice) const noexcept;
   exact::Square square(const exact::Lattice& lattice, const Vec3& center) const noexcept;
@@ -63,7 +63,7 @@ class KnownTriangles {
     known_[count_++ % known_.size()] = {&triangle, as_far};
   }
   void clear() noexcept { count_ = 0; }
-  /// Nothing where it is not known.
+  /// Returns whether a triangle of the same corners was as far, or nothing where none is known.
   std::optional<bool> is_as_far(const PreparedTriangle& triangle) const noexcept;
 
  private:

@@ -75,7 +75,7 @@ class FilterFrame {
   /// A point of this frame in the mesh's, rounded to the doubles there: far from 0 these are far apart, and
   /// what is measured at the result holds of the point only within from_frame_error.
   Vec3 from_frame(const Vec3& in_frame) const noexcept { return origin_ + in_frame * unit_; }
-  /// In this frame, at most the way from a point whose coordinates are within `largest` of 0 to where
+  /// Bounds in this frame how far a point whose coordinates are within `largest` of 0 is from where
   /// from_frame puts it. The product by a power of two is exact; the sum is rounded once a coordinate, by u
   /// of itself, u = 2^-53, and a vector is no longer than the sum of its coordinates. A quarter more than
   /// that.
@@ -88,9 +88,9 @@ class FilterFrame {
     const double reach = std::abs(in_frame.x()) + std::abs(in_frame.y()) + std::abs(in_frame.z()) + radius_;
     return static_cast<float>(reach * plane_error_per_unit);
   }
-  /// At least the distance_error of certified_nearest.h, in mesh units, at the point whose plane_error this
-  /// is, and quicker to have: plane_error is 2^-21 of a length that exceeds every coordinate difference, and
-  /// this is twice that error of it.
+  /// Returns at least the distance_error of certified_nearest.h, in mesh units, at the point of this
+  /// plane_error, and is quicker: plane_error is 2^-21 of a length that exceeds every coordinate difference,
+  /// and this is twice that error of it.
   double kernel_error(float plane_error) const noexcept {
     return static_cast<double>(plane_error) * 0x1p-23 * unit_;
   }
@@ -125,7 +125,7 @@ class FilterFrame {
  private:
   static constexpr float most = std::numeric_limits<float>::max();
 
-  /// From the frame's origin to the farthest point of the box, in the frame.
+  /// Returns the distance from the frame's origin to the farthest point of the box, in the frame.
   double radius_of(const Aabb& bounds) const noexcept;
 
   Vec3 origin_ = Vec3::Zero();
@@ -178,8 +178,9 @@ inline float squared_lower_bound(Lanes values, const FilterPoint& p) noexcept {
 inline constexpr float sharpest_cosine = -63.0F / 64;
 inline constexpr float corner_pad = 16, corner_excess = 1 + 0x1p-12F;
 
-/// At least the distance to the triangle, in the frame, where it is known: the values are those of its
-/// planes, and the point is surely over its face, or it has a corner that is not too sharp. Else infinity.
+/// Returns at least the distance to the triangle, in the frame, where it is known: the values are those of
+/// its planes, and the point is surely over its face, or it has a corner that is not too sharp. Else
+/// infinity.
 inline float distance_upper_bound(const TrianglePlanes& planes, Lanes values, const FilterPoint& p) noexcept {
   constexpr float unknown = std::numeric_limits<float>::infinity();
   const auto next = [](Lanes of) { return __builtin_shufflevector(of, of, 0, 2, 3, 1); };

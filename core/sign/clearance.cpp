@@ -70,7 +70,7 @@ struct Sector {
     return normal.cross(first).dot(direction) >= -tolerance &&
            last.cross(normal).dot(direction) >= -tolerance;
   }
-  /// From a unit vector to the nearest point of the cone.
+  /// Returns the distance from a unit vector to the nearest point of the cone.
   double distance(const Vec3& direction) const noexcept {
     double least = 1;
     for (const Vec3& end : {first, last})

@@ -19,7 +19,7 @@ namespace touchmark::sign {
 inline constexpr double sharpest = 0x1p-10;   // a twentieth of a degree
 inline constexpr double clearance = 0x1p-36;  // distances err by less for probes within 500 extents
 
-/// By face. `face_of` gives the face of a triangle in the tree, or no_face.
+/// Returns by face whether it is clear. `face_of` gives the face of a triangle in the tree, or no_face.
 std::vector<bool> clear_faces(const Pseudonormals& normals, const TriangleTree& tree,
                               std::span<const std::uint32_t> face_of, const Aabb& bounds);
 

@@ -27,8 +27,8 @@ class Pseudonormals {
     std::uint32_t side = 0;      ///< edge: the face's side on it; vertex: the side that starts there
     Vec3 offset = Vec3::Zero();  ///< from that point to the probe's centre
     double distance = 0;         ///< its length
-    /// From that point to the features of the face that it does not lie on, before their angles count; on a
-    /// vertex the shortest edge there.
+    /// The distance from that point to the features of the face that it does not lie on, before their angles
+    /// count; on a vertex the shortest edge there.
     double gap = 0;
     /// The pseudonormal's share of the offset's direction: above 0 outside. The normal is scaled such that
     /// minus this is twice the integral of the offset's direction over the solid's directions as that point
@@ -51,7 +51,7 @@ class Pseudonormals {
   /// Does the vertex have a pseudonormal?
   bool regular(std::uint32_t vertex) const noexcept { return shortest_edge_[vertex] > 0; }
 
-  /// Nothing where that feature has no pseudonormal.
+  /// Returns what the nearest point says, or nothing where its feature has no pseudonormal.
   std::optional<Reading> at_nearest(std::uint32_t face, const Vec3& center) const noexcept;
 
   std::size_t bytes() const noexcept;

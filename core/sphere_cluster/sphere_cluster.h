@@ -59,9 +59,9 @@ class SphereCluster {
   }
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept;
 
-  /// After `nearest`, with a tree: sees to it that the triangles near the point are listed for a next tick
-  /// that moves no farther than twice as far as this one, and fetches what one that moves as this one did
-  /// would look at. Work is bounded as a query's is.
+  /// Fills, after `nearest` and with a tree, the cache of leaves near the point for a next tick that moves no
+  /// farther than twice as far as this one, and fetches what one that moves as this one did would look at.
+  /// Work is bounded as a query's is.
   void prepare(Session& session) const noexcept {
     if (tree_.is_near(session.memory)) tree_.look_ahead(session.memory, session.work);
   }

@@ -13,7 +13,7 @@ struct FloatBox {
   std::array<float, 3> min = {infinity, infinity, infinity};
   std::array<float, 3> max = {-infinity, -infinity, -infinity};
 
-  /// By as much as rounding to the nearest may have taken off.
+  /// Widens the box by as much as rounding to the nearest may have taken off.
   void round_outward() noexcept {
     for (std::size_t k = 0; k < 3; ++k) {
       min[k] = std::nextafter(min[k], -infinity);

@@ -135,8 +135,8 @@ class CellTree {
   /// rounded by u = 2^-53 of half the cube's edge or its whole; 32 of them in each of three coordinates, and
   /// as much again for the difference between the two.
   static constexpr double middle_relative_error = 2 * 3 * 32 * 0x1p-53;
-  /// So much a distance is rounded down, relatively and besides: to single precision, and for the kernel's
-  /// error.
+  /// Shares by which a distance is rounded down, relatively and besides: to single precision, and for the
+  /// kernel's error.
   static constexpr double rounded_down_by = 0x1p-20, rounded_down_to = 0x1p-30;
 
   static float rounded_down(double distance) noexcept {

@@ -15,8 +15,9 @@ std::size_t bytes_for(const TriangleMesh& mesh, double bytes_per_triangle) {
   return static_cast<std::size_t>(std::min(bytes, budget));
 }
 
-/// By how much a triangle must lose to be left out of a group, in the frame: the kernel's error twice, and
-/// for sweeps the rounding of the position on the path, which goes with the coordinates. Sixteen times that.
+/// Returns by how much a triangle must lose to be left out of a group, in the frame: the kernel's error
+/// twice, and for sweeps the rounding of the position on the path, which goes with the coordinates. Sixteen
+/// times that.
 double exclusion_margin_for(const TriangleMesh& mesh, const FilterFrame& frame) {
   const Aabb& box = mesh.bounds();
   const double coordinates = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());

@@ -96,12 +96,12 @@ class DirectGrid {
   }
   /// Makes the memory this grid's. Is nothing within reach, by what was sampled, where nothing was near? What
   /// was near is asked about before the samples are, in start_at.
-  bool claims_and_rejects(const Vec3& center, const FilterPoint& point, double reach,
-                          DirectMemory& memory) const noexcept {
+  bool rejects_at_start(const Vec3& center, const FilterPoint& point, double reach,
+                        DirectMemory& memory) const noexcept {
     claim(memory);
     return !memory.is_near() && rejects_by_distance_field(center, point, reach, memory);
   }
-  /// After claims_and_rejects.
+  /// Finds where to look first, after rejects_at_start.
   Start start_at(const Vec3& center, const FilterPoint& point, double reach, DirectMemory& memory,
                  Work& work) const noexcept;
   /// The group of the triangle in this place if it covers the point.
@@ -112,7 +112,7 @@ class DirectGrid {
     const Group& group = groups_.of(slot);
     return group.covers(plane_values(store_.planes[slot], point), point.plane_error) ? &group : nullptr;
   }
-  /// At least the distance to the triangle in this place, or infinity.
+  /// Returns at least the distance to the triangle in this slot, or infinity.
   double upper_bound_to(std::uint32_t slot, const FilterPoint& point, Work& work) const noexcept {
     ++work.triangles;
     const TrianglePlanes& planes = store_.planes[slot];
@@ -138,9 +138,8 @@ class DirectGrid {
   template <Sought sought>
   Located locate(const Vec3& center, const FilterPoint& point, double reach, DirectMemory& memory,
                  Work& work) const noexcept;
-  /// After a query that no group covered: where construction is lazy, makes that of one of the places or
-  /// looks closer at the cell of this centre, what is still to be done. `spent`: on the query, in boxes and
-  /// triangles.
+  /// Builds lazily after a query that no group covered: the group of one of the slots, or the cell of this
+  /// centre, whichever is still to be done. `spent` counts the boxes and triangles of the query.
   void grow(std::uint32_t near, std::uint32_t start, const Vec3& center, std::uint64_t spent,
             Work& work) const noexcept {
     if (groups_.is_lazy()) grow_one(near, start, center, spent, work);
@@ -158,7 +157,7 @@ class DirectGrid {
     memory.upper = upper + pad;
   }
 
-  /// For probes so far away that single precision tells the triangles no longer apart.
+  /// Answers for probes so far away that single precision tells the triangles no longer apart.
   std::optional<Contact> far_nearest(const Vec3& center, double reach, Work& work) const noexcept;
   std::optional<Impact> far_first_hit(const Sweep& sweep, Work& work) const noexcept;
   std::optional<Impact> first_hit_of_all(const Sweep& sweep, DirectMemory& memory, Work& work) const noexcept;

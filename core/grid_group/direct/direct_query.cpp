@@ -112,7 +112,7 @@ DirectGrid::Located DirectGrid::locate(const Vec3& center, const FilterPoint& po
 bool DirectGrid::touches(const Probe& probe, DirectMemory& memory, Work& work) const noexcept {
   const FilterPoint point = store_.frame.point(probe.center);
   if (!FilterFrame::covers(point)) return far_nearest(probe.center, probe.radius, work).has_value();
-  if (claims_and_rejects(probe.center, point, probe.radius, memory)) return false;
+  if (rejects_at_start(probe.center, point, probe.radius, memory)) return false;
   if (memory.moved_less(probe.center, probe.radius - memory.upper)) return true;
   const Located located = locate<Sought::touch>(probe.center, point, probe.radius, memory, work);
   if (located.exhausted) return fallback().touches(probe, work);
@@ -133,7 +133,7 @@ std::optional<Contact> DirectGrid::nearest(const Vec3& center, double reach, Dir
                                            Work& work) const noexcept {
   const FilterPoint point = store_.frame.point(center);
   if (!FilterFrame::covers(point)) return far_nearest(center, reach, work);
-  if (claims_and_rejects(center, point, reach, memory)) return std::nullopt;
+  if (rejects_at_start(center, point, reach, memory)) return std::nullopt;
   const Located located = locate<Sought::contact>(center, point, reach, memory, work);
   if (located.exhausted) return fallback().nearest(center, reach, work);
   if (located.triangle == nullptr) return std::nullopt;

@@ -31,7 +31,7 @@ class SweepSearch {
   double fraction() const noexcept { return first_.fraction; }
   std::uint32_t slot() const noexcept { return slot_; }  ///< slot of the triangle first hit
 
-  /// Those of a group that covers the whole path.
+  /// Considers the members of a group that covers the whole path.
   void consider_group(std::span<const std::uint32_t> members, Work& work) noexcept {
     work.triangles += members.size();
     const std::uint32_t* const slot = members.data();  // readable up to a multiple of four
@@ -43,7 +43,8 @@ class SweepSearch {
     }
   }
 
-  /// False when it has tested more than `budget` triangles and boxes before the end.
+  /// Considers what the path meets in the tree. Returns false when it has tested more than `budget` triangles
+  /// and boxes before the end.
   bool consider_tree(const BoxTree& tree, std::uint64_t budget, Work& work) noexcept {
     const std::uint64_t before = work.boxes + work.triangles;
     BoxStack stack;
@@ -130,7 +131,7 @@ std::optional<Impact> DirectGrid::first_hit(const Sweep& sweep, DirectMemory& me
   const double farthest = (sweep.to - sweep.from).norm() * (1 + 0x1p-40) + padded_radius;
   if (is_clear(sweep.from, farthest, memory)) return std::nullopt;
   const FilterPoint from = store_.frame.point(sweep.from);
-  if (claims_and_rejects(sweep.from, from, farthest, memory)) return std::nullopt;
+  if (rejects_at_start(sweep.from, from, farthest, memory)) return std::nullopt;
   const Start start = start_at(sweep.from, from, farthest, memory, work);
   if (start.beyond) return std::nullopt;
   const std::uint64_t before = work.total();

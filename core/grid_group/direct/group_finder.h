@@ -36,7 +36,8 @@ class GroupFinder {
     std::span<const std::uint32_t> members;  ///< valid until the next call; behind them copies of the last
     float height = -1, margin = -1;
   };
-  /// No members where no group can cover a point, or would be too large.
+  /// Returns the group of a slot's triangle, without members where no group can cover a point, or it would be
+  /// too large.
   Found find(std::uint32_t slot) noexcept;
   /// Boxes and triangles looked at since the last call.
   Work take_work() noexcept;
@@ -46,8 +47,8 @@ class GroupFinder {
   static constexpr double reach_in_radii = 6;
 
  private:
-  /// More than this around one triangle: it is out of proportion to its neighbours, and the hierarchy serves
-  /// it.
+  /// The most triangles gathered around one: beyond, it is out of proportion to its neighbours, and the
+  /// hierarchy serves it.
   static constexpr std::size_t max_near = 1024;
   static constexpr std::size_t near_capacity = max_near + TriangleStore::block_size;
 

@@ -44,11 +44,11 @@ class Group {
   float margin_ = -1;
 };
 
-/// By place in the TriangleStore. Those that are not made yet may be made while others are read, by any
-/// thread, each by one: it claims the group, and puts it. Nothing waits and nothing takes memory then.
+/// Groups by slot in the TriangleStore. Those that are not built yet may be built while others are read, by
+/// any thread, each by one: it claims the group, and puts it. Nothing waits and nothing takes memory then.
 class Groups {
  public:
-  /// More than many only where a lower prism would not help.
+  /// A group has more than many members only where a lower prism would not help.
   static constexpr std::size_t many_members = 32, max_members = 64;
 
   Groups() = default;
@@ -67,7 +67,7 @@ class Groups {
     const std::size_t count = group.count();
     return {members_.data() + group.first_, count};
   }
-  /// Behind the members lie copies of the last, up to a multiple of eight.
+  /// The members' number with the copies of the last behind them, up to a multiple of eight.
   static constexpr std::size_t rounded_up(std::size_t members) { return (members + 7) / 8 * 8; }
 
   bool is_unbuilt(std::uint32_t slot) const noexcept {

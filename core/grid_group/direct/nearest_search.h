@@ -89,8 +89,8 @@ class NearestSearch {
     decide(slot);
   }
 
-  /// All there is to consider, and the first. Afterwards something is found unless nothing is within the
-  /// limit. Returns a lower bound of the squared distance to all of them, in the frame.
+  /// Considers a group, which must come first and be all there is. Afterwards something is found unless
+  /// nothing is within the limit. Returns a lower bound of the squared distance to all of them, in the frame.
   float consider_group(std::span<const std::uint32_t> members) noexcept;
 
   /// A guess at the nearest member, by the filter alone.

@@ -34,8 +34,9 @@ struct FaceFrame {
 
 class Prism {
  public:
-  /// From `height` under the grown triangle to `height` over it. A triangle that is left out is farther than
-  /// the triangle by `exclusion_margin` at least, everywhere in the prism. Lengths in the frame.
+  /// The prism reaches from `height` under the grown triangle to `height` over it. A triangle that is left
+  /// out is farther than the prism's own by `exclusion_margin` at least, everywhere in the prism. Lengths are
+  /// in the frame.
   Prism(const FaceFrame& face_frame, double growth, double height, double exclusion_margin,
         const FilterFrame& frame) noexcept;
 

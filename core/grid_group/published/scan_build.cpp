@@ -7,7 +7,8 @@
 namespace touchmark::grid {
 namespace {
 
-/// As many memberships as memory should see: a triangle that lies in more than a few cells lies in many.
+/// Returns as many memberships as memory should see: a triangle that lies in more than a few cells lies in
+/// many.
 std::uint64_t max_memberships(std::size_t triangles) {
   return std::max<std::uint64_t>(16 * static_cast<std::uint64_t>(triangles), 1u << 18);
 }

@@ -56,7 +56,7 @@ class ScanGrid {
   /// until visit returns true.
   template <class Visit>
   void search(const Vec3& center, double reach, Work& work, const Visit& visit) const noexcept;
-  /// For numbers whose squares or fourth powers leave the range of double.
+  /// Answers for numbers whose squares or fourth powers leave the range of double.
   LinearScan fallback() const noexcept { return {triangles_, bounds_, ids_}; }
   template <class Visit>
   bool search_members(std::size_t group, Work& work, const Visit& visit) const noexcept;

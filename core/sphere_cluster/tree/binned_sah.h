@@ -24,7 +24,7 @@ struct TriangleRange {
 
 class TriangleSplitter {
  public:
-  /// Past this many splits ranges are halved.
+  /// After this many splits ranges are halved.
   static constexpr std::uint32_t max_uneven_splits = 40;
   /// So no range of 2^32 triangles is deeper.
   static constexpr std::uint32_t deepest = max_uneven_splits + 32;
@@ -50,7 +50,7 @@ class TriangleSplitter {
     std::array<float, 3> max;
     std::uint32_t cluster;
   };
-  /// By what triangles are told apart: the middle of the cluster or of the triangle's own box, times two.
+  /// What triangles are told apart by: the middle of the cluster or of the triangle's own box, times two.
   enum class Key { cluster, triangle };
   /// Left of bin `bin` along the axis.
   struct Cut {

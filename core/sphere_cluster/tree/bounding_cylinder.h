@@ -1,4 +1,4 @@
-/// The bounding volume of a child: a sphere cut by a slab.
+/// The bounding volume of a child: a cylinder across the mean normal of its triangles.
 #pragma once
 
 #include <cstddef>
@@ -12,8 +12,10 @@
 
 namespace touchmark::spheres {
 
-/// In the tree's frame, in single precision: the points within `radius` of the axis through `center` along
-/// `normal`, and within `half` of the centre along it.
+/// A cylinder in the tree's frame, in single precision: the points within `radius` of the axis through
+/// `center` along `normal`, and within `half` of the centre along it. It began as a sphere cut by a slab
+/// (Larsson and Akenine-Moeller, "Bounding volume hierarchies of slab cut balls", Computer Graphics Forum
+/// 28(8), 2009); the radius is now measured across the axis.
 struct BoundingCylinder {
   Eigen::Vector3f center;
   float radius;
@@ -53,9 +55,9 @@ class PointList {
   std::size_t size_ = 0;
 };
 
-/// Holds every point as it was before it was rounded, for certain. The slab lies across `mean_normal` (of any
-/// length; where it is zero any slab is as good). The sphere is within a few per cent of the smallest. At
-/// least one point; coordinates below 2.
+/// Returns a cylinder that certainly holds every point as it was before it was rounded. Its axis runs along
+/// `mean_normal` (of any length; where it is zero any axis is as good), through nearly the centre of the
+/// smallest sphere. There must be at least one point; coordinates are below 2.
 BoundingCylinder bound_points(const PointList& points, const Vec3& mean_normal) noexcept;
 
 }  // namespace touchmark::spheres

@@ -68,8 +68,8 @@ double SphereTree::clearance_pad(const FilterPoint& point) const noexcept {
   return 0.5 * frame_.kernel_error(point.plane_error);
 }
 
-/// No triangle is nearer than this: neither those shown, the nearest of which is at `shown`, nor those
-/// unseen.
+/// Returns a bound that no triangle is nearer than: neither those shown, the nearest of which is at `shown`,
+/// nor those unseen.
 double SphereTree::clearance_from(float unseen, double shown, double pad) const noexcept {
   return std::min(std::sqrt(frame_.squared(unseen)), shown * (1 - 0x1p-40)) - pad;
 }
@@ -106,8 +106,8 @@ bool SphereTree::rejects_once_sampled(const FilterPoint& point, const Vec3& cent
   return is_known_far;
 }
 
-/// For as many ticks ahead as there is room for blocks, about a place ahead: a point that goes on as it moved
-/// comes to it and then leaves it.
+/// Refills the cache for as many ticks ahead as there is capacity for leaves, around a point ahead: a point
+/// that goes on as it moved comes to it and then leaves it.
 bool SphereTree::refill(const Vec3& center, const Vec3& move, float distance, Memory& memory,
                         std::uint64_t budget, Work& work) const noexcept {
   // With fewer ticks the listing costs more, with more the longer list does.

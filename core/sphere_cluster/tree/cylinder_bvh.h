@@ -85,7 +85,7 @@ class SphereTree {
                                               Memory& memory, std::uint64_t& budget,
                                               Work& work) const noexcept;
   static void remember_touch(const Vec3& center, double lower, double upper, Memory& memory) noexcept;
-  /// From a point of the mesh's frame to another, in the tree's, at least.
+  /// Returns at least the distance between two points of the mesh's frame, in the tree's.
   float displacement(const Vec3& from, const Vec3& to, const FilterPoint& at) const noexcept;
 
   LinearScan fallback() const noexcept { return {parts_.triangles, bounds_, ids_, certified_}; }

@@ -44,7 +44,8 @@ inline float SphereTree::displacement(const Vec3& from, const Vec3& to,
   return static_cast<float>(frame_.scale() * (to - from).norm()) + 2 * at.plane_error;
 }
 
-/// From the blocks listed, when they are all that can be within the limit; lists them anew when they are not.
+/// Searches the cached leaves when they are all that can be within the limit, and refills the cache when they
+/// are not.
 template <class Visitor>
 float SphereTree::search_near(const FilterPoint& point, Visitor& visitor, Memory& memory,
                               std::uint64_t budget) const noexcept {

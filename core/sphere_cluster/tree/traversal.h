@@ -34,10 +34,10 @@ struct StackEntry {
 /// Seven siblings wait at each level.
 inline constexpr std::size_t max_stack = TriangleSplitter::deepest * tree_width;
 
-/// What a search returns that gave up, in place of a bound.
+/// Returned in place of a bound by a search whose work budget was exhausted.
 inline constexpr float exhausted = -1;
 
-/// More than any bound of what is there.
+/// A bound above all of what is there.
 inline constexpr float farthest = std::numeric_limits<float>::max();
 
 /// |v|^2 - (n.v)^2 may come out too large by 16 roundings of |v|^2: three for v and its square, two sums, the
@@ -71,7 +71,7 @@ inline unsigned to_bits(WideBits mask) noexcept {
   return static_cast<unsigned>((mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8));
 }
 #endif
-/// Those of eight words whose bits are set, one after the other. Eight may be written.
+/// Writes those of eight words whose bits are set, one after the other. Eight may be written.
 template <class Word>
 inline void compress(Word* to, const Word* from, unsigned chosen) noexcept {
   for (; chosen != 0; chosen &= chosen - 1) *to++ = from[std::countr_zero(chosen)];
@@ -136,7 +136,7 @@ inline void compress(Word* to, const Word* from, unsigned chosen) noexcept {
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
                       _mm256_maskz_compress_epi32(static_cast<__mmask8>(chosen), words));
 }
-/// As traversal.inl has it, by instructions of its own.
+/// Splits as traversal.inl does, by instructions of this set.
 inline unsigned split(Wide bounds, float limit, Wide& unseen) noexcept {
   const __mmask8 is_near = _mm256_cmp_ps_mask(bounds, _mm256_set1_ps(limit), _CMP_LE_OQ);
   unseen = _mm256_mask_min_ps(unseen, static_cast<__mmask8>(~is_near), unseen, bounds);

@@ -86,7 +86,7 @@ inline Wide corner_bounds(const TriangleBlock& block, std::size_t at, const Poin
   return height * height + across * corner_factor;
 }
 
-/// Those of a block's triangles that are surely within a distance, as distance_upper_bound of
+/// Returns those of a block's triangles that are surely within a distance, as distance_upper_bound of
 /// core/search/plane_filter.h tells.
 inline unsigned surely_within(const TriangleBlock& block, float distance, const Point& p) noexcept {
   unsigned near = 0;
@@ -115,8 +115,8 @@ inline Point broadcast(const FilterPoint& p) noexcept {
   return {Wide{} + p.x, Wide{} + p.y, Wide{} + p.z, Wide{} + p.plane_error};
 }
 
-/// Those that are at most the limit, as bits; `unseen` falls to the least of the others. A template, so that
-/// an instruction set's own one goes before it.
+/// Returns those that are at most the limit, as bits; `unseen` falls to the least of the others. A template,
+/// so that an instruction set's own one goes before it.
 template <class Float>
 inline unsigned split(Wide bounds, Float limit, Wide& unseen) noexcept {
   const WideBits is_near = bounds <= limit;
@@ -125,7 +125,8 @@ inline unsigned split(Wide bounds, Float limit, Wide& unseen) noexcept {
   return to_bits(is_near);
 }
 
-/// Those of eight bounds that are at most the limit, as bits; `unseen` falls to the least of the others.
+/// Returns those of eight bounds that are at most the limit, as bits; `unseen` falls to the least of the
+/// others.
 template <class Bounds>
 inline unsigned within(const Bounds& bounds_at, float limit, Wide& unseen) noexcept {
   unsigned near = 0;
@@ -150,7 +151,7 @@ inline void prefetch(const PreparedTriangle& triangle) noexcept {
   prefetch_lines(&triangle, sizeof triangle);
 }
 
-/// Takes the lowest bit off.
+/// Takes the lowest bit off and returns its number.
 inline std::uint32_t pop_lowest(unsigned& bits) noexcept {
   const auto lowest = static_cast<std::uint32_t>(std::countr_zero(bits));
   bits &= bits - 1;
@@ -255,8 +256,8 @@ inline unsigned blocks_of(const TreeNode& node) noexcept {
   return blocks;
 }
 
-/// Lists the blocks within the list's rest. False when there are too many, or too many nodes, or after
-/// `budget` spheres.
+/// Fills the cache with the leaves within its covered radius. Returns false when there are too many, or too
+/// many nodes, or after `budget` spheres.
 inline bool refill(const TreeParts& tree, const FilterPoint& point, std::uint64_t budget, LeafCache& cache,
                    Work& work) noexcept {
   const Point p = broadcast(point);
@@ -310,9 +311,9 @@ inline std::size_t filter(const TreeParts& tree, std::span<const TreeRef> blocks
   return count;
 }
 
-/// Shows those of the blocks' triangles that may be within the limit, looking closely at corners, the most
-/// promising one first: it is often nearer than the others can be. Apart from the loop for what is near,
-/// which has no register to spare.
+/// Shows the visitor those of the leaves' triangles that may be within the limit, looking closely at corners,
+/// the most promising one first: it is often nearer than the others can be. Apart from the loop for what is
+/// near, which has no register to spare.
 template <class Visitor>
 [[gnu::noinline]] void visit_far(const TreeParts& tree, std::span<const TreeRef> blocks, const Point& p,
                                  Wide& unseen, Visitor& visitor) noexcept {
@@ -349,8 +350,9 @@ template <class Visitor>
   unseen = min(unseen, Wide{} + skipped);
 }
 
-/// As descend, when every triangle within the visitor's limit is in a listed block. `moved`: from the list's
-/// anchor. In passes, so that no call and no branch on what was found interrupts the wide arithmetic.
+/// Searches as traverse does when every triangle within the visitor's limit is in a cached leaf. `moved` is
+/// how far the point is from the cache's center. It goes in passes, so that no call and no branch on what was
+/// found interrupts the wide arithmetic.
 template <class Visitor>
 float search_cached(const TreeParts& tree, const FilterPoint& point, const LeafCache& cache, float moved,
                     std::uint64_t budget, Visitor& visitor) noexcept {
