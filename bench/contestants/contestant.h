@@ -31,7 +31,7 @@ class Contestant {
   virtual Accuracy accuracy() const noexcept = 0;
   virtual std::size_t bytes() const noexcept = 0;
   /// See the concept BuildsLazily.
-  virtual bool builds_lazily() const noexcept = 0;
+  virtual bool makes_later() const noexcept = 0;
   /// A fresh session, its work counters at zero.
   virtual void forget() = 0;
   virtual Work work() const noexcept = 0;
@@ -87,7 +87,7 @@ requires(idle == Idle::wasted || Prepares<D>) class ContestantOf final : public 
   }
   Accuracy accuracy() const noexcept override { return detector_.accuracy(); }
   std::size_t bytes() const noexcept override { return detector_.bytes(); }
-  bool builds_lazily() const noexcept override {
+  bool makes_later() const noexcept override {
     if constexpr (BuildsLazily<D>) return detector_.builds_lazily();
     return false;
   }

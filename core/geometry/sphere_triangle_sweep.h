@@ -11,12 +11,12 @@
 /// - The fraction is 0 where, and only where, the probe touches at the start.
 /// - It is never late: nothing touches before it. (Where the touch is between 0 and the smallest double
 ///   above it, that is told.)
-/// - It is early by a little: there the distance exceeds the radius by at most `max_early_gap`, 384 u S, and
+/// - It is early by a little: there the distance exceeds the radius by at most `most_early_gap`, 384 u S, and
 /// by a
 ///   quarter of that where it is a face that is touched. As
-///   a part of the way that is at most max_early_gap / (length * the rate of approach per length, its mean
+///   a part of the way that is at most most_early_gap / (length * the rate of approach per length, its mean
 ///   between the fraction and the touch): a few roundings where the ball comes straight on. Where it grazes
-///   that rate goes to zero, and the part to the root of 2 * max_early_gap * (radius + max_early_gap) over
+///   that rate goes to zero, and the part to the root of 2 * most_early_gap * (radius + most_early_gap) over
 ///   the length off a corner or an edge, and to the whole way along a face or an edge.
 #pragma once
 

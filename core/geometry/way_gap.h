@@ -17,7 +17,7 @@
 ///   and its height is off by 19.1 u S. What is over the face and does not pass is within 58 u S of an edge.
 /// So the gap is 20 u S too small at most and 111.1 u S too large, the radius' subtraction included; surely
 /// over the face it is off by 20.9 u S. What is made of gaps and fractions adds less than 7 u S each time.
-/// `error` has room for that: 32 u S over the face, 128 u S (max_error) elsewhere.
+/// `error` has room for that: 32 u S over the face, 128 u S (most_error) elsewhere.
 ///
 /// The slope is the way times the direction from the foot: over the face the normal's, to a few roundings;
 /// else off by direction_error. Squares stay in range: where fourth powers of S do not, all is measured in

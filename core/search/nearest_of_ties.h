@@ -7,7 +7,7 @@
 /// 2. Doubles are sure which corner, edge or face is nearest: it is the same place, or 106 bits tell the
 ///    squares of the distances apart.
 /// 3. Bounds of a few products in 106 bits tell: by the corner that both have, or the plane (tie_bounds.h).
-/// 4. 106 bits find the nearest point (precise_closest_point.h) and tell the distances apart.
+/// 4. 106 bits find the nearest point (close_foot.h) and tell the distances apart.
 /// 5. Whole numbers compare the squares. Those of the nearest so far are kept.
 /// Before the last two, the places and triangles that they last found not to be nearer are known again.
 /// So many triangles about one corner or edge, or in one place, cost about as much again as their kernel

@@ -4,7 +4,7 @@
 /// A triangle is four planes: its face, and through each side the plane perpendicular to the face. The height
 /// over the face and the greatest excess beyond a side are orthogonal, so the sum of their squares is at most
 /// the squared distance; it is equal over the face and beside a side, and falls short only beyond a corner.
-/// The pad `plane_error` taken off both makes that true of what single precision computes.
+/// The pad `tau` taken off both makes that true of what single precision computes.
 ///
 /// How to use it:
 ///   const FilterFrame frame = FilterFrame::around(mesh.bounds());
