@@ -64,6 +64,8 @@ struct Work {
   }
 };
 
+// Version 14 takes `noexcept ->` apart.
+// clang-format off
 /// `D::build(mesh, options)` throws std::invalid_argument on options that make no sense, naming the offender.
 /// `D::Session` is what one haptic point remembers between ticks; it is default-constructed and carries the
 /// `work` counters. Forgetting a session changes the cost of the next answer, never the answer. Queries are
@@ -74,18 +76,15 @@ concept Detector = std::movable<D> && requires(const TriangleMesh& mesh, const t
   requires std::default_initializable<typename D::Session>;
   { D::build(mesh, options) } -> std::same_as<D>;
   { session.work } -> std::same_as<Work&>;
-  { detector.bytes() }
-  noexcept->std::same_as<std::size_t>;  // of the built structure, mesh copy included
-  { detector.accuracy() }
-  noexcept->std::same_as<Accuracy>;
+  { detector.bytes() } noexcept -> std::same_as<std::size_t>;  // of the built structure, mesh copy included
+  { detector.accuracy() } noexcept -> std::same_as<Accuracy>;
 };
 
 /// Is the distance at most probe.radius?
 template <class D>
 concept AnswersTouches = Detector<D> &&
     requires(const D& detector, const Probe& probe, typename D::Session& session) {
-  { detector.touches(probe, session) }
-  noexcept->std::same_as<bool>;
+  { detector.touches(probe, session) } noexcept -> std::same_as<bool>;
 };
 
 /// The contact of the nearest triangle, or nothing when the distance exceeds `reach` (which may be infinite).
@@ -93,8 +92,7 @@ concept AnswersTouches = Detector<D> &&
 template <class D>
 concept AnswersNearest = Detector<D> &&
     requires(const D& detector, const Probe& probe, double reach, typename D::Session& session) {
-  { detector.nearest(probe, reach, session) }
-  noexcept->std::same_as<std::optional<Contact>>;
+  { detector.nearest(probe, reach, session) } noexcept -> std::same_as<std::optional<Contact>>;
 };
 
 /// The first touch of a probe that moves along a straight line, or nothing: where no point of the path from
@@ -102,24 +100,22 @@ concept AnswersNearest = Detector<D> &&
 template <class D>
 concept AnswersSweep = Detector<D> &&
     requires(const D& detector, const Sweep& sweep, typename D::Session& session) {
-  { detector.first_hit(sweep, session) }
-  noexcept->std::same_as<std::optional<Impact>>;
+  { detector.first_hit(sweep, session) } noexcept -> std::same_as<std::optional<Impact>>;
 };
 
 /// Uses the idle rest of a servo tick: `prepare` does ahead what the next query would else have to do first.
 /// It never changes an answer, does a bounded amount of work, and may be called or not after any query.
 template <class D>
 concept Prepares = Detector<D> && requires(const D& detector, typename D::Session& session) {
-  { detector.prepare(session) }
-  noexcept->std::same_as<void>;
+  { detector.prepare(session) } noexcept -> std::same_as<void>;
 };
 
 /// Supports lazy construction: the first queries build what they need. Those cost more; answers do not
 /// change.
 template <class D>
 concept BuildsLazily = Detector<D> && requires(const D& detector) {
-  { detector.builds_lazily() }
-  noexcept->std::same_as<bool>;
+  { detector.builds_lazily() } noexcept -> std::same_as<bool>;
 };
+// clang-format on
 
 }  // namespace touchmark
