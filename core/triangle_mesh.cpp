@@ -9,7 +9,7 @@
 namespace touchmark {
 namespace {
 
-constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max();
+constexpr std::size_t max_count = std::numeric_limits<std::uint32_t>::max();
 
 std::string coordinates(const Vec3& v) {
   std::ostringstream text;
@@ -24,13 +24,13 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> vertices, std::vector<Corners> tria
                            std::vector<TriangleId> ids)
     : vertices_(std::move(vertices)), triangles_(std::move(triangles)), ids_(std::move(ids)) {
   if (triangles_.empty()) throw MeshError("the mesh has no triangle");
-  if (triangles_.size() > most) {
+  if (triangles_.size() > max_count) {
     throw MeshError("the mesh has " + std::to_string(triangles_.size()) + " triangles, more than " +
-                    std::to_string(most));
+                    std::to_string(max_count));
   }
-  if (vertices_.size() > most) {
+  if (vertices_.size() > max_count) {
     throw MeshError("the mesh has " + std::to_string(vertices_.size()) + " vertices, more than " +
-                    std::to_string(most));
+                    std::to_string(max_count));
   }
   const std::span<const TriangleId> stored = ids_.stored();
   if (!stored.empty() && stored.size() != triangles_.size()) {

@@ -42,7 +42,7 @@ class FirstTouch {
            gap_.steepest_fall(reached.here) * (end - reached.fraction);
   }
   Reached advance(const Reached& reached) const noexcept;
-  std::optional<double> settle(const Reached& reached) noexcept;
+  std::optional<double> conclude(const Reached& reached) noexcept;
   std::optional<double> halve(const Reached& reached) noexcept;
 
   const PreparedTriangle& triangle_;
@@ -65,7 +65,7 @@ Reached FirstTouch::advance(const Reached& reached) const noexcept {
 }
 
 /// Nothing touches before there, and it is near enough: is it a hit?
-std::optional<double> FirstTouch::settle(const Reached& reached) noexcept {
+std::optional<double> FirstTouch::conclude(const Reached& reached) noexcept {
   const double left = 1 - reached.fraction;
   const double more = (reached.here.gap + 2 * gap_.max_error()) / -reached.here.slope;
   const bool hits = more >= 0 && gap_.surely_touches(reached.fraction, reached.here, std::min(more, left));
@@ -105,7 +105,7 @@ std::optional<double> FirstTouch::find(double limit) noexcept {
     if (reached.fraction >= 1 && reached.here.gap > reached.here.error) return std::nullopt;
     // Up to the limit the gap is more than at any fraction told: 2 errors as computed, so 3.
     if (stays_above(3 * gap_.max_error(), reached, limit)) return std::nullopt;
-    if (reached.here.gap <= 2 * reached.here.error) return settle(reached);
+    if (reached.here.gap <= 2 * reached.here.error) return conclude(reached);
     const Reached next = advance(reached);
     if (!(next.fraction > reached.fraction)) break;
     reached = next;

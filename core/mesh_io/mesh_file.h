@@ -66,7 +66,7 @@ std::string quoted(std::string_view word);
 double parse_double(std::string_view word, std::string_view what, const TextCursor& cursor);
 std::int64_t parse_integer(std::string_view word, std::string_view what, const TextCursor& cursor);
 
-/// Collects vertices and faces; a face's id is its number in the file, from 0. `place` is where the reader
+/// Collects vertices and faces; a face's id is its number in the file, from 0. `position` is where the reader
 /// stands: its fail(message) throws MeshError with the line or the byte.
 class MeshBuilder {
  public:
@@ -77,22 +77,22 @@ class MeshBuilder {
   void add_vertex(const Vec3& position) { vertices_.push_back(position); }
 
   /// A vertex read so far, as a face names it.
-  template <class Place>
-  std::uint32_t checked_corner(std::int64_t vertex, const Place& place) const {
+  template <class Position>
+  std::uint32_t checked_corner(std::int64_t vertex, const Position& position) const {
     if (vertex < 0 || static_cast<std::uint64_t>(vertex) >= vertices_.size()) {
-      place.fail("face " + std::to_string(faces_) + " names vertex " + std::to_string(vertex) + " of " +
-                 std::to_string(vertices_.size()));
+      position.fail("face " + std::to_string(faces_) + " names vertex " + std::to_string(vertex) + " of " +
+                    std::to_string(vertices_.size()));
     }
     return static_cast<std::uint32_t>(vertex);
   }
 
   /// A polygon becomes triangles that share its id: clipped ears, or a fan where it has more corners than
   /// are clipped. A larger polygon whose first corner does not see all of it is refused.
-  template <class Place>
-  void add_face(const std::vector<std::uint32_t>& corners, const Place& place) {
+  template <class Position>
+  void add_face(const std::vector<std::uint32_t>& corners, const Position& position) {
     const auto fail = [&](const std::string& why) {
-      place.fail("face " + std::to_string(faces_) + " has " + std::to_string(corners.size()) + " corners" +
-                 why);
+      position.fail("face " + std::to_string(faces_) + " has " + std::to_string(corners.size()) + " corners" +
+                    why);
     };
     if (corners.size() < 3) fail("; a face has at least 3");
     if (corners.size() == 3) return add_triangle(corners[0], corners[1], corners[2]);

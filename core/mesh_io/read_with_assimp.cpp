@@ -21,10 +21,10 @@ struct Part {
   }
 };
 
-void add(const aiMesh& part, const aiMatrix4x4& place, std::size_t number, MeshBuilder& mesh) {
+void add(const aiMesh& part, const aiMatrix4x4& transform, std::size_t number, MeshBuilder& mesh) {
   const auto first = static_cast<std::int64_t>(mesh.vertex_count());
   for (unsigned i = 0; i < part.mNumVertices; ++i) {
-    const aiVector3D position = place * part.mVertices[i];
+    const aiVector3D position = transform * part.mVertices[i];
     mesh.add_vertex({position.x, position.y, position.z});
   }
   std::vector<std::uint32_t> corners;
@@ -44,14 +44,14 @@ void add(const aiMesh& part, const aiMatrix4x4& place, std::size_t number, MeshB
 }
 
 void add(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent, MeshBuilder& mesh) {
-  const aiMatrix4x4 place = parent * node.mTransformation;
+  const aiMatrix4x4 transform = parent * node.mTransformation;
   for (unsigned i = 0; i < node.mNumMeshes; ++i) {
     const unsigned number = node.mMeshes[i];
     if (number >= scene.mNumMeshes)
       Part{number}.fail("does not exist, the file has " + std::to_string(scene.mNumMeshes));
-    add(*scene.mMeshes[number], place, number, mesh);
+    add(*scene.mMeshes[number], transform, number, mesh);
   }
-  for (unsigned i = 0; i < node.mNumChildren; ++i) add(scene, *node.mChildren[i], place, mesh);
+  for (unsigned i = 0; i < node.mNumChildren; ++i) add(scene, *node.mChildren[i], transform, mesh);
 }
 
 }  // namespace

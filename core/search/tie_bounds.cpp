@@ -14,14 +14,14 @@ using double_double::difference, double_double::dot, double_double::Vector;
 
 /// Below, u = 2^-53, and v = 2^-103 bounds the relative error of an operation of double-doubles
 /// (precise_closest_point.cpp). Differences of coordinates are exact in double-doubles.
-constexpr double few_roundings = 0x1p-49;  // 16 u
+constexpr double relative_error = 0x1p-49;  // 16 u
 
 /// Lengths below this may lose bits in their products' lower halves. Above it those losses, some 2^-1074, are
 /// far below the errors stated, which are more than 2^-400.
 constexpr double min_length = 0x1p-130;
-constexpr double most_length = 0x1p160;
+constexpr double max_length = 0x1p160;
 
-bool fits(double length) noexcept { return length >= min_length && length <= most_length; }
+bool fits(double length) noexcept { return length >= min_length && length <= max_length; }
 
 /// Is the one zero in each coordinate where the other is not?
 bool are_across(const Vector& a, const Vector& b) noexcept {
@@ -75,13 +75,13 @@ BesideCorner::Advance BesideCorner::advance(const TriangleCorners& triangle,
   for (std::size_t i = 0; i < 2; ++i) {
     const double along = dot(offset_, edge[i]).high / length[i];
     const double error =
-        are_across(offset_, edge[i]) ? 0 : 0x1p-99 * length_ + few_roundings * std::abs(along);
+        are_across(offset_, edge[i]) ? 0 : 0x1p-99 * length_ + relative_error * std::abs(along);
     lower[i] = along - error;
     upper[i] = along + error;
-    if (upper[i] < length[i] * (1 - few_roundings)) result.lower = std::max(result.lower, lower[i]);
+    if (upper[i] < length[i] * (1 - relative_error)) result.lower = std::max(result.lower, lower[i]);
   }
   if (upper[0] <= 0 && upper[1] <= 0) return {0, 0};
-  const double cosine = first.dot(second) / (length[0] * length[1]) - 2 * few_roundings;  // or a little more
+  const double cosine = first.dot(second) / (length[0] * length[1]) - 2 * relative_error;  // or a little more
   const auto is_on = [&](std::size_t i) {
     const double across = cosine >= 0 ? lower[i] * cosine : upper[i] * cosine;
     return lower[i] > 0 && upper[1 - i] <= across;
@@ -92,7 +92,7 @@ BesideCorner::Advance BesideCorner::advance(const TriangleCorners& triangle,
     result.upper = upper[1];
   } else if (cosine >= 0) {
     const double half = std::sqrt((1 + cosine) / 2);
-    result.upper = std::max({upper[0], upper[1], 0.0}) / half * (1 + few_roundings);
+    result.upper = std::max({upper[0], upper[1], 0.0}) / half * (1 + relative_error);
   }
   return result;
 }

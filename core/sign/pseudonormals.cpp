@@ -28,7 +28,8 @@ struct ClosestPoint {
   double gap;
 };
 
-ClosestPoint foot_on_edge(const std::array<Vec3, 3>& corner, const Vec3& center, std::uint32_t s) noexcept {
+ClosestPoint closest_point_on_edge(const std::array<Vec3, 3>& corner, const Vec3& center,
+                                   std::uint32_t s) noexcept {
   const Vec3 edge = corner[(s + 1) % 3] - corner[s], to = center - corner[s];
   const double length = edge.norm();
   const double along = std::clamp(to.dot(edge) / (length * length), 0.0, 1.0);
@@ -37,7 +38,7 @@ ClosestPoint foot_on_edge(const std::array<Vec3, 3>& corner, const Vec3& center,
 
 /// By the regions of Ericson, "Real-Time Collision Detection" (2005), 5.1.5. Where rounding picks a
 /// neighbouring feature that point is hardly farther; who relies on it compares distances.
-ClosestPoint foot_of(const std::array<Vec3, 3>& corner, const Vec3& center) noexcept {
+ClosestPoint closest_point(const std::array<Vec3, 3>& corner, const Vec3& center) noexcept {
   using Feature = Pseudonormals::Feature;
   const Vec3 ab = corner[1] - corner[0], ac = corner[2] - corner[0];
   const Vec3 to_a = center - corner[0], to_b = center - corner[1], to_c = center - corner[2];
@@ -46,13 +47,13 @@ ClosestPoint foot_of(const std::array<Vec3, 3>& corner, const Vec3& center) noex
   const double b_ab = ab.dot(to_b), b_ac = ac.dot(to_b);
   if (b_ab >= 0 && b_ac <= b_ab) return {Feature::vertex, 1, to_b, 0};
   const double over_c = a_ab * b_ac - b_ab * a_ac;
-  if (over_c <= 0 && a_ab >= 0 && b_ab <= 0) return foot_on_edge(corner, center, 0);
+  if (over_c <= 0 && a_ab >= 0 && b_ab <= 0) return closest_point_on_edge(corner, center, 0);
   const double c_ab = ab.dot(to_c), c_ac = ac.dot(to_c);
   if (c_ac >= 0 && c_ab <= c_ac) return {Feature::vertex, 2, to_c, 0};
   const double over_b = c_ab * a_ac - a_ab * c_ac;
-  if (over_b <= 0 && a_ac >= 0 && c_ac <= 0) return foot_on_edge(corner, center, 2);
+  if (over_b <= 0 && a_ac >= 0 && c_ac <= 0) return closest_point_on_edge(corner, center, 2);
   const double over_a = b_ab * c_ac - c_ab * b_ac;
-  if (over_a <= 0 && b_ac - b_ab >= 0 && c_ab - c_ac >= 0) return foot_on_edge(corner, center, 1);
+  if (over_a <= 0 && b_ac - b_ab >= 0 && c_ab - c_ac >= 0) return closest_point_on_edge(corner, center, 1);
   const double scale = 1 / (over_a + over_b + over_c);
   const double share_b = over_b * scale, share_c = over_c * scale;
   // Barycentric coordinates times heights are distances to the sides.
@@ -96,7 +97,7 @@ void Pseudonormals::sum_up_vertices(const TriangleSurface& surface) {
     }
   }
   for (std::uint32_t v = 0; v < positions_.size(); ++v)
-    if (flat[v] || surface.place(v) != TriangleSurface::Place::inside) shortest_edge_[v] = 0;
+    if (flat[v] || surface.location(v) != TriangleSurface::Place::inside) shortest_edge_[v] = 0;
 }
 
 std::optional<Pseudonormals::Reading> Pseudonormals::on_face(std::uint32_t face, const Vec3& center,
@@ -134,16 +135,16 @@ std::optional<Pseudonormals::Reading> Pseudonormals::at_nearest(std::uint32_t fa
                                                                 const Vec3& center) const noexcept {
   if (normals_[face].isZero(0)) return std::nullopt;
   const auto [a, b, c] = faces_[face];
-  const ClosestPoint foot = foot_of({positions_[a], positions_[b], positions_[c]}, center);
-  switch (foot.feature) {
+  const ClosestPoint closest = closest_point({positions_[a], positions_[b], positions_[c]}, center);
+  switch (closest.feature) {
     case Feature::face:
-      return on_face(face, center, foot.offset, foot.gap);
+      return on_face(face, center, closest.offset, closest.gap);
     case Feature::edge:
-      return on_edge(face, foot.side, foot.offset, foot.gap);
+      return on_edge(face, closest.side, closest.offset, closest.gap);
     case Feature::vertex:
       break;
   }
-  return on_vertex(face, foot.side, foot.offset);
+  return on_vertex(face, closest.side, closest.offset);
 }
 
 std::size_t Pseudonormals::bytes() const noexcept {

@@ -42,22 +42,22 @@ class Butterfly {
   }
 
  private:
-  using Place = TriangleSurface::Place;
+  using Location = TriangleSurface::Location;
 
   /// A corner has no rule of its own.
   bool regular(std::uint32_t v) const {
-    if (surface_.place(v) == Place::corner) return true;
-    return surface_.valence(v) == (surface_.place(v) == Place::boundary ? 4 : 6);
+    if (surface_.location(v) == Location::corner) return true;
+    return surface_.valence(v) == (surface_.location(v) == Location::boundary ? 4 : 6);
   }
 
   /// The boundary vertex before `v`, whose next one is `next`; where a corner ends the boundary, `next`
   /// reflected.
   Vec3 before(std::uint32_t v, std::uint32_t next) const {
-    if (surface_.place(v) == Place::corner) return 2 * positions_[v] - positions_[next];
+    if (surface_.location(v) == Location::corner) return 2 * positions_[v] - positions_[next];
     return positions_[surface_.apex(surface_.last_side_from(v))];
   }
   Vec3 after(std::uint32_t v, std::uint32_t previous) const {
-    if (surface_.place(v) == Place::corner) return 2 * positions_[v] - positions_[previous];
+    if (surface_.location(v) == Location::corner) return 2 * positions_[v] - positions_[previous];
     return positions_[surface_.end(surface_.side_from(v))];
   }
 
@@ -71,8 +71,8 @@ class Butterfly {
   /// The rule of an extraordinary vertex at the start of the side.
   Vec3 from_ring(std::uint32_t side) {
     const std::uint32_t v = surface_.start(side);
-    return surface_.place(v) == Place::boundary ? from_half_ring(v, surface_.end(side))
-                                                : from_whole_ring(v, side);
+    return surface_.location(v) == Location::boundary ? from_half_ring(v, surface_.end(side))
+                                                      : from_whole_ring(v, side);
   }
 
   Vec3 from_whole_ring(std::uint32_t v, std::uint32_t side) {
@@ -124,10 +124,10 @@ std::vector<Vec3> butterfly_points(const TriangleSurface& surface, std::span<con
   points.reserve(edges.size());
   for (const std::uint32_t edge : edges) {
     const auto sides = surface.edges().sides(edge);
-    const TriangleSurface::Place place = surface.place_of_edge(edge);
-    if (place == TriangleSurface::Place::boundary) {
+    const TriangleSurface::Location location = surface.location_of_edge(edge);
+    if (location == TriangleSurface::Location::boundary) {
       points.push_back(butterfly.four_point(sides[0]));
-    } else if (place == TriangleSurface::Place::corner) {
+    } else if (location == TriangleSurface::Location::corner) {
       points.push_back(butterfly.middle(sides[0]));
     } else if (form == SubdivisionForm::published) {
       points.push_back(butterfly.modified(sides[0]));

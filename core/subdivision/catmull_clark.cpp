@@ -47,7 +47,7 @@ template <std::size_t N>
 Points smooth_edge_points(const OrientedSurface<N>& surface, const Points& middle, const Points& face) {
   Points points = middle;
   for (std::uint32_t e = 0; e < points.size(); ++e) {
-    if (surface.place_of_edge(e) != OrientedSurface<N>::Place::inside) continue;
+    if (surface.location_of_edge(e) != OrientedSurface<N>::Location::inside) continue;
     const auto sides = surface.edges().sides(e);
     points[e] = middle[e] / 2 + (face[sides[0] / N] + face[sides[1] / N]) / 4;
   }
@@ -69,7 +69,7 @@ std::vector<Around> sums_around(const IndexedFaces<N>& mesh, const OrientedSurfa
   for (std::size_t f = 0; f < mesh.faces.size(); ++f)
     for (const std::uint32_t v : mesh.faces[f]) sums[v].faces += face[f];
   for (std::uint32_t e = 0; e < middle.size(); ++e) {
-    const bool on_boundary = surface.place_of_edge(e) == OrientedSurface<N>::Place::boundary;
+    const bool on_boundary = surface.location_of_edge(e) == OrientedSurface<N>::Location::boundary;
     for (const std::uint32_t v : surface.edges().ends(e)) {
       ++sums[v].edges;
       sums[v].middles += middle[e];
@@ -85,15 +85,15 @@ std::vector<Around> sums_around(const IndexedFaces<N>& mesh, const OrientedSurfa
 template <std::size_t N>
 Points smooth_vertices(const IndexedFaces<N>& mesh, const OrientedSurface<N>& surface, const Points& middle,
                        const Points& face) {
-  using Place = typename OrientedSurface<N>::Place;
+  using Location = typename OrientedSurface<N>::Location;
   const std::vector<Around> sums = sums_around(mesh, surface, middle, face);
   Points points = mesh.positions;
   for (std::uint32_t v = 0; v < points.size(); ++v) {
     const Vec3& p = mesh.positions[v];
     const double n = sums[v].edges;
-    if (surface.place(v) == Place::inside)
+    if (surface.location(v) == Location::inside)
       points[v] = ((sums[v].faces + 2 * sums[v].middles) / n + (n - 3) * p) / n;
-    else if (surface.place(v) == Place::boundary)
+    else if (surface.location(v) == Location::boundary)
       points[v] = p / 2 + sums[v].boundary / 4;
   }
   return points;

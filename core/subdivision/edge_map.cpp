@@ -27,8 +27,8 @@ EdgeMap<N>::EdgeMap(std::span<const Face> faces, std::size_t vertices) {
   for (std::uint32_t side = 0; side < sides; ++side) ++first_at[low(side) + 1];
   accumulate(first_at);
   std::vector<std::uint32_t> bucket(sides);
-  std::vector<std::uint32_t> place(first_at.begin(), first_at.end() - 1);
-  for (std::uint32_t side = 0; side < sides; ++side) bucket[place[low(side)]++] = side;
+  std::vector<std::uint32_t> cursor(first_at.begin(), first_at.end() - 1);
+  for (std::uint32_t side = 0; side < sides; ++side) bucket[cursor[low(side)]++] = side;
 
   std::vector<std::uint32_t> leader(sides);  // the lowest side on the same edge
   for (std::size_t v = 0; v < vertices; ++v) {
@@ -54,8 +54,8 @@ EdgeMap<N>::EdgeMap(std::span<const Face> faces, std::size_t vertices) {
   for (const std::uint32_t edge : edge_of_) ++first_[edge + 1];
   accumulate(first_);
   sides_.resize(sides);
-  place.assign(first_.begin(), first_.end() - 1);
-  for (std::uint32_t side = 0; side < sides; ++side) sides_[place[edge_of_[side]]++] = side;
+  cursor.assign(first_.begin(), first_.end() - 1);
+  for (std::uint32_t side = 0; side < sides; ++side) sides_[cursor[edge_of_[side]]++] = side;
 }
 
 template class EdgeMap<3>;

@@ -24,8 +24,8 @@ Vec3 weighted_mean(std::span<const Weight> mask, std::span<const Vec3> positions
 void loop_vertex_mask(const TriangleSurface& surface, std::uint32_t vertex, std::vector<Weight>& mask) {
   const std::uint32_t first = surface.side_from(vertex);
   mask.assign({{vertex, 1}});
-  if (surface.place(vertex) == TriangleSurface::Place::corner) return;
-  if (surface.place(vertex) == TriangleSurface::Place::boundary) {
+  if (surface.location(vertex) == TriangleSurface::Location::corner) return;
+  if (surface.location(vertex) == TriangleSurface::Location::boundary) {
     mask[0].weight = 3. / 4;
     mask.push_back({surface.end(first), 1. / 8});
     mask.push_back({surface.apex(surface.last_side_from(vertex)), 1. / 8});
@@ -46,7 +46,7 @@ void loop_edge_mask(const TriangleSurface& surface, std::uint32_t edge, std::vec
   const auto [a, b] = surface.edges().ends(edge);
   const auto sides = surface.edges().sides(edge);
   mask.assign({{a, 1. / 2}, {b, 1. / 2}});
-  if (surface.place_of_edge(edge) == TriangleSurface::Place::inside) {
+  if (surface.location_of_edge(edge) == TriangleSurface::Location::inside) {
     mask.assign(
         {{a, 3. / 8}, {b, 3. / 8}, {surface.apex(sides[0]), 1. / 8}, {surface.apex(sides[1]), 1. / 8}});
   }

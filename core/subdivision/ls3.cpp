@@ -48,7 +48,7 @@ PointsAndNormals ls3_points(const TriangleSurface& surface, std::span<const Vec3
   result.normals.reserve(positions.size() + edges.size());
   AlgebraicSphereFit fit;
   std::vector<Weight> mask;
-  const auto place = [&](bool on_sphere) {
+  const auto put = [&](bool on_sphere) {
     fit.clear();
     for (const auto& [vertex, weight] : mask) fit.add(positions[vertex], normals[vertex], weight);
     const auto [point, gradient] = fit.mean_on_sphere();
@@ -57,11 +57,11 @@ PointsAndNormals ls3_points(const TriangleSurface& surface, std::span<const Vec3
   };
   for (std::uint32_t v = 0; v < positions.size(); ++v) {
     loop_vertex_mask(surface, v, mask);
-    place(surface.place(v) != TriangleSurface::Place::corner);
+    put(surface.location(v) != TriangleSurface::Location::corner);
   }
   for (const std::uint32_t edge : edges) {
     loop_edge_mask(surface, edge, mask);
-    place(surface.place_of_edge(edge) != TriangleSurface::Place::corner);
+    put(surface.location_of_edge(edge) != TriangleSurface::Location::corner);
   }
   return result;
 }

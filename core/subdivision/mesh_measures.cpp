@@ -65,9 +65,9 @@ EdgeStatistics edge_statistics(const TriangleMesh& mesh) {
   statistics.edges = edges.size();
   double sum = 0;
   for (std::uint32_t e = 0; e < edges.size(); ++e) {
-    using Place = TriangleSurface::Place;
-    if (surface.place_of_edge(e) == Place::boundary) ++statistics.boundary;
-    if (surface.place_of_edge(e) == Place::corner) ++statistics.seams;
+    using Location = TriangleSurface::Location;
+    if (surface.location_of_edge(e) == Location::boundary) ++statistics.boundary;
+    if (surface.location_of_edge(e) == Location::corner) ++statistics.seams;
     const auto [a, b] = edges.ends(e);
     const double length = (welded.positions[a] - welded.positions[b]).stableNorm();
     statistics.shortest = e == 0 ? length : std::min(statistics.shortest, length);

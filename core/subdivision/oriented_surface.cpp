@@ -8,7 +8,7 @@ OrientedSurface<N>::OrientedSurface(Faces faces, const EdgeMap<N>& edges, std::s
       edges_(edges),
       across_(faces.size() * N, no_side),
       out_of_(vertices, no_side),
-      place_(vertices, Place::inside) {
+      location_(vertices, Location::inside) {
   join_neighbours();
   find_boundaries_and_seams();
   find_meeting_fans();
@@ -25,19 +25,20 @@ void OrientedSurface<N>::join_neighbours() {
 }
 
 template <std::size_t N>
-typename OrientedSurface<N>::Place OrientedSurface<N>::place_of_edge(std::uint32_t edge) const noexcept {
+typename OrientedSurface<N>::Location OrientedSurface<N>::location_of_edge(
+    std::uint32_t edge) const noexcept {
   const auto sides = edges_.sides(edge);
-  if (sides.size() == 1) return Place::boundary;
-  return across_[sides[0]] == no_side ? Place::corner : Place::inside;
+  if (sides.size() == 1) return Location::boundary;
+  return across_[sides[0]] == no_side ? Location::corner : Location::inside;
 }
 
 template <std::size_t N>
 void OrientedSurface<N>::find_boundaries_and_seams() {
   for (std::uint32_t e = 0; e < edges_.size(); ++e) {
-    const Place place = place_of_edge(e);
-    if (place == Place::inside) continue;
+    const Location location = location_of_edge(e);
+    if (location == Location::inside) continue;
     for (const std::uint32_t v : edges_.ends(e))
-      if (place_[v] != Place::corner) place_[v] = place;
+      if (location_[v] != Location::corner) location_[v] = location;
   }
   for (std::uint32_t side = 0; side < across_.size(); ++side) {
     std::uint32_t& out = out_of_[start(side)];
@@ -63,7 +64,7 @@ void OrientedSurface<N>::find_meeting_fans() {
   for (const auto& corners : faces_)
     for (const std::uint32_t v : corners) ++faces[v];
   for (std::uint32_t v = 0; v < vertices(); ++v)
-    if (place_[v] != Place::corner && faces_in_fan(v) != faces[v]) place_[v] = Place::corner;
+    if (location_[v] != Location::corner && faces_in_fan(v) != faces[v]) location_[v] = Location::corner;
 }
 
 template <std::size_t N>
@@ -75,7 +76,7 @@ std::uint32_t OrientedSurface<N>::last_side_from(std::uint32_t vertex) const noe
 
 template <std::size_t N>
 std::size_t OrientedSurface<N>::valence(std::uint32_t vertex) const noexcept {
-  return faces_in_fan(vertex) + (place(vertex) == Place::boundary ? 1 : 0);
+  return faces_in_fan(vertex) + (location(vertex) == Location::boundary ? 1 : 0);
 }
 
 template <std::size_t N>

@@ -24,7 +24,7 @@ class OrientedSurface {
  public:
   using Faces = std::span<const std::array<std::uint32_t, N>>;
   static constexpr std::uint32_t no_side = std::numeric_limits<std::uint32_t>::max();
-  enum class Place : std::uint8_t { inside, boundary, corner };
+  enum class Location : std::uint8_t { inside, boundary, corner };
 
   /// Every vertex belongs to a face.
   OrientedSurface(Faces faces, const EdgeMap<N>& edges, std::size_t vertices);
@@ -45,9 +45,9 @@ class OrientedSurface {
   /// The side of the neighbouring face on the same edge; no_side on boundaries and seams.
   std::uint32_t across(std::uint32_t side) const noexcept { return across_[side]; }
 
-  Place place(std::uint32_t vertex) const noexcept { return place_[vertex]; }
+  Location location(std::uint32_t vertex) const noexcept { return location_[vertex]; }
   /// Inside the edge has two faces, which are neighbours; on the boundary one; the rest is a seam.
-  Place place_of_edge(std::uint32_t edge) const noexcept;
+  Location location_of_edge(std::uint32_t edge) const noexcept;
 
   /// A side that starts at the vertex; on a boundary the first of the fan, which lies on the boundary.
   std::uint32_t side_from(std::uint32_t vertex) const noexcept { return out_of_[vertex]; }
@@ -71,7 +71,7 @@ class OrientedSurface {
   const EdgeMap<N>& edges_;
   std::vector<std::uint32_t> across_;
   std::vector<std::uint32_t> out_of_;
-  std::vector<Place> place_;
+  std::vector<Location> location_;
 };
 
 using TriangleSurface = OrientedSurface<3>;

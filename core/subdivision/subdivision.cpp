@@ -46,7 +46,7 @@ bool splits_faces(SubdivisionMethod method) noexcept {
 }
 
 /// Throws MeshError when the level's triangles are too many.
-void require_room(std::size_t triangles, int level, const SubdivisionOptions& options) {
+void require_few_enough(std::size_t triangles, int level, const SubdivisionOptions& options) {
   const std::size_t limit = std::min(options.max_triangles, triangle_limit);
   if (triangles <= limit) return;
   throw MeshError("level " + std::to_string(level) + " of " + std::string(name_of(options.method)) +
@@ -56,12 +56,12 @@ void require_room(std::size_t triangles, int level, const SubdivisionOptions& op
 
 /// Throws where the triangles would be too many. If every triangle splits, the counts of all levels are known
 /// before the first.
-void require_room(std::size_t triangles, const SubdivisionOptions& options) {
-  require_room(triangles, 0, options);
+void require_few_enough(std::size_t triangles, const SubdivisionOptions& options) {
+  require_few_enough(triangles, 0, options);
   if (!splits_faces(options.method) && options.threshold > 0) return;
   for (int level = 1; level <= options.levels; ++level) {
     triangles *= level == 1 && splits_faces(options.method) ? 6 : 4;
-    require_room(triangles, level, options);
+    require_few_enough(triangles, level, options);
   }
 }
 
@@ -100,7 +100,7 @@ class EdgeSplitting {
   void refine(int level) {
     const EdgeMap<3> edges(mesh_.faces, mesh_.positions.size());
     const EdgeSplit split = long_edges(mesh_.positions, edges, options_.threshold, options_.form);
-    require_room(count_after(mesh_.faces.size(), edges, split), level, options_);
+    require_few_enough(count_after(mesh_.faces.size(), edges, split), level, options_);
     std::vector<Vec3> positions = refined_positions(edges, split);
     store(positions, options_.form);
     mesh_.faces = split_faces(mesh_.faces, edges, split, judged_by(positions));
@@ -174,7 +174,7 @@ TriangleMesh subdivide(const TriangleMesh& mesh, const SubdivisionOptions& optio
     throw MeshError("none of the " + std::to_string(mesh.size()) +
                     " triangles has three corners in different places");
   }
-  require_room(welded.faces.size(), options);
+  require_few_enough(welded.faces.size(), options);
   store(welded.positions, options.form);
   IndexedTriangles result = splits_faces(options.method) ? refine_by_faces(std::move(welded), options)
                                                          : refine_by_edges(std::move(welded), options);

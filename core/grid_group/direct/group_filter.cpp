@@ -91,9 +91,9 @@ const bool use_avx2 = has_avx2();
   const Lanes low = _mm256_castps256_ps128(height), high = _mm256_extractf128_ps(height, 1);
   const auto member_low = reinterpret_cast<LaneBits>(_mm256_castsi256_si128(member));
   const auto member_high = reinterpret_cast<LaneBits>(_mm256_extracti128_si256(member, 1));
-  const LaneBits take_high = (high < low) | ((high == low) & (member_high < member_low));
-  leaders.height = take_high ? high : low;
-  leaders.member = take_high ? member_high : member_low;
+  const LaneBits use_high = (high < low) | ((high == low) & (member_high < member_low));
+  leaders.height = use_high ? high : low;
+  leaders.member = use_high ? member_high : member_low;
   return leaders;
 }
 

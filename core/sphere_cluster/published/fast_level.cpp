@@ -15,11 +15,11 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// When a point on the path first comes within `radius` of `center`; infinity when it does not. For a path
 /// that starts outside.
 double first_within(const Sweep& sweep, const Vec3& center, double radius) noexcept {
-  const Vec3 way = sweep.to - sweep.from, to = center - sweep.from;
-  const double along = to.dot(way);
+  const Vec3 path = sweep.to - sweep.from, to = center - sweep.from;
+  const double along = to.dot(path);
   if (!(along > 0)) return infinity;
   const double outside = to.squaredNorm() - radius * radius;
-  const double discriminant = along * along - way.squaredNorm() * outside;
+  const double discriminant = along * along - path.squaredNorm() * outside;
   if (!(discriminant >= 0)) return infinity;
   const double fraction = std::max(outside, 0.0) / (along + std::sqrt(discriminant));
   return fraction <= 1 ? fraction : infinity;

@@ -57,7 +57,7 @@ TEST(OrientedSurface, WalksAroundAnInnerVertexCounterClockwise) {
   std::ranges::rotate(ring, std::ranges::find(ring, 0u));
   EXPECT_EQ(ring, (std::vector<std::uint32_t>{0, 2, 1, 3}));
   EXPECT_EQ(surface.valence(4), 4u);
-  EXPECT_EQ(surface.place(4), TriangleSurface::Place::inside);
+  EXPECT_EQ(surface.location(4), TriangleSurface::Place::inside);
 }
 
 TEST(OrientedSurface, WalksFromOneEndOfABoundaryFanToTheOther) {
@@ -71,7 +71,7 @@ TEST(OrientedSurface, WalksFromOneEndOfABoundaryFanToTheOther) {
   EXPECT_EQ(ring, (std::vector<std::uint32_t>{1, 3}));
   EXPECT_EQ(surface.valence(4), 6u);
   EXPECT_EQ(surface.valence(2), 3u);
-  EXPECT_EQ(surface.place(5), TriangleSurface::Place::boundary);
+  EXPECT_EQ(surface.location(5), TriangleSurface::Place::boundary);
 }
 
 TEST(OrientedSurface, EndsAtSeams) {
@@ -80,12 +80,12 @@ TEST(OrientedSurface, EndsAtSeams) {
   const EdgeMap<3> edges(faces, 7);
   const TriangleSurface surface(faces, edges, 7);
   using enum TriangleSurface::Place;
-  EXPECT_EQ(surface.place_of_edge(edges.edge(0, 0)), corner);    // of three triangles
-  EXPECT_EQ(surface.place_of_edge(edges.edge(0, 2)), corner);    // 2-0 twice
-  EXPECT_EQ(surface.place_of_edge(edges.edge(3, 1)), inside);    // 0-5 there and back
-  EXPECT_EQ(surface.place_of_edge(edges.edge(0, 1)), boundary);  // 1-2
-  for (const std::uint32_t v : {0u, 1u, 2u}) EXPECT_EQ(surface.place(v), corner) << v;
-  for (const std::uint32_t v : {3u, 4u, 5u, 6u}) EXPECT_EQ(surface.place(v), boundary) << v;
+  EXPECT_EQ(surface.location_of_edge(edges.edge(0, 0)), corner);    // of three triangles
+  EXPECT_EQ(surface.location_of_edge(edges.edge(0, 2)), corner);    // 2-0 twice
+  EXPECT_EQ(surface.location_of_edge(edges.edge(3, 1)), inside);    // 0-5 there and back
+  EXPECT_EQ(surface.location_of_edge(edges.edge(0, 1)), boundary);  // 1-2
+  for (const std::uint32_t v : {0u, 1u, 2u}) EXPECT_EQ(surface.location(v), corner) << v;
+  for (const std::uint32_t v : {3u, 4u, 5u, 6u}) EXPECT_EQ(surface.location(v), boundary) << v;
   EXPECT_EQ(surface.across(0), TriangleSurface::no_side);
 }
 
@@ -93,7 +93,7 @@ TEST(OrientedSurface, CallsVerticesOfSeveralFansCorners) {
   using enum TriangleSurface::Place;
   const std::vector<Corners> open = {{0, 1, 2}, {3, 4, 2}};
   const EdgeMap<3> open_edges(open, 5);
-  EXPECT_EQ(TriangleSurface(open, open_edges, 5).place(2), corner);
+  EXPECT_EQ(TriangleSurface(open, open_edges, 5).location(2), corner);
   // Two tetrahedra tip to tip.
   const std::vector<Corners> closed = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3},
                                        {0, 4, 5}, {0, 5, 6}, {0, 6, 4}, {4, 6, 5}};
