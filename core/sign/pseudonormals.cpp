@@ -97,7 +97,7 @@ void Pseudonormals::sum_up_vertices(const TriangleSurface& surface) {
     }
   }
   for (std::uint32_t v = 0; v < positions_.size(); ++v)
-    if (flat[v] || surface.location(v) != TriangleSurface::Place::inside) shortest_edge_[v] = 0;
+    if (flat[v] || surface.location(v) != TriangleSurface::Location::inside) shortest_edge_[v] = 0;
 }
 
 std::optional<Pseudonormals::Reading> Pseudonormals::on_face(std::uint32_t face, const Vec3& center,

@@ -57,7 +57,7 @@ TEST(OrientedSurface, WalksAroundAnInnerVertexCounterClockwise) {
   std::ranges::rotate(ring, std::ranges::find(ring, 0u));
   EXPECT_EQ(ring, (std::vector<std::uint32_t>{0, 2, 1, 3}));
   EXPECT_EQ(surface.valence(4), 4u);
-  EXPECT_EQ(surface.location(4), TriangleSurface::Place::inside);
+  EXPECT_EQ(surface.location(4), TriangleSurface::Location::inside);
 }
 
 TEST(OrientedSurface, WalksFromOneEndOfABoundaryFanToTheOther) {
@@ -71,7 +71,7 @@ TEST(OrientedSurface, WalksFromOneEndOfABoundaryFanToTheOther) {
   EXPECT_EQ(ring, (std::vector<std::uint32_t>{1, 3}));
   EXPECT_EQ(surface.valence(4), 6u);
   EXPECT_EQ(surface.valence(2), 3u);
-  EXPECT_EQ(surface.location(5), TriangleSurface::Place::boundary);
+  EXPECT_EQ(surface.location(5), TriangleSurface::Location::boundary);
 }
 
 TEST(OrientedSurface, EndsAtSeams) {
@@ -79,7 +79,7 @@ TEST(OrientedSurface, EndsAtSeams) {
   const std::vector<Corners> faces = {{0, 1, 2}, {1, 0, 3}, {0, 1, 4}, {2, 0, 5}, {5, 0, 6}};
   const EdgeMap<3> edges(faces, 7);
   const TriangleSurface surface(faces, edges, 7);
-  using enum TriangleSurface::Place;
+  using enum TriangleSurface::Location;
   EXPECT_EQ(surface.location_of_edge(edges.edge(0, 0)), corner);    // of three triangles
   EXPECT_EQ(surface.location_of_edge(edges.edge(0, 2)), corner);    // 2-0 twice
   EXPECT_EQ(surface.location_of_edge(edges.edge(3, 1)), inside);    // 0-5 there and back
@@ -90,7 +90,7 @@ TEST(OrientedSurface, EndsAtSeams) {
 }
 
 TEST(OrientedSurface, CallsVerticesOfSeveralFansCorners) {
-  using enum TriangleSurface::Place;
+  using enum TriangleSurface::Location;
   const std::vector<Corners> open = {{0, 1, 2}, {3, 4, 2}};
   const EdgeMap<3> open_edges(open, 5);
   EXPECT_EQ(TriangleSurface(open, open_edges, 5).location(2), corner);
@@ -99,8 +99,8 @@ TEST(OrientedSurface, CallsVerticesOfSeveralFansCorners) {
                                        {0, 4, 5}, {0, 5, 6}, {0, 6, 4}, {4, 6, 5}};
   const EdgeMap<3> closed_edges(closed, 7);
   const TriangleSurface tips(closed, closed_edges, 7);
-  EXPECT_EQ(tips.place(0), corner);
-  EXPECT_EQ(tips.place(1), inside);
+  EXPECT_EQ(tips.location(0), corner);
+  EXPECT_EQ(tips.location(1), inside);
 }
 
 TriangleMesh halved(const TriangleMesh& mesh, double threshold) {
