@@ -11,9 +11,9 @@ namespace touchmark {
 
 /// Forgetting it changes the cost of the next answer, never the answer.
 struct LastDistance {
-  Epoch epoch;                 ///< of the structure that this is about
-  std::uint32_t slot = 0;      ///< of a triangle that was near
-  Vec3 center = Vec3::Zero();  ///< where the point was
+  Epoch epoch;                 ///< the structure that this is about
+  std::uint32_t slot = 0;      ///< slot of a triangle that was near
+  Vec3 center = Vec3::Zero();  ///< last position of the point
   /// Bounds of the distance at that centre, padded as the structure needs it. The distance changes by no more
   /// than the point moves.
   double lower = 0, upper = std::numeric_limits<double>::infinity();

@@ -1,4 +1,4 @@
-/// Where a distance field is sampled.
+/// The points at which a distance field is sampled.
 #pragma once
 
 #include <array>

@@ -22,8 +22,8 @@ struct LeafCache {
   /// The most nodes that are looked into for one refill.
   static constexpr std::size_t max_nodes = 512;
 
-  Vec3 center = Vec3::Zero();  ///< of the ball that the cache covers, in the mesh's frame
-  float covered_radius = -1;   ///< of that ball, in the tree's frame; below 0: nothing is known
+  Vec3 center = Vec3::Zero();  ///< centre of the ball that the cache covers, in the mesh's frame
+  float covered_radius = -1;   ///< radius of that ball, in the tree's frame; below 0: nothing is known
   std::uint32_t count = 0;
   float horizon_ticks = 16;  ///< how many ticks ahead the next refill is to cover
   std::uint32_t cooldown = 0,
