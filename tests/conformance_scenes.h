@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/experiments/stress/hard_centers.h"
+#include "bench/experiments/stress/corner_case_centers.h"
 #include "bench/scenes/scenes.h"
 #include "core/triangle_mesh.h"
 
@@ -34,7 +34,7 @@ inline std::vector<std::string> conformance_scenes() {
 
 /// `count` centres at least; the same for the same mesh.
 inline std::vector<Vec3> adversarial_centers(const TriangleMesh& mesh, std::size_t count) {
-  return bench::hard_centers(mesh, count, 50);
+  return bench::corner_case_centers(mesh, count, 50);
 }
 
 /// How many centres a test can afford where something looks at every triangle.

@@ -73,13 +73,14 @@ class Exam {
     part("sweep of a point", Query::sweep, 0, [](double) { return 0.0; });
     for (const Part& one : parts_)
       sweep_truths_.push_back(one.query == Query::sweep ? oracle_.solve(sweeps_of(one))
-                                                        : std::vector<SweepTruth>());
+                                                        : std::vector<SweepGroundTruth>());
   }
 
   const TriangleMesh& mesh() const { return mesh_; }
   const std::vector<Part>& parts() const { return parts_; }
 
-  Tally judge_answers(std::size_t part, const std::vector<Answer>& answers, const Accuracy& accuracy) const {
+  ErrorCounts judge_answers(std::size_t part, const std::vector<Answer>& answers,
+                            const Accuracy& accuracy) const {
     const Part& asked = parts_[part];
     if (asked.query == Query::sweep)
       return judge(oracle_, sweep_truths_[part], sweeps_of(asked), answers, accuracy);
@@ -89,9 +90,9 @@ class Exam {
  private:
   TriangleMesh mesh_;
   Oracle oracle_;
-  std::vector<Truth> truths_;
+  std::vector<GroundTruth> truths_;
   std::vector<Part> parts_;
-  std::vector<std::vector<SweepTruth>> sweep_truths_;
+  std::vector<std::vector<SweepGroundTruth>> sweep_truths_;
 };
 
 /// What the oracle says of answers, found out once for all contestants that give the same bits and claim the
@@ -100,18 +101,18 @@ class Verdicts {
  public:
   explicit Verdicts(const Exam& exam) : exam_(exam), given_(exam.parts().size()) {}
 
-  const Tally& on(std::size_t part, const std::vector<Answer>& answers, const Accuracy& accuracy) {
+  const ErrorCounts& on(std::size_t part, const std::vector<Answer>& answers, const Accuracy& accuracy) {
     for (const Verdict& known : given_[part])
-      if (same(known.accuracy, accuracy) && same(known.answers, answers)) return known.tally;
+      if (same(known.accuracy, accuracy) && same(known.answers, answers)) return known.counts;
     given_[part].push_back({accuracy, answers, exam_.judge_answers(part, answers, accuracy)});
-    return given_[part].back().tally;
+    return given_[part].back().counts;
   }
 
  private:
   struct Verdict {
     Accuracy accuracy;
     std::vector<Answer> answers;
-    Tally tally;
+    ErrorCounts counts;
   };
   static bool same(const Accuracy& a, const Accuracy& b) {
     return a.guarantee == b.guarantee && a.relative == b.relative && a.absolute == b.absolute &&
@@ -166,9 +167,9 @@ class SharedRoom {
 /// killed.
 [[noreturn]] void testify(const ContestantSpec& spec, const Exam& exam, std::size_t first,
                           const SharedRoom& room) {
-  constexpr unsigned patience_s = 20;
+  constexpr unsigned timeout_s = 20;
   constexpr int refused = 3;
-  alarm(patience_s);
+  alarm(timeout_s);
   if (std::freopen("/dev/null", "w", stdout) == nullptr || std::freopen("/dev/null", "w", stderr) == nullptr)
     _exit(1);
   try {
@@ -267,7 +268,7 @@ bool is_ours(const ContestantInfo& info) {
   return false;
 }
 
-std::string summary(const Tally& t) {
+std::string summary(const ErrorCounts& t) {
   return fmt::format(
       "{} missed, {} false, {} wrong triangle, {} beyond, {} point, {} normal, {} malformed; {}", t.missed,
       t.false_contacts, t.wrong_triangle, t.beyond_bound, t.wrong_point, t.wrong_normal, t.malformed,
@@ -292,9 +293,9 @@ TEST_P(Conformance, OursKeepTheirWordAndTheExactOnesGiveTheBitsOfBruteForce) {
         const Part& part = exam.parts()[i];
         if (!contestant->answers(part.query)) continue;
         std::vector<Answer> answers = ask(*contestant, part);
-        const Tally tally = verdicts.on(i, answers, accuracy);
-        EXPECT_TRUE(keeps_its_word(tally, accuracy))
-            << spec.text() << ", " << part.name << ": " << summary(tally);
+        const ErrorCounts counts = verdicts.on(i, answers, accuracy);
+        EXPECT_TRUE(meets_guarantee(counts, accuracy))
+            << spec.text() << ", " << part.name << ": " << summary(counts);
         if (accuracy.guarantee != Guarantee::exact || !accuracy.decides_exactly) continue;
         for (Answer& answer : answers) answer.side = Side::unasked;  // the reference was not asked
         EXPECT_EQ(std::memcmp(answers.data(), expected[i].data(), answers.size() * sizeof(Answer)), 0)
@@ -312,12 +313,12 @@ TEST_P(Conformance, RivalsThatClaimExactnessKeepTheirWord) {
   for (const ContestantSpec& spec : roster().default_set()) {
     if (is_ours(roster().find(spec.name))) continue;
     const auto judged = [&](std::size_t i, const Accuracy& accuracy, const std::vector<Answer>& answers) {
-      const Tally tally = verdicts.on(i, answers, accuracy);
+      const ErrorCounts counts = verdicts.on(i, answers, accuracy);
       const std::string finding =
-          fmt::format("{}, {}: {}", spec.text(), exam.parts()[i].name, summary(tally));
+          fmt::format("{}, {}: {}", spec.text(), exam.parts()[i].name, summary(counts));
       if (accuracy.guarantee == Guarantee::exact) {
-        EXPECT_TRUE(keeps_its_word(tally, accuracy)) << finding;
-      } else if (!keeps_its_word(tally, {Guarantee::exact, accuracy.relative, accuracy.absolute})) {
+        EXPECT_TRUE(meets_guarantee(counts, accuracy)) << finding;
+      } else if (!meets_guarantee(counts, {Guarantee::exact, accuracy.relative, accuracy.absolute})) {
         fmt::print("    faulty: {}\n", finding);
       }
     };

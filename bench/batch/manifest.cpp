@@ -68,7 +68,7 @@ Json json_of(const SweepScene& scene) {
             {"normalize", scene.normalize},
             {"mesh_fnv1a", hex(scene.mesh_hash)},
             {"trajectory", scene.trajectory},
-            {"course_fnv1a", hex(scene.course_hash)},
+            {"course_fnv1a", hex(scene.trace_hash)},
             {"steps", scene.steps},
             {"seed", scene.seed},
             {"radius", scene.radius},
@@ -86,7 +86,7 @@ SweepScene scene_of(const nlohmann::json& json) {
   scene.normalize = json.at("normalize");
   scene.mesh_hash = hash_in(json.at("mesh_fnv1a"));
   scene.trajectory = json.at("trajectory");
-  scene.course_hash = hash_in(json.at("course_fnv1a"));
+  scene.trace_hash = hash_in(json.at("course_fnv1a"));
   scene.steps = json.at("steps");
   scene.seed = json.at("seed");
   scene.radius = json.at("radius");
@@ -126,7 +126,7 @@ std::size_t Manifest::jobs() const noexcept {
 std::string job_id(const SweepScene& scene, const std::string& detector, const std::string& effort,
                    const std::string& version) {
   ContentHash hash;
-  for (const std::uint64_t number : {scene.mesh_hash, scene.course_hash, scene.seed}) hash.add(hex(number));
+  for (const std::uint64_t number : {scene.mesh_hash, scene.trace_hash, scene.seed}) hash.add(hex(number));
   for (const std::string& text : {std::string(name_of(scene.query)), detector, effort, version})
     hash.add(text);
   return hex(hash.value());

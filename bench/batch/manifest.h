@@ -23,8 +23,8 @@ struct SweepScene {
   std::string mesh;  ///< as --mesh takes it
   bool normalize = false;
   std::uint64_t mesh_hash = 0;
-  std::string trajectory;         ///< as --trajectory takes it
-  std::uint64_t course_hash = 0;  ///< of its steps with radius and reach
+  std::string trajectory;        ///< as --trajectory takes it
+  std::uint64_t trace_hash = 0;  ///< of its steps with radius and reach
   std::size_t steps = 0;
   std::uint64_t seed = 1;
   std::string radius;  ///< as --radius takes it
@@ -45,7 +45,7 @@ struct Manifest {
   std::size_t jobs() const noexcept;
 };
 
-/// Sixteen hexadecimal digits: a hash of the mesh's and the course's content, the seed, the query, the
+/// Sixteen hexadecimal digits: a hash of the mesh's and the trace's content, the seed, the query, the
 /// detector, the effort and the version. The same wherever and whenever it is computed.
 std::string job_id(const SweepScene& scene, const std::string& detector, const std::string& effort,
                    const std::string& version);
@@ -53,7 +53,7 @@ std::string job_id(const SweepScene& scene, const std::string& detector, const s
 /// Throws std::invalid_argument.
 Effort effort_named(const std::string& name);
 
-/// Mesh and course of a scene, to be hashed while planning or to be run. Throws std::invalid_argument or
+/// Mesh and trace of a scene, to be hashed while planning or to be run. Throws std::invalid_argument or
 /// MeshError.
 Workload workload_of(const SweepScene& scene, const Roster& roster);
 

@@ -38,26 +38,26 @@ std::vector<std::string> sorting_key(const FoundJob& job) {
   return key;
 }
 
-std::map<std::string, std::size_t> places_of(const Manifest& manifest) {
-  std::map<std::string, std::size_t> places;
+std::map<std::string, std::size_t> positions_of(const Manifest& manifest) {
+  std::map<std::string, std::size_t> positions;
   for (const SweepScene& scene : manifest.scenes) {
-    for (const SweepJob& job : scene.jobs) places.emplace(job.id, places.size());
+    for (const SweepJob& job : scene.jobs) positions.emplace(job.id, positions.size());
   }
-  return places;
+  return positions;
 }
 
-void expect_all_of(const std::map<std::string, std::size_t>& places, const std::vector<FoundJob>& jobs) {
+void expect_all_of(const std::map<std::string, std::size_t>& positions, const std::vector<FoundJob>& jobs) {
   std::set<std::string> found;
   for (const FoundJob& job : jobs) found.insert(job.result.id);
   std::size_t missing = 0;
   std::string first;
-  for (const auto& [id, place] : places) {
+  for (const auto& [id, position] : positions) {
     if (found.contains(id)) continue;
     if (missing++ == 0) first = id;
   }
   if (missing == 0) return;
   throw std::invalid_argument(
-      fmt::format("{} of the manifest's {} jobs are missing, one is {}", missing, places.size(), first));
+      fmt::format("{} of the manifest's {} jobs are missing, one is {}", missing, positions.size(), first));
 }
 
 }  // namespace
@@ -94,15 +94,15 @@ void expect_one_machine(const std::vector<FoundJob>& jobs) {
 }
 
 std::vector<FoundJob> in_order(std::vector<FoundJob> jobs, const std::optional<Manifest>& manifest) {
-  const std::map<std::string, std::size_t> places =
-      manifest ? places_of(*manifest) : std::map<std::string, std::size_t>{};
+  const std::map<std::string, std::size_t> positions =
+      manifest ? positions_of(*manifest) : std::map<std::string, std::size_t>{};
   if (manifest) {
-    std::erase_if(jobs, [&](const FoundJob& job) { return !places.contains(job.result.id); });
-    expect_all_of(places, jobs);
+    std::erase_if(jobs, [&](const FoundJob& job) { return !positions.contains(job.result.id); });
+    expect_all_of(positions, jobs);
   }
-  const auto place_of = [&](const FoundJob& job) { return manifest ? places.at(job.result.id) : 0; };
+  const auto position_of = [&](const FoundJob& job) { return manifest ? positions.at(job.result.id) : 0; };
   std::sort(jobs.begin(), jobs.end(), [&](const FoundJob& a, const FoundJob& b) {
-    return std::pair(place_of(a), sorting_key(a)) < std::pair(place_of(b), sorting_key(b));
+    return std::pair(position_of(a), sorting_key(a)) < std::pair(position_of(b), sorting_key(b));
   });
   const auto same = [](const FoundJob& a, const FoundJob& b) {
     return a.result.id == b.result.id && a.result.fields == b.result.fields;

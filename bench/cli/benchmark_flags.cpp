@@ -13,7 +13,7 @@
 namespace touchmark::bench {
 namespace {
 
-constexpr std::size_t most_repetitions = 10000;
+constexpr std::size_t max_repetitions = 10000;
 constexpr double longest_repetition_s = 3600;
 
 /// "--name=value" to the pair; a flag alone has the value "true", as in the library.
@@ -29,8 +29,8 @@ std::invalid_argument bad_value(std::string_view name, std::string_view value, s
 
 std::size_t parse_repetitions(const std::string& name, const std::string& value) {
   const auto count = parse_count(value);
-  if (!count || *count < 1 || *count > most_repetitions) {
-    throw bad_value(name, value, fmt::format("a whole number from 1 to {}", most_repetitions));
+  if (!count || *count < 1 || *count > max_repetitions) {
+    throw bad_value(name, value, fmt::format("a whole number from 1 to {}", max_repetitions));
   }
   return *count;
 }

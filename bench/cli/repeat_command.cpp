@@ -14,10 +14,10 @@ std::string repeat_command(const Selectors& selectors, const std::string& mesh,
                            const ResultRow& row) {
   const auto found = std::find(workload.trajectories.begin(), workload.trajectories.end(), row.trajectory);
   if (found == workload.trajectories.end()) return "";
-  const auto course = static_cast<std::size_t>(found - workload.trajectories.begin());
+  const auto trace = static_cast<std::size_t>(found - workload.trajectories.begin());
   std::string command =
       fmt::format("touchmark query --mesh {}{} --trajectory {} --detector {} --query {} --radius {}",
-                  quoted(mesh), selectors.normalize ? " --normalize" : "", quoted(trajectories[course]),
+                  quoted(mesh), selectors.normalize ? " --normalize" : "", quoted(trajectories[trace]),
                   quoted(row.contestant()), name_of(row.query), quoted(selectors.radius));
   const auto add = [&](const char* option, const std::string& value) {
     if (!value.empty()) command += fmt::format(" {} {}", option, quoted(value));
@@ -27,7 +27,7 @@ std::string repeat_command(const Selectors& selectors, const std::string& mesh,
   add("--motion-scale", selectors.motion.scale);
   add("--rate", selectors.motion.rate);
   return command +
-         fmt::format(" --steps {} --seed {} --step ", workload.courses[course].size(), selectors.seed);
+         fmt::format(" --steps {} --seed {} --step ", workload.traces[trace].size(), selectors.seed);
 }
 
 }  // namespace touchmark::bench

@@ -42,28 +42,28 @@ void check_it_answers(const Built& built, Query query, const std::string& contes
 std::string rows_of_step(const Roster& roster, const Workload& workload, const WorkerOptions& workers,
                          const ContestantSpec& spec, const Task& task, std::size_t step,
                          SessionBefore session) {
-  const std::vector<Step>& course = workload.courses[task.course];
-  if (step >= course.size()) {
+  const std::vector<Step>& trace = workload.traces[task.trace];
+  if (step >= trace.size()) {
     throw std::invalid_argument(
-        fmt::format("--step \"{}\" is none of the {} steps, which begin at 0", step, course.size()));
+        fmt::format("--step \"{}\" is none of the {} steps, which begin at 0", step, trace.size()));
   }
   // No later step: it might be one that the contestant does not survive.
   Workload until = workload;
-  until.trajectories = {workload.trajectories[task.course]};
-  until.courses.assign(
-      1, std::vector<Step>(course.begin(), course.begin() + static_cast<std::ptrdiff_t>(step) + 1));
+  until.trajectories = {workload.trajectories[task.trace]};
+  until.traces.assign(
+      1, std::vector<Step>(trace.begin(), trace.begin() + static_cast<std::ptrdiff_t>(step) + 1));
   const Task all{0, task.query, step + 1};
-  const WorkerStage stage(until, workers);
-  ContestantProcess process(stage, spec, roster.find(spec.name).worker_program(spec.values));
+  const SharedArena arena(until, workers);
+  ContestantProcess process(arena, spec, roster.find(spec.name).worker_program(spec.values));
   const bool with_side = asks_for_side(spec.values);
   std::string replayed, fresh;
   try {
     check_it_answers(process.build(), task.query, spec.text());
     process.answer(all);
-    append_answer_row(replayed, task.query, step, course[step], stage.room().answers(step + 1)[step],
+    append_answer_row(replayed, task.query, step, trace[step], arena.buffers().answers(step + 1)[step],
                       with_side);
     process.answer_afresh(all, step);
-    append_answer_row(fresh, task.query, step, course[step], stage.room().answers(1).front(), with_side);
+    append_answer_row(fresh, task.query, step, trace[step], arena.buffers().answers(1).front(), with_side);
   } catch (const WorkerFailure& failure) {
     explain(failure, spec.text());
   }

@@ -1,4 +1,4 @@
-/// One contestant's answer to one step of a course: to look at an answer that was found wrong.
+/// One contestant's answer to one step of a trace: to look at an answer that was found wrong.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ enum class SessionBefore { replayed, fresh };
 void check_it_answers(const Built& built, Query query, const std::string& contestant);
 
 /// The header and the step's row as `touchmark query` prints them. Says on stderr where the other kind of
-/// session has another answer. Throws std::invalid_argument for a step that the course does not have,
+/// session has another answer. Throws std::invalid_argument for a step that the trace does not have,
 /// ResourceError or Interrupted.
 std::string rows_of_step(const Roster& roster, const Workload& workload, const WorkerOptions& workers,
                          const ContestantSpec& spec, const Task& task, std::size_t step,

@@ -27,7 +27,7 @@ WorkerOptions worker_options(const WorkerSelectors& selectors) {
     throw std::invalid_argument(fmt::format(
         "--timeout \"{}\" is not a time in seconds, above 0 and at most {}", selectors.timeout, longest_s));
   }
-  options.build_patience = options.order_patience =
+  options.build_timeout = options.request_timeout =
       std::chrono::milliseconds(static_cast<std::chrono::milliseconds::rep>(*seconds * 1000) + 1);
   return options;
 }

@@ -1,4 +1,4 @@
-/// A detector as the program sees it. The type is erased once for a window of steps, never for a probe: the
+/// A detector as the program sees it. The type is erased once for a range of steps, never for a probe: the
 /// loops below are templates, so the compiler sees the detector's query inside them.
 #pragma once
 
@@ -19,7 +19,7 @@
 
 namespace touchmark::bench {
 
-/// One built detector with one session. answer, replay and replay_clocked need answers(course.query).
+/// One built detector with one session. answer, replay and replay_clocked need answers(trace.query).
 class Contestant {
  public:
   Contestant() = default;
@@ -31,13 +31,13 @@ class Contestant {
   virtual Accuracy accuracy() const noexcept = 0;
   virtual std::size_t bytes() const noexcept = 0;
   /// See the concept MakesLater.
-  virtual bool makes_later() const noexcept = 0;
+  virtual bool builds_lazily() const noexcept = 0;
   /// A fresh session, its work counters at zero.
   virtual void forget() = 0;
   virtual Work work() const noexcept = 0;
 
-  /// The answer to each step of the window and the total work it took; both spans have the window's size.
-  virtual void answer(const Course& course, Window window, std::span<Answer> answers,
+  /// The answer to each step of the range and the total work it took; both spans have the range's size.
+  virtual void answer(const QueryTrace& trace, StepRange range, std::span<Answer> answers,
                       std::span<std::uint64_t> work) noexcept = 0;
   /// Can it follow a mesh whose vertices move? Only then may it be asked to; the session stays.
   virtual bool updates() const noexcept { return false; }
@@ -45,11 +45,11 @@ class Contestant {
   virtual void update(const TriangleMesh& mesh) { static_cast<void>(mesh); }
 
   /// The same answers folded into the checksum, and nothing else: the loop that is timed from outside.
-  virtual void replay(const Course& course, Window window, Checksum& checksum) noexcept = 0;
+  virtual void replay(const QueryTrace& trace, StepRange range, Checksum& checksum) noexcept = 0;
   /// The same, with the clock read once a step: the ticks each step took, one clock reading included.
   /// What the detector prepares between steps is clocked apart, into `prepare_ticks` of the same size; empty
   /// will do for one that does not.
-  virtual void replay_clocked(const Course& course, Window window, Checksum& checksum,
+  virtual void replay_clocked(const QueryTrace& trace, StepRange range, Checksum& checksum,
                               std::span<std::uint64_t> ticks,
                               std::span<std::uint64_t> prepare_ticks) noexcept = 0;
   /// Is the detector told to prepare after each step? That is in all other times, and in the work.
@@ -67,10 +67,10 @@ std::vector<Query> queries_of() {
 }
 
 /// Whether a detector's `prepare` is called after each answer.
-enum class Idle { wasted, used };
+enum class Prefetch { off, on };
 
-template <Detector D, Idle idle = Idle::wasted>
-requires(idle == Idle::wasted || Prepares<D>) class ContestantOf final : public Contestant {
+template <Detector D, Prefetch prefetch = Prefetch::off>
+requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : public Contestant {
  public:
   explicit ContestantOf(D detector) : detector_(std::move(detector)) { session_.emplace(); }
 
@@ -87,7 +87,7 @@ requires(idle == Idle::wasted || Prepares<D>) class ContestantOf final : public 
   }
   Accuracy accuracy() const noexcept override { return detector_.accuracy(); }
   std::size_t bytes() const noexcept override { return detector_.bytes(); }
-  bool makes_later() const noexcept override {
+  bool builds_lazily() const noexcept override {
     if constexpr (MakesLater<D>) return detector_.makes_later();
     return false;
   }
@@ -98,43 +98,44 @@ requires(idle == Idle::wasted || Prepares<D>) class ContestantOf final : public 
   }
   Work work() const noexcept override { return session_->work; }
 
-  void answer(const Course& course, Window window, std::span<Answer> answers,
+  void answer(const QueryTrace& trace, StepRange range, std::span<Answer> answers,
               std::span<std::uint64_t> work) noexcept override {
-    assert(answers.size() == window.size() && work.size() == window.size());
-    with_query(course.query, [&](auto ask) {
-      for (std::size_t i = 0; i < window.size(); ++i) {
+    assert(answers.size() == range.size() && work.size() == range.size());
+    with_query(trace.query, [&](auto ask) {
+      for (std::size_t i = 0; i < range.size(); ++i) {
         const std::uint64_t before = session_->work.total();
-        answers[i] = ask(course.steps, window.begin + i);
+        answers[i] = ask(trace.steps, range.begin + i);
         prepare();
         work[i] = session_->work.total() - before;
       }
     });
   }
 
-  void replay(const Course& course, Window window, Checksum& checksum) noexcept override {
-    with_query(course.query, [&](auto ask) {
+  void replay(const QueryTrace& trace, StepRange range, Checksum& checksum) noexcept override {
+    with_query(trace.query, [&](auto ask) {
       Checksum sum = checksum;
-      for (std::size_t i = window.begin; i < window.end; ++i) {
-        sum.add(ask(course.steps, i));
+      for (std::size_t i = range.begin; i < range.end; ++i) {
+        sum.add(ask(trace.steps, i));
         prepare();
       }
       checksum = sum;
     });
   }
 
-  void replay_clocked(const Course& course, Window window, Checksum& checksum, std::span<std::uint64_t> ticks,
+  void replay_clocked(const QueryTrace& trace, StepRange range, Checksum& checksum,
+                      std::span<std::uint64_t> ticks,
                       std::span<std::uint64_t> prepare_ticks) noexcept override {
-    assert(ticks.size() == window.size());
-    assert(idle == Idle::wasted || prepare_ticks.size() == window.size());
-    with_query(course.query, [&](auto ask) {
+    assert(ticks.size() == range.size());
+    assert(prefetch == Prefetch::off || prepare_ticks.size() == range.size());
+    with_query(trace.query, [&](auto ask) {
       Checksum sum = checksum;
       std::uint64_t before = TickClock::now();
-      for (std::size_t i = 0; i < window.size(); ++i) {
-        sum.add(ask(course.steps, window.begin + i));
+      for (std::size_t i = 0; i < range.size(); ++i) {
+        sum.add(ask(trace.steps, range.begin + i));
         const std::uint64_t after = TickClock::now();
         ticks[i] = after - before;
         before = after;
-        if constexpr (idle == Idle::used) {
+        if constexpr (prefetch == Prefetch::on) {
           prepare();
           before = TickClock::now();
           prepare_ticks[i] = before - after;
@@ -144,11 +145,11 @@ requires(idle == Idle::wasted || Prepares<D>) class ContestantOf final : public 
     });
   }
 
-  bool prepares() const noexcept override { return idle == Idle::used; }
+  bool prepares() const noexcept override { return prefetch == Prefetch::on; }
 
  private:
   void prepare() noexcept {
-    if constexpr (idle == Idle::used) detector_.prepare(*session_);
+    if constexpr (prefetch == Prefetch::on) detector_.prepare(*session_);
   }
   /// Calls visit(ask) with the ask(steps, i) -> Answer of this query.
   template <class Visitor>

@@ -72,7 +72,7 @@ struct ContestantInfo {
   };
 
   /// What its library keeps of coordinates where it decides by other numbers than the given ones; else empty.
-  std::function<std::optional<Storing>(const TriangleMesh&, const OptionValues&)> storing =
+  std::function<std::optional<StorageRounding>(const TriangleMesh&, const OptionValues&)> storage_rounding =
       [](const TriangleMesh&, const OptionValues&) { return std::nullopt; };
 
   bool built() const noexcept { return static_cast<bool>(build); }

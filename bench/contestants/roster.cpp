@@ -89,7 +89,8 @@ ContestantInfo aabb_tree() {
     }
     return contestant<AabbTree>(mesh, {leaf_size, chosen(values, "certified", yes_or_no)}, values);
   };
-  info.storing = [=](const TriangleMesh& mesh, const OptionValues& values) -> std::optional<Storing> {
+  info.storage_rounding = [=](const TriangleMesh& mesh,
+                              const OptionValues& values) -> std::optional<StorageRounding> {
     if (!in_floats(values)) return std::nullopt;
     const FloatFrame frame = FloatFrame::around(mesh.bounds());
     return stored_in_single_precision(frame.scale, frame.origin);
@@ -192,8 +193,9 @@ ContestantInfo sphere_cluster() {
     options.certified = chosen(values, "certified", yes_or_no);
     options.widest = chosen(values, "simd", widths);
     options.making = chosen(values, "build", makings);
-    return chosen(values, "prepare", no_or_yes) ? contestant<SphereCluster, Idle::used>(mesh, options, values)
-                                                : contestant<SphereCluster>(mesh, options, values);
+    return chosen(values, "prepare", no_or_yes)
+               ? contestant<SphereCluster, Prefetch::on>(mesh, options, values)
+               : contestant<SphereCluster>(mesh, options, values);
   };
   return info;
 }
@@ -261,7 +263,8 @@ ContestantInfo bullet() {
     return contestant<BulletDetector>(
         mesh, {chosen(values, "method", methods), chosen(values, "frame", frames), asking(values)});
   };
-  info.storing = [](const TriangleMesh& mesh, const OptionValues& values) -> std::optional<Storing> {
+  info.storage_rounding = [](const TriangleMesh& mesh,
+                             const OptionValues& values) -> std::optional<StorageRounding> {
     if (values.text("precision") != "float" || values.text("method") != "contact") return std::nullopt;
     baselines::BulletView view;
     if (chosen(values, "frame", frames) == Frame::fitted) view = baselines::BulletView::fitted(mesh);
@@ -325,7 +328,8 @@ ContestantInfo embree() {
         mesh, {chosen(values, "geometry", geometries), chosen(values, "quality", qualities),
                chosen(values, "warm", yes_or_no), asking(values)});
   };
-  info.storing = [](const TriangleMesh& mesh, const OptionValues& values) -> std::optional<Storing> {
+  info.storage_rounding = [](const TriangleMesh& mesh,
+                             const OptionValues& values) -> std::optional<StorageRounding> {
     if (chosen(values, "geometry", geometries) != Geometry::triangle) return std::nullopt;
     const baselines::EmbreeFrame frame(mesh.bounds());
     return stored_in_single_precision(frame.scale, frame.origin);

@@ -15,7 +15,7 @@ constexpr std::size_t wrong_answers_kept = 3;
 
 }  // namespace
 
-Truths::Truths(const Oracle& oracle, std::span<const Step> steps) : oracle_(oracle) {
+GroundTruths::GroundTruths(const Oracle& oracle, std::span<const Step> steps) : oracle_(oracle) {
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const Probe& now = steps[i].probe;
     probes_.questions.push_back(now);
@@ -25,12 +25,13 @@ Truths::Truths(const Oracle& oracle, std::span<const Step> steps) : oracle_(orac
 }
 
 template <class Question, class TruthType>
-void Truths::Asked<Question, TruthType>::solve(const Oracle& oracle, const std::vector<Window>& windows) {
+void GroundTruths::Asked<Question, TruthType>::solve(const Oracle& oracle,
+                                                     const std::vector<StepRange>& ranges) {
   truths.resize(questions.size());
   known.resize(questions.size());
   std::vector<std::size_t> unknown;
-  for (const Window& window : windows) {
-    for (std::size_t i = window.begin; i < window.end; ++i) {
+  for (const StepRange& range : ranges) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
       if (!known[i]) unknown.push_back(i);
     }
   }
@@ -48,39 +49,40 @@ void Truths::Asked<Question, TruthType>::solve(const Oracle& oracle, const std::
   }
 }
 
-std::vector<double> Truths::distances(const std::vector<std::size_t>& steps) {
-  std::vector<Window> windows;
-  for (const std::size_t step : steps) windows.push_back({step, step + 1});
-  probes_.solve(oracle_, joined(windows));
+std::vector<double> GroundTruths::distances(const std::vector<std::size_t>& steps) {
+  std::vector<StepRange> ranges;
+  for (const std::size_t step : steps) ranges.push_back({step, step + 1});
+  probes_.solve(oracle_, joined(ranges));
   std::vector<double> distances;
   for (const std::size_t step : steps) {
-    const Truth& truth = probes_.truths[step];
+    const GroundTruth& truth = probes_.truths[step];
     distances.push_back(truth.defined ? truth.high : std::numeric_limits<double>::infinity());
   }
   return distances;
 }
 
-Tally Truths::judge(Query query, const std::vector<Window>& windows, std::span<const Answer> answers,
-                    const Accuracy& accuracy, const Reported& reported, std::vector<WrongAnswer>* wrong) {
-  query == Query::sweep ? sweeps_.solve(oracle_, windows) : probes_.solve(oracle_, windows);
-  Tally tally;
+ErrorCounts GroundTruths::judge(Query query, const std::vector<StepRange>& ranges,
+                                std::span<const Answer> answers, const Accuracy& accuracy,
+                                const Reported& reported, std::vector<WrongAnswer>* wrong) {
+  query == Query::sweep ? sweeps_.solve(oracle_, ranges) : probes_.solve(oracle_, ranges);
+  ErrorCounts counts;
   if (wrong != nullptr) wrong->clear();
   std::size_t done = 0;
-  for (const Window& window : windows) {
+  for (const StepRange& range : ranges) {
     check_for_interrupt();
     Charges charges;
-    tally += judge(query, window, answers.subspan(done, window.size()), accuracy, reported, charges);
+    counts += judge(query, range, answers.subspan(done, range.size()), accuracy, reported, charges);
     for (const Charge& one : charges.kept()) {
       if (wrong == nullptr || wrong->size() == wrong_answers_kept) break;
-      wrong->push_back(wrong_answer(query, window.begin + one.step, answers[done + one.step], one.tally));
+      wrong->push_back(wrong_answer(query, range.begin + one.step, answers[done + one.step], one.counts));
     }
-    done += window.size();
+    done += range.size();
   }
-  return tally;
+  return counts;
 }
 
-WrongAnswer Truths::wrong_answer(Query query, std::size_t step, const Answer& got,
-                                 const Tally& charged) const {
+WrongAnswer GroundTruths::wrong_answer(Query query, std::size_t step, const Answer& got,
+                                       const ErrorCounts& charged) const {
   WrongAnswer wrong;
   wrong.step = step;
   wrong.query = query;
@@ -105,26 +107,26 @@ WrongAnswer Truths::wrong_answer(Query query, std::size_t step, const Answer& go
   return wrong;
 }
 
-Tally Truths::judge(Query query, Window window, std::span<const Answer> answers, const Accuracy& accuracy,
-                    const Reported& reported, Charges& charges) const {
+ErrorCounts GroundTruths::judge(Query query, StepRange range, std::span<const Answer> answers,
+                                const Accuracy& accuracy, const Reported& reported, Charges& charges) const {
   if (query == Query::sweep) {
-    return bench::judge(oracle_, std::span(sweeps_.truths).subspan(window.begin, window.size()),
-                        std::span(sweeps_.questions).subspan(window.begin, window.size()), answers, accuracy,
+    return bench::judge(oracle_, std::span(sweeps_.truths).subspan(range.begin, range.size()),
+                        std::span(sweeps_.questions).subspan(range.begin, range.size()), answers, accuracy,
                         reported, &charges);
   }
   // The judge takes one reach; recorded trajectories may change theirs from step to step.
-  Tally tally;
-  for (std::size_t begin = window.begin, end = begin; begin < window.end; begin = end) {
-    while (end < window.end && reaches_[end] == reaches_[begin]) ++end;
+  ErrorCounts counts;
+  for (std::size_t begin = range.begin, end = begin; begin < range.end; begin = end) {
+    while (end < range.end && reaches_[end] == reaches_[begin]) ++end;
     if (end == begin) ++end;  // a reach that is not a number equals nothing
     Charges of_this_reach;
-    tally +=
+    counts +=
         bench::judge(oracle_, std::span(probes_.truths).subspan(begin, end - begin), query,
                      std::span(probes_.questions).subspan(begin, end - begin), reaches_[begin],
-                     answers.subspan(begin - window.begin, end - begin), accuracy, reported, &of_this_reach);
-    charges.merge(of_this_reach, begin - window.begin);
+                     answers.subspan(begin - range.begin, end - begin), accuracy, reported, &of_this_reach);
+    charges.merge(of_this_reach, begin - range.begin);
   }
-  return tally;
+  return counts;
 }
 
 }  // namespace touchmark::bench

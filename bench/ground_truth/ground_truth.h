@@ -1,4 +1,4 @@
-/// The truth about the steps of one course, computed once, when first needed, for all contestants and
+/// The truth about the steps of one trace, computed once, when first needed, for all contestants and
 /// queries.
 #pragma once
 
@@ -14,16 +14,16 @@
 
 namespace touchmark::bench {
 
-class Truths {
+class GroundTruths {
  public:
   /// The oracle must outlive it.
-  Truths(const Oracle& oracle, std::span<const Step> steps);
+  GroundTruths(const Oracle& oracle, std::span<const Step> steps);
 
-  /// `answers` to the query are those of the windows' steps, one after the other. The first of them that are
+  /// `answers` to the query are those of the ranges' steps, one after the other. The first of them that are
   /// charged become `wrong`, unless that is null. Throws Interrupted on Ctrl-C.
-  Tally judge(Query query, const std::vector<Window>& windows, std::span<const Answer> answers,
-              const Accuracy& accuracy, const Reported& reported = {},
-              std::vector<WrongAnswer>* wrong = nullptr);
+  ErrorCounts judge(Query query, const std::vector<StepRange>& ranges, std::span<const Answer> answers,
+                    const Accuracy& accuracy, const Reported& reported = {},
+                    std::vector<WrongAnswer>* wrong = nullptr);
 
   /// How far these steps, ascending, are from the surface; infinite where a coordinate is not finite.
   std::vector<double> distances(const std::vector<std::size_t>& steps);
@@ -36,17 +36,18 @@ class Truths {
     std::vector<TruthType> truths;
     std::vector<bool> known;
 
-    void solve(const Oracle& oracle, const std::vector<Window>& windows);
+    void solve(const Oracle& oracle, const std::vector<StepRange>& ranges);
   };
-  /// The charges' steps are counted from the window's begin.
-  Tally judge(Query query, Window window, std::span<const Answer> answers, const Accuracy& accuracy,
-              const Reported& reported, Charges& charges) const;
-  WrongAnswer wrong_answer(Query query, std::size_t step, const Answer& got, const Tally& charged) const;
+  /// The charges' steps are counted from the range's begin.
+  ErrorCounts judge(Query query, StepRange range, std::span<const Answer> answers, const Accuracy& accuracy,
+                    const Reported& reported, Charges& charges) const;
+  WrongAnswer wrong_answer(Query query, std::size_t step, const Answer& got,
+                           const ErrorCounts& charged) const;
 
   const Oracle& oracle_;
   std::vector<double> reaches_;
-  Asked<Probe, Truth> probes_;  // touches and nearest ask about the same
-  Asked<Sweep, SweepTruth> sweeps_;
+  Asked<Probe, GroundTruth> probes_;  // touches and nearest ask about the same
+  Asked<Sweep, SweepGroundTruth> sweeps_;
 };
 
 }  // namespace touchmark::bench

@@ -5,10 +5,10 @@
 namespace touchmark::bench {
 namespace {
 
-TriangleMesh stored(const TriangleMesh& mesh, const Storing& storing) {
+TriangleMesh stored(const TriangleMesh& mesh, const StorageRounding& storage_rounding) {
   std::vector<Vec3> vertices;
   vertices.reserve(mesh.vertices().size());
-  for (const Vec3& vertex : mesh.vertices()) vertices.push_back(storing.point(vertex));
+  for (const Vec3& vertex : mesh.vertices()) vertices.push_back(storage_rounding.point(vertex));
   return {std::move(vertices),
           {mesh.triangles().begin(), mesh.triangles().end()},
           {mesh.ids().begin(), mesh.ids().end()}};
@@ -16,24 +16,27 @@ TriangleMesh stored(const TriangleMesh& mesh, const Storing& storing) {
 
 }  // namespace
 
-Storing stored_in_single_precision(double scale, const Vec3& origin) {
+StorageRounding stored_in_single_precision(double scale, const Vec3& origin) {
   return {[=](const Vec3& point) -> Vec3 {
             return (scale * (point - origin)).cast<float>().cast<double>() / scale + origin;
           },
           [=](double length) { return static_cast<double>(static_cast<float>(scale * length)) / scale; }};
 }
 
-StoredScene::StoredScene(const TriangleMesh& mesh, Storing storing)
-    : storing_(std::move(storing)), mesh_(stored(mesh, storing_)), oracle_(mesh_) {}
+RoundedScene::RoundedScene(const TriangleMesh& mesh, StorageRounding storage_rounding)
+    : storage_rounding_(std::move(storage_rounding)),
+      mesh_(stored(mesh, storage_rounding_)),
+      oracle_(mesh_) {}
 
-std::vector<Step> StoredScene::course(std::span<const Step> steps) const {
-  std::vector<Step> course;
-  course.reserve(steps.size());
+std::vector<Step> RoundedScene::trace(std::span<const Step> steps) const {
+  std::vector<Step> trace;
+  trace.reserve(steps.size());
   for (const Step& step : steps) {
-    const Probe probe{storing_.point(step.probe.center), storing_.length(step.probe.radius)};
-    course.push_back({probe, storing_.length(step.reach)});
+    const Probe probe{storage_rounding_.point(step.probe.center),
+                      storage_rounding_.length(step.probe.radius)};
+    trace.push_back({probe, storage_rounding_.length(step.reach)});
   }
-  return course;
+  return trace;
 }
 
 }  // namespace touchmark::bench

@@ -11,16 +11,16 @@
 
 namespace touchmark::bench {
 
-class StoredScene {
+class RoundedScene {
  public:
   /// Throws MeshError when what is left is no mesh.
-  StoredScene(const TriangleMesh& mesh, Storing storing);
+  RoundedScene(const TriangleMesh& mesh, StorageRounding storage_rounding);
 
   const Oracle& oracle() const noexcept { return oracle_; }
-  std::vector<Step> course(std::span<const Step> steps) const;
+  std::vector<Step> trace(std::span<const Step> steps) const;
 
  private:
-  Storing storing_;
+  StorageRounding storage_rounding_;
   TriangleMesh mesh_;
   Oracle oracle_;
 };

@@ -33,7 +33,7 @@ std::string question(const WrongAnswer& wrong) {
 }
 
 std::string contact_of(const WrongAnswer& wrong) {
-  const Truth& truth = wrong.truth;
+  const GroundTruth& truth = wrong.truth;
   if (!truth.defined || !wrong.triangle) return "";
   return fmt::format("{} to triangle {} at {}, normal {}{}", truth.high, *wrong.triangle, text(truth.point),
                      text(truth.direction), with_side(wrong.side));
@@ -68,15 +68,15 @@ std::string got(const WrongAnswer& wrong) {
 
 }  // namespace
 
-std::string charges_of(const Tally& tally) {
-  const std::array<std::pair<std::uint64_t, const char*>, 8> kinds{{{tally.missed, "missed"},
-                                                                    {tally.false_contacts, "false"},
-                                                                    {tally.wrong_triangle, "triangle"},
-                                                                    {tally.beyond_bound, "distance"},
-                                                                    {tally.wrong_point, "point"},
-                                                                    {tally.wrong_normal, "normal"},
-                                                                    {tally.wrong_side, "side"},
-                                                                    {tally.malformed, "no number"}}};
+std::string charges_of(const ErrorCounts& counts) {
+  const std::array<std::pair<std::uint64_t, const char*>, 8> kinds{{{counts.missed, "missed"},
+                                                                    {counts.false_contacts, "false"},
+                                                                    {counts.wrong_triangle, "triangle"},
+                                                                    {counts.beyond_bound, "distance"},
+                                                                    {counts.wrong_point, "point"},
+                                                                    {counts.wrong_normal, "normal"},
+                                                                    {counts.wrong_side, "side"},
+                                                                    {counts.malformed, "no number"}}};
   std::vector<std::string> charges;
   for (const auto& [count, name] : kinds) {
     if (count > 0) charges.push_back(fmt::format("{} {}", count, name));

@@ -13,21 +13,21 @@
 namespace touchmark::bench {
 
 struct WrongAnswer {
-  std::size_t step = 0;  ///< of the course
+  std::size_t step = 0;  ///< of the trace
   Query query = Query::nearest;
   Step asked;
   Vec3 from = Vec3::Zero();  ///< sweep: where it starts
   /// Of the probe; sweep: of where the answer says that the contact is made, undefined where it says none.
-  Truth truth;
+  GroundTruth truth;
   std::optional<TriangleId> triangle;  ///< the id of the truth's
   bool found = false;                  ///< should be: contact, within reach, a hit
   std::optional<Side> side;            ///< asked for, and on a closed mesh
   Answer got;
-  Tally charged;
+  ErrorCounts charged;
 };
 
 /// What is wrong, each with how often: "2 distance, 1 triangle". Empty where nothing is.
-std::string charges_of(const Tally& tally);
+std::string charges_of(const ErrorCounts& counts);
 
 /// One line: the step, what is wrong, the probe, what was expected, what was got. Numbers as they are stored.
 std::string described(const WrongAnswer& wrong);

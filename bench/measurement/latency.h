@@ -23,8 +23,8 @@ struct LatencySummary {
   std::array<DeadlineMisses, deadlines_hz.size()> deadlines;
 };
 
-/// `ns` holds the windows' steps one after the other. At least one step.
-LatencySummary summarize_latency(std::span<const double> ns, const std::vector<Window>& windows);
+/// `ns` holds the ranges' steps one after the other. At least one step.
+LatencySummary summarize_latency(std::span<const double> ns, const std::vector<StepRange>& ranges);
 
 /// The same steps timed several times: each step's median, so that one interruption by the operating system
 /// does not count as the detector's. All passes have the same length; at least one.

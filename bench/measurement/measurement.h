@@ -20,23 +20,23 @@ namespace touchmark::bench {
 /// Steps in the order of their declaration; each of the measuring ones may come several times, other
 /// contestants' in between. Whatever the worker does, the case goes on with its status; only ResourceError
 /// and Interrupted are thrown.
-class Case {
+class Measurement {
  public:
   /// All references must outlive it.
-  Case(const Workload& workload, const WorkerStage& stage, const Effort& effort, ContestantProcess& process,
-       std::size_t course, Query query, const SamplePlan& plan);
+  Measurement(const Workload& workload, const SharedArena& arena, const Effort& effort,
+              ContestantProcess& process, std::size_t trace, Query query, const SamplePlan& plan);
 
   std::string contestant() const { return row_.contestant(); }
   /// False once something went wrong, or for a query that the contestant does not answer.
   bool alive() const noexcept { return row_.status == "ok"; }
 
   /// Builds if that was not done, asks the first question, finds how many steps there is time for.
-  void introduce();
+  void calibrate();
   /// Introduces it with the steps and repetitions of another contestant's case.
-  void introduce_like(const Case& other);
+  void calibrate_like(const Measurement& other);
   /// Has the steps answered and judged, before anything is timed; once more by `stored`, unless that is null:
   /// the truths of the scene as the contestant's library stores it.
-  void verify(Truths& truths, Truths* stored = nullptr);
+  void verify(GroundTruths& truths, GroundTruths* rounded = nullptr);
 
   /// With a fresh session, after others used the caches; what makes parts of itself later is built anew just
   /// before, so that making them is in it.
@@ -45,8 +45,8 @@ class Case {
   void latency_pass();
 
   /// Ends the contestant's process, which takes its memory. Asked again, it would be built again.
-  void dismiss();
-  ResultRow finish();
+  void shut_down();
+  ResultRow row();
 
   bool claims_exactness() const noexcept {
     return row_.accuracy && row_.accuracy->guarantee == Guarantee::exact;
@@ -59,23 +59,23 @@ class Case {
   template <class Action>
   void attempt(Action action);
   void begin();
-  void calibrate();
+  void choose_steps();
   void choose_pieces();
   PieceTimes piece_times() const;
   std::vector<double> in_ns(std::span<const std::uint64_t> ticks) const;
   void expect_verified_answers(const Timed& timed);
-  void judge(Truths& truths, Truths* stored);
+  void judge(GroundTruths& truths, GroundTruths* rounded);
 
-  const WorkerStage& stage_;
+  const SharedArena& arena_;
   const Effort& effort_;
   ContestantProcess& process_;
   ResultRow row_;
   Task task_;
   const SamplePlan& plan_;
-  std::vector<Window> windows_;  // those of the task, neighbours joined
+  std::vector<StepRange> ranges_;  // those of the task, neighbours joined
   double calibrated_ns_ = 0;
-  std::int64_t passes_ = 1;    // a repetition's
-  std::int64_t together_ = 1;  // passes a sample
+  std::int64_t passes_ = 1;   // a repetition's
+  std::int64_t replays_ = 1;  // passes a sample
   double first_pass_ns_ = 0;
   double repeating_ns_ = 0;                   // spent on repetitions
   std::vector<std::vector<double>> samples_;  // a repetition's each

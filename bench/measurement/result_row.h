@@ -62,8 +62,9 @@ struct ResultRow {
   std::optional<Guarantee>
       claimed;  ///< by the contestant's entry, so known of one that never came to be built
   std::optional<Accuracy> accuracy;   ///< as claimed once it was built
-  std::optional<Tally> tally;         ///< as found
-  std::optional<Tally> stored_tally;  ///< the same by the mesh that its library keeps, where that is another
+  std::optional<ErrorCounts> counts;  ///< as found
+  std::optional<ErrorCounts>
+      rounded_scene_counts;  ///< the same by the mesh that its library keeps, where that is another
   std::optional<ThroughputResult> throughput;
   std::optional<LatencySummary> latency;
   std::optional<LatencySummary> prepare;  ///< between steps, where the contestant does that
@@ -85,7 +86,7 @@ struct ResultRow {
   }
   bool claims_exactness() const { return claim() == Guarantee::exact; }
   /// It was judged, and did not do what it claims.
-  bool broke_its_word() const { return accuracy && tally && !keeps_its_word(*tally, *accuracy); }
+  bool violates_guarantee() const { return accuracy && counts && !meets_guarantee(*counts, *accuracy); }
 };
 
 /// What all who claim exactness must agree on: contact or none, and for `nearest` the triangle. Distances may
@@ -113,9 +114,9 @@ inline std::optional<double> p999_of(const ResultRow& row, const std::optional<L
 
 /// How many answers found contact with the wrong distance, point, normal or side: at least so many, since one
 /// answer is counted under each of them.
-inline std::uint64_t answers_off(const Tally& tally) noexcept {
-  return std::max({tally.beyond_bound, tally.wrong_point, tally.wrong_normal, tally.wrong_side}) +
-         tally.malformed;
+inline std::uint64_t answers_off(const ErrorCounts& counts) noexcept {
+  return std::max({counts.beyond_bound, counts.wrong_point, counts.wrong_normal, counts.wrong_side}) +
+         counts.malformed;
 }
 
 /// As claimed; empty where it is not known.

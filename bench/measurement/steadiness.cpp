@@ -27,7 +27,7 @@ const ResultRow* fastest_exact(const std::vector<ResultRow>& rows) {
   const ResultRow* best = nullptr;
   for (const ResultRow& row : rows) {
     const bool eligible = row.throughput && row.accuracy && row.accuracy->guarantee == Guarantee::exact &&
-                          !row.broke_its_word();
+                          !row.violates_guarantee();
     if (!eligible) continue;
     if (best == nullptr || row.throughput->undisturbed.ns < best->throughput->undisturbed.ns) best = &row;
   }

@@ -16,7 +16,7 @@ using exact::Vector;
 
 /// `way` is the segment, from the origin; `w` are the triangle's corners.
 struct Configuration {
-  Vector way;
+  Vector path;
   std::array<Vector, 3> w;
   Integer squared_radius;
 };
@@ -24,13 +24,13 @@ struct Configuration {
 bool cross_through_the_face(const Configuration& c) {
   const Vector normal = cross(c.w[1] - c.w[0], c.w[2] - c.w[0]);
   const Integer start = -dot(c.w[0], normal);
-  const Integer drop = -dot(c.way, normal);  // start - end
+  const Integer drop = -dot(c.path, normal);  // start - end
   // In the plane (or no plane): if they meet at all, then at an end, a corner or an edge.
   if (drop == 0) return false;
   const bool reaches = drop > 0 ? (start >= 0 && start <= drop) : (start <= 0 && start >= drop);
   if (!reaches) return false;
   // The crossing point is start / drop of the way. Times drop, which squared is positive:
-  const Vector q = scaled(start, c.way);
+  const Vector q = scaled(start, c.path);
   std::array<Vector, 3> from_q;
   for (std::size_t i = 0; i < 3; ++i) from_q[i] = scaled(drop, c.w[i]) - q;
   for (std::size_t i = 0; i < 3; ++i)
@@ -42,12 +42,12 @@ bool cross_through_the_face(const Configuration& c) {
 /// their lines is not inside both.
 std::strong_ordering compare_inside(const Configuration& c, const Vector& w, const Vector& v) {
   const Vector edge = v - w;
-  const Vector normal = cross(c.way, edge);
+  const Vector normal = cross(c.path, edge);
   const Integer determinant = dot(normal, normal);
   if (determinant == 0) return std::strong_ordering::greater;
   // Least |w + t edge - s way|^2: s way.way - t way.edge = way.w and -s way.edge + t edge.edge = -edge.w.
-  const Integer a = dot(c.way, c.way), b = dot(c.way, edge), e = dot(edge, edge);
-  const Integer d = dot(c.way, w), f = dot(edge, w);
+  const Integer a = dot(c.path, c.path), b = dot(c.path, edge), e = dot(edge, edge);
+  const Integer d = dot(c.path, w), f = dot(edge, w);
   const Integer s = d * e - b * f, t = b * d - a * f;
   if (s < 0 || s > determinant || t < 0 || t > determinant) return std::strong_ordering::greater;
   const Integer height = dot(w, normal);
@@ -56,20 +56,20 @@ std::strong_ordering compare_inside(const Configuration& c, const Vector& w, con
 
 /// How the distance between a corner and the way compares.
 std::strong_ordering compare_corner(const Configuration& c, const Vector& w) {
-  const Integer along = dot(w, c.way), length = dot(c.way, c.way);
+  const Integer along = dot(w, c.path), length = dot(c.path, c.path);
   if (along <= 0) return exact::order(dot(w, w), c.squared_radius);
   if (along >= length) {
-    const Vector to_end = w - c.way;
+    const Vector to_end = w - c.path;
     return exact::order(dot(to_end, to_end), c.squared_radius);
   }
-  const Vector moment = cross(w, c.way);
+  const Vector moment = cross(w, c.path);
   return exact::order(dot(moment, moment), Integer(c.squared_radius * length));
 }
 
 /// How the distance between the way's end and the triangle compares: over the face to the plane, else to the
 /// nearest of its sides.
 std::strong_ordering compare_end(const Configuration& c) {
-  const std::array<Vector, 3> w = {c.w[0] - c.way, c.w[1] - c.way, c.w[2] - c.way};
+  const std::array<Vector, 3> w = {c.w[0] - c.path, c.w[1] - c.path, c.w[2] - c.path};
   const Vector normal = cross(w[1] - w[0], w[2] - w[0]);
   bool over_face = !exact::is_zero(normal);
   for (std::size_t i = 0; i < 3 && over_face; ++i) over_face = dot(cross(w[i], w[(i + 1) % 3]), normal) >= 0;

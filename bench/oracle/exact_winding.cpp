@@ -103,12 +103,12 @@ std::optional<int> along_ray(const Vec3& p, std::span<const Triangle> triangles,
 
 /// Sides that run one way cancel those that run back. (-0 and 0 are one place.)
 bool is_closed(std::span<const Triangle> triangles) {
-  using Place = std::array<double, 3>;
-  const auto place = [](const Vec3& v) { return Place{v.x() + 0.0, v.y() + 0.0, v.z() + 0.0}; };
-  std::map<std::pair<Place, Place>, int> balance;
+  using Coordinates = std::array<double, 3>;
+  const auto coordinates = [](const Vec3& v) { return Coordinates{v.x() + 0.0, v.y() + 0.0, v.z() + 0.0}; };
+  std::map<std::pair<Coordinates, Coordinates>, int> balance;
   for (const Triangle& t : triangles) {
     for (std::size_t i = 0; i < 3; ++i) {
-      const Place a = place(t[i]), b = place(t[(i + 1) % 3]);
+      const Coordinates a = coordinates(t[i]), b = coordinates(t[(i + 1) % 3]);
       if (a < b) ++balance[{a, b}];
       if (b < a) --balance[{b, a}];
     }

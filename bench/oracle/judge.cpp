@@ -55,9 +55,10 @@ class Judge {
     tolerance_ = std::isfinite(diagonal_) ? physical_tolerance * diagonal_ : 0;
   }
 
-  void position(const Truth& truth, Query query, const Probe& probe, double reach, const Answer& answer,
-                Tally& tally) const;
-  void sweep(const SweepTruth& truth, const Sweep& sweep, const Answer& answer, Tally& tally) const;
+  void position(const GroundTruth& truth, Query query, const Probe& probe, double reach, const Answer& answer,
+                ErrorCounts& counts) const;
+  void sweep(const SweepGroundTruth& truth, const Sweep& sweep, const Answer& answer,
+             ErrorCounts& counts) const;
 
  private:
   /// What a contestant may be off by; if it does not say, what double arithmetic cannot avoid.
@@ -76,15 +77,17 @@ class Judge {
            (radius >= 0 && radius <= tolerance && oracle_.surely_crosses(from, to, tolerance));
   }
   double sweep_gap(const Sweep& sweep, TriangleId id) const;
-  void exact_sweep(const SweepTruth& truth, const Sweep& sweep, const Answer& answer, Tally& tally) const;
-  Verdict threshold(const Truth& truth, const Vec3& center, double limit, bool found) const;
-  void contact(const Truth& truth, const Vec3& center, const Answer& answer, double slack,
-               Tally& tally) const;
-  std::vector<Truth> with_id(const Truth& truth, const Vec3& center, TriangleId id, double slack) const;
-  std::vector<Truth> tied(const Truth& truth, const Vec3& center, double slack) const;
-  void note_distance_error(double error, Tally& tally) const;
+  void exact_sweep(const SweepGroundTruth& truth, const Sweep& sweep, const Answer& answer,
+                   ErrorCounts& counts) const;
+  Verdict threshold(const GroundTruth& truth, const Vec3& center, double limit, bool found) const;
+  void contact(const GroundTruth& truth, const Vec3& center, const Answer& answer, double slack,
+               ErrorCounts& counts) const;
+  std::vector<GroundTruth> with_id(const GroundTruth& truth, const Vec3& center, TriangleId id,
+                                   double slack) const;
+  std::vector<GroundTruth> tied(const GroundTruth& truth, const Vec3& center, double slack) const;
+  void note_distance_error(double error, ErrorCounts& counts) const;
   /// Does it name another than the first of the nearest, and claims not to?
-  bool is_misnamed(const Truth& truth, const Answer& answer) const {
+  bool is_misnamed(const GroundTruth& truth, const Answer& answer) const {
     if (!accuracy_.names_exactly || !reported_.triangle || !std::isfinite(truth.high)) return false;
     const auto ids = oracle_.mesh().ids();
     return answer.triangle != (ids.empty() ? truth.triangle : ids[truth.triangle]);
@@ -104,7 +107,7 @@ class Judge {
   double tolerance_ = 0;  ///< physical_tolerance in mesh units; 0 where the diagonal is beyond doubles
 };
 
-Verdict Judge::threshold(const Truth& truth, const Vec3& center, double limit, bool found) const {
+Verdict Judge::threshold(const GroundTruth& truth, const Vec3& center, double limit, bool found) const {
   if (found == oracle_.within(truth, center, limit)) return Verdict::right;
   if (!known_ || !truth.defined || accuracy_.decides_exactly) return Verdict::wrong;
   const double bound = allowed(truth.largest_difference);
@@ -124,10 +127,11 @@ std::pair<std::size_t, std::size_t> places_of(const TriangleMesh& mesh, Triangle
 }
 
 /// The triangles that carry the id and are nearest within the accuracy.
-std::vector<Truth> Judge::with_id(const Truth& truth, const Vec3& center, TriangleId id, double slack) const {
+std::vector<GroundTruth> Judge::with_id(const GroundTruth& truth, const Vec3& center, TriangleId id,
+                                        double slack) const {
   const TriangleMesh& mesh = oracle_.mesh();
   const auto [begin, end] = places_of(mesh, id);
-  std::vector<Truth> found;
+  std::vector<GroundTruth> found;
   for (std::size_t i = begin; i < end; ++i) {
     const auto triangle = static_cast<std::uint32_t>(i);
     if (triangle == truth.triangle) {
@@ -144,44 +148,44 @@ std::vector<Truth> Judge::with_id(const Truth& truth, const Vec3& center, Triang
 }
 
 /// All triangles that are nearest within the accuracy.
-std::vector<Truth> Judge::tied(const Truth& truth, const Vec3& center, double slack) const {
-  std::vector<Truth> found;
+std::vector<GroundTruth> Judge::tied(const GroundTruth& truth, const Vec3& center, double slack) const {
+  std::vector<GroundTruth> found;
   const double limit = raised(truth.high + allowed_in_fields(truth.largest_difference) + slack);
   for (const std::uint32_t triangle : oracle_.all_within(center, limit))
     found.push_back(oracle_.solve(center, triangle));
   return found;
 }
 
-void Judge::note_distance_error(double error, Tally& tally) const {
-  tally.max_distance_error = std::max(tally.max_distance_error, error);
+void Judge::note_distance_error(double error, ErrorCounts& counts) const {
+  counts.max_distance_error = std::max(counts.max_distance_error, error);
   const double of_diagonal = diagonal_ > 0 ? error / diagonal_ : 0;
-  tally.max_distance_error_of_diagonal = std::max(tally.max_distance_error_of_diagonal, of_diagonal);
+  counts.max_distance_error_of_diagonal = std::max(counts.max_distance_error_of_diagonal, of_diagonal);
 }
 
 /// The fields of an answer that rightly reports a contact. `slack` is what the position itself may be off by.
-void Judge::contact(const Truth& truth, const Vec3& center, const Answer& answer, double slack,
-                    Tally& tally) const {
+void Judge::contact(const GroundTruth& truth, const Vec3& center, const Answer& answer, double slack,
+                    ErrorCounts& counts) const {
   if (!std::isfinite(truth.high)) return;  // beyond all doubles: any answer is
-  std::vector<Truth> nearest;
+  std::vector<GroundTruth> nearest;
   if (reported_.triangle && answer.triangle != no_triangle) {
     nearest = with_id(truth, center, answer.triangle, slack);
-    if (nearest.empty()) ++tally.wrong_triangle;
+    if (nearest.empty()) ++counts.wrong_triangle;
   } else {
     nearest = tied(truth, center, slack);
   }
   if (nearest.empty()) nearest.push_back(truth);
   double largest = truth.largest_difference;
-  for (const Truth& one : nearest) largest = std::max(largest, one.largest_difference);
+  for (const GroundTruth& one : nearest) largest = std::max(largest, one.largest_difference);
   const double bound = allowed_in_fields(largest) + slack + ulp(truth.high);
   const double rounding_bound = kernel_relative_error * largest + slack + ulp(truth.high);
 
   if (reported_.distance) {
     const double error = std::abs((answer.distance - truth.high) - truth.low);
-    note_distance_error(error, tally);
+    note_distance_error(error, counts);
     if (truth.high > kernel_relative_error * largest + slack)
-      tally.max_distance_error_ulp = std::max(tally.max_distance_error_ulp, error / ulp(truth.high));
-    if (error > bound) ++tally.beyond_bound;
-    if (error > rounding_bound) ++(error > tolerance_ ? tally.beyond_tolerance : tally.rounding);
+      counts.max_distance_error_ulp = std::max(counts.max_distance_error_ulp, error / ulp(truth.high));
+    if (error > bound) ++counts.beyond_bound;
+    if (error > rounding_bound) ++(error > tolerance_ ? counts.beyond_tolerance : counts.rounding);
   }
   if (reported_.point) {
     const Vec3 point = vector(answer.point);
@@ -189,11 +193,11 @@ void Judge::contact(const Truth& truth, const Vec3& center, const Answer& answer
     const double rounding =
         4 * unit_roundoff * std::max(point.cwiseAbs().maxCoeff(), center.cwiseAbs().maxCoeff());
     double off = infinity;
-    for (const Truth& one : nearest)
+    for (const GroundTruth& one : nearest)
       off = std::min(off, distance_interval(point, triangle_of(oracle_.mesh(), one.triangle)).lo);
-    tally.max_point_error = std::max(tally.max_point_error, off);
+    counts.max_point_error = std::max(counts.max_point_error, off);
     const double nearness = std::abs((center - point).stableNorm() - truth.high);
-    if (off > bound + rounding || nearness > bound + rounding) ++tally.wrong_point;
+    if (off > bound + rounding || nearness > bound + rounding) ++counts.wrong_point;
   }
   if (reported_.normal) {
     const Vec3 normal = vector(answer.normal);
@@ -202,90 +206,91 @@ void Judge::contact(const Truth& truth, const Vec3& center, const Answer& answer
     // Nearer than this the direction of even the best answer in double is noise of up to 0.06 degrees.
     if (truth.high > 1024 * (kernel_relative_error * largest + slack)) {
       double least = infinity;
-      for (const Truth& one : nearest) least = std::min(least, angle(normal, one.direction));
-      tally.max_normal_angle_deg = std::max(tally.max_normal_angle_deg, least * 180 / std::numbers::pi);
+      for (const GroundTruth& one : nearest) least = std::min(least, angle(normal, one.direction));
+      counts.max_normal_angle_deg = std::max(counts.max_normal_angle_deg, least * 180 / std::numbers::pi);
       // A point x of a convex set, |x| <= d + 2 bound, is within sqrt(4 d bound + 4 bound^2) of the nearest;
       // one that is only `bound` away from the set, that much farther.
       const double shift = bound + 2 * std::sqrt(bound * (truth.high + bound));
       wrong = wrong || least > 2 * shift / truth.high + 16 * unit_roundoff + single_precision;
     }
-    if (wrong) ++tally.wrong_normal;
+    if (wrong) ++counts.wrong_normal;
   }
 }
 
-void Judge::position(const Truth& truth, Query query, const Probe& probe, double reach, const Answer& answer,
-                     Tally& tally) const {
-  ++tally.judged;
+void Judge::position(const GroundTruth& truth, Query query, const Probe& probe, double reach,
+                     const Answer& answer, ErrorCounts& counts) const {
+  ++counts.judged;
   const bool found = answer.found != 0;
   const bool has_fields = found && query == Query::nearest;
   // Infinitely far away within an infinite reach: any answer is right.
   const bool beyond_doubles = truth.defined ? std::isinf(truth.high) : !probe.center.hasNaN();
   if (has_fields && !beyond_doubles && !well_formed(answer, reported_)) {
-    ++tally.malformed;
+    ++counts.malformed;
     return;
   }
   const double limit = query == Query::touches ? probe.radius : reach;
   if (!truth.defined && beyond_doubles && limit == infinity) return;
   switch (threshold(truth, probe.center, limit, found)) {
     case Verdict::wrong:
-      ++(found ? tally.false_contacts : tally.missed);
+      ++(found ? counts.false_contacts : counts.missed);
       return;
     case Verdict::unresolved:
-      ++tally.unresolved;
+      ++counts.unresolved;
       break;
     case Verdict::right:
       break;
   }
   if (!has_fields) return;
-  const std::uint64_t wrong_before = tally.wrong_triangle;
-  contact(truth, probe.center, answer, 0, tally);
-  if (tally.wrong_triangle == wrong_before && is_misnamed(truth, answer)) ++tally.wrong_triangle;
-  if (is_wrong(answer.side, probe.center)) ++tally.wrong_side;
+  const std::uint64_t wrong_before = counts.wrong_triangle;
+  contact(truth, probe.center, answer, 0, counts);
+  if (counts.wrong_triangle == wrong_before && is_misnamed(truth, answer)) ++counts.wrong_triangle;
+  if (is_wrong(answer.side, probe.center)) ++counts.wrong_side;
 }
 
-void Judge::sweep(const SweepTruth& truth, const Sweep& sweep, const Answer& answer, Tally& tally) const {
-  ++tally.judged;
+void Judge::sweep(const SweepGroundTruth& truth, const Sweep& sweep, const Answer& answer,
+                  ErrorCounts& counts) const {
+  ++counts.judged;
   const bool found = answer.found != 0;
   if (found && (!well_formed(answer, reported_) || !(answer.fraction >= 0 && answer.fraction <= 1))) {
-    ++tally.malformed;
+    ++counts.malformed;
     return;
   }
   if (!truth.defined) {
-    if (found) ++tally.false_contacts;
+    if (found) ++counts.false_contacts;
     return;
   }
-  if (accuracy_.decides_exactly) return exact_sweep(truth, sweep, answer, tally);
+  if (accuracy_.decides_exactly) return exact_sweep(truth, sweep, answer, counts);
   const auto largest_difference = [&](const Vec3& p) {
     return (p - low_).cwiseAbs().cwiseMax((p - high_).cwiseAbs()).maxCoeff();
   };
-  const Vec3 way = sweep.to - sweep.from;
+  const Vec3 path = sweep.to - sweep.from;
   // from + fraction * way rounds thrice, there and here; the fraction is rounded too.
   const double slack =
       12 * unit_roundoff *
-      (way.cwiseAbs().maxCoeff() + sweep.from.cwiseAbs().maxCoeff() + sweep.to.cwiseAbs().maxCoeff());
+      (path.cwiseAbs().maxCoeff() + sweep.from.cwiseAbs().maxCoeff() + sweep.to.cwiseAbs().maxCoeff());
   const double tolerance =
       allowed(std::max(largest_difference(sweep.from), largest_difference(sweep.to))) + slack;
   if (found != truth.hit) {
     const bool excused =
         known_ && (found ? oracle_.segment_within(sweep.from, sweep.to, raised(sweep.radius + tolerance))
                          : !surely_touches(sweep.from, sweep.to, sweep.radius, tolerance));
-    ++(excused ? tally.unresolved : found ? tally.false_contacts : tally.missed);
+    ++(excused ? counts.unresolved : found ? counts.false_contacts : counts.missed);
     if (!excused) return;
   }
   if (!found) return;
   const Vec3 position = answer.fraction <= 0   ? sweep.from
                         : answer.fraction >= 1 ? sweep.to
-                                               : Vec3(sweep.from + answer.fraction * way);
-  const Truth there = oracle_.solve(position);
-  if (answer.fraction > 0) note_distance_error(std::abs(there.high - sweep.radius), tally);
+                                               : Vec3(sweep.from + answer.fraction * path);
+  const GroundTruth there = oracle_.solve(position);
+  if (answer.fraction > 0) note_distance_error(std::abs(there.high - sweep.radius), counts);
   if (!oracle_.within(there, position, raised(sweep.radius + tolerance))) {
-    ++tally.false_contacts;
+    ++counts.false_contacts;
   } else if (answer.fraction > 0 && surely_touches(sweep.from, position, sweep.radius, tolerance)) {
-    ++tally.missed;
+    ++counts.missed;
   } else {
     const bool claims_exactness = answer.fraction > 0 && accuracy_.guarantee == Guarantee::exact;
     const double early = claims_exactness ? sweep_gap(sweep, answer.triangle) : 0;
-    contact(there, position, answer, slack + early, tally);
+    contact(there, position, answer, slack + early, counts);
   }
 }
 
@@ -300,49 +305,49 @@ double Judge::sweep_gap(const Sweep& sweep, TriangleId id) const {
 }
 
 /// Nothing is excused.
-void Judge::exact_sweep(const SweepTruth& truth, const Sweep& sweep, const Answer& answer,
-                        Tally& tally) const {
+void Judge::exact_sweep(const SweepGroundTruth& truth, const Sweep& sweep, const Answer& answer,
+                        ErrorCounts& counts) const {
   const bool found = answer.found != 0, at_start = found && answer.fraction == 0;
   if (found != truth.hit) {
-    ++(found ? tally.false_contacts : tally.missed);
+    ++(found ? counts.false_contacts : counts.missed);
     return;
   }
   if (!found) return;
   if (at_start != truth.touching_at_start) {
-    ++(at_start ? tally.false_contacts : tally.missed);
+    ++(at_start ? counts.false_contacts : counts.missed);
     return;
   }
   const double early = at_start ? 0 : sweep_gap(sweep, answer.triangle);
   constexpr double first_of_all = std::numeric_limits<double>::denorm_min();  // there is none before it
   if (answer.fraction > first_of_all && oracle_.touches_before(sweep, answer.fraction)) {
-    ++tally.missed;
+    ++counts.missed;
     return;
   }
   if (!at_start && !oracle_.within_on_way(sweep, answer.fraction, raised(sweep.radius + early))) {
-    ++tally.false_contacts;
+    ++counts.false_contacts;
     return;
   }
   const Vec3 position = at_start              ? sweep.from
                         : answer.fraction < 1 ? Vec3(sweep.from + answer.fraction * (sweep.to - sweep.from))
                                               : sweep.to;
-  const Truth there = oracle_.solve(position);
-  if (!at_start) note_distance_error(std::abs(there.high - sweep.radius), tally);
+  const GroundTruth there = oracle_.solve(position);
+  if (!at_start) note_distance_error(std::abs(there.high - sweep.radius), counts);
   // The fields are judged at a position that is rounded.
   const double rounding =
       4 * unit_roundoff * (sweep.from.cwiseAbs().maxCoeff() + position.cwiseAbs().maxCoeff());
-  contact(there, position, answer, at_start ? 0 : early + rounding, tally);
+  contact(there, position, answer, at_start ? 0 : early + rounding, counts);
 }
 
-/// Adds up judge_one(i, tally) for i < size.
+/// Adds up judge_one(i, counts) for i < size.
 template <class JudgeOne>
-Tally total(std::size_t size, unsigned threads, Charges* charges, const JudgeOne& judge_one) {
-  Tally sum;
+ErrorCounts total(std::size_t size, unsigned threads, Charges* charges, const JudgeOne& judge_one) {
+  ErrorCounts sum;
   std::mutex mutex;
   in_parallel(size, threads, [&](std::size_t begin, std::size_t end) {
-    Tally piece;
+    ErrorCounts piece;
     Charges of_piece;
     for (std::size_t i = begin; i < end; ++i) {
-      Tally one;
+      ErrorCounts one;
       judge_one(i, one);
       if (one.charged()) of_piece.add(i, one);
       piece += one;
@@ -356,7 +361,7 @@ Tally total(std::size_t size, unsigned threads, Charges* charges, const JudgeOne
 
 }  // namespace
 
-Tally& Tally::operator+=(const Tally& other) noexcept {
+ErrorCounts& ErrorCounts::operator+=(const ErrorCounts& other) noexcept {
   judged += other.judged;
   missed += other.missed;
   false_contacts += other.false_contacts;
@@ -379,41 +384,42 @@ Tally& Tally::operator+=(const Tally& other) noexcept {
 }
 
 void Charges::merge(const Charges& others, std::size_t first_step) {
-  for (const Charge& one : others.kept_) kept_.push_back({first_step + one.step, one.tally});
+  for (const Charge& one : others.kept_) kept_.push_back({first_step + one.step, one.counts});
   std::sort(kept_.begin(), kept_.end(), [](const Charge& a, const Charge& b) { return a.step < b.step; });
-  if (kept_.size() > most_) kept_.resize(most_);
+  if (kept_.size() > max_) kept_.resize(max_);
 }
 
-bool keeps_its_word(const Tally& tally, const Accuracy& accuracy) noexcept {
-  if (tally.malformed + tally.wrong_side > 0) return false;
+bool meets_guarantee(const ErrorCounts& counts, const Accuracy& accuracy) noexcept {
+  if (counts.malformed + counts.wrong_side > 0) return false;
   if (accuracy.guarantee == Guarantee::approximate) return true;
-  if (tally.missed > 0) return false;
+  if (counts.missed > 0) return false;
   if (accuracy.guarantee == Guarantee::conservative) return true;
-  return tally.false_contacts + tally.wrong_triangle + tally.beyond_bound + tally.wrong_point +
-             tally.wrong_normal ==
+  return counts.false_contacts + counts.wrong_triangle + counts.beyond_bound + counts.wrong_point +
+             counts.wrong_normal ==
          0;
 }
 
-Tally judge(const Oracle& oracle, std::span<const Truth> truths, Query query, std::span<const Probe> probes,
-            double reach, std::span<const Answer> answers, const Accuracy& accuracy, const Reported& reported,
-            Charges* charges) {
+ErrorCounts judge(const Oracle& oracle, std::span<const GroundTruth> truths, Query query,
+                  std::span<const Probe> probes, double reach, std::span<const Answer> answers,
+                  const Accuracy& accuracy, const Reported& reported, Charges* charges) {
   const Judge judge(oracle, accuracy, reported);
   return total(std::min({truths.size(), probes.size(), answers.size()}), oracle.threads(), charges,
-               [&](std::size_t i, Tally& tally) {
-                 judge.position(truths[i], query, probes[i], reach, answers[i], tally);
+               [&](std::size_t i, ErrorCounts& counts) {
+                 judge.position(truths[i], query, probes[i], reach, answers[i], counts);
                });
 }
 
-Tally judge(const Oracle& oracle, std::span<const SweepTruth> truths, std::span<const Sweep> sweeps,
-            std::span<const Answer> answers, const Accuracy& accuracy, const Reported& reported,
-            Charges* charges) {
+ErrorCounts judge(const Oracle& oracle, std::span<const SweepGroundTruth> truths,
+                  std::span<const Sweep> sweeps, std::span<const Answer> answers, const Accuracy& accuracy,
+                  const Reported& reported, Charges* charges) {
   Accuracy of_sweeps = accuracy;
   // most_early_gap, where the way's start is within M of the triangle and the way's coordinates within 2 M.
   const double least = accuracy.guarantee == Guarantee::exact ? most_early_gap(1, 2) : kernel_relative_error;
   of_sweeps.relative = std::max(accuracy.relative, least);
   const Judge judge(oracle, of_sweeps, reported);
-  return total(std::min({truths.size(), sweeps.size(), answers.size()}), oracle.threads(), charges,
-               [&](std::size_t i, Tally& tally) { judge.sweep(truths[i], sweeps[i], answers[i], tally); });
+  return total(
+      std::min({truths.size(), sweeps.size(), answers.size()}), oracle.threads(), charges,
+      [&](std::size_t i, ErrorCounts& counts) { judge.sweep(truths[i], sweeps[i], answers[i], counts); });
 }
 
 }  // namespace touchmark::bench

@@ -31,7 +31,7 @@ struct Reported {
 
 /// An answer is charged under the first heading that fits: an undecided threshold is `unresolved` and never
 /// missed or false; the fields of a missed, false or malformed answer are not judged further.
-struct Tally {
+struct ErrorCounts {
   std::uint64_t judged = 0;          ///< answers looked at
   std::uint64_t missed = 0;          ///< contact not reported, or (sweep) reported after it had been made
   std::uint64_t false_contacts = 0;  ///< contact reported where there is none (sweep: not yet)
@@ -63,34 +63,34 @@ struct Tally {
            0;
   }
 
-  Tally& operator+=(const Tally& other) noexcept;
-  bool operator==(const Tally&) const = default;
+  ErrorCounts& operator+=(const ErrorCounts& other) noexcept;
+  bool operator==(const ErrorCounts&) const = default;
 };
 
-/// Does the tally agree with what the contestant claims? exact: no error of any kind. conservative: nothing
+/// Does the counts agree with what the contestant claims? exact: no error of any kind. conservative: nothing
 /// missed or malformed. approximate: nothing malformed. Whoever tells a side must tell the right one.
-bool keeps_its_word(const Tally& tally, const Accuracy& accuracy) noexcept;
+bool meets_guarantee(const ErrorCounts& counts, const Accuracy& accuracy) noexcept;
 
 /// One answer that was charged.
 struct Charge {
   std::size_t step = 0;  ///< its place in the lists
-  Tally tally;           ///< of this answer alone
+  ErrorCounts counts;    ///< of this answer alone
 };
 
 /// The first ones of those that were charged, in the order of the steps.
 class Charges {
  public:
-  explicit Charges(std::size_t most = 3) : most_(most) {}
+  explicit Charges(std::size_t most = 3) : max_(most) {}
   /// In ascending order of the steps.
-  void add(std::size_t step, const Tally& tally) {
-    if (kept_.size() < most_) kept_.push_back({step, tally});
+  void add(std::size_t step, const ErrorCounts& counts) {
+    if (kept_.size() < max_) kept_.push_back({step, counts});
   }
   /// Those of another list of the same answers, whose steps are counted from `first_step`.
   void merge(const Charges& others, std::size_t first_step = 0);
   const std::vector<Charge>& kept() const noexcept { return kept_; }
 
  private:
-  std::size_t most_;
+  std::size_t max_;
   std::vector<Charge> kept_;
 };
 
@@ -103,9 +103,9 @@ class Charges {
 /// physical_tolerance. Where it decides exactly nothing is excused at a threshold either.
 ///
 /// An id stands for every triangle that carries it (a polygon's pieces).
-Tally judge(const Oracle& oracle, std::span<const Truth> truths, Query query, std::span<const Probe> probes,
-            double reach, std::span<const Answer> answers, const Accuracy& accuracy,
-            const Reported& reported = {}, Charges* charges = nullptr);
+ErrorCounts judge(const Oracle& oracle, std::span<const GroundTruth> truths, Query query,
+                  std::span<const Probe> probes, double reach, std::span<const Answer> answers,
+                  const Accuracy& accuracy, const Reported& reported = {}, Charges* charges = nullptr);
 
 /// Judges `sweep`. Of a contestant that decides exactly whether it hits is judged without tolerance: the way
 /// comes within the radius or it does not; at fraction 0 it has to touch at the start, at another one it may
@@ -118,8 +118,8 @@ Tally judge(const Oracle& oracle, std::span<const Truth> truths, Query query, st
 /// rounding of a position on the way. Of all the contact is judged as `nearest` there. The accuracy's
 /// relative part is kernel_relative_error at least, and most_early_gap of those who claim exactness: no sweep
 /// claims better.
-Tally judge(const Oracle& oracle, std::span<const SweepTruth> truths, std::span<const Sweep> sweeps,
-            std::span<const Answer> answers, const Accuracy& accuracy, const Reported& reported = {},
-            Charges* charges = nullptr);
+ErrorCounts judge(const Oracle& oracle, std::span<const SweepGroundTruth> truths,
+                  std::span<const Sweep> sweeps, std::span<const Answer> answers, const Accuracy& accuracy,
+                  const Reported& reported = {}, Charges* charges = nullptr);
 
 }  // namespace touchmark::bench

@@ -16,7 +16,7 @@
 namespace touchmark::bench {
 
 /// The truth about one position. It does not depend on radius or reach, so one serves every query there.
-struct Truth {
+struct GroundTruth {
   bool defined = false;           ///< false when a coordinate of the centre is not finite: it touches nothing
   std::uint32_t triangle = 0;     ///< position in the mesh of a nearest triangle; of exact ties the lowest
   double high = 0;                ///< the distance rounded to nearest; infinite if beyond all doubles
@@ -27,7 +27,7 @@ struct Truth {
 };
 
 /// The truth about one sweep.
-struct SweepTruth {
+struct SweepGroundTruth {
   bool defined = false;            ///< false when a coordinate is not finite: it hits nothing
   bool hit = false;                ///< the way comes within the radius of the mesh, exactly
   bool touching_at_start = false;  ///< it already is there at the start, exactly
@@ -43,14 +43,14 @@ class Oracle {
   Oracle& operator=(Oracle&&) noexcept;
 
   /// One truth a probe, in order. To be computed once a trajectory and used for every contestant.
-  std::vector<Truth> solve(std::span<const Probe> probes) const;
-  std::vector<SweepTruth> solve(std::span<const Sweep> sweeps) const;
+  std::vector<GroundTruth> solve(std::span<const Probe> probes) const;
+  std::vector<SweepGroundTruth> solve(std::span<const Sweep> sweeps) const;
 
-  Truth solve(const Vec3& center) const;
-  SweepTruth solve(const Sweep& sweep) const;
+  GroundTruth solve(const Vec3& center) const;
+  SweepGroundTruth solve(const Sweep& sweep) const;
 
   /// Is the distance at most `radius`? `truth` must be of `center`. Exact; false for a radius below 0 or NaN.
-  bool within(const Truth& truth, const Vec3& center, double radius) const;
+  bool within(const GroundTruth& truth, const Vec3& center, double radius) const;
   /// Is the distance from `center` to this one triangle at most `radius`? Exact likewise.
   bool within(std::uint32_t triangle, const Vec3& center, double radius) const;
   /// Does the segment come within `radius` of the mesh? Exact likewise; false when a coordinate is not
@@ -70,7 +70,7 @@ class Oracle {
   bool surely_crosses(const Vec3& from, const Vec3& to, double margin) const;
 
   /// The truth about `center` and this one triangle.
-  Truth solve(const Vec3& center, std::uint32_t triangle) const;
+  GroundTruth solve(const Vec3& center, std::uint32_t triangle) const;
   /// On which side a finite point is; nothing where the mesh is not closed. Looks at every triangle.
   std::optional<Side> side(const Vec3& center) const;
   /// Every triangle whose distance to `center` is at most `radius`, ascending. Exact.

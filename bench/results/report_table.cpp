@@ -18,13 +18,13 @@ std::string figure(double value) {
 }
 
 /// The least of the rows' times; infinite where there is none.
-struct Least {
+struct Minima {
   double ns = std::numeric_limits<double>::infinity();
   double p999 = std::numeric_limits<double>::infinity();
 };
 
-Least least_of(const std::vector<ResultRow>& rows) {
-  Least least;
+Minima minima_of(const std::vector<ResultRow>& rows) {
+  Minima least;
   for (const ResultRow& row : rows) {
     if (row.throughput) least.ns = std::min(least.ns, row.throughput->undisturbed.ns);
     if (const auto p999 = p999_of(row, row.latency)) least.p999 = std::min(least.p999, *p999);
@@ -32,7 +32,7 @@ Least least_of(const std::vector<ResultRow>& rows) {
   return least;
 }
 
-std::vector<std::string> timing_cells(const ResultRow& row, const Least& least) {
+std::vector<std::string> timing_cells(const ResultRow& row, const Minima& least) {
   if (!row.throughput) return {row.status, "", "", "", "", "", ""};
   const UndisturbedTime& time = row.throughput->undisturbed;
   const std::optional<double> p999 = p999_of(row, row.latency);
@@ -46,23 +46,23 @@ std::vector<std::string> timing_cells(const ResultRow& row, const Least& least) 
 }
 
 std::vector<std::string> error_cells(const ResultRow& row) {
-  if (!row.tally) return {"", "", "", "", "", ""};
-  const Tally& tally = *row.tally;
+  if (!row.counts) return {"", "", "", "", "", ""};
+  const ErrorCounts& counts = *row.counts;
   const std::uint64_t others =
-      std::max({tally.wrong_point, tally.wrong_normal, tally.wrong_side}) + tally.malformed;
-  return {count(tally.missed),           count(tally.false_contacts), count(tally.wrong_triangle),
-          count(tally.beyond_tolerance), count(tally.rounding),       count(others)};
+      std::max({counts.wrong_point, counts.wrong_normal, counts.wrong_side}) + counts.malformed;
+  return {count(counts.missed),           count(counts.false_contacts), count(counts.wrong_triangle),
+          count(counts.beyond_tolerance), count(counts.rounding),       count(others)};
 }
 
 /// Empty where there is none. How long a contestant may take is the user's choice, so that a timeout is none.
 std::string fault_of(const ResultRow& row) {
   if (row.status == "checksum mismatch") return "timed answers differ from verified ones";
-  if (row.broke_its_word()) return "answers are not as exact as claimed";
+  if (row.violates_guarantee()) return "answers are not as exact as claimed";
   return row.claims_exactness() && row.status.starts_with("crashed") ? row.status : "";
 }
 
 bool is_exact(const ResultRow& row) {
-  return row.accuracy && row.accuracy->guarantee == Guarantee::exact && !row.broke_its_word();
+  return row.accuracy && row.accuracy->guarantee == Guarantee::exact && !row.violates_guarantee();
 }
 
 /// Too near to the fastest to be told from it.
@@ -71,7 +71,7 @@ bool is_beside(const ResultRow& row, const ResultRow& best) {
          row.throughput->undisturbed.ns <= resolution * best.throughput->undisturbed.ns;
 }
 
-std::string least_p999(const std::vector<ResultRow>& rows) {
+std::string min_p999(const std::vector<ResultRow>& rows) {
   const ResultRow* least = nullptr;
   for (const ResultRow& row : rows) {
     if (!is_exact(row) || !p999_of(row, row.latency)) continue;
@@ -101,7 +101,7 @@ std::string timing_table(const std::vector<ResultRow>& rows) {
   TextTable table({"detector", "guarantee", "missed", "false", "triangle", off, "rounding", "point/normal",
                    "ns/query", "95 %", "x fastest", "p99.9 ns", "x least p99.9", "max ns", "Hz", "build ms",
                    "MB", "steps"});
-  const Least least = least_of(rows);
+  const Minima least = minima_of(rows);
   for (const ResultRow& row : rows) {
     std::vector<std::string> cells{row.contestant(), std::string(guarantee_name(row))};
     for (std::string& cell : error_cells(row)) cells.push_back(std::move(cell));
@@ -132,7 +132,7 @@ std::string verdict(const std::vector<ResultRow>& rows, const Steadiness& steadi
                                       figure(best->latency->max / 1e3))
                         : fmt::format("; does not hold 1 kHz: {} of {} steps were late", misses, best->steps);
   }
-  return line + '\n' + least_p999(rows) + disturbance(steadiness);
+  return line + '\n' + min_p999(rows) + disturbance(steadiness);
 }
 
 std::string work_table(const std::vector<ResultRow>& rows) {
@@ -151,8 +151,8 @@ std::string work_table(const std::vector<ResultRow>& rows) {
   return table.text();
 }
 
-bool tell_faults(const std::vector<ResultRow>& rows,
-                 const std::function<std::string(const ResultRow&)>& where) {
+bool print_faults(const std::vector<ResultRow>& rows,
+                  const std::function<std::string(const ResultRow&)>& where) {
   bool faulty = false;
   for (const ResultRow& row : rows) {
     const std::string fault = fault_of(row);

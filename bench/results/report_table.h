@@ -20,7 +20,7 @@ std::string work_table(const std::vector<ResultRow>& rows);
 
 /// Says on stderr, a line each, which rows broke their word or were timed with other answers than the
 /// verified ones; `where` names a row beside its contestant. False when there are none.
-bool tell_faults(const std::vector<ResultRow>& rows,
-                 const std::function<std::string(const ResultRow&)>& where);
+bool print_faults(const std::vector<ResultRow>& rows,
+                  const std::function<std::string(const ResultRow&)>& where);
 
 }  // namespace touchmark::bench

@@ -22,17 +22,17 @@ std::string rounded(double value) { return fmt::format("{:.6g}", value); }
 
 template <auto Member>
 std::string count_of(const ResultRow& row) {
-  return row.tally ? fmt::format("{}", (*row.tally).*Member) : "";
+  return row.counts ? fmt::format("{}", (*row.counts).*Member) : "";
 }
 
 template <auto Member>
 std::string stored_count_of(const ResultRow& row) {
-  return row.stored_tally ? fmt::format("{}", (*row.stored_tally).*Member) : "";
+  return row.rounded_scene_counts ? fmt::format("{}", (*row.rounded_scene_counts).*Member) : "";
 }
 
 template <auto Member>
 std::string error_of(const ResultRow& row) {
-  return row.tally ? exactly((*row.tally).*Member) : "";
+  return row.counts ? exactly((*row.counts).*Member) : "";
 }
 
 template <auto Member>
@@ -102,13 +102,13 @@ constexpr std::array columns{
     Column{"radius", [](Row row) { return exactly(row.radius); }},
     Column{"reach", [](Row row) { return exactly(row.reach); }},
     Column{"guarantee", [](Row row) { return std::string(guarantee_name(row)); }},
-    Column{"missed", count_of<&Tally::missed>},
-    Column{"false_contacts", count_of<&Tally::false_contacts>},
-    Column{"wrong_triangle", count_of<&Tally::wrong_triangle>},
-    Column{"max_distance_error", error_of<&Tally::max_distance_error>},
-    Column{"max_distance_error_ulp", error_of<&Tally::max_distance_error_ulp>},
-    Column{"max_normal_angle_deg", error_of<&Tally::max_normal_angle_deg>},
-    Column{"unresolved", count_of<&Tally::unresolved>},
+    Column{"missed", count_of<&ErrorCounts::missed>},
+    Column{"false_contacts", count_of<&ErrorCounts::false_contacts>},
+    Column{"wrong_triangle", count_of<&ErrorCounts::wrong_triangle>},
+    Column{"max_distance_error", error_of<&ErrorCounts::max_distance_error>},
+    Column{"max_distance_error_ulp", error_of<&ErrorCounts::max_distance_error_ulp>},
+    Column{"max_normal_angle_deg", error_of<&ErrorCounts::max_normal_angle_deg>},
+    Column{"unresolved", count_of<&ErrorCounts::unresolved>},
     Column{"status", [](Row row) { return row.status; }},
     Column{"ns_per_query", throughput_of<&ThroughputResult::ns_per_query>},
     Column{"ns_p50", latency_of<&LatencySummary::p50>},
@@ -137,11 +137,11 @@ constexpr std::array columns{
     Column{"deadline_misses_10khz", misses_of<2>},
     Column{"longest_miss_run_10khz", longest_run_of<2>},
     Column{"clock_cost_ns", [](Row row) { return row.latency ? rounded(row.clock_cost_ns) : ""; }},
-    Column{"max_distance_error_of_diagonal", error_of<&Tally::max_distance_error_of_diagonal>},
-    Column{"beyond_bound", count_of<&Tally::beyond_bound>},
-    Column{"wrong_point", count_of<&Tally::wrong_point>},
-    Column{"wrong_normal", count_of<&Tally::wrong_normal>},
-    Column{"malformed", count_of<&Tally::malformed>},
+    Column{"max_distance_error_of_diagonal", error_of<&ErrorCounts::max_distance_error_of_diagonal>},
+    Column{"beyond_bound", count_of<&ErrorCounts::beyond_bound>},
+    Column{"wrong_point", count_of<&ErrorCounts::wrong_point>},
+    Column{"wrong_normal", count_of<&ErrorCounts::wrong_normal>},
+    Column{"malformed", count_of<&ErrorCounts::malformed>},
     Column{"cpu_ns_per_query", throughput_of<&ThroughputResult::cpu_ns_per_query>},
     Column{"answers_checksum", [](Row row) { return row.checksum ? hex(*row.checksum) : ""; }},
     Column{"cells_mean", work_of<&Work::cells>},
@@ -152,13 +152,15 @@ constexpr std::array columns{
            [](Row row) { return row.work ? fmt::format("{}", row.work->total.exact_decisions) : ""; }},
     Column{"decides_exactly",
            [](Row row) { return row.accuracy ? fmt::format("{:d}", row.accuracy->decides_exactly) : ""; }},
-    Column{"stored_missed", stored_count_of<&Tally::missed>},
-    Column{"stored_false_contacts", stored_count_of<&Tally::false_contacts>},
+    Column{"stored_missed", stored_count_of<&ErrorCounts::missed>},
+    Column{"stored_false_contacts", stored_count_of<&ErrorCounts::false_contacts>},
     Column{"stored_max_distance_error_of_diagonal",
            [](Row row) {
-             return row.stored_tally ? exactly(row.stored_tally->max_distance_error_of_diagonal) : "";
+             return row.rounded_scene_counts
+                        ? exactly(row.rounded_scene_counts->max_distance_error_of_diagonal)
+                        : "";
            }},
-    Column{"wrong_side", count_of<&Tally::wrong_side>},
+    Column{"wrong_side", count_of<&ErrorCounts::wrong_side>},
     Column{"prepare_ns_p50", prepare_of<&LatencySummary::p50>},
     Column{"prepare_ns_p999", p999_in<&R::prepare>},
     Column{"prepare_ns_max", prepare_of<&LatencySummary::max>},
@@ -168,9 +170,9 @@ constexpr std::array columns{
     Column{"disturbed_share", throughput_of<&ThroughputResult::disturbed_share>},
     Column{"decisions_checksum",
            [](Row row) { return row.decisions_checksum ? hex(*row.decisions_checksum) : ""; }},
-    Column{"judged", count_of<&Tally::judged>},
-    Column{"beyond_tolerance", count_of<&Tally::beyond_tolerance>},
-    Column{"rounding", count_of<&Tally::rounding>},
+    Column{"judged", count_of<&ErrorCounts::judged>},
+    Column{"beyond_tolerance", count_of<&ErrorCounts::beyond_tolerance>},
+    Column{"rounding", count_of<&ErrorCounts::rounding>},
 };
 
 }  // namespace

@@ -55,7 +55,7 @@ void add_motion(Json& json, const Motion& motion, const std::optional<LengthUnit
 Json trajectories_json(const Workload& workload) {
   Json json = Json::array();
   for (std::size_t i = 0; i < workload.trajectories.size(); ++i) {
-    json.push_back({{"name", workload.trajectories[i]}, {"steps", workload.courses[i].size()}});
+    json.push_back({{"name", workload.trajectories[i]}, {"steps", workload.traces[i].size()}});
     if (i < workload.motions.size()) add_motion(json.back(), workload.motions[i], workload.unit);
   }
   return json;

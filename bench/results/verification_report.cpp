@@ -19,7 +19,7 @@ namespace {
 struct Summary {
   std::string contestant;
   std::string guarantee;
-  Tally tally;
+  ErrorCounts counts;
   std::size_t unsupported = 0;
   std::size_t refused = 0;
   std::size_t crashed = 0;
@@ -36,7 +36,7 @@ bool declined(const ResultRow& row) {
 }
 
 void add(Summary& summary, const ResultRow& row) {
-  if (row.tally) summary.tally += *row.tally;
+  if (row.counts) summary.counts += *row.counts;
   if (row.claim()) summary.guarantee = guarantee_name(row);
   summary.unsupported += row.status == "unsupported" ? 1 : 0;
   summary.refused += row.status.starts_with("refused") ? 1 : 0;
@@ -63,17 +63,17 @@ std::vector<Summary> summarize(const std::vector<ResultRow>& rows) {
 
 bool without_fault(const ResultRow& row) {
   if (declined(row)) return true;
-  if (!answered(row) || !row.tally) return false;
-  return !row.tally->charged();
+  if (!answered(row) || !row.counts) return false;
+  return !row.counts->charged();
 }
 
 std::string failure(const ResultRow& row) {
   std::string line = fmt::format("{} {}: {}, {}, {}: ", claim_is_broken(row) ? "BROKEN" : "faulty",
                                  row.contestant(), row.mesh, row.trajectory, name_of(row.query));
   if (!answered(row)) return line + row.status;
-  const Tally& tally = *row.tally;
-  return line + fmt::format("of {} answers {}; largest distance error {:.3g} of the diagonal", tally.judged,
-                            charges_of(tally), tally.max_distance_error_of_diagonal);
+  const ErrorCounts& counts = *row.counts;
+  return line + fmt::format("of {} answers {}; largest distance error {:.3g} of the diagonal", counts.judged,
+                            charges_of(counts), counts.max_distance_error_of_diagonal);
 }
 
 /// Each of the row's wrong answers, and the command that repeats it.
@@ -89,7 +89,7 @@ std::string wrong_answers(const ResultRow& row) {
 }  // namespace
 
 bool claim_is_broken(const ResultRow& row) {
-  if (row.broke_its_word()) return true;
+  if (row.violates_guarantee()) return true;
   return row.claims_exactness() && !answered(row) && !declined(row);
 }
 
@@ -104,7 +104,7 @@ bool is_short_of_memory(const ResultRow& row) {
 
 std::string judged_answers(const std::vector<ResultRow>& rows) {
   std::uint64_t judged = 0;
-  for (const ResultRow& row : rows) judged += row.tally ? row.tally->judged : 0;
+  for (const ResultRow& row : rows) judged += row.counts ? row.counts->judged : 0;
   return fmt::format("{} answers judged exactly\n", judged);
 }
 
@@ -113,8 +113,8 @@ int status_of(const std::vector<ResultRow>& rows, bool faulty) {
   std::uint64_t judged = 0;
   int status = exit_done;
   for (const Summary& one : summarize(rows)) {
-    judged += one.tally.judged;
-    if (one.tally.judged > 0 || one.short_of_memory.empty()) continue;
+    judged += one.counts.judged;
+    if (one.counts.judged > 0 || one.short_of_memory.empty()) continue;
     fmt::print(stderr, "touchmark: {}: nothing judged: {}\n", one.contestant, one.short_of_memory);
     status = exit_resources;
   }
@@ -129,14 +129,14 @@ std::string verification_table(const std::vector<ResultRow>& rows) {
                    "refused", "crashed", "timeout", "verdict"});
   const auto count = [](std::uint64_t value) { return fmt::format("{}", value); };
   for (const Summary& one : summarize(rows)) {
-    const Tally& tally = one.tally;
-    table.add({one.contestant, one.guarantee, count(tally.judged), count(tally.missed),
-               count(tally.false_contacts), count(tally.wrong_triangle), count(tally.beyond_bound),
-               count(tally.wrong_point), count(tally.wrong_normal), count(tally.wrong_side),
-               count(tally.malformed), count(tally.rounding), count(tally.unresolved),
-               fmt::format("{:.2g}", tally.max_distance_error_of_diagonal), count(one.unsupported),
+    const ErrorCounts& counts = one.counts;
+    table.add({one.contestant, one.guarantee, count(counts.judged), count(counts.missed),
+               count(counts.false_contacts), count(counts.wrong_triangle), count(counts.beyond_bound),
+               count(counts.wrong_point), count(counts.wrong_normal), count(counts.wrong_side),
+               count(counts.malformed), count(counts.rounding), count(counts.unresolved),
+               fmt::format("{:.2g}", counts.max_distance_error_of_diagonal), count(one.unsupported),
                count(one.refused), count(one.crashed), count(one.timed_out),
-               std::string(verdict_on(one.broken > 0, tally.judged))});
+               std::string(verdict_on(one.broken > 0, counts.judged))});
   }
   return table.text() + judged_answers(rows);
 }
@@ -150,10 +150,10 @@ std::string list_of_failures(const std::vector<ResultRow>& rows, std::size_t mos
   std::stable_partition(failures.begin(), failures.end(),
                         [](const ResultRow* row) { return claim_is_broken(*row); });
   std::string text;
-  std::set<std::string> told;
+  std::set<std::string> reported;
   for (std::size_t i = 0; i < std::min(most, failures.size()); ++i) {
     text += failure(*failures[i]) + '\n';
-    const bool is_first = !failures[i]->wrong.empty() && told.insert(failures[i]->contestant()).second;
+    const bool is_first = !failures[i]->wrong.empty() && reported.insert(failures[i]->contestant()).second;
     if (is_first) text += wrong_answers(*failures[i]);
   }
   if (failures.size() > most) text += fmt::format("and {} more\n", failures.size() - most);

@@ -45,7 +45,7 @@ TriangleMesh flat_triangles(double apex) {
     double height = 1;
     for (int power = 0; power <= 15; ++power, height /= 10) {
       for (int heading = 0; heading < 4; ++heading) {
-        const Turn direction = turn(heading / 4.0 + power / 64.0);
+        const SinCos direction = portable_sincos(heading / 4.0 + power / 64.0);
         const Vec3 along = direction.cos * right + direction.sin * ahead;
         const Vec3 start = (power / 8.0 - 1) * right + (heading / 2.0 - 0.75) * ahead;
         const Vec3 tip = start + apex * along + height * up;
@@ -69,7 +69,7 @@ TriangleMesh sliver_fan() {
   std::vector<Corners> triangles;
   double width = 1 - ratio, fraction = 0;  // the widths of all, in turns, sum to one but for 1e-9
   for (int i = 0; i <= slivers; ++i) {
-    const Turn rim = turn(fraction);
+    const SinCos rim = portable_sincos(fraction);
     vertices.emplace_back(rim.cos, rim.sin, 0);
     if (i > 0) triangles.push_back({0, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(i + 1)});
     fraction += width;

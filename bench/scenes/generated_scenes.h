@@ -10,7 +10,7 @@
 namespace touchmark::bench {
 
 /// More than any scene here may have; the memory at hand may set a lower limit.
-inline constexpr std::uint64_t most_generated_triangles = 200'000'000;
+inline constexpr std::uint64_t max_generated_triangles = 200'000'000;
 
 /// An icosahedron on the unit sphere, every triangle split in four `levels` times: 20 * 4^levels triangles.
 TriangleMesh icosphere(unsigned levels);

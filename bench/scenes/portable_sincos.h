@@ -6,12 +6,12 @@
 
 namespace touchmark::bench {
 
-struct Turn {
+struct SinCos {
   double cos = 1, sin = 0;
 };
 
 /// The direction at `fraction` of a full turn, within about one rounding. Any finite fraction.
-inline Turn turn(double fraction) noexcept {
+inline SinCos portable_sincos(double fraction) noexcept {
   constexpr double full_turn = 6.283185307179586476925;
   const double quarters = std::nearbyint(4 * fraction);
   const double angle =

@@ -80,8 +80,8 @@ TriangleMesh make_torus(const Request& request) {
   const std::uint64_t around = whole_number(request, text.substr(0, cross), "N", 3, most);
   const std::uint64_t along = whole_number(request, text.substr(cross + 1), "M", 3, most);
   const std::uint64_t triangles = 2 * around * along;
-  if (triangles > most_generated_triangles) {
-    throw request.refusal(fmt::format("{} triangles, more than {}", triangles, most_generated_triangles));
+  if (triangles > max_generated_triangles) {
+    throw request.refusal(fmt::format("{} triangles, more than {}", triangles, max_generated_triangles));
   }
   require_memory_for(request, triangles, triangles / 2);
   return torus(static_cast<std::uint32_t>(around), static_cast<std::uint32_t>(along));
@@ -89,14 +89,14 @@ TriangleMesh make_torus(const Request& request) {
 
 TriangleMesh make_noisy_sphere(const Request& request) {
   const std::string& text = parameter(request, "noisy-sphere:TRIANGLES");
-  const std::uint64_t triangles = whole_number(request, text, "TRIANGLES", 6, most_generated_triangles);
+  const std::uint64_t triangles = whole_number(request, text, "TRIANGLES", 6, max_generated_triangles);
   require_memory_for(request, triangles, triangles / 2);
   return noisy_sphere(triangles);
 }
 
 TriangleMesh make_soup(const Request& request) {
   const std::string& text = parameter(request, "soup:N");
-  const std::uint64_t triangles = whole_number(request, text, "N", 1, most_generated_triangles);
+  const std::uint64_t triangles = whole_number(request, text, "N", 1, max_generated_triangles);
   require_memory_for(request, triangles, 3 * triangles);
   return soup(triangles);
 }

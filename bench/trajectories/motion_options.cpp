@@ -54,16 +54,16 @@ ChosenColumns parse_columns(const std::string& text) {
     begin = end + 1;
     const std::size_t equals = std::min(part.find('='), part.size());
     const std::string key = part.substr(0, equals);
-    std::optional<ColumnChoice>* const place = key == "x"        ? &position[0]
-                                               : key == "y"      ? &position[1]
-                                               : key == "z"      ? &position[2]
-                                               : key == "radius" ? &columns.radius
-                                               : is_time(key)    ? &columns.time
-                                                                 : nullptr;
-    if (equals == part.size() || place == nullptr)
+    std::optional<ColumnChoice>* const slot = key == "x"        ? &position[0]
+                                              : key == "y"      ? &position[1]
+                                              : key == "z"      ? &position[2]
+                                              : key == "radius" ? &columns.radius
+                                              : is_time(key)    ? &columns.time
+                                                                : nullptr;
+    if (equals == part.size() || slot == nullptr)
       refuse_columns(text, fmt::format("\"{}\" is not KEY=COL with a known key", part));
-    if (*place) refuse_columns(text, fmt::format("\"{}\" is one {} too many", part, key));
-    *place = choice_of(text, part.substr(equals + 1));
+    if (*slot) refuse_columns(text, fmt::format("\"{}\" is one {} too many", part, key));
+    *slot = choice_of(text, part.substr(equals + 1));
     if (is_time(key)) columns.seconds = seconds_of(key);
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {

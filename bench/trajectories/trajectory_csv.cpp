@@ -31,7 +31,7 @@ class MotionReader {
  public:
   MotionReader(CsvReader& file, const std::string& path, std::size_t most, const MotionOptions& options)
       : file_(file),
-        most_(most),
+        max_(most),
         options_(options),
         numbers_(file),
         columns_(read_motion_header(file, options.columns, row_)),
@@ -52,7 +52,7 @@ class MotionReader {
   [[noreturn]] void fail(std::size_t line, const std::string& what) const;
 
   CsvReader& file_;
-  std::size_t most_;
+  std::size_t max_;
   const MotionOptions& options_;
   NumberReader numbers_;
   std::vector<std::string> row_;  // at first what was read in search of a header
@@ -82,9 +82,9 @@ bool MotionReader::next_row() {
 
 /// True once the rows hold as many steps as are wanted.
 bool MotionReader::has_enough() const {
-  if (most_ == 0 || motion_.size() == 0) return false;
-  if (!options_.rate_hz) return motion_.size() >= most_;
-  return ticks_at(motion_, *options_.rate_hz) >= static_cast<double>(most_);
+  if (max_ == 0 || motion_.size() == 0) return false;
+  if (!options_.rate_hz) return motion_.size() >= max_;
+  return ticks_at(motion_, *options_.rate_hz) >= static_cast<double>(max_);
 }
 
 double MotionReader::coordinate(const MotionColumn& column) {
@@ -135,11 +135,11 @@ void MotionReader::check_times() {
   motion_.recorded = RecordedTiming{times.size(), duration, options_.rate_hz};
   if (options_.rate_hz) {
     const double ticks = ticks_at(motion_, *options_.rate_hz);
-    if (most_ == 0 && ticks > most_ticks) {
+    if (max_ == 0 && ticks > most_ticks) {
       throw std::invalid_argument(fmt::format("{}: {} s at --rate {} are {:.0f} steps, more than {:.0f}",
                                               motion_.name, duration, *options_.rate_hz, ticks, most_ticks));
     }
-    const double steps = most_ == 0 ? ticks : std::min(ticks, static_cast<double>(most_));
+    const double steps = max_ == 0 ? ticks : std::min(ticks, static_cast<double>(max_));
     require_memory(fmt::format("trajectory {}: {:.0f} steps", motion_.name, steps), bytes_a_tick * steps);
   } else if (const std::size_t row = first_gap(times)) {
     fail(lines_[row],
@@ -155,7 +155,7 @@ Trajectory MotionReader::read() {
   if (!columns_.time) return std::move(motion_);
   check_times();
   if (!options_.rate_hz) return std::move(motion_);
-  Trajectory ticks = resampled(motion_, *options_.rate_hz, most_);
+  Trajectory ticks = resampled(motion_, *options_.rate_hz, max_);
   ticks.recorded = motion_.recorded;
   return ticks;
 }

@@ -99,7 +99,7 @@ Positions edge(Motion motion) {
   const MeshEdges mesh(motion.mesh);
   const Starts starts(mesh);
   const double step = 0.0005 * motion.diagonal;
-  constexpr std::size_t ticks_a_place = 2000, ticks_a_diagonal = 200;
+  constexpr std::size_t ticks_a_position = 2000, ticks_a_diagonal = 200;
   Path path(motion.steps);
   while (!path.full()) {
     const std::optional<std::uint32_t> start = starts.random(motion.random);
@@ -110,9 +110,9 @@ Positions edge(Motion motion) {
     EdgeWalk walk(mesh, *start, motion.random);
     Vec3 offset = Vec3::Zero();
     double height = 0.9 * motion.radius * motion.random.unit();
-    const double way = path.distance_to(walk.position()) / motion.diagonal;
-    path.go(walk.position(), static_cast<std::size_t>(1 + way * ticks_a_diagonal));
-    for (std::size_t i = 0; i < ticks_a_place && !path.full(); ++i) {
+    const double distance = path.distance_to(walk.position()) / motion.diagonal;
+    path.go(walk.position(), static_cast<std::size_t>(1 + distance * ticks_a_diagonal));
+    for (std::size_t i = 0; i < ticks_a_position && !path.full(); ++i) {
       walk.advance(step, motion.random);
       height = std::clamp(height + motion.random.between(-0.2, 0.2) * step, 0.0, 0.9 * motion.radius);
       offset += limited(height * walk.edge().bisector - offset, step);

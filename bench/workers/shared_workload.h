@@ -1,4 +1,4 @@
-/// The mesh and the courses, written once by the program and read by every worker, and the room that workers
+/// The mesh and the traces, written once by the program and read by every worker, and the room that workers
 /// answer into. Only one worker works at a time, so they share that room.
 #pragma once
 
@@ -16,25 +16,25 @@
 
 namespace touchmark::bench {
 
-/// The sizes of what lies one after the other in the input: vertices, corners, ids, then each course's steps.
+/// The sizes of what lies one after the other in the input: vertices, corners, ids, then each trace's steps.
 struct WorkloadLayout {
   std::size_t vertices = 0;
   std::size_t triangles = 0;
   std::size_t ids = 0;
-  std::vector<std::size_t> course_steps;
+  std::vector<std::size_t> trace_steps;
 
   std::size_t input_bytes() const noexcept;
-  std::size_t longest_course() const noexcept;
+  std::size_t longest_trace() const noexcept;
 };
 
 void to_json(nlohmann::json& json, const WorkloadLayout& layout);
 void from_json(const nlohmann::json& json, WorkloadLayout& layout);
 
 /// Where one order's results go. Answers and work, or two kinds of ticks: a step needs one or the other.
-class OutputRoom {
+class OutputBuffers {
  public:
   static std::size_t bytes_for(std::size_t steps) noexcept;
-  OutputRoom(std::span<std::byte> bytes, std::size_t steps);
+  OutputBuffers(std::span<std::byte> bytes, std::size_t steps);
 
   std::span<Answer> answers(std::size_t steps) const noexcept { return answers_.first(steps); }
   std::span<std::uint64_t> work(std::size_t steps) const noexcept { return work_.first(steps); }
@@ -50,11 +50,11 @@ class OutputRoom {
 };
 
 /// The program's side: fills the input. Throws ResourceError when memory is short.
-SharedMemory write_input(const TriangleMesh& mesh, const std::vector<std::vector<Step>>& courses);
-WorkloadLayout layout_of(const TriangleMesh& mesh, const std::vector<std::vector<Step>>& courses);
+SharedMemory write_input(const TriangleMesh& mesh, const std::vector<std::vector<Step>>& traces);
+WorkloadLayout layout_of(const TriangleMesh& mesh, const std::vector<std::vector<Step>>& traces);
 
 /// The worker's side.
 TriangleMesh read_mesh(std::span<const std::byte> input, const WorkloadLayout& layout);
-std::vector<std::vector<Step>> read_courses(std::span<const std::byte> input, const WorkloadLayout& layout);
+std::vector<std::vector<Step>> read_traces(std::span<const std::byte> input, const WorkloadLayout& layout);
 
 }  // namespace touchmark::bench

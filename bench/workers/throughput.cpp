@@ -99,41 +99,42 @@ std::vector<std::string> initialize_throughput(const std::vector<std::string>& f
   return {pointers.begin() + 1, pointers.begin() + std::max(count, 1)};
 }
 
-Throughput measure_throughput(Contestant& contestant, const Course& course,
-                              const std::vector<Window>& windows, std::int64_t passes) {
+Throughput measure_throughput(Contestant& contestant, const QueryTrace& trace,
+                              const std::vector<StepRange>& ranges, std::int64_t passes) {
   Throughput result;
   AnswersOfPasses answers(result);
   run_passes(
       [&] {
         Checksum checksum;
-        for (const Window& window : windows) contestant.replay(course, window, checksum);
+        for (const StepRange& range : ranges) contestant.replay(trace, range, checksum);
         answers.add(checksum);
       },
-      passes, static_cast<double>(steps_in(windows)), result);
+      passes, static_cast<double>(steps_in(ranges)), result);
   return result;
 }
 
-Throughput sample_throughput(Contestant& contestant, const Course& course, const std::vector<Window>& windows,
-                             std::int64_t passes, std::int64_t together) {
-  assert(together == 1 || windows.size() == 1);
+Throughput sample_throughput(Contestant& contestant, const QueryTrace& trace,
+                             const std::vector<StepRange>& ranges, std::int64_t passes,
+                             std::int64_t together) {
+  assert(together == 1 || ranges.size() == 1);
   Throughput result;
   AnswersOfPasses answers(result);
-  result.samples.reserve(windows.size() * static_cast<std::size_t>(std::max<std::int64_t>(passes, 1)));
+  result.samples.reserve(ranges.size() * static_cast<std::size_t>(std::max<std::int64_t>(passes, 1)));
   const auto pass = [&] {
     Checksum checksum;
-    for (const Window& window : windows) {
+    for (const StepRange& range : ranges) {
       const SampleClock clock;
       for (std::int64_t i = 0; i < together; ++i) {
         if (i > 0) answers.add(std::exchange(checksum, Checksum()));
-        contestant.replay(course, window, checksum);
+        contestant.replay(trace, range, checksum);
       }
       clock.stop(static_cast<double>(together), result);
     }
     answers.add(checksum);
   };
   Checksum unused;
-  contestant.replay(course, windows.back(), unused);
-  run_passes(pass, passes, static_cast<double>(steps_in(windows)) * static_cast<double>(together), result);
+  contestant.replay(trace, ranges.back(), unused);
+  run_passes(pass, passes, static_cast<double>(steps_in(ranges)) * static_cast<double>(together), result);
   return result;
 }
 

@@ -1,5 +1,5 @@
 /// Throughput by Google Benchmark: how long a query takes when a trajectory is replayed as fast as it goes.
-/// The clock is read between windows only, never inside the loop over steps. Runs in a worker.
+/// The clock is read between ranges only, never inside the loop over steps. Runs in a worker.
 #pragma once
 
 #include <cstdint>
@@ -22,15 +22,16 @@ struct Throughput {
 /// Hands --benchmark_* flags to the library. Those it does not know come back.
 std::vector<std::string> initialize_throughput(const std::vector<std::string>& flags);
 
-/// Replays all windows `passes` times (at least once) without forgetting the session in between.
-Throughput measure_throughput(Contestant& contestant, const Course& course,
-                              const std::vector<Window>& windows, std::int64_t passes);
+/// Replays all ranges `passes` times (at least once) without forgetting the session in between.
+Throughput measure_throughput(Contestant& contestant, const QueryTrace& trace,
+                              const std::vector<StepRange>& ranges, std::int64_t passes);
 
-/// The same, each window timed apart: a sample is the shorter of its elapsed and its processor time. A window
+/// The same, each range timed apart: a sample is the shorter of its elapsed and its processor time. A range
 /// is replayed `together` times in a sample, more than once only where there is no other. `samples` holds
-/// those of the windows in turn, pass by pass, each divided by `together`. The last window is replayed
+/// those of the ranges in turn, pass by pass, each divided by `together`. The last range is replayed
 /// before, so that the first does not pay for what others did to the caches.
-Throughput sample_throughput(Contestant& contestant, const Course& course, const std::vector<Window>& windows,
-                             std::int64_t passes, std::int64_t together);
+Throughput sample_throughput(Contestant& contestant, const QueryTrace& trace,
+                             const std::vector<StepRange>& ranges, std::int64_t passes,
+                             std::int64_t together);
 
 }  // namespace touchmark::bench

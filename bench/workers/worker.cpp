@@ -60,26 +60,26 @@ class Worker {
         output_(SharedMemory::attach(worker_output, SharedMemory::Access::write)) {}
 
   /// The reply to one order.
-  nlohmann::json obey(const nlohmann::json& order) {
-    const std::string what = order.at("order");
-    if (what == "open") return open(order.at("layout"), order.at("calibrate_clock"));
+  nlohmann::json dispatch(const nlohmann::json& request) {
+    const std::string what = request.at("order");
+    if (what == "open") return open(request.at("layout"), request.at("calibrate_clock"));
     if (what == "build") {
       take_remarks();
-      nlohmann::json reply = build(order.at("contestant"));
+      nlohmann::json reply = build(request.at("contestant"));
       reply["remarks"] = take_remarks();
       return reply;
     }
     if (contestant_ == nullptr) throw std::logic_error("nothing is built");
-    if (what == "update") return update(order.at("contestant"), order.at("deformation"));
-    if (what == "rebuild") return rebuild(order.at("contestant"), order.at("deformation"));
-    const Task task = order.at("task");
+    if (what == "update") return update(request.at("contestant"), request.at("deformation"));
+    if (what == "rebuild") return rebuild(request.at("contestant"), request.at("deformation"));
+    const Task task = request.at("task");
     if (what == "first") return first(task);
-    if (what == "calibrate") return calibrate(task, order.at("budget_ns"));
+    if (what == "calibrate") return calibrate(task, request.at("budget_ns"));
     if (what == "answer") return answer(task);
-    if (what == "answer_afresh") return answer_afresh(task, order.at("step"));
+    if (what == "answer_afresh") return answer_afresh(task, request.at("step"));
     if (what == "first_pass") return first_pass(task);
-    if (what == "time") return time(task, order.at("passes"));
-    if (what == "sample") return sample(task, order.at("passes"), order.at("together"));
+    if (what == "time") return time(task, request.at("passes"));
+    if (what == "sample") return sample(task, request.at("passes"), request.at("together"));
     if (what == "latency") return latency(task);
     throw std::logic_error("unknown order " + what);
   }
@@ -96,23 +96,23 @@ class Worker {
   nlohmann::json answer_afresh(const Task& task, std::size_t step);
   nlohmann::json first_pass(const Task& task);
   nlohmann::json time(const Task& task, std::int64_t passes);
-  nlohmann::json sample(const Task& task, std::int64_t passes, std::int64_t together);
+  nlohmann::json sample(const Task& task, std::int64_t passes, std::int64_t replays);
   nlohmann::json latency(const Task& task);
 
-  Course course_of(const Task& task) const { return {task.query, courses_.at(task.course)}; }
-  std::vector<Window> windows_of(const Task& task) const {
-    return task.windows.empty() ? plan_windows(courses_.at(task.course).size(), task.steps) : task.windows;
+  QueryTrace trace_of(const Task& task) const { return {task.query, traces_.at(task.trace)}; }
+  std::vector<StepRange> ranges_of(const Task& task) const {
+    return task.ranges.empty() ? sample_steps(traces_.at(task.trace).size(), task.steps) : task.ranges;
   }
   double timed_build(const ContestantSpec& spec);
-  Timed timed_replay(const Course& course, const std::vector<Window>& windows);
+  Timed timed_replay(const QueryTrace& trace, const std::vector<StepRange>& ranges);
 
   const Roster& roster_;
   SharedMemory input_;
   SharedMemory output_;
   WorkloadLayout layout_;
-  std::optional<OutputRoom> room_;
+  std::optional<OutputBuffers> buffers_;
   std::optional<TriangleMesh> mesh_;
-  std::vector<std::vector<Step>> courses_;
+  std::vector<std::vector<Step>> traces_;
   std::unique_ptr<Contestant> contestant_;
 };
 
@@ -121,8 +121,8 @@ nlohmann::json Worker::open(const WorkloadLayout& layout, bool with_clock) {
   opened.flushed_to_zero = restore_denormals();
   layout_ = layout;
   mesh_ = read_mesh(input_.bytes(), layout);
-  courses_ = read_courses(input_.bytes(), layout);
-  room_.emplace(output_.bytes(), layout.longest_course());
+  traces_ = read_traces(input_.bytes(), layout);
+  buffers_.emplace(output_.bytes(), layout.longest_trace());
   const ClockCalibration clock = with_clock ? calibrate_clock() : ClockCalibration{};
   opened.clock_cost_ns = clock.cost_ns;
   opened.ns_per_tick = clock.ns_per_tick;
@@ -170,7 +170,7 @@ nlohmann::json Worker::build(const std::string& spec_text) {
     if (contestant_->answers(query)) built.queries.push_back(query);
   }
   built.prepares = contestant_->prepares();
-  built.makes_later = contestant_->makes_later();
+  built.builds_lazily = contestant_->builds_lazily();
   return built;
 }
 
@@ -181,16 +181,16 @@ nlohmann::json Worker::refused(std::string why) {
   return built;
 }
 
-Timed Worker::timed_replay(const Course& course, const std::vector<Window>& windows) {
+Timed Worker::timed_replay(const QueryTrace& trace, const std::vector<StepRange>& ranges) {
   Checksum checksum;
   const Clock::time_point start = Clock::now();
-  for (const Window& window : windows) contestant_->replay(course, window, checksum);
+  for (const StepRange& range : ranges) contestant_->replay(trace, range, checksum);
   const double elapsed = ns_since(start);
-  return {elapsed / static_cast<double>(steps_in(windows)), 0, checksum.value(), true, {}};
+  return {elapsed / static_cast<double>(steps_in(ranges)), 0, checksum.value(), true, {}};
 }
 
 nlohmann::json Worker::update(const std::string& spec_text, const Deformation& deformation) {
-  constexpr std::size_t fewest_rounds = 3, most_rounds = 25;
+  constexpr std::size_t min_rounds = 3, max_rounds = 25;
   constexpr double enough_ns = 1e9;
   Updated updated;
   updated.supported = contestant_->updates();
@@ -207,7 +207,7 @@ nlohmann::json Worker::update(const std::string& spec_text, const Deformation& d
     contestant_->update(rest);
     roster_.require_memory_for(spec, moved.size());
     const Clock::time_point start = Clock::now();
-    while (builds.size() < fewest_rounds || (builds.size() < most_rounds && ns_since(start) < enough_ns)) {
+    while (builds.size() < min_rounds || (builds.size() < max_rounds && ns_since(start) < enough_ns)) {
       const double there = timed_update(moved), back = timed_update(rest);
       const Clock::time_point before = Clock::now();
       std::unique_ptr<Contestant> anew = roster_.build(spec, moved);
@@ -237,86 +237,86 @@ nlohmann::json Worker::rebuild(const std::string& spec, const Deformation& defor
 
 nlohmann::json Worker::first(const Task& task) {
   contestant_->forget();
-  return timed_replay(course_of(task), {{0, 1}});
+  return timed_replay(trace_of(task), {{0, 1}});
 }
 
 nlohmann::json Worker::calibrate(const Task& task, double budget_ns) {
-  if (!task.windows.empty()) {
+  if (!task.ranges.empty()) {
     const double start = processor_ns();
-    Timed timed = timed_replay(course_of(task), task.windows);
-    const double processor = (processor_ns() - start) / static_cast<double>(steps_in(task.windows));
+    Timed timed = timed_replay(trace_of(task), task.ranges);
+    const double processor = (processor_ns() - start) / static_cast<double>(steps_in(task.ranges));
     timed.ns_per_query = std::min(timed.ns_per_query, processor);
     return timed;
   }
-  const std::size_t total = courses_.at(task.course).size();
+  const std::size_t total = traces_.at(task.trace).size();
   for (std::size_t steps = 2;; steps *= 4) {
-    const std::vector<Window> windows = plan_windows(total, steps);
-    const Timed timed = timed_replay(course_of(task), windows);
-    const double elapsed = timed.ns_per_query * static_cast<double>(steps_in(windows));
+    const std::vector<StepRange> ranges = sample_steps(total, steps);
+    const Timed timed = timed_replay(trace_of(task), ranges);
+    const double elapsed = timed.ns_per_query * static_cast<double>(steps_in(ranges));
     if (elapsed * 4 >= budget_ns || steps >= total) return timed;
   }
 }
 
 nlohmann::json Worker::answer(const Task& task) {
-  const Course course = course_of(task);
-  const std::vector<Window> windows = windows_of(task);
-  const std::size_t steps = steps_in(windows);
+  const QueryTrace trace = trace_of(task);
+  const std::vector<StepRange> ranges = ranges_of(task);
+  const std::size_t steps = steps_in(ranges);
   contestant_->forget();
   std::size_t done = 0;
-  for (const Window& window : windows) {
-    contestant_->answer(course, window, room_->answers(steps).subspan(done, window.size()),
-                        room_->work(steps).subspan(done, window.size()));
-    done += window.size();
+  for (const StepRange& range : ranges) {
+    contestant_->answer(trace, range, buffers_->answers(steps).subspan(done, range.size()),
+                        buffers_->work(steps).subspan(done, range.size()));
+    done += range.size();
   }
   Checksum checksum;
-  for (const Answer& answer : room_->answers(steps)) checksum.add(answer);
+  for (const Answer& answer : buffers_->answers(steps)) checksum.add(answer);
   return Answered{checksum.value(), contestant_->work()};
 }
 
 nlohmann::json Worker::answer_afresh(const Task& task, std::size_t step) {
   contestant_->forget();
-  contestant_->answer(course_of(task), {step, step + 1}, room_->answers(1), room_->work(1));
+  contestant_->answer(trace_of(task), {step, step + 1}, buffers_->answers(1), buffers_->work(1));
   Checksum checksum;
-  checksum.add(room_->answers(1).front());
+  checksum.add(buffers_->answers(1).front());
   return Answered{checksum.value(), contestant_->work()};
 }
 
 nlohmann::json Worker::first_pass(const Task& task) {
   contestant_->forget();
-  Timed timed = timed_replay(course_of(task), windows_of(task));
+  Timed timed = timed_replay(trace_of(task), ranges_of(task));
   timed.work = contestant_->work();
   return timed;
 }
 
 nlohmann::json Worker::time(const Task& task, std::int64_t passes) {
-  const Throughput throughput = measure_throughput(*contestant_, course_of(task), windows_of(task), passes);
+  const Throughput throughput = measure_throughput(*contestant_, trace_of(task), ranges_of(task), passes);
   return Timed{
       throughput.ns_per_query, throughput.cpu_ns_per_query, throughput.checksum, throughput.steady, {}};
 }
 
-nlohmann::json Worker::sample(const Task& task, std::int64_t passes, std::int64_t together) {
+nlohmann::json Worker::sample(const Task& task, std::int64_t passes, std::int64_t replays) {
   const Throughput throughput =
-      sample_throughput(*contestant_, course_of(task), windows_of(task), passes, together);
+      sample_throughput(*contestant_, trace_of(task), ranges_of(task), passes, replays);
   return Timed{
       throughput.ns_per_query, throughput.cpu_ns_per_query, throughput.checksum, throughput.steady, {},
       throughput.samples,      throughput.interrupted};
 }
 
 nlohmann::json Worker::latency(const Task& task) {
-  const Course course = course_of(task);
-  const std::vector<Window> windows = windows_of(task);
-  const std::span<std::uint64_t> ticks = room_->ticks(steps_in(windows));
-  const std::span<std::uint64_t> prepare_ticks = room_->prepare_ticks(ticks.size());
+  const QueryTrace trace = trace_of(task);
+  const std::vector<StepRange> ranges = ranges_of(task);
+  const std::span<std::uint64_t> ticks = buffers_->ticks(steps_in(ranges));
+  const std::span<std::uint64_t> prepare_ticks = buffers_->prepare_ticks(ticks.size());
   // No page fault inside a timed step.
   std::fill(ticks.begin(), ticks.end(), 0);
   std::fill(prepare_ticks.begin(), prepare_ticks.end(), 0);
   Checksum checksum;
   std::size_t done = 0;
   const Clock::time_point start = Clock::now();
-  for (const Window& window : windows) {
-    contestant_->replay_clocked(course, window, checksum, ticks.subspan(done, window.size()),
-                                prepare_ticks.subspan(done, window.size()));
-    done += window.size();
+  for (const StepRange& range : ranges) {
+    contestant_->replay_clocked(trace, range, checksum, ticks.subspan(done, range.size()),
+                                prepare_ticks.subspan(done, range.size()));
+    done += range.size();
   }
   return Timed{ns_since(start) / static_cast<double>(done), 0, checksum.value(), true, {}};
 }
@@ -324,7 +324,7 @@ nlohmann::json Worker::latency(const Task& task) {
 void serve(Worker worker, LineChannel channel) {
   std::string line;
   while (channel.receive(line, std::nullopt, [] {}) == LineChannel::Outcome::line) {
-    if (!channel.send(dumped(worker.obey(nlohmann::json::parse(line))))) return;
+    if (!channel.send(dumped(worker.dispatch(nlohmann::json::parse(line))))) return;
   }
 }
 
@@ -332,7 +332,7 @@ void serve(Worker worker, LineChannel channel) {
 
 int run_worker(int argc, char** argv, const Roster& roster) {
   const LineChannel channel(worker_control);
-  const auto give_up = [&](const std::string& what) {
+  const auto mark_failed = [&](const std::string& what) {
     channel.send(dumped({{out_of_resources, what}}));
     return exit_resources;
   };
@@ -341,11 +341,11 @@ int run_worker(int argc, char** argv, const Roster& roster) {
     serve(Worker(roster), LineChannel(worker_control));
     return exit_done;
   } catch (const std::bad_alloc&) {
-    return give_up("out of memory" + memory_limit());
+    return mark_failed("out of memory" + memory_limit());
   } catch (const ResourceError& error) {
-    return give_up(error.what());
+    return mark_failed(error.what());
   } catch (const std::system_error& error) {
-    return give_up(error.what() + limit_behind(error.code().value()));
+    return mark_failed(error.what() + limit_behind(error.code().value()));
   } catch (const std::exception& error) {
     fmt::print(stderr, "worker: {}\n", error.what());
     return exit_resources;

@@ -174,11 +174,11 @@ void WorkerProcess::explain(const Ending& ending) const {
       fmt::format("{} ended before it knew whom to run: {}{}", program_, how, memory_limit()));
 }
 
-nlohmann::json WorkerProcess::ask(const nlohmann::json& order, std::chrono::milliseconds patience) {
+nlohmann::json WorkerProcess::ask(const nlohmann::json& request, std::chrono::milliseconds timeout) {
   if (process_ <= 0) throw WorkerFailure("ended");
-  channel_.send(order.dump());  // one that is gone may have left a reply that says why
+  channel_.send(request.dump());  // one that is gone may have left a reply that says why
   std::string line;
-  const auto deadline = std::chrono::steady_clock::now() + patience;
+  const auto deadline = std::chrono::steady_clock::now() + timeout;
   switch (channel_.receive(line, deadline, check_for_interrupt)) {
     case LineChannel::Outcome::line:
       break;

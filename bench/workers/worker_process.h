@@ -42,7 +42,7 @@ class WorkerProcess {
   /// Throws WorkerFailure (the process is gone then), Interrupted, or ResourceError where the machine, not
   /// the contestant, kept the worker from answering: no descriptor, memory or processor time was left for it,
   /// or it ended before it knew whom to run.
-  nlohmann::json ask(const nlohmann::json& order, std::chrono::milliseconds patience);
+  nlohmann::json ask(const nlohmann::json& request, std::chrono::milliseconds timeout);
 
  private:
   struct Ending {

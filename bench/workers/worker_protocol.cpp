@@ -33,22 +33,21 @@ Work work_from(const nlohmann::json& json) {
 }  // namespace
 
 void to_json(nlohmann::json& json, const Task& task) {
-  std::vector<std::size_t> windows;
-  for (const Window& window : task.windows) windows.insert(windows.end(), {window.begin, window.end});
-  json = {{"course", task.course},
+  std::vector<std::size_t> ranges;
+  for (const StepRange& range : task.ranges) ranges.insert(ranges.end(), {range.begin, range.end});
+  json = {{"course", task.trace},
           {"query", static_cast<std::uint32_t>(task.query)},
           {"steps", task.steps},
-          {"windows", windows}};
+          {"windows", ranges}};
 }
 
 void from_json(const nlohmann::json& json, Task& task) {
-  json.at("course").get_to(task.course);
+  json.at("course").get_to(task.trace);
   task.query = static_cast<Query>(json.at("query").get<std::uint32_t>());
   json.at("steps").get_to(task.steps);
-  const auto windows = json.at("windows").get<std::vector<std::size_t>>();
-  task.windows.clear();
-  for (std::size_t i = 0; i + 1 < windows.size(); i += 2)
-    task.windows.push_back({windows[i], windows[i + 1]});
+  const auto ranges = json.at("windows").get<std::vector<std::size_t>>();
+  task.ranges.clear();
+  for (std::size_t i = 0; i + 1 < ranges.size(); i += 2) task.ranges.push_back({ranges[i], ranges[i + 1]});
 }
 
 void to_json(nlohmann::json& json, const Opened& opened) {
@@ -77,7 +76,7 @@ void to_json(nlohmann::json& json, const Built& built) {
           {"names_exactly", built.accuracy.names_exactly},
           {"queries", queries},
           {"prepares", built.prepares},
-          {"makes_later", built.makes_later}};
+          {"makes_later", built.builds_lazily}};
 }
 
 void from_json(const nlohmann::json& json, Built& built) {
@@ -93,7 +92,7 @@ void from_json(const nlohmann::json& json, Built& built) {
     built.queries.push_back(static_cast<Query>(query.get<std::uint32_t>()));
   }
   json.at("prepares").get_to(built.prepares);
-  json.at("makes_later").get_to(built.makes_later);
+  json.at("makes_later").get_to(built.builds_lazily);
 }
 
 void to_json(nlohmann::json& json, const Answered& answered) {

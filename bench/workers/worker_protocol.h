@@ -1,5 +1,5 @@
 /// What the program and a worker say to each other: one JSON object a line, an order and its reply in turn.
-/// Bulk data (mesh, courses, answers, times) goes through shared memory, see shared_workload.h.
+/// Bulk data (mesh, traces, answers, times) goes through shared memory, see shared_workload.h.
 #pragma once
 
 #include <cstddef>
@@ -23,16 +23,16 @@ inline constexpr int worker_output = 5;
 /// The key of a reply that says what the worker itself, not its contestant, was short of.
 inline constexpr const char* out_of_resources = "out_of_resources";
 
-/// Which steps of which course are meant: those of `windows`, or, where there are none, of
-/// plan_windows(steps of the course, `steps`).
+/// Which steps of which trace are meant: those of `ranges`, or, where there are none, of
+/// sample_steps(steps of the trace, `steps`).
 struct Task {
-  std::size_t course = 0;
+  std::size_t trace = 0;
   Query query = Query::nearest;
   std::size_t steps = 1;
-  std::vector<Window> windows = {};  ///< ascending
+  std::vector<StepRange> ranges = {};  ///< ascending
 };
 
-/// Reply to "open": the worker has read the mesh and the courses.
+/// Reply to "open": the worker has read the mesh and the traces.
 struct Opened {
   double clock_cost_ns = 0;  ///< of one reading in the latency pass
   double ns_per_tick = 1;
@@ -48,7 +48,7 @@ struct Built {
   Accuracy accuracy;
   std::vector<Query> queries;
   bool prepares = false;
-  bool makes_later = false;  ///< parts of itself, by the first queries
+  bool builds_lazily = false;  ///< parts of itself, by the first queries
 };
 
 /// Reply to "answer": answers and work lie in the output room, from a fresh session.

@@ -10,9 +10,9 @@ std::uint64_t hash_of(const TriangleMesh& mesh) {
   return hash.value();
 }
 
-std::uint64_t hash_of(std::span<const Step> course) {
+std::uint64_t hash_of(std::span<const Step> trace) {
   ContentHash hash;
-  for (const Step& step : course) {
+  for (const Step& step : trace) {
     hash.add(step.probe.center.data(), 3 * sizeof(double));
     hash.add(step.probe.radius);
     hash.add(step.reach);

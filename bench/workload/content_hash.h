@@ -1,4 +1,4 @@
-/// What a mesh or a course holds, as a number: equal content has equal numbers on every machine.
+/// What a mesh or a trace holds, as a number: equal content has equal numbers on every machine.
 #pragma once
 
 #include <bit>
@@ -37,6 +37,6 @@ class ContentHash {
 /// Over the bits of vertices, corners and ids.
 std::uint64_t hash_of(const TriangleMesh& mesh);
 /// Over the bits of each step's centre, radius and reach.
-std::uint64_t hash_of(std::span<const Step> course);
+std::uint64_t hash_of(std::span<const Step> trace);
 
 }  // namespace touchmark::bench

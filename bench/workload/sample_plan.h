@@ -26,12 +26,12 @@ class SamplePlan {
   /// Of `total` steps, with a phase for each of their blocks. The same for the same arguments.
   SamplePlan(std::size_t total, std::vector<Phase> phases, std::uint64_t seed);
 
-  /// Disjoint windows, ascending, each in one block, of about `wanted` steps in all: about as large a share
-  /// of each phase, and at least two blocks of it. One window of all steps where `wanted` is as many.
-  std::vector<Window> windows(std::size_t wanted) const;
+  /// Disjoint ranges, ascending, each in one block, of about `wanted` steps in all: about as large a share
+  /// of each phase, and at least two blocks of it. One range of all steps where `wanted` is as many.
+  std::vector<StepRange> ranges(std::size_t wanted) const;
 
   std::size_t total() const noexcept { return total_; }
-  Phase phase_of(Window window) const { return phases_.at(window.begin / block_steps); }
+  Phase phase_of(StepRange range) const { return phases_.at(range.begin / block_steps); }
   std::size_t steps_of(Phase phase) const noexcept { return steps_[static_cast<std::size_t>(phase)]; }
 
  private:
@@ -39,7 +39,7 @@ class SamplePlan {
   std::vector<Phase> phases_;                     ///< a block each
   std::array<std::size_t, phase_count> steps_{};  ///< a phase each
   std::vector<std::size_t> order_;                ///< of blocks: any beginning of it is a sample by phase
-  std::size_t fewest_ = 0;                        ///< blocks at the beginning that no sample goes without
+  std::size_t min_ = 0;                           ///< blocks at the beginning that no sample goes without
 };
 
 /// What a block's phase is told from: its first, middle and last step.

@@ -16,15 +16,15 @@ struct Step {
   double reach = 0;  ///< of `nearest`
 };
 
-/// The steps [begin, end) of a course.
-struct Window {
+/// The steps [begin, end) of a trace.
+struct StepRange {
   std::size_t begin = 0;
   std::size_t end = 0;
   std::size_t size() const noexcept { return end - begin; }
 };
 
 /// A whole trajectory with what is asked along it.
-struct Course {
+struct QueryTrace {
   Query query = Query::nearest;
   std::span<const Step> steps;
 };

@@ -13,13 +13,13 @@
 namespace touchmark::bench {
 namespace {
 
-std::vector<Step> course_along(const Trajectory& trajectory, double radius, std::optional<double> reach) {
-  std::vector<Step> course(trajectory.size());
-  for (std::size_t i = 0; i < course.size(); ++i) {
-    course[i].probe = {trajectory.positions[i], trajectory.radii.empty() ? radius : trajectory.radii[i]};
-    course[i].reach = reach.value_or(course[i].probe.radius);
+std::vector<Step> trace_along(const Trajectory& trajectory, double radius, std::optional<double> reach) {
+  std::vector<Step> trace(trajectory.size());
+  for (std::size_t i = 0; i < trace.size(); ++i) {
+    trace[i].probe = {trajectory.positions[i], trajectory.radii.empty() ? radius : trajectory.radii[i]};
+    trace[i].reach = reach.value_or(trace[i].probe.radius);
   }
-  return course;
+  return trace;
 }
 
 /// A recorded trajectory is replayed whole unless --steps says otherwise (0 stands for that).
@@ -44,15 +44,15 @@ void require_memory_for(const std::vector<std::string>& trajectories, const Sele
 /// A step is a millisecond where no times say otherwise.
 Motion motion_of(const Trajectory& trajectory) {
   Motion motion{0, 0, trajectory.recorded};
-  double way = 0, duration = 0;
+  double length = 0, duration = 0;
   for (std::size_t i = 1; i < trajectory.size(); ++i) {
     const double piece = (trajectory.positions[i] - trajectory.positions[i - 1]).stableNorm();
     const double time = trajectory.times_s.empty() ? 1e-3 : trajectory.times_s[i] - trajectory.times_s[i - 1];
-    way += piece;
+    length += piece;
     duration += time;
     motion.max_speed = std::max(motion.max_speed, piece / time);
   }
-  if (duration > 0) motion.mean_speed = way / duration;
+  if (duration > 0) motion.mean_speed = length / duration;
   return motion;
 }
 
@@ -93,7 +93,7 @@ Workload make_workload(std::string mesh_name, TriangleMesh mesh, const Selection
     say_that_rows_are_steps(trajectory);
     workload.motions.push_back(motion_of(trajectory));
     workload.trajectories.push_back(trajectory.name);
-    workload.courses.push_back(course_along(trajectory, workload.radius, workload.reach));
+    workload.traces.push_back(trace_along(trajectory, workload.radius, workload.reach));
   }
   return workload;
 }
@@ -103,10 +103,10 @@ std::string length_text(const Workload& workload, double length) {
                        : fmt::format("{:.6g}", length);
 }
 
-std::string course_text(const Workload& workload, std::size_t course) {
-  std::string text = fmt::format("{} steps", workload.courses[course].size());
-  if (course >= workload.motions.size()) return text;
-  const Motion& motion = workload.motions[course];
+std::string trace_text(const Workload& workload, std::size_t trace) {
+  std::string text = fmt::format("{} steps", workload.traces[trace].size());
+  if (trace >= workload.motions.size()) return text;
+  const Motion& motion = workload.motions[trace];
   if (motion.recorded) {
     text += fmt::format(", {:.6g} s", motion.recorded->duration_s);
     if (const auto rate = motion.recorded->rate_hz()) text += fmt::format(" at {:.6g} Hz", *rate);

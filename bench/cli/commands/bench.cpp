@@ -67,7 +67,7 @@ class BenchRun {
 
  private:
   void run_trajectories();
-  void end_trajectory(std::size_t course);
+  void end_trajectory(std::size_t trace);
   void save_so_far();
   void save(bool finished) const;
   bool wanted(const std::string& trajectory, const std::string& contestant) const {
@@ -154,14 +154,14 @@ void BenchRun::save_so_far() {
 }
 
 void BenchRun::run_trajectories() {
-  for (std::size_t course = 0; course < workload_.courses.size(); ++course) {
-    comparison_->begin(course, description_.query);
+  for (std::size_t trace = 0; trace < workload_.traces.size(); ++trace) {
+    comparison_->begin(trace, description_.query);
     save_so_far();
   }
-  for (std::size_t course = 0; course < workload_.courses.size(); ++course) end_trajectory(course);
+  for (std::size_t trace = 0; trace < workload_.traces.size(); ++trace) end_trajectory(trace);
 }
 
-void BenchRun::end_trajectory(std::size_t course) {
+void BenchRun::end_trajectory(std::size_t trace) {
   std::vector<ResultRow> rows = comparison_->end();
   if (rows.empty()) return;
   for (ResultRow& row : rows)
@@ -169,7 +169,7 @@ void BenchRun::end_trajectory(std::size_t course) {
   rows_.insert(rows_.end(), rows.begin(), rows.end());
   save_so_far();
   progress_.clear();
-  out_.write(fmt::format("\n{} ({})\n{}{}", workload_.trajectories[course], course_text(workload_, course),
+  out_.write(fmt::format("\n{} ({})\n{}{}", workload_.trajectories[trace], trace_text(workload_, trace),
                          timing_table(rows), verdict(rows, comparison_->steadiness().back())));
   if (shows_work_) out_.write('\n' + work_table(rows));
   out_.finish();
@@ -195,7 +195,7 @@ int BenchRun::run() {
   const std::string failures = list_of_failures(broken, faulty_rows_shown);
   out_.write(fmt::format("\n{}{}", judged_answers(rows_), failures.empty() ? "" : "\n" + failures));
   out_.finish();
-  const bool faulty = tell_faults(rows_, [](const ResultRow& row) { return row.trajectory; });
+  const bool faulty = print_faults(rows_, [](const ResultRow& row) { return row.trajectory; });
   return rows_.empty() ? exit_done : status_of(rows_, faulty);
 }
 

@@ -71,7 +71,7 @@ class Gate {
   double tolerance_;
   Workload workload_;
   std::uint64_t mesh_hash_;
-  WorkerStage stage_;
+  SharedArena arena_;
   Oracle oracle_;
   Baseline baseline_;
   ProgressLine progress_;
@@ -119,22 +119,22 @@ Gate::Gate(const Roster& roster, const GateOptions& options)
       tolerance_(checked_tolerance(options.tolerance)),
       workload_(workload_for(options, selection_)),
       mesh_hash_(hash_of(workload_.mesh)),
-      stage_(workload_, workers_for(options)),
+      arena_(workload_, workers_for(options)),
       oracle_(workload_.mesh),
       baseline_(baseline_for(options)) {}
 
 std::vector<GatePair> Gate::pairs() const {
   std::vector<GatePair> pairs;
-  for (std::size_t course = 0; course < workload_.courses.size(); ++course) {
+  for (std::size_t trace = 0; trace < workload_.traces.size(); ++trace) {
     for (const ContestantSpec& detector : selection_.contestants) {
-      pairs.push_back({detector, reference_, course, selection_.queries.front()});
+      pairs.push_back({detector, reference_, trace, selection_.queries.front()});
     }
   }
   return pairs;
 }
 
 GateKey Gate::key_of(const GatePair& pair) const {
-  return {workload_.mesh_name, workload_.trajectories[pair.course], std::string(name_of(pair.query)),
+  return {workload_.mesh_name, workload_.trajectories[pair.trace], std::string(name_of(pair.query)),
           pair.detector.text(), pair.reference.text()};
 }
 
@@ -159,14 +159,14 @@ void Gate::expect_same_content(const BaselineRow& row, const GatePair& pair) con
         options_.baseline, what, name, then, now));
   };
   expect("mesh", row.key.mesh, row.mesh_hash, mesh_hash_);
-  expect("trajectory, radius or reach", row.key.trajectory, row.course_hash,
-         hash_of(workload_.courses[pair.course]));
+  expect("trajectory, radius or reach", row.key.trajectory, row.trace_hash,
+         hash_of(workload_.traces[pair.trace]));
 }
 
 PairedBatches Gate::batches(const GatePair& pair, std::size_t steps) const {
   GateEffort effort;
   effort.rounds = options_.rounds;
-  return {roster_, workload_, stage_, oracle_, pair, effort, steps, selection_.seed};
+  return {roster_, workload_, arena_, oracle_, pair, effort, steps, selection_.seed};
 }
 
 /// Less work for the same answers is no fault.
@@ -211,7 +211,7 @@ void Gate::write_pair(const GatePair& pair) {
   GateLine line{key_of(pair), std::nullopt, {}, "-", "inconclusive"};
   std::vector<double> log_ratios;
   int held = 0;
-  while (held < 2 && line.judgement.batches < most_batches) {
+  while (held < 2 && line.judgement.batches < max_batches) {
     progress_.show(fmt::format("{}: {}", line.key.trajectory, line.key.detector));
     line.judgement.batch = batches.measure();
     ++line.judgement.batches;
@@ -223,7 +223,7 @@ void Gate::write_pair(const GatePair& pair) {
   if (held == 2) {
     line.verdict = "written";
     line.judgement.batch.ratio = median_ratio(log_ratios, selection_.seed);
-    baseline_.put({line.key, mesh_hash_, hash_of(workload_.courses[pair.course]), batches.steps(),
+    baseline_.put({line.key, mesh_hash_, hash_of(workload_.traces[pair.trace]), batches.steps(),
                    line.judgement.batch.ratio, batches.answers().work, batches.answers().checksum,
                    build_info().version, build_info().commit, system_info().cpu_model});
   } else {

@@ -14,7 +14,7 @@
 namespace touchmark::bench {
 namespace {
 
-std::string about(const OptionInfo& option) {
+std::string description_of(const OptionInfo& option) {
   const std::string values = option.kind == OptionKind::choice
                                  ? fmt::format("{}", fmt::join(option.choices, "|"))
                              : option.kind == OptionKind::length ? "LENGTH"
@@ -23,20 +23,20 @@ std::string about(const OptionInfo& option) {
                      option.summary);
 }
 
-std::string about(const ContestantInfo& contestant) {
+std::string description_of(const ContestantInfo& contestant) {
   std::vector<std::string_view> queries;
   for (const Query query : contestant.queries) queries.push_back(name_of(query));
   std::string text = fmt::format("  {}{}\n      {}\n", contestant.name,
                                  contestant.built() ? "" : "  (not built)", contestant.summary);
   if (!contestant.built()) return text;
   text += fmt::format("      answers {}; {}\n", fmt::join(queries, ", "), contestant.accuracy);
-  for (const OptionInfo& option : contestant.options) text += about(option);
+  for (const OptionInfo& option : contestant.options) text += description_of(option);
   return text;
 }
 
 std::string list(const Roster& roster) {
   std::string text = "contestants: --detector NAME[:key=value,...]\n";
-  for (const ContestantInfo& contestant : roster.contestants()) text += about(contestant);
+  for (const ContestantInfo& contestant : roster.contestants()) text += description_of(contestant);
   text += "\nscenes: --mesh NAME[@scale=S][@offset=O][@normalize], or a mesh file\n";
   for (const SceneInfo& scene : scenes()) {
     text += fmt::format("  {:<28}{}{}\n", scene.name, scene.description,

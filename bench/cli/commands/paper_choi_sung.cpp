@@ -77,11 +77,11 @@ class Run {
       folder_.write_file(name + "-spheres.csv", spheres_csv(single.spheres));
       folder_.write_file(name + "-clustered.csv", spheres_csv(clustered.spheres));
     };
-    const Narrate narrate = [this](const std::string& what) { progress_.show(what); };
-    const ChoiSungResult result = run_choi_sung(mesh_.mesh, settings_, keep_pictures, narrate);
+    const PrintProgress print_progress = [this](const std::string& what) { progress_.show(what); };
+    const ChoiSungResult result = run_choi_sung(mesh_.mesh, settings_, keep_pictures, print_progress);
     FrontierResult frontier;
     write_tables(result, frontier);
-    if (result.finished) frontier = run_frontier(mesh_.mesh, frontier_, narrate);
+    if (result.finished) frontier = run_frontier(mesh_.mesh, frontier_, print_progress);
     progress_.clear();
     write_tables(result, frontier);
     if (!frontier.finished) {

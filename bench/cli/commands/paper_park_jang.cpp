@@ -9,8 +9,8 @@
 
 #include "bench/cli/commands/paper_commands.h"
 #include "bench/cli/program.h"
-#include "bench/experiments/papers/paper_course.h"
 #include "bench/experiments/papers/paper_options.h"
+#include "bench/experiments/papers/paper_trace.h"
 #include "bench/experiments/papers/park_jang.h"
 #include "bench/experiments/papers/picture_files.h"
 #include "bench/results/results_folder.h"
@@ -25,7 +25,7 @@ namespace {
 
 struct ParkJangOptions {
   std::vector<std::string> meshes;
-  std::string most_groups;
+  std::string max_groups;
   PaperOptions common{"results/papers/park-jang-2018", "0.1%", "", "1", false};
 };
 
@@ -36,7 +36,7 @@ ParkJangSettings checked(const ParkJangOptions& options) {
   settings.seed = checked_seed(options.common.seed);
   settings.radius = checked_finite_length("--radius", options.common.radius);
   settings.groups = park_jang_group_counts(
-      checked_number("--most-groups", options.most_groups, 1, 1'000'000, quick ? 1000 : 35'000));
+      checked_number("--most-groups", options.max_groups, 1, 1'000'000, quick ? 1000 : 35'000));
   if (quick) settings.effort = {2, 1e5};
   return settings;
 }
@@ -47,7 +47,7 @@ class GroupPictures {
   GroupPictures(const PaperMesh& mesh, const ParkJangSettings& settings, const ResultsFolder& folder)
       : mesh_(mesh), folder_(folder) {
     const double radius = settings.radius.in_mesh_units(mesh.mesh);
-    hip_ = paper_course("slide", mesh.mesh, 1, settings.seed, radius).front().probe.center;
+    hip_ = paper_trace("slide", mesh.mesh, 1, settings.seed, radius).front().probe.center;
   }
 
   void write() const {
@@ -137,7 +137,7 @@ void add_paper_park_jang(CLI::App& paper_command, ProgramContext& context) {
       ->type_name("MESH")
       ->expected(1)
       ->take_all();
-  command->add_option("--most-groups", options->most_groups, "up to how many groups")->type_name("N");
+  command->add_option("--most-groups", options->max_groups, "up to how many groups")->type_name("N");
   add_paper_options(*command, options->common);
   command->footer(
       "Example: touchmark paper park-jang-2018 --mesh bunny --out results/papers/park-jang-2018\n");

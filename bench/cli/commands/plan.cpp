@@ -64,7 +64,7 @@ class Planner {
 
  private:
   void plan_mesh(const std::string& mesh);
-  void plan_courses(const std::string& mesh, const TriangleMesh& loaded, const Selectors& selectors);
+  void plan_traces(const std::string& mesh, const TriangleMesh& loaded, const Selectors& selectors);
   void add_scene(SweepScene scene, const std::vector<ContestantSpec>& contestants);
 
   const Roster& roster_;
@@ -87,13 +87,13 @@ void Planner::plan_mesh(const std::string& mesh) {
         selectors.radius = radius;
         selectors.reach = reach;
         selectors.seed = seed;
-        plan_courses(mesh, loaded, selectors);
+        plan_traces(mesh, loaded, selectors);
       }
     }
   }
 }
 
-void Planner::plan_courses(const std::string& mesh, const TriangleMesh& loaded, const Selectors& selectors) {
+void Planner::plan_traces(const std::string& mesh, const TriangleMesh& loaded, const Selectors& selectors) {
   const CheckedSelectors selection = check(selectors, roster_);
   const std::vector<std::string> trajectories =
       or_else(options_.trajectories, {"slide", "approach", "hover", "jump"});
@@ -106,8 +106,8 @@ void Planner::plan_courses(const std::string& mesh, const TriangleMesh& loaded, 
                        options_.normalize,
                        hash_of(loaded),
                        trajectories[i],
-                       hash_of(workload.courses[i]),
-                       workload.courses[i].size(),
+                       hash_of(workload.traces[i]),
+                       workload.traces[i].size(),
                        selection.seed,
                        selectors.radius,
                        selectors.reach,

@@ -84,15 +84,15 @@ Workload workload_for(const Selectors& selectors, const CheckedSelectors& select
 WorkerOptions patient(const WorkerSelectors& selectors) {
   WorkerOptions options = worker_options(selectors);
   options.calibrate_clock = false;
-  if (selectors.timeout.empty()) options.order_patience = std::chrono::hours(24);
+  if (selectors.timeout.empty()) options.request_timeout = std::chrono::hours(24);
   return options;
 }
 
-void write_rows(RowSink& sink, Query query, std::span<const Step> course, std::span<const Answer> answers,
+void write_rows(RowSink& sink, Query query, std::span<const Step> trace, std::span<const Answer> answers,
                 bool with_side) {
   std::string rows = answer_header(query, with_side);
-  for (std::size_t i = 0; i < course.size(); ++i) {
-    append_answer_row(rows, query, i, course[i], answers[i], with_side);
+  for (std::size_t i = 0; i < trace.size(); ++i) {
+    append_answer_row(rows, query, i, trace[i], answers[i], with_side);
     if (rows.size() < block_size) continue;
     check_for_interrupt();
     if (!sink.write(rows)) return;
@@ -115,25 +115,25 @@ void run_query(const QueryOptions& options, const Roster& roster) {
   const Query query = selection.queries.front();
   const ContestantSpec& spec = selection.contestants.front();
   const Workload workload = workload_for(options.selectors, selection);
-  const std::vector<Step>& course = workload.courses.front();
+  const std::vector<Step>& trace = workload.traces.front();
   RowSink sink(options.csv);  // before the work: a name that cannot be written is known at once
 
   if (!options.step.empty()) {
     const SessionBefore session = options.session == "fresh" ? SessionBefore::fresh : SessionBefore::replayed;
     const std::size_t step = checked_step(options.step);
-    if (sink.write(rows_of_step(roster, workload, workers, spec, {0, query, course.size()}, step, session)))
+    if (sink.write(rows_of_step(roster, workload, workers, spec, {0, query, trace.size()}, step, session)))
       sink.finish();
     return;
   }
-  const WorkerStage stage(workload, workers);
-  ContestantProcess process(stage, spec, roster.find(spec.name).worker_program(spec.values));
+  const SharedArena arena(workload, workers);
+  ContestantProcess process(arena, spec, roster.find(spec.name).worker_program(spec.values));
   try {
     check_it_answers(process.build(), query, spec.text());
-    process.answer({0, query, course.size()});
+    process.answer({0, query, trace.size()});
   } catch (const WorkerFailure& failure) {
     explain(failure, spec.text());
   }
-  write_rows(sink, query, course, stage.room().answers(course.size()), asks_for_side(spec.values));
+  write_rows(sink, query, trace, arena.buffers().answers(trace.size()), asks_for_side(spec.values));
 }
 
 }  // namespace

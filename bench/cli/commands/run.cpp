@@ -103,7 +103,7 @@ Workload SweepRun::planned_workload(const SweepScene& scene) const {
         "{} \"{}\" is not the one that was planned: fnv1a {:016x}, not {:016x}", what, name, now, then));
   };
   expect("mesh", scene.mesh, scene.mesh_hash, hash_of(workload.mesh));
-  expect("trajectory", scene.trajectory, scene.course_hash, hash_of(workload.courses.front()));
+  expect("trajectory", scene.trajectory, scene.trace_hash, hash_of(workload.traces.front()));
   return workload;
 }
 

@@ -48,7 +48,7 @@ const std::set<std::string> scaled_by_default{"aabb-tree",
                                               "cgal:kernel=simple,hint=bounded"};
 constexpr const char* default_sizes = "1k,10k,100k,1M,10M";
 constexpr const char* quick_sizes = "1k,10k,100k";
-constexpr std::chrono::milliseconds default_build_patience{600'000};
+constexpr std::chrono::milliseconds default_build_timeout{600'000};
 /// What a contestant may take while it is built: a guess, more than twice what the largest keeps.
 constexpr double bytes_per_triangle = 1500;
 
@@ -84,10 +84,10 @@ class ScaleRun {
 
  private:
   void run_mesh(const std::string& name);
-  std::vector<ResultRow> run_course(Comparison& comparison, const Workload& workload, std::size_t course);
+  std::vector<ResultRow> run_trace(Comparison& comparison, const Workload& workload, std::size_t trace);
   void skip_known(Comparison& comparison, std::size_t triangles);
   void note_too_much(const Comparison& comparison, const std::vector<ResultRow>& rows);
-  Turns turns_for(const Workload& workload) const;
+  Schedule schedule_for(const Workload& workload) const;
   void save(bool finished) const;
 
   /// The smallest mesh that was too much for a contestant.
@@ -126,7 +126,7 @@ ScaleRun::ScaleRun(const ProgramContext& context, const ScaleOptions& options)
     if (!comes_in_sizes(family_of(mesh))) load_mesh(mesh, options.selectors.normalize);
   }
   if (!options.out.empty()) folder_.emplace(options.out);
-  if (options.workers.timeout.empty()) workers_.build_patience = default_build_patience;
+  if (options.workers.timeout.empty()) workers_.build_timeout = default_build_timeout;
   description_.flushed_to_zero = restore_denormals();
   description_.query = selection_.queries.front();
   description_.seed = selection_.seed;
@@ -135,11 +135,12 @@ ScaleRun::ScaleRun(const ProgramContext& context, const ScaleOptions& options)
 }
 
 /// All at once while there is room, so that times of one mesh compare as those of `touchmark bench` do.
-Turns ScaleRun::turns_for(const Workload& workload) const {
+Schedule ScaleRun::schedule_for(const Workload& workload) const {
   const double all = bytes_per_triangle * static_cast<double>(workload.mesh.size()) *
                      static_cast<double>(selection_.contestants.size());
   const std::optional<std::uint64_t> available = available_memory();
-  return available && all > static_cast<double>(*available) / 2 ? Turns::one_by_one : Turns::together;
+  return available && all > static_cast<double>(*available) / 2 ? Schedule::sequential
+                                                                : Schedule::interleaved;
 }
 
 void ScaleRun::skip_known(Comparison& comparison, std::size_t triangles) {
@@ -169,12 +170,12 @@ void ScaleRun::note_too_much(const Comparison& comparison, const std::vector<Res
   }
 }
 
-std::vector<ResultRow> ScaleRun::run_course(Comparison& comparison, const Workload& workload,
-                                            std::size_t course) {
-  std::vector<ResultRow> rows = comparison.run(course, description_.query);
+std::vector<ResultRow> ScaleRun::run_trace(Comparison& comparison, const Workload& workload,
+                                           std::size_t trace) {
+  std::vector<ResultRow> rows = comparison.run(trace, description_.query);
   progress_.clear();
-  out_.write(fmt::format("\n{}, {} ({})\n{}{}", workload.mesh_name, workload.trajectories[course],
-                         course_text(workload, course), timing_table(rows),
+  out_.write(fmt::format("\n{}, {} ({})\n{}{}", workload.mesh_name, workload.trajectories[trace],
+                         trace_text(workload, trace), timing_table(rows),
                          verdict(rows, comparison.steadiness().back())));
   out_.finish();
   return rows;
@@ -190,14 +191,14 @@ void ScaleRun::run_mesh(const std::string& name) {
   progress_.show(fmt::format("{}: preparing the oracle", name));
   Comparison comparison(roster_, workload, selection_.contestants, workers_, description_.effort,
                         selection_.seed);
-  comparison.set_turns(turns_for(workload));
+  comparison.set_schedule(schedule_for(workload));
   comparison.set_progress([&](const std::string& trajectory, const std::string& contestant) {
     progress_.show(fmt::format("{}, {}: {}", workload.mesh_name, trajectory, contestant));
   });
   skip_known(comparison, workload.mesh.size());
   std::vector<ResultRow> rows;
-  for (std::size_t course = 0; course < workload.courses.size(); ++course)
-    std::ranges::move(run_course(comparison, workload, course), std::back_inserter(rows));
+  for (std::size_t trace = 0; trace < workload.traces.size(); ++trace)
+    std::ranges::move(run_trace(comparison, workload, trace), std::back_inserter(rows));
   note_too_much(comparison, rows);
   std::ranges::move(rows, std::back_inserter(rows_));
   description_.steadiness = comparison.steadiness();
@@ -224,7 +225,7 @@ int ScaleRun::run() {
   out_.write(growth_table(growth_of(rows_)));
   if (interrupted) return exit_interrupted;
   const auto where = [](const ResultRow& row) { return row.mesh + ", " + row.trajectory; };
-  return tell_faults(rows_, where) ? exit_check_failed : exit_done;
+  return print_faults(rows_, where) ? exit_check_failed : exit_done;
 }
 
 }  // namespace

@@ -30,10 +30,10 @@
 namespace touchmark::bench {
 namespace {
 
-constexpr std::uint64_t most_probes = 1'000'000'000;
+constexpr std::uint64_t max_probes = 1'000'000'000;
 constexpr std::size_t faults_shown = 20;
-/// For a build or a course: rivals that hang do so in many of them.
-constexpr std::chrono::milliseconds stress_patience{20'000};
+/// For a build or a trace: rivals that hang do so in many of them.
+constexpr std::chrono::milliseconds stress_timeout{20'000};
 
 struct StressOptions {
   Selectors selectors;  // of which detectors and seed
@@ -46,9 +46,9 @@ struct StressOptions {
 
 std::size_t checked_probes(const std::string& text) {
   const std::optional<std::uint64_t> probes = parse_count(text);
-  if (!probes || *probes < 1 || *probes > most_probes) {
+  if (!probes || *probes < 1 || *probes > max_probes) {
     throw std::invalid_argument(
-        fmt::format("--probes \"{}\" is not a whole number from 1 to {}", text, most_probes));
+        fmt::format("--probes \"{}\" is not a whole number from 1 to {}", text, max_probes));
   }
   return *probes;
 }
@@ -74,7 +74,7 @@ StressRequest request_of(const StressOptions& options, const Roster& roster) {
   request.workers = worker_options(options.workers);
   request.workers.calibrate_clock = false;
   if (options.workers.timeout.empty())
-    request.workers.build_patience = request.workers.order_patience = stress_patience;
+    request.workers.build_timeout = request.workers.request_timeout = stress_timeout;
   return request;
 }
 
@@ -85,8 +85,8 @@ int status_of(const std::vector<Score>& scores) {
   std::uint64_t all_judged = 0;
   for (const Score& score : scores) {
     if (score.broken) return exit_check_failed;
-    all_judged += score.tally.judged;
-    judged[score.contestant()] += score.tally.judged;
+    all_judged += score.counts.judged;
+    judged[score.contestant()] += score.counts.judged;
     if (!score.short_of_memory.empty()) short_of_memory.emplace(score.contestant(), score.short_of_memory);
   }
   int status = exit_done;
@@ -154,22 +154,23 @@ void repeat_one(const StressOptions& options, const Roster& roster) {
   std::vector<std::string> parts;
   for (std::string part; std::getline(text, part, '/');) parts.push_back(part);
   const std::optional<Query> query = parts.size() == 4 ? query_named(parts[0]) : std::nullopt;
-  std::vector<std::uint64_t> places;
+  std::vector<std::uint64_t> indices;
   for (std::size_t i = 1; query && i < parts.size(); ++i) {
-    if (const auto place = parse_count(parts[i])) places.push_back(*place);
+    if (const auto index = parse_count(parts[i])) indices.push_back(*index);
   }
-  if (places.size() != 3) {
+  if (indices.size() != 3) {
     throw std::invalid_argument(
         fmt::format("--repeat \"{}\" is not QUERY/MESH/COURSE/STEP, as nearest/0/0/17", options.repeat));
   }
   const std::vector<Workload> workloads = request.families.front()->make(request.seed, request.probes);
-  if (places[0] >= workloads.size() || places[1] >= workloads[places[0]].courses.size()) {
+  if (indices[0] >= workloads.size() || indices[1] >= workloads[indices[0]].traces.size()) {
     throw std::invalid_argument(
         fmt::format("--repeat \"{}\" names a mesh or course that is not", options.repeat));
   }
-  const Task task{places[1], *query, workloads[places[0]].courses[places[1]].size()};
-  StandardOutput().write(rows_of_step(roster, workloads[places[0]], request.workers,
-                                      request.contestants.front(), task, places[2], SessionBefore::replayed));
+  const Task task{indices[1], *query, workloads[indices[0]].traces[indices[1]].size()};
+  StandardOutput().write(rows_of_step(roster, workloads[indices[0]], request.workers,
+                                      request.contestants.front(), task, indices[2],
+                                      SessionBefore::replayed));
 }
 
 std::string list_of_families() {

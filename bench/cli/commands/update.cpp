@@ -133,7 +133,7 @@ int update(const ProgramContext& context, const UpdateOptions& options) {
   for (const UpdateRow& row : rows) {
     const bool crashed = row.status.starts_with("crashed") &&
                          context.roster.parse(row.contestant()).claimed == Guarantee::exact;
-    if (!row.broke_its_word() && !crashed) continue;
+    if (!row.violates_guarantee() && !crashed) continue;
     if (status == exit_done) status = exit_check_failed;
     fmt::print(stderr, "touchmark: {} after {:g} % moved: {}\n", row.contestant(), 100 * row.share,
                crashed ? row.status : "answers are not as exact as claimed");

@@ -68,26 +68,27 @@ std::string check_json(const std::string& path, Faults& faults) {
 bool is_stress_csv(const fs::path& path) { return path.filename() == "stress.csv"; }
 
 /// The run.json beside a results.csv or stress.csv; its own faults are reported where it is checked itself.
-std::optional<LocatedJson> run_beside(const fs::path& path) {
-  const fs::path beside = path.parent_path() / "run.json";
-  if ((path.filename() != "results.csv" && !is_stress_csv(path)) || !fs::exists(beside)) return std::nullopt;
+std::optional<LocatedJson> run_next_to(const fs::path& path) {
+  const fs::path run_path = path.parent_path() / "run.json";
+  if ((path.filename() != "results.csv" && !is_stress_csv(path)) || !fs::exists(run_path))
+    return std::nullopt;
   Faults reported_elsewhere;
-  std::optional<LocatedJson> run = read_located_json(beside, reported_elsewhere);
+  std::optional<LocatedJson> run = read_located_json(run_path, reported_elsewhere);
   return run && run->value.is_object() ? std::move(run) : std::nullopt;
 }
 
 std::string check_csv(const std::string& path, Faults& faults) {
   const CsvTable table = read_csv_table(path, faults);
   check_form(table, faults);
-  const std::optional<LocatedJson> run = run_beside(path);
-  const nlohmann::json* about = run ? &run->value : nullptr;
+  const std::optional<LocatedJson> run = run_next_to(path);
+  const nlohmann::json* run_json = run ? &run->value : nullptr;
   if (is_stress_csv(path)) {
-    check_stress(table, about, faults);
+    check_stress(table, run_json, faults);
     return fmt::format("stress, {} rows", table.records.size());
   }
   const bool results =
       fs::path(path).filename() == "results.csv" || table.has("run_id") || table.has("answers_checksum");
-  if (results) check_results(table, about, faults);
+  if (results) check_results(table, run_json, faults);
   return fmt::format("{}, {} rows", results ? "results" : "another table, checked for its form only",
                      table.records.size());
 }

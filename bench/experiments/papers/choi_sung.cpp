@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "bench/contestants/roster_options.h"
-#include "bench/experiments/papers/paper_course.h"
+#include "bench/experiments/papers/paper_trace.h"
 #include "bench/scenes/welded_mesh.h"
 #include "bench/support/available_memory.h"
 #include "bench/support/failures.h"
@@ -67,13 +67,13 @@ struct Numbers {
 class Experiment {
  public:
   Experiment(const TriangleMesh& original, const ChoiSungSettings& settings, const SurfaceSink& sink,
-             const Narrate& narrate)
+             const PrintProgress& print_progress)
       : original_(original),
         settings_(settings),
         sink_(sink),
-        narrate_(narrate),
-        course_(paper_course("slide", original, settings.steps, settings.seed, settings.radius)),
-        timing_(course_, Query::nearest, settings.seed) {}
+        print_progress_(print_progress),
+        trace_(paper_trace("slide", original, settings.steps, settings.seed, settings.radius)),
+        timing_(trace_, Query::nearest, settings.seed) {}
 
   ChoiSungResult run() {
     try {
@@ -83,7 +83,7 @@ class Experiment {
           measure_surface(name_of(method), level, choi_sung_surface(original_, method, level));
       }
       timing_.run(settings_.effort, [this](std::size_t round, std::size_t) {
-        narrate_(fmt::format("timing, round {} of {}", round + 1, settings_.effort.rounds));
+        print_progress_(fmt::format("timing, round {} of {}", round + 1, settings_.effort.rounds));
       });
       result_.finished = true;
     } catch (const Interrupted&) {
@@ -94,7 +94,7 @@ class Experiment {
 
  private:
   void measure_surface(std::string_view method, int level, const TriangleMesh& mesh) {
-    narrate_(fmt::format("{} level {}: {} triangles", method, level, mesh.size()));
+    print_progress_(fmt::format("{} level {}: {} triangles", method, level, mesh.size()));
     require_memory_for_triangles(mesh.size(), least_bytes_per_triangle);
     SurfaceMeasures surface{std::string(method), level, mesh.size(), mean_triangle_area(mesh)};
     const double volume = absolute_volume(mesh, volume_center(original_));
@@ -143,8 +143,8 @@ class Experiment {
   const TriangleMesh& original_;
   const ChoiSungSettings& settings_;
   const SurfaceSink& sink_;
-  const Narrate& narrate_;
-  std::vector<Step> course_;
+  const PrintProgress& print_progress_;
+  std::vector<Step> trace_;
   InterleavedTiming timing_;
   ChoiSungResult result_;
   std::vector<Numbers> numbers_;  // one a row
@@ -161,8 +161,8 @@ TriangleMesh choi_sung_surface(const TriangleMesh& original, SubdivisionMethod m
 }
 
 ChoiSungResult run_choi_sung(const TriangleMesh& original, const ChoiSungSettings& settings,
-                             const SurfaceSink& sink, const Narrate& narrate) {
-  return Experiment(original, settings, sink, narrate).run();
+                             const SurfaceSink& sink, const PrintProgress& print_progress) {
+  return Experiment(original, settings, sink, print_progress).run();
 }
 
 const ChoiSungRow* find_row(const ChoiSungResult& result, SubdivisionMethod method, int level,

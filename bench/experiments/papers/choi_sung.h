@@ -68,7 +68,7 @@ struct ChoiSungResult {
 };
 
 /// Called with what is being done.
-using Narrate = std::function<void(const std::string& what)>;
+using PrintProgress = std::function<void(const std::string& what)>;
 
 /// Surface k of a method: MeshLab's way, with the paper's threshold.
 TriangleMesh choi_sung_surface(const TriangleMesh& original, SubdivisionMethod method, int level);
@@ -79,7 +79,7 @@ using SurfaceSink = std::function<void(const SurfaceMeasures&, const TriangleMes
 
 /// After Ctrl-C the rows that have been measured come back, `finished` false.
 ChoiSungResult run_choi_sung(const TriangleMesh& original, const ChoiSungSettings& settings,
-                             const SurfaceSink& sink, const Narrate& narrate);
+                             const SurfaceSink& sink, const PrintProgress& print_progress);
 
 /// The row of a method at a level; level 0 whatever the method. Nothing when it was not reached.
 const ChoiSungRow* find_row(const ChoiSungResult& result, SubdivisionMethod method, int level,

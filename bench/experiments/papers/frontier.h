@@ -55,7 +55,7 @@ struct FrontierResult {
 /// surface for all methods, since a method's own limit would excuse what it does to the shape (mid-point's is
 /// the coarse mesh).
 FrontierResult run_frontier(const TriangleMesh& original, const FrontierSettings& settings,
-                            const Narrate& narrate);
+                            const PrintProgress& print_progress);
 
 /// Marks the points that no other of those for which `among` holds beats.
 void mark_best(std::vector<FrontierPoint>& points, const std::function<bool(const FrontierPoint&)>& among);

@@ -15,8 +15,8 @@ ReferenceSurface::ReferenceSurface(const TriangleMesh& mesh, double offset, std:
   Random random(seed);
   const double outwards = signed_volume(mesh) < 0 ? -1 : 1;
   for (std::size_t i = 0; i < samples; ++i) {
-    const Place place = surface.random_place(random);
-    centers_.push_back(place.point + outwards * offset * place.normal);
+    const SurfacePoint surface_point = surface.random_surface_point(random);
+    centers_.push_back(surface_point.point + outwards * offset * surface_point.normal);
     distances_.push_back(surface.nearest(centers_.back()).distance);
   }
 }

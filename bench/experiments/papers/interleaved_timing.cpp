@@ -24,7 +24,7 @@ std::vector<std::size_t> shuffled(std::size_t count, Random& random) {
 }  // namespace
 
 InterleavedTiming::InterleavedTiming(std::span<const Step> steps, Query query, std::uint64_t seed)
-    : course_{query, steps}, seed_(seed) {}
+    : trace_{query, steps}, seed_(seed) {}
 
 std::size_t InterleavedTiming::add(std::unique_ptr<Contestant> contestant) {
   check_for_interrupt();
@@ -36,10 +36,10 @@ std::size_t InterleavedTiming::add(std::unique_ptr<Contestant> contestant) {
 }
 
 void InterleavedTiming::answer_once(Entry& entry) const {
-  const std::size_t steps = course_.steps.size();
+  const std::size_t steps = trace_.steps.size();
   std::vector<Answer> answers(steps);
   std::vector<std::uint64_t> work(steps);
-  entry.contestant->answer(course_, {0, steps}, answers, work);
+  entry.contestant->answer(trace_, {0, steps}, answers, work);
   Checksum checksum;
   for (const Answer& answer : answers) {
     checksum.add(answer);
@@ -51,25 +51,25 @@ void InterleavedTiming::answer_once(Entry& entry) const {
   entry.contestant->forget();
 }
 
-void InterleavedTiming::turn(Entry& entry, double least_turn_ns) const {
+void InterleavedTiming::turn(Entry& entry, double min_turn_ns) const {
   const auto replay = [&](std::int64_t passes) {
     Checksum checksum;
     const double start = processor_ns();
     for (std::int64_t i = 0; i < passes; ++i)
-      entry.contestant->replay(course_, {0, course_.steps.size()}, checksum);
+      entry.contestant->replay(trace_, {0, trace_.steps.size()}, checksum);
     return std::max(processor_ns() - start, 1.0);
   };
   if (entry.passes == 0)
-    entry.passes = static_cast<std::int64_t>(std::clamp(std::ceil(least_turn_ns / replay(1)), 1.0, 1e6));
+    entry.passes = static_cast<std::int64_t>(std::clamp(std::ceil(min_turn_ns / replay(1)), 1.0, 1e6));
   const double ns = replay(entry.passes);
-  entry.turn_ns.push_back(ns / static_cast<double>(entry.passes) / static_cast<double>(course_.steps.size()));
+  entry.turn_ns.push_back(ns / static_cast<double>(entry.passes) / static_cast<double>(trace_.steps.size()));
   clock_steps(entry);
 }
 
 void InterleavedTiming::clock_steps(Entry& entry) const {
-  std::vector<std::uint64_t> ticks(course_.steps.size());
+  std::vector<std::uint64_t> ticks(trace_.steps.size());
   Checksum checksum;
-  entry.contestant->replay_clocked(course_, {0, course_.steps.size()}, checksum, ticks, {});
+  entry.contestant->replay_clocked(trace_, {0, trace_.steps.size()}, checksum, ticks, {});
   std::vector<double> ns;
   ns.reserve(ticks.size());
   for (const std::uint64_t step : ticks)
@@ -84,7 +84,7 @@ void InterleavedTiming::run(const TimingEffort& effort,
     for (const std::size_t detector : shuffled(entries_.size(), random)) {
       check_for_interrupt();
       progress(round, detector);
-      turn(entries_[detector], effort.least_turn_ns);
+      turn(entries_[detector], effort.min_turn_ns);
     }
   }
 }
@@ -94,8 +94,7 @@ TimedTurns InterleavedTiming::timed(std::size_t detector) const {
   const Entry& entry = entries_[detector];
   timed.ns = median(entry.turn_ns);
   if (!entry.step_ns.empty()) {
-    const double measured =
-        summarize_latency(median_per_step(entry.step_ns), {{0, course_.steps.size()}}).p99;
+    const double measured = summarize_latency(median_per_step(entry.step_ns), {{0, trace_.steps.size()}}).p99;
     timed.ns_p99 = std::max({measured, clock_.cost_ns, clock_.ns_per_tick});
   }
   return timed;

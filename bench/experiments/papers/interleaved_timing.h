@@ -17,10 +17,10 @@ namespace touchmark::bench {
 
 struct TimingEffort {
   std::size_t rounds = 5;
-  double least_turn_ns = 10e6;  ///< a turn replays the course until it has lasted so long
+  double min_turn_ns = 10e6;  ///< a turn replays the trace until it has lasted so long
 };
 
-/// What a detector did on the course, turn by turn.
+/// What a detector did on the trace, turn by turn.
 struct TimedTurns {
   double ns = 0;  ///< per query, median over the rounds; 0 before the first
   /// What 99 of 100 queries are done in, each step's median over the rounds; nothing before the first. At
@@ -36,7 +36,7 @@ class InterleavedTiming {
   /// The steps must outlive it and be at least one.
   InterleavedTiming(std::span<const Step> steps, Query query, std::uint64_t seed);
 
-  /// Takes the detector in and answers the course once, untimed. The number by which timed() knows it.
+  /// Takes the detector in and answers the trace once, untimed. The number by which timed() knows it.
   std::size_t add(std::unique_ptr<Contestant> contestant);
 
   /// May throw Interrupted; the finished turns count nevertheless. `progress` is called before each turn with
@@ -55,10 +55,10 @@ class InterleavedTiming {
     std::vector<std::vector<double>> step_ns;  ///< by round and step
   };
   void answer_once(Entry& entry) const;
-  void turn(Entry& entry, double least_turn_ns) const;
+  void turn(Entry& entry, double min_turn_ns) const;
   void clock_steps(Entry& entry) const;
 
-  Course course_;
+  QueryTrace trace_;
   ClockCalibration clock_ = calibrate_clock();
   std::uint64_t seed_;
   std::vector<Entry> entries_;

@@ -59,7 +59,7 @@ struct ParkJangBest {
 };
 
 ParkJangResult run_park_jang(const std::vector<PaperMesh>& meshes, const ParkJangSettings& settings,
-                             const Narrate& narrate);
+                             const PrintProgress& print_progress);
 
 /// Of every mesh and shape that was timed.
 std::vector<ParkJangBest> park_jang_best(const ParkJangResult& result);

@@ -50,8 +50,8 @@ std::optional<Growth> growth_along(const std::vector<const ResultRow*>& curve, c
     if (!value || !(*value > 0)) continue;
     points.push_back({static_cast<double>(row->triangles), *value});
     growth.most_triangles = std::max(growth.most_triangles, row->triangles);
-    growth.least_triangles =
-        points.size() == 1 ? row->triangles : std::min(growth.least_triangles, row->triangles);
+    growth.min_triangles =
+        points.size() == 1 ? row->triangles : std::min(growth.min_triangles, row->triangles);
   }
   const std::optional<PowerLaw> law = fit_power_law(points);
   if (!law) return std::nullopt;
@@ -106,7 +106,7 @@ std::string scaling_csv(const std::vector<Growth>& growths) {
                      std::string(growth.quantity), fmt::format("{}", law.points), rounded(law.exponent),
                      law.interval ? rounded(law.interval->low) : "",
                      law.interval ? rounded(law.interval->high) : "", rounded(law.factor), growth.family,
-                     std::string(name_of(growth.query)), fmt::format("{}", growth.least_triangles),
+                     std::string(name_of(growth.query)), fmt::format("{}", growth.min_triangles),
                      fmt::format("{}", growth.most_triangles)});
   }
   return csv;

@@ -20,7 +20,7 @@ struct Growth {
   std::string trajectory;
   Query query = Query::nearest;
   std::string_view quantity;  ///< its column in results.csv
-  std::size_t least_triangles = 0;
+  std::size_t min_triangles = 0;
   std::size_t most_triangles = 0;
   PowerLaw law;
 

@@ -55,7 +55,7 @@ constexpr std::array list{
     Family{"motions", "every trajectory of the comparison on ordinary and thin meshes", false,
            &stress::motions},
     Family{"ordinary", "balls of every size anywhere about small meshes, other ones with each seed", false,
-           &stress::ordinary},
+           &stress::control_family},
     Family{"near-ties",
            "two or more triangles as far but for rounding: turned images, and where the nearest changes",
            false, &stress::near_ties},

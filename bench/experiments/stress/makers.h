@@ -18,7 +18,7 @@ std::vector<Workload> one_cell(std::uint64_t seed, std::size_t probes);
 std::vector<Workload> single_triangle(std::uint64_t seed, std::size_t probes);
 std::vector<Workload> empty_mesh(std::uint64_t seed, std::size_t probes);
 
-// meshes_in_hard_places.cpp
+// scaled_and_offset_meshes.cpp
 std::vector<Workload> thresholds(std::uint64_t seed, std::size_t probes);
 std::vector<Workload> scales(std::uint64_t seed, std::size_t probes);
 std::vector<Workload> offsets(std::uint64_t seed, std::size_t probes);
@@ -30,7 +30,7 @@ std::vector<Workload> ties(std::uint64_t seed, std::size_t probes);
 std::vector<Workload> cell_borders(std::uint64_t seed, std::size_t probes);
 std::vector<Workload> tangent(std::uint64_t seed, std::size_t probes);
 
-// probes_of_hard_numbers.cpp
+// non_finite_probes.cpp
 std::vector<Workload> huge(std::uint64_t seed, std::size_t probes);
 std::vector<Workload> denormal(std::uint64_t seed, std::size_t probes);
 std::vector<Workload> not_a_number(std::uint64_t seed, std::size_t probes);
@@ -48,7 +48,7 @@ std::vector<Workload> near_ties(std::uint64_t seed, std::size_t probes);
 // shared_features.cpp
 std::vector<Workload> shared_features(std::uint64_t seed, std::size_t probes);
 
-// ordinary.cpp
-std::vector<Workload> ordinary(std::uint64_t seed, std::size_t probes);
+// control_family.cpp
+std::vector<Workload> control_family(std::uint64_t seed, std::size_t probes);
 
 }  // namespace touchmark::bench::stress

@@ -22,8 +22,8 @@ std::vector<Workload> motions(std::uint64_t seed, std::size_t probes) {
     Workload workload{std::move(mesh.name), std::move(mesh.mesh), radius, {}, {}, {}};
     for (const TrajectoryInfo& shape : shapes) {
       const Trajectory motion = make_trajectory(shape.name, workload.mesh, {steps, seed, radius});
-      std::vector<Step>& course = workload.courses.emplace_back();
-      for (const Vec3& position : motion.positions) course.push_back(asked(position, radius));
+      std::vector<Step>& trace = workload.traces.emplace_back();
+      for (const Vec3& position : motion.positions) trace.push_back(asked(position, radius));
       workload.trajectories.push_back(shape.name);
     }
     workloads.push_back(std::move(workload));

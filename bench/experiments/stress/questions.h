@@ -24,12 +24,13 @@ inline Step asked(const Vec3& center, double radius) { return {{center, radius},
 /// out.
 std::vector<Step> at_the_exact_distance(const TriangleMesh& mesh, const std::vector<Vec3>& centers);
 
-/// One course about one mesh.
-Workload about(NamedMesh mesh, std::string course_name, std::vector<Step> course);
+/// One trace about one mesh.
+Workload workload_on(NamedMesh mesh, std::string trace_name, std::vector<Step> trace);
 
 /// The first so many centres of a mesh's hard ones, each at its exact distance. A third of `probes` in
 /// centres, spread evenly over the meshes.
-std::vector<Workload> hard_questions(std::vector<NamedMesh> meshes, std::uint64_t seed, std::size_t probes);
+std::vector<Workload> corner_case_questions(std::vector<NamedMesh> meshes, std::uint64_t seed,
+                                            std::size_t probes);
 
 /// How many of `probes` each of `parts` gets: at least one.
 std::size_t share_of(std::size_t probes, std::size_t parts);

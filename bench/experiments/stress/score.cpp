@@ -10,11 +10,11 @@ namespace {
 bool breaks_the_claim(const ResultRow& row) {
   if (!row.claims_exactness()) return false;
   const bool declined = row.status == "unsupported" || row.status.starts_with("refused");
-  if (!row.tally) return !declined;
-  const Tally& tally = *row.tally;
-  return row.status != "ok" ||
-         tally.missed + tally.false_contacts + tally.wrong_triangle + tally.beyond_bound + tally.malformed >
-             0;
+  if (!row.counts) return !declined;
+  const ErrorCounts& counts = *row.counts;
+  return row.status != "ok" || counts.missed + counts.false_contacts + counts.wrong_triangle +
+                                       counts.beyond_bound + counts.malformed >
+                                   0;
 }
 
 }  // namespace
@@ -49,10 +49,10 @@ bool Score::is_of(const ResultRow& row, const Family& of) const {
 void Score::add(const ResultRow& row, bool of_another_mesh) {
   meshes += of_another_mesh ? 1 : 0;
   if (row.claim()) guarantee = guarantee_name(row);
-  if (row.tally) tally += *row.tally;
-  if (row.tally && row.throughput) {
-    ns_ += row.throughput->ns_per_query * static_cast<double>(row.tally->judged);
-    timed_ += row.tally->judged;
+  if (row.counts) counts += *row.counts;
+  if (row.counts && row.throughput) {
+    ns_ += row.throughput->ns_per_query * static_cast<double>(row.counts->judged);
+    timed_ += row.counts->judged;
   }
   timeouts += row.status == "timeout" ? 1 : 0;
   refusals += row.status.starts_with("refused") ? 1 : 0;
@@ -66,8 +66,8 @@ void Score::add(const ResultRow& row, bool of_another_mesh) {
 Standing Score::standing() const noexcept {
   if (crashes > 0) return Standing::crashed;
   if (timeouts > 0) return Standing::timeout;
-  if (tally.missed + tally.false_contacts + tally.malformed > 0) return Standing::wrong;
-  if (tally.wrong_triangle + answers_off(tally) > 0) return Standing::inexact;
+  if (counts.missed + counts.false_contacts + counts.malformed > 0) return Standing::wrong;
+  if (counts.wrong_triangle + answers_off(counts) > 0) return Standing::inexact;
   if (refusals > 0) return Standing::refused;
   return unsupported > 0 ? Standing::unsupported : Standing::clean;
 }

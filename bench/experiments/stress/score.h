@@ -40,9 +40,9 @@ class Score {
   const Family* family;
   Query query;
   std::string guarantee;  ///< as claimed; empty where it is not known
-  Tally tally;
+  ErrorCounts counts;
   std::uint64_t meshes = 0;
-  std::uint64_t crashes = 0;  ///< courses that a worker did not survive, and so on
+  std::uint64_t crashes = 0;  ///< traces that a worker did not survive, and so on
   std::uint64_t timeouts = 0;
   std::uint64_t refusals = 0;
   std::uint64_t unsupported = 0;

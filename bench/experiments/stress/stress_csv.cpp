@@ -20,11 +20,11 @@ std::string count(std::uint64_t value) { return fmt::format("{}", value); }
 
 template <auto Member>
 std::string counted(const Score& score) {
-  return count(score.tally.*Member);
+  return count(score.counts.*Member);
 }
 template <auto Member>
 std::string error(const Score& score) {
-  return score.tally.judged > 0 ? number(score.tally.*Member) : "";
+  return score.counts.judged > 0 ? number(score.counts.*Member) : "";
 }
 
 using S = const Score&;
@@ -38,18 +38,18 @@ constexpr std::array columns{
     Column{"guarantee", [](S score) { return std::string(score.guarantee); }},
     Column{"adversarial", [](S score) { return count(score.family->adversarial ? 1 : 0); }},
     Column{"meshes", [](S score) { return count(score.meshes); }},
-    Column{"probes", counted<&Tally::judged>},
-    Column{"missed", counted<&Tally::missed>},
-    Column{"false_contacts", counted<&Tally::false_contacts>},
-    Column{"wrong_triangle", counted<&Tally::wrong_triangle>},
-    Column{"beyond_bound", counted<&Tally::beyond_bound>},
-    Column{"wrong_point", counted<&Tally::wrong_point>},
-    Column{"wrong_normal", counted<&Tally::wrong_normal>},
-    Column{"malformed", counted<&Tally::malformed>},
-    Column{"unresolved", counted<&Tally::unresolved>},
-    Column{"max_distance_error", error<&Tally::max_distance_error>},
-    Column{"max_distance_error_of_diagonal", error<&Tally::max_distance_error_of_diagonal>},
-    Column{"max_distance_error_ulp", error<&Tally::max_distance_error_ulp>},
+    Column{"probes", counted<&ErrorCounts::judged>},
+    Column{"missed", counted<&ErrorCounts::missed>},
+    Column{"false_contacts", counted<&ErrorCounts::false_contacts>},
+    Column{"wrong_triangle", counted<&ErrorCounts::wrong_triangle>},
+    Column{"beyond_bound", counted<&ErrorCounts::beyond_bound>},
+    Column{"wrong_point", counted<&ErrorCounts::wrong_point>},
+    Column{"wrong_normal", counted<&ErrorCounts::wrong_normal>},
+    Column{"malformed", counted<&ErrorCounts::malformed>},
+    Column{"unresolved", counted<&ErrorCounts::unresolved>},
+    Column{"max_distance_error", error<&ErrorCounts::max_distance_error>},
+    Column{"max_distance_error_of_diagonal", error<&ErrorCounts::max_distance_error_of_diagonal>},
+    Column{"max_distance_error_ulp", error<&ErrorCounts::max_distance_error_ulp>},
     Column{"status", [](S score) { return std::string(name_of(score.standing())); }},
     Column{"crashes", [](S score) { return count(score.crashes); }},
     Column{"timeouts", [](S score) { return count(score.timeouts); }},
@@ -60,9 +60,9 @@ constexpr std::array columns{
              return ns ? fmt::format("{:.6g}", *ns) : std::string();
            }},
     // Appended to schema 1.
-    Column{"beyond_tolerance", counted<&Tally::beyond_tolerance>},
-    Column{"rounding", counted<&Tally::rounding>},
-    Column{"wrong_side", counted<&Tally::wrong_side>},
+    Column{"beyond_tolerance", counted<&ErrorCounts::beyond_tolerance>},
+    Column{"rounding", counted<&ErrorCounts::rounding>},
+    Column{"wrong_side", counted<&ErrorCounts::wrong_side>},
 };
 
 }  // namespace

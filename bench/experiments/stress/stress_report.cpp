@@ -17,24 +17,24 @@ namespace {
 /// One contestant's scores of one family, whatever the query.
 struct Cell {
   Standing standing = Standing::clean;
-  Tally tally;
+  ErrorCounts counts;
 
   void add(const Score& score) {
     standing = std::max(standing, score.standing());
-    tally += score.tally;
+    counts += score.counts;
   }
   std::string text() const {
     switch (standing) {
       case Standing::clean:
         return ".";
       case Standing::unsupported:
-        return tally.judged > 0 ? "." : "-";
+        return counts.judged > 0 ? "." : "-";
       case Standing::refused:
         return "R";
       case Standing::inexact:
-        return fmt::format("~{}", tally.wrong_triangle + answers_off(tally));
+        return fmt::format("~{}", counts.wrong_triangle + answers_off(counts));
       case Standing::wrong:
-        return fmt::format("{}", tally.missed + tally.false_contacts + tally.malformed);
+        return fmt::format("{}", counts.missed + counts.false_contacts + counts.malformed);
       case Standing::timeout:
         return "T";
       case Standing::crashed:
@@ -45,7 +45,7 @@ struct Cell {
 };
 
 template <class Value>
-std::size_t place_in(std::vector<Value>& list, const Value& value) {
+std::size_t column_of(std::vector<Value>& list, const Value& value) {
   const auto found = std::find(list.begin(), list.end(), value);
   if (found != list.end()) return static_cast<std::size_t>(found - list.begin());
   list.push_back(value);
@@ -59,8 +59,8 @@ std::string letter(std::size_t column) {
 std::string sums(const std::vector<Score>& scores) {
   std::uint64_t answers = 0, adversarial = 0;
   for (const Score& score : scores) {
-    answers += score.tally.judged;
-    if (score.family->adversarial) adversarial += score.tally.judged;
+    answers += score.counts.judged;
+    if (score.family->adversarial) adversarial += score.counts.judged;
   }
   return fmt::format("{} answers judged exactly, {} of them at the edge of contact\n", answers, adversarial);
 }
@@ -74,10 +74,10 @@ std::string stress_table(const std::vector<Score>& scores) {
   std::map<std::size_t, bool> broken;
   std::map<std::size_t, std::uint64_t> judged;
   for (const Score& score : scores) {
-    const std::size_t row = place_in(contestants, score.contestant());
-    cells[{row, place_in(shown, score.family)}].add(score);
+    const std::size_t row = column_of(contestants, score.contestant());
+    cells[{row, column_of(shown, score.family)}].add(score);
     broken[row] = broken[row] || score.broken;
-    judged[row] += score.tally.judged;
+    judged[row] += score.counts.judged;
   }
   std::vector<std::string> header{"contestant"};
   for (std::size_t column = 0; column < shown.size(); ++column) header.push_back(letter(column));

@@ -24,12 +24,12 @@ constexpr double pass_budget_ns = 2e9;
 constexpr Effort first_effort{1, 0, pass_budget_ns, 0}, further_effort{0, 0, pass_budget_ns, 0};
 
 /// To be followed by the step's number; see --repeat of `touchmark stress`.
-std::string repeat_command(const Family& family, std::uint64_t seed, std::size_t probes, std::size_t place,
-                           const Workload& workload, const ResultRow& row) {
-  const auto course = std::find(workload.trajectories.begin(), workload.trajectories.end(), row.trajectory);
+std::string repeat_command(const Family& family, std::uint64_t seed, std::size_t probes,
+                           std::size_t workload_index, const Workload& workload, const ResultRow& row) {
+  const auto trace = std::find(workload.trajectories.begin(), workload.trajectories.end(), row.trajectory);
   return fmt::format("touchmark stress --family {} --seed {} --probes {} --detector {} --repeat {}/{}/{}/",
-                     family.name, seed, probes, quoted(row.contestant()), name_of(row.query), place,
-                     course - workload.trajectories.begin());
+                     family.name, seed, probes, quoted(row.contestant()), name_of(row.query), workload_index,
+                     trace - workload.trajectories.begin());
 }
 
 }  // namespace
@@ -63,23 +63,23 @@ void StressRun::run_round(const Family& family, std::uint64_t seed, std::size_t 
     return;
   }
   ++counts_[&family].rounds;
-  for (std::size_t place = 0; place < workloads.size(); ++place) {
-    if (!workloads[place].courses.empty())
-      run_workload(family, seed, probes, place, workloads[place], progress);
+  for (std::size_t workload_index = 0; workload_index < workloads.size(); ++workload_index) {
+    if (!workloads[workload_index].traces.empty())
+      run_workload(family, seed, probes, workload_index, workloads[workload_index], progress);
   }
 }
 
-void StressRun::run_workload(const Family& family, std::uint64_t seed, std::size_t probes, std::size_t place,
-                             const Workload& workload, const Progress& progress) {
+void StressRun::run_workload(const Family& family, std::uint64_t seed, std::size_t probes,
+                             std::size_t workload_index, const Workload& workload, const Progress& progress) {
   const Effort& effort = counts_[&family].rounds > 1 ? further_effort : first_effort;
   Comparison comparison(roster_, workload, request_.contestants, request_.workers, effort, request_.seed);
-  comparison.set_progress([&](const std::string& course, const std::string& contestant) {
-    progress(fmt::format("{}, {}, {}: {}", family.name, workload.mesh_name, course, contestant));
+  comparison.set_progress([&](const std::string& trace, const std::string& contestant) {
+    progress(fmt::format("{}, {}, {}: {}", family.name, workload.mesh_name, trace, contestant));
   });
   std::vector<ResultRow> rows;
   const auto keep = [&] {
     for (ResultRow& row : rows) {
-      row.repeat = repeat_command(family, seed, probes, place, workload, row);
+      row.repeat = repeat_command(family, seed, probes, workload_index, workload, row);
       add(family, row, row.trajectory == workload.trajectories.front());
     }
   };
@@ -90,7 +90,7 @@ void StressRun::run_workload(const Family& family, std::uint64_t seed, std::size
     throw;
   }
   keep();
-  for (const std::vector<Step>& course : workload.courses) counts_[&family].probes += course.size();
+  for (const std::vector<Step>& trace : workload.traces) counts_[&family].probes += trace.size();
   for (std::size_t i = 0; i < request_.contestants.size(); ++i) {
     if (comparison.contestants()[i].opened().flushed_to_zero) flushed_to_zero_[i] = true;
   }

@@ -53,7 +53,7 @@ class StressRun {
  private:
   void run_round(const Family& family, std::uint64_t seed, std::size_t probes, const Progress& progress);
   /// `place` is the workload's in what family.make(seed, probes) makes.
-  void run_workload(const Family& family, std::uint64_t seed, std::size_t probes, std::size_t place,
+  void run_workload(const Family& family, std::uint64_t seed, std::size_t probes, std::size_t workload_index,
                     const Workload& workload, const Progress& progress);
   void refuse_all(const Family& family, const std::string& why);
   std::size_t place_of(const Score& score) const;

@@ -27,8 +27,8 @@ std::string of_update(Row row) {
   return row.updated ? fmt::format("{:.6g}", static_cast<double>((*row.updated).*Member)) : "";
 }
 template <auto Member>
-std::string of_tally(Row row) {
-  return row.tally ? fmt::format("{}", (*row.tally).*Member) : "";
+std::string of_counts(Row row) {
+  return row.counts ? fmt::format("{}", (*row.counts).*Member) : "";
 }
 
 std::string guarantee(Row row) {
@@ -57,14 +57,14 @@ constexpr std::array columns{
            [](Row row) {
              return std::string(!row.answers_as_built ? "" : *row.answers_as_built ? "1" : "0");
            }},
-    Column{"judged", of_tally<&Tally::judged>},
-    Column{"missed", of_tally<&Tally::missed>},
-    Column{"false_contacts", of_tally<&Tally::false_contacts>},
-    Column{"wrong_triangle", of_tally<&Tally::wrong_triangle>},
-    Column{"beyond_bound", of_tally<&Tally::beyond_bound>},
-    Column{"malformed", of_tally<&Tally::malformed>},
-    Column{"unresolved", of_tally<&Tally::unresolved>},
-    Column{"max_distance_error_of_diagonal", of_tally<&Tally::max_distance_error_of_diagonal>},
+    Column{"judged", of_counts<&ErrorCounts::judged>},
+    Column{"missed", of_counts<&ErrorCounts::missed>},
+    Column{"false_contacts", of_counts<&ErrorCounts::false_contacts>},
+    Column{"wrong_triangle", of_counts<&ErrorCounts::wrong_triangle>},
+    Column{"beyond_bound", of_counts<&ErrorCounts::beyond_bound>},
+    Column{"malformed", of_counts<&ErrorCounts::malformed>},
+    Column{"unresolved", of_counts<&ErrorCounts::unresolved>},
+    Column{"max_distance_error_of_diagonal", of_counts<&ErrorCounts::max_distance_error_of_diagonal>},
 };
 
 template <class Values, class Value>
@@ -88,13 +88,13 @@ std::string table_of(const std::vector<UpdateRow>& rows, const std::string& mesh
   for (const std::string& contestant : contestants) {
     std::vector<std::string> cells{contestant, ""};
     std::optional<double> dearest;
-    Tally errors;
+    ErrorCounts errors;
     std::string status = "ok";
     for (const UpdateRow& row : rows) {
       if (row.mesh != mesh || row.contestant() != contestant) continue;
       if (row.updated) cells[1] = fmt::format("{:.3g}", row.updated->build_ms);
       cells.push_back(row.updated ? fmt::format("{:.3g}", row.updated->update_over_build) : "");
-      if (row.tally) errors += *row.tally;
+      if (row.counts) errors += *row.counts;
       if (row.status != "ok") status = row.status;
       if (row.ns_updated && row.ns_built)
         dearest = std::max(dearest.value_or(0), *row.ns_updated / std::max(*row.ns_built, 1e-3));

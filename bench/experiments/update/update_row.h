@@ -25,13 +25,13 @@ struct UpdateRow {
 
   std::optional<Accuracy> accuracy;  ///< as claimed
   std::optional<Updated> updated;
-  std::optional<Tally> tally;            ///< of the answers after the update
+  std::optional<ErrorCounts> counts;     ///< of the answers after the update
   std::optional<double> ns_updated;      ///< a query along the trajectory, after the update
   std::optional<double> ns_built;        ///< the same of a detector built of the moved mesh
   std::optional<bool> answers_as_built;  ///< have both the same checksum?
 
   std::string contestant() const { return options.empty() ? detector : detector + ":" + options; }
-  bool broke_its_word() const { return accuracy && tally && !keeps_its_word(*tally, *accuracy); }
+  bool violates_guarantee() const { return accuracy && counts && !meets_guarantee(*counts, *accuracy); }
 };
 
 inline constexpr int update_schema = 1;

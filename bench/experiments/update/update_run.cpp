@@ -63,24 +63,22 @@ UpdateRun::UpdateRun(const Roster& roster, const std::vector<ContestantSpec>& co
           all.motions.push_back(one.motions[0]);
           all.motions.emplace_back();
           all.unit = one.unit;
-          all.courses.push_back(std::move(one.courses[0]));
-          all.courses.push_back(
-              about_what_moved(mesh, scenes_.back()->mesh, all.courses.back()[0], selection.seed));
+          all.traces.push_back(std::move(one.traces[0]));
+          all.traces.push_back(
+              about_what_moved(mesh, scenes_.back()->mesh, all.traces.back()[0], selection.seed));
         }
         return all;
       }()},
       stage_(workload_, workers) {
   for (const ContestantSpec& spec : contestants)
     processes_.emplace_back(stage_, spec, roster.find(spec.name).worker_program(spec.values));
-  for (std::size_t course = 0; course < workload_.courses.size(); ++course) {
-    Scene& scene = *scenes_[course / courses_a_scene];
-    scene.truths.emplace_back(scene.oracle, workload_.courses[course]);
+  for (std::size_t trace = 0; trace < workload_.traces.size(); ++trace) {
+    Scene& scene = *scenes_[trace / traces_a_scene];
+    scene.truths.emplace_back(scene.oracle, workload_.traces[trace]);
   }
 }
 
-Task UpdateRun::task_for(std::size_t course) const {
-  return {course, query_, workload_.courses[course].size()};
-}
+Task UpdateRun::task_for(std::size_t trace) const { return {trace, query_, workload_.traces[trace].size()}; }
 
 Timed UpdateRun::timed(ContestantProcess& process, const Task& task) const {
   const double pass_ns =
@@ -100,15 +98,15 @@ void UpdateRun::measure(ContestantProcess& process, std::size_t index, UpdateRow
   }
   if (!updated.refused.empty()) throw WorkerFailure("refused: " + updated.refused);
   row.updated = updated;
-  Tally tally;
-  for (std::size_t k = 0; k < courses_a_scene; ++k) {
-    const Task task = task_for(courses_a_scene * index + k);
+  ErrorCounts counts;
+  for (std::size_t k = 0; k < traces_a_scene; ++k) {
+    const Task task = task_for(traces_a_scene * index + k);
     process.answer(task);
-    tally += scene.truths[k].judge(query_, plan_windows(task.steps, task.steps),
-                                   stage_.room().answers(task.steps), *row.accuracy);
+    counts += scene.truths[k].judge(query_, sample_steps(task.steps, task.steps),
+                                    stage_.room().answers(task.steps), *row.accuracy);
   }
-  row.tally = tally;
-  const Task along = task_for(courses_a_scene * index);
+  row.counts = counts;
+  const Task along = task_for(traces_a_scene * index);
   const Timed after_update = timed(process, along);
   process.rebuild(scene.deformation);
   const Timed after_build = timed(process, along);

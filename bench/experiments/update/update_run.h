@@ -43,18 +43,18 @@ class UpdateRun {
     TriangleMesh mesh;
     std::size_t moved;
     Oracle oracle;
-    std::vector<Truths> truths;  // one a course
+    std::vector<GroundTruths> truths;  // one a trace
   };
-  static constexpr std::size_t courses_a_scene = 2;
+  static constexpr std::size_t traces_a_scene = 2;
 
   void measure(ContestantProcess& process, std::size_t scene, UpdateRow& row);
-  Task task_for(std::size_t course) const;
+  Task task_for(std::size_t trace) const;
   Timed timed(ContestantProcess& process, const Task& task) const;
 
   Query query_;
   std::vector<std::unique_ptr<Scene>> scenes_;
   Workload workload_;
-  WorkerStage stage_;
+  SharedArena arena_;
   std::deque<ContestantProcess> processes_;
 };
 

@@ -71,7 +71,7 @@ BaselineRow row_of(const Record& record) {
   row.key = {record.text("mesh"), record.text("trajectory"), record.text("query"), record.text("detector"),
              record.text("reference")};
   row.mesh_hash = record.hash("mesh_fnv1a");
-  row.course_hash = record.hash("course_fnv1a");
+  row.trace_hash = record.hash("course_fnv1a");
   row.steps = record.count("steps");
   if (row.steps == 0) record.refuse("steps", "above 0");
   row.ratio.ratio = row.ratio.low = row.ratio.high = record.ratio("ratio");
@@ -89,7 +89,7 @@ BaselineRow row_of(const Record& record) {
 std::string line_of(const BaselineRow& row) {
   const GateKey& key = row.key;
   return csv_line({key.mesh, key.trajectory, key.query, key.detector, key.reference, hex(row.mesh_hash),
-                   hex(row.course_hash), fmt::format("{}", row.steps), fmt::format("{:.6g}", row.ratio.ratio),
+                   hex(row.trace_hash), fmt::format("{}", row.steps), fmt::format("{:.6g}", row.ratio.ratio),
                    fmt::format("{:.6g}", row.ratio.low), fmt::format("{:.6g}", row.ratio.high),
                    row.work ? fmt::format("{}", row.work->mean) : "",
                    row.work ? fmt::format("{}", row.work->max) : "", row.checksum ? hex(*row.checksum) : "",

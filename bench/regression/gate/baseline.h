@@ -26,8 +26,8 @@ struct GateKey {
 struct BaselineRow {
   GateKey key;
   std::uint64_t mesh_hash = 0;
-  std::uint64_t course_hash = 0;
-  std::size_t steps = 0;  ///< replayed, of the course's
+  std::uint64_t trace_hash = 0;
+  std::size_t steps = 0;  ///< replayed, of the trace's
   RatioInterval ratio;    ///< the detector's time over the reference's
   std::optional<WorkResult> work;
   std::optional<std::uint64_t> checksum;

@@ -34,12 +34,12 @@ struct Judgement {
   int batches = 0;
 };
 
-/// Asks for one batch after the other, at most `most_batches`, and counts those whose control holds. One
+/// Asks for one batch after the other, at most `max_batches`, and counts those whose control holds. One
 /// whose ratio is nearer to the baseline than to the limit, baseline * (1 + tolerance), is enough to pass.
 /// Else, since where memory lies moves the times of a process, two must agree: slower, their ratios' lower
 /// ends above the limit, or no slower.
 Judgement judge(double baseline, double tolerance, const std::function<Batch()>& next_batch);
 
-inline constexpr int most_batches = 4;
+inline constexpr int max_batches = 4;
 
 }  // namespace touchmark::bench

@@ -19,13 +19,13 @@ class PairedBatches::Contender {
  public:
   Contender(const PairedBatches& batches, const ContestantSpec& spec)
       : batches_(batches),
-        process_(batches.stage_, spec, batches.roster_.find(spec.name).worker_program(spec.values)),
-        task_{batches.pair_.course, batches.pair_.query, 1} {}
+        process_(batches.arena_, spec, batches.roster_.find(spec.name).worker_program(spec.values)),
+        task_{batches.pair_.trace, batches.pair_.query, 1} {}
 
  private:
   [[noreturn]] void fail(const std::string& what) const {
     throw GateFailure(fmt::format("{} on {}: {}", process_.spec().text(),
-                                  batches_.workload_.trajectories[task_.course], what));
+                                  batches_.workload_.trajectories[task_.trace], what));
   }
 
   template <class Action>
@@ -51,19 +51,19 @@ class PairedBatches::Contender {
   }
 
   /// Before anything is timed.
-  GateAnswers answer(std::size_t steps, Truths& truths) {
+  GateAnswers answer(std::size_t steps, GroundTruths& truths) {
     task_.steps = steps;
-    const std::vector<Window> windows = plan_windows(batches_.workload_.courses[task_.course].size(), steps);
+    const std::vector<StepRange> ranges = sample_steps(batches_.workload_.traces[task_.trace].size(), steps);
     const Answered answered = attempt([&] { return process_.answer(task_); });
-    const OutputRoom& room = batches_.stage_.room();
-    const std::size_t count = steps_in(windows);
+    const OutputBuffers& buffers = batches_.arena_.buffers();
+    const std::size_t count = steps_in(ranges);
     checksum_ = answered.checksum;
-    const Tally tally = truths.judge(task_.query, windows, room.answers(count), accuracy_);
-    judged_ += tally.judged;
-    if (!keeps_its_word(tally, accuracy_)) {
+    const ErrorCounts counts = truths.judge(task_.query, ranges, buffers.answers(count), accuracy_);
+    judged_ += counts.judged;
+    if (!meets_guarantee(counts, accuracy_)) {
       fail("gives wrong answers (touchmark verify says which)");
     }
-    return {checksum_, summarize_work(room.work(count), answered.work)};
+    return {checksum_, summarize_work(buffers.work(count), answered.work)};
   }
 
   /// One turn that is not counted tells how many passes a turn has.
@@ -103,12 +103,12 @@ std::vector<double> differences(const std::vector<double>& a, const std::vector<
 
 }  // namespace
 
-PairedBatches::PairedBatches(const Roster& roster, const Workload& workload, const WorkerStage& stage,
+PairedBatches::PairedBatches(const Roster& roster, const Workload& workload, const SharedArena& arena,
                              const Oracle& oracle, GatePair pair, const GateEffort& effort, std::size_t steps,
                              std::uint64_t seed)
     : roster_(roster),
       workload_(workload),
-      stage_(stage),
+      arena_(arena),
       oracle_(oracle),
       pair_(std::move(pair)),
       effort_(effort),
@@ -118,9 +118,9 @@ PairedBatches::PairedBatches(const Roster& roster, const Workload& workload, con
 void PairedBatches::choose_steps(Contender& detector, Contender& reference) {
   const double budget = effort_.longest_pass_ns;
   const double slower = std::max(detector.ns_per_query(budget), reference.ns_per_query(budget));
-  const std::size_t all = workload_.courses[pair_.course].size();
+  const std::size_t all = workload_.traces[pair_.trace].size();
   const double wanted = std::clamp(budget / slower, 1.0, static_cast<double>(all));
-  steps_ = steps_in(plan_windows(all, static_cast<std::size_t>(wanted)));
+  steps_ = steps_in(sample_steps(all, static_cast<std::size_t>(wanted)));
 }
 
 Batch PairedBatches::measure() {
@@ -129,7 +129,7 @@ Batch PairedBatches::measure() {
   for (Contender& contender : contenders) contender.build();
   auto& [detector, reference, control] = contenders;
   if (steps_ == 0) choose_steps(detector, reference);
-  Truths truths(oracle_, workload_.courses[pair_.course]);
+  GroundTruths truths(oracle_, workload_.traces[pair_.trace]);
   answers_ = detector.answer(steps_, truths);
   reference.answer(steps_, truths);
   control.answer(steps_, truths);

@@ -31,7 +31,7 @@ struct GateEffort {
 struct GatePair {
   ContestantSpec detector;
   ContestantSpec reference;
-  std::size_t course = 0;
+  std::size_t trace = 0;
   Query query = Query::nearest;
 };
 
@@ -44,7 +44,7 @@ struct GateAnswers {
 class PairedBatches {
  public:
   /// All references must outlive it. `steps` 0: as many as both have time for.
-  PairedBatches(const Roster& roster, const Workload& workload, const WorkerStage& stage,
+  PairedBatches(const Roster& roster, const Workload& workload, const SharedArena& arena,
                 const Oracle& oracle, GatePair pair, const GateEffort& effort, std::size_t steps,
                 std::uint64_t seed);
 
@@ -52,7 +52,7 @@ class PairedBatches {
   /// GateFailure, ResourceError or Interrupted.
   Batch measure();
 
-  /// Replayed of the course; known after the first batch.
+  /// Replayed of the trace; known after the first batch.
   std::size_t steps() const noexcept { return steps_; }
   /// The detector's, after the first batch.
   const GateAnswers& answers() const noexcept { return *answers_; }
@@ -67,7 +67,7 @@ class PairedBatches {
 
   const Roster& roster_;
   const Workload& workload_;
-  const WorkerStage& stage_;
+  const SharedArena& arena_;
   const Oracle& oracle_;
   GatePair pair_;
   GateEffort effort_;

@@ -106,8 +106,9 @@ void check_missing(const CsvTable& table, const Json& run, Faults& faults) {
             --rows;
             continue;
           }
-          const std::string about = fmt::format("{} on {}, {}", contestant, mesh, trajectory);
-          faults.push_back({table.path, 1, "rows", about, "is missing, and run.json says it was asked for"});
+          const std::string subject = fmt::format("{} on {}, {}", contestant, mesh, trajectory);
+          faults.push_back(
+              {table.path, 1, "rows", subject, "is missing, and run.json says it was asked for"});
         }
       }
     }

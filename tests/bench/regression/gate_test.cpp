@@ -162,7 +162,7 @@ TEST(Baseline, MayLackWhatIsComparedOnlyIfItIsThere) {
   const BaselineRow* const row = read.find({"m", "t", "nearest", "d", "r"});
   ASSERT_NE(row, nullptr);
   EXPECT_EQ(row->ratio.ratio, 1.5);
-  EXPECT_EQ(row->course_hash, 0xbU);
+  EXPECT_EQ(row->trace_hash, 0xbU);
   EXPECT_FALSE(row->checksum.has_value());
 }
 

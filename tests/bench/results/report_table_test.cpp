@@ -15,7 +15,7 @@ ResultRow timed(const std::string& detector, double ns, double p999, std::size_t
   row.trajectory = "slide";
   row.steps = steps;
   row.accuracy = Accuracy{Guarantee::exact, 0, 0};
-  row.tally.emplace();
+  row.counts.emplace();
   row.throughput.emplace();
   row.throughput->undisturbed = {ns, 0.9 * ns, 1.1 * ns};
   row.throughput->ns_per_query = 1e6;  // interrupted: nothing may come from here

@@ -60,8 +60,8 @@ TEST(ResultsCsv, LeavesEmptyWhatWasNotMeasured) {
 TEST(ResultsCsv, WritesRadiusAndErrorsSoThatTheyReadBackTheSame) {
   ResultRow row;
   row.radius = 0.1 + 0.2;
-  row.tally.emplace();
-  row.tally->max_distance_error = 1.0 / 3e300;
+  row.counts.emplace();
+  row.counts->max_distance_error = 1.0 / 3e300;
   const std::string csv = results_csv("run", {row});
   EXPECT_NE(csv.find(",0.30000000000000004,"), std::string::npos);
   const std::string error = csv.substr(csv.find("e-301") - 18, 23);

@@ -26,12 +26,12 @@ Workload workload() {
 class FirstPass : public testing::Test {
  protected:
   ContestantProcess process(const std::string& name) {
-    return {stage_, hostile_roster().parse(name), "touchmark-hostile-worker"};
+    return {arena_, hostile_roster().parse(name), "touchmark-hostile-worker"};
   }
-  Task task(std::size_t course) const { return {course, Query::nearest, workload_.courses[course].size()}; }
+  Task task(std::size_t trace) const { return {trace, Query::nearest, workload_.traces[trace].size()}; }
 
   const Workload workload_ = workload();
-  const WorkerStage stage_{workload_, {}};
+  const SharedArena arena_{workload_, {}};
   const Effort effort_{1, 0, 1e9, 1e6};
   const SamplePlan plan_{400, std::vector<Phase>(SamplePlan::blocks_in(400), Phase::free), 1};
 };
@@ -40,7 +40,7 @@ TEST_F(FirstPass, CostsMoreOnceUnmade) {
   ContestantProcess later = process("makes-later");
   const Timed fresh = later.first_pass(task(0));
   EXPECT_LT(later.first_pass(task(0)).work.total(), fresh.work.total()) << "or nothing was left to be made";
-  later.unmake();
+  later.rebuild_if_lazy();
   const Timed again = later.first_pass(task(0));
   EXPECT_EQ(again.work.total(), fresh.work.total());
   EXPECT_EQ(again.checksum, fresh.checksum);
@@ -48,17 +48,17 @@ TEST_F(FirstPass, CostsMoreOnceUnmade) {
 
 TEST_F(FirstPass, OfACaseComesAfterNoOtherQuery) {
   const Oracle oracle(workload_.mesh);
-  Truths truths(oracle, workload_.courses[0]);
+  GroundTruths truths(oracle, workload_.traces[0]);
   ContestantProcess later = process("makes-later");
-  Case slide(workload_, stage_, effort_, later, 0, Query::nearest, plan_);
-  slide.introduce();
+  Measurement slide(workload_, arena_, effort_, later, 0, Query::nearest, plan_);
+  slide.calibrate();
   slide.verify(truths);
   slide.repetition();
   later.answer(task(1));
   const std::uint64_t once_made = later.answer(task(1)).work.total();
   slide.first_pass();
   EXPECT_GT(later.answer(task(1)).work.total(), once_made) << "what another motion had made was still there";
-  EXPECT_EQ(slide.finish().status, "ok");
+  EXPECT_EQ(slide.row().status, "ok");
 }
 
 TEST_F(FirstPass, IsWhatTheWorkOfARowCounts) {
@@ -71,9 +71,9 @@ TEST_F(FirstPass, IsWhatTheWorkOfARowCounts) {
   std::vector<ResultRow> rows;
   comparison.run_all({Query::nearest}, rows);
   ASSERT_EQ(rows.size(), 3U);
-  for (const std::size_t course : {0U, 2U}) {
-    ASSERT_TRUE(rows[course].work);
-    EXPECT_EQ(rows[course].work->total.total(), fresh.total()) << "the course that came before shows";
+  for (const std::size_t trace : {0U, 2U}) {
+    ASSERT_TRUE(rows[trace].work);
+    EXPECT_EQ(rows[trace].work->total.total(), fresh.total()) << "the course that came before shows";
   }
 }
 
@@ -82,10 +82,10 @@ TEST_F(FirstPass, BuildsNothingAnewThatMakesAllAtOnce) {
   const std::string counter = testing::TempDir() + "touchmark-builds-" + std::to_string(getpid());
   setenv("TOUCHMARK_TEST_COUNTER", counter.c_str(), 1);
   const Oracle oracle(workload_.mesh);
-  Truths truths(oracle, workload_.courses[0]);
+  GroundTruths truths(oracle, workload_.traces[0]);
   ContestantProcess moody = process("moody");
-  Case slide(workload_, stage_, effort_, moody, 0, Query::nearest, plan_);
-  slide.introduce();
+  Measurement slide(workload_, arena_, effort_, moody, 0, Query::nearest, plan_);
+  slide.calibrate();
   const std::uintmax_t builds = std::filesystem::file_size(counter);
   EXPECT_GT(builds, 0U);
   slide.verify(truths);

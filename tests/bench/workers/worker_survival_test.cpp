@@ -26,14 +26,14 @@ std::vector<ResultRow> rows_of(const std::vector<std::string>& contestants, bool
   std::vector<ContestantSpec> specs;
   for (const std::string& name : contestants) specs.push_back(hostile_roster().parse(name));
   WorkerOptions workers;
-  workers.build_patience = workers.order_patience = std::chrono::seconds(5);
+  workers.build_timeout = workers.request_timeout = std::chrono::seconds(5);
   Effort effort;
   effort.repetitions = timed ? 2 : 0;
   effort.repetition_ns = 2e6;
   Comparison comparison(hostile_roster(), workload, specs, workers, effort, 1);
   std::vector<ResultRow> rows;
-  for (std::size_t course = 0; course < workload.courses.size(); ++course) {
-    const std::vector<ResultRow> some = comparison.run(course, Query::nearest);
+  for (std::size_t trace = 0; trace < workload.traces.size(); ++trace) {
+    const std::vector<ResultRow> some = comparison.run(trace, Query::nearest);
     rows.insert(rows.end(), some.begin(), some.end());
   }
   return rows;
@@ -79,16 +79,16 @@ TEST(WorkerSurvival, AHangDuringTheBuildIsWaitedForOnlyOnce) {
 
 TEST(WorkerSurvival, ALieIsCountedAndBreaksTheClaim) {
   const std::vector<ResultRow> rows = rows_of({"lies"});
-  ASSERT_TRUE(rows[0].tally);
-  EXPECT_GT(rows[0].tally->beyond_bound, 0U);
-  EXPECT_TRUE(rows[0].broke_its_word());
+  ASSERT_TRUE(rows[0].counts);
+  EXPECT_GT(rows[0].counts->beyond_bound, 0U);
+  EXPECT_TRUE(rows[0].violates_guarantee());
 }
 
 TEST(WorkerSurvival, AnswersThatDifferWhenTimedAreAMismatchAndNoResult) {
   const std::vector<ResultRow> rows = rows_of({"fickle", "honest"}, true);
   EXPECT_EQ(rows[0].status, "checksum mismatch");
   EXPECT_FALSE(rows[0].throughput);
-  EXPECT_FALSE(rows[0].broke_its_word()) << "it was right when it was verified, or this tests nothing";
+  EXPECT_FALSE(rows[0].violates_guarantee()) << "it was right when it was verified, or this tests nothing";
   EXPECT_EQ(rows[1].status, "ok");
 }
 
@@ -98,9 +98,9 @@ TEST(WorkerSurvival, AnHonestContestantIsMeasuredInEveryColumn) {
   for (const ResultRow& row : rows) {
     EXPECT_EQ(row.status, "ok");
     EXPECT_EQ(row.steps, steps);
-    ASSERT_TRUE(row.tally && row.throughput && row.latency && row.work && row.build_ms && row.bytes);
-    EXPECT_EQ(row.tally->judged, steps);
-    EXPECT_FALSE(row.broke_its_word());
+    ASSERT_TRUE(row.counts && row.throughput && row.latency && row.work && row.build_ms && row.bytes);
+    EXPECT_EQ(row.counts->judged, steps);
+    EXPECT_FALSE(row.violates_guarantee());
     EXPECT_EQ(row.throughput->repetitions, 2U);
     EXPECT_GT(row.throughput->ns_per_query_min, 0);
     EXPECT_LE(row.throughput->ns_per_query_min, row.throughput->ns_per_query);

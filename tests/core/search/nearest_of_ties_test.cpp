@@ -14,7 +14,7 @@
 #include "bench/experiments/stress/shared_features.h"
 #include "bench/oracle/exact_distance.h"
 #include "bench/oracle/oracle.h"
-#include "tests/bench/oracle/hard_triangles.h"
+#include "tests/bench/oracle/corner_case_triangles.h"
 #include "tests/exact_forms.h"
 
 namespace touchmark {
@@ -28,7 +28,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Whole numbers may name the nearest, measure it, and compare it with the reach; and now and then decide
 /// whether a point is exactly across an oblique corner from a triangle.
-std::uint64_t most_decisions(const TriangleMesh& mesh) { return 4 + mesh.size() / 16; }
+std::uint64_t max_decisions(const TriangleMesh& mesh) { return 4 + mesh.size() / 16; }
 
 std::vector<Step> steps_about(const bench::SharedFeature& shared) {
   const bench::Oracle oracle(shared.mesh);
@@ -46,7 +46,7 @@ TEST(SharedFeatures, AreDecidedAsTheOracleDoesWithFewWholeNumbers) {
   for (const bench::SharedFeature& shared : bench::shared_feature_meshes(300)) {
     const bench::Oracle oracle(shared.mesh);
     const std::vector<Step> steps = steps_about(shared);
-    std::vector<bench::Truth> truths;
+    std::vector<bench::GroundTruth> truths;
     for (const Step& step : steps) truths.push_back(oracle.solve(step.probe.center));
     for (const ExactForm& form : exact_forms(shared.mesh)) {
       for (const Query query : {Query::touches, Query::nearest}) {
@@ -59,7 +59,7 @@ TEST(SharedFeatures, AreDecidedAsTheOracleDoesWithFewWholeNumbers) {
           form.detector->answer({query, {&steps[i], 1}}, {0, 1}, {&answer, 1}, {&work, 1});
           // As published, grid groups look at a triangle once for each group that it is in.
           if (!form.name.starts_with("grid-group, scan")) {
-            EXPECT_LE(form.detector->work().exact_decisions - before, most_decisions(shared.mesh)) << where;
+            EXPECT_LE(form.detector->work().exact_decisions - before, max_decisions(shared.mesh)) << where;
           }
           const bool within = oracle.within(truths[i], steps[i].probe.center, steps[i].reach);
           ASSERT_EQ(answer.found != 0, within) << where;
@@ -72,13 +72,13 @@ TEST(SharedFeatures, AreDecidedAsTheOracleDoesWithFewWholeNumbers) {
   }
 }
 
-class SureFeatures : public testing::TestWithParam<HardFamily> {};
+class SureFeatures : public testing::TestWithParam<CornerCaseFamily> {};
 
 TEST_P(SureFeatures, AreAsFarAsTheTriangle) {
-  HardCases hard(90);
+  CornerCases cases(90);
   int sure = 0;
   for (int i = 0; i < 4000; ++i) {
-    const HardCase c = placed(GetParam(), hard, i);
+    const CornerCase c = placed(GetParam(), cases, i);
     if (!features_fit(c.largest_difference())) continue;
     const PreparedTriangle triangle = prepare(c.triangle[0], c.triangle[1], c.triangle[2], 0);
     const std::optional<Feature> feature = sure_feature(triangle, c.point);
@@ -97,14 +97,14 @@ TEST_P(SureFeatures, AreAsFarAsTheTriangle) {
 }
 
 TEST_P(SureFeatures, ThatAreSharedAreTies) {
-  HardCases hard(91);
+  CornerCases cases(91);
   int ties = 0;
   for (int i = 0; i < 4000; ++i) {
-    const HardCases::Corners a = GetParam().triangle(hard);
-    const HardCases::Corners b = i % 2 == 0 ? HardCases::Corners{a[1], a[0], hard.vector()}
-                                            : HardCases::Corners{hard.vector(), a[0], hard.vector()};
+    const CornerCases::Corners a = GetParam().triangle(cases);
+    const CornerCases::Corners b = i % 2 == 0 ? CornerCases::Corners{a[1], a[0], cases.vector()}
+                                              : CornerCases::Corners{cases.vector(), a[0], cases.vector()};
     // On a shared corner or edge, or anywhere.
-    const Vec3 point = i % 5 == 0 ? a[0] : i % 5 == 1 ? Vec3(0.5 * (a[0] + a[1])) : hard.point_about(a);
+    const Vec3 point = i % 5 == 0 ? a[0] : i % 5 == 1 ? Vec3(0.5 * (a[0] + a[1])) : cases.point_near(a);
     const std::optional<Feature> feature = sure_feature(prepare(a[0], a[1], a[2], 0), point);
     if (!feature) continue;
     const PreparedTriangle other = prepare(b[0], b[1], b[2], 1);
@@ -116,12 +116,12 @@ TEST_P(SureFeatures, ThatAreSharedAreTies) {
 }
 
 TEST_P(SureFeatures, OfTwoTrianglesCompareAsWholeNumbersDo) {
-  HardCases hard(92);
+  CornerCases cases(92);
   for (int i = 0; i < 2000; ++i) {
-    HardCases::Corners a = GetParam().triangle(hard);
-    const Vec3 point = hard.point_about(a);
+    CornerCases::Corners a = GetParam().triangle(cases);
+    const Vec3 point = cases.point_near(a);
     // Its image, exactly as far, and sometimes an ulp off.
-    HardCases::Corners b;
+    CornerCases::Corners b;
     for (std::size_t k = 0; k < 3; ++k) b[k] = Vec3(a[k].y(), a[k].z(), a[k].x());
     const Vec3 center = Vec3::Constant(point.x());
     if (i % 2 == 0) b[0].x() = std::nextafter(b[0].x(), infinity);
@@ -134,7 +134,7 @@ TEST_P(SureFeatures, OfTwoTrianglesCompareAsWholeNumbersDo) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, SureFeatures, testing::ValuesIn(hard_families()),
+INSTANTIATE_TEST_SUITE_P(Families, SureFeatures, testing::ValuesIn(corner_case_families()),
                          [](const auto& family) { return family.param.name; });
 
 }  // namespace

@@ -202,7 +202,7 @@ TEST(SideFinder, TheJudgeCatchesAWrongSideAndExcusesWhoDoesNotSay) {
   const TriangleMesh cube = bench::cube();
   const bench::Oracle oracle(cube, 1);
   const std::array<Probe, 2> probes{{{{0.1, 0.2, 0.3}, 0}, {{0.7, 0.2, 0.3}, 0}}};
-  const std::vector<bench::Truth> truths = oracle.solve(std::span<const Probe>(probes));
+  const std::vector<bench::GroundTruth> truths = oracle.solve(std::span<const Probe>(probes));
   const BruteForce detector = BruteForce::build(cube);
   const auto judged = [&](Side first, Side second) {
     std::vector<bench::Answer> answers;
@@ -219,9 +219,9 @@ TEST(SideFinder, TheJudgeCatchesAWrongSideAndExcusesWhoDoesNotSay) {
   EXPECT_EQ(judged(Side::undecided, Side::unasked).wrong_side, 0u);
   EXPECT_EQ(judged(Side::inside, Side::inside).wrong_side, 1u);
   EXPECT_EQ(judged(Side::on_surface, Side::inside).wrong_side, 2u);
-  EXPECT_TRUE(bench::keeps_its_word(judged(Side::inside, Side::outside), detector.accuracy()));
+  EXPECT_TRUE(bench::meets_guarantee(judged(Side::inside, Side::outside), detector.accuracy()));
   EXPECT_FALSE(
-      bench::keeps_its_word(judged(Side::outside, Side::outside), {Guarantee::approximate, 0, 0, false}));
+      bench::meets_guarantee(judged(Side::outside, Side::outside), {Guarantee::approximate, 0, 0, false}));
 }
 
 TEST(SideFinder, WhoDoesNotAskIsNotTold) {

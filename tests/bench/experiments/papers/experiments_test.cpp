@@ -16,7 +16,7 @@
 #include "bench/experiments/papers/decimation.h"
 #include "bench/experiments/papers/geometric_error.h"
 #include "bench/experiments/papers/interleaved_timing.h"
-#include "bench/experiments/papers/paper_course.h"
+#include "bench/experiments/papers/paper_trace.h"
 #include "bench/experiments/papers/park_jang.h"
 #include "bench/experiments/papers/table.h"
 #include "bench/scenes/scenes.h"
@@ -85,8 +85,8 @@ TEST(Claims, NameAnotherMeshWithOrWithoutAFurtherReason) {
 
 TEST(InterleavedTiming, TimesEachDetectorAndSeesThatTheyAnswerAlike) {
   const TriangleMesh mesh = load_scene("icosphere:2");
-  const std::vector<Step> course = paper_course("slide", mesh, 50, 1, 0.01);
-  InterleavedTiming timing(course, Query::nearest, 1);
+  const std::vector<Step> trace = paper_trace("slide", mesh, 50, 1, 0.01);
+  InterleavedTiming timing(trace, Query::nearest, 1);
   timing.add(contestant<BruteForce>(mesh, {}));
   timing.add(contestant<SphereCluster>(mesh, {}));
   EXPECT_EQ(timing.timed(0).ns, 0);
@@ -113,8 +113,8 @@ struct Instant {
 };
 
 TEST(InterleavedTiming, GivesNoTimeShorterThanTheClockCanTell) {
-  const std::vector<Step> course = paper_course("slide", load_scene("icosphere:1"), 50, 1, 0.01);
-  InterleavedTiming timing(course, Query::nearest, 1);
+  const std::vector<Step> trace = paper_trace("slide", load_scene("icosphere:1"), 50, 1, 0.01);
+  InterleavedTiming timing(trace, Query::nearest, 1);
   timing.add(std::make_unique<ContestantOf<Instant>>(Instant()));
   timing.run({3, 1e4}, [](std::size_t, std::size_t) {});
   ASSERT_TRUE(timing.timed(0).ns_p99);

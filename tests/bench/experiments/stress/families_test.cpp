@@ -38,12 +38,12 @@ std::vector<std::uint64_t> hashes(const std::vector<Workload>& workloads) {
   std::vector<std::uint64_t> list;
   for (const Workload& workload : workloads) {
     list.push_back(hash_of(workload.mesh));
-    for (const std::vector<Step>& course : workload.courses) list.push_back(hash_of(course));
+    for (const std::vector<Step>& trace : workload.traces) list.push_back(hash_of(trace));
   }
   return list;
 }
 
-Truth truth_at(const Oracle& oracle, const Step& step) { return oracle.solve(step.probe.center); }
+GroundTruth truth_at(const Oracle& oracle, const Step& step) { return oracle.solve(step.probe.center); }
 
 /// Longest side over the height on it, in long double: its cancellation is far below what the families need.
 long double aspect_ratio(const TriangleMesh& mesh, std::size_t triangle) {
@@ -73,8 +73,8 @@ TEST(Families, AskAboutAsMuchAsTheyAreTold) {
   for (const Family* family : all_but_the_empty_one()) {
     std::size_t asked = 0;
     for (const Workload& workload : family->make(seed, many)) {
-      EXPECT_EQ(workload.courses.size(), workload.trajectories.size());
-      for (const std::vector<Step>& course : workload.courses) asked += course.size();
+      EXPECT_EQ(workload.traces.size(), workload.trajectories.size());
+      for (const std::vector<Step>& trace : workload.traces) asked += trace.size();
     }
     EXPECT_GT(asked, many * 2 / 5) << family->name;
     EXPECT_LT(asked, many * 5 / 4) << family->name;
@@ -87,8 +87,8 @@ TEST(Families, AdversarialOnesAskAtTheExactDistanceOrADoubleNextToIt) {
     if (!family.adversarial) continue;
     for (const Workload& workload : family.make(seed, few)) {
       const Oracle oracle(workload.mesh);
-      for (const Step& step : workload.courses.front()) {
-        const Truth truth = truth_at(oracle, step);
+      for (const Step& step : workload.traces.front()) {
+        const GroundTruth truth = truth_at(oracle, step);
         const double radius = step.probe.radius;
         EXPECT_EQ(step.reach, radius);
         const bool next_to_it = radius == truth.high || radius == std::nextafter(truth.high, 0) ||
@@ -105,13 +105,12 @@ TEST(Families, AdversarialOnesAskAtTheExactDistanceOrADoubleNextToIt) {
 TEST(Families, ThresholdsHaveContactOnOneSideOnly) {
   for (const Workload& workload : made("thresholds")) {
     const Oracle oracle(workload.mesh);
-    const std::vector<Step>& course = workload.courses.front();
-    for (std::size_t i = 0; i + 2 < course.size(); ++i) {
-      const Truth truth = truth_at(oracle, course[i]);
-      if (course[i].probe.center != course[i + 2].probe.center || course[i].probe.radius >= truth.high)
-        continue;
-      EXPECT_FALSE(oracle.within(truth, course[i].probe.center, course[i].probe.radius));
-      EXPECT_TRUE(oracle.within(truth, course[i].probe.center, course[i + 2].probe.radius));
+    const std::vector<Step>& trace = workload.traces.front();
+    for (std::size_t i = 0; i + 2 < trace.size(); ++i) {
+      const GroundTruth truth = truth_at(oracle, trace[i]);
+      if (trace[i].probe.center != trace[i + 2].probe.center || trace[i].probe.radius >= truth.high) continue;
+      EXPECT_FALSE(oracle.within(truth, trace[i].probe.center, trace[i].probe.radius));
+      EXPECT_TRUE(oracle.within(truth, trace[i].probe.center, trace[i + 2].probe.radius));
     }
   }
 }
@@ -147,10 +146,10 @@ TEST(Families, RadiusZeroIsExactlyOnTheSurfaceOrHardlyOffIt) {
   std::size_t on = 0, off = 0;
   for (const Workload& workload : made("radius-zero")) {
     const Oracle oracle(workload.mesh);
-    const std::vector<Step>& course = workload.courses.front();
-    for (std::size_t i = 0; i < course.size(); ++i) {
-      const Truth truth = truth_at(oracle, course[i]);
-      EXPECT_EQ(course[i].probe.radius, 0);
+    const std::vector<Step>& trace = workload.traces.front();
+    for (std::size_t i = 0; i < trace.size(); ++i) {
+      const GroundTruth truth = truth_at(oracle, trace[i]);
+      EXPECT_EQ(trace[i].probe.radius, 0);
       EXPECT_LT(truth.high, 1e-15);
       if (i % 2 == 0) {
         EXPECT_EQ(truth.high, 0) << "step " << i;
@@ -164,8 +163,8 @@ TEST(Families, RadiusZeroIsExactlyOnTheSurfaceOrHardlyOffIt) {
 TEST(Families, TangentBallsTouchInDoublesExactly) {
   for (const Workload& workload : made("tangent")) {
     const Oracle oracle(workload.mesh);
-    for (const Step& step : workload.courses.front()) {
-      const Truth truth = truth_at(oracle, step);
+    for (const Step& step : workload.traces.front()) {
+      const GroundTruth truth = truth_at(oracle, step);
       EXPECT_EQ(truth.low, 0) << "the distance must be a double";
       EXPECT_EQ(oracle.within(truth, step.probe.center, step.probe.radius), step.probe.radius >= truth.high);
     }
@@ -175,12 +174,12 @@ TEST(Families, TangentBallsTouchInDoublesExactly) {
 TEST(Families, TiesHaveTwoNearestTrianglesAtLeast) {
   for (const Workload& workload : made("ties")) {
     const Oracle oracle(workload.mesh);
-    for (const Step& step : workload.courses.front()) {
-      const Truth truth = truth_at(oracle, step);
+    for (const Step& step : workload.traces.front()) {
+      const GroundTruth truth = truth_at(oracle, step);
       std::size_t tied = 0;
       for (const std::uint32_t other :
            oracle.all_within(step.probe.center, std::nextafter(truth.high, infinity))) {
-        const Truth same = oracle.solve(step.probe.center, other);
+        const GroundTruth same = oracle.solve(step.probe.center, other);
         const double known_to = 0x1p-99 * truth.high;  // of each low half 2^-100
         tied += same.high == truth.high && std::abs(same.low - truth.low) <= known_to ? 1 : 0;
       }
@@ -191,8 +190,8 @@ TEST(Families, TiesHaveTwoNearestTrianglesAtLeast) {
 
 TEST(Families, BallCentreIsAboutTheMiddle) {
   for (const Workload& workload : made("ball-centre")) {
-    EXPECT_EQ(workload.courses.front().front().probe.center, Vec3::Zero());
-    for (const Step& step : workload.courses.front()) EXPECT_LT(step.probe.center.norm(), 0.02);
+    EXPECT_EQ(workload.traces.front().front().probe.center, Vec3::Zero());
+    for (const Step& step : workload.traces.front()) EXPECT_LT(step.probe.center.norm(), 0.02);
   }
 }
 
@@ -201,11 +200,11 @@ TEST(Families, CellBordersLieAtFractionsOfTheBox) {
   EXPECT_EQ(workload.mesh.bounds().min, Vec3::Zero());
   EXPECT_EQ(workload.mesh.bounds().max, Vec3::Ones());
   std::size_t on_halves = 0;  // of the finest grid of all counts that are powers of two
-  for (const Step& step : workload.courses.front()) {
+  for (const Step& step : workload.traces.front()) {
     const Vec3 cell = 64 * step.probe.center;
     on_halves += cell == Vec3(cell.array().round()) ? 1 : 0;
   }
-  EXPECT_GT(on_halves, workload.courses.front().size() / 10);
+  EXPECT_GT(on_halves, workload.traces.front().size() / 10);
 }
 
 TEST(Families, OneCellHoldsAllTrianglesButTwo) {
@@ -241,7 +240,7 @@ TEST(Families, ScalesGoToTheEndsOfTheRangeOfDouble) {
     const double extent = workload.mesh.bounds().extent().maxCoeff();
     least = std::min(least, extent);
     most = std::max(most, extent);
-    EXPECT_FALSE(workload.courses.front().empty()) << workload.mesh_name;
+    EXPECT_FALSE(workload.traces.front().empty()) << workload.mesh_name;
   }
   EXPECT_LT(least, 1e-299);
   EXPECT_GT(most, 1e299);
@@ -252,7 +251,7 @@ TEST(Families, OffsetsGoToWhereAMeshIsAFewDoublesWide) {
   for (const Workload& workload : made("offsets")) {
     const Aabb& box = workload.mesh.bounds();
     farthest = std::max(farthest, box.max.cwiseAbs().maxCoeff() / box.extent().maxCoeff());
-    EXPECT_GT(workload.courses.front().size(), 2U) << workload.mesh_name;
+    EXPECT_GT(workload.traces.front().size(), 2U) << workload.mesh_name;
   }
   EXPECT_GE(farthest, 0x1p49);
   EXPECT_LE(farthest, 0x1p51);
@@ -262,7 +261,7 @@ TEST(Families, HugeProbesAreHuge) {
   double farthest = 0;
   std::set<double> reaches;
   for (const Workload& workload : made("huge")) {
-    for (const Step& step : workload.courses.front()) {
+    for (const Step& step : workload.traces.front()) {
       farthest = std::max(farthest, step.probe.center.cwiseAbs().maxCoeff());
       reaches.insert(step.reach);
     }
@@ -278,12 +277,12 @@ TEST(Families, DenormalProbesAndMeshesAreDenormal) {
     smallest_mesh = std::min(smallest_mesh, workload.mesh.bounds().max.cwiseAbs().maxCoeff());
   EXPECT_LT(smallest_mesh, std::numeric_limits<double>::min());
   EXPECT_GT(smallest_mesh, 0);
-  for (const Step& step : workloads.back().courses.front()) EXPECT_LE(step.probe.radius, 1e-300);
+  for (const Step& step : workloads.back().traces.front()) EXPECT_LE(step.probe.radius, 1e-300);
 }
 
 TEST(Families, NotANumberHasSomethingInEachProbeThatCannotTouch) {
   for (const Workload& workload : made("not-a-number")) {
-    for (const Step& step : workload.courses.front()) {
+    for (const Step& step : workload.traces.front()) {
       const bool negative_or_nan = !(step.probe.radius >= 0), zero = step.probe.radius == 0;
       EXPECT_TRUE(!step.probe.center.allFinite() || negative_or_nan || zero);
     }
@@ -303,10 +302,10 @@ TEST(Families, OrdinaryProbesAreBothInContactAndNot) {
   for (const Workload& workload : made("ordinary")) {
     const Oracle oracle(workload.mesh);
     std::size_t touching = 0;
-    for (const Step& step : workload.courses.front())
+    for (const Step& step : workload.traces.front())
       touching += oracle.within(truth_at(oracle, step), step.probe.center, step.probe.radius) ? 1 : 0;
-    EXPECT_GT(touching, workload.courses.front().size() / 10) << workload.mesh_name;
-    EXPECT_LT(touching, workload.courses.front().size() * 9 / 10) << workload.mesh_name;
+    EXPECT_GT(touching, workload.traces.front().size() / 10) << workload.mesh_name;
+    EXPECT_LT(touching, workload.traces.front().size() * 9 / 10) << workload.mesh_name;
   }
 }
 

@@ -19,9 +19,9 @@ namespace {
 constexpr std::uint64_t seed = 11;
 constexpr std::size_t probes_a_family = 24;
 constexpr std::size_t triangles_at_most = 400;
-constexpr std::size_t centers_a_course = 2;
+constexpr std::size_t centers_a_trace = 2;
 
-mpq_class least_squared_distance(const TriangleMesh& mesh, const Vec3& center) {
+mpq_class min_squared_distance(const TriangleMesh& mesh, const Vec3& center) {
   std::optional<mpq_class> least;
   for (std::uint32_t i = 0; i < mesh.size(); ++i) {
     const mpq_class squared = squared_distance_by_multipliers(center, triangle_of(mesh, i));
@@ -32,18 +32,18 @@ mpq_class least_squared_distance(const TriangleMesh& mesh, const Vec3& center) {
 
 void expect_agreement(const Workload& workload, std::string_view family, std::size_t& compared) {
   const Oracle oracle(workload.mesh);
-  for (const std::vector<Step>& course : workload.courses) {
+  for (const std::vector<Step>& trace : workload.traces) {
     std::size_t centers = 0;
     std::optional<Vec3> last;
     mpq_class squared;
-    for (const Step& step : course) {
+    for (const Step& step : trace) {
       const Vec3& center = step.probe.center;
-      const Truth truth = oracle.solve(center);
+      const GroundTruth truth = oracle.solve(center);
       EXPECT_EQ(truth.defined, center.allFinite());
       if (!truth.defined) continue;
       if (!last || *last != center) {
-        if (++centers > centers_a_course) break;
-        squared = least_squared_distance(workload.mesh, center);
+        if (++centers > centers_a_trace) break;
+        squared = min_squared_distance(workload.mesh, center);
         last = center;
         EXPECT_EQ(squared_distance_by_multipliers(center, triangle_of(workload.mesh, truth.triangle)),
                   squared)

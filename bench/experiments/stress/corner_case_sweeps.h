@@ -9,14 +9,14 @@
 #include <vector>
 
 #include "bench/contestants/contestant.h"
-#include "bench/experiments/stress/hard_cases.h"
+#include "bench/experiments/stress/corner_cases.h"
 #include "bench/oracle/oracle.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::bench {
 
 /// The least radius with which the way hits, by halving between doubles.
-inline double least_radius(const Oracle& oracle, const Vec3& from, const Vec3& to) {
+inline double min_radius(const Oracle& oracle, const Vec3& from, const Vec3& to) {
   double high = oracle.solve(from).high;
   if (!std::isfinite(high) || !oracle.segment_within(from, to, high))
     high = std::nextafter(high, std::numeric_limits<double>::infinity());
@@ -32,22 +32,23 @@ inline double least_radius(const Oracle& oracle, const Vec3& from, const Vec3& t
 }
 
 /// One coordinate moved by one ulp, up or down, or none.
-inline Vec3 nudged(Vec3 point, HardCases& hard) {
-  double& x = point[static_cast<Eigen::Index>(hard.below(3))];
-  const std::uint64_t way = hard.below(3);
-  if (way > 0)
+inline Vec3 nudged(Vec3 point, CornerCases& cases) {
+  double& x = point[static_cast<Eigen::Index>(cases.below(3))];
+  const std::uint64_t choice = cases.below(3);
+  if (choice > 0)
     x = std::nextafter(
-        x, way == 1 ? std::numeric_limits<double>::infinity() : -std::numeric_limits<double>::infinity());
+        x, choice == 1 ? std::numeric_limits<double>::infinity() : -std::numeric_limits<double>::infinity());
   return point;
 }
 
 /// One mesh's hard ways, seeded. Each is two steps: where it starts, and where it ends with its radius. The
 /// sweeps between them are as good as any.
-class HardWays {
+class CornerCaseSweeps {
  public:
-  HardWays(const TriangleMesh& mesh, std::uint64_t seed) : mesh_(mesh), oracle_(mesh, 1), hard_(seed) {}
+  CornerCaseSweeps(const TriangleMesh& mesh, std::uint64_t seed)
+      : mesh_(mesh), oracle_(mesh, 1), cases_(seed) {}
 
-  std::vector<Step> course(std::size_t sweeps) {
+  std::vector<Step> trace(std::size_t sweeps) {
     std::vector<Step> steps;
     while (steps.size() < sweeps) add(steps);
     return steps;
@@ -56,43 +57,44 @@ class HardWays {
  private:
   /// A point of a triangle, its border or its corners, but for rounding.
   Vec3 on_a_triangle() {
-    const std::size_t t = hard_.below(mesh_.size());
+    const std::size_t t = cases_.below(mesh_.size());
     const Vec3 &a = mesh_.corner(t, 0), &b = mesh_.corner(t, 1), &c = mesh_.corner(t, 2);
-    switch (hard_.below(4)) {
+    switch (cases_.below(4)) {
       case 0:
         return a;
       case 1:
-        return a + hard_.fraction() * (b - a);
+        return a + cases_.fraction() * (b - a);
       default:
-        return place_in_triangle(a, b, c, hard_.fraction(), hard_.fraction());
+        return point_in_triangle(a, b, c, cases_.fraction(), cases_.fraction());
     }
   }
   double size() const { return mesh_.diagonal(); }
-  Vec3 aside(double low, double high) { return hard_.magnitude(low, high) * size() * hard_.vector(); }
+  Vec3 aside(double low, double high) { return cases_.magnitude(low, high) * size() * cases_.vector(); }
 
   void add(std::vector<Step>& steps) {
     const Vec3 center = on_a_triangle() + aside(-6, 0.5);
     Vec3 from = center, to = center;
-    switch (hard_.below(6)) {
+    switch (cases_.below(6)) {
       case 0:  // past the surface, at any distance
         to = center + aside(-3, 0.3);
         break;
       case 1:  // along a triangle's plane, or as nearly as doubles go
         from = on_a_triangle();
-        to = from + hard_.between(-2, 2) * (on_a_triangle() - from);
+        to = from + cases_.between(-2, 2) * (on_a_triangle() - from);
         break;
       case 2:  // through a point of the surface, or an ulp beside it
         from = on_a_triangle() + aside(-6, 0);
-        to = hard_.below(2) == 0 ? nudged(on_a_triangle(), hard_) : Vec3(from + 2 * (on_a_triangle() - from));
+        to = cases_.below(2) == 0 ? nudged(on_a_triangle(), cases_)
+                                  : Vec3(from + 2 * (on_a_triangle() - from));
         break;
       case 3:  // from a hair beside the surface
-        from = nudged(on_a_triangle(), hard_);
+        from = nudged(on_a_triangle(), cases_);
         to = from + aside(-9, 0);
         break;
       case 4:  // nowhere
         break;
       default:  // parallel to an edge, as nearly as doubles go
-        const std::size_t t = hard_.below(mesh_.size());
+        const std::size_t t = cases_.below(mesh_.size());
         from = on_a_triangle() + aside(-3, -1);
         to = from + (mesh_.corner(t, 1) - mesh_.corner(t, 0));
     }
@@ -102,24 +104,24 @@ class HardWays {
   }
 
   double radius_of(const Vec3& from, const Vec3& to) {
-    const std::uint64_t kind = hard_.below(10);
+    const std::uint64_t kind = cases_.below(10);
     if (kind == 0) return 0;
     if (kind < 4) {  // of the start, too
       const double distance = oracle_.solve(from).high;
-      if (std::isfinite(distance)) return beside(distance);
+      if (std::isfinite(distance)) return nudged_radius(distance);
     }
-    if (kind < 8) return beside(least_radius(oracle_, from, to));
-    return hard_.magnitude(-4, 0) * size();
+    if (kind < 8) return nudged_radius(min_radius(oracle_, from, to));
+    return cases_.magnitude(-4, 0) * size();
   }
-  double beside(double radius) {
-    const std::uint64_t way = hard_.below(3);
-    if (way == 0 || (way == 1 && radius == 0)) return radius;
-    return std::nextafter(radius, way == 1 ? 0.0 : std::numeric_limits<double>::infinity());
+  double nudged_radius(double radius) {
+    const std::uint64_t choice = cases_.below(3);
+    if (choice == 0 || (choice == 1 && radius == 0)) return radius;
+    return std::nextafter(radius, choice == 1 ? 0.0 : std::numeric_limits<double>::infinity());
   }
 
   const TriangleMesh& mesh_;
   Oracle oracle_;
-  HardCases hard_;
+  CornerCases cases_;
 };
 
 }  // namespace touchmark::bench

@@ -12,12 +12,12 @@
 namespace touchmark::bench {
 
 /// One probe of this radius a position of the trajectory, and as far as that radius is looked.
-inline std::vector<Step> paper_course(const std::string& trajectory, const TriangleMesh& mesh,
-                                      std::size_t steps, std::uint64_t seed, double radius) {
-  std::vector<Step> course;
+inline std::vector<Step> paper_trace(const std::string& trajectory, const TriangleMesh& mesh,
+                                     std::size_t steps, std::uint64_t seed, double radius) {
+  std::vector<Step> trace;
   for (const Vec3& position : make_trajectory(trajectory, mesh, {steps, seed, radius}).positions)
-    course.push_back({{position, radius}, radius});
-  return course;
+    trace.push_back({{position, radius}, radius});
+  return trace;
 }
 
 }  // namespace touchmark::bench

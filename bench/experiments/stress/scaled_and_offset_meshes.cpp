@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/experiments/stress/hard_cases.h"
+#include "bench/experiments/stress/corner_cases.h"
 #include "bench/experiments/stress/makers.h"
 #include "bench/experiments/stress/questions.h"
 #include "bench/scenes/generated_scenes.h"
@@ -16,12 +16,12 @@ constexpr std::size_t triangles_moved = 200;
 }  // namespace
 
 std::vector<Workload> thresholds(std::uint64_t seed, std::size_t probes) {
-  return hard_questions({{"icosphere", icosphere(2)},
-                         {"torus", torus(24, 12)},
-                         {"noisy-sphere", noisy_sphere(400)},
-                         {"soup", soup(300)},
-                         {"wedge", wedge()}},
-                        seed, probes);
+  return corner_case_questions({{"icosphere", icosphere(2)},
+                                {"torus", torus(24, 12)},
+                                {"noisy-sphere", noisy_sphere(400)},
+                                {"soup", soup(300)},
+                                {"wedge", wedge()}},
+                               seed, probes);
 }
 
 std::vector<Workload> scales(std::uint64_t seed, std::size_t probes) {
@@ -31,38 +31,39 @@ std::vector<Workload> scales(std::uint64_t seed, std::size_t probes) {
   for (const double scale : {1e-300, 1e-150, 1e-90, 1e-60, 1e-39, 1e-20, 1e-9, 1e-3, 1e3, 1e9, 1e20, 1e38,
                              1e60, 1e90, 1e150, 1e300})
     meshes.push_back({fmt::format("soup@scale={:g}", scale), mesh.transformed(scale, Vec3::Zero())});
-  return hard_questions(std::move(meshes), seed, probes);
+  return corner_case_questions(std::move(meshes), seed, probes);
 }
 
 std::vector<Workload> offsets(std::uint64_t seed, std::size_t probes) {
-  HardCases hard(seed);
+  CornerCases cases(seed);
   std::vector<NamedMesh> meshes;
   const auto add = [&](const char* name, const TriangleMesh& mesh, int exponent) {
     // By that many of its longest side along one axis, and by any part of them along the others.
-    Vec3 place = hard.vector();
-    place[static_cast<int>(hard.below(3))] = hard.below(2) == 0 ? -1 : 1;
+    Vec3 position = cases.vector();
+    position[static_cast<int>(cases.below(3))] = cases.below(2) == 0 ? -1 : 1;
     const double offset = std::ldexp(mesh.bounds().extent().maxCoeff(), exponent);
-    meshes.push_back({fmt::format("{} moved by 2^{}", name, exponent), mesh.transformed(1, offset * place)});
+    meshes.push_back(
+        {fmt::format("{} moved by 2^{}", name, exponent), mesh.transformed(1, offset * position)});
   };
   // Up to where a mesh is a few doubles wide.
   for (const int exponent : {10, 20, 28, 31, 34, 38, 42, 46, 50}) {
     add("soup", soup(triangles_moved), exponent);
     add("torus", torus(12, 8), exponent);
   }
-  return hard_questions(std::move(meshes), seed, probes);
+  return corner_case_questions(std::move(meshes), seed, probes);
 }
 
 std::vector<Workload> ball_centre(std::uint64_t seed, std::size_t probes) {
-  HardCases hard(seed);
+  CornerCases cases(seed);
   std::vector<Workload> workloads;
   for (const unsigned levels : {0U, 1U, 2U}) {
     const TriangleMesh mesh = icosphere(levels);
     std::vector<Vec3> centers{Vec3::Zero()};
     while (centers.size() < share_of(probes, 9))
-      centers.emplace_back(hard.magnitude(-18, -2) * hard.vector());
-    std::vector<Step> course = at_the_exact_distance(mesh, centers);
+      centers.emplace_back(cases.magnitude(-18, -2) * cases.vector());
+    std::vector<Step> trace = at_the_exact_distance(mesh, centers);
     workloads.push_back(
-        about({fmt::format("icosphere:{}", levels), mesh}, "about the middle", std::move(course)));
+        workload_on({fmt::format("icosphere:{}", levels), mesh}, "about the middle", std::move(trace)));
   }
   return workloads;
 }
