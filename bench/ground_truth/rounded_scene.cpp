@@ -16,13 +16,6 @@ TriangleMesh stored(const TriangleMesh& mesh, const StorageRounding& storage_rou
 
 }  // namespace
 
-StorageRounding stored_in_single_precision(double scale, const Vec3& origin) {
-  return {[=](const Vec3& point) -> Vec3 {
-            return (scale * (point - origin)).cast<float>().cast<double>() / scale + origin;
-          },
-          [=](double length) { return static_cast<double>(static_cast<float>(scale * length)) / scale; }};
-}
-
 RoundedScene::RoundedScene(const TriangleMesh& mesh, StorageRounding storage_rounding)
     : storage_rounding_(std::move(storage_rounding)),
       mesh_(stored(mesh, storage_rounding_)),
