@@ -20,15 +20,16 @@
 namespace touchmark {
 namespace {
 
-using bench::Answer;
-using bench::GroundTruth;
-using bench::Oracle;
-using bench::Query;
-using bench::Step;
+using bench::oracle::GroundTruth;
+using bench::oracle::Oracle;
+using bench::workload::Answer;
+using bench::workload::Query;
+using bench::workload::Step;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-std::vector<Answer> ask(bench::Contestant& detector, Query query, const std::vector<Step>& steps) {
+std::vector<Answer> ask(bench::contestants::Contestant& detector, Query query,
+                        const std::vector<Step>& steps) {
   std::vector<Answer> answers(steps.size());
   std::vector<std::uint64_t> work(steps.size());
   detector.answer({query, steps}, {0, steps.size()}, answers, work);
@@ -63,20 +64,21 @@ class Examination {
   void judge(const std::string& what, Query query, const std::vector<Step>& steps,
              const std::vector<Answer>& answers) const {
     const Accuracy accuracy = forms_.front().detector->accuracy();
-    bench::ErrorCounts counts;
+    bench::oracle::ErrorCounts counts;
     for (std::size_t i = 0; i < steps.size(); ++i) {
       const Probe& probe = steps[i].probe;
       const std::span answer(&answers[i], 1);
       if (query == Query::sweep) {
         const std::vector<Sweep> sweep = {
             {steps[i > 0 ? i - 1 : 0].probe.center, probe.center, probe.radius}};
-        counts += bench::judge(oracle_, oracle_.solve(sweep), sweep, answer, accuracy);
+        counts += bench::oracle::judge(oracle_, oracle_.solve(sweep), sweep, answer, accuracy);
       } else {
         const std::vector<GroundTruth> truth = {oracle_.solve(probe.center)};
-        counts += bench::judge(oracle_, truth, query, std::span(&probe, 1), steps[i].reach, answer, accuracy);
+        counts += bench::oracle::judge(oracle_, truth, query, std::span(&probe, 1), steps[i].reach, answer,
+                                       accuracy);
       }
     }
-    EXPECT_TRUE(bench::meets_guarantee(counts, accuracy))
+    EXPECT_TRUE(bench::oracle::meets_guarantee(counts, accuracy))
         << "brute force: " << what << ": " << counts.missed << " missed, " << counts.false_contacts
         << " false, " << counts.wrong_triangle << " wrong triangle, " << counts.beyond_bound << " beyond, "
         << counts.wrong_point << " point, " << counts.wrong_normal << " normal, " << counts.malformed
@@ -177,15 +179,17 @@ TEST(ExactFormsInNearTies, NameTheFirstOfTheExactlyNearest) {
   CornerCases cases(29);
   std::vector<CornerCases::Corners> soup;
   for (int i = 0; i < 40; ++i) soup.push_back(i % 4 == 0 ? cases.needle() : cases.plain());
-  for (const TriangleMesh& mesh :
-       {bench::turned_images(cases, 12), mesh_of(soup), octasphere(4).transformed(1, Vec3(0.1, 0.2, 0.3))}) {
+  for (const TriangleMesh& mesh : {bench::experiments::stress::turned_images(cases, 12), mesh_of(soup),
+                                   octasphere(4).transformed(1, Vec3(0.1, 0.2, 0.3))}) {
     Examination examination(mesh);
     std::vector<Vec3> centers;
     while (centers.size() < 400) {
-      centers.push_back(bench::on_the_diagonal(cases));
+      centers.push_back(bench::experiments::stress::on_the_diagonal(cases));
       const Vec3 from = cases.magnitude(-1, 0.5) * cases.vector(), to = from + 0.3 * cases.vector();
-      const Vec3 place = bench::where_the_nearest_changes(examination.oracle(), from, to);
-      for (const Vec3& neighbour : bench::with_neighbors(place, cases)) centers.push_back(neighbour);
+      const Vec3 place =
+          bench::experiments::stress::where_the_nearest_changes(examination.oracle(), from, to);
+      for (const Vec3& neighbour : bench::experiments::stress::with_neighbors(place, cases))
+        centers.push_back(neighbour);
     }
     std::vector<double> distance;
     for (const Vec3& center : centers) distance.push_back(examination.oracle().solve(center).high);
@@ -357,13 +361,13 @@ TEST_P(ExactFormsOnHardWays, HitExactlyWhereTheyHit) {
       GetParam() == 0 ? Vec3(Vec3::Zero()) : Vec3(std::ldexp(1.0, GetParam()) * Vec3(1, -0.7, 0.3));
   for (const TriangleMesh& whole : {octasphere(5), some_triangles()}) {
     const TriangleMesh mesh = whole.transformed(1, offset);
-    const std::vector<Step> steps = bench::CornerCaseSweeps(mesh, 41).trace(500);
+    const std::vector<Step> steps = bench::experiments::stress::CornerCaseSweeps(mesh, 41).trace(500);
     Examination(mesh).ask_all("hard ways", Query::sweep, steps);
     // Lazily made, and following from elsewhere.
-    bench::ContestantOf<BruteForce> reference(BruteForce::build(mesh));
+    bench::contestants::ContestantOf<BruteForce> reference(BruteForce::build(mesh));
     const std::vector<Answer> expected = ask(reference, Query::sweep, steps);
     const auto expect_same = [&]<class D>(const char* name, D detector) {
-      bench::ContestantOf<D> contestant(std::move(detector));
+      bench::contestants::ContestantOf<D> contestant(std::move(detector));
       EXPECT_EQ(first_difference(ask(contestant, Query::sweep, steps), expected), steps.size()) << name;
     };
     expect_same("grid-group, lazy", GridGroup::build(mesh, {.making = GridGroup::Making::lazy}));

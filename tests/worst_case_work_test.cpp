@@ -18,9 +18,9 @@
 namespace touchmark {
 namespace {
 
-using bench::Answer;
-using bench::Query;
-using bench::Step;
+using bench::workload::Answer;
+using bench::workload::Query;
+using bench::workload::Step;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Query all_queries[] = {Query::touches, Query::nearest, Query::sweep};
@@ -87,7 +87,7 @@ struct Asked {
   std::vector<std::uint64_t> work;  ///< of each step
 };
 
-Asked ask(bench::Contestant& detector, Query query, const std::vector<Step>& steps) {
+Asked ask(bench::contestants::Contestant& detector, Query query, const std::vector<Step>& steps) {
   Asked asked{std::vector<Answer>(steps.size()), std::vector<std::uint64_t>(steps.size())};
   detector.forget();
   detector.answer({query, steps}, {0, steps.size()}, asked.answers, asked.work);

@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace touchmark::bench {
+namespace touchmark::bench::batch {
 
 struct JobResult {
   std::string id;
@@ -28,4 +28,4 @@ JobResult read_job(const std::string& path);
 /// Is there a finished job of that id? A file that is there and is none, or another's, is not.
 bool is_finished(const std::filesystem::path& folder, const std::string& id);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::batch

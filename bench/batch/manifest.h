@@ -10,7 +10,7 @@
 #include "bench/measurement/effort.h"
 #include "bench/workload/workload.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::batch {
 
 inline constexpr int manifest_schema = 1;
 
@@ -30,9 +30,9 @@ struct SweepScene {
   std::uint64_t seed = 1;
   std::string radius;  ///< as --radius takes it
   std::string reach;   ///< as --reach takes it; empty: the radius
-  Query query = Query::nearest;
+  workload::Query query = workload::Query::nearest;
   std::vector<SweepJob> jobs;
-  MotionSelectors motion = {};  ///< as --columns, --motion-scale and --rate take it
+  contestants::MotionSelectors motion = {};  ///< as --columns, --motion-scale and --rate take it
 };
 
 struct Manifest {
@@ -52,10 +52,10 @@ std::string job_id(const SweepScene& scene, const std::string& detector, const s
                    const std::string& version);
 
 /// Throws std::invalid_argument.
-Effort effort_named(const std::string& name);
+measurement::Effort effort_named(const std::string& name);
 
 /// Mesh and trace of a scene, to be hashed while planning or to be run. Throws std::invalid_argument or
 /// MeshError.
-Workload workload_of(const SweepScene& scene, const Roster& roster);
+workload::Workload workload_of(const SweepScene& scene, const contestants::Roster& roster);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::batch

@@ -10,7 +10,10 @@
 #include "bench/results/results_csv.h"
 #include "bench/results/validation/column_rules.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::batch {
+
+namespace validation = results::validation;
+
 namespace {
 
 std::string member(const nlohmann::json& run, const char* name) {
@@ -27,7 +30,7 @@ std::string identity_of(const JobResult& job) {
 }
 
 std::vector<std::string> sorting_key(const FoundJob& job) {
-  const std::vector<std::string> columns = results_columns();
+  const std::vector<std::string> columns = results::results_columns();
   std::vector<std::string> key;
   for (const char* name :
        {"mesh", "trajectory", "query", "radius", "reach", "detector", "options", "run_id"}) {
@@ -71,8 +74,9 @@ FoundJob found_job(const std::string& path) {
 void drop_times(FoundJob& job) {
   job.timed = false;
   for (std::size_t i = 0; i < job.result.fields.size(); ++i) {
-    const Presence presence = column_rules()[i].presence;
-    if (presence == Presence::built || presence == Presence::timed) job.result.fields[i].clear();
+    const validation::Presence presence = validation::column_rules()[i].presence;
+    if (presence == validation::Presence::built || presence == validation::Presence::timed)
+      job.result.fields[i].clear();
   }
 }
 
@@ -120,4 +124,4 @@ std::vector<FoundJob> in_order(std::vector<FoundJob> jobs, const std::optional<M
   return jobs;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::batch

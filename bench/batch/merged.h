@@ -8,7 +8,7 @@
 #include "bench/batch/job_file.h"
 #include "bench/batch/manifest.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::batch {
 
 struct FoundJob {
   std::string path;
@@ -31,4 +31,4 @@ void expect_one_machine(const std::vector<FoundJob>& jobs);
 /// timed twice.
 std::vector<FoundJob> in_order(std::vector<FoundJob> jobs, const std::optional<Manifest>& manifest);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::batch

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
 
 struct BenchmarkFlags {
   std::optional<std::size_t> repetitions;
@@ -22,4 +22,4 @@ struct BenchmarkFlags {
 /// is no --benchmark_ flag, that the library does not know, or whose value is wrong.
 BenchmarkFlags parse_benchmark_flags(const std::vector<std::string>& arguments);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

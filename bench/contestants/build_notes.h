@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace touchmark::bench {
+namespace touchmark::bench::contestants {
 
 /// One line. Of one thread at a time.
 void remark(std::string text);
@@ -13,4 +13,4 @@ void remark(std::string text);
 /// Those since the last call.
 std::vector<std::string> take_remarks();
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::contestants

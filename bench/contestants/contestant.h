@@ -17,7 +17,7 @@
 #include "core/detector.h"
 #include "core/mesh_update.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::contestants {
 
 /// One built detector with one session. answer, replay and replay_clocked need answers(trace.query).
 class Contestant {
@@ -27,7 +27,7 @@ class Contestant {
   Contestant& operator=(const Contestant&) = delete;
   virtual ~Contestant() = default;
 
-  virtual bool answers(Query query) const noexcept = 0;
+  virtual bool answers(workload::Query query) const noexcept = 0;
   virtual Accuracy accuracy() const noexcept = 0;
   virtual std::size_t bytes() const noexcept = 0;
   /// See the concept MakesLater.
@@ -37,20 +37,21 @@ class Contestant {
   virtual Work work() const noexcept = 0;
 
   /// The answer to each step of the range and the total work it took; both spans have the range's size.
-  virtual void answer(const QueryTrace& trace, StepRange range, std::span<Answer> answers,
-                      std::span<std::uint64_t> work) noexcept = 0;
+  virtual void answer(const workload::QueryTrace& trace, workload::StepRange range,
+                      std::span<workload::Answer> answers, std::span<std::uint64_t> work) noexcept = 0;
   /// Can it follow a mesh whose vertices move? Only then may it be asked to; the session stays.
   virtual bool updates() const noexcept { return false; }
   /// See the concept Updates. Throws what the detector's update throws.
   virtual void update(const TriangleMesh& mesh) { static_cast<void>(mesh); }
 
   /// The same answers folded into the checksum, and nothing else: the loop that is timed from outside.
-  virtual void replay(const QueryTrace& trace, StepRange range, Checksum& checksum) noexcept = 0;
+  virtual void replay(const workload::QueryTrace& trace, workload::StepRange range,
+                      workload::Checksum& checksum) noexcept = 0;
   /// The same, with the clock read once a step: the ticks each step took, one clock reading included.
   /// What the detector prepares between steps is clocked apart, into `prepare_ticks` of the same size; empty
   /// will do for one that does not.
-  virtual void replay_clocked(const QueryTrace& trace, StepRange range, Checksum& checksum,
-                              std::span<std::uint64_t> ticks,
+  virtual void replay_clocked(const workload::QueryTrace& trace, workload::StepRange range,
+                              workload::Checksum& checksum, std::span<std::uint64_t> ticks,
                               std::span<std::uint64_t> prepare_ticks) noexcept = 0;
   /// Is the detector told to prepare after each step? That is in all other times, and in the work.
   virtual bool prepares() const noexcept = 0;
@@ -58,11 +59,11 @@ class Contestant {
 
 /// What a type of detector declares.
 template <Detector D>
-std::vector<Query> queries_of() {
-  std::vector<Query> queries;
-  if constexpr (AnswersTouches<D>) queries.push_back(Query::touches);
-  if constexpr (AnswersNearest<D>) queries.push_back(Query::nearest);
-  if constexpr (AnswersSweep<D>) queries.push_back(Query::sweep);
+std::vector<workload::Query> queries_of() {
+  std::vector<workload::Query> queries;
+  if constexpr (AnswersTouches<D>) queries.push_back(workload::Query::touches);
+  if constexpr (AnswersNearest<D>) queries.push_back(workload::Query::nearest);
+  if constexpr (AnswersSweep<D>) queries.push_back(workload::Query::sweep);
   return queries;
 }
 
@@ -74,13 +75,13 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
  public:
   explicit ContestantOf(D detector) : detector_(std::move(detector)) { session_.emplace(); }
 
-  bool answers(Query query) const noexcept override {
+  bool answers(workload::Query query) const noexcept override {
     switch (query) {
-      case Query::touches:
+      case workload::Query::touches:
         return AnswersTouches<D>;
-      case Query::nearest:
+      case workload::Query::nearest:
         return AnswersNearest<D>;
-      case Query::sweep:
+      case workload::Query::sweep:
         return AnswersSweep<D>;
     }
     return false;
@@ -98,8 +99,8 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
   }
   Work work() const noexcept override { return session_->work; }
 
-  void answer(const QueryTrace& trace, StepRange range, std::span<Answer> answers,
-              std::span<std::uint64_t> work) noexcept override {
+  void answer(const workload::QueryTrace& trace, workload::StepRange range,
+              std::span<workload::Answer> answers, std::span<std::uint64_t> work) noexcept override {
     assert(answers.size() == range.size() && work.size() == range.size());
     with_query(trace.query, [&](auto ask) {
       for (std::size_t i = 0; i < range.size(); ++i) {
@@ -111,9 +112,10 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
     });
   }
 
-  void replay(const QueryTrace& trace, StepRange range, Checksum& checksum) noexcept override {
+  void replay(const workload::QueryTrace& trace, workload::StepRange range,
+              workload::Checksum& checksum) noexcept override {
     with_query(trace.query, [&](auto ask) {
-      Checksum sum = checksum;
+      workload::Checksum sum = checksum;
       for (std::size_t i = range.begin; i < range.end; ++i) {
         sum.add(ask(trace.steps, i));
         prepare();
@@ -122,13 +124,13 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
     });
   }
 
-  void replay_clocked(const QueryTrace& trace, StepRange range, Checksum& checksum,
-                      std::span<std::uint64_t> ticks,
+  void replay_clocked(const workload::QueryTrace& trace, workload::StepRange range,
+                      workload::Checksum& checksum, std::span<std::uint64_t> ticks,
                       std::span<std::uint64_t> prepare_ticks) noexcept override {
     assert(ticks.size() == range.size());
     assert(prefetch == Prefetch::off || prepare_ticks.size() == range.size());
     with_query(trace.query, [&](auto ask) {
-      Checksum sum = checksum;
+      workload::Checksum sum = checksum;
       std::uint64_t before = TickClock::now();
       for (std::size_t i = 0; i < range.size(); ++i) {
         sum.add(ask(trace.steps, range.begin + i));
@@ -153,32 +155,32 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
   }
   /// Calls visit(ask) with the ask(steps, i) -> Answer of this query.
   template <class Visitor>
-  void with_query(Query query, Visitor&& visit) noexcept {
-    using Steps = std::span<const Step>;
+  void with_query(workload::Query query, Visitor&& visit) noexcept {
+    using Steps = std::span<const workload::Step>;
     if constexpr (AnswersTouches<D>) {
-      if (query == Query::touches) {
+      if (query == workload::Query::touches) {
         return visit([this](Steps steps, std::size_t i) noexcept {
-          Answer answer;
+          workload::Answer answer;
           answer.found = detector_.touches(steps[i].probe, *session_) ? 1 : 0;
           return answer;
         });
       }
     }
     if constexpr (AnswersNearest<D>) {
-      if (query == Query::nearest) {
+      if (query == workload::Query::nearest) {
         return visit([this](Steps steps, std::size_t i) noexcept {
           const std::optional<Contact> contact = detector_.nearest(steps[i].probe, steps[i].reach, *session_);
-          return contact ? Answer::of(*contact) : Answer{};
+          return contact ? workload::Answer::of(*contact) : workload::Answer{};
         });
       }
     }
     if constexpr (AnswersSweep<D>) {
-      if (query == Query::sweep) {
+      if (query == workload::Query::sweep) {
         return visit([this](Steps steps, std::size_t i) noexcept {
           const Probe& now = steps[i].probe;
           const Sweep sweep{steps[i > 0 ? i - 1 : 0].probe.center, now.center, now.radius};
           const std::optional<Impact> impact = detector_.first_hit(sweep, *session_);
-          return impact ? Answer::of(impact->contact, impact->fraction) : Answer{};
+          return impact ? workload::Answer::of(impact->contact, impact->fraction) : workload::Answer{};
         });
       }
     }
@@ -189,4 +191,4 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
   std::optional<typename D::Session> session_;  // engaged always; optional so that any session can be renewed
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::contestants

@@ -14,7 +14,7 @@
 #include "bench/support/available_memory.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::contestants {
 
 enum class OptionKind {
   choice,
@@ -58,13 +58,13 @@ struct ContestantInfo {
   /// What its forms claim: "GUARANTEE" or "GUARANTEE; KEY=VALUE[ with KEY=VALUE]: GUARANTEE[; ...]", of which
   /// the last whose options are chosen holds.
   std::string accuracy;
-  std::vector<Query> queries;
+  std::vector<workload::Query> queries;
   std::vector<OptionInfo> options;
   /// Throws std::invalid_argument or MeshError for options or a mesh it refuses. Empty: not built in.
   BuildContestant build;
   /// What it surely takes, and so must be there before it is built.
   std::function<double(const OptionValues&)> bytes_per_triangle = [](const OptionValues&) {
-    return least_bytes_per_triangle;
+    return support::least_bytes_per_triangle;
   };
   /// Which program beside this one runs it.
   std::function<std::string(const OptionValues&)> worker_program = [](const OptionValues&) {
@@ -76,7 +76,7 @@ struct ContestantInfo {
       [](const TriangleMesh&, const OptionValues&) { return std::nullopt; };
 
   bool built() const noexcept { return static_cast<bool>(build); }
-  bool answers(Query query) const noexcept;
+  bool answers(workload::Query query) const noexcept;
 };
 
 /// A contestant as chosen: the name and the options that were written out.
@@ -125,4 +125,4 @@ class Roster {
   std::vector<std::string> frontier_;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::contestants

@@ -34,7 +34,7 @@
 #include "baselines/libccd/libccd_detector.h"
 #endif
 
-namespace touchmark::bench {
+namespace touchmark::bench::contestants {
 namespace {
 
 const Names<bool> yes_or_no{{"true", true}, {"false", false}};
@@ -152,7 +152,8 @@ ContestantInfo grid_group() {
     });
   };
   info.bytes_per_triangle = [](const OptionValues& values) {
-    return values.text("lookup") == "direct" ? values.number("bytes_per_triangle") : least_bytes_per_triangle;
+    return values.text("lookup") == "direct" ? values.number("bytes_per_triangle")
+                                             : support::least_bytes_per_triangle;
   };
   return info;
 }
@@ -460,4 +461,4 @@ const Roster& roster() {
   return all;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::contestants

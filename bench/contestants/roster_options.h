@@ -17,7 +17,7 @@
 #include "bench/scenes/displaced.h"
 #include "core/sign/signed_detector.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::contestants {
 
 template <Detector D>
 std::unique_ptr<Contestant> contestant(const TriangleMesh& mesh, const typename D::Options& options) {
@@ -59,7 +59,7 @@ D built(const TriangleMesh& mesh, const Options& options, const OptionValues& va
   if constexpr (Updates<D> && AnswersNearest<D>) {
     if (is_updated(values)) {
       constexpr std::size_t max_asked = 500;
-      D detector = D::build(displaced(mesh, 1), options);
+      D detector = D::build(scenes::displaced(mesh, 1), options);
       typename D::Session session;
       const std::span<const Vec3> vertices = mesh.vertices();
       for (std::size_t i = 0; i < vertices.size(); i += 1 + vertices.size() / max_asked)
@@ -111,4 +111,4 @@ Value chosen(const OptionValues& values, const std::string& key, const Names<Val
   return names.front().second;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::contestants

@@ -1,6 +1,6 @@
 #include "bench/contestants/storage_rounding.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::contestants {
 
 StorageRounding stored_in_single_precision(double scale, const Vec3& origin) {
   return {[=](const Vec3& point) -> Vec3 {
@@ -9,4 +9,4 @@ StorageRounding stored_in_single_precision(double scale, const Vec3& origin) {
           [=](double length) { return static_cast<double>(static_cast<float>(scale * length)) / scale; }};
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::contestants

@@ -5,7 +5,7 @@
 
 #include "core/probe.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::contestants {
 
 /// What storing makes of coordinates and lengths, in the mesh's frame and unit.
 struct StorageRounding {
@@ -16,4 +16,4 @@ struct StorageRounding {
 /// Of numbers that are kept in single precision as scale * (point - origin).
 StorageRounding stored_in_single_precision(double scale, const Vec3& origin);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::contestants

@@ -6,7 +6,7 @@
 #include "bench/support/interrupt.h"
 #include "bench/workload/sample_steps.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::ground_truth {
 namespace {
 
 /// Often enough for Ctrl-C, seldom enough for threads to be worth starting.
@@ -15,7 +15,8 @@ constexpr std::size_t wrong_answers_kept = 3;
 
 }  // namespace
 
-GroundTruths::GroundTruths(const Oracle& oracle, std::span<const Step> steps) : oracle_(oracle) {
+GroundTruths::GroundTruths(const oracle::Oracle& oracle, std::span<const workload::Step> steps)
+    : oracle_(oracle) {
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const Probe& now = steps[i].probe;
     probes_.questions.push_back(now);
@@ -25,18 +26,18 @@ GroundTruths::GroundTruths(const Oracle& oracle, std::span<const Step> steps) : 
 }
 
 template <class Question, class TruthType>
-void GroundTruths::Asked<Question, TruthType>::solve(const Oracle& oracle,
-                                                     const std::vector<StepRange>& ranges) {
+void GroundTruths::Asked<Question, TruthType>::solve(const oracle::Oracle& oracle,
+                                                     const std::vector<workload::StepRange>& ranges) {
   truths.resize(questions.size());
   known.resize(questions.size());
   std::vector<std::size_t> unknown;
-  for (const StepRange& range : ranges) {
+  for (const workload::StepRange& range : ranges) {
     for (std::size_t i = range.begin; i < range.end; ++i) {
       if (!known[i]) unknown.push_back(i);
     }
   }
   for (std::size_t begin = 0; begin < unknown.size(); begin += solved_at_once) {
-    check_for_interrupt();
+    support::check_for_interrupt();
     const std::span<const std::size_t> some =
         std::span(unknown).subspan(begin, std::min(solved_at_once, unknown.size() - begin));
     std::vector<Question> wanted;
@@ -50,29 +51,29 @@ void GroundTruths::Asked<Question, TruthType>::solve(const Oracle& oracle,
 }
 
 std::vector<double> GroundTruths::distances(const std::vector<std::size_t>& steps) {
-  std::vector<StepRange> ranges;
+  std::vector<workload::StepRange> ranges;
   for (const std::size_t step : steps) ranges.push_back({step, step + 1});
-  probes_.solve(oracle_, joined(ranges));
+  probes_.solve(oracle_, workload::joined(ranges));
   std::vector<double> distances;
   for (const std::size_t step : steps) {
-    const GroundTruth& truth = probes_.truths[step];
+    const oracle::GroundTruth& truth = probes_.truths[step];
     distances.push_back(truth.defined ? truth.high : std::numeric_limits<double>::infinity());
   }
   return distances;
 }
 
-ErrorCounts GroundTruths::judge(Query query, const std::vector<StepRange>& ranges,
-                                std::span<const Answer> answers, const Accuracy& accuracy,
-                                const Reported& reported, std::vector<WrongAnswer>* wrong) {
-  query == Query::sweep ? sweeps_.solve(oracle_, ranges) : probes_.solve(oracle_, ranges);
-  ErrorCounts counts;
+oracle::ErrorCounts GroundTruths::judge(workload::Query query, const std::vector<workload::StepRange>& ranges,
+                                        std::span<const workload::Answer> answers, const Accuracy& accuracy,
+                                        const oracle::Reported& reported, std::vector<WrongAnswer>* wrong) {
+  query == workload::Query::sweep ? sweeps_.solve(oracle_, ranges) : probes_.solve(oracle_, ranges);
+  oracle::ErrorCounts counts;
   if (wrong != nullptr) wrong->clear();
   std::size_t done = 0;
-  for (const StepRange& range : ranges) {
-    check_for_interrupt();
-    Charges charges;
+  for (const workload::StepRange& range : ranges) {
+    support::check_for_interrupt();
+    oracle::Charges charges;
     counts += judge(query, range, answers.subspan(done, range.size()), accuracy, reported, charges);
-    for (const Charge& one : charges.kept()) {
+    for (const oracle::Charge& one : charges.kept()) {
       if (wrong == nullptr || wrong->size() == wrong_answers_kept) break;
       wrong->push_back(wrong_answer(query, range.begin + one.step, answers[done + one.step], one.counts));
     }
@@ -81,15 +82,15 @@ ErrorCounts GroundTruths::judge(Query query, const std::vector<StepRange>& range
   return counts;
 }
 
-WrongAnswer GroundTruths::wrong_answer(Query query, std::size_t step, const Answer& got,
-                                       const ErrorCounts& charged) const {
+WrongAnswer GroundTruths::wrong_answer(workload::Query query, std::size_t step, const workload::Answer& got,
+                                       const oracle::ErrorCounts& charged) const {
   WrongAnswer wrong;
   wrong.step = step;
   wrong.query = query;
   wrong.asked = {probes_.questions[step], reaches_[step]};
   wrong.got = got;
   wrong.charged = charged;
-  if (query == Query::sweep) {
+  if (query == workload::Query::sweep) {
     const Sweep& sweep = sweeps_.questions[step];
     wrong.from = sweep.from;
     wrong.found = sweeps_.truths[step].hit;
@@ -98,8 +99,8 @@ WrongAnswer GroundTruths::wrong_answer(Query query, std::size_t step, const Answ
   } else {
     wrong.truth = probes_.truths[step];
     const Vec3& center = wrong.asked.probe.center;
-    wrong.found = oracle_.within(wrong.truth, center,
-                                 query == Query::touches ? wrong.asked.probe.radius : reaches_[step]);
+    wrong.found = oracle_.within(
+        wrong.truth, center, query == workload::Query::touches ? wrong.asked.probe.radius : reaches_[step]);
     if (charged.wrong_side > 0) wrong.side = oracle_.side(center);
   }
   const auto ids = oracle_.mesh().ids();
@@ -107,26 +108,27 @@ WrongAnswer GroundTruths::wrong_answer(Query query, std::size_t step, const Answ
   return wrong;
 }
 
-ErrorCounts GroundTruths::judge(Query query, StepRange range, std::span<const Answer> answers,
-                                const Accuracy& accuracy, const Reported& reported, Charges& charges) const {
-  if (query == Query::sweep) {
-    return bench::judge(oracle_, std::span(sweeps_.truths).subspan(range.begin, range.size()),
-                        std::span(sweeps_.questions).subspan(range.begin, range.size()), answers, accuracy,
-                        reported, &charges);
+oracle::ErrorCounts GroundTruths::judge(workload::Query query, workload::StepRange range,
+                                        std::span<const workload::Answer> answers, const Accuracy& accuracy,
+                                        const oracle::Reported& reported, oracle::Charges& charges) const {
+  if (query == workload::Query::sweep) {
+    return oracle::judge(oracle_, std::span(sweeps_.truths).subspan(range.begin, range.size()),
+                         std::span(sweeps_.questions).subspan(range.begin, range.size()), answers, accuracy,
+                         reported, &charges);
   }
   // The judge takes one reach; recorded trajectories may change theirs from step to step.
-  ErrorCounts counts;
+  oracle::ErrorCounts counts;
   for (std::size_t begin = range.begin, end = begin; begin < range.end; begin = end) {
     while (end < range.end && reaches_[end] == reaches_[begin]) ++end;
     if (end == begin) ++end;  // a reach that is not a number equals nothing
-    Charges of_this_reach;
+    oracle::Charges of_this_reach;
     counts +=
-        bench::judge(oracle_, std::span(probes_.truths).subspan(begin, end - begin), query,
-                     std::span(probes_.questions).subspan(begin, end - begin), reaches_[begin],
-                     answers.subspan(begin - range.begin, end - begin), accuracy, reported, &of_this_reach);
+        oracle::judge(oracle_, std::span(probes_.truths).subspan(begin, end - begin), query,
+                      std::span(probes_.questions).subspan(begin, end - begin), reaches_[begin],
+                      answers.subspan(begin - range.begin, end - begin), accuracy, reported, &of_this_reach);
     charges.merge(of_this_reach, begin - range.begin);
   }
   return counts;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::ground_truth

@@ -2,10 +2,10 @@
 
 #include <utility>
 
-namespace touchmark::bench {
+namespace touchmark::bench::ground_truth {
 namespace {
 
-TriangleMesh stored(const TriangleMesh& mesh, const StorageRounding& storage_rounding) {
+TriangleMesh stored(const TriangleMesh& mesh, const contestants::StorageRounding& storage_rounding) {
   std::vector<Vec3> vertices;
   vertices.reserve(mesh.vertices().size());
   for (const Vec3& vertex : mesh.vertices()) vertices.push_back(storage_rounding.point(vertex));
@@ -16,15 +16,15 @@ TriangleMesh stored(const TriangleMesh& mesh, const StorageRounding& storage_rou
 
 }  // namespace
 
-RoundedScene::RoundedScene(const TriangleMesh& mesh, StorageRounding storage_rounding)
+RoundedScene::RoundedScene(const TriangleMesh& mesh, contestants::StorageRounding storage_rounding)
     : storage_rounding_(std::move(storage_rounding)),
       mesh_(stored(mesh, storage_rounding_)),
       oracle_(mesh_) {}
 
-std::vector<Step> RoundedScene::trace(std::span<const Step> steps) const {
-  std::vector<Step> trace;
+std::vector<workload::Step> RoundedScene::trace(std::span<const workload::Step> steps) const {
+  std::vector<workload::Step> trace;
   trace.reserve(steps.size());
-  for (const Step& step : steps) {
+  for (const workload::Step& step : steps) {
     const Probe probe{storage_rounding_.point(step.probe.center),
                       storage_rounding_.length(step.probe.radius)};
     trace.push_back({probe, storage_rounding_.length(step.reach)});
@@ -32,4 +32,4 @@ std::vector<Step> RoundedScene::trace(std::span<const Step> steps) const {
   return trace;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::ground_truth

@@ -9,20 +9,20 @@
 #include "bench/workload/steps.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::ground_truth {
 
 class RoundedScene {
  public:
   /// Throws MeshError when what is left is no mesh.
-  RoundedScene(const TriangleMesh& mesh, StorageRounding storage_rounding);
+  RoundedScene(const TriangleMesh& mesh, contestants::StorageRounding storage_rounding);
 
-  const Oracle& oracle() const noexcept { return oracle_; }
-  std::vector<Step> trace(std::span<const Step> steps) const;
+  const oracle::Oracle& oracle() const noexcept { return oracle_; }
+  std::vector<workload::Step> trace(std::span<const workload::Step> steps) const;
 
  private:
-  StorageRounding storage_rounding_;
+  contestants::StorageRounding storage_rounding_;
   TriangleMesh mesh_;
-  Oracle oracle_;
+  oracle::Oracle oracle_;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::ground_truth

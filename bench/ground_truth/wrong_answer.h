@@ -10,26 +10,26 @@
 #include "bench/workload/answer.h"
 #include "bench/workload/steps.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::ground_truth {
 
 struct WrongAnswer {
   std::size_t step = 0;  ///< of the trace
-  Query query = Query::nearest;
-  Step asked;
+  workload::Query query = workload::Query::nearest;
+  workload::Step asked;
   Vec3 from = Vec3::Zero();  ///< sweep: where it starts
   /// Of the probe; sweep: of where the answer says that the contact is made, undefined where it says none.
-  GroundTruth truth;
+  oracle::GroundTruth truth;
   std::optional<TriangleId> triangle;  ///< the id of the truth's
   bool found = false;                  ///< should be: contact, within reach, a hit
   std::optional<Side> side;            ///< asked for, and on a closed mesh
-  Answer got;
-  ErrorCounts charged;
+  workload::Answer got;
+  oracle::ErrorCounts charged;
 };
 
 /// What is wrong, each with how often: "2 distance, 1 triangle". Empty where nothing is.
-std::string charges_of(const ErrorCounts& counts);
+std::string charges_of(const oracle::ErrorCounts& counts);
 
 /// One line: the step, what is wrong, the probe, what was expected, what was got. Numbers as they are stored.
 std::string described(const WrongAnswer& wrong);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::ground_truth

@@ -11,7 +11,7 @@
 #include "bench/support/interrupt.h"
 #include "bench/support/random.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::measurement {
 namespace {
 
 using Action = void (Measurement::*)();
@@ -21,14 +21,14 @@ struct Request {
   Action action = nullptr;
 };
 
-void append_shuffled(std::vector<Request>& requests, std::vector<Request> some, Random& random) {
+void append_shuffled(std::vector<Request>& requests, std::vector<Request> some, support::Random& random) {
   random.shuffle(some);
   requests.insert(requests.end(), some.begin(), some.end());
 }
 
 /// Round by round, so that whatever changes on the machine meets all contestants alike; in random order
 /// within a round. Passes for latency are spread over the rounds.
-std::vector<Request> requests_for(std::size_t measurements, const Effort& effort, Random random) {
+std::vector<Request> requests_for(std::size_t measurements, const Effort& effort, support::Random random) {
   std::vector<Request> requests;
   const auto all = [&](Action action) {
     std::vector<Request> some;
@@ -49,58 +49,59 @@ std::vector<Request> requests_for(std::size_t measurements, const Effort& effort
 }
 
 /// Null where it stores what it is given, or where nothing is left of the mesh that could be judged by.
-std::unique_ptr<const RoundedScene> rounded_scene(const ContestantInfo& info, const ContestantSpec& spec,
-                                                  const TriangleMesh& mesh) {
+std::unique_ptr<const ground_truth::RoundedScene> rounded_scene(const contestants::ContestantInfo& info,
+                                                                const contestants::ContestantSpec& spec,
+                                                                const TriangleMesh& mesh) {
   if (!info.built()) return nullptr;
-  std::optional<StorageRounding> storage_rounding = info.storage_rounding(mesh, spec.values);
+  std::optional<contestants::StorageRounding> storage_rounding = info.storage_rounding(mesh, spec.values);
   if (!storage_rounding) return nullptr;
   try {
-    return std::make_unique<const RoundedScene>(mesh, *std::move(storage_rounding));
+    return std::make_unique<const ground_truth::RoundedScene>(mesh, *std::move(storage_rounding));
   } catch (const MeshError&) {
     return nullptr;
   }
 }
 
 /// Before the oracle takes it for its boxes and triangles, and the workers for their copy.
-const Workload& with_room(const Workload& workload) {
+const workload::Workload& with_room(const workload::Workload& workload) {
   constexpr double bytes_a_triangle = 270;
-  require_memory(fmt::format("the oracle's {} triangles", workload.mesh.size()),
-                 bytes_a_triangle * static_cast<double>(workload.mesh.size()));
+  support::require_memory(fmt::format("the oracle's {} triangles", workload.mesh.size()),
+                          bytes_a_triangle * static_cast<double>(workload.mesh.size()));
   return workload;
 }
 
 }  // namespace
 
-Comparison::Comparison(const Roster& roster, const Workload& workload,
-                       const std::vector<ContestantSpec>& contestants, const WorkerOptions& workers,
-                       const Effort& effort, std::uint64_t seed)
+Comparison::Comparison(const contestants::Roster& roster, const workload::Workload& workload,
+                       const std::vector<contestants::ContestantSpec>& contestants,
+                       const workers::WorkerOptions& workers, const Effort& effort, std::uint64_t seed)
     : roster_(roster),
       workload_(with_room(workload)),
       effort_(effort),
       seed_(seed),
       arena_(workload, workers),
       oracle_(workload.mesh) {
-  for (const ContestantSpec& spec : contestants) {
+  for (const contestants::ContestantSpec& spec : contestants) {
     processes_.emplace_back(arena_, spec, roster.find(spec.name).worker_program(spec.values));
   }
   rounded_scenes_.resize(processes_.size());
 }
 
-void Comparison::skip(const ContestantSpec& spec, const std::string& status) {
-  for (ContestantProcess& process : processes_) {
+void Comparison::skip(const contestants::ContestantSpec& spec, const std::string& status) {
+  for (workers::ContestantProcess& process : processes_) {
     if (process.spec().text() == spec.text()) process.mark_failed(status);
   }
 }
 
-std::vector<ResultRow> Comparison::run(std::size_t trace, Query query) {
-  GroundTruths truths(oracle_, workload_.traces[trace]);
+std::vector<ResultRow> Comparison::run(std::size_t trace, workload::Query query) {
+  ground_truth::GroundTruths truths(oracle_, workload_.traces[trace]);
   return run(trace, query, truths);
 }
 
-void Comparison::run_all(const std::vector<Query>& queries, std::vector<ResultRow>& rows) {
+void Comparison::run_all(const std::vector<workload::Query>& queries, std::vector<ResultRow>& rows) {
   for (std::size_t trace = 0; trace < workload_.traces.size(); ++trace) {
-    GroundTruths truths(oracle_, workload_.traces[trace]);
-    for (const Query query : queries) {
+    ground_truth::GroundTruths truths(oracle_, workload_.traces[trace]);
+    for (const workload::Query query : queries) {
       const std::vector<ResultRow> some = run(trace, query, truths);
       rows.insert(rows.end(), some.begin(), some.end());
     }
@@ -110,8 +111,8 @@ void Comparison::run_all(const std::vector<Query>& queries, std::vector<ResultRo
 /// One trajectory on its way from the first answer to the rows.
 struct Comparison::Begun {
   std::size_t trace = 0;
-  Query query = Query::nearest;
-  SamplePlan plan;
+  workload::Query query = workload::Query::nearest;
+  workload::SamplePlan plan;
   std::deque<Measurement> measurements = {};
   std::vector<std::size_t> whose = {};         ///< the process of each case
   std::vector<Measurement*> interleaved = {};  ///< those that take turns
@@ -123,17 +124,18 @@ struct Comparison::Begun {
 
 Comparison::~Comparison() = default;
 
-std::vector<ResultRow> Comparison::run(std::size_t trace, Query query, GroundTruths& truths) {
+std::vector<ResultRow> Comparison::run(std::size_t trace, workload::Query query,
+                                       ground_truth::GroundTruths& truths) {
   begin(trace, query, truths);
   return end();
 }
 
-void Comparison::begin(std::size_t trace, Query query) {
-  GroundTruths truths(oracle_, workload_.traces[trace]);
+void Comparison::begin(std::size_t trace, workload::Query query) {
+  ground_truth::GroundTruths truths(oracle_, workload_.traces[trace]);
   begin(trace, query, truths);
 }
 
-void Comparison::begin(std::size_t trace, Query query, GroundTruths& truths) {
+void Comparison::begin(std::size_t trace, workload::Query query, ground_truth::GroundTruths& truths) {
   auto begun = std::make_unique<Begun>(Begun{trace, query, plan_for(trace, truths)});
   const std::string& trajectory = workload_.trajectories[trace];
   for (std::size_t i = 0; i < processes_.size(); ++i) {
@@ -147,21 +149,21 @@ void Comparison::begin(std::size_t trace, Query query, GroundTruths& truths) {
   }
   verify(*begun, truths);
   add_control(*begun, truths);
-  begun->requests = requests_for(begun->interleaved.size(), effort_, Random(seed_ + trace));
+  begun->requests = requests_for(begun->interleaved.size(), effort_, support::Random(seed_ + trace));
   measure(*begun, begun->requests.size() / 2);
   begun_.push_back(std::move(begun));
 }
 
-void Comparison::verify(Begun& begun, GroundTruths& truths) {
+void Comparison::verify(Begun& begun, ground_truth::GroundTruths& truths) {
   for (std::size_t i = 0; i < begun.measurements.size(); ++i) {
     Measurement& one = begun.measurements[i];
-    check_for_interrupt();
+    support::check_for_interrupt();
     progress_(workload_.trajectories[begun.trace], one.contestant());
     one.calibrate();
     verify(one, rounded_scene_of(begun.whose[i]), begun.trace, truths);
     begun.interleaved.push_back(&one);
     if (schedule_ == Schedule::interleaved) continue;
-    begun.requests = requests_for(begun.interleaved.size(), effort_, Random(seed_ + begun.trace));
+    begun.requests = requests_for(begun.interleaved.size(), effort_, support::Random(seed_ + begun.trace));
     measure(begun, begun.requests.size());
     begun.done = 0;
     begun.interleaved.clear();
@@ -169,7 +171,7 @@ void Comparison::verify(Begun& begun, GroundTruths& truths) {
   }
 }
 
-void Comparison::add_control(Begun& begun, GroundTruths& truths) {
+void Comparison::add_control(Begun& begun, ground_truth::GroundTruths& truths) {
   begun.controlled = to_control(begun.interleaved);
   if (begun.controlled == nullptr) return;
   begun.control.emplace(workload_, arena_, effort_, *control_, begun.trace, begun.query, begun.plan);
@@ -208,10 +210,10 @@ std::vector<ResultRow> Comparison::rows_of(Begun& begun) {
   return rows;
 }
 
-SamplePlan Comparison::plan_for(std::size_t trace, GroundTruths& truths) const {
-  const std::vector<Step>& steps = workload_.traces[trace];
-  const std::vector<double> distances = truths.distances(telling_steps(steps.size()));
-  return {steps.size(), phases_of(steps, distances, workload_.mesh.diagonal()), seed_ + trace};
+workload::SamplePlan Comparison::plan_for(std::size_t trace, ground_truth::GroundTruths& truths) const {
+  const std::vector<workload::Step>& steps = workload_.traces[trace];
+  const std::vector<double> distances = truths.distances(workload::telling_steps(steps.size()));
+  return {steps.size(), workload::phases_of(steps, distances, workload_.mesh.diagonal()), seed_ + trace};
 }
 
 Measurement* Comparison::to_control(const std::vector<Measurement*>& measurements) {
@@ -223,24 +225,24 @@ Measurement* Comparison::to_control(const std::vector<Measurement*>& measurement
     if (chosen == nullptr || one->calibrated_ns() < chosen->calibrated_ns()) chosen = one;
   }
   if (chosen == nullptr) return nullptr;
-  const ContestantSpec& spec = chosen->spec();
+  const contestants::ContestantSpec& spec = chosen->spec();
   control_.emplace(arena_, spec, roster_.find(spec.name).worker_program(spec.values));
   return chosen;
 }
 
-const RoundedScene* Comparison::rounded_scene_of(std::size_t process) {
-  std::optional<std::unique_ptr<const RoundedScene>>& rounded = rounded_scenes_[process];
+const ground_truth::RoundedScene* Comparison::rounded_scene_of(std::size_t process) {
+  std::optional<std::unique_ptr<const ground_truth::RoundedScene>>& rounded = rounded_scenes_[process];
   if (!rounded) {
-    const ContestantSpec& spec = processes_[process].spec();
+    const contestants::ContestantSpec& spec = processes_[process].spec();
     rounded = rounded_scene(roster_.find(spec.name), spec, workload_.mesh);
   }
   return rounded->get();
 }
 
-void Comparison::verify(Measurement& one, const RoundedScene* rounded, std::size_t trace,
-                        GroundTruths& truths) {
+void Comparison::verify(Measurement& one, const ground_truth::RoundedScene* rounded, std::size_t trace,
+                        ground_truth::GroundTruths& truths) {
   if (rounded == nullptr) return one.verify(truths);
-  GroundTruths of_rounded(rounded->oracle(), rounded->trace(workload_.traces[trace]));
+  ground_truth::GroundTruths of_rounded(rounded->oracle(), rounded->trace(workload_.traces[trace]));
   one.verify(truths, &of_rounded);
 }
 
@@ -248,11 +250,11 @@ void Comparison::measure(Begun& begun, std::size_t end) {
   if (effort_.repetitions == 0) return;
   for (; begun.done < end; ++begun.done) {
     const Request& request = begun.requests[begun.done];
-    check_for_interrupt();
+    support::check_for_interrupt();
     Measurement& one = *begun.interleaved[request.which];
     progress_(workload_.trajectories[begun.trace], one.contestant());
     (one.*request.action)();
   }
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::measurement

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-namespace touchmark::bench {
+namespace touchmark::bench::measurement {
 
 struct Effort {
   std::size_t repetitions = 15;  ///< of throughput, many and short; 0: verify only
@@ -17,4 +17,4 @@ inline constexpr Effort quick_effort{10, 3, 10e6, 4e6};
 /// To verify and not to time: more steps in return.
 inline constexpr Effort accuracy_effort{0, 0, 1e9, 0};
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::measurement

@@ -10,33 +10,34 @@
 #include "bench/support/median.h"
 #include "bench/workload/sample_steps.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::measurement {
 namespace {
 
 constexpr std::uint64_t bootstrap_seed = 1;
 
 double median_absolute_deviation(std::vector<double> values) {
-  const double center = median(values);
+  const double center = support::median(values);
   for (double& value : values) value = std::abs(value - center);
-  return median(values);
+  return support::median(values);
 }
 
-double largest_radius(const std::vector<Step>& trace) {
+double largest_radius(const std::vector<workload::Step>& trace) {
   double largest = 0;
-  for (const Step& step : trace) largest = std::max(largest, step.probe.radius);
+  for (const workload::Step& step : trace) largest = std::max(largest, step.probe.radius);
   return largest;
 }
 
-double largest_reach(const std::vector<Step>& trace) {
+double largest_reach(const std::vector<workload::Step>& trace) {
   double largest = 0;
-  for (const Step& step : trace) largest = std::max(largest, step.reach);
+  for (const workload::Step& step : trace) largest = std::max(largest, step.reach);
   return largest;
 }
 
 }  // namespace
 
-Measurement::Measurement(const Workload& workload, const SharedArena& arena, const Effort& effort,
-                         ContestantProcess& process, std::size_t trace, Query query, const SamplePlan& plan)
+Measurement::Measurement(const workload::Workload& workload, const workers::SharedArena& arena,
+                         const Effort& effort, workers::ContestantProcess& process, std::size_t trace,
+                         workload::Query query, const workload::SamplePlan& plan)
     : arena_(arena), effort_(effort), process_(process), task_{trace, query, 1}, plan_(plan) {
   row_.detector = process.spec().name;
   row_.options = process.spec().options;
@@ -55,13 +56,13 @@ void Measurement::attempt(Action action) {
   if (!alive()) return;
   try {
     action();
-  } catch (const WorkerFailure& failure) {
+  } catch (const workers::WorkerFailure& failure) {
     row_.status = failure.what();
   }
 }
 
 void Measurement::begin() {
-  const Built& built = process_.build();
+  const workers::Built& built = process_.build();
   row_.accuracy = built.accuracy;
   row_.build_ms = built.build_ms;
   row_.bytes = built.bytes;
@@ -97,10 +98,10 @@ void Measurement::calibrate_like(const Measurement& other) {
 /// On larger and larger beginnings of the sample, until a quarter of the budget is spent.
 void Measurement::choose_steps() {
   for (std::size_t wanted = 16;; wanted *= 4) {
-    Task task = task_;
+    workers::Task task = task_;
     task.ranges = plan_.ranges(wanted);
     calibrated_ns_ = std::max(process_.calibrate(task, 0).ns_per_query, 1.0);
-    const double elapsed = calibrated_ns_ * static_cast<double>(steps_in(task.ranges));
+    const double elapsed = calibrated_ns_ * static_cast<double>(workload::steps_in(task.ranges));
     if (elapsed * 4 >= effort_.pass_budget_ns || wanted >= plan_.total()) return;
   }
 }
@@ -114,12 +115,12 @@ void Measurement::choose_pieces() {
   const bool all = affordable >= static_cast<double>(plan_.total());
   const auto wanted = all ? plan_.total() : std::bit_floor(static_cast<std::size_t>(affordable));
   task_.ranges = plan_.ranges(wanted);
-  ranges_ = joined(task_.ranges);
-  row_.steps = task_.steps = steps_in(ranges_);
+  ranges_ = workload::joined(task_.ranges);
+  row_.steps = task_.steps = workload::steps_in(ranges_);
   const double pass_ns = calibrated_ns_ * static_cast<double>(row_.steps);
   if (all) {
     const double parts = std::clamp(pass_ns / piece_ns, 1.0, max_pieces);
-    task_.ranges = split({0, plan_.total()}, static_cast<std::size_t>(parts));
+    task_.ranges = workload::split({0, plan_.total()}, static_cast<std::size_t>(parts));
     const double sample_ns = std::min(piece_ns, effort_.repetition_ns);
     if (task_.ranges.size() == 1) replays_ = static_cast<std::int64_t>(std::max(sample_ns / pass_ns, 1.0));
   }
@@ -129,17 +130,17 @@ void Measurement::choose_pieces() {
 
 PieceTimes Measurement::piece_times() const {
   std::vector<Piece> pieces;
-  std::array<std::size_t, phase_count> timed{};
+  std::array<std::size_t, workload::phase_count> timed{};
   const bool all = row_.steps == plan_.total();
-  for (const StepRange& range : task_.ranges) {
+  for (const workload::StepRange& range : task_.ranges) {
     const std::size_t stratum = all ? 0 : static_cast<std::size_t>(plan_.phase_of(range));
     pieces.push_back({range.size(), stratum});
     timed[stratum] += range.size();
   }
   std::vector<Stratum> strata{{1, 0}};
   if (!all) strata.clear();
-  for (std::size_t i = 0; i < phase_count && !all; ++i) {
-    const auto steps = static_cast<double>(plan_.steps_of(static_cast<Phase>(i)));
+  for (std::size_t i = 0; i < workload::phase_count && !all; ++i) {
+    const auto steps = static_cast<double>(plan_.steps_of(static_cast<workload::Phase>(i)));
     const double untimed = steps > 0 ? 1 - static_cast<double>(timed[i]) / steps : 0;
     strata.push_back({steps / static_cast<double>(plan_.total()), untimed});
   }
@@ -148,20 +149,20 @@ PieceTimes Measurement::piece_times() const {
   return times;
 }
 
-void Measurement::verify(GroundTruths& truths, GroundTruths* rounded) {
+void Measurement::verify(ground_truth::GroundTruths& truths, ground_truth::GroundTruths* rounded) {
   attempt([&] {
     process_.rebuild_if_lazy();
-    const Answered answered = process_.answer(task_);
+    const workers::Answered answered = process_.answer(task_);
     row_.checksum = answered.checksum;
     row_.work = summarize_work(arena_.buffers().work(row_.steps), answered.work);
   });
   if (alive()) judge(truths, rounded);
 }
 
-void Measurement::judge(GroundTruths& truths, GroundTruths* rounded) {
-  const std::span<const Answer> answers = arena_.buffers().answers(row_.steps);
-  Checksum checksum;
-  for (const Answer& answer : answers) checksum.add(answer);
+void Measurement::judge(ground_truth::GroundTruths& truths, ground_truth::GroundTruths* rounded) {
+  const std::span<const workload::Answer> answers = arena_.buffers().answers(row_.steps);
+  workload::Checksum checksum;
+  for (const workload::Answer& answer : answers) checksum.add(answer);
   if (checksum.value() != row_.checksum) {
     row_.status = "checksum mismatch";
     return;
@@ -172,14 +173,14 @@ void Measurement::judge(GroundTruths& truths, GroundTruths* rounded) {
     row_.rounded_scene_counts = rounded->judge(task_.query, ranges_, answers, *row_.accuracy);
 }
 
-void Measurement::expect_verified_answers(const Timed& timed) {
+void Measurement::expect_verified_answers(const workers::Timed& timed) {
   if (!timed.steady || timed.checksum != row_.checksum) row_.status = "checksum mismatch";
 }
 
 void Measurement::first_pass() {
   attempt([&] {
     process_.rebuild_if_lazy();
-    const Timed timed = process_.first_pass(task_);
+    const workers::Timed timed = process_.first_pass(task_);
     first_pass_ns_ = timed.ns_per_query;
     expect_verified_answers(timed);
   });
@@ -192,7 +193,7 @@ void Measurement::repetition() {
       static_cast<double>(effort_.repetitions) * std::max(2 * effort_.pass_budget_ns, effort_.repetition_ns);
   if (repetitions_ns_.size() >= fewest && repeating_ns_ > budget) return;
   attempt([&] {
-    const Timed timed = process_.sample(task_, passes_, replays_);
+    const workers::Timed timed = process_.sample(task_, passes_, replays_);
     repetitions_ns_.push_back(timed.ns_per_query);
     repetitions_cpu_ns_.push_back(timed.cpu_ns_per_query);
     repeating_ns_ +=
@@ -205,7 +206,7 @@ void Measurement::repetition() {
 
 void Measurement::latency_pass() {
   attempt([&] {
-    const Timed timed = process_.latency(task_);
+    const workers::Timed timed = process_.latency(task_);
     expect_verified_answers(timed);
     latencies_ns_.push_back(in_ns(arena_.buffers().ticks(row_.steps)));
     if (process_.build().prepares) prepared_ns_.push_back(in_ns(arena_.buffers().prepare_ticks(row_.steps)));
@@ -228,11 +229,11 @@ ResultRow Measurement::row() {
   if (!alive() || repetitions_ns_.empty()) return row_;
   std::size_t samples = 0;
   for (const std::vector<double>& some : samples_) samples += some.size();
-  row_.throughput = ThroughputResult{median(repetitions_ns_),
+  row_.throughput = ThroughputResult{support::median(repetitions_ns_),
                                      *std::min_element(repetitions_ns_.begin(), repetitions_ns_.end()),
                                      median_absolute_deviation(repetitions_ns_),
                                      first_pass_ns_,
-                                     median(repetitions_cpu_ns_),
+                                     support::median(repetitions_cpu_ns_),
                                      repetitions_ns_.size(),
                                      piece_times().estimate(bootstrap_seed),
                                      static_cast<double>(interrupted_) / static_cast<double>(samples)};
@@ -242,4 +243,4 @@ ResultRow Measurement::row() {
   return row_;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::measurement

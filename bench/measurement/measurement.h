@@ -15,7 +15,7 @@
 #include "bench/workload/sample_plan.h"
 #include "bench/workload/workload.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::measurement {
 
 /// Steps in the order of their declaration; each of the measuring ones may come several times, other
 /// contestants' in between. Whatever the worker does, the case goes on with its status; only ResourceError
@@ -23,8 +23,9 @@ namespace touchmark::bench {
 class Measurement {
  public:
   /// All references must outlive it.
-  Measurement(const Workload& workload, const SharedArena& arena, const Effort& effort,
-              ContestantProcess& process, std::size_t trace, Query query, const SamplePlan& plan);
+  Measurement(const workload::Workload& workload, const workers::SharedArena& arena, const Effort& effort,
+              workers::ContestantProcess& process, std::size_t trace, workload::Query query,
+              const workload::SamplePlan& plan);
 
   std::string contestant() const { return row_.contestant(); }
   /// False once something went wrong, or for a query that the contestant does not answer.
@@ -36,7 +37,7 @@ class Measurement {
   void calibrate_like(const Measurement& other);
   /// Has the steps answered and judged, before anything is timed; once more by `stored`, unless that is null:
   /// the truths of the scene as the contestant's library stores it.
-  void verify(GroundTruths& truths, GroundTruths* rounded = nullptr);
+  void verify(ground_truth::GroundTruths& truths, ground_truth::GroundTruths* rounded = nullptr);
 
   /// With a fresh session, after others used the caches; what makes parts of itself later is built anew just
   /// before, so that making them is in it.
@@ -53,7 +54,7 @@ class Measurement {
   }
   /// A query's, as found before anything was verified: for choosing, not for telling.
   double calibrated_ns() const noexcept { return calibrated_ns_; }
-  const ContestantSpec& spec() const noexcept { return process_.spec(); }
+  const contestants::ContestantSpec& spec() const noexcept { return process_.spec(); }
 
  private:
   template <class Action>
@@ -63,16 +64,16 @@ class Measurement {
   void choose_pieces();
   PieceTimes piece_times() const;
   std::vector<double> in_ns(std::span<const std::uint64_t> ticks) const;
-  void expect_verified_answers(const Timed& timed);
-  void judge(GroundTruths& truths, GroundTruths* rounded);
+  void expect_verified_answers(const workers::Timed& timed);
+  void judge(ground_truth::GroundTruths& truths, ground_truth::GroundTruths* rounded);
 
-  const SharedArena& arena_;
+  const workers::SharedArena& arena_;
   const Effort& effort_;
-  ContestantProcess& process_;
+  workers::ContestantProcess& process_;
   ResultRow row_;
-  Task task_;
-  const SamplePlan& plan_;
-  std::vector<StepRange> ranges_;  // those of the task, neighbours joined
+  workers::Task task_;
+  const workload::SamplePlan& plan_;
+  std::vector<workload::StepRange> ranges_;  // those of the task, neighbours joined
   double calibrated_ns_ = 0;
   std::int64_t passes_ = 1;   // a repetition's
   std::int64_t replays_ = 1;  // passes a sample
@@ -86,4 +87,4 @@ class Measurement {
   std::vector<std::vector<double>> prepared_ns_;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::measurement

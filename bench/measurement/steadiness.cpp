@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace touchmark::bench {
+namespace touchmark::bench::measurement {
 
 std::optional<Control> control_of(const ResultRow& row, const ResultRow& control) {
   if (!row.throughput || !control.throughput) return std::nullopt;
@@ -34,4 +34,4 @@ const ResultRow* fastest_exact(const std::vector<ResultRow>& rows) {
   return best;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::measurement

@@ -8,7 +8,7 @@
 
 #include "bench/measurement/result_row.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::measurement {
 
 /// Times further apart than this are told apart; nearer ones are not.
 inline constexpr double resolution = 1.15;
@@ -26,7 +26,7 @@ struct Control {
 /// Of the rows of one trajectory and query.
 struct Steadiness {
   std::string mesh, trajectory;
-  Query query = Query::nearest;
+  workload::Query query = workload::Query::nearest;
   double disturbed_share = 0;  ///< the mean over the rows with times
   std::optional<Control> control;
 
@@ -42,4 +42,4 @@ Steadiness steadiness_of(const std::vector<ResultRow>& rows, std::optional<Contr
 /// Of them the fastest that claims exactness and was right; null where there is none with times.
 const ResultRow* fastest_exact(const std::vector<ResultRow>& rows);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::measurement

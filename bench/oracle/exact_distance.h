@@ -10,7 +10,7 @@
 
 #include "bench/oracle/triangle.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
 
 /// The distance to the nearest of some triangles.
 struct ExactNearest {
@@ -42,4 +42,4 @@ std::strong_ordering compare_part_distance(const Vec3& from, const Vec3& to, dou
 std::strong_ordering compare_distance_on_way(const Vec3& from, const Vec3& to, double fraction,
                                              const Triangle& triangle, double radius);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

@@ -7,7 +7,7 @@
 #include "bench/oracle/exact_distance.h"
 #include "bench/oracle/exact_integers.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
 namespace {
 
 using exact::Grid;
@@ -151,4 +151,4 @@ std::strong_ordering compare_segment_distance(const Vec3& from, const Vec3& to, 
   return least;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

@@ -14,7 +14,7 @@
 #include "bench/oracle/exact_integers.h"
 #include "bench/support/random.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
 namespace {
 
 using exact::Grid;
@@ -24,7 +24,7 @@ using exact::Vector;
 /// No coordinate beyond 2^20, so that doubles and integers hold it alike.
 using Direction = std::array<int, 3>;
 
-Direction draw(Random& random) {
+Direction draw(support::Random& random) {
   const auto coordinate = [&] { return static_cast<int>(random.below(1 << 21)) - (1 << 20); };
   const int x = coordinate(), y = coordinate(), z = coordinate();
   return {x, y, z | 1};
@@ -132,7 +132,7 @@ bool has_negative_volume(std::span<const Triangle> triangles) {
 std::optional<int> winding_exactly(const Vec3& point, std::span<const Triangle> triangles) {
   for (const Triangle& t : triangles)
     if (may_contain(t, point) && compare_distance(point, t, 0) == 0) return std::nullopt;
-  Random random(20);
+  support::Random random(20);
   for (;;) {
     const std::optional<int> winding = along_ray(point, triangles, draw(random));
     if (winding) return winding;
@@ -153,4 +153,4 @@ Side ExactSides::side(const Vec3& point) const {
   return inside_out_ ? Side::outside : Side::inside;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

@@ -9,7 +9,7 @@
 
 #include "bench/oracle/triangle.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
 
 /// Every edge must have as many triangles one way as the other; nothing where the point is on a triangle.
 /// Finite coordinates. Looks at every triangle.
@@ -32,4 +32,4 @@ class ExactSides {
   bool inside_out_ = false;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

@@ -9,7 +9,7 @@
 
 #include <Eigen/Geometry>
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
 namespace {
 
 // How the bounds come about. Let W be the corners relative to the point (for a segment: relative to either
@@ -176,4 +176,4 @@ Interval segment_distance_interval(const Vec3& from, const Vec3& to, const Trian
   return scaled_back(bounds(shortest, normal, hull), exponent);
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

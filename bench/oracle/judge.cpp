@@ -13,7 +13,7 @@
 #include "bench/oracle/parallel.h"
 #include "core/geometry/sphere_triangle_sweep.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -25,7 +25,7 @@ double lowered(double x) noexcept { return std::nextafter(x, -infinity); }
 
 Vec3 vector(const double (&xyz)[3]) noexcept { return {xyz[0], xyz[1], xyz[2]}; }
 
-bool well_formed(const Answer& answer, const Reported& reported) noexcept {
+bool well_formed(const workload::Answer& answer, const Reported& reported) noexcept {
   const bool distance = std::isfinite(answer.distance) && answer.distance >= 0;
   return (!reported.distance || distance) && (!reported.point || vector(answer.point).allFinite()) &&
          (!reported.normal || vector(answer.normal).allFinite());
@@ -55,9 +55,9 @@ class Judge {
     tolerance_ = std::isfinite(diagonal_) ? physical_tolerance * diagonal_ : 0;
   }
 
-  void position(const GroundTruth& truth, Query query, const Probe& probe, double reach, const Answer& answer,
-                ErrorCounts& counts) const;
-  void sweep(const SweepGroundTruth& truth, const Sweep& sweep, const Answer& answer,
+  void position(const GroundTruth& truth, workload::Query query, const Probe& probe, double reach,
+                const workload::Answer& answer, ErrorCounts& counts) const;
+  void sweep(const SweepGroundTruth& truth, const Sweep& sweep, const workload::Answer& answer,
              ErrorCounts& counts) const;
 
  private:
@@ -77,17 +77,17 @@ class Judge {
            (radius >= 0 && radius <= tolerance && oracle_.surely_crosses(from, to, tolerance));
   }
   double sweep_gap(const Sweep& sweep, TriangleId id) const;
-  void exact_sweep(const SweepGroundTruth& truth, const Sweep& sweep, const Answer& answer,
+  void exact_sweep(const SweepGroundTruth& truth, const Sweep& sweep, const workload::Answer& answer,
                    ErrorCounts& counts) const;
   Verdict threshold(const GroundTruth& truth, const Vec3& center, double limit, bool found) const;
-  void contact(const GroundTruth& truth, const Vec3& center, const Answer& answer, double slack,
+  void contact(const GroundTruth& truth, const Vec3& center, const workload::Answer& answer, double slack,
                ErrorCounts& counts) const;
   std::vector<GroundTruth> with_id(const GroundTruth& truth, const Vec3& center, TriangleId id,
                                    double slack) const;
   std::vector<GroundTruth> tied(const GroundTruth& truth, const Vec3& center, double slack) const;
   void note_distance_error(double error, ErrorCounts& counts) const;
   /// Does it name another than the first of the nearest, and claims not to?
-  bool is_misnamed(const GroundTruth& truth, const Answer& answer) const {
+  bool is_misnamed(const GroundTruth& truth, const workload::Answer& answer) const {
     if (!accuracy_.names_exactly || !reported_.triangle || !std::isfinite(truth.high)) return false;
     const auto ids = oracle_.mesh().ids();
     return answer.triangle != (ids.empty() ? truth.triangle : ids[truth.triangle]);
@@ -163,8 +163,8 @@ void Judge::note_distance_error(double error, ErrorCounts& counts) const {
 }
 
 /// The fields of an answer that rightly reports a contact. `slack` is what the position itself may be off by.
-void Judge::contact(const GroundTruth& truth, const Vec3& center, const Answer& answer, double slack,
-                    ErrorCounts& counts) const {
+void Judge::contact(const GroundTruth& truth, const Vec3& center, const workload::Answer& answer,
+                    double slack, ErrorCounts& counts) const {
   if (!std::isfinite(truth.high)) return;  // beyond all doubles: any answer is
   std::vector<GroundTruth> nearest;
   if (reported_.triangle && answer.triangle != no_triangle) {
@@ -217,18 +217,18 @@ void Judge::contact(const GroundTruth& truth, const Vec3& center, const Answer& 
   }
 }
 
-void Judge::position(const GroundTruth& truth, Query query, const Probe& probe, double reach,
-                     const Answer& answer, ErrorCounts& counts) const {
+void Judge::position(const GroundTruth& truth, workload::Query query, const Probe& probe, double reach,
+                     const workload::Answer& answer, ErrorCounts& counts) const {
   ++counts.judged;
   const bool found = answer.found != 0;
-  const bool has_fields = found && query == Query::nearest;
+  const bool has_fields = found && query == workload::Query::nearest;
   // Infinitely far away within an infinite reach: any answer is right.
   const bool beyond_doubles = truth.defined ? std::isinf(truth.high) : !probe.center.hasNaN();
   if (has_fields && !beyond_doubles && !well_formed(answer, reported_)) {
     ++counts.malformed;
     return;
   }
-  const double limit = query == Query::touches ? probe.radius : reach;
+  const double limit = query == workload::Query::touches ? probe.radius : reach;
   if (!truth.defined && beyond_doubles && limit == infinity) return;
   switch (threshold(truth, probe.center, limit, found)) {
     case Verdict::wrong:
@@ -247,7 +247,7 @@ void Judge::position(const GroundTruth& truth, Query query, const Probe& probe, 
   if (is_wrong(answer.side, probe.center)) ++counts.wrong_side;
 }
 
-void Judge::sweep(const SweepGroundTruth& truth, const Sweep& sweep, const Answer& answer,
+void Judge::sweep(const SweepGroundTruth& truth, const Sweep& sweep, const workload::Answer& answer,
                   ErrorCounts& counts) const {
   ++counts.judged;
   const bool found = answer.found != 0;
@@ -305,7 +305,7 @@ double Judge::sweep_gap(const Sweep& sweep, TriangleId id) const {
 }
 
 /// Nothing is excused.
-void Judge::exact_sweep(const SweepGroundTruth& truth, const Sweep& sweep, const Answer& answer,
+void Judge::exact_sweep(const SweepGroundTruth& truth, const Sweep& sweep, const workload::Answer& answer,
                         ErrorCounts& counts) const {
   const bool found = answer.found != 0, at_start = found && answer.fraction == 0;
   if (found != truth.hit) {
@@ -399,8 +399,8 @@ bool meets_guarantee(const ErrorCounts& counts, const Accuracy& accuracy) noexce
          0;
 }
 
-ErrorCounts judge(const Oracle& oracle, std::span<const GroundTruth> truths, Query query,
-                  std::span<const Probe> probes, double reach, std::span<const Answer> answers,
+ErrorCounts judge(const Oracle& oracle, std::span<const GroundTruth> truths, workload::Query query,
+                  std::span<const Probe> probes, double reach, std::span<const workload::Answer> answers,
                   const Accuracy& accuracy, const Reported& reported, Charges* charges) {
   const Judge judge(oracle, accuracy, reported);
   return total(std::min({truths.size(), probes.size(), answers.size()}), oracle.threads(), charges,
@@ -410,8 +410,8 @@ ErrorCounts judge(const Oracle& oracle, std::span<const GroundTruth> truths, Que
 }
 
 ErrorCounts judge(const Oracle& oracle, std::span<const SweepGroundTruth> truths,
-                  std::span<const Sweep> sweeps, std::span<const Answer> answers, const Accuracy& accuracy,
-                  const Reported& reported, Charges* charges) {
+                  std::span<const Sweep> sweeps, std::span<const workload::Answer> answers,
+                  const Accuracy& accuracy, const Reported& reported, Charges* charges) {
   Accuracy of_sweeps = accuracy;
   // most_early_gap, where the way's start is within M of the triangle and the way's coordinates within 2 M.
   const double least = accuracy.guarantee == Guarantee::exact ? most_early_gap(1, 2) : kernel_relative_error;
@@ -422,4 +422,4 @@ ErrorCounts judge(const Oracle& oracle, std::span<const SweepGroundTruth> truths
       [&](std::size_t i, ErrorCounts& counts) { judge.sweep(truths[i], sweeps[i], answers[i], counts); });
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

@@ -10,7 +10,7 @@
 #include "bench/workload/answer.h"
 #include "core/detector.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
 
 /// What a contestant that cannot tell the triangle reports; it is not charged for it. No mesh has this id
 /// unless its file gave it.
@@ -103,8 +103,8 @@ class Charges {
 /// physical_tolerance. Where it decides exactly nothing is excused at a threshold either.
 ///
 /// An id stands for every triangle that carries it (a polygon's pieces).
-ErrorCounts judge(const Oracle& oracle, std::span<const GroundTruth> truths, Query query,
-                  std::span<const Probe> probes, double reach, std::span<const Answer> answers,
+ErrorCounts judge(const Oracle& oracle, std::span<const GroundTruth> truths, workload::Query query,
+                  std::span<const Probe> probes, double reach, std::span<const workload::Answer> answers,
                   const Accuracy& accuracy, const Reported& reported = {}, Charges* charges = nullptr);
 
 /// Judges `sweep`. Of a contestant that decides exactly whether it hits is judged without tolerance: the way
@@ -119,7 +119,7 @@ ErrorCounts judge(const Oracle& oracle, std::span<const GroundTruth> truths, Que
 /// relative part is kernel_relative_error at least, and most_early_gap of those who claim exactness: no sweep
 /// claims better.
 ErrorCounts judge(const Oracle& oracle, std::span<const SweepGroundTruth> truths,
-                  std::span<const Sweep> sweeps, std::span<const Answer> answers, const Accuracy& accuracy,
-                  const Reported& reported = {}, Charges* charges = nullptr);
+                  std::span<const Sweep> sweeps, std::span<const workload::Answer> answers,
+                  const Accuracy& accuracy, const Reported& reported = {}, Charges* charges = nullptr);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

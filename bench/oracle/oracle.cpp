@@ -12,7 +12,7 @@
 #include "bench/oracle/parallel.h"
 #include "bench/oracle/triangle_tree.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -296,4 +296,4 @@ std::vector<std::uint32_t> Oracle::all_within(const Vec3& center, double radius)
   return found;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

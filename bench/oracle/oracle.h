@@ -13,7 +13,7 @@
 #include "core/probe.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
 
 /// The truth about one position. It does not depend on radius or reach, so one serves every query there.
 struct GroundTruth {
@@ -89,4 +89,4 @@ class Oracle {
   std::unique_ptr<const Structure> structure_;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

@@ -6,7 +6,7 @@
 
 #include "bench/oracle/interval_distance.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
 namespace {
 
 constexpr std::uint32_t leaf_size = 8;
@@ -135,4 +135,4 @@ void TriangleTree::build(const TriangleMesh& mesh, std::vector<Key>& keys, std::
                   0};
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

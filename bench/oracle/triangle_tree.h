@@ -10,7 +10,7 @@
 
 #include "bench/oracle/triangle.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
 
 struct Box {
   Vec3 min, max;
@@ -80,4 +80,4 @@ void TriangleTree::visit(const Below& below, const double& limit, const Visit& v
   }
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

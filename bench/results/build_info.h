@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace touchmark::bench {
+namespace touchmark::bench::results {
 
 struct BuildInfo {
   std::string version;     ///< the project's
@@ -24,4 +24,4 @@ const BuildInfo& build_info();
 /// Libraries found when the program was configured.
 const std::vector<LibraryVersion>& library_versions();
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results

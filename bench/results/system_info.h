@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace touchmark::bench {
+namespace touchmark::bench::results {
 
 struct SystemInfo {
   std::string cpu_model;  ///< "unknown" where it cannot be read
@@ -27,4 +27,4 @@ std::optional<int> core_for_workers();
 /// A file's name in place of an absolute path, also behind "--option="; anything else as it is.
 std::string without_directories(const std::string& text);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results

@@ -8,7 +8,7 @@
 
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::scenes {
 
 /// Of all vertices this share moves. Less than 1: a dent, the vertices nearest to one drawn at random,
 /// inwards by up to a quarter of their patch's radius, less towards its border. 1: a wave through everything,
@@ -27,4 +27,4 @@ std::size_t moved_vertices(const TriangleMesh& before, const TriangleMesh& after
 void to_json(nlohmann::json& json, const Deformation& deformation);
 void from_json(const nlohmann::json& json, Deformation& deformation);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::scenes

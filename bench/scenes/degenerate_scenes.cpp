@@ -10,7 +10,7 @@
 #include "bench/scenes/portable_sincos.h"
 #include "bench/support/random.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::scenes {
 namespace {
 
 using Corners = TriangleMesh::Corners;
@@ -29,7 +29,7 @@ struct Loose {
 };
 
 /// On a lattice of 2^-12, so that midpoints and sums of a few are exact.
-Vec3 dyadic_point(Random& random) {
+Vec3 dyadic_point(support::Random& random) {
   const auto coordinate = [&] { return static_cast<double>(random.below(8193)) / 4096 - 1; };
   const double x = coordinate(), y = coordinate(), z = coordinate();
   return {x, y, z};
@@ -79,7 +79,7 @@ TriangleMesh sliver_fan() {
 }
 
 TriangleMesh soup(std::uint64_t triangles) {
-  Random random(20170817);
+  support::Random random(20170817);
   Loose loose;
   loose.vertices.reserve(3 * triangles);
   loose.triangles.reserve(triangles);
@@ -98,7 +98,7 @@ TriangleMesh soup(std::uint64_t triangles) {
 }
 
 TriangleMesh degenerate() {
-  Random random(1234567);
+  support::Random random(1234567);
   Loose mixed;
   const TriangleMesh sphere = icosphere(1);
   for (std::size_t i = 0; i < sphere.size(); ++i) {
@@ -149,4 +149,4 @@ TriangleMesh needles() { return flat_triangles(0); }
 
 TriangleMesh caps() { return flat_triangles(0.5); }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::scenes

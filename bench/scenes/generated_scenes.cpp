@@ -11,7 +11,7 @@
 
 #include "bench/scenes/portable_sincos.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::scenes {
 namespace {
 
 using Corners = TriangleMesh::Corners;
@@ -204,4 +204,4 @@ TriangleMesh wedge() {
   return std::move(surface).mesh();
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::scenes

@@ -9,7 +9,7 @@
 #include "core/sign/side_finder.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::scenes {
 
 /// Lengths in mesh units. Edges are those between distinct positions: vertices at one place count as one,
 /// whatever the file calls them.
@@ -44,4 +44,4 @@ MeshReport report_on(const TriangleMesh& mesh);
 /// Longest edge over smallest height, from the stored doubles; infinite without area.
 double aspect_ratio(const Vec3& a, const Vec3& b, const Vec3& c);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::scenes

@@ -8,7 +8,7 @@
 #include "bench/scenes/generated_scenes.h"
 #include "bench/scenes/portable_sincos.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::scenes {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -151,4 +151,4 @@ class NoisySphere {
 
 TriangleMesh noisy_sphere(std::uint64_t triangles) { return NoisySphere(triangles).mesh(); }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::scenes

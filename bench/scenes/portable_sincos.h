@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace touchmark::bench {
+namespace touchmark::bench::scenes {
 
 struct SinCos {
   double cos = 1, sin = 0;
@@ -35,4 +35,4 @@ inline SinCos portable_sincos(double fraction) noexcept {
   }
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::scenes

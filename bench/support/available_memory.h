@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 
 /// Bytes that can be taken now without swapping and within the process's own limit (ulimit -v), which so is a
 /// budget that anybody can state; nothing where the system does not say.
@@ -25,4 +25,4 @@ inline constexpr double least_bytes_per_triangle = 150;
 /// How a contestant's refusal begins that is for want of memory.
 inline constexpr std::string_view no_memory = "no memory: ";
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

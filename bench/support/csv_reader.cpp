@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 namespace {
 
 constexpr std::size_t longest_field = 1 << 16;  // a file without commas or line ends must not fill the memory
@@ -185,4 +185,4 @@ void CsvReader::skip_what_is_no_record() {
   }
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

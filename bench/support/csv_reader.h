@@ -10,7 +10,7 @@
 
 #include "core/mesh_io/input_file.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 
 /// Commas, semicolons or tabs: what stands most often outside quotes. A line without a word in it holds
 /// numbers, in which a comma beside semicolons or tabs is a decimal one.
@@ -61,4 +61,4 @@ class CsvReader {
   std::string last_comment_;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

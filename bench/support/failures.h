@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 
 enum ExitStatus : int {
   exit_done = 0,
@@ -27,4 +27,4 @@ class Interrupted : public std::runtime_error {
   Interrupted() : std::runtime_error("interrupted") {}
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

@@ -10,7 +10,7 @@
 
 #include "core/probe.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 
 /// Of the triangle, as uniform as u and v are in [0, 1): the far half of the parallelogram is turned onto it.
 inline Vec3 point_in_triangle(const Vec3& a, const Vec3& b, const Vec3& c, double u, double v) {
@@ -47,4 +47,4 @@ class Random {
   std::mt19937_64 bits_;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

@@ -5,7 +5,7 @@
 
 struct rusage;
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 
 /// The limit that is behind `error`, an errno: ": no more than 8 open files in a process (ulimit -n)". Empty
 /// where it is none that is known.
@@ -24,4 +24,4 @@ std::string time_limit();  ///< "no more than 5 s of processor time in a process
 /// program with one line and exit_resources: no signal ends it without a word.
 void survive_limits();
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

@@ -7,7 +7,7 @@
 
 #include "core/probe.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::trajectories {
 
 class Path {
  public:
@@ -59,4 +59,4 @@ class Path {
   double left_over_ = 0;        ///< from the last position to there
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::trajectories

@@ -9,7 +9,7 @@
 
 #include "core/geometry/point_triangle.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::trajectories {
 namespace {
 
 /// The edges from corner 0, in units of the largest coordinate, so that no product overflows or vanishes.
@@ -62,14 +62,14 @@ Contact Surface::nearest(const Vec3& center) {
   return *contact;
 }
 
-SurfacePoint Surface::random_surface_point(Random& random) const {
+SurfacePoint Surface::random_surface_point(support::Random& random) const {
   const double at = random.unit() * weight_up_to_.back();
   const auto found = std::upper_bound(weight_up_to_.begin(), weight_up_to_.end(), at);
   const auto last = static_cast<std::ptrdiff_t>(mesh_.size()) - 1;
   const auto triangle = static_cast<std::uint32_t>(std::min(found - weight_up_to_.begin(), last));
   const double u = random.unit(), v = random.unit();
-  return {point_in_triangle(mesh_.corner(triangle, 0), mesh_.corner(triangle, 1), mesh_.corner(triangle, 2),
-                            u, v),
+  return {support::point_in_triangle(mesh_.corner(triangle, 0), mesh_.corner(triangle, 1),
+                                     mesh_.corner(triangle, 2), u, v),
           normal_of(mesh_, triangle)};
 }
 
@@ -86,4 +86,4 @@ double Surface::thickness(const SurfacePoint& surface_point, double scale) {
   return std::numeric_limits<double>::infinity();
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::trajectories

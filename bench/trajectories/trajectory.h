@@ -8,7 +8,7 @@
 
 #include "core/probe.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::trajectories {
 
 /// What a recorded motion's own times say.
 struct RecordedTiming {
@@ -33,4 +33,4 @@ struct Trajectory {
   std::size_t size() const noexcept { return positions.size(); }
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::trajectories

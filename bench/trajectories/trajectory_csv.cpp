@@ -20,7 +20,7 @@
 #include "bench/trajectories/motion_field.h"
 #include "bench/trajectories/resampling.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::trajectories {
 namespace {
 
 constexpr double most_ticks = 100'000'000;  // of a resampled motion, as of --steps
@@ -29,7 +29,8 @@ constexpr double bytes_a_tick = 256;        // here and in the workers
 /// Reads the rows of one file.
 class MotionReader {
  public:
-  MotionReader(CsvReader& file, const std::string& path, std::size_t most, const MotionOptions& options)
+  MotionReader(support::CsvReader& file, const std::string& path, std::size_t most,
+               const MotionOptions& options)
       : file_(file),
         max_(most),
         options_(options),
@@ -51,7 +52,7 @@ class MotionReader {
   void check_times();
   [[noreturn]] void fail(std::size_t line, const std::string& what) const;
 
-  CsvReader& file_;
+  support::CsvReader& file_;
   std::size_t max_;
   const MotionOptions& options_;
   NumberReader numbers_;
@@ -140,7 +141,8 @@ void MotionReader::check_times() {
                                               motion_.name, duration, *options_.rate_hz, ticks, most_ticks));
     }
     const double steps = max_ == 0 ? ticks : std::min(ticks, static_cast<double>(max_));
-    require_memory(fmt::format("trajectory {}: {:.0f} steps", motion_.name, steps), bytes_a_tick * steps);
+    support::require_memory(fmt::format("trajectory {}: {:.0f} steps", motion_.name, steps),
+                            bytes_a_tick * steps);
   } else if (const std::size_t row = first_gap(times)) {
     fail(lines_[row],
          fmt::format("column {}: {:.6g} s after the row before, longer than the usual interval: rows "
@@ -173,21 +175,21 @@ void require_memory_for(const std::string& path) {
   if (!std::filesystem::is_regular_file(path, error)) return;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (!error)
-    require_memory("trajectory " + path + ": " + std::to_string(size) + " bytes",
-                   4 * static_cast<double>(size));
+    support::require_memory("trajectory " + path + ": " + std::to_string(size) + " bytes",
+                            4 * static_cast<double>(size));
 }
 
 }  // namespace
 
 Trajectory read_trajectory(const std::string& path, std::size_t most, const MotionOptions& options) {
-  CsvReader file(path);
+  support::CsvReader file(path);
   file.accept_any_dialect();
   if (most == 0) require_memory_for(path);
   return MotionReader(file, path, most, options).read();
 }
 
 void write_trajectory(const Trajectory& trajectory, const std::string& path) {
-  AtomicFile file(path);
+  support::AtomicFile file(path);
   const bool timed = !trajectory.times_s.empty(), sized = !trajectory.radii.empty();
   file.write(std::string(timed ? "time_s," : "") + "x,y,z" + (sized ? ",radius\n" : "\n"));
   std::string line;
@@ -201,4 +203,4 @@ void write_trajectory(const Trajectory& trajectory, const std::string& path) {
   file.commit();
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::trajectories

@@ -7,7 +7,7 @@
 #include "bench/trajectories/motion_path.h"
 #include "bench/trajectories/surface.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::trajectories {
 namespace {
 
 /// Short runs move faster, so that they too come down on the surface several times.
@@ -223,4 +223,4 @@ Positions cross(Motion motion) {
   return std::move(path).positions();
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::trajectories

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-namespace touchmark::bench {
+namespace touchmark::bench::workers {
 namespace {
 
 /// On stderr, in place of a progress line that may be there. Of each contestant once a run, however many
@@ -24,7 +24,7 @@ void pass_on(const std::vector<std::string>& remarks, const std::string& contest
 
 }  // namespace
 
-SharedArena::SharedArena(const Workload& workload, WorkerOptions options)
+SharedArena::SharedArena(const workload::Workload& workload, WorkerOptions options)
     : options_(std::move(options)),
       layout_(layout_of(workload.mesh, workload.traces)),
       input_(write_input(workload.mesh, workload.traces)),
@@ -36,7 +36,7 @@ WorkerLaunch SharedArena::launch(const std::string& program) const {
           options_.core, options_.show_output};
 }
 
-ContestantProcess::ContestantProcess(const SharedArena& arena, ContestantSpec spec,
+ContestantProcess::ContestantProcess(const SharedArena& arena, contestants::ContestantSpec spec,
                                      std::string worker_program)
     : arena_(arena), spec_(std::move(spec)), program_(std::move(worker_program)) {}
 
@@ -139,16 +139,16 @@ Timed ContestantProcess::latency(const Task& task) {
   return request("latency", task, nlohmann::json::object());
 }
 
-Updated ContestantProcess::update(const Deformation& deformation) {
+Updated ContestantProcess::update(const scenes::Deformation& deformation) {
   start();
   return ask({{"order", "update"}, {"contestant", spec_.text()}, {"deformation", deformation}},
              arena_.options().build_timeout);
 }
 
-void ContestantProcess::rebuild(const Deformation& deformation) {
+void ContestantProcess::rebuild(const scenes::Deformation& deformation) {
   start();
   ask({{"order", "rebuild"}, {"contestant", spec_.text()}, {"deformation", deformation}},
       arena_.options().build_timeout);
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workers

@@ -16,7 +16,7 @@
 #include "bench/workers/worker_protocol.h"
 #include "bench/workload/workload.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workers {
 
 struct WorkerOptions {
   std::vector<std::string> flags;  ///< --benchmark_*
@@ -31,7 +31,7 @@ struct WorkerOptions {
 class SharedArena {
  public:
   /// Throws ResourceError when memory is short.
-  SharedArena(const Workload& workload, WorkerOptions options);
+  SharedArena(const workload::Workload& workload, WorkerOptions options);
 
   const WorkerOptions& options() const noexcept { return options_; }
   const WorkloadLayout& layout() const noexcept { return layout_; }
@@ -49,9 +49,9 @@ class SharedArena {
 class ContestantProcess {
  public:
   /// The stage must outlive it.
-  ContestantProcess(const SharedArena& arena, ContestantSpec spec, std::string worker_program);
+  ContestantProcess(const SharedArena& arena, contestants::ContestantSpec spec, std::string worker_program);
 
-  const ContestantSpec& spec() const noexcept { return spec_; }
+  const contestants::ContestantSpec& spec() const noexcept { return spec_; }
   /// Set once the first order came through.
   const Opened& opened() const noexcept { return opened_; }
 
@@ -71,8 +71,8 @@ class ContestantProcess {
   Timed sample(const Task& task, std::int64_t passes, std::int64_t replays);
   Timed latency(const Task& task);
   /// The detector follows the mesh as it is deformed; or, built anew, is that of the deformed mesh.
-  Updated update(const Deformation& deformation);
-  void rebuild(const Deformation& deformation);
+  Updated update(const scenes::Deformation& deformation);
+  void rebuild(const scenes::Deformation& deformation);
 
   /// Seconds that all its workers were waited for, building included.
   double busy_s() const noexcept { return busy_s_; }
@@ -88,7 +88,7 @@ class ContestantProcess {
   nlohmann::json ask(const nlohmann::json& request, std::chrono::milliseconds timeout);
 
   const SharedArena& arena_;
-  ContestantSpec spec_;
+  contestants::ContestantSpec spec_;
   std::string program_;
   std::unique_ptr<WorkerProcess> process_;
   Opened opened_;
@@ -98,4 +98,4 @@ class ContestantProcess {
   double busy_s_ = 0;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workers

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace touchmark::bench {
+namespace touchmark::bench::workers {
 namespace {
 
 constexpr std::size_t doubles_a_step = 5;  // centre, radius, reach
@@ -82,32 +82,32 @@ void from_json(const nlohmann::json& json, WorkloadLayout& layout) {
 }
 
 std::size_t OutputBuffers::bytes_for(std::size_t steps) noexcept {
-  return steps * (sizeof(Answer) + 2 * sizeof(std::uint64_t));
+  return steps * (sizeof(workload::Answer) + 2 * sizeof(std::uint64_t));
 }
 
 OutputBuffers::OutputBuffers(std::span<std::byte> bytes, std::size_t steps) {
   assert(bytes.size() >= bytes_for(steps));
   // All are plain bytes (see answer.h), and the mapping is page-aligned.
-  auto* answers = reinterpret_cast<Answer*>(bytes.data());
+  auto* answers = reinterpret_cast<workload::Answer*>(bytes.data());
   answers_ = {answers, steps};
-  work_ = {reinterpret_cast<std::uint64_t*>(bytes.data() + steps * sizeof(Answer)), steps};
+  work_ = {reinterpret_cast<std::uint64_t*>(bytes.data() + steps * sizeof(workload::Answer)), steps};
   prepare_ticks_ = {work_.data() + steps, steps};
 }
 
-WorkloadLayout layout_of(const TriangleMesh& mesh, const std::vector<std::vector<Step>>& traces) {
+WorkloadLayout layout_of(const TriangleMesh& mesh, const std::vector<std::vector<workload::Step>>& traces) {
   WorkloadLayout layout{mesh.vertices().size(), mesh.size(), mesh.ids().size(), {}};
-  for (const std::vector<Step>& trace : traces) layout.trace_steps.push_back(trace.size());
+  for (const std::vector<workload::Step>& trace : traces) layout.trace_steps.push_back(trace.size());
   return layout;
 }
 
-SharedMemory write_input(const TriangleMesh& mesh, const std::vector<std::vector<Step>>& traces) {
+SharedMemory write_input(const TriangleMesh& mesh, const std::vector<std::vector<workload::Step>>& traces) {
   SharedMemory memory = SharedMemory::create(layout_of(mesh, traces).input_bytes());
   Cursor cursor(memory.bytes().data());
   for (const Vec3& vertex : mesh.vertices()) cursor.put(vertex);
   for (const TriangleMesh::Corners& corners : mesh.triangles()) cursor.put(corners);
   for (const TriangleId id : mesh.ids()) cursor.put(id);
-  for (const std::vector<Step>& trace : traces) {
-    for (const Step& step : trace) {
+  for (const std::vector<workload::Step>& trace : traces) {
+    for (const workload::Step& step : trace) {
       cursor.put(step.probe.center);
       cursor.put(step.probe.radius);
       cursor.put(step.reach);
@@ -127,12 +127,13 @@ TriangleMesh read_mesh(std::span<const std::byte> input, const WorkloadLayout& l
   return {std::move(vertices), std::move(triangles), std::move(ids)};
 }
 
-std::vector<std::vector<Step>> read_traces(std::span<const std::byte> input, const WorkloadLayout& layout) {
+std::vector<std::vector<workload::Step>> read_traces(std::span<const std::byte> input,
+                                                     const WorkloadLayout& layout) {
   Reader reader(input.data() + mesh_bytes(layout));
-  std::vector<std::vector<Step>> traces;
+  std::vector<std::vector<workload::Step>> traces;
   for (const std::size_t steps : layout.trace_steps) {
-    std::vector<Step>& trace = traces.emplace_back(steps);
-    for (Step& step : trace) {
+    std::vector<workload::Step>& trace = traces.emplace_back(steps);
+    for (workload::Step& step : trace) {
       step.probe.center = reader.get_vec3();
       step.probe.radius = reader.get<double>();
       step.reach = reader.get<double>();
@@ -141,4 +142,4 @@ std::vector<std::vector<Step>> read_traces(std::span<const std::byte> input, con
   return traces;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workers

@@ -14,7 +14,7 @@
 #include "bench/workload/answer.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workers {
 
 /// The sizes of what lies one after the other in the input: vertices, corners, ids, then each trace's steps.
 struct WorkloadLayout {
@@ -36,7 +36,7 @@ class OutputBuffers {
   static std::size_t bytes_for(std::size_t steps) noexcept;
   OutputBuffers(std::span<std::byte> bytes, std::size_t steps);
 
-  std::span<Answer> answers(std::size_t steps) const noexcept { return answers_.first(steps); }
+  std::span<workload::Answer> answers(std::size_t steps) const noexcept { return answers_.first(steps); }
   std::span<std::uint64_t> work(std::size_t steps) const noexcept { return work_.first(steps); }
   std::span<std::uint64_t> ticks(std::size_t steps) const noexcept { return work_.first(steps); }
   std::span<std::uint64_t> prepare_ticks(std::size_t steps) const noexcept {
@@ -44,17 +44,18 @@ class OutputBuffers {
   }
 
  private:
-  std::span<Answer> answers_;
+  std::span<workload::Answer> answers_;
   std::span<std::uint64_t> work_;
   std::span<std::uint64_t> prepare_ticks_;
 };
 
 /// The program's side: fills the input. Throws ResourceError when memory is short.
-SharedMemory write_input(const TriangleMesh& mesh, const std::vector<std::vector<Step>>& traces);
-WorkloadLayout layout_of(const TriangleMesh& mesh, const std::vector<std::vector<Step>>& traces);
+SharedMemory write_input(const TriangleMesh& mesh, const std::vector<std::vector<workload::Step>>& traces);
+WorkloadLayout layout_of(const TriangleMesh& mesh, const std::vector<std::vector<workload::Step>>& traces);
 
 /// The worker's side.
 TriangleMesh read_mesh(std::span<const std::byte> input, const WorkloadLayout& layout);
-std::vector<std::vector<Step>> read_traces(std::span<const std::byte> input, const WorkloadLayout& layout);
+std::vector<std::vector<workload::Step>> read_traces(std::span<const std::byte> input,
+                                                     const WorkloadLayout& layout);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workers

@@ -8,7 +8,7 @@
 
 #include "bench/contestants/contestant.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workers {
 
 struct Throughput {
   double ns_per_query = 0;      ///< elapsed, the mean over all passes
@@ -23,15 +23,15 @@ struct Throughput {
 std::vector<std::string> initialize_throughput(const std::vector<std::string>& flags);
 
 /// Replays all ranges `passes` times (at least once) without forgetting the session in between.
-Throughput measure_throughput(Contestant& contestant, const QueryTrace& trace,
-                              const std::vector<StepRange>& ranges, std::int64_t passes);
+Throughput measure_throughput(contestants::Contestant& contestant, const workload::QueryTrace& trace,
+                              const std::vector<workload::StepRange>& ranges, std::int64_t passes);
 
 /// The same, each range timed apart: a sample is the shorter of its elapsed and its processor time. A range
 /// is replayed `together` times in a sample, more than once only where there is no other. `samples` holds
 /// those of the ranges in turn, pass by pass, each divided by `together`. The last range is replayed
 /// before, so that the first does not pay for what others did to the caches.
-Throughput sample_throughput(Contestant& contestant, const QueryTrace& trace,
-                             const std::vector<StepRange>& ranges, std::int64_t passes,
+Throughput sample_throughput(contestants::Contestant& contestant, const workload::QueryTrace& trace,
+                             const std::vector<workload::StepRange>& ranges, std::int64_t passes,
                              std::int64_t together);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workers

@@ -4,10 +4,10 @@
 
 #include "bench/contestants/contestant_info.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workers {
 
 /// What a worker program's main function returns. Arguments are --benchmark_* flags. Ends when the program
 /// closes the control socket.
-int run_worker(int argc, char** argv, const Roster& roster);
+int run_worker(int argc, char** argv, const contestants::Roster& roster);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workers

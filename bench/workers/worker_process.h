@@ -12,7 +12,7 @@
 
 #include "bench/workers/line_channel.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workers {
 
 /// The worker did not answer; what() is the status for its row: "timeout", "crashed:SIGSEGV",
 /// "crashed:exit 3".
@@ -62,4 +62,4 @@ class WorkerProcess {
 /// Is there such a program beside this one?
 bool worker_program_exists(const std::string& program);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workers

@@ -13,7 +13,7 @@
 #include "bench/workload/answer.h"
 #include "core/detector.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workers {
 
 /// The descriptors a worker finds open.
 inline constexpr int worker_control = 3;
@@ -27,9 +27,9 @@ inline constexpr const char* out_of_resources = "out_of_resources";
 /// sample_steps(steps of the trace, `steps`).
 struct Task {
   std::size_t trace = 0;
-  Query query = Query::nearest;
+  workload::Query query = workload::Query::nearest;
   std::size_t steps = 1;
-  std::vector<StepRange> ranges = {};  ///< ascending
+  std::vector<workload::StepRange> ranges = {};  ///< ascending
 };
 
 /// Reply to "open": the worker has read the mesh and the traces.
@@ -46,7 +46,7 @@ struct Built {
   std::uint64_t bytes = 0;
   std::uint64_t heap_bytes = 0;  ///< growth of the heap
   Accuracy accuracy;
-  std::vector<Query> queries;
+  std::vector<workload::Query> queries;
   bool prepares = false;
   bool builds_lazily = false;  ///< parts of itself, by the first queries
 };
@@ -93,4 +93,4 @@ void from_json(const nlohmann::json& json, Answered& answered);
 void to_json(nlohmann::json& json, const Timed& timed);
 void from_json(const nlohmann::json& json, Timed& timed);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workers

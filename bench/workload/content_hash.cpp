@@ -1,6 +1,6 @@
 #include "bench/workload/content_hash.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workload {
 
 std::uint64_t hash_of(const TriangleMesh& mesh) {
   ContentHash hash;
@@ -20,4 +20,4 @@ std::uint64_t hash_of(std::span<const Step> trace) {
   return hash.value();
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workload

@@ -10,7 +10,7 @@
 #include "bench/workload/steps.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workload {
 
 /// FNV-1a, 64 bits.
 class ContentHash {
@@ -39,4 +39,4 @@ std::uint64_t hash_of(const TriangleMesh& mesh);
 /// Over the bits of each step's centre, radius and reach.
 std::uint64_t hash_of(std::span<const Step> trace);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workload

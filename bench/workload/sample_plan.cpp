@@ -6,7 +6,7 @@
 
 #include "bench/support/random.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workload {
 namespace {
 
 /// As many blocks at least, cut shorter where that is more steps than are wanted.
@@ -23,7 +23,7 @@ struct Drawn {
 
 /// The blocks of one phase in random order, with keys spread evenly over [0, 1), or -1 for those that come
 /// first.
-void draw(std::vector<std::size_t> blocks, Random& random, std::vector<Drawn>& drawn) {
+void draw(std::vector<std::size_t> blocks, support::Random& random, std::vector<Drawn>& drawn) {
   random.shuffle(blocks);
   const double offset = random.unit();
   for (std::size_t i = 0; i < blocks.size(); ++i) {
@@ -47,7 +47,7 @@ SamplePlan::SamplePlan(std::size_t total, std::vector<Phase> phases, std::uint64
     blocks[phase].push_back(block);
     steps_[phase] += std::min(block_steps, total_ - block * block_steps);
   }
-  Random random(seed);
+  support::Random random(seed);
   std::vector<Drawn> drawn;
   for (std::vector<std::size_t>& some : blocks) draw(std::move(some), random, drawn);
   std::stable_sort(drawn.begin(), drawn.end(), [](const Drawn& a, const Drawn& b) { return a.key < b.key; });
@@ -90,4 +90,4 @@ std::vector<Phase> phases_of(std::span<const Step> steps, std::span<const double
   return phases;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workload

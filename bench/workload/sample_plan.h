@@ -11,7 +11,7 @@
 
 #include "bench/workload/steps.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workload {
 
 /// Of a block: where its nearest step is. `near` is within 2 % of the mesh's diagonal of touching.
 enum class Phase : std::uint8_t { contact, near, free };
@@ -49,4 +49,4 @@ std::vector<std::size_t> telling_steps(std::size_t total);
 std::vector<Phase> phases_of(std::span<const Step> steps, std::span<const double> telling_distances,
                              double diagonal);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workload

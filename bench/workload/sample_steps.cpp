@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace touchmark::bench {
+namespace touchmark::bench::workload {
 namespace {
 
 /// Long enough for a session to profit from coherence, short enough to see several parts of the way.
@@ -54,4 +54,4 @@ std::size_t steps_in(const std::vector<StepRange>& ranges) noexcept {
   return steps;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workload

@@ -7,7 +7,7 @@
 
 #include "bench/workload/steps.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workload {
 
 /// Disjoint ranges, ascending, of about `wanted` steps in all (at least 1; all `total` if wanted >= total).
 std::vector<StepRange> sample_steps(std::size_t total, std::size_t wanted);
@@ -20,4 +20,4 @@ std::vector<StepRange> split(StepRange range, std::size_t parts);
 
 std::size_t steps_in(const std::vector<StepRange>& ranges) noexcept;
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workload

@@ -7,7 +7,7 @@
 #include "bench/workload/answer.h"
 #include "core/probe.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workload {
 
 /// One servo tick's question. A sweep goes from the previous step's centre to this one's; the first step's
 /// stands still.
@@ -29,4 +29,4 @@ struct QueryTrace {
   std::span<const Step> steps;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workload

@@ -24,7 +24,7 @@
 namespace touchmark {
 namespace {
 
-using bench::mesh_of;
+using bench::experiments::stress::mesh_of;
 
 constexpr double unit_roundoff = 0x1p-53;
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -37,7 +37,7 @@ double error_in_roundings(const CornerCase& c) {
   Work work;
   const std::optional<Contact> contact =
       EveryTriangle{{&triangle, 1}, bounds, {}}.nearest(c.point, infinity, work);
-  const bench::ExactNearest exact = bench::nearest_exactly(c.point, {&c.triangle, 1});
+  const bench::oracle::ExactNearest exact = bench::oracle::nearest_exactly(c.point, {&c.triangle, 1});
   const double unit = unit_roundoff * c.largest_difference();
   if (!contact || !(unit > 0)) return 0;
   return std::abs((contact->distance - exact.high) - exact.low) / unit;
@@ -102,7 +102,7 @@ TEST(NearTies, NameTheFirstOfTheExactlyNearest) {
   CornerCases cases(52);
   for (int i = 0; i < 4000; ++i) {
     const NearTie tie = near_tie(cases);
-    const bench::GroundTruth truth = bench::Oracle(tie.mesh, 1).solve(tie.center);
+    const bench::oracle::GroundTruth truth = bench::oracle::Oracle(tie.mesh, 1).solve(tie.center);
     const auto ask = [&](const auto& detector) {
       typename std::decay_t<decltype(detector)>::Session session;
       return detector.nearest({tie.center, 0}, infinity, session);

@@ -36,11 +36,11 @@ struct Scene {
 std::vector<Scene> scenes() {
   std::vector<Scene> all;
   for (const NamedMesh& named : corner_case_meshes()) {
-    const bench::Oracle oracle(named.mesh);
+    const bench::oracle::Oracle oracle(named.mesh);
     CornerCases cases(90);
     Scene scene{named.name, named.mesh, {}, {}};
     for (const Vec3& point : corner_case_points(named.mesh, cases, 30)) {
-      const bench::GroundTruth truth = oracle.solve(point);
+      const bench::oracle::GroundTruth truth = oracle.solve(point);
       if (!truth.defined || std::isinf(truth.high)) continue;
       for (const double radius : {truth.high, std::nextafter(truth.high, 0.0),
                                   std::nextafter(truth.high, infinity), 2 * truth.high}) {

@@ -17,10 +17,10 @@
 namespace touchmark::fuzz {
 namespace {
 
-using bench::Answer;
-using bench::GroundTruth;
-using bench::Query;
-using bench::Step;
+using bench::oracle::GroundTruth;
+using bench::workload::Answer;
+using bench::workload::Query;
+using bench::workload::Step;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -47,7 +47,7 @@ double read_length(Script& script, double distance) {
 /// One way through one mesh, with what is asked at each step and the truth there.
 struct QueryTrace {
   TriangleMesh mesh;
-  bench::Oracle oracle;
+  bench::oracle::Oracle oracle;
   std::vector<Step> steps;
   std::vector<GroundTruth> truths;
 
@@ -62,7 +62,8 @@ struct QueryTrace {
   }
 };
 
-std::vector<Answer> ask(bench::Contestant& detector, Query query, const std::vector<Step>& steps) {
+std::vector<Answer> ask(bench::contestants::Contestant& detector, Query query,
+                        const std::vector<Step>& steps) {
   std::vector<Answer> answers(steps.size());
   std::vector<std::uint64_t> work(steps.size());
   detector.answer({query, steps}, {0, steps.size()}, answers, work);
@@ -76,16 +77,18 @@ const char* name_of(Query query) {
 void judge(const QueryTrace& trace, Query query, std::size_t step, const Answer& answer,
            const Accuracy& accuracy) {
   const Probe& probe = trace.steps[step].probe;
-  bench::ErrorCounts counts;
+  bench::oracle::ErrorCounts counts;
   if (query == Query::sweep) {
     const std::vector<Sweep> sweep = {
         {trace.steps[step > 0 ? step - 1 : 0].probe.center, probe.center, probe.radius}};
-    counts = bench::judge(trace.oracle, trace.oracle.solve(sweep), sweep, std::span(&answer, 1), accuracy);
+    counts =
+        bench::oracle::judge(trace.oracle, trace.oracle.solve(sweep), sweep, std::span(&answer, 1), accuracy);
   } else {
-    counts = bench::judge(trace.oracle, std::span(&trace.truths[step], 1), query, std::span(&probe, 1),
-                          trace.steps[step].reach, std::span(&answer, 1), accuracy);
+    counts =
+        bench::oracle::judge(trace.oracle, std::span(&trace.truths[step], 1), query, std::span(&probe, 1),
+                             trace.steps[step].reach, std::span(&answer, 1), accuracy);
   }
-  if (bench::meets_guarantee(counts, accuracy)) return;
+  if (bench::oracle::meets_guarantee(counts, accuracy)) return;
   fail(std::string("brute force, ") + name_of(query) + " at step " + std::to_string(step) + ": " +
        std::to_string(counts.missed) + " missed, " + std::to_string(counts.false_contacts) + " false, " +
        std::to_string(counts.wrong_triangle) + " wrong triangle, " + std::to_string(counts.beyond_bound) +
@@ -95,7 +98,7 @@ void judge(const QueryTrace& trace, Query query, std::size_t step, const Answer&
 
 void examine(const QueryTrace& trace) {
   const std::vector<ExactForm> forms = exact_forms(trace.mesh);
-  bench::Contestant& reference = *forms.front().detector;
+  bench::contestants::Contestant& reference = *forms.front().detector;
   for (const Query query : {Query::nearest, Query::touches, Query::sweep}) {
     const std::vector<Answer> expected = ask(reference, query, trace.steps);
     for (std::size_t i = 0; i < expected.size(); ++i)

@@ -19,7 +19,7 @@
 #include "core/sphere_cluster/sphere_cluster.h"
 #include "core/subdivision/mesh_measures.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 namespace {
 
 /// object.position in the paper's volume: the origin, unless the mesh lies elsewhere.
@@ -45,9 +45,9 @@ Vec3 face_normal(const TriangleMesh& mesh, std::uint32_t triangle) {
 
 /// How creased the surface looks. Smooth ones halve it with every level, flat facets stay creased.
 double crease_deg(const TriangleMesh& mesh) {
-  const WeldedMesh welded(mesh);
+  const scenes::WeldedMesh welded(mesh);
   double sum = 0, length = 0;
-  welded.each_edge([&](std::span<const TriangleSide> sides) {
+  welded.each_edge([&](std::span<const scenes::TriangleSide> sides) {
     if (sides.size() != 2) return;
     const Vec3 a = face_normal(mesh, sides[0].triangle), b = face_normal(mesh, sides[1].triangle);
     const double angle = std::atan2(a.cross(b).norm(), a.dot(b));
@@ -73,7 +73,7 @@ class Experiment {
         sink_(sink),
         print_progress_(print_progress),
         trace_(paper_trace("slide", original, settings.steps, settings.seed, settings.radius)),
-        timing_(trace_, Query::nearest, settings.seed) {}
+        timing_(trace_, workload::Query::nearest, settings.seed) {}
 
   ChoiSungResult run() {
     try {
@@ -86,7 +86,7 @@ class Experiment {
         print_progress_(fmt::format("timing, round {} of {}", round + 1, settings_.effort.rounds));
       });
       result_.finished = true;
-    } catch (const Interrupted&) {
+    } catch (const support::Interrupted&) {
     }
     for (std::size_t i = 0; i < result_.rows.size(); ++i) fill_times(result_.rows[i], numbers_[i]);
     return std::move(result_);
@@ -95,7 +95,7 @@ class Experiment {
  private:
   void measure_surface(std::string_view method, int level, const TriangleMesh& mesh) {
     print_progress_(fmt::format("{} level {}: {} triangles", method, level, mesh.size()));
-    require_memory_for_triangles(mesh.size(), least_bytes_per_triangle);
+    support::require_memory_for_triangles(mesh.size(), support::least_bytes_per_triangle);
     SurfaceMeasures surface{std::string(method), level, mesh.size(), mean_triangle_area(mesh)};
     const double volume = absolute_volume(mesh, volume_center(original_));
     if (level == 0) original_volume_ = volume;
@@ -116,12 +116,12 @@ class Experiment {
     row.relative_tightness = original_tightness_ > 0 ? row.tightness / original_tightness_ : 1;
     Numbers numbers;
     const auto spheres = [&](Lookup lookup) {
-      return timing_.add(contestant<SphereCluster>(
+      return timing_.add(contestants::contestant<SphereCluster>(
           mesh, {.clustering = clustering, .lookup = lookup, .order = settings_.order}));
     };
     numbers.scan = spheres(Lookup::scan);
     numbers.tree = spheres(Lookup::tree);
-    if (clustering == 0) numbers.grid = timing_.add(contestant<GridGroup>(mesh, {}));
+    if (clustering == 0) numbers.grid = timing_.add(contestants::contestant<GridGroup>(mesh, {}));
     check_answers(numbers);
     result_.rows.push_back(std::move(row));
     numbers_.push_back(numbers);
@@ -144,7 +144,7 @@ class Experiment {
   const ChoiSungSettings& settings_;
   const SurfaceSink& sink_;
   const PrintProgress& print_progress_;
-  std::vector<Step> trace_;
+  std::vector<workload::Step> trace_;
   InterleavedTiming timing_;
   ChoiSungResult result_;
   std::vector<Numbers> numbers_;  // one a row
@@ -174,4 +174,4 @@ const ChoiSungRow* find_row(const ChoiSungResult& result, SubdivisionMethod meth
   return found == result.rows.end() ? nullptr : &*found;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

@@ -14,7 +14,7 @@
 #include "core/sphere_cluster/clustering.h"
 #include "core/subdivision/subdivision.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 
 /// In the paper's order, each as its tool applied it.
 inline constexpr std::array<SubdivisionMethod, 5> choi_sung_methods{
@@ -85,4 +85,4 @@ ChoiSungResult run_choi_sung(const TriangleMesh& original, const ChoiSungSetting
 const ChoiSungRow* find_row(const ChoiSungResult& result, SubdivisionMethod method, int level,
                             bool clustered);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

@@ -11,7 +11,7 @@
 #include "bench/experiments/papers/choi_sung_report.h"
 #include "bench/experiments/papers/choi_sung_scores.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 namespace {
 
 namespace printed = choi_sung_printed;
@@ -285,4 +285,4 @@ std::vector<Claim> choi_sung_claims(const ChoiSungResult& result, bool own_mesh)
   return Claims(result, own_mesh).all();
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

@@ -9,7 +9,7 @@
 #include "bench/experiments/papers/frontier.h"
 #include "bench/experiments/papers/table.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 
 /// Table 1 in full, with what it leaves out: one row a surface, without and with clustering.
 Table choi_sung_table1(const ChoiSungResult& result);
@@ -31,4 +31,4 @@ std::vector<Claim> choi_sung_tool_counts(const ChoiSungResult& result, bool own_
 std::string choi_sung_report(const PaperMesh& mesh, const ChoiSungSettings& settings,
                              const ChoiSungResult& result, const FrontierResult& frontier);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

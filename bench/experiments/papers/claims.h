@@ -6,7 +6,7 @@
 
 #include "bench/experiments/papers/table.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 
 /// How a number agrees with the printed one.
 enum class Agreement { yes, nearly, no, not_printed };
@@ -35,4 +35,4 @@ std::string claims_markdown(const std::vector<Claim>& claims);
 /// "23 of 40 agree, 5 nearly, 12 do not".
 std::string summary(const std::vector<Claim>& claims);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

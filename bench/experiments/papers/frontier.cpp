@@ -13,7 +13,7 @@
 #include "core/grid_group/grid_group.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 namespace {
 
 // Farther than any sphere about a triangle reaches.
@@ -29,7 +29,7 @@ class Exploration {
         settings_(settings),
         print_progress_(print_progress),
         trace_(paper_trace("slide", original, settings.steps, settings.seed, settings.radius)),
-        timing_(trace_, Query::nearest, settings.seed) {}
+        timing_(trace_, workload::Query::nearest, settings.seed) {}
 
   FrontierResult run() {
     try {
@@ -42,7 +42,7 @@ class Exploration {
         print_progress_(fmt::format("frontier: timing, round {} of {}", round + 1, settings_.effort.rounds));
       });
       result_.finished = true;
-    } catch (const Interrupted&) {
+    } catch (const support::Interrupted&) {
     }
     for (std::size_t i = 0; i < result_.points.size(); ++i) {
       const TimedTurns timed = timing_.timed(i);
@@ -110,14 +110,14 @@ class Exploration {
 
   template <class D>
   void add(const FrontierPoint& point, D detector) {
-    timing_.add(std::make_unique<ContestantOf<D>>(std::move(detector)));
+    timing_.add(std::make_unique<contestants::ContestantOf<D>>(std::move(detector)));
     result_.points.push_back(point);
   }
 
   const TriangleMesh& original_;
   const FrontierSettings& settings_;
   const PrintProgress& print_progress_;
-  std::vector<Step> trace_;
+  std::vector<workload::Step> trace_;
   InterleavedTiming timing_;
   std::optional<ReferenceSurface> reference_;
   FrontierResult result_;  // point i is the timing's detector i
@@ -161,4 +161,4 @@ Table frontier_table(const FrontierResult& result, double diagonal) {
   return table;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

@@ -15,7 +15,7 @@
 #include "bench/experiments/papers/interleaved_timing.h"
 #include "bench/experiments/papers/table.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 
 struct FrontierSettings {
   std::vector<SubdivisionMethod> methods{choi_sung_methods.begin(), choi_sung_methods.end()};
@@ -63,4 +63,4 @@ void mark_best(std::vector<FrontierPoint>& points, const std::function<bool(cons
 /// `diagonal`: of the original mesh, for errors in percent of it.
 Table frontier_table(const FrontierResult& result, double diagonal);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

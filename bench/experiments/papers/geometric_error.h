@@ -11,7 +11,7 @@
 #include "core/sphere_cluster/sphere_cluster.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 
 /// The error at a probe's centre is |distance answered - distance to the reference surface|: by how much a
 /// contact of a ball comes too early or too late.
@@ -49,4 +49,4 @@ class ReferenceSurface {
   std::vector<double> distances_;  ///< of the centres to the reference
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

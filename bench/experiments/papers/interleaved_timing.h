@@ -13,7 +13,7 @@
 #include "bench/contestants/contestant.h"
 #include "bench/contestants/tick_clock.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 
 struct TimingEffort {
   std::size_t rounds = 5;
@@ -34,10 +34,10 @@ struct TimedTurns {
 class InterleavedTiming {
  public:
   /// The steps must outlive it and be at least one.
-  InterleavedTiming(std::span<const Step> steps, Query query, std::uint64_t seed);
+  InterleavedTiming(std::span<const workload::Step> steps, workload::Query query, std::uint64_t seed);
 
   /// Takes the detector in and answers the trace once, untimed. The number by which timed() knows it.
-  std::size_t add(std::unique_ptr<Contestant> contestant);
+  std::size_t add(std::unique_ptr<contestants::Contestant> contestant);
 
   /// May throw Interrupted; the finished turns count nevertheless. `progress` is called before each turn with
   /// the round, from 0, and the detector's number.
@@ -48,7 +48,7 @@ class InterleavedTiming {
 
  private:
   struct Entry {
-    std::unique_ptr<Contestant> contestant;
+    std::unique_ptr<contestants::Contestant> contestant;
     TimedTurns timed;
     std::int64_t passes = 0;                   ///< in a turn; 0: not known yet
     std::vector<double> turn_ns;               ///< per query, one a round
@@ -58,10 +58,10 @@ class InterleavedTiming {
   void turn(Entry& entry, double min_turn_ns) const;
   void clock_steps(Entry& entry) const;
 
-  QueryTrace trace_;
-  ClockCalibration clock_ = calibrate_clock();
+  workload::QueryTrace trace_;
+  contestants::ClockCalibration clock_ = contestants::calibrate_clock();
   std::uint64_t seed_;
   std::vector<Entry> entries_;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

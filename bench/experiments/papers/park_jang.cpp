@@ -14,7 +14,7 @@
 #include "core/brute_force/brute_force.h"
 #include "core/grid_group/grid_group.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 namespace {
 
 /// One mesh: the ungrouped form, the published ones at every count, the fast one.
@@ -26,16 +26,16 @@ class MeshExperiment {
         print_progress_(print_progress),
         trace_(paper_trace("slide", mesh.mesh, settings.steps, settings.seed,
                            settings.radius.in_mesh_units(mesh.mesh))),
-        timing_(trace_, Query::nearest, settings.seed) {}
+        timing_(trace_, workload::Query::nearest, settings.seed) {}
 
   /// Throws Interrupted; the rows so far can be taken nevertheless.
   void run() {
-    require_memory_for_triangles(mesh_.mesh.size(), least_bytes_per_triangle);
-    add("ungrouped", 0, 0, contestant<BruteForce>(mesh_.mesh, {}));
+    support::require_memory_for_triangles(mesh_.mesh.size(), support::least_bytes_per_triangle);
+    add("ungrouped", 0, 0, contestants::contestant<BruteForce>(mesh_.mesh, {}));
     for (const auto shape : {GridGroup::Shape::cube, GridGroup::Shape::sphere}) add_counts(shape);
     GridGroup direct = GridGroup::build(mesh_.mesh);
     const double cell = direct.cell();
-    add("direct", cell, 0, std::make_unique<ContestantOf<GridGroup>>(std::move(direct)));
+    add("direct", cell, 0, std::make_unique<contestants::ContestantOf<GridGroup>>(std::move(direct)));
     timing_.run(settings_.effort, [this](std::size_t round, std::size_t detector) {
       print_progress_(fmt::format("{}, round {} of {}: {} {}", mesh_.name, round + 1, settings_.effort.rounds,
                                   rows_[detector].form, rows_[detector].groups));
@@ -66,11 +66,12 @@ class MeshExperiment {
       last = detector.groups();
       const double cell = detector.cell();
       add(shape == GridGroup::Shape::cube ? "cube" : "sphere", cell, last,
-          std::make_unique<ContestantOf<GridGroup>>(std::move(detector)));
+          std::make_unique<contestants::ContestantOf<GridGroup>>(std::move(detector)));
     }
   }
 
-  void add(const char* form, double cell, std::size_t groups, std::unique_ptr<Contestant> detector) {
+  void add(const char* form, double cell, std::size_t groups,
+           std::unique_ptr<contestants::Contestant> detector) {
     timing_.add(std::move(detector));
     rows_.push_back({mesh_.name, mesh_.mesh.size(), form, cell, groups, std::nullopt});
   }
@@ -78,7 +79,7 @@ class MeshExperiment {
   const PaperMesh& mesh_;
   const ParkJangSettings& settings_;
   const PrintProgress& print_progress_;
-  std::vector<Step> trace_;
+  std::vector<workload::Step> trace_;
   InterleavedTiming timing_;
   std::vector<ParkJangRow> rows_;  // row i is the timing's detector i
 };
@@ -102,7 +103,7 @@ ParkJangResult run_park_jang(const std::vector<PaperMesh>& meshes, const ParkJan
     bool interrupted = false;
     try {
       experiment.run();
-    } catch (const Interrupted&) {
+    } catch (const support::Interrupted&) {
       interrupted = true;
     }
     const std::vector<ParkJangRow> rows = experiment.rows();
@@ -141,4 +142,4 @@ std::vector<ParkJangBest> park_jang_best(const ParkJangResult& result) {
   return all;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

@@ -16,7 +16,7 @@
 #include "bench/experiments/papers/paper_meshes.h"
 #include "bench/support/length.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 
 /// In the paper: the groups of Figs 5 and 6, and from where on the time rises again in Fig. 7.
 inline constexpr std::size_t park_jang_cubes = 379, park_jang_spheres = 2115, park_jang_turn = 783;
@@ -25,7 +25,7 @@ struct ParkJangSettings {
   std::vector<std::size_t> groups;  ///< that are aimed at
   std::size_t steps = 200;
   std::uint64_t seed = 1;
-  Length radius;  ///< of the probe
+  support::Length radius;  ///< of the probe
   TimingEffort effort;
 };
 /// One group to `most`, the paper's counts among them.
@@ -71,4 +71,4 @@ Table park_jang_best_table(const ParkJangResult& result);
 std::string park_jang_report(const std::vector<PaperMesh>& meshes, const ParkJangSettings& settings,
                              const ParkJangResult& result);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

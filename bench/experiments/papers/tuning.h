@@ -6,7 +6,7 @@
 
 #include "bench/experiments/papers/frontier.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 
 struct Tuned {
   std::optional<FrontierPoint> published;  ///< of the scans and the fast level
@@ -22,4 +22,4 @@ Tuned tune(const FrontierResult& result, double rate);
 /// As --detector takes it.
 std::string detector_of(const FrontierPoint& point);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

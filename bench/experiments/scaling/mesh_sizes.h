@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::scaling {
 
 /// "1k,30k,1.5M": whole numbers of triangles, at least two different ones. Throws std::invalid_argument.
 std::vector<std::uint64_t> parse_sizes(const std::string& text);
@@ -23,4 +23,4 @@ bool comes_in_sizes(const std::string& family);
 /// for a mesh that has none.
 std::string family_of(const std::string& mesh);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::scaling

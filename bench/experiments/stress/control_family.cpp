@@ -8,7 +8,7 @@
 #include "bench/experiments/stress/questions.h"
 #include "bench/scenes/generated_scenes.h"
 
-namespace touchmark::bench::stress {
+namespace touchmark::bench::experiments::stress {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -36,25 +36,25 @@ Vec3 somewhere(CornerCases& random, const TriangleMesh& mesh) {
     return mesh.bounds().center() + 0.6 * random.vector().cwiseProduct(mesh.bounds().extent());
   const std::size_t i = random.below(mesh.size());
   const double a = random.fraction(), b = random.fraction();
-  const Vec3 on = point_in_triangle(mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2), a, b);
+  const Vec3 on = support::point_in_triangle(mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2), a, b);
   return on + 0.01 * mesh.diagonal() * random.vector();
 }
 
 }  // namespace
 
-std::vector<Workload> control_family(std::uint64_t seed, std::size_t probes) {
+std::vector<workload::Workload> control_family(std::uint64_t seed, std::size_t probes) {
   CornerCases random(seed);
   std::vector<NamedMesh> meshes;
   const auto moved = [&](const TriangleMesh& mesh) {
     return mesh.transformed(random.magnitude(-1, 1), random.vector());
   };
-  meshes.push_back({"noisy-sphere", moved(noisy_sphere(some(random, 6, 100)))});
-  meshes.push_back({"torus", moved(torus(some(random, 3, 10), some(random, 3, 6)))});
+  meshes.push_back({"noisy-sphere", moved(scenes::noisy_sphere(some(random, 6, 100)))});
+  meshes.push_back({"torus", moved(scenes::torus(some(random, 3, 10), some(random, 3, 6)))});
   meshes.push_back({"scattered", scattered(random, some(random, 1, 100))});
   const std::size_t each = share_of(probes, meshes.size());
-  std::vector<Workload> workloads;
+  std::vector<workload::Workload> workloads;
   for (NamedMesh& mesh : meshes) {
-    std::vector<Step> trace;
+    std::vector<workload::Step> trace;
     for (std::size_t i = 0; i < each; ++i) {
       const double radius = random.magnitude(-4, -1) * mesh.mesh.diagonal();
       // As far as they reach, then without end.
@@ -65,4 +65,4 @@ std::vector<Workload> control_family(std::uint64_t seed, std::size_t probes) {
   return workloads;
 }
 
-}  // namespace touchmark::bench::stress
+}  // namespace touchmark::bench::experiments::stress

@@ -5,7 +5,7 @@
 
 #include "bench/experiments/stress/corner_cases.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::stress {
 
 std::vector<Vec3> corner_case_centers(const TriangleMesh& mesh, std::size_t count, std::uint64_t seed) {
   CornerCases cases(seed);
@@ -41,4 +41,4 @@ std::vector<Vec3> corner_case_centers(const TriangleMesh& mesh, std::size_t coun
   return centers;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::stress

@@ -13,10 +13,10 @@
 #include "bench/oracle/oracle.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::stress {
 
 /// The least radius with which the way hits, by halving between doubles.
-inline double min_radius(const Oracle& oracle, const Vec3& from, const Vec3& to) {
+inline double min_radius(const oracle::Oracle& oracle, const Vec3& from, const Vec3& to) {
   double high = oracle.solve(from).high;
   if (!std::isfinite(high) || !oracle.segment_within(from, to, high))
     high = std::nextafter(high, std::numeric_limits<double>::infinity());
@@ -48,8 +48,8 @@ class CornerCaseSweeps {
   CornerCaseSweeps(const TriangleMesh& mesh, std::uint64_t seed)
       : mesh_(mesh), oracle_(mesh, 1), cases_(seed) {}
 
-  std::vector<Step> trace(std::size_t sweeps) {
-    std::vector<Step> steps;
+  std::vector<workload::Step> trace(std::size_t sweeps) {
+    std::vector<workload::Step> steps;
     while (steps.size() < sweeps) add(steps);
     return steps;
   }
@@ -65,13 +65,13 @@ class CornerCaseSweeps {
       case 1:
         return a + cases_.fraction() * (b - a);
       default:
-        return point_in_triangle(a, b, c, cases_.fraction(), cases_.fraction());
+        return support::point_in_triangle(a, b, c, cases_.fraction(), cases_.fraction());
     }
   }
   double size() const { return mesh_.diagonal(); }
   Vec3 aside(double low, double high) { return cases_.magnitude(low, high) * size() * cases_.vector(); }
 
-  void add(std::vector<Step>& steps) {
+  void add(std::vector<workload::Step>& steps) {
     const Vec3 center = on_a_triangle() + aside(-6, 0.5);
     Vec3 from = center, to = center;
     switch (cases_.below(6)) {
@@ -120,8 +120,8 @@ class CornerCaseSweeps {
   }
 
   const TriangleMesh& mesh_;
-  Oracle oracle_;
+  oracle::Oracle oracle_;
   CornerCases cases_;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::stress

@@ -14,12 +14,12 @@
 #include "core/probe.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::stress {
 
-class CornerCases : public Random {
+class CornerCases : public support::Random {
  public:
   using Corners = std::array<Vec3, 3>;
-  using Random::Random;
+  using support::Random::Random;
 
   /// In [0, 1).
   double fraction() { return unit(); }
@@ -80,7 +80,7 @@ class CornerCases : public Random {
         break;
     }
     const std::size_t first = below(3);
-    const Vec3 on = point_in_triangle(t[first], t[(first + 1) % 3], t[(first + 2) % 3], a, b);
+    const Vec3 on = support::point_in_triangle(t[first], t[(first + 1) % 3], t[(first + 2) % 3], a, b);
     switch (below(4)) {
       case 0:
         return on;
@@ -102,7 +102,7 @@ class CornerCases : public Random {
     const double length = normal.norm();
     if (!(length > 0)) return point_near(t);
     const double a = fraction(), b = below(3) == 0 ? 0 : fraction();
-    return point_in_triangle(t[0], t[1], t[2], a, b) + (magnitude(-17, 1) / length) * normal;
+    return support::point_in_triangle(t[0], t[1], t[2], a, b) + (magnitude(-17, 1) / length) * normal;
   }
 
   Corners shuffled(Corners t) {
@@ -128,4 +128,4 @@ inline TriangleMesh mesh_of(const std::vector<CornerCases::Corners>& triangles,
   return {std::move(vertices), std::move(corners), std::move(ids)};
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::stress

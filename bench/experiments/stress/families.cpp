@@ -7,7 +7,7 @@
 #include "bench/experiments/stress/makers.h"
 #include "bench/support/did_you_mean.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::stress {
 namespace {
 
 constexpr bool at_the_edge = true;  // of contact: Family::adversarial
@@ -75,7 +75,7 @@ const Family& family_named(std::string_view name) {
     names.emplace_back(family.name);
   }
   throw std::invalid_argument(
-      fmt::format("unknown family \"{}\"; the nearest names: {}", name, near_names(name, names)));
+      fmt::format("unknown family \"{}\"; the nearest names: {}", name, support::near_names(name, names)));
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::stress

@@ -5,7 +5,7 @@
 #include "bench/experiments/stress/questions.h"
 #include "bench/scenes/generated_scenes.h"
 
-namespace touchmark::bench::stress {
+namespace touchmark::bench::experiments::stress {
 namespace {
 
 constexpr std::size_t triangles_of_a_soup = 200;
@@ -36,27 +36,27 @@ TriangleMesh with(const TriangleMesh& mesh, std::vector<CornerCases::Corners> mo
 
 }  // namespace
 
-std::vector<Workload> needles(std::uint64_t seed, std::size_t probes) {
+std::vector<workload::Workload> needles(std::uint64_t seed, std::size_t probes) {
   CornerCases cases(seed);
   TriangleMesh random = soup_of([&] {
     const Vec3 a = cases.vector(), b = a + unit_vector(cases);
     return cases.shuffled({a, b, b + cases.magnitude(thinnest, thickest) * cases.vector()});
   });
-  return corner_case_questions({{"needles", bench::needles()}, {"random needles", std::move(random)}}, seed,
+  return corner_case_questions({{"needles", scenes::needles()}, {"random needles", std::move(random)}}, seed,
                                probes);
 }
 
-std::vector<Workload> caps(std::uint64_t seed, std::size_t probes) {
+std::vector<workload::Workload> caps(std::uint64_t seed, std::size_t probes) {
   CornerCases cases(seed);
   TriangleMesh random = soup_of([&] {
     const Vec3 a = cases.vector(), direction = unit_vector(cases);
     const Vec3 foot = a + cases.between(0.2, 0.8) * direction;
     return cases.shuffled({a, a + direction, foot + cases.magnitude(thinnest, thickest) * cases.vector()});
   });
-  return corner_case_questions({{"caps", bench::caps()}, {"random caps", std::move(random)}}, seed, probes);
+  return corner_case_questions({{"caps", scenes::caps()}, {"random caps", std::move(random)}}, seed, probes);
 }
 
-std::vector<Workload> degenerate(std::uint64_t seed, std::size_t probes) {
+std::vector<workload::Workload> degenerate(std::uint64_t seed, std::size_t probes) {
   CornerCases cases(seed);
   TriangleMesh random = soup_of([&] {
     switch (cases.below(4)) {
@@ -71,22 +71,23 @@ std::vector<Workload> degenerate(std::uint64_t seed, std::size_t probes) {
     }
   });
   return corner_case_questions(
-      {{"degenerate", bench::degenerate()}, {"random degenerate", std::move(random)}}, seed, probes);
+      {{"degenerate", scenes::degenerate()}, {"random degenerate", std::move(random)}}, seed, probes);
 }
 
-std::vector<Workload> spanning_triangle(std::uint64_t seed, std::size_t probes) {
+std::vector<workload::Workload> spanning_triangle(std::uint64_t seed, std::size_t probes) {
   CornerCases cases(seed);
   const Vec3 tilt = 0.25 * cases.vector();
   TriangleMesh across = with(
-      soup(triangles_of_a_soup),
+      scenes::soup(triangles_of_a_soup),
       {{Vec3(-0.5, -0.5, 0.5 + tilt.x()), Vec3(2, -0.5, 0.5 + tilt.y()), Vec3(-0.5, 2, 0.5 + tilt.z())}});
-  TriangleMesh around = with(icosphere(1), {{Vec3(-2, -2, -1), Vec3(2, -2, 1), Vec3(0, 3, tilt.x())}});
+  TriangleMesh around =
+      with(scenes::icosphere(1), {{Vec3(-2, -2, -1), Vec3(2, -2, 1), Vec3(0, 3, tilt.x())}});
   return corner_case_questions(
       {{"soup and one across", std::move(across)}, {"sphere and one across", std::move(around)}}, seed,
       probes);
 }
 
-std::vector<Workload> one_cell(std::uint64_t seed, std::size_t probes) {
+std::vector<workload::Workload> one_cell(std::uint64_t seed, std::size_t probes) {
   CornerCases cases(seed);
   std::vector<NamedMesh> meshes;
   for (const double size : {1e-4, 1e-8}) {
@@ -107,17 +108,17 @@ std::vector<Workload> one_cell(std::uint64_t seed, std::size_t probes) {
   return corner_case_questions(std::move(meshes), seed, probes);
 }
 
-std::vector<Workload> single_triangle(std::uint64_t seed, std::size_t probes) {
+std::vector<workload::Workload> single_triangle(std::uint64_t seed, std::size_t probes) {
   CornerCases cases(seed);
-  return corner_case_questions({{"single-triangle", bench::single_triangle()},
+  return corner_case_questions({{"single-triangle", scenes::single_triangle()},
                                 {"plain", mesh_of({cases.plain()})},
                                 {"needle", mesh_of({cases.needle()})},
                                 {"point", mesh_of({cases.coincident()})}},
                                seed, probes);
 }
 
-std::vector<Workload> empty_mesh(std::uint64_t, std::size_t) {
+std::vector<workload::Workload> empty_mesh(std::uint64_t, std::size_t) {
   return {workload_on({"empty", TriangleMesh({}, {})}, "any", {asked(Vec3::Zero(), 1)})};
 }
 
-}  // namespace touchmark::bench::stress
+}  // namespace touchmark::bench::experiments::stress

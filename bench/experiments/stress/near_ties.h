@@ -11,7 +11,7 @@
 #include "bench/experiments/stress/corner_cases.h"
 #include "bench/oracle/oracle.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::stress {
 
 /// Triangles and their images turned about the diagonal x = y = z, exactly as far from each point of it: the
 /// coordinates of the one are those of the other in turn, so that their squares are added in another order.
@@ -44,7 +44,7 @@ inline Vec3 on_the_diagonal(CornerCases& cases) {
 /// On the way from one point to another where another triangle becomes the nearest, to the last bit: beside
 /// the bisector of two triangles, or over the border between the corner, the edge and the face of one. The
 /// end where none does.
-inline Vec3 where_the_nearest_changes(const Oracle& oracle, Vec3 from, Vec3 to) {
+inline Vec3 where_the_nearest_changes(const oracle::Oracle& oracle, Vec3 from, Vec3 to) {
   const std::uint32_t first = oracle.solve(from).triangle;
   for (;;) {
     const Vec3 middle = 0.5 * from + 0.5 * to;
@@ -64,4 +64,4 @@ inline std::vector<Vec3> with_neighbors(const Vec3& position, CornerCases& cases
   return positions;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::stress

@@ -13,7 +13,7 @@
 #include "bench/experiments/stress/questions.h"
 #include "bench/scenes/generated_scenes.h"
 
-namespace touchmark::bench::stress {
+namespace touchmark::bench::experiments::stress {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -91,14 +91,14 @@ Vec3 center_at_a_double(CornerCases& cases) {
 
 }  // namespace
 
-std::vector<Workload> radius_zero(std::uint64_t seed, std::size_t probes) {
+std::vector<workload::Workload> radius_zero(std::uint64_t seed, std::size_t probes) {
   CornerCases cases(seed);
-  std::vector<Workload> workloads;
+  std::vector<workload::Workload> workloads;
   std::vector<NamedMesh> meshes;
   meshes.push_back({"lattice triangles", lattice_triangles(cases, 60)});
-  meshes.push_back({"cube", cube()});
+  meshes.push_back({"cube", scenes::cube()});
   for (NamedMesh& mesh : meshes) {
-    std::vector<Step> trace;
+    std::vector<workload::Step> trace;
     while (trace.size() < share_of(probes, meshes.size())) {
       const Vec3 on = point_on(mesh.mesh, cases);
       trace.push_back(asked(on, 0));
@@ -109,7 +109,7 @@ std::vector<Workload> radius_zero(std::uint64_t seed, std::size_t probes) {
   return workloads;
 }
 
-std::vector<Workload> ties(std::uint64_t seed, std::size_t probes) {
+std::vector<workload::Workload> ties(std::uint64_t seed, std::size_t probes) {
   CornerCases cases(seed);
   const std::size_t centers_each = share_of(probes, 9);
   const auto half = [&] { return (static_cast<double>(cases.below(65)) - 32) / 64; };
@@ -119,19 +119,19 @@ std::vector<Workload> ties(std::uint64_t seed, std::size_t probes) {
     in_cube.push_back(cases.below(2) == 0 ? Vec3(t, t, u) : Vec3(t, -t, t));
   }
   while (in_plane.size() < centers_each) in_plane.emplace_back(6 * half(), 6 * half(), 0);
-  on_doubled = corner_case_centers(doubled(), centers_each, seed);
+  on_doubled = corner_case_centers(scenes::doubled(), centers_each, seed);
   on_doubled.resize(centers_each);
 
   TriangleMesh mirror = mirrored(lattice_triangles(cases, 60));
-  std::vector<Step> of_cube = at_the_exact_distance(cube(), in_cube);
-  std::vector<Step> of_mirror = at_the_exact_distance(mirror, in_plane);
-  std::vector<Step> of_doubled = at_the_exact_distance(doubled(), on_doubled);
-  return {workload_on({"cube", cube()}, "centre and diagonal planes", std::move(of_cube)),
+  std::vector<workload::Step> of_cube = at_the_exact_distance(scenes::cube(), in_cube);
+  std::vector<workload::Step> of_mirror = at_the_exact_distance(mirror, in_plane);
+  std::vector<workload::Step> of_doubled = at_the_exact_distance(scenes::doubled(), on_doubled);
+  return {workload_on({"cube", scenes::cube()}, "centre and diagonal planes", std::move(of_cube)),
           workload_on({"mirror images", std::move(mirror)}, "in the mirror's plane", std::move(of_mirror)),
-          workload_on({"doubled", doubled()}, "hard centres", std::move(of_doubled))};
+          workload_on({"doubled", scenes::doubled()}, "hard centres", std::move(of_doubled))};
 }
 
-std::vector<Workload> cell_borders(std::uint64_t seed, std::size_t probes) {
+std::vector<workload::Workload> cell_borders(std::uint64_t seed, std::size_t probes) {
   CornerCases cases(seed);
   // The box is exactly the unit cube, so that k / n of it is where a grid of n cells has its borders.
   std::vector<CornerCases::Corners> triangles{{Vec3(0, 0, 0), Vec3(0.125, 0, 0), Vec3(0, 0.125, 0)},
@@ -159,19 +159,19 @@ std::vector<Workload> cell_borders(std::uint64_t seed, std::size_t probes) {
                                        : Vec3(0.01 * mesh.diagonal() * (100 * Vec3(x, y, z)).array().floor());
     centers.push_back(cases.below(2) == 0 ? on : nudged(on, cases));
   }
-  std::vector<Step> trace = at_the_exact_distance(mesh, centers);
+  std::vector<workload::Step> trace = at_the_exact_distance(mesh, centers);
   return {workload_on({"unit cube of triangles", std::move(mesh)}, "on borders and one ulp off",
                       std::move(trace))};
 }
 
-std::vector<Workload> tangent(std::uint64_t seed, std::size_t probes) {
+std::vector<workload::Workload> tangent(std::uint64_t seed, std::size_t probes) {
   CornerCases cases(seed);
   TriangleMesh mesh = floor_of_squares();
   std::vector<Vec3> centers;
   while (centers.size() < share_of(probes, 3)) centers.push_back(center_at_a_double(cases));
-  std::vector<Step> trace = at_the_exact_distance(mesh, centers);
+  std::vector<workload::Step> trace = at_the_exact_distance(mesh, centers);
   return {workload_on({"floor of squares", std::move(mesh)}, "tangent to face, edge and corner",
                       std::move(trace))};
 }
 
-}  // namespace touchmark::bench::stress
+}  // namespace touchmark::bench::experiments::stress

@@ -13,7 +13,7 @@
 #include "bench/experiments/stress/questions.h"
 #include "bench/oracle/oracle.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::stress {
 namespace {
 
 using Corners = CornerCases::Corners;
@@ -147,15 +147,15 @@ std::vector<Vec3> centers_about(const std::vector<Vec3>& given, double diagonal,
 
 }  // namespace
 
-std::vector<Workload> shared_features(std::uint64_t seed, std::size_t probes) {
+std::vector<workload::Workload> shared_features(std::uint64_t seed, std::size_t probes) {
   std::vector<SharedFeature> all = shared_feature_meshes(200);
   CornerCases cases(seed);
-  std::vector<Workload> workloads;
+  std::vector<workload::Workload> workloads;
   const std::size_t centers_each = share_of(probes, 4 * all.size());
   for (SharedFeature& shared : all) {
     shared.centers = centers_about(shared.centers, shared.mesh.diagonal(), centers_each, cases);
-    std::vector<Step> trace = at_the_exact_distance(shared.mesh, shared.centers);
-    const Oracle oracle(shared.mesh);
+    std::vector<workload::Step> trace = at_the_exact_distance(shared.mesh, shared.centers);
+    const oracle::Oracle oracle(shared.mesh);
     for (const Vec3& center : shared.centers) trace.push_back(asked(center, 2 * oracle.solve(center).high));
     workloads.push_back(workload_on({std::move(shared.name), std::move(shared.mesh)},
                                     "as near to all by a shared place", std::move(trace)));
@@ -164,4 +164,4 @@ std::vector<Workload> shared_features(std::uint64_t seed, std::size_t probes) {
 }
 
 }  // namespace stress
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::stress

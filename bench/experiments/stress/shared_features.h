@@ -8,7 +8,7 @@
 
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::stress {
 
 struct SharedFeature {
   std::string name;
@@ -19,4 +19,4 @@ struct SharedFeature {
 /// Of about so many triangles, at least 64. The same for the same number.
 std::vector<SharedFeature> shared_feature_meshes(std::size_t triangles);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::stress

@@ -6,9 +6,10 @@
 #include "bench/results/validation/fault.h"
 #include "bench/results/validation/results_check.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::stress {
 
 /// `run` is the run.json beside the file, if there is one.
-void check_stress(const CsvTable& table, const nlohmann::json* run, Faults& faults);
+void check_stress(const results::validation::CsvTable& table, const nlohmann::json* run,
+                  results::validation::Faults& faults);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::stress

@@ -11,13 +11,13 @@
 #include "bench/support/text_table.h"
 #include "bench/workload/query_name.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::stress {
 namespace {
 
 /// One contestant's scores of one family, whatever the query.
 struct Cell {
   Standing standing = Standing::clean;
-  ErrorCounts counts;
+  oracle::ErrorCounts counts;
 
   void add(const Score& score) {
     standing = std::max(standing, score.standing());
@@ -32,7 +32,7 @@ struct Cell {
       case Standing::refused:
         return "R";
       case Standing::inexact:
-        return fmt::format("~{}", counts.wrong_triangle + answers_off(counts));
+        return fmt::format("~{}", counts.wrong_triangle + measurement::answers_off(counts));
       case Standing::wrong:
         return fmt::format("{}", counts.missed + counts.false_contacts + counts.malformed);
       case Standing::timeout:
@@ -82,14 +82,14 @@ std::string stress_table(const std::vector<Score>& scores) {
   std::vector<std::string> header{"contestant"};
   for (std::size_t column = 0; column < shown.size(); ++column) header.push_back(letter(column));
   header.emplace_back("verdict");
-  TextTable table(header);
+  support::TextTable table(header);
   for (std::size_t row = 0; row < contestants.size(); ++row) {
     std::vector<std::string> line{contestants[row]};
     for (std::size_t column = 0; column < shown.size(); ++column) {
       const auto cell = cells.find({row, column});
       line.push_back(cell == cells.end() ? "" : cell->second.text());
     }
-    line.emplace_back(verdict_on(broken[row], judged[row]));
+    line.emplace_back(results::verdict_on(broken[row], judged[row]));
     table.add(line);
   }
   std::string text = table.text() + '\n';
@@ -98,17 +98,17 @@ std::string stress_table(const std::vector<Score>& scores) {
   text +=
       "N missed, made up or malformed, ~N otherwise off by more than declared, or, where nothing is "
       "declared, than " +
-      fmt::format("{:g}", physical_tolerance) +
+      fmt::format("{:g}", oracle::physical_tolerance) +
       " of the diagonal, . none, R refused, - unsupported, C crashed, T timeout\n";
   return text + sums(scores);
 }
 
-std::string stress_json(const RunDescription& description, const StressRun& run) {
+std::string stress_json(const results::RunDescription& description, const StressRun& run) {
   using Json = nlohmann::ordered_json;
-  Json json = run_circumstances(description);
+  Json json = results::run_circumstances(description);
   const StressRequest& request = run.request();
   json["queries"] = Json::array();
-  for (const Query query : request.queries) json["queries"].push_back(name_of(query));
+  for (const workload::Query query : request.queries) json["queries"].push_back(name_of(query));
   json["probes"] = request.probes;
   json["families"] = Json::array();
   for (const Family* family : request.families) {
@@ -121,8 +121,8 @@ std::string stress_json(const RunDescription& description, const StressRun& run)
   }
   json["contestants"] = Json::array();
   for (std::size_t i = 0; i < request.contestants.size(); ++i)
-    json["contestants"].push_back(contestant_json(request.contestants[i], run.flushed_to_zero(i)));
+    json["contestants"].push_back(results::contestant_json(request.contestants[i], run.flushed_to_zero(i)));
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::stress

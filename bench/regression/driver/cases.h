@@ -7,7 +7,7 @@
 
 #include "bench/regression/driver/plugin.h"
 
-namespace touchmark::bench::regression {
+namespace touchmark::bench::regression::driver {
 
 struct Case {
   const char* detector;  ///< as the plug-in knows it
@@ -26,4 +26,4 @@ struct Case {
 /// Those of one scene and detector stand together.
 std::span<const Case> cases();
 
-}  // namespace touchmark::bench::regression
+}  // namespace touchmark::bench::regression::driver

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace touchmark::bench::regression {
+namespace touchmark::bench::regression::driver {
 
 /// case,needs_file,inputs,cells,spheres,boxes,triangles,answers,details,note: checksums in hexadecimal; where
 /// there is a note, it says why there are no numbers.
@@ -32,4 +32,4 @@ struct Timing {
 /// left out.
 void write_times(const Timing& timing, const std::string& out);
 
-}  // namespace touchmark::bench::regression
+}  // namespace touchmark::bench::regression::driver

@@ -10,7 +10,7 @@
 #include "bench/measurement/result_row.h"
 #include "bench/regression/gate/bootstrap.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::regression::gate {
 
 /// What is compared: a detector against a reference on the same steps.
 struct GateKey {
@@ -29,7 +29,7 @@ struct BaselineRow {
   std::uint64_t trace_hash = 0;
   std::size_t steps = 0;  ///< replayed, of the trace's
   RatioInterval ratio;    ///< the detector's time over the reference's
-  std::optional<WorkResult> work;
+  std::optional<measurement::WorkResult> work;
   std::optional<std::uint64_t> checksum;
   std::string version, commit, cpu;  ///< that it was written with; not compared
 };
@@ -48,4 +48,4 @@ class Baseline {
   std::vector<BaselineRow> rows_;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::regression::gate

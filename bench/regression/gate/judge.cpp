@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace touchmark::bench {
+namespace touchmark::bench::regression::gate {
 
 std::string_view name_of(Verdict verdict) noexcept {
   switch (verdict) {
@@ -45,4 +45,4 @@ Judgement judge(double baseline, double tolerance, const std::function<Batch()>&
   return judgement;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::regression::gate

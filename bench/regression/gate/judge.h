@@ -7,7 +7,7 @@
 
 #include "bench/regression/gate/bootstrap.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::regression::gate {
 
 /// A batch: the detector against the reference, and the reference against itself (another process of it) in
 /// the same rounds. What is equal must measure equal, or the batch tells nothing.
@@ -42,4 +42,4 @@ Judgement judge(double baseline, double tolerance, const std::function<Batch()>&
 
 inline constexpr int max_batches = 4;
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::regression::gate

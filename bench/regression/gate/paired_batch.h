@@ -13,7 +13,7 @@
 #include "bench/workers/contestant_process.h"
 #include "bench/workload/workload.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::regression::gate {
 
 /// A detector, or the reference, that did not answer as it should: crashed, refused the mesh, broke its word,
 /// or answered otherwise when it was timed. what() says who and how.
@@ -29,24 +29,24 @@ struct GateEffort {
 };
 
 struct GatePair {
-  ContestantSpec detector;
-  ContestantSpec reference;
+  contestants::ContestantSpec detector;
+  contestants::ContestantSpec reference;
   std::size_t trace = 0;
-  Query query = Query::nearest;
+  workload::Query query = workload::Query::nearest;
 };
 
 /// What the detector answered, checked against the oracle.
 struct GateAnswers {
   std::uint64_t checksum = 0;
-  WorkResult work;
+  measurement::WorkResult work;
 };
 
 class PairedBatches {
  public:
   /// All references must outlive it. `steps` 0: as many as both have time for.
-  PairedBatches(const Roster& roster, const Workload& workload, const SharedArena& arena,
-                const Oracle& oracle, GatePair pair, const GateEffort& effort, std::size_t steps,
-                std::uint64_t seed);
+  PairedBatches(const contestants::Roster& roster, const workload::Workload& workload,
+                const workers::SharedArena& arena, const oracle::Oracle& oracle, GatePair pair,
+                const GateEffort& effort, std::size_t steps, std::uint64_t seed);
 
   /// Starts the three processes anew, so that chance in how memory was laid out is drawn anew, too. Throws
   /// GateFailure, ResourceError or Interrupted.
@@ -65,10 +65,10 @@ class PairedBatches {
   class Contender;
   void choose_steps(Contender& detector, Contender& reference);
 
-  const Roster& roster_;
-  const Workload& workload_;
-  const SharedArena& arena_;
-  const Oracle& oracle_;
+  const contestants::Roster& roster_;
+  const workload::Workload& workload_;
+  const workers::SharedArena& arena_;
+  const oracle::Oracle& oracle_;
   GatePair pair_;
   GateEffort effort_;
   std::size_t steps_;
@@ -78,4 +78,4 @@ class PairedBatches {
   std::uint64_t judged_ = 0;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::regression::gate

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-namespace touchmark::bench {
+namespace touchmark::bench::results::validation {
 namespace {
 
 using Json = nlohmann::json;
@@ -205,4 +205,4 @@ void JsonSchema::check(const std::string& path, const LocatedJson& document, Fau
   }
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results::validation

@@ -9,7 +9,7 @@
 #include "bench/results/validation/fault.h"
 #include "bench/results/validation/located_json.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::results::validation {
 
 struct SchemaFault {
   std::string pointer;  ///< of the offending value
@@ -30,4 +30,4 @@ class JsonSchema {
   nlohmann::json schema_;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results::validation

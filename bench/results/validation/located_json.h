@@ -10,7 +10,7 @@
 
 #include "bench/results/validation/fault.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::results::validation {
 
 struct LocatedJson {
   nlohmann::json value;
@@ -24,4 +24,4 @@ struct LocatedJson {
 /// std::invalid_argument when the file cannot be read.
 std::optional<LocatedJson> read_located_json(const std::string& path, Faults& faults);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results::validation

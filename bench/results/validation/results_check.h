@@ -11,7 +11,7 @@
 
 #include "bench/results/validation/fault.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::results::validation {
 
 struct CsvRecord {
   std::size_t line = 0;
@@ -43,4 +43,4 @@ void check_form(const CsvTable& table, Faults& faults);
 /// `run` is the run.json beside the file, if there is one.
 void check_results(const CsvTable& table, const nlohmann::json* run, Faults& faults);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results::validation

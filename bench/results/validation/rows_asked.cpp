@@ -10,7 +10,7 @@
 
 #include "bench/support/numbers.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::results::validation {
 namespace {
 
 using Json = nlohmann::json;
@@ -145,4 +145,4 @@ void check_exact_peers(const CsvTable& table, Faults& faults) {
   }
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results::validation

@@ -15,7 +15,7 @@ struct NamedMesh {
   TriangleMesh mesh;
 };
 
-using bench::mesh_of;
+using bench::experiments::stress::mesh_of;
 
 /// An octahedron whose faces are divided into squares of `parts` and pushed out to the unit sphere: to its
 /// centre, the triangles of eight octants are exact mirror images.

@@ -13,7 +13,7 @@
 
 namespace touchmark {
 
-using bench::CornerCases;
+using bench::experiments::stress::CornerCases;
 
 /// For tests that hold for every family.
 struct CornerCaseFamily {

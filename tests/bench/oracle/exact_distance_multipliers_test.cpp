@@ -9,7 +9,10 @@
 #include "tests/bench/oracle/corner_case_triangles.h"
 #include "tests/bench/oracle/rational_hull.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
+
+namespace stress = experiments::stress;
+
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -19,7 +22,7 @@ struct Case {
   Triangle triangle;
 };
 
-Case corner_case(CornerCases& cases, int number) {
+Case corner_case(stress::CornerCases& cases, int number) {
   Triangle t;
   switch (number % 6) {
     case 0:
@@ -62,7 +65,7 @@ bool is_root(double high, double low, const mpq_class& square) {
 mpq_class squared(double x) { return mpq_class(x) * mpq_class(x); }
 
 TEST(ExactDistance, EqualsTheOptimumByMultipliers) {
-  CornerCases cases(1);
+  stress::CornerCases cases(1);
   for (int i = 0; i < 6000; ++i) {
     const Case c = corner_case(cases, i);
     const mpq_class expected = squared_distance_by_multipliers(c.from, c.triangle);
@@ -77,7 +80,7 @@ TEST(ExactDistance, EqualsTheOptimumByMultipliers) {
 }
 
 TEST(ExactDistance, TheDirectionIsThatOfTheVectorFromTheNearestPoint) {
-  CornerCases cases(2);
+  stress::CornerCases cases(2);
   for (int i = 0; i < 2000; ++i) {
     const Triangle t = cases.plain();
     const Vec3 p = 2 * cases.vector();
@@ -88,7 +91,7 @@ TEST(ExactDistance, TheDirectionIsThatOfTheVectorFromTheNearestPoint) {
 }
 
 TEST(ExactSegmentDistance, EqualsTheOptimumByMultipliers) {
-  CornerCases cases(3);
+  stress::CornerCases cases(3);
   int crossing = 0;
   for (int i = 0; i < 900; ++i) {
     const Case c = corner_case(cases, i);
@@ -102,7 +105,7 @@ TEST(ExactSegmentDistance, EqualsTheOptimumByMultipliers) {
 }
 
 TEST(IntervalDistance, HoldsTheExactDistance) {
-  CornerCases cases(4);
+  stress::CornerCases cases(4);
   for (int i = 0; i < 30000; ++i) {
     const Case c = corner_case(cases, i);
     const Interval interval = distance_interval(c.from, c.triangle);
@@ -113,7 +116,7 @@ TEST(IntervalDistance, HoldsTheExactDistance) {
 }
 
 TEST(IntervalDistance, HoldsTheExactDistanceOfASegment) {
-  CornerCases cases(5);
+  stress::CornerCases cases(5);
   for (int i = 0; i < 9000; ++i) {
     const Case c = corner_case(cases, i);
     const Interval interval = segment_distance_interval(c.from, c.to, c.triangle);
@@ -124,7 +127,7 @@ TEST(IntervalDistance, HoldsTheExactDistanceOfASegment) {
 }
 
 TEST(IntervalDistance, HoldsTheExactDistanceAtEveryMagnitude) {
-  CornerCases cases(6);
+  stress::CornerCases cases(6);
   for (int i = 0; i < 4000; ++i) {
     const double scale = cases.magnitude(-320, 307);
     const Triangle t = {scale * cases.vector(), scale * cases.vector(), scale * cases.vector()};
@@ -136,7 +139,7 @@ TEST(IntervalDistance, HoldsTheExactDistanceAtEveryMagnitude) {
 }
 
 TEST(IntervalDistance, IsNarrowOnOrdinaryTriangles) {
-  CornerCases cases(7);
+  stress::CornerCases cases(7);
   for (int i = 0; i < 5000; ++i) {
     // Sides and heights of the order of one, the point no nearer than that.
     const Triangle t = {Vec3(0, 0, 0), Vec3(cases.between(1, 2), 0, 0),
@@ -148,4 +151,4 @@ TEST(IntervalDistance, IsNarrowOnOrdinaryTriangles) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

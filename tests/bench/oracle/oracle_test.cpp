@@ -8,7 +8,10 @@
 #include "bench/oracle/exact_distance.h"
 #include "tests/bench/oracle/corner_case_meshes.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
+
+namespace stress = experiments::stress;
+
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -26,7 +29,7 @@ std::vector<Probe> probes_at(const std::vector<Vec3>& points) {
 }
 
 TEST(Oracle, CullsNothingThatAPlainSearchFinds) {
-  CornerCases cases(21);
+  stress::CornerCases cases(21);
   for (const auto& [name, mesh] : corner_case_meshes()) {
     const std::vector<Triangle> triangles = all_triangles(mesh);
     const std::vector<Vec3> points = corner_case_points(mesh, cases, 60);
@@ -44,7 +47,7 @@ TEST(Oracle, CullsNothingThatAPlainSearchFinds) {
 }
 
 TEST(Oracle, FindsAllThatAPlainSearchFindsWithinARadius) {
-  CornerCases cases(22);
+  stress::CornerCases cases(22);
   for (const auto& [name, mesh] : corner_case_meshes()) {
     const Oracle oracle(mesh, 1);
     for (const Vec3& point : corner_case_points(mesh, cases, 20)) {
@@ -60,7 +63,7 @@ TEST(Oracle, FindsAllThatAPlainSearchFindsWithinARadius) {
 }
 
 TEST(Oracle, ASegmentComesWithinARadiusWhenItDoesSoOfOneTriangle) {
-  CornerCases cases(23);
+  stress::CornerCases cases(23);
   int yes = 0, no = 0;
   for (const auto& [name, mesh] : corner_case_meshes()) {
     const Oracle oracle(mesh, 1);
@@ -82,7 +85,7 @@ TEST(Oracle, ASegmentComesWithinARadiusWhenItDoesSoOfOneTriangle) {
 }
 
 TEST(Oracle, DecidesTheRadiusToTheLastBit) {
-  CornerCases cases(24);
+  stress::CornerCases cases(24);
   for (const auto& [name, mesh] : corner_case_meshes()) {
     const Oracle oracle(mesh, 1);
     for (const Vec3& point : corner_case_points(mesh, cases, 40)) {
@@ -134,7 +137,8 @@ TEST(Oracle, ARadiusThatIsNoneTouchesNothing) {
 
 TEST(Oracle, TheEdgeOfTheDoublesIsNotTheEndOfIt) {
   const double most = std::numeric_limits<double>::max();
-  const TriangleMesh mesh = mesh_of({{Vec3(-most, -most, -most), Vec3(-most, 0, 0), Vec3(-most, 1, 1)}});
+  const TriangleMesh mesh =
+      stress::mesh_of({{Vec3(-most, -most, -most), Vec3(-most, 0, 0), Vec3(-most, 1, 1)}});
   const Oracle oracle(mesh);
   const Vec3 center(most, most, most);
   const GroundTruth truth = oracle.solve(center);
@@ -157,7 +161,7 @@ TEST(Oracle, ASweepHitsWhatStandsInItsWay) {
 }
 
 TEST(Oracle, ACrossingIsSureWhenItKeepsAwayFromEndsAndEdges) {
-  const TriangleMesh mesh = mesh_of({{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)}});
+  const TriangleMesh mesh = stress::mesh_of({{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)}});
   const Oracle oracle(mesh);
   const auto crosses = [&](double x, double top, double bottom) {
     return oracle.surely_crosses({x, 1, top}, {x, 1, bottom}, 0.5);
@@ -171,7 +175,7 @@ TEST(Oracle, ACrossingIsSureWhenItKeepsAwayFromEndsAndEdges) {
 }
 
 TEST(Oracle, TheNumberOfThreadsChangesNothing) {
-  CornerCases cases(25);
+  stress::CornerCases cases(25);
   const TriangleMesh mesh = octasphere(8);
   const std::vector<Probe> probes = probes_at(corner_case_points(mesh, cases, 500));
   const std::vector<GroundTruth> one = Oracle(mesh, 1).solve(probes), many = Oracle(mesh, 8).solve(probes);
@@ -183,4 +187,4 @@ TEST(Oracle, TheNumberOfThreadsChangesNothing) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

@@ -14,7 +14,7 @@
 
 #include "bench/oracle/triangle.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
 
 using RationalVector = std::array<mpq_class, 3>;
 
@@ -88,4 +88,4 @@ inline mpq_class squared_segment_distance_by_multipliers(const Vec3& from, const
   return min_squared_length(corners);
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

@@ -11,7 +11,7 @@
 #include "bench/scenes/mesh_report.h"
 #include "bench/scenes/portable_sincos.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::scenes {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -205,4 +205,4 @@ TEST(GeneratedScenes, NeedlesAndCapsReachAspectRatiosOf1e15) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::scenes

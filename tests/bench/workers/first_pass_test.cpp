@@ -13,14 +13,15 @@
 #include "bench/scenes/scenes.h"
 #include "tests/bench/workers/hostile_roster.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workers {
 namespace {
 
 /// Two motions, of which each comes by much of the mesh, and the first again.
-Workload workload() {
-  Selection selection;
+workload::Workload workload() {
+  workload::Selection selection;
   selection.radius = {1, true};
-  return make_workload("torus:20x10", load_scene("torus:20x10"), selection, {"slide", "jump", "slide"}, 400);
+  return workload::make_workload("torus:20x10", scenes::load_scene("torus:20x10"), selection,
+                                 {"slide", "jump", "slide"}, 400);
 }
 
 class FirstPass : public testing::Test {
@@ -28,12 +29,15 @@ class FirstPass : public testing::Test {
   ContestantProcess process(const std::string& name) {
     return {arena_, hostile_roster().parse(name), "touchmark-hostile-worker"};
   }
-  Task task(std::size_t trace) const { return {trace, Query::nearest, workload_.traces[trace].size()}; }
+  Task task(std::size_t trace) const {
+    return {trace, workload::Query::nearest, workload_.traces[trace].size()};
+  }
 
-  const Workload workload_ = workload();
+  const workload::Workload workload_ = workload();
   const SharedArena arena_{workload_, {}};
-  const Effort effort_{1, 0, 1e9, 1e6};
-  const SamplePlan plan_{400, std::vector<Phase>(SamplePlan::blocks_in(400), Phase::free), 1};
+  const measurement::Effort effort_{1, 0, 1e9, 1e6};
+  const workload::SamplePlan plan_{
+      400, std::vector<workload::Phase>(workload::SamplePlan::blocks_in(400), workload::Phase::free), 1};
 };
 
 TEST_F(FirstPass, CostsMoreOnceUnmade) {
@@ -47,10 +51,10 @@ TEST_F(FirstPass, CostsMoreOnceUnmade) {
 }
 
 TEST_F(FirstPass, OfACaseComesAfterNoOtherQuery) {
-  const Oracle oracle(workload_.mesh);
-  GroundTruths truths(oracle, workload_.traces[0]);
+  const oracle::Oracle oracle(workload_.mesh);
+  ground_truth::GroundTruths truths(oracle, workload_.traces[0]);
   ContestantProcess later = process("makes-later");
-  Measurement slide(workload_, arena_, effort_, later, 0, Query::nearest, plan_);
+  measurement::Measurement slide(workload_, arena_, effort_, later, 0, workload::Query::nearest, plan_);
   slide.calibrate();
   slide.verify(truths);
   slide.repetition();
@@ -64,12 +68,12 @@ TEST_F(FirstPass, OfACaseComesAfterNoOtherQuery) {
 TEST_F(FirstPass, IsWhatTheWorkOfARowCounts) {
   ContestantProcess later = process("makes-later");
   const Work fresh = later.first_pass(task(0)).work;
-  Effort verify_only = effort_;
+  measurement::Effort verify_only = effort_;
   verify_only.repetitions = 0;
-  Comparison comparison(hostile_roster(), workload_, {hostile_roster().parse("makes-later")}, {}, verify_only,
-                        1);
-  std::vector<ResultRow> rows;
-  comparison.run_all({Query::nearest}, rows);
+  measurement::Comparison comparison(hostile_roster(), workload_, {hostile_roster().parse("makes-later")}, {},
+                                     verify_only, 1);
+  std::vector<measurement::ResultRow> rows;
+  comparison.run_all({workload::Query::nearest}, rows);
   ASSERT_EQ(rows.size(), 3U);
   for (const std::size_t trace : {0U, 2U}) {
     ASSERT_TRUE(rows[trace].work);
@@ -81,10 +85,10 @@ TEST_F(FirstPass, BuildsNothingAnewThatMakesAllAtOnce) {
   // It counts its builds in a file, where a short build's repetitions count too.
   const std::string counter = testing::TempDir() + "touchmark-builds-" + std::to_string(getpid());
   setenv("TOUCHMARK_TEST_COUNTER", counter.c_str(), 1);
-  const Oracle oracle(workload_.mesh);
-  GroundTruths truths(oracle, workload_.traces[0]);
+  const oracle::Oracle oracle(workload_.mesh);
+  ground_truth::GroundTruths truths(oracle, workload_.traces[0]);
   ContestantProcess moody = process("moody");
-  Measurement slide(workload_, arena_, effort_, moody, 0, Query::nearest, plan_);
+  measurement::Measurement slide(workload_, arena_, effort_, moody, 0, workload::Query::nearest, plan_);
   slide.calibrate();
   const std::uintmax_t builds = std::filesystem::file_size(counter);
   EXPECT_GT(builds, 0U);
@@ -96,4 +100,4 @@ TEST_F(FirstPass, BuildsNothingAnewThatMakesAllAtOnce) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workers

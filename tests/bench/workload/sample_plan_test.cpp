@@ -8,7 +8,7 @@
 
 #include "bench/workload/sample_steps.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workload {
 namespace {
 
 /// A motion that repeats itself every 8 blocks: 1 in contact, 2 near, 5 free. Equally spaced ranges alias on
@@ -95,4 +95,4 @@ TEST(SamplePlan, TellsPhasesByTheNearestOfTheTellingSteps) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workload

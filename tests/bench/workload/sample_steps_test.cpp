@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace touchmark::bench {
+namespace touchmark::bench::workload {
 namespace {
 
 TEST(Windows, AreTheWholeWayWhereThereIsTimeForIt) {
@@ -53,4 +53,4 @@ TEST(Windows, AreSpreadOverTheWholeWayAndAlmostAsManyStepsAsWanted) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workload

@@ -27,7 +27,7 @@ struct Errors {
 /// Every answer within what the tree declares of the oracle's: distance, triangle, point, and contact where
 /// the radius is farther from the distance than that.
 Errors check(const TriangleMesh& mesh, std::uint64_t seed, int points) {
-  const bench::Oracle oracle(mesh, 1);
+  const bench::oracle::Oracle oracle(mesh, 1);
   const FloatTree tree = FloatTree::build(mesh);
   const Accuracy accuracy = tree.accuracy();
   EXPECT_EQ(accuracy.guarantee, Guarantee::approximate);
@@ -35,7 +35,7 @@ Errors check(const TriangleMesh& mesh, std::uint64_t seed, int points) {
   CornerCases cases(seed);
   Errors errors;
   for (const Vec3& point : corner_case_points(mesh, cases, points)) {
-    const bench::GroundTruth truth = oracle.solve(point);
+    const bench::oracle::GroundTruth truth = oracle.solve(point);
     if (!truth.defined || truth.high > 0x1p40 * mesh.diagonal()) continue;
     const double bound = (accuracy.relative * truth.largest_difference + accuracy.absolute) * as_declared;
     const std::optional<Contact> contact = tree.nearest({point, 0}, infinity, session);

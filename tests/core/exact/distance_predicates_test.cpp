@@ -28,11 +28,11 @@ std::vector<double> radii(double distance) {
 }
 
 bool within_by_oracle(const CornerCase& c, double radius) {
-  return radius >= 0 && bench::compare_distance(c.point, c.triangle, radius) <= 0;
+  return radius >= 0 && bench::oracle::compare_distance(c.point, c.triangle, radius) <= 0;
 }
 
 void expect_oracle_agrees(const CornerCase& c) {
-  const bench::ExactNearest truth = bench::nearest_exactly(c.point, {&c.triangle, 1});
+  const bench::oracle::ExactNearest truth = bench::oracle::nearest_exactly(c.point, {&c.triangle, 1});
   for (const double radius : radii(std::min(truth.high, largest)))
     ASSERT_EQ(within_exactly(c.triangle, c.point, radius), within_by_oracle(c, radius)) << radius;
   const Foot foot = foot_exactly(c.triangle, c.point);
@@ -60,14 +60,15 @@ TEST_P(ExactDecision, OfPartsOfAWayIsTheOracles) {
     const Vec3 from = i % 3 == 0 ? c.point : Vec3(c.triangle[0] + 3 * (c.triangle[1] - c.point));
     if (!from.allFinite()) continue;
     const double fraction = i % 2 == 0 ? 1 : std::round(cases.fraction() * 0x1p53) / 0x1p53;
-    const double distance = bench::nearest_exactly(c.point, {&c.triangle, 1}).high;
+    const double distance = bench::oracle::nearest_exactly(c.point, {&c.triangle, 1}).high;
     for (const double radius : radii(std::min(distance, largest))) {
-      const bool expected = bench::compare_part_distance(from, c.point, fraction, c.triangle, radius) <= 0;
+      const bool expected =
+          bench::oracle::compare_part_distance(from, c.point, fraction, c.triangle, radius) <= 0;
       ASSERT_EQ(way_within_exactly(c.triangle, from, c.point, fraction, radius), expected)
           << "case " << i << ", radius " << radius << ", fraction " << fraction;
       ++(expected ? within : beyond);
       if (fraction == 1) {
-        ASSERT_EQ(bench::compare_segment_distance(from, c.point, c.triangle, radius) <= 0, expected);
+        ASSERT_EQ(bench::oracle::compare_segment_distance(from, c.point, c.triangle, radius) <= 0, expected);
       }
     }
   }
@@ -101,9 +102,9 @@ TEST_P(ExactDecision, OrdersTrianglesAsTheOracleDoes) {
     // Beside each other, so that ties are common, or anything.
     const Corners b = i % 2 == 0 ? Corners{a[1], a[0], cases.lattice()} : GetParam().triangle(cases);
     const Vec3 point = cases.point_near(a);
-    const std::array<bench::Triangle, 2> forward = {a, b}, backward = {b, a};
-    const std::size_t first = bench::nearest_exactly(point, forward).which;
-    const std::size_t second = bench::nearest_exactly(point, backward).which;
+    const std::array<bench::oracle::Triangle, 2> forward = {a, b}, backward = {b, a};
+    const std::size_t first = bench::oracle::nearest_exactly(point, forward).which;
+    const std::size_t second = bench::oracle::nearest_exactly(point, backward).which;
     const auto order = first == 1    ? std::strong_ordering::greater
                        : second == 1 ? std::strong_ordering::less
                                      : std::strong_ordering::equal;

@@ -24,7 +24,7 @@ TEST_P(CloseFeet, KeepTheErrorTheyState) {
     if (!close) continue;
     const Foot& foot = close->foot;
     ASSERT_LE(foot.error, 0x1p-60 * c.largest_difference()) << i;
-    const bench::ExactNearest truth = bench::nearest_exactly(c.point, {&c.triangle, 1});
+    const bench::oracle::ExactNearest truth = bench::oracle::nearest_exactly(c.point, {&c.triangle, 1});
     const double off = (foot.distance.high - truth.high) + (foot.distance.low - truth.low);
     ASSERT_LE(std::abs(off), foot.error + 0x1p-98 * truth.high) << i;  // what the oracle rounds, too
     // The nearest point is one, so the offset is the oracle's, as far as doubles can tell.
@@ -63,7 +63,7 @@ TEST_P(CloseFeet, OverLevelFacesAreExact) {
     point[axis] = cases.point_near(t)[axis];
     const std::optional<CloseFoot> close = close_foot(t, point);
     if (!close || close->feature) continue;
-    const bench::ExactNearest truth = bench::nearest_exactly(point, {&t, 1});
+    const bench::oracle::ExactNearest truth = bench::oracle::nearest_exactly(point, {&t, 1});
     if (i % 2 == 0) ++on_border;
     ASSERT_EQ(close->foot.error, 0) << i;
     ASSERT_EQ(close->foot.distance.high, truth.high) << i;

@@ -14,12 +14,14 @@
 namespace touchmark {
 namespace {
 
-using bench::ExactNearest;
+using bench::oracle::ExactNearest;
 using Corners = CornerCases::Corners;
 
 constexpr double unit_roundoff = 0x1p-53;
 
-ExactNearest exact_nearest(const CornerCase& c) { return bench::nearest_exactly(c.point, {&c.triangle, 1}); }
+ExactNearest exact_nearest(const CornerCase& c) {
+  return bench::oracle::nearest_exactly(c.point, {&c.triangle, 1});
+}
 
 PreparedTriangle prepared(const Corners& t) { return prepare(t[0], t[1], t[2], 0); }
 
@@ -39,7 +41,8 @@ void expect_consistent_contact(const CornerCase& c) {
   const double coordinates = std::max(c.point.cwiseAbs().maxCoeff(), contact.point.cwiseAbs().maxCoeff());
   EXPECT_EQ(contact.distance, std::sqrt(squared_distance(prepared(c.triangle), c.point)));
   EXPECT_NEAR(contact.normal.norm(), 1, 1e-14);
-  EXPECT_LE(bench::distance_interval(contact.point, c.triangle).lo, bound + 4 * unit_roundoff * coordinates);
+  EXPECT_LE(bench::oracle::distance_interval(contact.point, c.triangle).lo,
+            bound + 4 * unit_roundoff * coordinates);
   // Two points of a convex set whose distances to a third differ by little are near each other.
   const double shift = bound + 2 * std::sqrt(bound * (exact.high + bound));
   if (exact.high > bound) {

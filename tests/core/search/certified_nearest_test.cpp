@@ -54,10 +54,10 @@ bool same(const std::optional<Contact>& a, const std::optional<Contact>& b) {
 /// One mesh, probed where it is hard.
 struct Exam {
   const NamedMesh& named;
-  bench::Oracle oracle;
+  bench::oracle::Oracle oracle;
   BruteForce reference;
   std::vector<Vec3> points;
-  std::vector<bench::GroundTruth> truths;
+  std::vector<bench::oracle::GroundTruth> truths;
 
   explicit Exam(const NamedMesh& mesh, int count)
       : named(mesh), oracle(mesh.mesh), reference(BruteForce::build(mesh.mesh)) {
@@ -137,14 +137,14 @@ TEST(CertifiedNearest, AtTheVeryDistanceTheExactlyNearestOfManyIsFound) {
   const Vec3 tip = cases.vector();
   for (int i = 0; i < 50; ++i) fan.push_back({tip, tip + cases.vector(), tip + cases.vector()});
   const TriangleMesh mesh = mesh_of(fan);
-  const bench::Oracle oracle(mesh);
+  const bench::oracle::Oracle oracle(mesh);
   const AabbTree detector = AabbTree::build(mesh);
   AabbTree::Session session;
   for (int i = 0; i < 2000; ++i) {
     const auto& t = fan[cases.below(fan.size())];
     const Vec3 point = i % 2 == 0 ? Vec3(tip + cases.magnitude(-17, -14) * cases.vector())
                                   : cases.point_near({t[0], t[1], t[2]});
-    const bench::GroundTruth truth = oracle.solve(point);
+    const bench::oracle::GroundTruth truth = oracle.solve(point);
     const double reach = truth.low > 0 ? std::nextafter(truth.high, infinity) : truth.high;
     const auto contact = detector.nearest({point, 0}, reach, session);
     ASSERT_TRUE(contact);
@@ -195,7 +195,7 @@ TEST(CertifiedNearest, AtTheSmallestHeightsOverABorderTheNormalIsTheFaces) {
 TEST(CertifiedNearest, OverABorderOfLevelFacesNamesTheFirstWithoutWholeNumbers) {
   const TriangleMesh mesh = plate(6);
   const AabbTree detector = AabbTree::build(mesh);
-  const bench::Oracle oracle(mesh);
+  const bench::oracle::Oracle oracle(mesh);
   AabbTree::Session session;
   for (int i = 1; i < 100; ++i) {
     const double x = 0.06 * i;
@@ -250,13 +250,13 @@ TEST(CertifiedNearest, AProbeThatSlidesNeedsNoExactDecision) {
 template <class D>
 void expect_decisions_within_rounding(const typename D::Options& uncertified_options) {
   const TriangleMesh mesh = octasphere(12);
-  const bench::Oracle oracle(mesh);
+  const bench::oracle::Oracle oracle(mesh);
   const D detector = D::build(mesh, uncertified_options);
   EXPECT_FALSE(detector.accuracy().decides_exactly);
   typename D::Session session;
   CornerCases cases(74);
   for (const Vec3& point : corner_case_points(mesh, cases, 200)) {
-    const bench::GroundTruth truth = oracle.solve(point);
+    const bench::oracle::GroundTruth truth = oracle.solve(point);
     const double error = detector.accuracy().relative * truth.largest_difference;
     for (const double off : {-2.0, -1.0, 0.0, 1.0, 2.0}) {
       const double radius = truth.high + off * error;

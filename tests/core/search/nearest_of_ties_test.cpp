@@ -20,9 +20,9 @@
 namespace touchmark {
 namespace {
 
-using bench::Answer;
-using bench::Query;
-using bench::Step;
+using bench::workload::Answer;
+using bench::workload::Query;
+using bench::workload::Step;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -30,8 +30,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// whether a point is exactly across an oblique corner from a triangle.
 std::uint64_t max_decisions(const TriangleMesh& mesh) { return 4 + mesh.size() / 16; }
 
-std::vector<Step> steps_about(const bench::SharedFeature& shared) {
-  const bench::Oracle oracle(shared.mesh);
+std::vector<Step> steps_about(const bench::experiments::stress::SharedFeature& shared) {
+  const bench::oracle::Oracle oracle(shared.mesh);
   std::vector<Step> steps;
   for (const Vec3& center : shared.centers) {
     const double distance = oracle.solve(center).high;
@@ -43,10 +43,11 @@ std::vector<Step> steps_about(const bench::SharedFeature& shared) {
 }
 
 TEST(SharedFeatures, AreDecidedAsTheOracleDoesWithFewWholeNumbers) {
-  for (const bench::SharedFeature& shared : bench::shared_feature_meshes(300)) {
-    const bench::Oracle oracle(shared.mesh);
+  for (const bench::experiments::stress::SharedFeature& shared :
+       bench::experiments::stress::shared_feature_meshes(300)) {
+    const bench::oracle::Oracle oracle(shared.mesh);
     const std::vector<Step> steps = steps_about(shared);
-    std::vector<bench::GroundTruth> truths;
+    std::vector<bench::oracle::GroundTruth> truths;
     for (const Step& step : steps) truths.push_back(oracle.solve(step.probe.center));
     for (const ExactForm& form : exact_forms(shared.mesh)) {
       for (const Query query : {Query::touches, Query::nearest}) {
@@ -84,7 +85,7 @@ TEST_P(SureFeatures, AreAsFarAsTheTriangle) {
     const std::optional<Feature> feature = sure_feature(triangle, c.point);
     if (!feature) continue;
     ++sure;
-    const bench::ExactNearest truth = bench::nearest_exactly(c.point, {&c.triangle, 1});
+    const bench::oracle::ExactNearest truth = bench::oracle::nearest_exactly(c.point, {&c.triangle, 1});
     const SquaredDistance squared = squared_distance(*feature, c.point);
     // The square of the oracle's two halves, but for that of the lower one and the oracle's rounding.
     const DoubleDouble expected = DoubleDouble{truth.high, truth.low} * DoubleDouble{truth.high, truth.low};

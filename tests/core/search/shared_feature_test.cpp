@@ -24,8 +24,8 @@ bool share(const CornerCases::Corners& a, const CornerCases::Corners& b, const V
 /// The oracle names the first of exact ties.
 bool are_equally_near(const CornerCases::Corners& a, const CornerCases::Corners& b, const Vec3& point) {
   const TriangleMesh one = mesh_of({a, b}), other = mesh_of({b, a});
-  return bench::Oracle(one, 1).solve(point).triangle == 0 &&
-         bench::Oracle(other, 1).solve(point).triangle == 0;
+  return bench::oracle::Oracle(one, 1).solve(point).triangle == 0 &&
+         bench::oracle::Oracle(other, 1).solve(point).triangle == 0;
 }
 
 const Vec3 p(0, 0, 0), q(1, 0, 0), left(0.5, 1, -0.25), right(0.5, -1, -0.25);
@@ -70,10 +70,11 @@ TEST(SharedFeature, IsNeverClaimedWhereTheDistancesDiffer) {
     const CornerCases::Corners one = {a, b, a + cases.magnitude(-3, 0) * cases.vector()};
     const CornerCases::Corners other = {b, a, i % 2 == 0 ? Vec3(cases.vector()) : Vec3(2 * a - one[2])};
     const TriangleMesh both = mesh_of({one, other});
-    const bench::Oracle oracle(both, 1);
+    const bench::oracle::Oracle oracle(both, 1);
     const Vec3 from = cases.point_near(one);
-    const Vec3 place = bench::where_the_nearest_changes(oracle, from, from + 0.5 * cases.vector());
-    std::vector<Vec3> points = bench::with_neighbors(place, cases);
+    const Vec3 place =
+        bench::experiments::stress::where_the_nearest_changes(oracle, from, from + 0.5 * cases.vector());
+    std::vector<Vec3> points = bench::experiments::stress::with_neighbors(place, cases);
     points.push_back(from);
     for (const Vec3& point : points) {
       if (!share(one, other, point)) continue;

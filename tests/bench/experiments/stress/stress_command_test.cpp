@@ -10,7 +10,7 @@
 #include "bench/experiments/stress/stress_csv.h"
 #include "tests/bench/cli/run_touchmark.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::stress {
 namespace {
 
 Outcome hostile(std::vector<std::string> arguments) {
@@ -152,4 +152,4 @@ TEST(Stress, HelpHasAnExampleAndTheFamilies) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::stress
