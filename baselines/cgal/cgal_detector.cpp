@@ -31,8 +31,8 @@ struct CgalDetector::Model {
     Vec3 point;
     Vec3 away;  ///< from there to the centre
     double distance;
-    std::uint32_t index;     ///< of its triangle
-    std::uint32_t triangle;  ///< of the mesh
+    std::uint32_t index;     ///< its triangle's position in the tree
+    std::uint32_t triangle;  ///< the mesh's id
   };
   /// `reach` is finite, `last` the place of a triangle to start from.
   virtual std::optional<Found> nearest(const Vec3& center, double reach,

@@ -14,7 +14,7 @@ struct JobResult {
   std::string id;
   std::string machine;              ///< machine_fingerprint()
   nlohmann::json run;               ///< as run.json
-  std::vector<std::string> fields;  ///< of results.csv, all columns
+  std::vector<std::string> fields;  ///< all columns of results.csv
 
   std::string json() const;
 };

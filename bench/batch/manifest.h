@@ -25,7 +25,7 @@ struct SweepScene {
   bool normalize = false;
   std::uint64_t mesh_hash = 0;
   std::string trajectory;        ///< as --trajectory takes it
-  std::uint64_t trace_hash = 0;  ///< of its steps with radius and reach
+  std::uint64_t trace_hash = 0;  ///< hash of its steps with radius and reach
   std::size_t steps = 0;
   std::uint64_t seed = 1;
   std::string radius;  ///< as --radius takes it
@@ -36,7 +36,7 @@ struct SweepScene {
 };
 
 struct Manifest {
-  std::string version;  ///< of the program that planned it
+  std::string version;  ///< the version of the program that planned it
   std::string effort;   ///< full, quick or accuracy
   std::vector<SweepScene> scenes;
 

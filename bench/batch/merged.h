@@ -13,7 +13,7 @@ namespace touchmark::bench::batch {
 struct FoundJob {
   std::string path;
   JobResult result;
-  bool timed = false;  ///< or only verified
+  bool timed = false;  ///< false: only verified
 };
 
 /// Throws std::invalid_argument as read_job does.

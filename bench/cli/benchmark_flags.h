@@ -12,7 +12,7 @@ namespace touchmark::bench::cli {
 
 struct BenchmarkFlags {
   std::optional<std::size_t> repetitions;
-  std::optional<double> min_time_s;                ///< of a repetition
+  std::optional<double> min_time_s;                ///< a repetition lasts at least so long
   std::function<bool(const std::string&)> wanted;  ///< --benchmark_filter on "contestant/trajectory"
   bool list_tests = false;
   std::vector<std::string> forwarded;

@@ -30,7 +30,7 @@ class Contestant {
   virtual bool answers(workload::Query query) const noexcept = 0;
   virtual Accuracy accuracy() const noexcept = 0;
   virtual std::size_t bytes() const noexcept = 0;
-  /// See the concept MakesLater.
+  /// True if the detector leaves parts of itself to the first queries: see the concept MakesLater.
   virtual bool builds_lazily() const noexcept = 0;
   /// A fresh session, its work counters at zero.
   virtual void forget() = 0;
@@ -44,10 +44,10 @@ class Contestant {
   /// See the concept Updates. Throws what the detector's update throws.
   virtual void update(const TriangleMesh& mesh) { static_cast<void>(mesh); }
 
-  /// The same answers folded into the checksum, and nothing else: the loop that is timed from outside.
+  /// Answers the steps of the range into the checksum and does nothing else: this loop is timed from outside.
   virtual void replay(const workload::QueryTrace& trace, workload::StepRange range,
                       workload::Checksum& checksum) noexcept = 0;
-  /// The same, with the clock read once a step: the ticks each step took, one clock reading included.
+  /// Replays with the clock read once a step: the ticks each step took, one clock reading included.
   /// What the detector prepares between steps is clocked apart, into `prepare_ticks` of the same size; empty
   /// will do for one that does not.
   virtual void replay_clocked(const workload::QueryTrace& trace, workload::StepRange range,

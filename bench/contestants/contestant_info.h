@@ -26,7 +26,7 @@ enum class OptionKind {
 struct OptionInfo {
   std::string key;
   OptionKind kind = OptionKind::choice;
-  std::vector<std::string> choices;  ///< of a choice
+  std::vector<std::string> choices;  ///< what a choice may be
   std::string default_value;
   std::string summary;  ///< one line
 };

@@ -30,7 +30,7 @@ struct Selectors {
   bool normalize = false;
   std::vector<std::string> trajectories;
   std::vector<std::string> detectors;  ///< empty: the default set
-  std::string query = "nearest";       ///< or "all" where the command allows it
+  std::string query = "nearest";       ///< a query; "all" where the command allows it
   std::string radius = "0.5%";
   std::string reach;  ///< empty: the radius
   std::string steps;  ///< empty: the command's own choice

@@ -13,7 +13,7 @@ struct StorageRounding {
   std::function<double(double)> length;
 };
 
-/// Of numbers that are kept in single precision as scale * (point - origin).
+/// Returns the rounding of numbers that are kept in single precision as scale * (point - origin).
 StorageRounding stored_in_single_precision(double scale, const Vec3& origin);
 
 }  // namespace touchmark::bench::contestants

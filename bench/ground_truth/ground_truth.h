@@ -1,4 +1,4 @@
-/// The truth about the steps of one trace, computed once, when first needed, for all contestants and
+/// The ground truth about the steps of one trace, computed once, when first needed, for all contestants and
 /// queries.
 #pragma once
 

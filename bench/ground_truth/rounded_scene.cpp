@@ -5,7 +5,7 @@
 namespace touchmark::bench::ground_truth {
 namespace {
 
-TriangleMesh stored(const TriangleMesh& mesh, const contestants::StorageRounding& storage_rounding) {
+TriangleMesh rounded(const TriangleMesh& mesh, const contestants::StorageRounding& storage_rounding) {
   std::vector<Vec3> vertices;
   vertices.reserve(mesh.vertices().size());
   for (const Vec3& vertex : mesh.vertices()) vertices.push_back(storage_rounding.point(vertex));
@@ -18,7 +18,7 @@ TriangleMesh stored(const TriangleMesh& mesh, const contestants::StorageRounding
 
 RoundedScene::RoundedScene(const TriangleMesh& mesh, contestants::StorageRounding storage_rounding)
     : storage_rounding_(std::move(storage_rounding)),
-      mesh_(stored(mesh, storage_rounding_)),
+      mesh_(rounded(mesh, storage_rounding_)),
       oracle_(mesh_) {}
 
 std::vector<workload::Step> RoundedScene::trace(std::span<const workload::Step> steps) const {

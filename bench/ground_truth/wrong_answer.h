@@ -13,11 +13,12 @@
 namespace touchmark::bench::ground_truth {
 
 struct WrongAnswer {
-  std::size_t step = 0;  ///< of the trace
+  std::size_t step = 0;  ///< its index in the trace
   workload::Query query = workload::Query::nearest;
   workload::Step asked;
   Vec3 from = Vec3::Zero();  ///< sweep: where it starts
-  /// Of the probe; sweep: of where the answer says that the contact is made, undefined where it says none.
+  /// Ground truth at the probe; sweep: at the place where the answer says that the contact is made, undefined
+  /// where it says none.
   oracle::GroundTruth truth;
   std::optional<TriangleId> triangle;  ///< the id of the truth's
   bool found = false;                  ///< should be: contact, within reach, a hit

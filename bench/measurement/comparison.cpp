@@ -114,12 +114,12 @@ struct Comparison::Begun {
   workload::Query query = workload::Query::nearest;
   workload::SamplePlan plan;
   std::deque<Measurement> measurements = {};
-  std::vector<std::size_t> whose = {};         ///< the process of each case
-  std::vector<Measurement*> interleaved = {};  ///< those that take turns
+  std::vector<std::size_t> whose = {};         ///< the process of each measurement
+  std::vector<Measurement*> interleaved = {};  ///< the measurements that take turns
   Measurement* controlled = nullptr;
   std::optional<Measurement> control = std::nullopt;
   std::vector<Request> requests = {};
-  std::size_t done = 0;  ///< of the orders
+  std::size_t done = 0;  ///< how many of the requests
 };
 
 Comparison::~Comparison() = default;

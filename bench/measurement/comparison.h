@@ -25,14 +25,14 @@
 
 namespace touchmark::bench::measurement {
 
-/// Called before each order to a worker.
+/// Called before each request to a worker.
 using Progress = std::function<void(const std::string& trajectory, const std::string& contestant)>;
 
-/// Which cases are wanted, by trajectory and contestant.
+/// Which measurements are wanted, by trajectory and contestant.
 using CaseFilter = std::function<bool(const std::string& trajectory, const std::string& contestant)>;
 
-/// together: all contestants are built before any is timed, and then timed in random order. sequential: each
-/// is built, verified, timed and ended before the next, where memory does not hold all of them.
+/// interleaved: all contestants are built before any is timed, and then timed in random order. sequential:
+/// each is built, verified, timed and ended before the next, where memory does not hold all of them.
 enum class Schedule { interleaved, sequential };
 
 class Comparison {
@@ -67,10 +67,10 @@ class Comparison {
   /// Returns how steady each trace and query was that was timed, in the order of the runs.
   const std::vector<Steadiness>& steadiness() const noexcept { return steadiness_; }
 
-  /// Not asked for, because the filter leaves them out: pairs of trajectory and contestant.
+  /// Returns what the filter left out: pairs of trajectory and contestant.
   const std::vector<std::pair<std::string, std::string>>& left_out() const noexcept { return left_out_; }
 
-  /// With what their workers said of themselves.
+  /// Returns the contestants with what their workers said of themselves.
   const std::deque<workers::ContestantProcess>& contestants() const noexcept { return processes_; }
 
  private:
@@ -81,12 +81,12 @@ class Comparison {
   void verify(Begun& begun, ground_truth::GroundTruths& truths);
   void add_control(Begun& begun, ground_truth::GroundTruths& truths);
   std::vector<ResultRow> rows_of(Begun& begun);
-  /// The scene as that process's library stores it, made when first asked for; null where it is the given
+  /// The scene as that process's library rounds it, made when first asked for; null where it is the given
   /// one.
   const ground_truth::RoundedScene* rounded_scene_of(std::size_t process);
   void verify(class Measurement& one, const ground_truth::RoundedScene* rounded, std::size_t trace,
               ground_truth::GroundTruths& truths);
-  /// Takes the orders of `begun` up to this one.
+  /// Takes the requests of `begun` up to this one.
   void measure(Begun& begun, std::size_t end);
   workload::SamplePlan plan_for(std::size_t trace, ground_truth::GroundTruths& truths) const;
   /// The process that times a contestant once more: that of the trace before, where its contestant still is

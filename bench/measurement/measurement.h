@@ -18,8 +18,8 @@
 namespace touchmark::bench::measurement {
 
 /// Steps in the order of their declaration; each of the measuring ones may come several times, other
-/// contestants' in between. Whatever the worker does, the case goes on with its status; only ResourceError
-/// and Interrupted are thrown.
+/// contestants' in between. Whatever the worker does, the measurement goes on with its status; only
+/// ResourceError and Interrupted are thrown.
 class Measurement {
  public:
   /// All references must outlive it.
@@ -33,14 +33,14 @@ class Measurement {
 
   /// Builds if that was not done, asks the first question, finds how many steps there is time for.
   void calibrate();
-  /// Introduces it with the steps and repetitions of another contestant's case.
+  /// Calibrates it with the steps and repetitions of another contestant's measurement.
   void calibrate_like(const Measurement& other);
-  /// Has the steps answered and judged, before anything is timed; once more by `stored`, unless that is null:
-  /// the truths of the scene as the contestant's library stores it.
+  /// Has the steps answered and judged, before anything is timed; once more by `rounded`, unless that is
+  /// null: the ground truth of the scene as the contestant's library stores it.
   void verify(ground_truth::GroundTruths& truths, ground_truth::GroundTruths* rounded = nullptr);
 
-  /// With a fresh session, after others used the caches; what makes parts of itself later is built anew just
-  /// before, so that making them is in it.
+  /// Times a pass with a fresh session, after others used the caches. A detector that builds lazily is built
+  /// anew just before, so that this work is in the time.
   void first_pass();
   void repetition();
   void latency_pass();

@@ -30,8 +30,8 @@ struct ThroughputResult {
   double ns_per_query_first_pass = 0;  ///< fresh session; see Case::first_pass
   double cpu_ns_per_query = 0;         ///< median; without what other processes took of the core
   std::size_t repetitions = 0;
-  UndisturbedTime undisturbed{};  ///< of the whole trajectory; what contestants are ranked by
-  double disturbed_share = 0;     ///< of the samples it is from: interrupted for over a fifth of their time
+  UndisturbedTime undisturbed{};  ///< over the whole trajectory; what contestants are ranked by
+  double disturbed_share = 0;     ///< its samples that were interrupted for over a fifth of their time
 };
 
 struct WorkResult {
@@ -40,7 +40,7 @@ struct WorkResult {
   Work total;  ///< over all steps, by kind
 };
 
-/// Of at least one step; `total` is by all of them.
+/// Summarizes the work of at least one step; `total` is that of all of them.
 inline WorkResult summarize_work(std::span<const std::uint64_t> work, const Work& total) {
   return {static_cast<double>(total.total()) / static_cast<double>(work.size()),
           *std::max_element(work.begin(), work.end()), total};
@@ -49,7 +49,7 @@ inline WorkResult summarize_work(std::span<const std::uint64_t> work, const Work
 /// Empty is what was not measured, because the contestant did not come so far.
 struct ResultRow {
   std::string detector;
-  std::string options;  ///< those written out: "key=value,..."
+  std::string options;  ///< as written out: "key=value,..."
   std::string mesh;
   std::size_t triangles = 0;
   std::string trajectory;
@@ -57,14 +57,14 @@ struct ResultRow {
   std::size_t steps = 0;      ///< replayed, timed and verified
   double radius = 0;          ///< mesh units
   double reach = 0;           ///< mesh units
-  std::string status = "ok";  ///< or unsupported, refused: ..., crashed:..., timeout, checksum mismatch
+  std::string status = "ok";  ///< else unsupported, refused: ..., crashed:..., timeout, checksum mismatch
 
   std::optional<Guarantee>
       claimed;  ///< by the contestant's entry, so known of one that never came to be built
   std::optional<Accuracy> accuracy;           ///< as claimed once it was built
   std::optional<oracle::ErrorCounts> counts;  ///< as found
   std::optional<oracle::ErrorCounts>
-      rounded_scene_counts;  ///< the same by the mesh that its library keeps, where that is another
+      rounded_scene_counts;  ///< by the mesh that its library keeps, where that is another
   std::optional<ThroughputResult> throughput;
   std::optional<LatencySummary> latency;
   std::optional<LatencySummary> prepare;         ///< between steps, where the contestant does that

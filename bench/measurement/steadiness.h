@@ -23,7 +23,7 @@ struct Control {
   bool ties() const noexcept { return ratio <= resolution && ratio * resolution >= 1; }
 };
 
-/// Of the rows of one trajectory and query.
+/// Says how steady the rows of one trajectory and query are.
 struct Steadiness {
   std::string mesh, trajectory;
   workload::Query query = workload::Query::nearest;
@@ -39,7 +39,7 @@ std::optional<Control> control_of(const ResultRow& row, const ResultRow& control
 /// At least one row.
 Steadiness steadiness_of(const std::vector<ResultRow>& rows, std::optional<Control> control);
 
-/// Of them the fastest that claims exactness and was right; null where there is none with times.
+/// Returns the fastest row that claims exactness and was right; null where there is none with times.
 const ResultRow* fastest_exact(const std::vector<ResultRow>& rows);
 
 }  // namespace touchmark::bench::measurement

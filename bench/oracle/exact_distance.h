@@ -16,7 +16,7 @@ namespace touchmark::bench::oracle {
 struct ExactNearest {
   std::size_t which = 0;      ///< its place in the list; of several at exactly the same distance the first
   double high = 0;            ///< the distance, as a sum of two doubles: high is it rounded to nearest
-  double low = 0;             ///< and high + low is off by less than 2^-100 of it or one smallest double
+  double low = 0;             ///< high + low is off by less than 2^-100 of it or one smallest double
   Vec3 point = Vec3::Zero();  ///< the nearest point of that triangle, each coordinate within one ulp
   Vec3 direction = Vec3::Zero();  ///< unit, from the nearest point to the query point, to a few ulp; zero
                                   ///< where the distance is exactly zero

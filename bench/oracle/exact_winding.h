@@ -22,8 +22,8 @@ class ExactSides {
 
   /// Does every edge, by the places of its ends, have as many triangles one way as the other?
   bool closed() const noexcept { return closed_; }
-  /// Of a closed mesh, for a finite point. By what core/sign/side_finder.h means: with a negative volume the
-  /// space all round is inside. Undecided where shells contradict each other.
+  /// Returns the side of a finite point, for a closed mesh, as core/sign/side_finder.h defines it: with a
+  /// negative volume the space all round is inside. Undecided where shells contradict each other.
   Side side(const Vec3& point) const;
 
  private:

@@ -35,7 +35,7 @@ double angle(const Vec3& a, const Vec3& b) noexcept { return std::atan2(a.cross(
 
 enum class Verdict { right, unresolved, wrong };
 
-/// Charges answers about one oracle's mesh by one contestant's word.
+/// Charges answers about one oracle's mesh by one contestant's declared accuracy.
 class Judge {
  public:
   Judge(const Oracle& oracle, const Accuracy& accuracy, const Reported& reported)
@@ -66,12 +66,13 @@ class Judge {
     return known_ ? accuracy_.relative * largest_difference + accuracy_.absolute
                   : kernel_relative_error * largest_difference;
   }
-  /// The same for the fields of an answer. Whoever declares nothing is not held to what others declare.
+  /// Returns what is allowed in the fields of an answer. Whoever declares nothing is not held to what others
+  /// declare.
   double allowed_in_fields(double largest_difference) const noexcept {
     return known_ ? allowed(largest_difference) : std::max(allowed(largest_difference), tolerance_);
   }
-  /// Does the way touch the mesh beyond all excuse? A radius below the tolerance leaves no depth to tell by,
-  /// only that the way goes through.
+  /// Returns true if the path touches the mesh beyond all excuse. A radius below the tolerance leaves no
+  /// depth to tell by, only that the way goes through.
   bool surely_touches(const Vec3& from, const Vec3& to, double radius, double tolerance) const {
     return oracle_.segment_within(from, to, lowered(radius - tolerance)) ||
            (radius >= 0 && radius <= tolerance && oracle_.surely_crosses(from, to, tolerance));
@@ -116,8 +117,8 @@ Verdict Judge::threshold(const GroundTruth& truth, const Vec3& center, double li
   return excused ? Verdict::unresolved : Verdict::wrong;
 }
 
-/// Where those that carry the id begin and end.
-std::pair<std::size_t, std::size_t> places_of(const TriangleMesh& mesh, TriangleId id) {
+/// Returns where the triangles that carry the id begin and end.
+std::pair<std::size_t, std::size_t> positions_of(const TriangleMesh& mesh, TriangleId id) {
   const auto ids = mesh.ids();
   if (ids.empty())
     return {std::min<std::size_t>(id, mesh.size()), std::min(std::size_t{id} + 1, mesh.size())};
@@ -130,7 +131,7 @@ std::pair<std::size_t, std::size_t> places_of(const TriangleMesh& mesh, Triangle
 std::vector<GroundTruth> Judge::with_id(const GroundTruth& truth, const Vec3& center, TriangleId id,
                                         double slack) const {
   const TriangleMesh& mesh = oracle_.mesh();
-  const auto [begin, end] = places_of(mesh, id);
+  const auto [begin, end] = positions_of(mesh, id);
   std::vector<GroundTruth> found;
   for (std::size_t i = begin; i < end; ++i) {
     const auto triangle = static_cast<std::uint32_t>(i);
@@ -297,7 +298,7 @@ void Judge::sweep(const SweepGroundTruth& truth, const Sweep& sweep, const workl
 /// By how much the distance at the fraction told may exceed the radius, of the triangle named.
 double Judge::sweep_gap(const Sweep& sweep, TriangleId id) const {
   double largest = 0;
-  const auto [begin, end] = places_of(oracle_.mesh(), id);
+  const auto [begin, end] = positions_of(oracle_.mesh(), id);
   for (std::size_t i = begin; i < end; ++i)
     for (const Vec3& v : triangle_of(oracle_.mesh(), static_cast<std::uint32_t>(i)))
       largest = std::max(largest, (sweep.from - v).cwiseAbs().maxCoeff());

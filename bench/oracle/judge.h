@@ -51,9 +51,9 @@ struct ErrorCounts {
   std::uint64_t unresolved = 0;  ///< differs from the truth, but within the accuracy of the threshold
 
   double max_distance_error = 0;              ///< mesh units
-  double max_distance_error_of_diagonal = 0;  ///< the same over the diagonal of the mesh's box
+  double max_distance_error_of_diagonal = 0;  ///< max_distance_error over the diagonal of the mesh's box
   double max_distance_error_ulp = 0;  ///< in ulp of the true distance, where that exceeds its own rounding
-  double max_normal_angle_deg = 0;    ///< where the distance is so large that the direction has a meaning
+  double max_normal_angle_deg = 0;    ///< over distances so large that the direction has a meaning
   double max_point_error = 0;  ///< mesh units, from the reported point to the triangle it should lie on
 
   /// Is any answer charged with what breaks a claim of exactness?
@@ -74,7 +74,7 @@ bool meets_guarantee(const ErrorCounts& counts, const Accuracy& accuracy) noexce
 /// One answer that was charged.
 struct Charge {
   std::size_t step = 0;  ///< its place in the lists
-  ErrorCounts counts;    ///< of this answer alone
+  ErrorCounts counts;    ///< this answer's alone
 };
 
 /// The first ones of those that were charged, in the order of the steps.
@@ -85,7 +85,7 @@ class Charges {
   void add(std::size_t step, const ErrorCounts& counts) {
     if (kept_.size() < max_) kept_.push_back({step, counts});
   }
-  /// Those of another list of the same answers, whose steps are counted from `first_step`.
+  /// Adds the charges of another list of the same answers, whose steps are counted from `first_step`.
   void merge(const Charges& others, std::size_t first_step = 0);
   const std::vector<Charge>& kept() const noexcept { return kept_; }
 

@@ -23,7 +23,7 @@ struct GroundTruth {
   double low = 0;                 ///< high + low is the distance to 2^-100 of it
   Vec3 point = Vec3::Zero();      ///< the nearest point of `triangle`, rounded
   Vec3 direction = Vec3::Zero();  ///< unit, from `point` to the centre; zero where the distance is exactly 0
-  double largest_difference = 0;  ///< of the coordinates of the centre and of the corners of `triangle`
+  double largest_difference = 0;  ///< between coordinates of the centre and of the corners of `triangle`
 };
 
 /// The truth about one sweep.

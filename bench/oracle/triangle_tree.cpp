@@ -24,7 +24,7 @@ double length_below(const Vec3& excess) noexcept {
   return std::min(excess.maxCoeff(), std::numeric_limits<double>::max()) * down;
 }
 
-/// The same rounded up.
+/// Returns the length of `excess`, rounded up.
 double length_above(const Vec3& excess) noexcept {
   const double squared = excess.squaredNorm();
   if (squared > 0x1p-900) return std::sqrt(squared) * up;

@@ -9,8 +9,8 @@
 
 namespace touchmark::bench::results {
 
-/// With the line end. The same columns for every query; `sweep` appends the fraction of the way, and a
-/// contestant that is asked for it the side.
+/// Returns the header with its line end. All queries have these columns; `sweep` appends the fraction of the
+/// way, and a contestant that is asked for it the side.
 std::string answer_header(workload::Query query, bool with_side = false);
 
 /// Appends a step's row. `touching` is 1 where the distance is at most the probe's radius (sweep: where it

@@ -8,7 +8,7 @@ namespace touchmark::bench::results {
 
 struct BuildInfo {
   std::string version;     ///< the project's
-  std::string commit;      ///< of the working tree, "-dirty" appended if it was changed; or "unknown"
+  std::string commit;      ///< the working tree's, "-dirty" appended if it was changed; or "unknown"
   std::string compiler;    ///< name and version
   std::string flags;       ///< what every file was compiled with
   std::string build_type;  ///< Release, ...

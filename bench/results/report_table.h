@@ -19,7 +19,7 @@ std::string verdict(const std::vector<measurement::ResultRow>& rows,
 /// triangles are seen that they hand to a callback.
 std::string work_table(const std::vector<measurement::ResultRow>& rows);
 
-/// Says on stderr, a line each, which rows broke their word or were timed with other answers than the
+/// Says on stderr, a line each, which rows violated their guarantee or were timed with other answers than the
 /// verified ones; `where` names a row beside its contestant. False when there are none.
 bool print_faults(const std::vector<measurement::ResultRow>& rows,
                   const std::function<std::string(const measurement::ResultRow&)>& where);

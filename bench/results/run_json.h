@@ -26,11 +26,11 @@ struct RunDescription {
   measurement::Effort effort;
   std::optional<int> core;                                    ///< the workers'
   bool finished = true;                                       ///< false after Ctrl-C
-  std::vector<measurement::Steadiness> steadiness;            ///< of what was timed
+  std::vector<measurement::Steadiness> steadiness;            ///< for what was timed
   std::vector<std::pair<std::string, std::string>> left_out;  ///< trajectory and contestant, by a filter
 };
 
-/// Of a run that begins now: an id, the system, and the command line without the program's name.
+/// Describes a run that begins now: an id, the system, and the command line without the program's name.
 RunDescription begun_run(int argc, const char* const* argv);
 
 std::string run_json(const RunDescription& run, const workload::Workload& workload,

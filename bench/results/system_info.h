@@ -9,8 +9,8 @@ namespace touchmark::bench::results {
 
 struct SystemInfo {
   std::string cpu_model;  ///< "unknown" where it cannot be read
-  int cores = 0;          ///< that this process may use
-  std::string governor;   ///< of frequency scaling; "unknown" where it cannot be read
+  int cores = 0;          ///< how many this process may use
+  std::string governor;   ///< frequency scaling's; "unknown" where it cannot be read
   std::array<double, 3> load_average{};
   std::string date;  ///< UTC, ISO 8601
 };

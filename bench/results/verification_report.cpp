@@ -15,7 +15,7 @@
 namespace touchmark::bench::results {
 namespace {
 
-/// All rows of one contestant together.
+/// Sums up all rows of one contestant.
 struct Summary {
   std::string contestant;
   std::string guarantee;

@@ -1,4 +1,4 @@
-/// The same triangles a little elsewhere: what an updated detector is built of before it follows its mesh.
+/// Moves some vertices of a mesh a little: what an updated detector is built of before it follows its mesh.
 #pragma once
 
 #include <cstdint>

@@ -25,8 +25,8 @@ struct MeshReport {
   /// here but the aspect ratio.
   std::size_t degenerate = 0;
   std::size_t edges = 0;
-  std::size_t boundary_edges = 0;         ///< of one triangle
-  std::size_t non_manifold_edges = 0;     ///< of more than two
+  std::size_t boundary_edges = 0;         ///< with one triangle
+  std::size_t non_manifold_edges = 0;     ///< with more than two
   std::int64_t euler_characteristic = 0;  ///< positions - edges + triangles
   bool closed = false;                    ///< every edge has two triangles
   bool oriented = false;                  ///< no two triangles run along an edge the same way

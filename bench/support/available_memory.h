@@ -1,4 +1,4 @@
-/// Whether there is room, asked before memory is taken.
+/// Checks for enough memory before it is taken.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ std::optional<std::uint64_t> available_memory();
 /// number of bytes, infinity too.
 void require_memory(std::string_view what, double bytes);
 
-/// The same for "N triangles at B bytes each".
+/// Requires memory for "N triangles at B bytes each".
 void require_memory_for_triangles(std::size_t count, double bytes_each);
 
 /// Any detector keeps a copy of the triangles, and a structure over them.

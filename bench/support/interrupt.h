@@ -1,4 +1,4 @@
-/// Ctrl-C and SIGTERM as something to ask for between two orders instead of a sudden end.
+/// Ctrl-C and SIGTERM as something to ask for between two requests instead of a sudden end.
 #pragma once
 
 namespace touchmark::bench::support {

@@ -21,7 +21,7 @@ struct MotionColumns {
   std::array<MotionColumn, 3> position;
   std::optional<MotionColumn> time, radius;
   double seconds = 1;     ///< what the time's unit is in seconds
-  std::size_t count = 0;  ///< of columns in all
+  std::size_t count = 0;  ///< columns in all
 };
 
 /// Reads the header. Without a choice of columns the position is the first of these that the header names

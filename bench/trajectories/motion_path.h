@@ -55,7 +55,7 @@ class Path {
 
   std::size_t steps_;
   std::vector<Vec3> positions_;
-  Vec3 corner_ = Vec3::Zero();  ///< where the last flight was headed
+  Vec3 corner_ = Vec3::Zero();  ///< the last flight's target
   double left_over_ = 0;        ///< from the last position to there
 };
 

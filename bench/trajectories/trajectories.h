@@ -17,15 +17,15 @@ struct TrajectoryInfo {
   std::string description;  ///< one line
 };
 
-/// Those that need no file.
+/// Returns the trajectories that need no file.
 std::vector<TrajectoryInfo> trajectories();
 
 struct TrajectoryOptions {
   std::size_t steps =
       0;  ///< 0: 20,000 generated ones, all of a file; else at most the first so many of a file
-  std::uint64_t seed = 1;     ///< of generated ones
+  std::uint64_t seed = 1;     ///< for generated ones
   double radius = 0;          ///< the probe's, mesh units: says what "in contact" is; may be infinite
-  MotionOptions motion = {};  ///< of a file
+  MotionOptions motion = {};  ///< for a file
 };
 
 /// True of a name from the list.

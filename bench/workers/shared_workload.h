@@ -1,5 +1,5 @@
-/// The mesh and the traces, written once by the program and read by every worker, and the room that workers
-/// answer into. Only one worker works at a time, so they share that room.
+/// The mesh and the traces, written once by the program and read by every worker, and the output buffers that
+/// workers answer into. Only one worker works at a time, so they share these.
 #pragma once
 
 #include <cstddef>
@@ -30,7 +30,7 @@ struct WorkloadLayout {
 void to_json(nlohmann::json& json, const WorkloadLayout& layout);
 void from_json(const nlohmann::json& json, WorkloadLayout& layout);
 
-/// Where one order's results go. Answers and work, or two kinds of ticks: a step needs one or the other.
+/// Holds one request's results. Answers and work, or two kinds of ticks: a step needs one or the other.
 class OutputBuffers {
  public:
   static std::size_t bytes_for(std::size_t steps) noexcept;

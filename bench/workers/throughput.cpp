@@ -115,8 +115,8 @@ Throughput measure_throughput(contestants::Contestant& contestant, const workloa
 
 Throughput sample_throughput(contestants::Contestant& contestant, const workload::QueryTrace& trace,
                              const std::vector<workload::StepRange>& ranges, std::int64_t passes,
-                             std::int64_t together) {
-  assert(together == 1 || ranges.size() == 1);
+                             std::int64_t replays) {
+  assert(replays == 1 || ranges.size() == 1);
   Throughput result;
   AnswersOfPasses answers(result);
   result.samples.reserve(ranges.size() * static_cast<std::size_t>(std::max<std::int64_t>(passes, 1)));
@@ -124,17 +124,17 @@ Throughput sample_throughput(contestants::Contestant& contestant, const workload
     workload::Checksum checksum;
     for (const workload::StepRange& range : ranges) {
       const SampleClock clock;
-      for (std::int64_t i = 0; i < together; ++i) {
+      for (std::int64_t i = 0; i < replays; ++i) {
         if (i > 0) answers.add(std::exchange(checksum, workload::Checksum()));
         contestant.replay(trace, range, checksum);
       }
-      clock.stop(static_cast<double>(together), result);
+      clock.stop(static_cast<double>(replays), result);
     }
     answers.add(checksum);
   };
   workload::Checksum unused;
   contestant.replay(trace, ranges.back(), unused);
-  run_passes(pass, passes, static_cast<double>(workload::steps_in(ranges)) * static_cast<double>(together),
+  run_passes(pass, passes, static_cast<double>(workload::steps_in(ranges)) * static_cast<double>(replays),
              result);
   return result;
 }

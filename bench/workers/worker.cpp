@@ -59,7 +59,7 @@ class Worker {
         input_(SharedMemory::attach(worker_input, SharedMemory::Access::read)),
         output_(SharedMemory::attach(worker_output, SharedMemory::Access::write)) {}
 
-  /// The reply to one order.
+  /// Returns the reply to one request.
   nlohmann::json dispatch(const nlohmann::json& request) {
     const std::string what = request.at("order");
     if (what == "open") return open(request.at("layout"), request.at("calibrate_clock"));

@@ -1,4 +1,4 @@
-/// The inside of a worker process: builds one contestant and does what the program orders, see
+/// The inside of a worker process: builds one contestant and does what the program requests, see
 /// worker_protocol.h.
 #pragma once
 

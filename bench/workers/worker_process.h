@@ -1,4 +1,4 @@
-/// The outside of a worker process: starts it, orders, waits with a deadline, and says how it ended.
+/// The outside of a worker process: starts it, sends requests, waits with a deadline, and says how it ended.
 #pragma once
 
 #include <chrono>
@@ -46,7 +46,7 @@ class WorkerProcess {
 
  private:
   struct Ending {
-    int status = 0;  ///< of waitpid
+    int status = 0;  ///< waitpid's
     bool out_of_time = false;
   };
   Ending end();  // makes sure it is gone and says how it went

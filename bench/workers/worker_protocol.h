@@ -1,4 +1,4 @@
-/// What the program and a worker say to each other: one JSON object a line, an order and its reply in turn.
+/// What the program and a worker say to each other: one JSON object a line, a request and its reply in turn.
 /// Bulk data (mesh, traces, answers, times) goes through shared memory, see shared_workload.h.
 #pragma once
 
@@ -34,7 +34,7 @@ struct Task {
 
 /// Reply to "open": the worker has read the mesh and the traces.
 struct Opened {
-  double clock_cost_ns = 0;  ///< of one reading in the latency pass
+  double clock_cost_ns = 0;  ///< one reading's in the latency pass
   double ns_per_tick = 1;
   bool flushed_to_zero = false;  ///< a library had switched denormal numbers off; the worker switched them on
 };
@@ -48,25 +48,25 @@ struct Built {
   Accuracy accuracy;
   std::vector<workload::Query> queries;
   bool prepares = false;
-  bool builds_lazily = false;  ///< parts of itself, by the first queries
+  bool builds_lazily = false;  ///< its first queries build parts of it
 };
 
-/// Reply to "answer": answers and work lie in the output room, from a fresh session.
+/// Reply to "answer": answers and work lie in the output buffers, from a fresh session.
 struct Answered {
   std::uint64_t checksum = 0;
-  Work work;  ///< of all steps
+  Work work;  ///< all steps'
 };
 
 /// Reply to "first" (one step, fresh session), "calibrate", "first_pass" (fresh session), "time", "sample"
-/// and "latency" (ticks lie in the output room).
+/// and "latency" (ticks lie in the output buffers).
 struct Timed {
   double ns_per_query = 0;      ///< elapsed; of "calibrate" the shorter of that and the processor time
-  double cpu_ns_per_query = 0;  ///< of "time" and "sample" only
+  double cpu_ns_per_query = 0;  ///< "time" and "sample" only
   std::uint64_t checksum = 0;
   bool steady = true;                ///< every pass gave the same checksum
-  Work work;                         ///< of "first_pass" only, of all steps
-  std::vector<double> samples = {};  ///< of "sample" only: see sample_throughput
-  std::size_t interrupted = 0;       ///< of the samples
+  Work work;                         ///< "first_pass" only: all steps'
+  std::vector<double> samples = {};  ///< "sample" only: see sample_throughput
+  std::size_t interrupted = 0;       ///< how many samples were
 };
 
 /// Reply to "update": the detector follows the deformed mesh now. Updates, there and back, and builds of the

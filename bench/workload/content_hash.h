@@ -23,7 +23,7 @@ class ContentHash {
     const auto bits = std::bit_cast<std::uint64_t>(value);
     add(&bits, sizeof bits);
   }
-  /// With its end, so that "ab", "c" is not "a", "bc".
+  /// Adds a text with its end, so that "ab", "c" is not "a", "bc".
   void add(std::string_view text) noexcept {
     add(text.data(), text.size());
     add("", 1);

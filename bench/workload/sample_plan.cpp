@@ -11,7 +11,7 @@ namespace {
 
 /// As many blocks at least, cut shorter where that is more steps than are wanted.
 constexpr std::size_t min_blocks = 16;
-/// Of each phase that has as many: one tells nothing of how blocks differ.
+/// Blocks drawn of each phase that has as many: one tells nothing of how blocks differ.
 constexpr std::size_t min_of_a_phase = 2;
 constexpr double nearness = 0.02;  // diagonals
 constexpr std::size_t telling_of_a_block = 3;

@@ -12,7 +12,7 @@ namespace touchmark::bench::workload {
 /// Disjoint ranges, ascending, of about `wanted` steps in all (at least 1; all `total` if wanted >= total).
 std::vector<StepRange> sample_steps(std::size_t total, std::size_t wanted);
 
-/// Those that meet made one.
+/// Joins ranges that meet.
 std::vector<StepRange> joined(const std::vector<StepRange>& ranges);
 
 /// The range in so many parts, as equal as can be; not more than it has steps.

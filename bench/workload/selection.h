@@ -19,7 +19,7 @@ struct Selection {
   std::optional<support::Length> reach;  ///< nothing: each probe's radius
   std::optional<std::size_t> steps;
   trajectories::MotionOptions motion;
-  std::optional<support::LengthUnit> unit;  ///< of the mesh; nothing: unknown
+  std::optional<support::LengthUnit> unit;  ///< the mesh's; nothing: unknown
   std::uint64_t seed = 1;
 };
 

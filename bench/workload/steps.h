@@ -13,7 +13,7 @@ namespace touchmark::bench::workload {
 /// stands still.
 struct Step {
   Probe probe;
-  double reach = 0;  ///< of `nearest`
+  double reach = 0;  ///< for `nearest`
 };
 
 /// The steps [begin, end) of a trace.

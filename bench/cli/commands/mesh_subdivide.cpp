@@ -96,8 +96,8 @@ void warn_of_seams(const SubdivideOptions& options, const TriangleMesh& coarse) 
 /// What a triangle takes while it is made: 50 million take about 4 GB.
 constexpr double bytes_a_triangle = 86;
 
-/// Where every edge splits, what comes of it is known beforehand; elsewhere it may come to what there is room
-/// for. Too many for a mesh are refused by subdivide itself.
+/// Limits the result to memory. The size is known beforehand where every edge splits; elsewhere it may come
+/// to what there is room for. Too many for a mesh are refused by subdivide itself.
 void keep_within_memory(SubdivisionOptions& options, std::size_t triangles) {
   const bool by_faces = options.method == SubdivisionMethod::catmull_clark ||
                         options.method == SubdivisionMethod::catmull_clark_linear;

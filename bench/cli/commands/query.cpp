@@ -37,7 +37,7 @@ struct QueryOptions {
   WorkerSelectors workers;
 };
 
-/// Where the rows go: a file that gets its name when it is complete, or standard output.
+/// Writes the rows: to a file that gets its name when it is complete, or standard output.
 class RowSink {
  public:
   explicit RowSink(const std::string& path) {

@@ -162,7 +162,7 @@ void ScaleRun::skip_known(measurement::Comparison& comparison, std::size_t trian
   }
 }
 
-/// Those that took too long, and those that did not get through at all.
+/// Contestants that took too long, and those that did not get through at all.
 void ScaleRun::note_too_much(const measurement::Comparison& comparison,
                              const std::vector<measurement::ResultRow>& rows) {
   const auto note = [&](const std::string& contestant, const std::string& why) {

@@ -32,7 +32,7 @@ struct ChoiSungSettings {
   int levels = 3;
   std::size_t steps = 2000;
   std::uint64_t seed = 1;
-  double radius = 0;      ///< of the probe, mesh units
+  double radius = 0;      ///< the probe's, mesh units
   double clustering = 0;  ///< distance, mesh units
   VisitOrder order = VisitOrder::breadth_first;
   TimingEffort effort;

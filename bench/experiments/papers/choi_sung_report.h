@@ -17,7 +17,8 @@ Table choi_sung_table1(const ChoiSungResult& result);
 Table choi_sung_table2(const ChoiSungResult& result);
 /// LS3 without and with clustering, and the reduction ratios.
 Table choi_sung_table3(const ChoiSungResult& result);
-/// The same queries by the exact fast forms, and how many times the published scan's update rate they hold.
+/// Compares the exact fast forms on these queries, and says how many times the published scan's update rate
+/// they hold.
 Table choi_sung_fast_table(const ChoiSungResult& result);
 
 /// Number by number. `own_mesh`: it is the mesh of the paper.

@@ -23,9 +23,9 @@ struct FrontierSettings {
   double threshold = 0;             ///< mesh units: edges longer than this split; 0: all do
   std::vector<double> clusterings;  ///< mesh units; 0 among them: a sphere a triangle
   bool fast_forms = true;           ///< the exact tree and grid besides the published scans
-  double radius = 0;                ///< of the probe that is timed, mesh units
+  double radius = 0;                ///< the timed probe's, mesh units
   std::size_t steps = 500;
-  std::size_t samples = 2000;  ///< of the error
+  std::size_t samples = 2000;  ///< points at which the error is measured
   std::uint64_t seed = 1;
   std::size_t most_triangles = 500'000;  ///< a level with more is left out
   TimingEffort effort;

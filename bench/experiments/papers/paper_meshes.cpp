@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 constexpr std::size_t choi_sung_triangles = 902;
 constexpr double choi_sung_diagonal = 2.61541;
 
-/// Where meshes may lie that no package ships: $TOUCHMARK_MODELS, or ../shared/models beside the working
-/// folder or beside the repository that the program was built in (its path is
+/// Returns the folders of meshes that no package ships: $TOUCHMARK_MODELS, or ../shared/models beside the
+/// working folder or beside the repository that the program was built in (its path is
 /// REPOSITORY/build/PRESET/bin/touchmark).
 std::vector<fs::path> model_folders() {
   if (const char* folder = std::getenv("TOUCHMARK_MODELS")) return {folder};

@@ -13,7 +13,7 @@ namespace touchmark::bench::experiments::papers {
 
 /// ax,ay,az,bx,by,bz,cx,cy,cz: a line a triangle, in the mesh's order.
 std::string triangles_csv(const TriangleMesh& mesh);
-/// The same, of these triangles.
+/// Returns such a file of these triangles alone.
 std::string triangles_csv(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles);
 /// x,y,z,radius
 std::string spheres_csv(std::span<const Sphere> spheres);

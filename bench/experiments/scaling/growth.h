@@ -27,7 +27,7 @@ struct Growth {
   std::string contestant() const { return options.empty() ? detector : detector + ":" + options; }
 };
 
-/// Of rows with status ok; where they are of fewer than two sizes there is nothing to tell.
+/// Fits the growth over rows with status ok; empty where they are of fewer than two sizes.
 std::vector<Growth> growth_of(const std::vector<measurement::ResultRow>& rows);
 
 std::string scaling_csv(const std::vector<Growth>& growths);

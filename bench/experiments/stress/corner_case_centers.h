@@ -1,4 +1,4 @@
-/// Where detectors disagree first.
+/// Probe centers at which detectors disagree first.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,9 @@
 
 namespace touchmark::bench::experiments::stress {
 
-/// On vertices, edges and faces and just off them, on the borders of cells, at the box's corners, at the
-/// middle of a ball, and from far to very far. `count` centres at least; the same for the same mesh and seed.
+/// Returns centers on vertices, edges and faces and just off them, on the borders of cells, at the box's
+/// corners, at the middle of a ball, and from far to very far. `count` centres at least; the same for the
+/// same mesh and seed.
 std::vector<Vec3> corner_case_centers(const TriangleMesh& mesh, std::size_t count, std::uint64_t seed);
 
 }  // namespace touchmark::bench::experiments::stress

@@ -1,5 +1,5 @@
-/// Ways about a mesh, each with the least radius with which it hits, with one an ulp to a side of it, or with
-/// that of its start: past the surface, through it, along it, from a hair beside it, nowhere.
+/// Sweeps about a mesh, each with the least radius with which it hits, with one an ulp to a side of it, or
+/// with that of its start: past the surface, through it, along it, from a hair beside it, nowhere.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@
 
 namespace touchmark::bench::experiments::stress {
 
-/// The least radius with which the way hits, by halving between doubles.
+/// Returns the least radius with which the sweep hits, by halving between doubles.
 inline double min_radius(const oracle::Oracle& oracle, const Vec3& from, const Vec3& to) {
   double high = oracle.solve(from).high;
   if (!std::isfinite(high) || !oracle.segment_within(from, to, high))
@@ -41,8 +41,8 @@ inline Vec3 nudged(Vec3 point, CornerCases& cases) {
   return point;
 }
 
-/// One mesh's hard ways, seeded. Each is two steps: where it starts, and where it ends with its radius. The
-/// sweeps between them are as good as any.
+/// Makes one mesh's corner case sweeps, seeded. Each is two steps: where it starts, and where it ends with
+/// its radius. The sweeps between them are as good as any.
 class CornerCaseSweeps {
  public:
   CornerCaseSweeps(const TriangleMesh& mesh, std::uint64_t seed)

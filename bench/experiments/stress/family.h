@@ -13,9 +13,9 @@
 
 namespace touchmark::bench::experiments::stress {
 
-/// Meshes and the questions about them. The same for the same seed and number; about `probes` in all, at
-/// least a few for each mesh. Throws MeshError where no mesh can be made of it: every contestant refuses it
-/// then.
+/// Makes meshes and the questions about them. Equal seeds and numbers give equal ones; about `probes` in all,
+/// at least a few for each mesh. Throws MeshError where no mesh can be made of it: every contestant refuses
+/// it then.
 using MakeQuestions = std::vector<workload::Workload> (*)(std::uint64_t seed, std::size_t probes);
 
 struct Family {

@@ -25,7 +25,7 @@ workload::Workload turned(CornerCases& cases, std::size_t probes) {
   return workload_on({"turned images", std::move(mesh)}, "on the axis of turning", std::move(trace));
 }
 
-/// `way`: how far apart the ends are between which the nearest changes, at most.
+/// `length`: how far apart the ends are between which the nearest changes, at most.
 workload::Workload between(NamedMesh named, CornerCases& cases, double length, std::size_t probes) {
   const oracle::Oracle oracle(named.mesh);
   std::vector<Vec3> centers;

@@ -17,7 +17,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double least = std::numeric_limits<double>::denorm_min();
 constexpr double largest = std::numeric_limits<double>::max();
 
-/// Where squares overflow every comparison takes whole numbers of thousands of bits: milliseconds.
+/// Few, since every comparison whose squares overflow takes integers of thousands of bits: milliseconds.
 constexpr std::size_t max_beyond_squares = 40;
 
 /// One of a list.

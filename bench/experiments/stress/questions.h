@@ -1,4 +1,4 @@
-/// What families put their questions together with.
+/// What families make their questions with.
 #pragma once
 
 #include <cstddef>
@@ -27,8 +27,8 @@ std::vector<workload::Step> at_the_exact_distance(const TriangleMesh& mesh, cons
 /// One trace about one mesh.
 workload::Workload workload_on(NamedMesh mesh, std::string trace_name, std::vector<workload::Step> trace);
 
-/// The first so many centres of a mesh's hard ones, each at its exact distance. A third of `probes` in
-/// centres, spread evenly over the meshes.
+/// Returns the first so many of a mesh's corner case centers, each at its exact distance. A third of `probes`
+/// in centres, spread evenly over the meshes.
 std::vector<workload::Workload> corner_case_questions(std::vector<NamedMesh> meshes, std::uint64_t seed,
                                                       std::size_t probes);
 

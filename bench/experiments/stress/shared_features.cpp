@@ -46,7 +46,7 @@ SharedFeature book(std::string name, std::size_t count, const Vec3& from, const 
           {Vec3(middle - 0.25 * up), from, Vec3(from - 0.1 * along - 0.1 * up), Vec3(middle - 0x1p-30 * up)}};
 }
 
-/// The same triangles again and again, in a plane that x and y span.
+/// Repeats one pair of triangles in a plane that x and y span.
 SharedFeature sheet(std::string name, std::size_t count, const Vec3& x, const Vec3& y) {
   const Vec3 origin(0.5, 0.25, 0.125), up = x.cross(y);
   const auto at = [&](double u, double v) { return Vec3(origin + u * x + v * y); };

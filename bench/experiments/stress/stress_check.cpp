@@ -23,7 +23,7 @@ constexpr std::array filled{"run_id", "detector", "family"};
 constexpr std::array counts{"adversarial",    "meshes",       "probes",      "missed",       "false_contacts",
                             "wrong_triangle", "beyond_bound", "wrong_point", "wrong_normal", "malformed",
                             "unresolved",     "crashes",      "timeouts",    "refusals"};
-/// Of the probes, each at most once.
+/// Columns that count probes, each at most once.
 constexpr std::array of_probes{"missed",      "false_contacts", "wrong_triangle", "beyond_bound",
                                "wrong_point", "wrong_normal",   "malformed",      "unresolved"};
 constexpr std::array appended{"beyond_tolerance", "rounding", "wrong_side"};

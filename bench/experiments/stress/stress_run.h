@@ -1,4 +1,5 @@
-/// Every contestant on every family, in rounds of so many probes that a round's truths fit into memory.
+/// Every contestant on every family, in rounds of so many probes that a round's ground truth fits into
+/// memory.
 #pragma once
 
 #include <cstddef>
@@ -19,8 +20,8 @@ struct StressRequest {
   std::vector<const Family*> families;
   std::vector<contestants::ContestantSpec> contestants;
   std::vector<workload::Query> queries;
-  std::uint64_t seed = 1;  ///< of the first round; each further one has the next
-  std::size_t probes = 0;  ///< of each family
+  std::uint64_t seed = 1;  ///< the first round's; each further one has the next
+  std::size_t probes = 0;  ///< in each family
   workers::WorkerOptions workers;
 };
 

@@ -1,5 +1,5 @@
-// Ways, each with the radius at which it begins to hit, or one ulp to a side of it. A step's sweep comes from
-// the step before, so a trace is a list of pairs: where a way starts and where it ends.
+// Sweeps, each with the radius at which it begins to hit, or one ulp to a side of it. A step's sweep comes
+// from the step before, so a trace is a list of pairs: where a sweep starts and where it ends.
 #include <cmath>
 #include <utility>
 

@@ -15,7 +15,7 @@ struct Case {
   const char* trajectory;
   TouchmarkGateQuery query;
   std::size_t steps;
-  bool timed;  ///< else only its answers and its work are compared
+  bool timed;  ///< false: only its answers and its work are compared
 
   /// DETECTOR/SCENE/TRAJECTORY/QUERY
   std::string name() const;
@@ -23,7 +23,7 @@ struct Case {
   bool needs_file() const;
 };
 
-/// Those of one scene and detector stand together.
+/// Returns all cases; those of one scene and detector stand together.
 std::span<const Case> cases();
 
 }  // namespace touchmark::bench::regression::driver

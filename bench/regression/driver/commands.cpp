@@ -49,7 +49,8 @@ bool share_detector(const Case& a, const Case& b) {
   return std::string_view(a.detector) == b.detector && std::string_view(a.scene) == b.scene;
 }
 
-/// Those whose mesh is here. Throws std::invalid_argument when `only` names what is no timed case.
+/// Returns the cases whose mesh is here. Throws std::invalid_argument when `only` names what is no timed
+/// case.
 std::vector<Group> timed_groups(const std::vector<std::string>& only, Workloads& workloads) {
   std::vector<Group> groups;
   std::size_t found = 0;

@@ -59,7 +59,7 @@ class Answers {
   std::uint64_t value_ = 1;  // of nothing found in one step is not that of nothing in two
 };
 
-/// And where, and facing which way.
+/// Hashes points and normals, too.
 class FullAnswers {
  public:
   void add(bool touching) noexcept { answers_.add(touching); }

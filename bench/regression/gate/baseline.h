@@ -31,7 +31,7 @@ struct BaselineRow {
   RatioInterval ratio;    ///< the detector's time over the reference's
   std::optional<measurement::WorkResult> work;
   std::optional<std::uint64_t> checksum;
-  std::string version, commit, cpu;  ///< that it was written with; not compared
+  std::string version, commit, cpu;  ///< the program and machine that wrote it; not compared
 };
 
 class Baseline {

@@ -30,7 +30,7 @@ bool control_holds(const Batch& batch, double tolerance) noexcept;
 
 struct Judgement {
   Verdict verdict = Verdict::inconclusive;
-  Batch batch;  ///< that decided, or the last one
+  Batch batch;  ///< the one that decided, or the last
   int batches = 0;
 };
 

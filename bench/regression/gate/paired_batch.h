@@ -15,17 +15,17 @@
 
 namespace touchmark::bench::regression::gate {
 
-/// A detector, or the reference, that did not answer as it should: crashed, refused the mesh, broke its word,
-/// or answered otherwise when it was timed. what() says who and how.
+/// A detector, or the reference, that did not answer as it should: crashed, refused the mesh, violated its
+/// guarantee, or answered otherwise when it was timed. what() says who and how.
 class GateFailure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
 struct GateEffort {
-  std::size_t rounds = 31;        ///< of one turn each
+  std::size_t rounds = 31;        ///< one turn each
   double turn_ns = 8e6;           ///< a turn replays the steps until it has lasted so long
-  double longest_pass_ns = 20e6;  ///< that a replay of the steps may take, where the gate chooses how many
+  double longest_pass_ns = 20e6;  ///< a replay of the steps may take so long where the gate chooses how many
 };
 
 struct GatePair {
@@ -58,7 +58,7 @@ class PairedBatches {
   const GateAnswers& answers() const noexcept { return *answers_; }
   /// Answers judged in all batches, of the detector, the reference and its control.
   std::uint64_t judged() const noexcept { return judged_; }
-  /// Of the last batch, one a round: detector over reference.
+  /// Returns the last batch's ratios, one a round: detector over reference.
   const std::vector<double>& log_ratios() const noexcept { return log_ratios_; }
 
  private:

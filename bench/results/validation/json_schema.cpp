@@ -31,7 +31,7 @@ bool has_type(const Json& value, std::string_view type) {
          (type == "boolean" && value.is_boolean()) || (type == "null" && value.is_null());
 }
 
-/// Of objects and arrays only what they are: they may be nested deeper than dump() can recur.
+/// Names only the kind of objects and arrays: they may be nested deeper than dump() can recur.
 std::string shown(const Json& value) {
   if (value.is_object()) return fmt::format("{{{} members}}", value.size());
   if (value.is_array()) return fmt::format("[{} items]", value.size());
@@ -59,7 +59,7 @@ void check_required(const Json& keys, const Location& location, std::vector<Sche
   }
 }
 
-/// Of the members that `properties` does not name: no such are in use beside it.
+/// Checks all members: no schema has `properties` beside it, which would name some of them.
 void check_every_member(const Json& schema, const Location& location, std::vector<SchemaFault>& faults) {
   if (!location.value.is_object()) return;
   for (const auto& [key, member] : location.value.items())

@@ -16,7 +16,7 @@ struct LocatedJson {
   nlohmann::json value;
   std::map<std::string, std::size_t> lines;  ///< by JSON pointer (RFC 6901); from 1
 
-  /// Of the value, or of the nearest that holds it.
+  /// Returns the line of the value, or of the nearest that holds it.
   std::size_t line_of(const std::string& pointer) const;
 };
 

@@ -1,5 +1,5 @@
-/// The program's own hard triangles and points under the name by which tests know them, and cases made of
-/// them.
+/// The program's own corner case triangles and points under the name by which tests know them, and cases made
+/// of them.
 #pragma once
 
 #include <algorithm>
