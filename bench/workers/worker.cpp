@@ -1,7 +1,6 @@
 #include "bench/workers/worker.h"
 
 #include <algorithm>
-#include <chrono>
 #include <exception>
 #include <memory>
 #include <new>
@@ -22,25 +21,19 @@
 #include "bench/support/available_memory.h"
 #include "bench/support/denormals.h"
 #include "bench/support/failures.h"
-#include "bench/support/median.h"
 #include "bench/support/processor_time.h"
 #include "bench/support/system_limit.h"
 #include "bench/workers/line_channel.h"
 #include "bench/workers/shared_memory.h"
 #include "bench/workers/shared_workload.h"
 #include "bench/workers/throughput.h"
+#include "bench/workers/update_timing.h"
 #include "bench/workers/worker_protocol.h"
 #include "bench/workload/query_name.h"
 #include "bench/workload/sample_steps.h"
 
 namespace touchmark::bench::workers {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double ns_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
-}
 
 std::uint64_t heap_in_use() {
   const struct mallinfo2 info = mallinfo2();
@@ -193,41 +186,9 @@ Timed Worker::timed_replay(const workload::QueryTrace& trace,
 }
 
 nlohmann::json Worker::update(const std::string& spec_text, const scenes::Deformation& deformation) {
-  constexpr std::size_t min_rounds = 3, max_rounds = 25;
-  constexpr double enough_ns = 1e9;
-  Updated updated;
-  updated.supported = contestant_->updates();
-  if (!updated.supported) return updated;
-  const contestants::ContestantSpec spec = roster_.parse(spec_text);
-  const TriangleMesh rest = read_mesh(input_.bytes(), layout_), moved = scenes::deformed(rest, deformation);
-  const auto timed_update = [&](const TriangleMesh& mesh) {
-    const Clock::time_point start = Clock::now();
-    contestant_->update(mesh);
-    return ns_since(start);
-  };
-  std::vector<double> builds, updates, ratios;
-  try {
-    contestant_->update(rest);
-    roster_.require_memory_for(spec, moved.size());
-    const Clock::time_point start = Clock::now();
-    while (builds.size() < min_rounds || (builds.size() < max_rounds && ns_since(start) < enough_ns)) {
-      const double there = timed_update(moved), back = timed_update(rest);
-      const Clock::time_point before = Clock::now();
-      std::unique_ptr<contestants::Contestant> anew = roster_.build(spec, moved);
-      builds.push_back(ns_since(before));
-      updates.insert(updates.end(), {there, back});
-      ratios.push_back(0.5 * (there + back) / builds.back());
-    }
-    contestant_->update(moved);
-  } catch (const std::exception& error) {
-    updated.refused = error.what();
-    return updated;
-  }
-  updated.rounds = builds.size();
-  updated.build_ms = support::median(builds) / 1e6;
-  updated.update_ms = support::median(updates) / 1e6;
-  updated.update_over_build = support::median(ratios);
-  return updated;
+  if (!contestant_->updates()) return Updated{};
+  const TriangleMesh rest = read_mesh(input_.bytes(), layout_);
+  return time_updates(*contestant_, roster_, roster_.parse(spec_text), rest, deformation);
 }
 
 nlohmann::json Worker::rebuild(const std::string& spec, const scenes::Deformation& deformation) {
@@ -336,7 +297,7 @@ void serve(Worker worker, LineChannel channel) {
 
 int run_worker(int argc, char** argv, const contestants::Roster& roster) {
   const LineChannel channel(worker_control);
-  const auto mark_failed = [&](const std::string& what) {
+  const auto reply_exhausted = [&](const std::string& what) {
     channel.send(dumped({{out_of_resources, what}}));
     return support::exit_resources;
   };
@@ -345,11 +306,11 @@ int run_worker(int argc, char** argv, const contestants::Roster& roster) {
     serve(Worker(roster), LineChannel(worker_control));
     return support::exit_done;
   } catch (const std::bad_alloc&) {
-    return mark_failed("out of memory" + support::memory_limit());
+    return reply_exhausted("out of memory" + support::memory_limit());
   } catch (const support::ResourceError& error) {
-    return mark_failed(error.what());
+    return reply_exhausted(error.what());
   } catch (const std::system_error& error) {
-    return mark_failed(error.what() + support::limit_behind(error.code().value()));
+    return reply_exhausted(error.what() + support::limit_behind(error.code().value()));
   } catch (const std::exception& error) {
     fmt::print(stderr, "worker: {}\n", error.what());
     return support::exit_resources;

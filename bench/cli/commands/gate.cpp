@@ -45,9 +45,8 @@ struct GateOptions {
 double checked_tolerance(const std::string& text) {
   const std::optional<support::Length> tolerance = support::parse_length(text);
   const double value = tolerance ? (tolerance->percent ? tolerance->value / 100 : tolerance->value) : 0;
-  if (!(value > 0 && value < 1)) {
+  if (!(value > 0 && value < 1))
     throw std::invalid_argument(fmt::format("--tolerance \"{}\" is not above 0 and below 100%, as 7%", text));
-  }
   return value;
 }
 
@@ -284,6 +283,14 @@ int Gate::run() {
   return status_;
 }
 
+constexpr const char* gate_footer =
+    R"(Exit status 0: no slower than the baseline, or by less than the tolerance. 1: slower, and a second batch
+agrees; or other answers or more work than in the baseline; or wrong answers. 4: inconclusive, since the
+reference, measured twice in every round, did not measure equal to itself.
+Example: touchmark gate --mesh part.stl --trajectory hand.csv --detector grid-group --baseline gate.csv --write-baseline
+         touchmark gate --mesh part.stl --trajectory hand.csv --detector grid-group --baseline gate.csv
+)";
+
 }  // namespace
 
 void add_gate(CLI::App& program, ProgramContext& context) {
@@ -306,17 +313,7 @@ void add_gate(CLI::App& program, ProgramContext& context) {
       ->capture_default_str();
   command->add_option("--report", options->report, "CSV file of what was found")->type_name("FILE");
   add_worker_selectors(*command, options->workers);
-  command->footer(
-      "Exit status 0: no slower than the baseline, or by less than the tolerance. 1: slower, and a second "
-      "batch\n"
-      "agrees; or other answers or more work than in the baseline; or wrong answers. 4: inconclusive, since "
-      "the\n"
-      "reference, measured twice in every round, did not measure equal to itself.\n"
-      "Example: touchmark gate --mesh part.stl --trajectory hand.csv --detector grid-group --baseline "
-      "gate.csv "
-      "--write-baseline\n"
-      "         touchmark gate --mesh part.stl --trajectory hand.csv --detector grid-group --baseline "
-      "gate.csv\n");
+  command->footer(gate_footer);
   command->final_callback([options, &context] { context.status = Gate(context.roster, *options).run(); });
 }
 
