@@ -46,7 +46,7 @@ Verdict AnswerJudge::threshold(const GroundTruth& truth, const Vec3& center, dou
 
 /// The triangles that carry the id and are nearest within the accuracy.
 std::vector<GroundTruth> AnswerJudge::with_id(const GroundTruth& truth, const Vec3& center, TriangleId id,
-                                              double slack) const {
+                                              double position_error) const {
   const TriangleMesh& mesh = oracle_.mesh();
   const auto [begin, end] = positions_of(mesh, id);
   std::vector<GroundTruth> found;
@@ -59,16 +59,17 @@ std::vector<GroundTruth> AnswerJudge::with_id(const GroundTruth& truth, const Ve
     double largest = truth.largest_difference;
     for (const Vec3& v : triangle_of(mesh, triangle))
       largest = std::max(largest, (v - center).cwiseAbs().maxCoeff());
-    if (oracle_.within(triangle, center, raised(truth.high + allowed_in_fields(largest) + slack)))
+    if (oracle_.within(triangle, center, raised(truth.high + allowed_in_fields(largest) + position_error)))
       found.push_back(oracle_.solve(center, triangle));
   }
   return found;
 }
 
 /// All triangles that are nearest within the accuracy.
-std::vector<GroundTruth> AnswerJudge::tied(const GroundTruth& truth, const Vec3& center, double slack) const {
+std::vector<GroundTruth> AnswerJudge::tied(const GroundTruth& truth, const Vec3& center,
+                                           double position_error) const {
   std::vector<GroundTruth> found;
-  const double limit = raised(truth.high + allowed_in_fields(truth.largest_difference) + slack);
+  const double limit = raised(truth.high + allowed_in_fields(truth.largest_difference) + position_error);
   for (const std::uint32_t triangle : oracle_.all_within(center, limit))
     found.push_back(oracle_.solve(center, triangle));
   return found;
@@ -82,25 +83,25 @@ void AnswerJudge::note_distance_error(double error, ErrorCounts& counts) const {
 
 /// The fields of an answer that rightly reports a contact. `slack` is what the position itself may be off by.
 void AnswerJudge::contact(const GroundTruth& truth, const Vec3& center, const workload::Answer& answer,
-                          double slack, ErrorCounts& counts) const {
+                          double position_error, ErrorCounts& counts) const {
   if (!std::isfinite(truth.high)) return;  // beyond all doubles: any answer is
   std::vector<GroundTruth> nearest;
   if (reported_.triangle && answer.triangle != no_triangle) {
-    nearest = with_id(truth, center, answer.triangle, slack);
+    nearest = with_id(truth, center, answer.triangle, position_error);
     if (nearest.empty()) ++counts.wrong_triangle;
   } else {
-    nearest = tied(truth, center, slack);
+    nearest = tied(truth, center, position_error);
   }
   if (nearest.empty()) nearest.push_back(truth);
   double largest = truth.largest_difference;
   for (const GroundTruth& one : nearest) largest = std::max(largest, one.largest_difference);
-  const double bound = allowed_in_fields(largest) + slack + ulp(truth.high);
-  const double rounding_bound = kernel_relative_error * largest + slack + ulp(truth.high);
+  const double bound = allowed_in_fields(largest) + position_error + ulp(truth.high);
+  const double rounding_bound = kernel_relative_error * largest + position_error + ulp(truth.high);
 
   if (reported_.distance) {
     const double error = std::abs((answer.distance - truth.high) - truth.low);
     note_distance_error(error, counts);
-    if (truth.high > kernel_relative_error * largest + slack)
+    if (truth.high > kernel_relative_error * largest + position_error)
       counts.max_distance_error_ulp = std::max(counts.max_distance_error_ulp, error / ulp(truth.high));
     if (error > bound) ++counts.beyond_bound;
     if (error > rounding_bound) ++(error > tolerance_ ? counts.beyond_tolerance : counts.rounding);
@@ -122,7 +123,7 @@ void AnswerJudge::contact(const GroundTruth& truth, const Vec3& center, const wo
     constexpr double single_precision = 1e-5;  // of a unit vector computed in it, generously
     bool wrong = !(std::abs(normal.norm() - 1) <= single_precision);
     // Nearer than this the direction of even the best answer in double is noise of up to 0.06 degrees.
-    if (truth.high > 1024 * (kernel_relative_error * largest + slack)) {
+    if (truth.high > 1024 * (kernel_relative_error * largest + position_error)) {
       double least = infinity;
       for (const GroundTruth& one : nearest) least = std::min(least, angle(normal, one.direction));
       counts.max_normal_angle_deg = std::max(counts.max_normal_angle_deg, least * 180 / std::numbers::pi);

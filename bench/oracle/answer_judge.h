@@ -67,7 +67,7 @@ class AnswerJudge {
     return known_ ? allowed(largest_difference) : std::max(allowed(largest_difference), tolerance_);
   }
   /// Returns true if the path touches the mesh beyond all excuse. A radius below the tolerance leaves no
-  /// depth to tell by, only that the way goes through.
+  /// depth to tell by, only that the path goes through.
   bool surely_touches(const Vec3& from, const Vec3& to, double radius, double tolerance) const {
     return oracle_.segment_within(from, to, lowered(radius - tolerance)) ||
            (radius >= 0 && radius <= tolerance && oracle_.surely_crosses(from, to, tolerance));
@@ -76,11 +76,11 @@ class AnswerJudge {
   void exact_sweep(const SweepGroundTruth& truth, const Sweep& sweep, const workload::Answer& answer,
                    ErrorCounts& counts) const;
   Verdict threshold(const GroundTruth& truth, const Vec3& center, double limit, bool found) const;
-  void contact(const GroundTruth& truth, const Vec3& center, const workload::Answer& answer, double slack,
-               ErrorCounts& counts) const;
+  void contact(const GroundTruth& truth, const Vec3& center, const workload::Answer& answer,
+               double position_error, ErrorCounts& counts) const;
   std::vector<GroundTruth> with_id(const GroundTruth& truth, const Vec3& center, TriangleId id,
-                                   double slack) const;
-  std::vector<GroundTruth> tied(const GroundTruth& truth, const Vec3& center, double slack) const;
+                                   double position_error) const;
+  std::vector<GroundTruth> tied(const GroundTruth& truth, const Vec3& center, double position_error) const;
   void note_distance_error(double error, ErrorCounts& counts) const;
   /// Returns true if it names another triangle than the first of the nearest, and claims not to.
   bool is_misnamed(const GroundTruth& truth, const workload::Answer& answer) const {

@@ -33,13 +33,13 @@ std::strong_ordering compare_distance(const Vec3& point, const Triangle& triangl
 std::strong_ordering compare_segment_distance(const Vec3& from, const Vec3& to, const Triangle& triangle,
                                               double radius);
 
-/// Compares the distance to the part of the way from `from` to `to` up to `fraction` in [0, 1], which ends at
-/// the very point from + fraction (to - from), be it a double or not.
+/// Compares the distance to the part of the path from `from` to `to` up to `fraction` in [0, 1], which ends
+/// at the very point from + fraction (to - from), be it a double or not.
 std::strong_ordering compare_part_distance(const Vec3& from, const Vec3& to, double fraction,
                                            const Triangle& triangle, double radius);
 
 /// Compares the distance to the last point of that part alone.
-std::strong_ordering compare_distance_on_way(const Vec3& from, const Vec3& to, double fraction,
-                                             const Triangle& triangle, double radius);
+std::strong_ordering compare_distance_on_path(const Vec3& from, const Vec3& to, double fraction,
+                                              const Triangle& triangle, double radius);
 
 }  // namespace touchmark::bench::oracle

@@ -101,7 +101,7 @@ std::optional<int> along_ray(const Vec3& p, std::span<const Triangle> triangles,
   return winding;
 }
 
-/// Sides that run one way cancel those that run back. (-0 and 0 are one place.)
+/// Sides that run one way cancel those that run back. (-0 and 0 are one position.)
 bool is_closed(std::span<const Triangle> triangles) {
   using Coordinates = std::array<double, 3>;
   const auto coordinates = [](const Vec3& v) { return Coordinates{v.x() + 0.0, v.y() + 0.0, v.z() + 0.0}; };

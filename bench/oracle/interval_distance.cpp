@@ -73,7 +73,7 @@ void offer_triangle(const Corners& w, const Vec3& normal, Shortest& shortest) no
   if (const std::optional<Vec3> foot = on_face(w, normal)) shortest.offer(*foot);
 }
 
-/// The insides of the way (w0 to w1, v0 to v1: the same edge seen from both ends) and of an edge.
+/// The insides of the path (w0 to w1, v0 to v1: the same edge seen from both ends) and of an edge.
 void offer_edge(const Vec3& w0, const Vec3& v0, const Vec3& w1, const Vec3& v1, Shortest& shortest) noexcept {
   const Vec3 edge = v0 - w0, path = w0 - w1;
   const double a = path.squaredNorm(), b = path.dot(edge), e = edge.squaredNorm();

@@ -47,7 +47,7 @@ ErrorCounts judge(const Oracle& oracle, std::span<const SweepGroundTruth> truths
                   std::span<const Sweep> sweeps, std::span<const workload::Answer> answers,
                   const Accuracy& accuracy, const Reported& reported, Charges* charges) {
   Accuracy of_sweeps = accuracy;
-  // most_early_gap, where the way's start is within M of the triangle and the way's coordinates within 2 M.
+  // most_early_gap, where the path's start is within M of the triangle and the path's coordinates within 2 M.
   const double least = accuracy.guarantee == Guarantee::exact ? most_early_gap(1, 2) : kernel_relative_error;
   of_sweeps.relative = std::max(accuracy.relative, least);
   const AnswerJudge judge(oracle, of_sweeps, reported);

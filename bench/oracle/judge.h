@@ -36,15 +36,15 @@ ErrorCounts judge(const Oracle& oracle, std::span<const GroundTruth> truths, wor
                   std::span<const Probe> probes, double reach, std::span<const workload::Answer> answers,
                   const Accuracy& accuracy, const Reported& reported = {}, Charges* charges = nullptr);
 
-/// Judges `sweep`. Of a contestant that decides exactly whether it hits is judged without tolerance: the way
+/// Judges `sweep`. Of a contestant that decides exactly whether it hits is judged without tolerance: the path
 /// comes within the radius or it does not; at fraction 0 it has to touch at the start, at another one it may
 /// not touch before (missed, being late), and there it may be off the radius by no more than most_early_gap
 /// (core/geometry/sphere_triangle_sweep.h) of the triangle named. All of these are decided in whole numbers,
-/// on the way itself and not on positions rounded to points.
+/// on the path itself and not on positions rounded to points.
 ///
 /// Of others a hit is right when the sweep hits, the centre at the reported fraction is the radius away
 /// from the mesh (at fraction 0: at most that), and was not nearer before; all within the accuracy plus the
-/// rounding of a position on the way. Of all the contact is judged as `nearest` there. The accuracy's
+/// rounding of a position on the path. Of all the contact is judged as `nearest` there. The accuracy's
 /// relative part is kernel_relative_error at least, and most_early_gap of those who claim exactness: no sweep
 /// claims better.
 ErrorCounts judge(const Oracle& oracle, std::span<const SweepGroundTruth> truths,

@@ -251,15 +251,15 @@ bool Oracle::touches_before(const Sweep& sweep, double fraction) const {
     const std::strong_ordering order = compare_part_distance(from, to, fraction, triangle, radius);
     if (order != 0) return order < 0;
     // At the very radius: only from here on?
-    return compare_distance_on_way(from, to, fraction, triangle, radius) != 0 ||
+    return compare_distance_on_path(from, to, fraction, triangle, radius) != 0 ||
            compare_part_distance(from, to, std::nextafter(fraction, 0), triangle, radius) <= 0;
   };
   return fraction > 0 && any_near(sweep, fraction, false, radius, touched);
 }
 
-bool Oracle::within_on_way(const Sweep& sweep, double fraction, double radius) const {
+bool Oracle::within_on_path(const Sweep& sweep, double fraction, double radius) const {
   return any_near(sweep, fraction, true, radius, [&](const Triangle& triangle) {
-    return compare_distance_on_way(sweep.from, sweep.to, fraction, triangle, radius) <= 0;
+    return compare_distance_on_path(sweep.from, sweep.to, fraction, triangle, radius) <= 0;
   });
 }
 

@@ -29,7 +29,7 @@ struct GroundTruth {
 /// The truth about one sweep.
 struct SweepGroundTruth {
   bool defined = false;            ///< false when a coordinate is not finite: it hits nothing
-  bool hit = false;                ///< the way comes within the radius of the mesh, exactly
+  bool hit = false;                ///< the path comes within the radius of the mesh, exactly
   bool touching_at_start = false;  ///< it already is there at the start, exactly
 };
 
@@ -57,12 +57,12 @@ class Oracle {
   /// finite.
   bool segment_within(const Vec3& from, const Vec3& to, double radius) const;
 
-  /// Does the sweep touch before that fraction of its way, of the points from + fraction (to - from) as they
+  /// Does the sweep touch before that fraction of its path, of the points from + fraction (to - from) as they
   /// are, none rounded? Exact likewise; but a ball that slides at the very radius since less than the
   /// fraction's last digit ago is taken to touch there.
   bool touches_before(const Sweep& sweep, double fraction) const;
-  /// Is the point at that fraction of the way, not rounded, within `radius` of the mesh? Exact likewise.
-  bool within_on_way(const Sweep& sweep, double fraction, double radius) const;
+  /// Is the point at that fraction of the path, not rounded, within `radius` of the mesh? Exact likewise.
+  bool within_on_path(const Sweep& sweep, double fraction, double radius) const;
 
   /// Does the segment pass through a triangle so well that no displacement of either by less than `margin`
   /// could part them: the ends and the triangle's edges keep more than `margin` away? Exact likewise.
@@ -81,7 +81,7 @@ class Oracle {
 
  private:
   struct Structure;
-  /// Is there one, of the triangles near to the way up to the fraction (or only to its end), of which that
+  /// Is there one, of the triangles near to the path up to the fraction (or only to its end), of which that
   /// holds?
   template <class Holds>
   bool any_near(const Sweep& sweep, double fraction, bool only_end, double radius, const Holds& holds) const;

@@ -23,12 +23,12 @@ void AnswerJudge::sweep(const SweepGroundTruth& truth, const Sweep& sweep, const
     return (p - low_).cwiseAbs().cwiseMax((p - high_).cwiseAbs()).maxCoeff();
   };
   const Vec3 path = sweep.to - sweep.from;
-  // from + fraction * way rounds thrice, there and here; the fraction is rounded too.
-  const double slack =
+  // from + fraction * path rounds thrice, there and here; the fraction is rounded too.
+  const double position_error =
       12 * unit_roundoff *
       (path.cwiseAbs().maxCoeff() + sweep.from.cwiseAbs().maxCoeff() + sweep.to.cwiseAbs().maxCoeff());
   const double tolerance =
-      allowed(std::max(largest_difference(sweep.from), largest_difference(sweep.to))) + slack;
+      allowed(std::max(largest_difference(sweep.from), largest_difference(sweep.to))) + position_error;
   if (found != truth.hit) {
     const bool excused =
         known_ && (found ? oracle_.segment_within(sweep.from, sweep.to, raised(sweep.radius + tolerance))
@@ -49,7 +49,7 @@ void AnswerJudge::sweep(const SweepGroundTruth& truth, const Sweep& sweep, const
   } else {
     const bool claims_exactness = answer.fraction > 0 && accuracy_.guarantee == Guarantee::exact;
     const double early = claims_exactness ? sweep_gap(sweep, answer.triangle) : 0;
-    contact(there, position, answer, slack + early, counts);
+    contact(there, position, answer, position_error + early, counts);
   }
 }
 
@@ -82,7 +82,7 @@ void AnswerJudge::exact_sweep(const SweepGroundTruth& truth, const Sweep& sweep,
     ++counts.missed;
     return;
   }
-  if (!at_start && !oracle_.within_on_way(sweep, answer.fraction, raised(sweep.radius + early))) {
+  if (!at_start && !oracle_.within_on_path(sweep, answer.fraction, raised(sweep.radius + early))) {
     ++counts.false_contacts;
     return;
   }

@@ -57,9 +57,9 @@ TriangleMesh mirrored(const TriangleMesh& mesh) {
 }
 
 /// Ways of whole numbers whose length is a whole number, in a plane and in space.
-const std::array ways_in_a_plane{Vec3(3, 0, 4), Vec3(5, 0, 12), Vec3(8, 0, 15), Vec3(7, 0, 24)};
-const std::array ways_in_space{Vec3(1, 2, 2), Vec3(2, 3, 6), Vec3(1, 4, 8),
-                               Vec3(4, 4, 7), Vec3(2, 6, 9), Vec3(6, 6, 7)};
+const std::array directions_in_a_plane{Vec3(3, 0, 4), Vec3(5, 0, 12), Vec3(8, 0, 15), Vec3(7, 0, 24)};
+const std::array directions_in_space{Vec3(1, 2, 2), Vec3(2, 3, 6), Vec3(1, 4, 8),
+                                     Vec3(4, 4, 7), Vec3(2, 6, 9), Vec3(6, 6, 7)};
 
 /// [0, 8] x [0, 8] at z = 0 in squares, each of two triangles.
 TriangleMesh floor_of_squares() {
@@ -83,9 +83,9 @@ Vec3 center_at_a_double(CornerCases& cases) {
       return {along, static_cast<double>(cases.below(65)) / 8,
               size * static_cast<double>(1 + cases.below(1000))};
     case 1:
-      return Vec3(8, along, 0) + size * ways_in_a_plane[cases.below(ways_in_a_plane.size())];
+      return Vec3(8, along, 0) + size * directions_in_a_plane[cases.below(directions_in_a_plane.size())];
     default:
-      return Vec3(8, 8, 0) + size * ways_in_space[cases.below(ways_in_space.size())];
+      return Vec3(8, 8, 0) + size * directions_in_space[cases.below(directions_in_space.size())];
   }
 }
 

@@ -134,8 +134,8 @@ namespace stress {
 namespace {
 
 /// These centres first, then others about them, from a diagonal away to hardly beside them.
-std::vector<Vec3> centers_about(const std::vector<Vec3>& given, double diagonal, std::size_t count,
-                                CornerCases& cases) {
+std::vector<Vec3> centers_near(const std::vector<Vec3>& given, double diagonal, std::size_t count,
+                               CornerCases& cases) {
   std::vector<Vec3> centers(given.begin(),
                             given.begin() + static_cast<std::ptrdiff_t>(std::min(count, given.size())));
   while (centers.size() < count) {
@@ -153,7 +153,7 @@ std::vector<workload::Workload> shared_features(std::uint64_t seed, std::size_t 
   std::vector<workload::Workload> workloads;
   const std::size_t centers_each = share_of(probes, 4 * all.size());
   for (SharedFeature& shared : all) {
-    shared.centers = centers_about(shared.centers, shared.mesh.diagonal(), centers_each, cases);
+    shared.centers = centers_near(shared.centers, shared.mesh.diagonal(), centers_each, cases);
     std::vector<workload::Step> trace = at_the_exact_distance(shared.mesh, shared.centers);
     const oracle::Oracle oracle(shared.mesh);
     for (const Vec3& center : shared.centers) trace.push_back(asked(center, 2 * oracle.solve(center).high));

@@ -15,19 +15,19 @@ namespace touchmark::bench::experiments::update {
 namespace {
 
 constexpr std::size_t default_steps = 5000;
-constexpr std::size_t probes_about_what_moved = 1000;
+constexpr std::size_t probes_near_what_moved = 1000;
 constexpr double ns_to_time = 50e6;
 
 /// About places where moved vertices were and are, within four radii.
-std::vector<workload::Step> about_what_moved(const TriangleMesh& before, const TriangleMesh& after,
-                                             const workload::Step& like, std::uint64_t seed) {
+std::vector<workload::Step> near_what_moved(const TriangleMesh& before, const TriangleMesh& after,
+                                            const workload::Step& like, std::uint64_t seed) {
   std::vector<std::size_t> moved;
   for (std::size_t i = 0; i < before.vertices().size(); ++i)
     if (std::memcmp(before.vertices()[i].data(), after.vertices()[i].data(), 3 * sizeof(double)) != 0)
       moved.push_back(i);
   support::Random random(seed);
   std::vector<workload::Step> steps;
-  for (std::size_t i = 0; i < probes_about_what_moved && !moved.empty(); ++i) {
+  for (std::size_t i = 0; i < probes_near_what_moved && !moved.empty(); ++i) {
     const std::size_t vertex = moved[random.below(moved.size())];
     const Vec3& near = (i % 2 == 0 ? before : after).vertices()[vertex];
     steps.push_back(like);
@@ -66,7 +66,7 @@ UpdateRun::UpdateRun(const contestants::Roster& roster,
           all.unit = one.unit;
           all.traces.push_back(std::move(one.traces[0]));
           all.traces.push_back(
-              about_what_moved(mesh, scenes_.back()->mesh, all.traces.back()[0], selection.seed));
+              near_what_moved(mesh, scenes_.back()->mesh, all.traces.back()[0], selection.seed));
         }
         return all;
       }()},
