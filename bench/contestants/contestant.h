@@ -30,7 +30,7 @@ class Contestant {
   virtual bool answers(workload::Query query) const noexcept = 0;
   virtual Accuracy accuracy() const noexcept = 0;
   virtual std::size_t bytes() const noexcept = 0;
-  /// True if the detector leaves parts of itself to the first queries: see the concept MakesLater.
+  /// Returns true if the detector leaves parts of itself to the first queries: see the concept MakesLater.
   virtual bool builds_lazily() const noexcept = 0;
   /// A fresh session, its work counters at zero.
   virtual void forget() = 0;
@@ -39,7 +39,8 @@ class Contestant {
   /// The answer to each step of the range and the total work it took; both spans have the range's size.
   virtual void answer(const workload::QueryTrace& trace, workload::StepRange range,
                       std::span<workload::Answer> answers, std::span<std::uint64_t> work) noexcept = 0;
-  /// Can it follow a mesh whose vertices move? Only then may it be asked to; the session stays.
+  /// Returns true if it can follow a mesh whose vertices move. Only then may it be asked to; the session
+  /// stays.
   virtual bool updates() const noexcept { return false; }
   /// See the concept Updates. Throws what the detector's update throws.
   virtual void update(const TriangleMesh& mesh) { static_cast<void>(mesh); }
@@ -53,7 +54,7 @@ class Contestant {
   virtual void replay_clocked(const workload::QueryTrace& trace, workload::StepRange range,
                               workload::Checksum& checksum, std::span<std::uint64_t> ticks,
                               std::span<std::uint64_t> prepare_ticks) noexcept = 0;
-  /// Is the detector told to prepare after each step? That is in all other times, and in the work.
+  /// Returns true if the detector prepares after each step. That is in all other times, and in the work.
   virtual bool prepares() const noexcept = 0;
 };
 

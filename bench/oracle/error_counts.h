@@ -41,7 +41,7 @@ struct ErrorCounts {
   double max_normal_angle_deg = 0;    ///< over distances so large that the direction has a meaning
   double max_point_error = 0;  ///< mesh units, from the reported point to the triangle it should lie on
 
-  /// Is any answer charged with what breaks a claim of exactness?
+  /// Returns true if any answer is charged with what breaks a claim of exactness.
   bool charged() const noexcept {
     return missed + false_contacts + wrong_triangle + beyond_bound + wrong_point + wrong_normal + malformed +
                wrong_side >

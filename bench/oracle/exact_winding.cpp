@@ -38,8 +38,8 @@ bool may_contain(const Triangle& t, const Vec3& p) {
   return true;
 }
 
-/// Do doubles show that the line misses the triangle? Their signs of direction . (w_i x w_j), two of them
-/// surely opposite.
+/// Returns true if doubles show that the line misses the triangle, by their signs of direction . (w_i x w_j),
+/// two of them surely opposite.
 bool surely_missed(const Triangle& t, const Vec3& p, const Direction& direction) {
   constexpr double roundings = 16 * std::numeric_limits<double>::epsilon();
   const Vec3 along(direction[0], direction[1], direction[2]);

@@ -20,7 +20,7 @@ class ExactSides {
  public:
   explicit ExactSides(const TriangleMesh& mesh);
 
-  /// Returns true if every edge, by the positions of its ends, have as many triangles one way as the other.
+  /// Returns true if every edge, by the positions of its ends, has as many triangles one way as the other.
   bool closed() const noexcept { return closed_; }
   /// Returns the side of a finite point, for a closed mesh, as core/sign/side_finder.h defines it: with a
   /// negative volume the space all round is inside. Undecided where shells contradict each other.

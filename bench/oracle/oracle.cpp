@@ -29,7 +29,7 @@ double largest_difference(const Vec3& point, const Triangle& triangle) noexcept 
   return largest;
 }
 
-/// Is every point x of the triangle surely farther from `point` than `witness` q is? So it is when
+/// Returns true if every point x of the triangle is surely farther from `point` than `witness` q is, since
 /// (p - q).(x - q) < 0, as |p - x|^2 = |p - q|^2 - 2 (p - q).(x - q) + |x - q|^2. From far away this tells
 /// triangles apart by their own size's rounding, where the distances themselves drown in theirs.
 bool surely_farther(const Triangle& triangle, const Vec3& witness, const Vec3& point) noexcept {
@@ -50,7 +50,7 @@ Vec3 nearest_corner(std::span<const Triangle> triangles, const Vec3& point) noex
   return nearest;
 }
 
-/// Is the distance between the segment and the triangle at most `radius`? Exact.
+/// Returns true if the distance between the segment and the triangle is at most `radius`. Exact.
 bool segment_is_within(const Vec3& from, const Vec3& to, const Triangle& triangle, double radius) {
   const Interval distance = segment_distance_interval(from, to, triangle);
   if (distance.hi <= radius) return true;

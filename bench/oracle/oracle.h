@@ -49,24 +49,26 @@ class Oracle {
   GroundTruth solve(const Vec3& center) const;
   SweepGroundTruth solve(const Sweep& sweep) const;
 
-  /// Is the distance at most `radius`? `truth` must be of `center`. Exact; false for a radius below 0 or NaN.
+  /// Returns true if the distance is at most `radius`. `truth` must be of `center`. Exact; false for a radius
+  /// below 0 or NaN.
   bool within(const GroundTruth& truth, const Vec3& center, double radius) const;
-  /// Is the distance from `center` to this one triangle at most `radius`? Exact likewise.
+  /// Returns true if the distance from `center` to this one triangle is at most `radius`. Exact likewise.
   bool within(std::uint32_t triangle, const Vec3& center, double radius) const;
-  /// Does the segment come within `radius` of the mesh? Exact likewise; false when a coordinate is not
-  /// finite.
+  /// Returns true if the segment comes within `radius` of the mesh. Exact likewise; false when a coordinate
+  /// is not finite.
   bool segment_within(const Vec3& from, const Vec3& to, double radius) const;
 
-  /// Does the sweep touch before that fraction of its path, of the points from + fraction (to - from) as they
-  /// are, none rounded? Exact likewise; but a ball that slides at the very radius since less than the
-  /// fraction's last digit ago is taken to touch there.
+  /// Returns true if the sweep touches before that fraction of its path, of the points from + fraction (to -
+  /// from) as they are, none rounded. Exact likewise; but a ball that slides at the very radius since less
+  /// than the fraction's last digit ago is taken to touch there.
   bool touches_before(const Sweep& sweep, double fraction) const;
-  /// Is the point at that fraction of the path, not rounded, within `radius` of the mesh? Exact likewise.
+  /// Returns true if the point at that fraction of the path, not rounded, is within `radius` of the mesh.
+  /// Exact likewise.
   bool within_on_path(const Sweep& sweep, double fraction, double radius) const;
 
-  /// Does the segment pass through a triangle so well that no displacement of either by less than `margin`
-  /// could part them: the ends and the triangle's edges keep more than `margin` away? Exact likewise.
-  /// (Through the edge between two triangles is not through either.)
+  /// Returns true if the segment passes through a triangle so well that no displacement of either by less
+  /// than `margin` could part them: the ends and the triangle's edges keep more than `margin` away. Exact
+  /// likewise. (Through the edge between two triangles is not through either.)
   bool surely_crosses(const Vec3& from, const Vec3& to, double margin) const;
 
   /// The truth about `center` and this one triangle.
@@ -81,8 +83,8 @@ class Oracle {
 
  private:
   struct Structure;
-  /// Is there one, of the triangles near to the path up to the fraction (or only to its end), of which that
-  /// holds?
+  /// Returns true if there is one, of the triangles near to the path up to the fraction (or only to its end),
+  /// of which that holds.
   template <class Holds>
   bool any_near(const Sweep& sweep, double fraction, bool only_end, double radius, const Holds& holds) const;
 

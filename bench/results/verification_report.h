@@ -16,7 +16,7 @@ bool claim_is_broken(const measurement::ResultRow& row);
 /// "as claimed", "BROKEN", or "nothing judged" of a contestant that had none of its answers judged.
 std::string_view verdict_on(bool broken, std::uint64_t judged) noexcept;
 
-/// Was it refused since there is too little memory?
+/// Returns true if it was refused since there is too little memory.
 bool is_short_of_memory(const measurement::ResultRow& row);
 
 /// "N answers judged exactly".

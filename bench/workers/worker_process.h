@@ -59,7 +59,7 @@ class WorkerProcess {
   LineChannel channel_{-1};
 };
 
-/// Is there such a program beside this one?
+/// Returns true if there is such a program beside this one.
 bool worker_program_exists(const std::string& program);
 
 }  // namespace touchmark::bench::workers

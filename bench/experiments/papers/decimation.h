@@ -7,7 +7,7 @@
 
 namespace touchmark::bench::experiments::papers {
 
-/// Is the library there?
+/// Returns true if the library is there.
 bool can_decimate() noexcept;
 
 /// Edges collapse in the order of their quadric error (Garland & Heckbert 1997) until `triangles` are left,

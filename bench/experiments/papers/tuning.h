@@ -13,7 +13,7 @@ struct Tuned {
   std::optional<FrontierPoint> fast;       ///< the best of the tree and the grid
 };
 
-/// Do 99 of 100 queries end within a period of `rate` Hz?
+/// Returns true if 99 of 100 queries end within a period of `rate` Hz.
 bool holds_rate(const FrontierPoint& point, double rate);
 
 /// Chooses the point of least mean error that holds the rate; of several the fastest.

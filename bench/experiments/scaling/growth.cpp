@@ -36,7 +36,7 @@ constexpr std::array quantities{
     Quantity{"ns_p999", "p99.9", [](Row row) { return measurement::p999_of(row, row.latency); }},
 };
 
-/// Do rows of these two lie on one curve?
+/// Returns true if rows of these two lie on one curve.
 bool same_curve(Row a, Row b) {
   return a.contestant() == b.contestant() && a.trajectory == b.trajectory && a.query == b.query &&
          family_of(a.mesh) == family_of(b.mesh);

@@ -1,4 +1,4 @@
-/// Is a file a stress.csv of schema 1, and does it agree with itself and with its run.json?
+/// Checks that a file is a stress.csv of schema 1, and agrees with itself and with its run.json.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -19,7 +19,7 @@ struct Case {
 
   /// DETECTOR/SCENE/TRAJECTORY/QUERY
   std::string name() const;
-  /// Does the mesh come from a file that another machine may lack, or have another edition of?
+  /// Returns true if the mesh comes from a file that another machine may lack, or have another edition of.
   bool needs_file() const;
 };
 

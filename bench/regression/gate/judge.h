@@ -25,7 +25,7 @@ enum class Verdict {
 
 std::string_view name_of(Verdict verdict) noexcept;
 
-/// Does the whole interval of the control lie within the tolerance of 1?
+/// Returns true if the whole interval of the control lies within the tolerance of 1.
 bool control_holds(const Batch& batch, double tolerance) noexcept;
 
 struct Judgement {

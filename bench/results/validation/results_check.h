@@ -1,4 +1,4 @@
-/// Is a file a results.csv of schema 1, and does it agree with itself and with its run.json?
+/// Checks that a file is a results.csv of schema 1, and agrees with itself and with its run.json.
 #pragma once
 
 #include <cstddef>
@@ -32,8 +32,8 @@ struct CsvTable {
 /// when it cannot be opened.
 CsvTable read_csv_table(const std::string& path, Faults& faults);
 
-/// Does the header begin with these names, as far as it goes, and at least with so many of them? The first
-/// that is another becomes a fault.
+/// Returns true if the header begins with these names, as far as it goes, and at least with so many of them.
+/// The first that is another becomes a fault.
 bool begins_with_columns(const CsvTable& table, const std::vector<std::string_view>& names,
                          std::size_t at_least, Faults& faults);
 

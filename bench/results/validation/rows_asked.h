@@ -1,5 +1,5 @@
-/// Are the rows of a results.csv those that its run.json says were asked for, each once, and do those that
-/// claim exactness agree with each other?
+/// Checks that the rows of a results.csv are those that its run.json says were asked for, each once, and that
+/// those that claim exactness agree with each other.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

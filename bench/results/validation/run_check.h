@@ -1,4 +1,4 @@
-/// Is a document a run.json? Its schema is results/run.schema.json, built into the program.
+/// Checks that a document is a run.json. Its schema is results/run.schema.json, built into the program.
 #pragma once
 
 #include <string>
