@@ -29,9 +29,9 @@ double largest_difference(const Vec3& point, const Triangle& triangle) noexcept 
   return largest;
 }
 
-/// Returns true if every point x of the triangle is surely farther from `point` than `witness` q is, since
-/// (p - q).(x - q) < 0, as |p - x|^2 = |p - q|^2 - 2 (p - q).(x - q) + |x - q|^2. From far away this tells
-/// triangles apart by their own size's rounding, where the distances themselves drown in theirs.
+/// Returns true if every point x of the triangle is surely farther from `point` than `witness` q is. So it is
+/// when (p - q).(x - q) < 0, as |p - x|^2 = |p - q|^2 - 2 (p - q).(x - q) + |x - q|^2. From far away this
+/// tells triangles apart by their own size's rounding, where the distances themselves drown in theirs.
 bool surely_farther(const Triangle& triangle, const Vec3& witness, const Vec3& point) noexcept {
   constexpr double roundings = 8 * unit_roundoff;  // two differences, three products and sums, two lengths
   const Vec3 to_point = point - witness;
