@@ -2,5 +2,5 @@
 #include "bench/contestants/roster.h"
 
 int main(int argc, char** argv) {
-  return touchmark::bench::run_program(argc, argv, touchmark::bench::roster());
+  return touchmark::bench::cli::run_program(argc, argv, touchmark::bench::contestants::roster());
 }

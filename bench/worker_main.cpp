@@ -3,5 +3,5 @@
 #include "bench/workers/worker.h"
 
 int main(int argc, char** argv) {
-  return touchmark::bench::run_worker(argc, argv, touchmark::bench::roster());
+  return touchmark::bench::workers::run_worker(argc, argv, touchmark::bench::contestants::roster());
 }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/experiments/stress/hard_centers.h"
+#include "bench/experiments/stress/corner_case_centers.h"
 #include "bench/scenes/scenes.h"
 #include "core/triangle_mesh.h"
 
@@ -22,7 +22,7 @@ inline constexpr bool sanitized = false;
 /// memory and threads and takes many times as long, only as they are.
 inline std::vector<std::string> conformance_scenes() {
   std::vector<std::string> names;
-  for (const bench::SceneInfo& scene : bench::scenes()) {
+  for (const bench::scenes::SceneInfo& scene : bench::scenes::scenes()) {
     if (scene.example.empty()) continue;
     names.push_back(scene.example);
     if (sanitized) continue;
@@ -34,7 +34,7 @@ inline std::vector<std::string> conformance_scenes() {
 
 /// `count` centres at least; the same for the same mesh.
 inline std::vector<Vec3> adversarial_centers(const TriangleMesh& mesh, std::size_t count) {
-  return bench::hard_centers(mesh, count, 50);
+  return bench::experiments::stress::corner_case_centers(mesh, count, 50);
 }
 
 /// How many centres a test can afford where something looks at every triangle.

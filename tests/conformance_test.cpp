@@ -30,14 +30,14 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// One query along all centres, with one reach.
 struct Part {
   std::string name;
-  Query query;
+  workload::Query query;
   double reach;
-  std::vector<Step> steps;
+  std::vector<workload::Step> steps;
 };
 
 std::vector<Probe> probes_of(const Part& part) {
   std::vector<Probe> probes;
-  for (const Step& step : part.steps) probes.push_back(step.probe);
+  for (const workload::Step& step : part.steps) probes.push_back(step.probe);
   return probes;
 }
 
@@ -53,45 +53,47 @@ std::vector<Sweep> sweeps_of(const Part& part) {
 /// A scene with its truth, found out once for all contestants.
 class Exam {
  public:
-  explicit Exam(const std::string& scene) : mesh_(load_scene(scene)), oracle_(mesh_) {
+  explicit Exam(const std::string& scene) : mesh_(scenes::load_scene(scene)), oracle_(mesh_) {
     const std::vector<Vec3> centers = adversarial_centers(mesh_, affordable(mesh_));
     for (const Vec3& center : centers) truths_.push_back(oracle_.solve(center));
     const double radius = 0.005 * mesh_.diagonal();
-    const auto part = [&](const char* name, Query query, double reach, auto radius_at) {
+    const auto part = [&](const char* name, workload::Query query, double reach, auto radius_at) {
       Part made{name, query, reach, {}};
       for (std::size_t i = 0; i < centers.size(); ++i)
         made.steps.push_back({{centers[i], radius_at(truths_[i].high)}, reach});
       parts_.push_back(std::move(made));
     };
-    part("nearest within a radius", Query::nearest, radius, [&](double) { return radius; });
-    part("nearest at any reach", Query::nearest, infinity, [&](double) { return radius; });
-    part("nearest within nothing", Query::nearest, 0, [&](double) { return 0.0; });
-    part("touches", Query::touches, 0, [&](double) { return radius; });
-    part("touches at the very distance", Query::touches, 0, [](double d) { return d; });
-    part("touches an ulp short of it", Query::touches, 0, [](double d) { return std::nextafter(d, 0); });
-    part("sweep", Query::sweep, 0, [&](double) { return radius; });
-    part("sweep of a point", Query::sweep, 0, [](double) { return 0.0; });
+    part("nearest within a radius", workload::Query::nearest, radius, [&](double) { return radius; });
+    part("nearest at any reach", workload::Query::nearest, infinity, [&](double) { return radius; });
+    part("nearest within nothing", workload::Query::nearest, 0, [&](double) { return 0.0; });
+    part("touches", workload::Query::touches, 0, [&](double) { return radius; });
+    part("touches at the very distance", workload::Query::touches, 0, [](double d) { return d; });
+    part("touches an ulp short of it", workload::Query::touches, 0,
+         [](double d) { return std::nextafter(d, 0); });
+    part("sweep", workload::Query::sweep, 0, [&](double) { return radius; });
+    part("sweep of a point", workload::Query::sweep, 0, [](double) { return 0.0; });
     for (const Part& one : parts_)
-      sweep_truths_.push_back(one.query == Query::sweep ? oracle_.solve(sweeps_of(one))
-                                                        : std::vector<SweepTruth>());
+      sweep_truths_.push_back(one.query == workload::Query::sweep ? oracle_.solve(sweeps_of(one))
+                                                                  : std::vector<oracle::SweepGroundTruth>());
   }
 
   const TriangleMesh& mesh() const { return mesh_; }
   const std::vector<Part>& parts() const { return parts_; }
 
-  Tally judge_answers(std::size_t part, const std::vector<Answer>& answers, const Accuracy& accuracy) const {
+  oracle::ErrorCounts judge_answers(std::size_t part, const std::vector<workload::Answer>& answers,
+                                    const Accuracy& accuracy) const {
     const Part& asked = parts_[part];
-    if (asked.query == Query::sweep)
-      return judge(oracle_, sweep_truths_[part], sweeps_of(asked), answers, accuracy);
-    return judge(oracle_, truths_, asked.query, probes_of(asked), asked.reach, answers, accuracy);
+    if (asked.query == workload::Query::sweep)
+      return oracle::judge(oracle_, sweep_truths_[part], sweeps_of(asked), answers, accuracy);
+    return oracle::judge(oracle_, truths_, asked.query, probes_of(asked), asked.reach, answers, accuracy);
   }
 
  private:
   TriangleMesh mesh_;
-  Oracle oracle_;
-  std::vector<Truth> truths_;
+  oracle::Oracle oracle_;
+  std::vector<oracle::GroundTruth> truths_;
   std::vector<Part> parts_;
-  std::vector<std::vector<SweepTruth>> sweep_truths_;
+  std::vector<std::vector<oracle::SweepGroundTruth>> sweep_truths_;
 };
 
 /// What the oracle says of answers, found out once for all contestants that give the same bits and claim the
@@ -100,33 +102,34 @@ class Verdicts {
  public:
   explicit Verdicts(const Exam& exam) : exam_(exam), given_(exam.parts().size()) {}
 
-  const Tally& on(std::size_t part, const std::vector<Answer>& answers, const Accuracy& accuracy) {
+  const oracle::ErrorCounts& on(std::size_t part, const std::vector<workload::Answer>& answers,
+                                const Accuracy& accuracy) {
     for (const Verdict& known : given_[part])
-      if (same(known.accuracy, accuracy) && same(known.answers, answers)) return known.tally;
+      if (same(known.accuracy, accuracy) && same(known.answers, answers)) return known.counts;
     given_[part].push_back({accuracy, answers, exam_.judge_answers(part, answers, accuracy)});
-    return given_[part].back().tally;
+    return given_[part].back().counts;
   }
 
  private:
   struct Verdict {
     Accuracy accuracy;
-    std::vector<Answer> answers;
-    Tally tally;
+    std::vector<workload::Answer> answers;
+    oracle::ErrorCounts counts;
   };
   static bool same(const Accuracy& a, const Accuracy& b) {
     return a.guarantee == b.guarantee && a.relative == b.relative && a.absolute == b.absolute &&
            a.decides_exactly == b.decides_exactly && a.names_exactly == b.names_exactly;
   }
-  static bool same(const std::vector<Answer>& a, const std::vector<Answer>& b) {
-    return std::memcmp(a.data(), b.data(), a.size() * sizeof(Answer)) == 0;
+  static bool same(const std::vector<workload::Answer>& a, const std::vector<workload::Answer>& b) {
+    return std::memcmp(a.data(), b.data(), a.size() * sizeof(workload::Answer)) == 0;
   }
 
   const Exam& exam_;
   std::vector<std::vector<Verdict>> given_;  ///< of each part
 };
 
-std::vector<Answer> ask(Contestant& contestant, const Part& part) {
-  std::vector<Answer> answers(part.steps.size());
+std::vector<workload::Answer> ask(contestants::Contestant& contestant, const Part& part) {
+  std::vector<workload::Answer> answers(part.steps.size());
   std::vector<std::uint64_t> work(answers.size());
   contestant.answer({part.query, part.steps}, {0, answers.size()}, answers, work);
   return answers;
@@ -143,7 +146,7 @@ class SharedRoom {
  public:
   SharedRoom(std::size_t parts, std::size_t answers)
       : parts_(parts),
-        bytes_(parts * sizeof(Testimony) + parts * answers * sizeof(Answer)),
+        bytes_(parts * sizeof(Testimony) + parts * answers * sizeof(workload::Answer)),
         memory_(mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)) {
     if (memory_ == MAP_FAILED) throw std::bad_alloc();
   }
@@ -152,8 +155,8 @@ class SharedRoom {
   ~SharedRoom() { munmap(memory_, bytes_); }
 
   Testimony* testimonies() const { return static_cast<Testimony*>(memory_); }
-  Answer* answers() const {
-    return reinterpret_cast<Answer*>(static_cast<std::byte*>(memory_) + parts_ * sizeof(Testimony));
+  workload::Answer* answers() const {
+    return reinterpret_cast<workload::Answer*>(static_cast<std::byte*>(memory_) + parts_ * sizeof(Testimony));
   }
 
  private:
@@ -164,15 +167,15 @@ class SharedRoom {
 
 /// The child's life: builds and answers from part `first` on. Its exit says how it went if it is not
 /// killed.
-[[noreturn]] void testify(const ContestantSpec& spec, const Exam& exam, std::size_t first,
+[[noreturn]] void testify(const contestants::ContestantSpec& spec, const Exam& exam, std::size_t first,
                           const SharedRoom& room) {
-  constexpr unsigned patience_s = 20;
+  constexpr unsigned timeout_s = 20;
   constexpr int refused = 3;
-  alarm(patience_s);
+  alarm(timeout_s);
   if (std::freopen("/dev/null", "w", stdout) == nullptr || std::freopen("/dev/null", "w", stderr) == nullptr)
     _exit(1);
   try {
-    const auto contestant = roster().build(spec, exam.mesh());
+    const auto contestant = contestants::roster().build(spec, exam.mesh());
     for (std::size_t i = first; i < exam.parts().size(); ++i) {
       const Part& part = exam.parts()[i];
       Testimony& testimony = room.testimonies()[i];
@@ -181,7 +184,7 @@ class SharedRoom {
         testimony.state = Testimony::State::unsupported;
         continue;
       }
-      const std::vector<Answer> answers = ask(*contestant, part);
+      const std::vector<workload::Answer> answers = ask(*contestant, part);
       std::copy(answers.begin(), answers.end(), room.answers() + i * part.steps.size());
       testimony.state = Testimony::State::answered;
     }
@@ -194,7 +197,7 @@ class SharedRoom {
 /// Calls judged(part, testimony, answers) for every part that a rival ended, and ended(part, status)
 /// for those it did not survive. In child processes, since some abort, divide by zero or never end.
 template <class Judged, class Ended>
-void examine_in_processes(const ContestantSpec& spec, const Exam& exam, const Judged& judged,
+void examine_in_processes(const contestants::ContestantSpec& spec, const Exam& exam, const Judged& judged,
                           const Ended& ended) {
   const std::size_t parts = exam.parts().size(), steps = exam.parts().front().steps.size();
   const SharedRoom room(parts, steps);
@@ -205,8 +208,9 @@ void examine_in_processes(const ContestantSpec& spec, const Exam& exam, const Ju
     ASSERT_EQ(waitpid(child, &status, 0), child);
     while (next < parts && room.testimonies()[next].state != Testimony::State::not_reached) {
       if (room.testimonies()[next].state == Testimony::State::answered) {
-        const Answer* answers = room.answers() + next * steps;
-        judged(next, room.testimonies()[next].accuracy, std::vector<Answer>(answers, answers + steps));
+        const workload::Answer* answers = room.answers() + next * steps;
+        judged(next, room.testimonies()[next].accuracy,
+               std::vector<workload::Answer>(answers, answers + steps));
       }
       ++next;
     }
@@ -222,7 +226,7 @@ void examine_in_processes(const ContestantSpec& spec, const Exam& exam, const Ju
 
 /// Those that do not change where is looked, or go with the defaults of others only: each value is tried
 /// beside the defaults of all others.
-bool stands_alone(const OptionInfo& option) {
+bool stands_alone(const contestants::OptionInfo& option) {
   for (const char* key : {"side", "certified", "build", "simd", "precision"})
     if (option.key == key) return true;
   return false;
@@ -230,19 +234,19 @@ bool stands_alone(const OptionInfo& option) {
 
 /// With an option that another one leaves without a meaning: the shape is of groups that are scanned, and
 /// only a tree prepares.
-bool repeats_another(const ContestantSpec& spec) {
+bool repeats_another(const contestants::ContestantSpec& spec) {
   const auto has = [&](const char* choice) { return spec.options.find(choice) != std::string::npos; };
   return (has("lookup=direct") && has("shape=sphere")) || (has("lookup=scan") && has("prepare=true"));
 }
 
 /// The default, and every combination of choices that differs from the others; a length is tried at its
 /// default and at 3 % of the diagonal.
-std::vector<ContestantSpec> every_option(const ContestantInfo& info) {
+std::vector<contestants::ContestantSpec> every_option(const contestants::ContestantInfo& info) {
   std::vector<std::string> texts = {info.name};
-  for (const OptionInfo& option : info.options) {
+  for (const contestants::OptionInfo& option : info.options) {
     if (stands_alone(option)) continue;
     std::vector<std::string> values = option.choices;
-    if (option.kind == OptionKind::length) values = {option.default_value, "3%"};
+    if (option.kind == contestants::OptionKind::length) values = {option.default_value, "3%"};
     if (values.empty()) continue;
     std::vector<std::string> longer;
     for (const std::string& text : texts)
@@ -250,24 +254,24 @@ std::vector<ContestantSpec> every_option(const ContestantInfo& info) {
         longer.push_back(text + (text == info.name ? ":" : ",") + option.key + "=" + value);
     texts = longer;
   }
-  for (const OptionInfo& option : info.options) {
+  for (const contestants::OptionInfo& option : info.options) {
     if (!stands_alone(option)) continue;
     for (const std::string& value : option.choices)
       if (value != option.default_value) texts.push_back(info.name + ":" + option.key + "=" + value);
   }
-  std::vector<ContestantSpec> specs;
-  for (const std::string& text : texts) specs.push_back(roster().parse(text));
+  std::vector<contestants::ContestantSpec> specs;
+  for (const std::string& text : texts) specs.push_back(contestants::roster().parse(text));
   std::erase_if(specs, repeats_another);
   return specs;
 }
 
-bool is_ours(const ContestantInfo& info) {
+bool is_ours(const contestants::ContestantInfo& info) {
   for (const char* name : {"brute-force", "aabb-tree", "grid-group", "sphere-cluster"})
     if (info.name == name) return true;
   return false;
 }
 
-std::string summary(const Tally& t) {
+std::string summary(const oracle::ErrorCounts& t) {
   return fmt::format(
       "{} missed, {} false, {} wrong triangle, {} beyond, {} point, {} normal, {} malformed; {}", t.missed,
       t.false_contacts, t.wrong_triangle, t.beyond_bound, t.wrong_point, t.wrong_normal, t.malformed,
@@ -280,24 +284,25 @@ TEST_P(Conformance, OursKeepTheirWordAndTheExactOnesGiveTheBitsOfBruteForce) {
   const Exam exam(GetParam());
   Verdicts verdicts(exam);
   const BruteForce reference = BruteForce::build(exam.mesh());
-  ContestantOf<BruteForce> brute_force(reference);
-  std::vector<std::vector<Answer>> expected;
+  contestants::ContestantOf<BruteForce> brute_force(reference);
+  std::vector<std::vector<workload::Answer>> expected;
   for (const Part& part : exam.parts()) expected.push_back(ask(brute_force, part));
-  for (const ContestantInfo& info : roster().contestants()) {
+  for (const contestants::ContestantInfo& info : contestants::roster().contestants()) {
     if (!is_ours(info)) continue;
-    for (const ContestantSpec& spec : every_option(info)) {
-      const auto contestant = roster().build(spec, exam.mesh());
+    for (const contestants::ContestantSpec& spec : every_option(info)) {
+      const auto contestant = contestants::roster().build(spec, exam.mesh());
       const Accuracy accuracy = contestant->accuracy();
       for (std::size_t i = 0; i < exam.parts().size(); ++i) {
         const Part& part = exam.parts()[i];
         if (!contestant->answers(part.query)) continue;
-        std::vector<Answer> answers = ask(*contestant, part);
-        const Tally tally = verdicts.on(i, answers, accuracy);
-        EXPECT_TRUE(keeps_its_word(tally, accuracy))
-            << spec.text() << ", " << part.name << ": " << summary(tally);
+        std::vector<workload::Answer> answers = ask(*contestant, part);
+        const oracle::ErrorCounts counts = verdicts.on(i, answers, accuracy);
+        EXPECT_TRUE(oracle::meets_guarantee(counts, accuracy))
+            << spec.text() << ", " << part.name << ": " << summary(counts);
         if (accuracy.guarantee != Guarantee::exact || !accuracy.decides_exactly) continue;
-        for (Answer& answer : answers) answer.side = Side::unasked;  // the reference was not asked
-        EXPECT_EQ(std::memcmp(answers.data(), expected[i].data(), answers.size() * sizeof(Answer)), 0)
+        for (workload::Answer& answer : answers) answer.side = Side::unasked;  // the reference was not asked
+        EXPECT_EQ(std::memcmp(answers.data(), expected[i].data(), answers.size() * sizeof(workload::Answer)),
+                  0)
             << spec.text() << ", " << part.name;
       }
     }
@@ -309,15 +314,16 @@ TEST_P(Conformance, OursKeepTheirWordAndTheExactOnesGiveTheBitsOfBruteForce) {
 TEST_P(Conformance, RivalsThatClaimExactnessKeepTheirWord) {
   const Exam exam(GetParam());
   Verdicts verdicts(exam);
-  for (const ContestantSpec& spec : roster().default_set()) {
-    if (is_ours(roster().find(spec.name))) continue;
-    const auto judged = [&](std::size_t i, const Accuracy& accuracy, const std::vector<Answer>& answers) {
-      const Tally tally = verdicts.on(i, answers, accuracy);
+  for (const contestants::ContestantSpec& spec : contestants::roster().default_set()) {
+    if (is_ours(contestants::roster().find(spec.name))) continue;
+    const auto judged = [&](std::size_t i, const Accuracy& accuracy,
+                            const std::vector<workload::Answer>& answers) {
+      const oracle::ErrorCounts counts = verdicts.on(i, answers, accuracy);
       const std::string finding =
-          fmt::format("{}, {}: {}", spec.text(), exam.parts()[i].name, summary(tally));
+          fmt::format("{}, {}: {}", spec.text(), exam.parts()[i].name, summary(counts));
       if (accuracy.guarantee == Guarantee::exact) {
-        EXPECT_TRUE(keeps_its_word(tally, accuracy)) << finding;
-      } else if (!keeps_its_word(tally, {Guarantee::exact, accuracy.relative, accuracy.absolute})) {
+        EXPECT_TRUE(oracle::meets_guarantee(counts, accuracy)) << finding;
+      } else if (!oracle::meets_guarantee(counts, {Guarantee::exact, accuracy.relative, accuracy.absolute})) {
         fmt::print("    faulty: {}\n", finding);
       }
     };

@@ -17,14 +17,15 @@ namespace touchmark {
 
 struct ExactForm {
   std::string name;
-  std::unique_ptr<bench::Contestant> detector;
+  std::unique_ptr<bench::contestants::Contestant> detector;
 };
 
 /// Brute force comes first: the others must give its bits.
 inline std::vector<ExactForm> exact_forms(const TriangleMesh& mesh) {
   std::vector<ExactForm> forms;
   const auto add = [&]<class D>(std::string name, D detector) {
-    forms.push_back({std::move(name), std::make_unique<bench::ContestantOf<D>>(std::move(detector))});
+    forms.push_back(
+        {std::move(name), std::make_unique<bench::contestants::ContestantOf<D>>(std::move(detector))});
   };
   add("brute-force", BruteForce::build(mesh));
   add("aabb-tree", AabbTree::build(mesh));
@@ -43,7 +44,7 @@ inline std::vector<ExactForm> exact_forms(const TriangleMesh& mesh) {
     detector.update(mesh);
     return detector;
   };
-  const TriangleMesh before = bench::displaced(mesh, 1);
+  const TriangleMesh before = bench::scenes::displaced(mesh, 1);
   add("grid-group, direct, updated", updated(Grid::build(before)));
   add("grid-group, direct, lazy", Grid::build(mesh, {.making = Grid::Construction::lazy}));
   add("grid-group, direct, lazy, updated",

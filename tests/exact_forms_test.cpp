@@ -11,24 +11,25 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/experiments/stress/hard_ways.h"
+#include "bench/experiments/stress/corner_case_sweeps.h"
 #include "bench/experiments/stress/near_ties.h"
 #include "bench/oracle/judge.h"
 #include "bench/oracle/oracle.h"
-#include "tests/bench/oracle/hard_meshes.h"
+#include "tests/bench/oracle/corner_case_meshes.h"
 
 namespace touchmark {
 namespace {
 
-using bench::Answer;
-using bench::Oracle;
-using bench::Query;
-using bench::Step;
-using bench::Truth;
+using bench::oracle::GroundTruth;
+using bench::oracle::Oracle;
+using bench::workload::Answer;
+using bench::workload::Query;
+using bench::workload::Step;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-std::vector<Answer> ask(bench::Contestant& detector, Query query, const std::vector<Step>& steps) {
+std::vector<Answer> ask(bench::contestants::Contestant& detector, Query query,
+                        const std::vector<Step>& steps) {
   std::vector<Answer> answers(steps.size());
   std::vector<std::uint64_t> work(steps.size());
   detector.answer({query, steps}, {0, steps.size()}, answers, work);
@@ -63,23 +64,24 @@ class Examination {
   void judge(const std::string& what, Query query, const std::vector<Step>& steps,
              const std::vector<Answer>& answers) const {
     const Accuracy accuracy = forms_.front().detector->accuracy();
-    bench::Tally tally;
+    bench::oracle::ErrorCounts counts;
     for (std::size_t i = 0; i < steps.size(); ++i) {
       const Probe& probe = steps[i].probe;
       const std::span answer(&answers[i], 1);
       if (query == Query::sweep) {
         const std::vector<Sweep> sweep = {
             {steps[i > 0 ? i - 1 : 0].probe.center, probe.center, probe.radius}};
-        tally += bench::judge(oracle_, oracle_.solve(sweep), sweep, answer, accuracy);
+        counts += bench::oracle::judge(oracle_, oracle_.solve(sweep), sweep, answer, accuracy);
       } else {
-        const std::vector<Truth> truth = {oracle_.solve(probe.center)};
-        tally += bench::judge(oracle_, truth, query, std::span(&probe, 1), steps[i].reach, answer, accuracy);
+        const std::vector<GroundTruth> truth = {oracle_.solve(probe.center)};
+        counts += bench::oracle::judge(oracle_, truth, query, std::span(&probe, 1), steps[i].reach, answer,
+                                       accuracy);
       }
     }
-    EXPECT_TRUE(bench::keeps_its_word(tally, accuracy))
-        << "brute force: " << what << ": " << tally.missed << " missed, " << tally.false_contacts
-        << " false, " << tally.wrong_triangle << " wrong triangle, " << tally.beyond_bound << " beyond, "
-        << tally.wrong_point << " point, " << tally.wrong_normal << " normal, " << tally.malformed
+    EXPECT_TRUE(bench::oracle::meets_guarantee(counts, accuracy))
+        << "brute force: " << what << ": " << counts.missed << " missed, " << counts.false_contacts
+        << " false, " << counts.wrong_triangle << " wrong triangle, " << counts.beyond_bound << " beyond, "
+        << counts.wrong_point << " point, " << counts.wrong_normal << " normal, " << counts.malformed
         << " malformed";
   }
 
@@ -91,7 +93,7 @@ class Examination {
 class ExactForms : public testing::TestWithParam<std::size_t> {
  protected:
   static const std::vector<NamedMesh>& meshes() {
-    static const std::vector<NamedMesh> all = hard_meshes();
+    static const std::vector<NamedMesh> all = corner_case_meshes();
     return all;
   }
 };
@@ -108,8 +110,8 @@ TEST_P(ExactForms, AreRightAndAgreeOnHardMeshes) {
   const NamedMesh& named = meshes()[GetParam()];
   SCOPED_TRACE(named.name);
   Examination examination(named.mesh);
-  HardCases hard(7);
-  const std::vector<Vec3> centers = hard_points(named.mesh, hard, 60);
+  CornerCases cases(7);
+  const std::vector<Vec3> centers = corner_case_points(named.mesh, cases, 60);
   std::vector<double> distance;
   for (const Vec3& center : centers) distance.push_back(examination.oracle().solve(center).high);
   const double some = 0.01 * named.mesh.diagonal();
@@ -142,9 +144,9 @@ TEST_P(ExactForms, AreRightAndAgreeOnHardMeshes) {
   examination.ask_all("sweep", Query::sweep, steps_at(centers, constant(some), constant(0)));
 }
 
-INSTANTIATE_TEST_SUITE_P(Meshes, ExactForms, testing::Range(std::size_t{0}, hard_meshes().size()),
+INSTANTIATE_TEST_SUITE_P(Meshes, ExactForms, testing::Range(std::size_t{0}, corner_case_meshes().size()),
                          [](const testing::TestParamInfo<std::size_t>& mesh) {
-                           std::string name = hard_meshes()[mesh.param].name;
+                           std::string name = corner_case_meshes()[mesh.param].name;
                            for (char& c : name)
                              if (c == ' ') c = '_';
                            return name;
@@ -155,15 +157,15 @@ INSTANTIATE_TEST_SUITE_P(Meshes, ExactForms, testing::Range(std::size_t{0}, hard
 TEST(ExactFormsInTies, GiveTheFirstOfTheNearest) {
   const TriangleMesh sphere = octasphere(6).transformed(1, Vec3(0.1, 0.2, 0.3));
   Examination examination(sphere);
-  HardCases hard(11);
+  CornerCases cases(11);
   std::vector<Vec3> centers;
   for (std::uint32_t i = 0; i < sphere.size(); ++i) {
     const Vec3 &a = sphere.corner(i, 0), &b = sphere.corner(i, 1);
     const Vec3 middle(0.1, 0.2, 0.3);
     centers.push_back(a);
     centers.push_back(0.5 * (a + b));
-    centers.push_back(a + hard.magnitude(-12, 0) * (a - middle));
-    centers.push_back(0.5 * (a + b) + hard.magnitude(-12, 0) * (a - middle));
+    centers.push_back(a + cases.magnitude(-12, 0) * (a - middle));
+    centers.push_back(0.5 * (a + b) + cases.magnitude(-12, 0) * (a - middle));
   }
   const auto reach = [](double value) { return [value](std::size_t) { return value; }; };
   examination.ask_all("nearest at any reach", Query::nearest, steps_at(centers, reach(0), reach(infinity)));
@@ -174,18 +176,20 @@ TEST(ExactFormsInTies, GiveTheFirstOfTheNearest) {
 /// Where rounding puts another triangle first: beside bisectors, over the borders between the corners, edges
 /// and faces of a closed surface, and where exact ties round apart.
 TEST(ExactFormsInNearTies, NameTheFirstOfTheExactlyNearest) {
-  HardCases hard(29);
-  std::vector<HardCases::Corners> soup;
-  for (int i = 0; i < 40; ++i) soup.push_back(i % 4 == 0 ? hard.needle() : hard.plain());
-  for (const TriangleMesh& mesh :
-       {bench::turned_images(hard, 12), mesh_of(soup), octasphere(4).transformed(1, Vec3(0.1, 0.2, 0.3))}) {
+  CornerCases cases(29);
+  std::vector<CornerCases::Corners> soup;
+  for (int i = 0; i < 40; ++i) soup.push_back(i % 4 == 0 ? cases.needle() : cases.plain());
+  for (const TriangleMesh& mesh : {bench::experiments::stress::turned_images(cases, 12), mesh_of(soup),
+                                   octasphere(4).transformed(1, Vec3(0.1, 0.2, 0.3))}) {
     Examination examination(mesh);
     std::vector<Vec3> centers;
     while (centers.size() < 400) {
-      centers.push_back(bench::on_the_diagonal(hard));
-      const Vec3 from = hard.magnitude(-1, 0.5) * hard.vector(), to = from + 0.3 * hard.vector();
-      const Vec3 place = bench::where_the_nearest_changes(examination.oracle(), from, to);
-      for (const Vec3& neighbour : bench::with_neighbours(place, hard)) centers.push_back(neighbour);
+      centers.push_back(bench::experiments::stress::on_the_diagonal(cases));
+      const Vec3 from = cases.magnitude(-1, 0.5) * cases.vector(), to = from + 0.3 * cases.vector();
+      const Vec3 place =
+          bench::experiments::stress::where_the_nearest_changes(examination.oracle(), from, to);
+      for (const Vec3& neighbour : bench::experiments::stress::with_neighbors(place, cases))
+        centers.push_back(neighbour);
     }
     std::vector<double> distance;
     for (const Vec3& center : centers) distance.push_back(examination.oracle().solve(center).high);
@@ -225,7 +229,7 @@ TEST(ExactFormsBelowZero, TouchNothing) {
 /// little.
 TEST(ExactFormsOnNeedles, TouchNothingALittleFartherThanTheRadius) {
   struct Case {
-    HardCases::Corners corners;
+    CornerCases::Corners corners;
     Vec3 center;
   };
   const Case cases[] = {{{Vec3(0.96277979036287736, -0.42130004640573082, -0.4803880511554004),
@@ -254,16 +258,16 @@ TEST(ExactFormsOnNeedles, TouchNothingALittleFartherThanTheRadius) {
 /// Seen along the line from its middle through a corner, a triangle is as near as its bounding sphere, and
 /// seen along an axis as its box: whether it is kept is up to the rounding of the bound.
 TEST(ExactFormsInLine, LoseNothingToTheRoundingOfABound) {
-  HardCases hard(19);
+  CornerCases cases(19);
   for (int triangle = 0; triangle < 30; ++triangle) {
-    const HardCases::Corners corners = hard.plain();
+    const CornerCases::Corners corners = cases.plain();
     Examination examination(mesh_of({corners}));
     const Vec3 middle = corners[0] + ((corners[1] - corners[0]) + (corners[2] - corners[0])) / 3;
     std::vector<Vec3> centers;
     std::vector<double> distance;
     for (int i = 0; i < 30; ++i) {
-      const Vec3& corner = corners[hard.below(3)];
-      centers.push_back(corner + hard.magnitude(-3, 6) * (corner - middle));
+      const Vec3& corner = corners[cases.below(3)];
+      centers.push_back(corner + cases.magnitude(-3, 6) * (corner - middle));
       distance.push_back(examination.oracle().solve(centers.back()).high);
     }
     const auto at = [&](std::size_t i) { return distance[i]; };
@@ -278,12 +282,12 @@ TEST(ExactFormsInLine, LoseNothingToTheRoundingOfABound) {
 /// Through triangles whose fourth powers leave the range of double, and whose squares do, up to numbers that
 /// have lost digits: the fractions are those at scale 1, where it is a power of two that they are scaled by.
 TEST(ExactFormsAtAnyScale, SweepAlike) {
-  HardCases hard(23);
-  std::vector<HardCases::Corners> triangles;
-  for (int i = 0; i < 40; ++i) triangles.push_back(i % 4 == 0 ? hard.needle() : hard.plain());
+  CornerCases cases(23);
+  std::vector<CornerCases::Corners> triangles;
+  for (int i = 0; i < 40; ++i) triangles.push_back(i % 4 == 0 ? cases.needle() : cases.plain());
   const TriangleMesh mesh = mesh_of(triangles);
   std::vector<Vec3> way;
-  for (int i = 0; i < 60; ++i) way.push_back(i % 5 == 0 ? Vec3(1e3 * hard.vector()) : hard.vector());
+  for (int i = 0; i < 60; ++i) way.push_back(i % 5 == 0 ? Vec3(1e3 * cases.vector()) : cases.vector());
   const auto asked_of = [&](double scale) {
     std::vector<Step> steps;
     for (std::size_t i = 0; i < way.size(); ++i) steps.push_back({{scale * way[i], 0.01 * scale}, 0});
@@ -319,15 +323,15 @@ TEST(ExactFormsOnTheMove, AgreeAlongACoherentWay) {
   for (const TriangleMesh& mesh : {octasphere(10), plate(12).transformed(0.1, Vec3::Zero())}) {
     Examination examination(mesh);
     const double radius = 0.02;
-    HardCases hard(13);
+    CornerCases cases(13);
     std::vector<Vec3> way;
     Vec3 at(0.7, 0.5, 0.6);
     for (int i = 0; i < 600; ++i) {
-      const Truth truth = examination.oracle().solve(at);
+      const GroundTruth truth = examination.oracle().solve(at);
       const double wish = radius * (1 + 1.5 * std::sin(0.05 * i));  // in contact and out of it, slowly
       const Vec3 out = truth.direction.isZero(0) ? Vec3(Vec3::UnitZ()) : truth.direction;
       at += 0.2 * (wish - truth.high) * out + 0.004 * Vec3(std::cos(0.01 * i), std::sin(0.013 * i), 0.3) +
-            1e-4 * hard.vector();
+            1e-4 * cases.vector();
       way.push_back(at);
     }
     const auto constant = [](double value) { return [value](std::size_t) { return value; }; };
@@ -344,10 +348,10 @@ TEST(ExactFormsOnTheMove, AgreeAlongACoherentWay) {
 class ExactFormsOnHardWays : public testing::TestWithParam<int> {
  protected:
   static TriangleMesh some_triangles() {
-    HardCases hard(37);
-    std::vector<HardCases::Corners> triangles;
+    CornerCases cases(37);
+    std::vector<CornerCases::Corners> triangles;
     for (int i = 0; i < 30; ++i)
-      triangles.push_back(i % 3 == 0 ? hard.needle() : i % 3 == 1 ? hard.on_lattice() : hard.plain());
+      triangles.push_back(i % 3 == 0 ? cases.needle() : i % 3 == 1 ? cases.on_lattice() : cases.plain());
     return mesh_of(triangles);
   }
 };
@@ -357,13 +361,13 @@ TEST_P(ExactFormsOnHardWays, HitExactlyWhereTheyHit) {
       GetParam() == 0 ? Vec3(Vec3::Zero()) : Vec3(std::ldexp(1.0, GetParam()) * Vec3(1, -0.7, 0.3));
   for (const TriangleMesh& whole : {octasphere(5), some_triangles()}) {
     const TriangleMesh mesh = whole.transformed(1, offset);
-    const std::vector<Step> steps = bench::HardWays(mesh, 41).course(500);
+    const std::vector<Step> steps = bench::experiments::stress::CornerCaseSweeps(mesh, 41).trace(500);
     Examination(mesh).ask_all("hard ways", Query::sweep, steps);
     // Lazily made, and following from elsewhere.
-    bench::ContestantOf<BruteForce> reference(BruteForce::build(mesh));
+    bench::contestants::ContestantOf<BruteForce> reference(BruteForce::build(mesh));
     const std::vector<Answer> expected = ask(reference, Query::sweep, steps);
     const auto expect_same = [&]<class D>(const char* name, D detector) {
-      bench::ContestantOf<D> contestant(std::move(detector));
+      bench::contestants::ContestantOf<D> contestant(std::move(detector));
       EXPECT_EQ(first_difference(ask(contestant, Query::sweep, steps), expected), steps.size()) << name;
     };
     expect_same("grid-group, lazy", GridGroup::build(mesh, {.construction = GridGroup::Construction::lazy}));
@@ -395,11 +399,11 @@ void expect_no_harm_from_another_mesh(const Case<D>& form) {
   const TriangleMesh one = octasphere(6), other = octasphere(6).transformed(1, Vec3(0.05, 0, 0));
   const D first = D::build(one, form.options), second = D::build(other, form.options);
   typename D::Session shared;
-  HardCases hard(17);
+  CornerCases cases(17);
   const double radius = 0.02;
   Vec3 at(1.03, 0, 0);
   for (int i = 0; i < 400; ++i) {
-    at = (1.035 + 0.03 * std::sin(0.3 * i)) * (at + 0.01 * hard.vector()).normalized();
+    at = (1.035 + 0.03 * std::sin(0.3 * i)) * (at + 0.01 * cases.vector()).normalized();
     const Probe probe{at, radius};
     for (const D* detector : {&first, &second}) {
       typename D::Session fresh, another;

@@ -18,7 +18,7 @@
 namespace touchmark {
 namespace {
 
-using bench::Answer;
+using bench::workload::Answer;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -90,7 +90,7 @@ void expect_same_bits(const TriangleMesh& mesh, const typename D::Options& optio
 class Sessions : public testing::TestWithParam<std::string> {};
 
 TEST_P(Sessions, GiveTheBitsOfBruteForceFreshUsedAndInThreads) {
-  const TriangleMesh mesh = bench::load_scene(GetParam());
+  const TriangleMesh mesh = bench::scenes::load_scene(GetParam());
   // A quarter, since each is asked up to ten times of eleven detectors.
   const Questions questions{adversarial_centers(mesh, affordable(mesh) / 4), 0.005 * mesh.diagonal()};
   const std::vector<Answer> expected = answers_of_one_session(BruteForce::build(mesh), questions);

@@ -15,67 +15,67 @@
 #include "bench/experiments/stress/shared_features.h"
 #include "bench/oracle/oracle.h"
 #include "core/grid_group/grid_group.h"
-#include "tests/bench/oracle/hard_meshes.h"
+#include "tests/bench/oracle/corner_case_meshes.h"
 #include "tests/exact_forms.h"
 
 namespace touchmark {
 namespace {
 
-using bench::Answer;
-using bench::Query;
-using bench::Step;
+using bench::workload::Answer;
+using bench::workload::Query;
+using bench::workload::Step;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Query all_queries[] = {Query::touches, Query::nearest, Query::sweep};
 
 /// All triangles in one place, but for a few that make the box large.
 TriangleMesh clump() {
-  HardCases hard(31);
-  std::vector<HardCases::Corners> triangles;
+  CornerCases cases(31);
+  std::vector<CornerCases::Corners> triangles;
   for (int i = 0; i < 300; ++i)
-    triangles.push_back({1e-6 * hard.vector(), 1e-6 * hard.vector(), 1e-6 * hard.vector()});
-  for (int i = 0; i < 4; ++i) triangles.push_back(hard.plain());
+    triangles.push_back({1e-6 * cases.vector(), 1e-6 * cases.vector(), 1e-6 * cases.vector()});
+  for (int i = 0; i < 4; ++i) triangles.push_back(cases.plain());
   return mesh_of(triangles);
 }
 
 /// One triangle spans whatever cells the small ones are sorted into.
 TriangleMesh under_a_blanket() {
-  HardCases hard(32);
-  std::vector<HardCases::Corners> triangles = {{Vec3(-9, -9, 0), Vec3(9, -9, 0), Vec3(0, 9, 0)}};
+  CornerCases cases(32);
+  std::vector<CornerCases::Corners> triangles = {{Vec3(-9, -9, 0), Vec3(9, -9, 0), Vec3(0, 9, 0)}};
   for (int i = 0; i < 300; ++i) {
-    const Vec3 at = hard.vector();
-    triangles.push_back({at, at + 0.01 * hard.vector(), at + 0.01 * hard.vector()});
+    const Vec3 at = cases.vector();
+    triangles.push_back({at, at + 0.01 * cases.vector(), at + 0.01 * cases.vector()});
   }
   return mesh_of(triangles);
 }
 
 /// Large triangles through one point: no two have boxes apart.
 TriangleMesh star() {
-  HardCases hard(33);
-  std::vector<HardCases::Corners> triangles;
+  CornerCases cases(33);
+  std::vector<CornerCases::Corners> triangles;
   for (int i = 0; i < 300; ++i) {
-    const HardCases::Corners t = hard.plain();
+    const CornerCases::Corners t = cases.plain();
     triangles.push_back({t[0], t[1], -0.5 * (t[0] + t[1])});
   }
   return mesh_of(triangles);
 }
 
 std::vector<NamedMesh> hostile_meshes() {
-  std::vector<NamedMesh> meshes = hard_meshes();
+  std::vector<NamedMesh> meshes = corner_case_meshes();
   meshes.push_back({"larger octasphere", octasphere(8)});
   meshes.push_back({"clump", clump()});
   meshes.push_back({"under a blanket", under_a_blanket()});
   meshes.push_back({"star", star()});
-  const HardCases::Corners one = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+  const CornerCases::Corners one = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
   meshes.push_back({"one triangle", mesh_of({one})});
-  meshes.push_back({"one triangle, again and again", mesh_of(std::vector<HardCases::Corners>(300, one))});
+  meshes.push_back({"one triangle, again and again", mesh_of(std::vector<CornerCases::Corners>(300, one))});
   return meshes;
 }
 
 std::vector<Step> hostile_steps(const TriangleMesh& mesh) {
-  HardCases hard(34);
+  CornerCases cases(34);
   std::vector<Step> steps;
-  for (const Vec3& center : hard_points(mesh, hard, 40))
+  for (const Vec3& center : corner_case_points(mesh, cases, 40))
     for (const double length : {0.0, 0.01 * mesh.diagonal(), mesh.diagonal(), infinity})
       steps.push_back({{center, length}, length});
   return steps;
@@ -90,7 +90,7 @@ struct Asked {
   std::vector<std::uint64_t> work;  ///< of each step
 };
 
-Asked ask(bench::Contestant& detector, Query query, const std::vector<Step>& steps) {
+Asked ask(bench::contestants::Contestant& detector, Query query, const std::vector<Step>& steps) {
   Asked asked{std::vector<Answer>(steps.size()), std::vector<std::uint64_t>(steps.size())};
   detector.forget();
   detector.answer({query, steps}, {0, steps.size()}, asked.answers, asked.work);
@@ -149,9 +149,9 @@ TEST(WorstCaseWork, IsAtMostTwiceBruteForceAndALittle) {
 // at no more of the triangles that are all as near but for rounding than it keeps open at once.
 TEST(WorstCaseWork, OfATouchAmongTangentTrianglesEndsAtTheFirstThatTouches) {
   constexpr std::uint64_t few_looks = 256, few_decisions = 16;
-  for (const bench::SharedFeature& shared : bench::shared_feature_meshes(6630)) {
+  for (const bench::experiments::stress::SharedFeature& shared : bench::experiments::stress::shared_feature_meshes(6630)) {
     if (!shared.name.starts_with("tangent") && !shared.name.starts_with("spikes")) continue;
-    const bench::Oracle oracle(shared.mesh);
+    const bench::oracle::Oracle oracle(shared.mesh);
     const Vec3& center = shared.centers.front();
     // What is not farther than the nearest but for rounding touches.
     const Probe probe{center, oracle.solve(center).high * (1 + 0x1p-50)};

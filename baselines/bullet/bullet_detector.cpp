@@ -216,9 +216,9 @@ Deepest contact_test(World& world, const View& view, const Vec3& center, double 
 }
 
 Vec3 direction(const Vec3& from, const Vec3& to, const btVector3& otherwise) {
-  const Vec3 way = to - from;
-  const double length = way.norm();
-  return length > 0 ? Vec3(way / length) : vec3(otherwise).normalized();
+  const Vec3 direction = to - from;
+  const double length = direction.norm();
+  return length > 0 ? Vec3(direction / length) : vec3(otherwise).normalized();
 }
 
 }  // namespace

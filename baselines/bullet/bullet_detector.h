@@ -14,7 +14,7 @@ namespace touchmark::baselines {
 
 class BulletDetector {
  public:
-  /// Of Bullet's numbers, as the linked library was built.
+  /// The precision of Bullet's numbers, as the linked library was built.
   enum class Precision { single_precision, double_precision };
   /// contact: Bullet's own contact test of two objects and its convex sweep. callback: Bullet's hierarchy of
   /// quantised boxes, and this project's kernel for the triangles it reports.

@@ -31,15 +31,15 @@ struct CgalDetector::Model {
     Vec3 point;
     Vec3 away;  ///< from there to the centre
     double distance;
-    std::uint32_t place;     ///< of its triangle
-    std::uint32_t triangle;  ///< of the mesh
+    std::uint32_t index;     ///< its triangle's position in the tree
+    std::uint32_t triangle;  ///< the mesh's id
   };
   /// `reach` is finite, `last` the place of a triangle to start from.
   virtual std::optional<Found> nearest(const Vec3& center, double reach,
                                        const std::optional<std::uint32_t>& last) const = 0;
   /// Asks the triangle at `last` first, and leaves there where the one is kept that is touched.
   virtual bool touches(const Probe& probe, std::optional<std::uint32_t>& last) const = 0;
-  virtual Vec3 face_normal(std::uint32_t place) const = 0;
+  virtual Vec3 face_normal(std::uint32_t index) const = 0;
   virtual std::size_t tree_bytes() const = 0;
 
   TriangleId id(std::uint32_t index) const noexcept { return ids.empty() ? index : ids[index]; }
@@ -89,8 +89,8 @@ class TreeModel final : public Model {
     if (triangle == triangles_.end()) return std::nullopt;
     const typename Kernel::Vector_3 away = center - point;
     const FT squared = away.squared_length();
-    Found found{from(point), from(CGAL::ORIGIN + away), rounded_root(squared), place_of(triangle), 0};
-    found.triangle = indices_[found.place];
+    Found found{from(point), from(CGAL::ORIGIN + away), rounded_root(squared), index_of(triangle), 0};
+    found.triangle = indices_[found.index];
     const bool within = is_exact ? squared <= FT(reach) * FT(reach) : found.distance <= reach;
     return within ? std::optional(found) : std::nullopt;
   }
@@ -102,12 +102,12 @@ class TreeModel final : public Model {
       return true;
     BallTouch touch{squared, {center, squared}};
     tree_.traversal(center, touch);
-    last = touch.found ? std::optional(place_of(*touch.found)) : std::nullopt;
+    last = touch.found ? std::optional(index_of(*touch.found)) : std::nullopt;
     return touch.found.has_value();
   }
 
-  Vec3 face_normal(std::uint32_t place) const override {
-    const Triangle& t = triangles_[place];
+  Vec3 face_normal(std::uint32_t index) const override {
+    const Triangle& t = triangles_[index];
     const Vec3 a = from(t[0]);
     return (from(t[1]) - a).cross(from(t[2]) - a).normalized();
   }
@@ -193,7 +193,7 @@ class TreeModel final : public Model {
     if constexpr (is_exact) CGAL::exact(number);
     return number;
   }
-  std::uint32_t place_of(Iterator triangle) const {
+  std::uint32_t index_of(Iterator triangle) const {
     return static_cast<std::uint32_t>(triangle - triangles_.begin());
   }
 
@@ -234,9 +234,9 @@ std::optional<Contact> CgalDetector::nearest(const Probe& probe, double reach,
   const std::optional<Model::Found> found = model_->nearest(center, finite, session.last);
   if (!found && checked) session.last.reset();
   if (!found) return std::nullopt;
-  session.last = found->place;
+  session.last = found->index;
   const double length = found->away.norm();
-  const Vec3 normal = length > 0 ? Vec3(found->away / length) : model_->face_normal(found->place);
+  const Vec3 normal = length > 0 ? Vec3(found->away / length) : model_->face_normal(found->index);
   return Contact{found->point, normal, found->distance, model_->id(found->triangle)};
 }
 

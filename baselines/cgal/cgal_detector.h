@@ -16,7 +16,7 @@ class CgalDetector {
  public:
   /// simple: doubles throughout. epick: exact predicates, inexact constructions. epeck: both exact.
   enum class Kernel { epick, simple, epeck };
-  /// Where the search for the closest point starts. none: CGAL's own hint, from a k-d tree. last: the point
+  /// The start of the search for the closest point. none: CGAL's own hint, from a k-d tree. last: the point
   /// of the session's last triangle that is closest now. bounded: that, or a point just beyond the reach when
   /// that is nearer.
   enum class Hint { none, last, bounded };
@@ -29,7 +29,7 @@ class CgalDetector {
   /// CGAL tells no work.
   struct Session {
     Work work;
-    /// Where a triangle is kept. checked: that of the last contact; plain: the last that was nearest.
+    /// The triangle that is kept. checked: that of the last contact; plain: the last that was nearest.
     std::optional<std::uint32_t> last;
   };
 

@@ -168,7 +168,7 @@ struct LibccdDetector::Model {
     nearest = {distance, hit->direction, triangle.index, true};
   }
 
-  /// Is the triangle's box within the radius of the origin, to rounding?
+  /// Returns true if the triangle's box is within the radius of the origin, to rounding.
   static bool near_box(const std::array<Vec3, 3>& corners, double radius) {
     Aabb box;
     for (const Vec3& corner : corners) box.extend(corner);

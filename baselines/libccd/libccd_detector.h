@@ -22,14 +22,14 @@ class LibccdDetector {
   struct Options {
     Algorithm algorithm = Algorithm::gjk;
     Frame frame = Frame::fitted;
-    double tolerance = 1e-4;       ///< of EPA and MPR, libccd's own default; in radii when fitted
-    std::size_t iterations = 500;  ///< of GJK at most; libccd's own default is ULONG_MAX
+    double tolerance = 1e-4;       ///< for EPA and MPR, libccd's own default; in radii when fitted
+    std::size_t iterations = 500;  ///< at most, in GJK; libccd's own default is ULONG_MAX
     Asking query = Asking::checked;
   };
   struct Session {
     Work work;                         ///< boxes: our tree's; triangles: those libccd is asked about
     std::size_t given_up = 0;          ///< pairs that were stopped for taking too long
-    std::uint32_t last = no_triangle;  ///< of the last contact
+    std::uint32_t last = no_triangle;  ///< the last contact's
   };
 
   /// Throws std::invalid_argument for a tolerance that is not positive, or no iterations.

@@ -9,29 +9,33 @@
 #include "bench/results/validation/located_json.h"
 #include "bench/results/validation/run_check.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::batch {
+
+namespace validation = results::validation;
+
 namespace {
 
 constexpr int job_schema = 1;
 
 nlohmann::json form_of_jobs() {
   nlohmann::json columns = nlohmann::json::object();
-  for (const std::string& column : results_columns()) columns[column] = {{"type", "string"}};
-  return {{"type", "object"},
-          {"required", {"schema", "id", "machine", "run", "row"}},
-          {"properties",
-           {{"schema", {{"const", job_schema}}},
-            {"id", {{"type", "string"}, {"pattern", "^[0-9a-f]{16}$"}}},
-            {"machine", {{"type", "string"}, {"pattern", "^[0-9a-f]{16}$"}}},
-            {"run", nlohmann::json::parse(run_schema)},
-            {"row", {{"type", "object"}, {"required", results_columns()}, {"properties", columns}}}}}};
+  for (const std::string& column : results::results_columns()) columns[column] = {{"type", "string"}};
+  return {
+      {"type", "object"},
+      {"required", {"schema", "id", "machine", "run", "row"}},
+      {"properties",
+       {{"schema", {{"const", job_schema}}},
+        {"id", {{"type", "string"}, {"pattern", "^[0-9a-f]{16}$"}}},
+        {"machine", {{"type", "string"}, {"pattern", "^[0-9a-f]{16}$"}}},
+        {"run", nlohmann::json::parse(validation::run_schema)},
+        {"row", {{"type", "object"}, {"required", results::results_columns()}, {"properties", columns}}}}}};
 }
 
 }  // namespace
 
 std::string JobResult::json() const {
   nlohmann::ordered_json row = nlohmann::ordered_json::object();
-  const std::vector<std::string> columns = results_columns();
+  const std::vector<std::string> columns = results::results_columns();
   for (std::size_t i = 0; i < columns.size(); ++i) row[columns[i]] = fields[i];
   const nlohmann::ordered_json job{
       {"schema", job_schema}, {"id", id}, {"machine", machine}, {"row", row}, {"run", run}};
@@ -43,14 +47,16 @@ std::filesystem::path job_path(const std::filesystem::path& folder, const std::s
 }
 
 JobResult read_job(const std::string& path) {
-  static const JsonSchema form(form_of_jobs());
-  Faults faults;
-  const std::optional<LocatedJson> document = read_located_json(path, faults);
+  static const validation::JsonSchema form(form_of_jobs());
+  validation::Faults faults;
+  const std::optional<validation::LocatedJson> document = validation::read_located_json(path, faults);
   if (document) form.check(path, *document, faults);
-  if (!faults.empty()) throw std::invalid_argument(line_of(faults.front()) + " (not a finished job)");
+  if (!faults.empty())
+    throw std::invalid_argument(validation::line_of(faults.front()) + " (not a finished job)");
   const nlohmann::json& job = document->value;
   JobResult result{job.at("id"), job.at("machine"), job.at("run"), {}};
-  for (const std::string& column : results_columns()) result.fields.push_back(job.at("row").at(column));
+  for (const std::string& column : results::results_columns())
+    result.fields.push_back(job.at("row").at(column));
   return result;
 }
 
@@ -65,4 +71,4 @@ bool is_finished(const std::filesystem::path& folder, const std::string& id) {
   }
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::batch

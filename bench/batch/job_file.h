@@ -8,13 +8,13 @@
 
 #include <nlohmann/json.hpp>
 
-namespace touchmark::bench {
+namespace touchmark::bench::batch {
 
 struct JobResult {
   std::string id;
   std::string machine;              ///< machine_fingerprint()
   nlohmann::json run;               ///< as run.json
-  std::vector<std::string> fields;  ///< of results.csv, all columns
+  std::vector<std::string> fields;  ///< all columns of results.csv
 
   std::string json() const;
 };
@@ -25,7 +25,8 @@ std::filesystem::path job_path(const std::filesystem::path& folder, const std::s
 /// Throws std::invalid_argument for a file that is no finished job, naming line and value.
 JobResult read_job(const std::string& path);
 
-/// Is there a finished job of that id? A file that is there and is none, or another's, is not.
+/// Returns true if there is a finished job of that id. A file that is there and is none, or another's, is
+/// not.
 bool is_finished(const std::filesystem::path& folder, const std::string& id);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::batch

@@ -16,7 +16,10 @@
 #include "bench/workload/content_hash.h"
 #include "bench/workload/query_name.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::batch {
+
+namespace validation = results::validation;
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -52,7 +55,9 @@ constexpr const char* manifest_form = R"({
       }}}
   }})";
 
-std::uint64_t hash_in(const nlohmann::json& json) { return parse_hex(json.get<std::string>()).value(); }
+std::uint64_t hash_in(const nlohmann::json& json) {
+  return support::parse_hex(json.get<std::string>()).value();
+}
 
 /// The keys of a motion's options, which are there where they were given.
 template <class Motion>
@@ -66,14 +71,14 @@ Json json_of(const SweepScene& scene) {
   for (const SweepJob& job : scene.jobs) jobs.push_back({{"id", job.id}, {"detector", job.detector}});
   Json json{{"mesh", scene.mesh},
             {"normalize", scene.normalize},
-            {"mesh_fnv1a", hex(scene.mesh_hash)},
+            {"mesh_fnv1a", support::hex(scene.mesh_hash)},
             {"trajectory", scene.trajectory},
-            {"course_fnv1a", hex(scene.course_hash)},
+            {"course_fnv1a", support::hex(scene.trace_hash)},
             {"steps", scene.steps},
             {"seed", scene.seed},
             {"radius", scene.radius},
             {"reach", scene.reach},
-            {"query", name_of(scene.query)},
+            {"query", workload::name_of(scene.query)},
             {"jobs", jobs}};
   for (const auto& [key, value] : motion_texts(scene.motion))
     if (!value->empty()) json[key] = *value;
@@ -86,12 +91,12 @@ SweepScene scene_of(const nlohmann::json& json) {
   scene.normalize = json.at("normalize");
   scene.mesh_hash = hash_in(json.at("mesh_fnv1a"));
   scene.trajectory = json.at("trajectory");
-  scene.course_hash = hash_in(json.at("course_fnv1a"));
+  scene.trace_hash = hash_in(json.at("course_fnv1a"));
   scene.steps = json.at("steps");
   scene.seed = json.at("seed");
   scene.radius = json.at("radius");
   scene.reach = json.at("reach");
-  scene.query = query_named(json.at("query").get<std::string>()).value();
+  scene.query = workload::query_named(json.at("query").get<std::string>()).value();
   for (const auto& [key, value] : motion_texts(scene.motion)) *value = json.value(key, "");
   for (const nlohmann::json& job : json.at("jobs")) scene.jobs.push_back({job.at("id"), job.at("detector")});
   return scene;
@@ -107,11 +112,11 @@ std::string Manifest::json() const {
 }
 
 Manifest Manifest::read(const std::string& path) {
-  static const JsonSchema form(nlohmann::json::parse(manifest_form));
-  Faults faults;
-  const std::optional<LocatedJson> document = read_located_json(path, faults);
+  static const validation::JsonSchema form(nlohmann::json::parse(manifest_form));
+  validation::Faults faults;
+  const std::optional<validation::LocatedJson> document = validation::read_located_json(path, faults);
   if (document) form.check(path, *document, faults);
-  if (!faults.empty()) throw std::invalid_argument(line_of(faults.front()));
+  if (!faults.empty()) throw std::invalid_argument(validation::line_of(faults.front()));
   Manifest manifest{document->value.at("version"), document->value.at("effort"), {}};
   for (const nlohmann::json& scene : document->value.at("scenes")) manifest.scenes.push_back(scene_of(scene));
   return manifest;
@@ -125,29 +130,31 @@ std::size_t Manifest::jobs() const noexcept {
 
 std::string job_id(const SweepScene& scene, const std::string& detector, const std::string& effort,
                    const std::string& version) {
-  ContentHash hash;
-  for (const std::uint64_t number : {scene.mesh_hash, scene.course_hash, scene.seed}) hash.add(hex(number));
-  for (const std::string& text : {std::string(name_of(scene.query)), detector, effort, version})
+  workload::ContentHash hash;
+  for (const std::uint64_t number : {scene.mesh_hash, scene.trace_hash, scene.seed})
+    hash.add(support::hex(number));
+  for (const std::string& text : {std::string(workload::name_of(scene.query)), detector, effort, version})
     hash.add(text);
-  return hex(hash.value());
+  return support::hex(hash.value());
 }
 
-Effort effort_named(const std::string& name) {
+measurement::Effort effort_named(const std::string& name) {
   if (name == "full") return {};
-  if (name == "quick") return quick_effort;
-  if (name == "accuracy") return accuracy_effort;
+  if (name == "quick") return measurement::quick_effort;
+  if (name == "accuracy") return measurement::accuracy_effort;
   throw std::invalid_argument(fmt::format("effort \"{}\" is not one of full, quick, accuracy", name));
 }
 
-Workload workload_of(const SweepScene& scene, const Roster& roster) {
-  Selectors selectors;
+workload::Workload workload_of(const SweepScene& scene, const contestants::Roster& roster) {
+  contestants::Selectors selectors;
   selectors.radius = scene.radius;
   selectors.reach = scene.reach;
   selectors.seed = std::to_string(scene.seed);
   selectors.steps = std::to_string(scene.steps);
-  if (!is_generated(scene.trajectory)) selectors.motion = scene.motion;
-  return make_workload(without_directories(scene.mesh), load_mesh(scene.mesh, scene.normalize),
-                       check(selectors, roster), {scene.trajectory}, scene.steps);
+  if (!trajectories::is_generated(scene.trajectory)) selectors.motion = scene.motion;
+  return workload::make_workload(results::without_directories(scene.mesh),
+                                 scenes::load_mesh(scene.mesh, scene.normalize),
+                                 contestants::check(selectors, roster), {scene.trajectory}, scene.steps);
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::batch

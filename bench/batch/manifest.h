@@ -10,7 +10,7 @@
 #include "bench/measurement/effort.h"
 #include "bench/workload/workload.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::batch {
 
 inline constexpr int manifest_schema = 1;
 
@@ -24,19 +24,19 @@ struct SweepScene {
   std::string mesh;  ///< as --mesh takes it
   bool normalize = false;
   std::uint64_t mesh_hash = 0;
-  std::string trajectory;         ///< as --trajectory takes it
-  std::uint64_t course_hash = 0;  ///< of its steps with radius and reach
+  std::string trajectory;        ///< as --trajectory takes it
+  std::uint64_t trace_hash = 0;  ///< hash of its steps with radius and reach
   std::size_t steps = 0;
   std::uint64_t seed = 1;
   std::string radius;  ///< as --radius takes it
   std::string reach;   ///< as --reach takes it; empty: the radius
-  Query query = Query::nearest;
+  workload::Query query = workload::Query::nearest;
   std::vector<SweepJob> jobs;
-  MotionSelectors motion = {};  ///< as --columns, --motion-scale and --rate take it
+  contestants::MotionSelectors motion = {};  ///< as --columns, --motion-scale and --rate take it
 };
 
 struct Manifest {
-  std::string version;  ///< of the program that planned it
+  std::string version;  ///< the version of the program that planned it
   std::string effort;   ///< full, quick or accuracy
   std::vector<SweepScene> scenes;
 
@@ -46,16 +46,16 @@ struct Manifest {
   std::size_t jobs() const noexcept;
 };
 
-/// Sixteen hexadecimal digits: a hash of the mesh's and the course's content, the seed, the query, the
+/// Sixteen hexadecimal digits: a hash of the mesh's and the trace's content, the seed, the query, the
 /// detector, the effort and the version. The same wherever and whenever it is computed.
 std::string job_id(const SweepScene& scene, const std::string& detector, const std::string& effort,
                    const std::string& version);
 
 /// Throws std::invalid_argument.
-Effort effort_named(const std::string& name);
+measurement::Effort effort_named(const std::string& name);
 
-/// Mesh and course of a scene, to be hashed while planning or to be run. Throws std::invalid_argument or
+/// Mesh and trace of a scene, to be hashed while planning or to be run. Throws std::invalid_argument or
 /// MeshError.
-Workload workload_of(const SweepScene& scene, const Roster& roster);
+workload::Workload workload_of(const SweepScene& scene, const contestants::Roster& roster);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::batch

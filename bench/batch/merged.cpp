@@ -10,7 +10,10 @@
 #include "bench/results/results_csv.h"
 #include "bench/results/validation/column_rules.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::batch {
+
+namespace validation = results::validation;
+
 namespace {
 
 std::string member(const nlohmann::json& run, const char* name) {
@@ -27,7 +30,7 @@ std::string identity_of(const JobResult& job) {
 }
 
 std::vector<std::string> sorting_key(const FoundJob& job) {
-  const std::vector<std::string> columns = results_columns();
+  const std::vector<std::string> columns = results::results_columns();
   std::vector<std::string> key;
   for (const char* name :
        {"mesh", "trajectory", "query", "radius", "reach", "detector", "options", "run_id"}) {
@@ -38,26 +41,26 @@ std::vector<std::string> sorting_key(const FoundJob& job) {
   return key;
 }
 
-std::map<std::string, std::size_t> places_of(const Manifest& manifest) {
-  std::map<std::string, std::size_t> places;
+std::map<std::string, std::size_t> positions_of(const Manifest& manifest) {
+  std::map<std::string, std::size_t> positions;
   for (const SweepScene& scene : manifest.scenes) {
-    for (const SweepJob& job : scene.jobs) places.emplace(job.id, places.size());
+    for (const SweepJob& job : scene.jobs) positions.emplace(job.id, positions.size());
   }
-  return places;
+  return positions;
 }
 
-void expect_all_of(const std::map<std::string, std::size_t>& places, const std::vector<FoundJob>& jobs) {
+void expect_all_of(const std::map<std::string, std::size_t>& positions, const std::vector<FoundJob>& jobs) {
   std::set<std::string> found;
   for (const FoundJob& job : jobs) found.insert(job.result.id);
   std::size_t missing = 0;
   std::string first;
-  for (const auto& [id, place] : places) {
+  for (const auto& [id, position] : positions) {
     if (found.contains(id)) continue;
     if (missing++ == 0) first = id;
   }
   if (missing == 0) return;
   throw std::invalid_argument(
-      fmt::format("{} of the manifest's {} jobs are missing, one is {}", missing, places.size(), first));
+      fmt::format("{} of the manifest's {} jobs are missing, one is {}", missing, positions.size(), first));
 }
 
 }  // namespace
@@ -71,8 +74,9 @@ FoundJob found_job(const std::string& path) {
 void drop_times(FoundJob& job) {
   job.timed = false;
   for (std::size_t i = 0; i < job.result.fields.size(); ++i) {
-    const Presence presence = column_rules()[i].presence;
-    if (presence == Presence::built || presence == Presence::timed) job.result.fields[i].clear();
+    const validation::Presence presence = validation::column_rules()[i].presence;
+    if (presence == validation::Presence::built || presence == validation::Presence::timed)
+      job.result.fields[i].clear();
   }
 }
 
@@ -94,15 +98,15 @@ void expect_one_machine(const std::vector<FoundJob>& jobs) {
 }
 
 std::vector<FoundJob> in_order(std::vector<FoundJob> jobs, const std::optional<Manifest>& manifest) {
-  const std::map<std::string, std::size_t> places =
-      manifest ? places_of(*manifest) : std::map<std::string, std::size_t>{};
+  const std::map<std::string, std::size_t> positions =
+      manifest ? positions_of(*manifest) : std::map<std::string, std::size_t>{};
   if (manifest) {
-    std::erase_if(jobs, [&](const FoundJob& job) { return !places.contains(job.result.id); });
-    expect_all_of(places, jobs);
+    std::erase_if(jobs, [&](const FoundJob& job) { return !positions.contains(job.result.id); });
+    expect_all_of(positions, jobs);
   }
-  const auto place_of = [&](const FoundJob& job) { return manifest ? places.at(job.result.id) : 0; };
+  const auto position_of = [&](const FoundJob& job) { return manifest ? positions.at(job.result.id) : 0; };
   std::sort(jobs.begin(), jobs.end(), [&](const FoundJob& a, const FoundJob& b) {
-    return std::pair(place_of(a), sorting_key(a)) < std::pair(place_of(b), sorting_key(b));
+    return std::pair(position_of(a), sorting_key(a)) < std::pair(position_of(b), sorting_key(b));
   });
   const auto same = [](const FoundJob& a, const FoundJob& b) {
     return a.result.id == b.result.id && a.result.fields == b.result.fields;
@@ -120,4 +124,4 @@ std::vector<FoundJob> in_order(std::vector<FoundJob> jobs, const std::optional<M
   return jobs;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::batch

@@ -8,12 +8,12 @@
 #include "bench/batch/job_file.h"
 #include "bench/batch/manifest.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::batch {
 
 struct FoundJob {
   std::string path;
   JobResult result;
-  bool timed = false;  ///< or only verified
+  bool timed = false;  ///< false: only verified
 };
 
 /// Throws std::invalid_argument as read_job does.
@@ -31,4 +31,4 @@ void expect_one_machine(const std::vector<FoundJob>& jobs);
 /// timed twice.
 std::vector<FoundJob> in_order(std::vector<FoundJob> jobs, const std::optional<Manifest>& manifest);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::batch

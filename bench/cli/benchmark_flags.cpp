@@ -10,10 +10,10 @@
 #include "bench/support/numbers.h"
 #include "bench/workers/throughput.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
 namespace {
 
-constexpr std::size_t most_repetitions = 10000;
+constexpr std::size_t max_repetitions = 10000;
 constexpr double longest_repetition_s = 3600;
 
 /// "--name=value" to the pair; a flag alone has the value "true", as in the library.
@@ -28,9 +28,9 @@ std::invalid_argument bad_value(std::string_view name, std::string_view value, s
 }
 
 std::size_t parse_repetitions(const std::string& name, const std::string& value) {
-  const auto count = parse_count(value);
-  if (!count || *count < 1 || *count > most_repetitions) {
-    throw bad_value(name, value, fmt::format("a whole number from 1 to {}", most_repetitions));
+  const auto count = support::parse_count(value);
+  if (!count || *count < 1 || *count > max_repetitions) {
+    throw bad_value(name, value, fmt::format("a whole number from 1 to {}", max_repetitions));
   }
   return *count;
 }
@@ -39,7 +39,7 @@ double parse_min_time(const std::string& name, const std::string& value) {
   // Newer releases of the library write "0.5s".
   const std::string_view number =
       std::string_view(value).substr(0, value.ends_with('s') ? value.size() - 1 : value.size());
-  const auto seconds = parse_number(number);
+  const auto seconds = support::parse_number(number);
   if (!seconds || !(*seconds > 0) || *seconds > longest_repetition_s) {
     throw bad_value(name, value,
                     fmt::format("a time in seconds, above 0 and at most {}", longest_repetition_s));
@@ -89,10 +89,10 @@ BenchmarkFlags parse_benchmark_flags(const std::vector<std::string>& arguments) 
     }
     take(flags, argument);
   }
-  for (const std::string& unknown : initialize_throughput(flags.forwarded)) {
+  for (const std::string& unknown : workers::initialize_throughput(flags.forwarded)) {
     throw std::invalid_argument(fmt::format("Google Benchmark does not know \"{}\"", unknown));
   }
   return flags;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

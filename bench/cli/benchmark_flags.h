@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
 
 struct BenchmarkFlags {
   std::optional<std::size_t> repetitions;
-  std::optional<double> min_time_s;                ///< of a repetition
+  std::optional<double> min_time_s;                ///< a repetition lasts at least so long
   std::function<bool(const std::string&)> wanted;  ///< --benchmark_filter on "contestant/trajectory"
   bool list_tests = false;
   std::vector<std::string> forwarded;
@@ -22,4 +22,4 @@ struct BenchmarkFlags {
 /// is no --benchmark_ flag, that the library does not know, or whose value is wrong.
 BenchmarkFlags parse_benchmark_flags(const std::vector<std::string>& arguments);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

@@ -19,7 +19,7 @@
 #include "bench/support/system_limit.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
 namespace {
 
 using AddCommand = void (*)(CLI::App& program, ProgramContext& context);
@@ -50,7 +50,7 @@ std::string complaint_about_command(const CLI::App& program) {
   const std::vector<std::string> words = program.remaining();
   if (words.empty()) return fmt::format("a command is missing: one of {}", fmt::join(names, ", "));
   return fmt::format("unknown command \"{}\"; the nearest names: {}", words.front(),
-                     near_names(words.front(), names));
+                     support::near_names(words.front(), names));
 }
 
 int parse_and_run(CLI::App& program, ProgramContext& context) {
@@ -59,48 +59,49 @@ int parse_and_run(CLI::App& program, ProgramContext& context) {
   } catch (const CLI::Success& asked) {  // for help or the version
     std::ostringstream text;
     program.exit(asked, text, text);
-    StandardOutput().write(text.str());
-    return exit_done;
+    support::StandardOutput().write(text.str());
+    return support::exit_done;
   } catch (const CLI::ParseError& error) {
-    return fail(exit_bad_input, fmt::format("{} (touchmark --help)", one_line(error.what())));
+    return fail(support::exit_bad_input, fmt::format("{} (touchmark --help)", one_line(error.what())));
   }
-  if (program.get_subcommands().empty()) return fail(exit_bad_input, complaint_about_command(program));
+  if (program.get_subcommands().empty())
+    return fail(support::exit_bad_input, complaint_about_command(program));
   return context.status;
 }
 
 }  // namespace
 
-int run_program(int argc, char** argv, const Roster& roster) {
+int run_program(int argc, char** argv, const contestants::Roster& roster) {
   try {
-    reserve_standard_descriptors();
-  } catch (const ResourceError& error) {
-    return fail(exit_resources, error.what());
+    support::reserve_standard_descriptors();
+  } catch (const support::ResourceError& error) {
+    return fail(support::exit_resources, error.what());
   }
-  survive_limits();
+  support::survive_limits();
   ProgramContext context{roster, argc, argv};
   CLI::App program("Which collision detector can serve a haptic loop.", "touchmark");
-  program.set_version_flag("--version", std::string("touchmark ") + build_info().version);
+  program.set_version_flag("--version", std::string("touchmark ") + results::build_info().version);
   program.require_subcommand(0, 1);
   program.footer("Example: touchmark bench --mesh bunny --trajectory slide --out results/today\n");
   for (const AddCommand add : commands) add(program, context);
   program.allow_extras();  // after the commands, which must not inherit it
 
   try {
-    StandardOutput out;
+    support::StandardOutput out;
     const int status = parse_and_run(program, context);
     out.finish();
     return status;
   } catch (const std::invalid_argument& error) {
-    return fail(exit_bad_input, error.what());
+    return fail(support::exit_bad_input, error.what());
   } catch (const MeshError& error) {
-    return fail(exit_bad_input, error.what());
-  } catch (const ResourceError& error) {
-    return fail(exit_resources, error.what());
+    return fail(support::exit_bad_input, error.what());
+  } catch (const support::ResourceError& error) {
+    return fail(support::exit_resources, error.what());
   } catch (const std::bad_alloc&) {
-    return fail(exit_resources, "out of memory" + memory_limit());
+    return fail(support::exit_resources, "out of memory" + support::memory_limit());
   } catch (const std::system_error& error) {
-    return fail(exit_resources, error.what() + limit_behind(error.code().value()));
+    return fail(support::exit_resources, error.what() + support::limit_behind(error.code().value()));
   }
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

@@ -9,14 +9,14 @@ namespace CLI {
 class App;
 }
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
 
 /// What commands share. A command sets `status` when it is not exit_done; errors are thrown.
 struct ProgramContext {
-  const Roster& roster;
+  const contestants::Roster& roster;
   int argc = 0;
   char** argv = nullptr;
-  int status = exit_done;
+  int status = support::exit_done;
 };
 
 /// The usual way to write a command: `add_NAME(program, context)` adds a subcommand with its options and a
@@ -37,6 +37,6 @@ void add_run(CLI::App& program, ProgramContext& context);
 void add_merge(CLI::App& program, ProgramContext& context);
 void add_validate(CLI::App& program, ProgramContext& context);
 
-int run_program(int argc, char** argv, const Roster& roster);
+int run_program(int argc, char** argv, const contestants::Roster& roster);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

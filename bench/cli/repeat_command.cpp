@@ -7,27 +7,27 @@
 #include "bench/support/shell_word.h"
 #include "bench/workload/query_name.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
 
-std::string repeat_command(const Selectors& selectors, const std::string& mesh,
-                           const std::vector<std::string>& trajectories, const Workload& workload,
-                           const ResultRow& row) {
+std::string repeat_command(const contestants::Selectors& selectors, const std::string& mesh,
+                           const std::vector<std::string>& trajectories, const workload::Workload& workload,
+                           const measurement::ResultRow& row) {
   const auto found = std::find(workload.trajectories.begin(), workload.trajectories.end(), row.trajectory);
   if (found == workload.trajectories.end()) return "";
-  const auto course = static_cast<std::size_t>(found - workload.trajectories.begin());
-  std::string command =
-      fmt::format("touchmark query --mesh {}{} --trajectory {} --detector {} --query {} --radius {}",
-                  quoted(mesh), selectors.normalize ? " --normalize" : "", quoted(trajectories[course]),
-                  quoted(row.contestant()), name_of(row.query), quoted(selectors.radius));
+  const auto trace = static_cast<std::size_t>(found - workload.trajectories.begin());
+  std::string command = fmt::format(
+      "touchmark query --mesh {}{} --trajectory {} --detector {} --query {} --radius {}",
+      support::quoted(mesh), selectors.normalize ? " --normalize" : "", support::quoted(trajectories[trace]),
+      support::quoted(row.contestant()), workload::name_of(row.query), support::quoted(selectors.radius));
   const auto add = [&](const char* option, const std::string& value) {
-    if (!value.empty()) command += fmt::format(" {} {}", option, quoted(value));
+    if (!value.empty()) command += fmt::format(" {} {}", option, support::quoted(value));
   };
   add("--reach", selectors.reach);
   add("--columns", selectors.motion.columns);
   add("--motion-scale", selectors.motion.scale);
   add("--rate", selectors.motion.rate);
   return command +
-         fmt::format(" --steps {} --seed {} --step ", workload.courses[course].size(), selectors.seed);
+         fmt::format(" --steps {} --seed {} --step ", workload.traces[trace].size(), selectors.seed);
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

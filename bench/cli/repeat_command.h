@@ -7,12 +7,12 @@
 #include "bench/measurement/result_row.h"
 #include "bench/workload/workload.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
 
 /// "touchmark query ... --step ", to which the step's number is to be added. `mesh` and `trajectories` are as
 /// they were selected, the latter in the order of the workload's.
-std::string repeat_command(const Selectors& selectors, const std::string& mesh,
-                           const std::vector<std::string>& trajectories, const Workload& workload,
-                           const ResultRow& row);
+std::string repeat_command(const contestants::Selectors& selectors, const std::string& mesh,
+                           const std::vector<std::string>& trajectories, const workload::Workload& workload,
+                           const measurement::ResultRow& row);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

@@ -2,9 +2,9 @@
 
 #include <CLI/CLI.hpp>
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
 
-void add_motion_selectors(CLI::App& command, MotionSelectors& motion) {
+void add_motion_selectors(CLI::App& command, contestants::MotionSelectors& motion) {
   command
       .add_option("--columns", motion.columns,
                   "of motion files, by name or number: x=COL,y=COL,z=COL[,time=COL][,radius=COL]")
@@ -28,12 +28,12 @@ void add_unit(CLI::App& command, std::string& unit) {
       ->type_name("UNIT");
 }
 
-void add_selectors(CLI::App& command, Selectors& selectors, Variety variety) {
+void add_selectors(CLI::App& command, contestants::Selectors& selectors, contestants::Variety variety) {
   CLI::Option* mesh = command.add_option("--mesh", selectors.meshes,
                                          "a scene (touchmark list) or a mesh file; modifiers may follow: "
                                          "bunny@scale=1e-3@offset=1e6");
   mesh->type_name("MESH")->expected(1);
-  if (variety == Variety::one) {
+  if (variety == contestants::Variety::one) {
     mesh->multi_option_policy(CLI::MultiOptionPolicy::Throw);
   } else {
     mesh->take_all();
@@ -53,7 +53,8 @@ void add_selectors(CLI::App& command, Selectors& selectors, Variety variety) {
       ->take_all();
   command
       .add_option("--query", selectors.query,
-                  variety == Variety::one ? "touches, nearest or sweep" : "touches, nearest, sweep or all")
+                  variety == contestants::Variety::one ? "touches, nearest or sweep"
+                                                       : "touches, nearest, sweep or all")
       ->type_name("QUERY")
       ->capture_default_str();
   command.add_option("--radius", selectors.radius, "the probe's, in mesh units or % of the box diagonal")
@@ -69,4 +70,4 @@ void add_selectors(CLI::App& command, Selectors& selectors, Variety variety) {
       ->capture_default_str();
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

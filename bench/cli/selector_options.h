@@ -9,14 +9,15 @@ namespace CLI {
 class App;
 }
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
 
-void add_selectors(CLI::App& command, Selectors& selectors, Variety variety = Variety::one);
+void add_selectors(CLI::App& command, contestants::Selectors& selectors,
+                   contestants::Variety variety = contestants::Variety::one);
 
 /// Adds the options that say how motion files are read.
-void add_motion_selectors(CLI::App& command, MotionSelectors& motion);
+void add_motion_selectors(CLI::App& command, contestants::MotionSelectors& motion);
 
 /// Adds --unit, for commands whose reports speak of lengths or speeds.
 void add_unit(CLI::App& command, std::string& unit);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

@@ -14,7 +14,7 @@
 #include "bench/support/failures.h"
 #include "bench/workload/query_name.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
 namespace {
 
 constexpr std::string_view refusal_mark = "refused: ";
@@ -22,49 +22,52 @@ constexpr std::string_view refusal_mark = "refused: ";
 }  // namespace
 
 /// The worker's end as the user caused it, or as the contestant's failure.
-[[noreturn]] void explain(const WorkerFailure& failure, const std::string& contestant) {
+[[noreturn]] void explain(const workers::WorkerFailure& failure, const std::string& contestant) {
   const std::string_view what = failure.what();
   if (what.starts_with(refusal_mark)) {
     const std::string_view why = what.substr(refusal_mark.size());
-    if (why.starts_with(no_memory)) throw ResourceError(fmt::format("{}: {}", contestant, why));
+    if (why.starts_with(support::no_memory))
+      throw support::ResourceError(fmt::format("{}: {}", contestant, why));
     throw std::invalid_argument(fmt::format("{}: {}", contestant, why));
   }
-  throw ResourceError(fmt::format("{} did not answer: {}", contestant, what));
+  throw support::ResourceError(fmt::format("{} did not answer: {}", contestant, what));
 }
 
-void check_it_answers(const Built& built, Query query, const std::string& contestant) {
-  for (const Query known : built.queries) {
+void check_it_answers(const workers::Built& built, workload::Query query, const std::string& contestant) {
+  for (const workload::Query known : built.queries) {
     if (known == query) return;
   }
-  throw std::invalid_argument(fmt::format("{} does not answer --query {}", contestant, name_of(query)));
+  throw std::invalid_argument(
+      fmt::format("{} does not answer --query {}", contestant, workload::name_of(query)));
 }
 
-std::string rows_of_step(const Roster& roster, const Workload& workload, const WorkerOptions& workers,
-                         const ContestantSpec& spec, const Task& task, std::size_t step,
-                         SessionBefore session) {
-  const std::vector<Step>& course = workload.courses[task.course];
-  if (step >= course.size()) {
+std::string rows_of_step(const contestants::Roster& roster, const workload::Workload& workload,
+                         const workers::WorkerOptions& workers, const contestants::ContestantSpec& spec,
+                         const workers::Task& task, std::size_t step, SessionBefore session) {
+  const std::vector<workload::Step>& trace = workload.traces[task.trace];
+  if (step >= trace.size()) {
     throw std::invalid_argument(
-        fmt::format("--step \"{}\" is none of the {} steps, which begin at 0", step, course.size()));
+        fmt::format("--step \"{}\" is none of the {} steps, which begin at 0", step, trace.size()));
   }
   // No later step: it might be one that the contestant does not survive.
-  Workload until = workload;
-  until.trajectories = {workload.trajectories[task.course]};
-  until.courses.assign(
-      1, std::vector<Step>(course.begin(), course.begin() + static_cast<std::ptrdiff_t>(step) + 1));
-  const Task all{0, task.query, step + 1};
-  const WorkerStage stage(until, workers);
-  ContestantProcess process(stage, spec, roster.find(spec.name).worker_program(spec.values));
-  const bool with_side = asks_for_side(spec.values);
+  workload::Workload until = workload;
+  until.trajectories = {workload.trajectories[task.trace]};
+  until.traces.assign(
+      1, std::vector<workload::Step>(trace.begin(), trace.begin() + static_cast<std::ptrdiff_t>(step) + 1));
+  const workers::Task all{0, task.query, step + 1};
+  const workers::SharedArena arena(until, workers);
+  workers::ContestantProcess process(arena, spec, roster.find(spec.name).worker_program(spec.values));
+  const bool with_side = contestants::asks_for_side(spec.values);
   std::string replayed, fresh;
   try {
     check_it_answers(process.build(), task.query, spec.text());
     process.answer(all);
-    append_answer_row(replayed, task.query, step, course[step], stage.room().answers(step + 1)[step],
-                      with_side);
+    results::append_answer_row(replayed, task.query, step, trace[step],
+                               arena.buffers().answers(step + 1)[step], with_side);
     process.answer_afresh(all, step);
-    append_answer_row(fresh, task.query, step, course[step], stage.room().answers(1).front(), with_side);
-  } catch (const WorkerFailure& failure) {
+    results::append_answer_row(fresh, task.query, step, trace[step], arena.buffers().answers(1).front(),
+                               with_side);
+  } catch (const workers::WorkerFailure& failure) {
     explain(failure, spec.text());
   }
   const bool wants_fresh = session == SessionBefore::fresh;
@@ -73,7 +76,7 @@ std::string rows_of_step(const Roster& roster, const Workload& workload, const W
                wants_fresh ? "the session replayed from the start" : "a fresh session",
                wants_fresh ? replayed : fresh);
   }
-  return answer_header(task.query, with_side) + (wants_fresh ? fresh : replayed);
+  return results::answer_header(task.query, with_side) + (wants_fresh ? fresh : replayed);
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

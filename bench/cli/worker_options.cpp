@@ -7,7 +7,7 @@
 
 #include "bench/support/numbers.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
 
 void add_worker_selectors(CLI::App& command, WorkerSelectors& selectors) {
   command
@@ -17,19 +17,19 @@ void add_worker_selectors(CLI::App& command, WorkerSelectors& selectors) {
   command.add_flag("--worker-output", selectors.show_output, "let the contestants' libraries print");
 }
 
-WorkerOptions worker_options(const WorkerSelectors& selectors) {
-  WorkerOptions options;
+workers::WorkerOptions worker_options(const WorkerSelectors& selectors) {
+  workers::WorkerOptions options;
   options.show_output = selectors.show_output;
   if (selectors.timeout.empty()) return options;
   constexpr double longest_s = 86400;
-  const std::optional<double> seconds = parse_number(selectors.timeout);
+  const std::optional<double> seconds = support::parse_number(selectors.timeout);
   if (!seconds || !(*seconds > 0) || *seconds > longest_s) {
     throw std::invalid_argument(fmt::format(
         "--timeout \"{}\" is not a time in seconds, above 0 and at most {}", selectors.timeout, longest_s));
   }
-  options.build_patience = options.order_patience =
+  options.build_timeout = options.request_timeout =
       std::chrono::milliseconds(static_cast<std::chrono::milliseconds::rep>(*seconds * 1000) + 1);
   return options;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

@@ -9,7 +9,7 @@ namespace CLI {
 class App;
 }
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
 
 /// As the command line gave them.
 struct WorkerSelectors {
@@ -20,6 +20,6 @@ struct WorkerSelectors {
 void add_worker_selectors(CLI::App& command, WorkerSelectors& selectors);
 
 /// Throws std::invalid_argument.
-WorkerOptions worker_options(const WorkerSelectors& selectors);
+workers::WorkerOptions worker_options(const WorkerSelectors& selectors);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace touchmark::bench {
+namespace touchmark::bench::contestants {
 namespace {
 
 std::vector<std::string>& kept() {
@@ -16,4 +16,4 @@ void remark(std::string text) { kept().push_back(std::move(text)); }
 
 std::vector<std::string> take_remarks() { return std::exchange(kept(), {}); }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::contestants

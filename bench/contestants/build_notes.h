@@ -1,16 +1,16 @@
-/// What the user should know of how something was built, from a place that need not have the user's terminal:
-/// remarks are kept until somebody passes them on. A worker sends them with its replies.
+/// What the user should know of how something was built, from a process that need not have the user's
+/// terminal: remarks are kept until somebody passes them on. A worker sends them with its replies.
 #pragma once
 
 #include <string>
 #include <vector>
 
-namespace touchmark::bench {
+namespace touchmark::bench::contestants {
 
 /// One line. Of one thread at a time.
 void remark(std::string text);
 
-/// Those since the last call.
+/// Returns the remarks since the last call.
 std::vector<std::string> take_remarks();
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::contestants

@@ -13,7 +13,7 @@
 #include "bench/support/length.h"
 #include "bench/support/numbers.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::contestants {
 namespace {
 
 std::vector<std::string_view> split(std::string_view text, char separator) {
@@ -46,11 +46,11 @@ std::string complaint(const OptionInfo& option, std::string_view value) {
       if (std::find(option.choices.begin(), option.choices.end(), value) != option.choices.end()) return "";
       return fmt::format("none of {}", fmt::join(option.choices, ", "));
     case OptionKind::number:
-      return parse_number(value).value_or(-1) >= 0 ? "" : "not a number of 0 or more";
+      return support::parse_number(value).value_or(-1) >= 0 ? "" : "not a number of 0 or more";
     case OptionKind::count:
-      return parse_count(value) ? "" : "not a whole number of 0 or more";
+      return support::parse_count(value) ? "" : "not a whole number of 0 or more";
     case OptionKind::length:
-      return parse_length(value) ? "" : "not a length of 0 or more, as 0.01 or 0.5%";
+      return support::parse_length(value) ? "" : "not a length of 0 or more, as 0.01 or 0.5%";
   }
   return "";
 }
@@ -123,15 +123,17 @@ std::optional<Guarantee> claimed_guarantee(const std::string& accuracy, const Op
   return claimed;
 }
 
-double OptionValues::number(const std::string& key) const { return parse_number(text(key)).value(); }
+double OptionValues::number(const std::string& key) const { return support::parse_number(text(key)).value(); }
 
-std::size_t OptionValues::count(const std::string& key) const { return parse_count(text(key)).value(); }
-
-double OptionValues::length(const std::string& key, const TriangleMesh& mesh) const {
-  return parse_length(text(key)).value().in_mesh_units(mesh);
+std::size_t OptionValues::count(const std::string& key) const {
+  return support::parse_count(text(key)).value();
 }
 
-bool ContestantInfo::answers(Query query) const noexcept {
+double OptionValues::length(const std::string& key, const TriangleMesh& mesh) const {
+  return support::parse_length(text(key)).value().in_mesh_units(mesh);
+}
+
+bool ContestantInfo::answers(workload::Query query) const noexcept {
   return std::find(queries.begin(), queries.end(), query) != queries.end();
 }
 
@@ -148,8 +150,8 @@ const ContestantInfo& Roster::find(const std::string& name) const {
   if (found != contestants_.end()) return *found;
   std::vector<std::string> names;
   for (const ContestantInfo& info : contestants_) names.push_back(info.name);
-  throw std::invalid_argument(
-      fmt::format("unknown contestant \"{}\"; the nearest names: {}", name, near_names(name, names)));
+  throw std::invalid_argument(fmt::format("unknown contestant \"{}\"; the nearest names: {}", name,
+                                          support::near_names(name, names)));
 }
 
 ContestantSpec Roster::parse(const std::string& text) const {
@@ -195,7 +197,7 @@ std::vector<ContestantSpec> Roster::thorough_set() const {
 }
 
 void Roster::require_memory_for(const ContestantSpec& spec, std::size_t triangles) const {
-  require_memory_for_triangles(triangles, find(spec.name).bytes_per_triangle(spec.values));
+  support::require_memory_for_triangles(triangles, find(spec.name).bytes_per_triangle(spec.values));
 }
 
 std::unique_ptr<Contestant> Roster::build(const ContestantSpec& spec, const TriangleMesh& mesh) const {
@@ -204,4 +206,4 @@ std::unique_ptr<Contestant> Roster::build(const ContestantSpec& spec, const Tria
   return contestant.build(mesh, spec.values);
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::contestants

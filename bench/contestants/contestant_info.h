@@ -14,7 +14,7 @@
 #include "bench/support/available_memory.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::contestants {
 
 enum class OptionKind {
   choice,
@@ -26,7 +26,7 @@ enum class OptionKind {
 struct OptionInfo {
   std::string key;
   OptionKind kind = OptionKind::choice;
-  std::vector<std::string> choices;  ///< of a choice
+  std::vector<std::string> choices;  ///< what a choice may be
   std::string default_value;
   std::string summary;  ///< one line
 };
@@ -58,13 +58,13 @@ struct ContestantInfo {
   /// What its forms claim: "GUARANTEE" or "GUARANTEE; KEY=VALUE[ with KEY=VALUE]: GUARANTEE[; ...]", of which
   /// the last whose options are chosen holds.
   std::string accuracy;
-  std::vector<Query> queries;
+  std::vector<workload::Query> queries;
   std::vector<OptionInfo> options;
   /// Throws std::invalid_argument or MeshError for options or a mesh it refuses. Empty: not built in.
   BuildContestant build;
   /// What it surely takes, and so must be there before it is built.
   std::function<double(const OptionValues&)> bytes_per_triangle = [](const OptionValues&) {
-    return least_bytes_per_triangle;
+    return support::min_bytes_per_triangle;
   };
   /// Which program beside this one runs it.
   std::function<std::string(const OptionValues&)> worker_program = [](const OptionValues&) {
@@ -72,11 +72,11 @@ struct ContestantInfo {
   };
 
   /// What its library keeps of coordinates where it decides by other numbers than the given ones; else empty.
-  std::function<std::optional<Storing>(const TriangleMesh&, const OptionValues&)> storing =
+  std::function<std::optional<StorageRounding>(const TriangleMesh&, const OptionValues&)> storage_rounding =
       [](const TriangleMesh&, const OptionValues&) { return std::nullopt; };
 
   bool built() const noexcept { return static_cast<bool>(build); }
-  bool answers(Query query) const noexcept;
+  bool answers(workload::Query query) const noexcept;
 };
 
 /// A contestant as chosen: the name and the options that were written out.
@@ -125,4 +125,4 @@ class Roster {
   std::vector<std::string> frontier_;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::contestants

@@ -34,7 +34,7 @@
 #include "baselines/libccd/libccd_detector.h"
 #endif
 
-namespace touchmark::bench {
+namespace touchmark::bench::contestants {
 namespace {
 
 const Names<bool> yes_or_no{{"true", true}, {"false", false}};
@@ -89,7 +89,8 @@ ContestantInfo aabb_tree() {
     }
     return contestant<AabbTree>(mesh, {leaf_size, chosen(values, "certified", yes_or_no)}, values);
   };
-  info.storing = [=](const TriangleMesh& mesh, const OptionValues& values) -> std::optional<Storing> {
+  info.storage_rounding = [=](const TriangleMesh& mesh,
+                              const OptionValues& values) -> std::optional<StorageRounding> {
     if (!in_floats(values)) return std::nullopt;
     const FloatFrame frame = FloatFrame::around(mesh.bounds());
     return stored_in_single_precision(frame.scale, frame.origin);
@@ -115,7 +116,7 @@ ContestantInfo grid_group() {
   static const Names<GridGroup::Lookup> lookups{{"direct", GridGroup::Lookup::direct},
                                                 {"scan", GridGroup::Lookup::scan}};
   static const Names<GridGroup::Construction> makings{{"whole", GridGroup::Construction::whole},
-                                                      {"lazy", GridGroup::Construction::lazy}};
+                                                {"lazy", GridGroup::Construction::lazy}};
   static const Names<GridGroup::Shape> shapes{{"cube", GridGroup::Shape::cube},
                                               {"sphere", GridGroup::Shape::sphere}};
   ContestantInfo info;
@@ -151,7 +152,8 @@ ContestantInfo grid_group() {
     });
   };
   info.bytes_per_triangle = [](const OptionValues& values) {
-    return values.text("lookup") == "direct" ? values.number("bytes_per_triangle") : least_bytes_per_triangle;
+    return values.text("lookup") == "direct" ? values.number("bytes_per_triangle")
+                                             : support::min_bytes_per_triangle;
   };
   return info;
 }
@@ -162,7 +164,7 @@ ContestantInfo sphere_cluster() {
   static const Names<Simd> widths{
       {"avx512", Simd::avx512}, {"avx2", Simd::avx2}, {"portable", Simd::portable}};
   static const Names<SphereCluster::Construction> makings{{"whole", SphereCluster::Construction::whole},
-                                                          {"lazy", SphereCluster::Construction::lazy}};
+                                                    {"lazy", SphereCluster::Construction::lazy}};
   ContestantInfo info;
   info.name = "sphere-cluster";
   info.summary = "triangles in clustered bounding spheres, after Choi & Sung 2017";
@@ -192,8 +194,9 @@ ContestantInfo sphere_cluster() {
     options.certified = chosen(values, "certified", yes_or_no);
     options.widest = chosen(values, "simd", widths);
     options.construction = chosen(values, "build", makings);
-    return chosen(values, "prepare", no_or_yes) ? contestant<SphereCluster, Idle::used>(mesh, options, values)
-                                                : contestant<SphereCluster>(mesh, options, values);
+    return chosen(values, "prepare", no_or_yes)
+               ? contestant<SphereCluster, Prefetch::on>(mesh, options, values)
+               : contestant<SphereCluster>(mesh, options, values);
   };
   return info;
 }
@@ -261,7 +264,8 @@ ContestantInfo bullet() {
     return contestant<BulletDetector>(
         mesh, {chosen(values, "method", methods), chosen(values, "frame", frames), asking(values)});
   };
-  info.storing = [](const TriangleMesh& mesh, const OptionValues& values) -> std::optional<Storing> {
+  info.storage_rounding = [](const TriangleMesh& mesh,
+                             const OptionValues& values) -> std::optional<StorageRounding> {
     if (values.text("precision") != "float" || values.text("method") != "contact") return std::nullopt;
     baselines::BulletView view;
     if (chosen(values, "frame", frames) == Frame::fitted) view = baselines::BulletView::fitted(mesh);
@@ -325,7 +329,8 @@ ContestantInfo embree() {
         mesh, {chosen(values, "geometry", geometries), chosen(values, "quality", qualities),
                chosen(values, "warm", yes_or_no), asking(values)});
   };
-  info.storing = [](const TriangleMesh& mesh, const OptionValues& values) -> std::optional<Storing> {
+  info.storage_rounding = [](const TriangleMesh& mesh,
+                             const OptionValues& values) -> std::optional<StorageRounding> {
     if (chosen(values, "geometry", geometries) != Geometry::triangle) return std::nullopt;
     const baselines::EmbreeFrame frame(mesh.bounds());
     return stored_in_single_precision(frame.scale, frame.origin);
@@ -456,4 +461,4 @@ const Roster& roster() {
   return all;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::contestants

@@ -3,8 +3,8 @@
 
 #include "bench/contestants/contestant_info.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::contestants {
 
 const Roster& roster();
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::contestants

@@ -17,7 +17,7 @@
 #include "bench/scenes/displaced.h"
 #include "core/sign/signed_detector.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::contestants {
 
 template <Detector D>
 std::unique_ptr<Contestant> contestant(const TriangleMesh& mesh, const typename D::Options& options) {
@@ -58,11 +58,11 @@ template <Detector D, class Options>
 D built(const TriangleMesh& mesh, const Options& options, const OptionValues& values) {
   if constexpr (Updates<D> && AnswersNearest<D>) {
     if (is_updated(values)) {
-      constexpr std::size_t most_asked = 500;
-      D detector = D::build(displaced(mesh, 1), options);
+      constexpr std::size_t max_asked = 500;
+      D detector = D::build(scenes::displaced(mesh, 1), options);
       typename D::Session session;
       const std::span<const Vec3> vertices = mesh.vertices();
-      for (std::size_t i = 0; i < vertices.size(); i += 1 + vertices.size() / most_asked)
+      for (std::size_t i = 0; i < vertices.size(); i += 1 + vertices.size() / max_asked)
         detector.nearest({vertices[i], 0}, std::numeric_limits<double>::infinity(), session);
       detector.update(mesh);
       return detector;
@@ -73,7 +73,7 @@ D built(const TriangleMesh& mesh, const Options& options, const OptionValues& va
 
 /// Builds it with the options above, and with what `remark_on(detector)` has to say of it, unless that is
 /// empty.
-template <Detector D, Idle idle = Idle::wasted>
+template <Detector D, Prefetch prefetch = Prefetch::off>
 std::unique_ptr<Contestant> contestant(const TriangleMesh& mesh, const typename D::Options& options,
                                        const OptionValues& values,
                                        const std::function<std::string(const D&)>& remark_on = nullptr) {
@@ -85,7 +85,7 @@ std::unique_ptr<Contestant> contestant(const TriangleMesh& mesh, const typename 
       plain = &detector.detector();
     }
     if (std::string text = remark_on ? remark_on(*plain) : ""; !text.empty()) remark(std::move(text));
-    return std::make_unique<ContestantOf<Built, idle>>(std::move(detector));
+    return std::make_unique<ContestantOf<Built, prefetch>>(std::move(detector));
   };
   return asks_for_side(values) ? with(built<Signed<D>>(mesh, options, values))
                                : with(built<D>(mesh, options, values));
@@ -111,4 +111,4 @@ Value chosen(const OptionValues& values, const std::string& key, const Names<Val
   return names.front().second;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::contestants

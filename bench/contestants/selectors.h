@@ -13,7 +13,7 @@
 #include "bench/workload/selection.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::contestants {
 
 /// How motion files are read, as the command line says it; empty: as motion_options.h says.
 struct MotionSelectors {
@@ -21,7 +21,7 @@ struct MotionSelectors {
 };
 
 /// Nothing for an empty text. Throws std::invalid_argument.
-std::optional<LengthUnit> checked_unit(const std::string& text);
+std::optional<support::LengthUnit> checked_unit(const std::string& text);
 
 /// As the command line gave them, still unchecked against mesh, roster and trajectories. A command that wants
 /// other defaults sets them before it calls add_selectors.
@@ -30,7 +30,7 @@ struct Selectors {
   bool normalize = false;
   std::vector<std::string> trajectories;
   std::vector<std::string> detectors;  ///< empty: the default set
-  std::string query = "nearest";       ///< or "all" where the command allows it
+  std::string query = "nearest";       ///< a query; "all" where the command allows it
   std::string radius = "0.5%";
   std::string reach;  ///< empty: the radius
   std::string steps;  ///< empty: the command's own choice
@@ -43,7 +43,7 @@ struct Selectors {
 enum class Variety { one, many };
 
 /// The checked values, and who is asked.
-struct CheckedSelectors : Selection {
+struct CheckedSelectors : workload::Selection {
   std::vector<ContestantSpec>
       contestants;  ///< without --detector the default set, or (many) the thorough one
 };
@@ -51,4 +51,4 @@ struct CheckedSelectors : Selection {
 /// Throws std::invalid_argument naming the option and the value.
 CheckedSelectors check(const Selectors& selectors, const Roster& roster, Variety variety = Variety::one);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::contestants

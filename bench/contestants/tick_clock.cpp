@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace touchmark::bench {
+namespace touchmark::bench::contestants {
 namespace {
 
 using Steady = std::chrono::steady_clock;
@@ -37,4 +37,4 @@ ClockCalibration calibrate_clock() {
   return {ns_per_tick, median_reading_ticks() * ns_per_tick};
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::contestants

@@ -8,7 +8,7 @@
 #include <x86intrin.h>
 #endif
 
-namespace touchmark::bench {
+namespace touchmark::bench::contestants {
 
 struct TickClock {
 #if defined(__x86_64__)
@@ -35,4 +35,4 @@ struct ClockCalibration {
 /// Takes about 20 ms.
 ClockCalibration calibrate_clock();
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::contestants

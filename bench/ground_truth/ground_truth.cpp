@@ -6,7 +6,7 @@
 #include "bench/support/interrupt.h"
 #include "bench/workload/sample_steps.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::ground_truth {
 namespace {
 
 /// Often enough for Ctrl-C, seldom enough for threads to be worth starting.
@@ -15,7 +15,8 @@ constexpr std::size_t wrong_answers_kept = 3;
 
 }  // namespace
 
-Truths::Truths(const Oracle& oracle, std::span<const Step> steps) : oracle_(oracle) {
+GroundTruths::GroundTruths(const oracle::Oracle& oracle, std::span<const workload::Step> steps)
+    : oracle_(oracle) {
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const Probe& now = steps[i].probe;
     probes_.questions.push_back(now);
@@ -25,17 +26,18 @@ Truths::Truths(const Oracle& oracle, std::span<const Step> steps) : oracle_(orac
 }
 
 template <class Question, class TruthType>
-void Truths::Asked<Question, TruthType>::solve(const Oracle& oracle, const std::vector<Window>& windows) {
+void GroundTruths::Asked<Question, TruthType>::solve(const oracle::Oracle& oracle,
+                                                     const std::vector<workload::StepRange>& ranges) {
   truths.resize(questions.size());
   known.resize(questions.size());
   std::vector<std::size_t> unknown;
-  for (const Window& window : windows) {
-    for (std::size_t i = window.begin; i < window.end; ++i) {
+  for (const workload::StepRange& range : ranges) {
+    for (std::size_t i = range.begin; i < range.end; ++i) {
       if (!known[i]) unknown.push_back(i);
     }
   }
   for (std::size_t begin = 0; begin < unknown.size(); begin += solved_at_once) {
-    check_for_interrupt();
+    support::check_for_interrupt();
     const std::span<const std::size_t> some =
         std::span(unknown).subspan(begin, std::min(solved_at_once, unknown.size() - begin));
     std::vector<Question> wanted;
@@ -48,46 +50,47 @@ void Truths::Asked<Question, TruthType>::solve(const Oracle& oracle, const std::
   }
 }
 
-std::vector<double> Truths::distances(const std::vector<std::size_t>& steps) {
-  std::vector<Window> windows;
-  for (const std::size_t step : steps) windows.push_back({step, step + 1});
-  probes_.solve(oracle_, joined(windows));
+std::vector<double> GroundTruths::distances(const std::vector<std::size_t>& steps) {
+  std::vector<workload::StepRange> ranges;
+  for (const std::size_t step : steps) ranges.push_back({step, step + 1});
+  probes_.solve(oracle_, workload::joined(ranges));
   std::vector<double> distances;
   for (const std::size_t step : steps) {
-    const Truth& truth = probes_.truths[step];
+    const oracle::GroundTruth& truth = probes_.truths[step];
     distances.push_back(truth.defined ? truth.high : std::numeric_limits<double>::infinity());
   }
   return distances;
 }
 
-Tally Truths::judge(Query query, const std::vector<Window>& windows, std::span<const Answer> answers,
-                    const Accuracy& accuracy, const Reported& reported, std::vector<WrongAnswer>* wrong) {
-  query == Query::sweep ? sweeps_.solve(oracle_, windows) : probes_.solve(oracle_, windows);
-  Tally tally;
+oracle::ErrorCounts GroundTruths::judge(workload::Query query, const std::vector<workload::StepRange>& ranges,
+                                        std::span<const workload::Answer> answers, const Accuracy& accuracy,
+                                        const oracle::Reported& reported, std::vector<WrongAnswer>* wrong) {
+  query == workload::Query::sweep ? sweeps_.solve(oracle_, ranges) : probes_.solve(oracle_, ranges);
+  oracle::ErrorCounts counts;
   if (wrong != nullptr) wrong->clear();
   std::size_t done = 0;
-  for (const Window& window : windows) {
-    check_for_interrupt();
-    Charges charges;
-    tally += judge(query, window, answers.subspan(done, window.size()), accuracy, reported, charges);
-    for (const Charge& one : charges.kept()) {
+  for (const workload::StepRange& range : ranges) {
+    support::check_for_interrupt();
+    oracle::Charges charges;
+    counts += judge(query, range, answers.subspan(done, range.size()), accuracy, reported, charges);
+    for (const oracle::Charge& one : charges.kept()) {
       if (wrong == nullptr || wrong->size() == wrong_answers_kept) break;
-      wrong->push_back(wrong_answer(query, window.begin + one.step, answers[done + one.step], one.tally));
+      wrong->push_back(wrong_answer(query, range.begin + one.step, answers[done + one.step], one.counts));
     }
-    done += window.size();
+    done += range.size();
   }
-  return tally;
+  return counts;
 }
 
-WrongAnswer Truths::wrong_answer(Query query, std::size_t step, const Answer& got,
-                                 const Tally& charged) const {
+WrongAnswer GroundTruths::wrong_answer(workload::Query query, std::size_t step, const workload::Answer& got,
+                                       const oracle::ErrorCounts& charged) const {
   WrongAnswer wrong;
   wrong.step = step;
   wrong.query = query;
   wrong.asked = {probes_.questions[step], reaches_[step]};
   wrong.got = got;
   wrong.charged = charged;
-  if (query == Query::sweep) {
+  if (query == workload::Query::sweep) {
     const Sweep& sweep = sweeps_.questions[step];
     wrong.from = sweep.from;
     wrong.found = sweeps_.truths[step].hit;
@@ -96,8 +99,8 @@ WrongAnswer Truths::wrong_answer(Query query, std::size_t step, const Answer& go
   } else {
     wrong.truth = probes_.truths[step];
     const Vec3& center = wrong.asked.probe.center;
-    wrong.found = oracle_.within(wrong.truth, center,
-                                 query == Query::touches ? wrong.asked.probe.radius : reaches_[step]);
+    wrong.found = oracle_.within(
+        wrong.truth, center, query == workload::Query::touches ? wrong.asked.probe.radius : reaches_[step]);
     if (charged.wrong_side > 0) wrong.side = oracle_.side(center);
   }
   const auto ids = oracle_.mesh().ids();
@@ -105,26 +108,27 @@ WrongAnswer Truths::wrong_answer(Query query, std::size_t step, const Answer& go
   return wrong;
 }
 
-Tally Truths::judge(Query query, Window window, std::span<const Answer> answers, const Accuracy& accuracy,
-                    const Reported& reported, Charges& charges) const {
-  if (query == Query::sweep) {
-    return bench::judge(oracle_, std::span(sweeps_.truths).subspan(window.begin, window.size()),
-                        std::span(sweeps_.questions).subspan(window.begin, window.size()), answers, accuracy,
-                        reported, &charges);
+oracle::ErrorCounts GroundTruths::judge(workload::Query query, workload::StepRange range,
+                                        std::span<const workload::Answer> answers, const Accuracy& accuracy,
+                                        const oracle::Reported& reported, oracle::Charges& charges) const {
+  if (query == workload::Query::sweep) {
+    return oracle::judge(oracle_, std::span(sweeps_.truths).subspan(range.begin, range.size()),
+                         std::span(sweeps_.questions).subspan(range.begin, range.size()), answers, accuracy,
+                         reported, &charges);
   }
   // The judge takes one reach; recorded trajectories may change theirs from step to step.
-  Tally tally;
-  for (std::size_t begin = window.begin, end = begin; begin < window.end; begin = end) {
-    while (end < window.end && reaches_[end] == reaches_[begin]) ++end;
+  oracle::ErrorCounts counts;
+  for (std::size_t begin = range.begin, end = begin; begin < range.end; begin = end) {
+    while (end < range.end && reaches_[end] == reaches_[begin]) ++end;
     if (end == begin) ++end;  // a reach that is not a number equals nothing
-    Charges of_this_reach;
-    tally +=
-        bench::judge(oracle_, std::span(probes_.truths).subspan(begin, end - begin), query,
-                     std::span(probes_.questions).subspan(begin, end - begin), reaches_[begin],
-                     answers.subspan(begin - window.begin, end - begin), accuracy, reported, &of_this_reach);
-    charges.merge(of_this_reach, begin - window.begin);
+    oracle::Charges of_this_reach;
+    counts +=
+        oracle::judge(oracle_, std::span(probes_.truths).subspan(begin, end - begin), query,
+                      std::span(probes_.questions).subspan(begin, end - begin), reaches_[begin],
+                      answers.subspan(begin - range.begin, end - begin), accuracy, reported, &of_this_reach);
+    charges.merge(of_this_reach, begin - range.begin);
   }
-  return tally;
+  return counts;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::ground_truth

@@ -2,13 +2,13 @@
 
 #include <utility>
 
-namespace touchmark::bench {
+namespace touchmark::bench::ground_truth {
 namespace {
 
-TriangleMesh stored(const TriangleMesh& mesh, const Storing& storing) {
+TriangleMesh rounded(const TriangleMesh& mesh, const contestants::StorageRounding& storage_rounding) {
   std::vector<Vec3> vertices;
   vertices.reserve(mesh.vertices().size());
-  for (const Vec3& vertex : mesh.vertices()) vertices.push_back(storing.point(vertex));
+  for (const Vec3& vertex : mesh.vertices()) vertices.push_back(storage_rounding.point(vertex));
   return {std::move(vertices),
           {mesh.triangles().begin(), mesh.triangles().end()},
           {mesh.ids().begin(), mesh.ids().end()}};
@@ -16,17 +16,20 @@ TriangleMesh stored(const TriangleMesh& mesh, const Storing& storing) {
 
 }  // namespace
 
-StoredScene::StoredScene(const TriangleMesh& mesh, Storing storing)
-    : storing_(std::move(storing)), mesh_(stored(mesh, storing_)), oracle_(mesh_) {}
+RoundedScene::RoundedScene(const TriangleMesh& mesh, contestants::StorageRounding storage_rounding)
+    : storage_rounding_(std::move(storage_rounding)),
+      mesh_(rounded(mesh, storage_rounding_)),
+      oracle_(mesh_) {}
 
-std::vector<Step> StoredScene::course(std::span<const Step> steps) const {
-  std::vector<Step> course;
-  course.reserve(steps.size());
-  for (const Step& step : steps) {
-    const Probe probe{storing_.point(step.probe.center), storing_.length(step.probe.radius)};
-    course.push_back({probe, storing_.length(step.reach)});
+std::vector<workload::Step> RoundedScene::trace(std::span<const workload::Step> steps) const {
+  std::vector<workload::Step> trace;
+  trace.reserve(steps.size());
+  for (const workload::Step& step : steps) {
+    const Probe probe{storage_rounding_.point(step.probe.center),
+                      storage_rounding_.length(step.probe.radius)};
+    trace.push_back({probe, storage_rounding_.length(step.reach)});
   }
-  return course;
+  return trace;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::ground_truth

@@ -9,20 +9,20 @@
 #include "bench/workload/steps.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::ground_truth {
 
-class StoredScene {
+class RoundedScene {
  public:
   /// Throws MeshError when what is left is no mesh.
-  StoredScene(const TriangleMesh& mesh, Storing storing);
+  RoundedScene(const TriangleMesh& mesh, contestants::StorageRounding storage_rounding);
 
-  const Oracle& oracle() const noexcept { return oracle_; }
-  std::vector<Step> course(std::span<const Step> steps) const;
+  const oracle::Oracle& oracle() const noexcept { return oracle_; }
+  std::vector<workload::Step> trace(std::span<const workload::Step> steps) const;
 
  private:
-  Storing storing_;
+  contestants::StorageRounding storage_rounding_;
   TriangleMesh mesh_;
-  Oracle oracle_;
+  oracle::Oracle oracle_;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::ground_truth

@@ -9,31 +9,31 @@
 
 #include "bench/workload/query_name.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::ground_truth {
 namespace {
 
 std::string text(const Vec3& v) { return fmt::format("({}, {}, {})", v.x(), v.y(), v.z()); }
 std::string text(const double (&xyz)[3]) { return fmt::format("({}, {}, {})", xyz[0], xyz[1], xyz[2]); }
 
 std::string with_side(std::optional<Side> side) {
-  return side && *side != Side::unasked ? fmt::format(", {}", name_of(*side)) : "";
+  return side && *side != Side::unasked ? fmt::format(", {}", workload::name_of(*side)) : "";
 }
 
 std::string question(const WrongAnswer& wrong) {
   const Probe& probe = wrong.asked.probe;
   switch (wrong.query) {
-    case Query::touches:
+    case workload::Query::touches:
       return fmt::format("probe {} radius {}", text(probe.center), probe.radius);
-    case Query::nearest:
+    case workload::Query::nearest:
       return fmt::format("probe {} reach {}", text(probe.center), wrong.asked.reach);
-    case Query::sweep:
+    case workload::Query::sweep:
       return fmt::format("sweep from {} to {} radius {}", text(wrong.from), text(probe.center), probe.radius);
   }
   return "";
 }
 
 std::string contact_of(const WrongAnswer& wrong) {
-  const Truth& truth = wrong.truth;
+  const oracle::GroundTruth& truth = wrong.truth;
   if (!truth.defined || !wrong.triangle) return "";
   return fmt::format("{} to triangle {} at {}, normal {}{}", truth.high, *wrong.triangle, text(truth.point),
                      text(truth.direction), with_side(wrong.side));
@@ -41,11 +41,11 @@ std::string contact_of(const WrongAnswer& wrong) {
 
 std::string expected(const WrongAnswer& wrong) {
   switch (wrong.query) {
-    case Query::touches:
+    case workload::Query::touches:
       return fmt::format("{}, distance {}", wrong.found ? "contact" : "none", wrong.truth.high);
-    case Query::nearest:
+    case workload::Query::nearest:
       return (wrong.found ? "" : "none, but ") + contact_of(wrong);
-    case Query::sweep: {
+    case workload::Query::sweep: {
       const std::string there = contact_of(wrong);
       return fmt::format("{}{}", wrong.found ? "a hit" : "none",
                          there.empty() ? "" : "; where it was told " + there);
@@ -55,28 +55,29 @@ std::string expected(const WrongAnswer& wrong) {
 }
 
 std::string got(const WrongAnswer& wrong) {
-  const Answer& answer = wrong.got;
+  const workload::Answer& answer = wrong.got;
   if (answer.found == 0) return "none";
-  if (wrong.query == Query::touches) return "contact";
+  if (wrong.query == workload::Query::touches) return "contact";
   const std::string named =
-      answer.triangle == no_triangle ? "" : fmt::format(" to triangle {}", answer.triangle);
+      answer.triangle == oracle::no_triangle ? "" : fmt::format(" to triangle {}", answer.triangle);
   const std::string contact = fmt::format("{}{} at {}, normal {}{}", answer.distance, named,
                                           text(answer.point), text(answer.normal), with_side(answer.side));
-  return wrong.query == Query::sweep ? fmt::format("a hit at fraction {}: {}", answer.fraction, contact)
-                                     : contact;
+  return wrong.query == workload::Query::sweep
+             ? fmt::format("a hit at fraction {}: {}", answer.fraction, contact)
+             : contact;
 }
 
 }  // namespace
 
-std::string charges_of(const Tally& tally) {
-  const std::array<std::pair<std::uint64_t, const char*>, 8> kinds{{{tally.missed, "missed"},
-                                                                    {tally.false_contacts, "false"},
-                                                                    {tally.wrong_triangle, "triangle"},
-                                                                    {tally.beyond_bound, "distance"},
-                                                                    {tally.wrong_point, "point"},
-                                                                    {tally.wrong_normal, "normal"},
-                                                                    {tally.wrong_side, "side"},
-                                                                    {tally.malformed, "no number"}}};
+std::string charges_of(const oracle::ErrorCounts& counts) {
+  const std::array<std::pair<std::uint64_t, const char*>, 8> kinds{{{counts.missed, "missed"},
+                                                                    {counts.false_contacts, "false"},
+                                                                    {counts.wrong_triangle, "triangle"},
+                                                                    {counts.beyond_bound, "distance"},
+                                                                    {counts.wrong_point, "point"},
+                                                                    {counts.wrong_normal, "normal"},
+                                                                    {counts.wrong_side, "side"},
+                                                                    {counts.malformed, "no number"}}};
   std::vector<std::string> charges;
   for (const auto& [count, name] : kinds) {
     if (count > 0) charges.push_back(fmt::format("{} {}", count, name));
@@ -89,4 +90,4 @@ std::string described(const WrongAnswer& wrong) {
                      question(wrong), expected(wrong), got(wrong));
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::ground_truth

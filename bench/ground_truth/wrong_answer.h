@@ -10,26 +10,27 @@
 #include "bench/workload/answer.h"
 #include "bench/workload/steps.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::ground_truth {
 
 struct WrongAnswer {
-  std::size_t step = 0;  ///< of the course
-  Query query = Query::nearest;
-  Step asked;
+  std::size_t step = 0;  ///< its index in the trace
+  workload::Query query = workload::Query::nearest;
+  workload::Step asked;
   Vec3 from = Vec3::Zero();  ///< sweep: where it starts
-  /// Of the probe; sweep: of where the answer says that the contact is made, undefined where it says none.
-  Truth truth;
+  /// Ground truth at the probe; sweep: at the place where the answer says that the contact is made, undefined
+  /// where it says none.
+  oracle::GroundTruth truth;
   std::optional<TriangleId> triangle;  ///< the id of the truth's
   bool found = false;                  ///< should be: contact, within reach, a hit
   std::optional<Side> side;            ///< asked for, and on a closed mesh
-  Answer got;
-  Tally charged;
+  workload::Answer got;
+  oracle::ErrorCounts charged;
 };
 
 /// What is wrong, each with how often: "2 distance, 1 triangle". Empty where nothing is.
-std::string charges_of(const Tally& tally);
+std::string charges_of(const oracle::ErrorCounts& counts);
 
 /// One line: the step, what is wrong, the probe, what was expected, what was got. Numbers as they are stored.
 std::string described(const WrongAnswer& wrong);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::ground_truth

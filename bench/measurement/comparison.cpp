@@ -11,97 +11,98 @@
 #include "bench/support/interrupt.h"
 #include "bench/support/random.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::measurement {
 namespace {
 
-using Measurement = void (Case::*)();
+using Action = void (Measurement::*)();
 
-struct Order {
+struct Request {
   std::size_t which = 0;
-  Measurement measurement = nullptr;
+  Action action = nullptr;
 };
 
-void append_shuffled(std::vector<Order>& orders, std::vector<Order> some, Random& random) {
+void append_shuffled(std::vector<Request>& requests, std::vector<Request> some, support::Random& random) {
   random.shuffle(some);
-  orders.insert(orders.end(), some.begin(), some.end());
+  requests.insert(requests.end(), some.begin(), some.end());
 }
 
 /// Round by round, so that whatever changes on the machine meets all contestants alike; in random order
 /// within a round. Passes for latency are spread over the rounds.
-std::vector<Order> orders_for(std::size_t cases, const Effort& effort, Random random) {
-  std::vector<Order> orders;
-  const auto all = [&](Measurement measurement) {
-    std::vector<Order> some;
-    for (std::size_t which = 0; which < cases; ++which) some.push_back({which, measurement});
+std::vector<Request> requests_for(std::size_t measurements, const Effort& effort, support::Random random) {
+  std::vector<Request> requests;
+  const auto all = [&](Action action) {
+    std::vector<Request> some;
+    for (std::size_t which = 0; which < measurements; ++which) some.push_back({which, action});
     return some;
   };
-  append_shuffled(orders, all(&Case::first_pass), random);
+  append_shuffled(requests, all(&Measurement::first_pass), random);
   std::size_t clocked = 0;
   for (std::size_t round = 1; round <= effort.repetitions; ++round) {
-    std::vector<Order> some = all(&Case::repetition);
+    std::vector<Request> some = all(&Measurement::repetition);
     for (; clocked * effort.repetitions < round * effort.latency_passes; ++clocked) {
-      const std::vector<Order> more = all(&Case::latency_pass);
+      const std::vector<Request> more = all(&Measurement::latency_pass);
       some.insert(some.end(), more.begin(), more.end());
     }
-    append_shuffled(orders, std::move(some), random);
+    append_shuffled(requests, std::move(some), random);
   }
-  return orders;
+  return requests;
 }
 
 /// Null where it stores what it is given, or where nothing is left of the mesh that could be judged by.
-std::unique_ptr<const StoredScene> stored_scene(const ContestantInfo& info, const ContestantSpec& spec,
-                                                const TriangleMesh& mesh) {
+std::unique_ptr<const ground_truth::RoundedScene> rounded_scene(const contestants::ContestantInfo& info,
+                                                                const contestants::ContestantSpec& spec,
+                                                                const TriangleMesh& mesh) {
   if (!info.built()) return nullptr;
-  std::optional<Storing> storing = info.storing(mesh, spec.values);
-  if (!storing) return nullptr;
+  std::optional<contestants::StorageRounding> storage_rounding = info.storage_rounding(mesh, spec.values);
+  if (!storage_rounding) return nullptr;
   try {
-    return std::make_unique<const StoredScene>(mesh, *std::move(storing));
+    return std::make_unique<const ground_truth::RoundedScene>(mesh, *std::move(storage_rounding));
   } catch (const MeshError&) {
     return nullptr;
   }
 }
 
 /// Before the oracle takes it for its boxes and triangles, and the workers for their copy.
-const Workload& with_room(const Workload& workload) {
+const workload::Workload& with_room(const workload::Workload& workload) {
   constexpr double bytes_a_triangle = 270;
-  require_memory(fmt::format("the oracle's {} triangles", workload.mesh.size()),
-                 bytes_a_triangle * static_cast<double>(workload.mesh.size()));
+  support::require_memory(fmt::format("the oracle's {} triangles", workload.mesh.size()),
+                          bytes_a_triangle * static_cast<double>(workload.mesh.size()));
   return workload;
 }
 
 }  // namespace
 
-Comparison::Comparison(const Roster& roster, const Workload& workload,
-                       const std::vector<ContestantSpec>& contestants, const WorkerOptions& workers,
-                       const Effort& effort, std::uint64_t seed)
+Comparison::Comparison(const contestants::Roster& roster, const workload::Workload& workload,
+                       const std::vector<contestants::ContestantSpec>& contestants,
+                       const workers::WorkerOptions& workers, const Effort& effort, std::uint64_t seed)
     : roster_(roster),
       workload_(with_room(workload)),
       effort_(effort),
       seed_(seed),
-      stage_(workload, workers),
+      arena_(workload, workers),
       oracle_(workload.mesh) {
-  for (const ContestantSpec& spec : contestants) {
-    processes_.emplace_back(stage_, spec, roster.find(spec.name).worker_program(spec.values));
+  for (const contestants::ContestantSpec& spec : contestants) {
+    processes_.emplace_back(arena_, spec, roster.find(spec.name).worker_program(spec.values));
   }
-  stored_.resize(processes_.size());
+  rounded_scenes_.resize(processes_.size());
 }
 
-void Comparison::skip(const ContestantSpec& spec, const std::string& status) {
-  for (ContestantProcess& process : processes_) {
-    if (process.spec().text() == spec.text()) process.give_up(status);
+void Comparison::skip(const contestants::ContestantSpec& spec, const std::string& status) {
+  for (workers::ContestantProcess& process : processes_) {
+    if (process.spec().text() == spec.text()) process.mark_failed(status);
   }
 }
 
-std::vector<ResultRow> Comparison::run(std::size_t course, Query query) {
-  Truths truths(oracle_, workload_.courses[course]);
-  return run(course, query, truths);
+std::vector<ResultRow> Comparison::run(std::size_t trace, workload::Query query) {
+  ground_truth::GroundTruths truths(oracle_, workload_.traces[trace]);
+  return run(trace, query, truths);
 }
 
-void Comparison::run_all(const std::vector<Query>& queries, std::vector<ResultRow>& rows) {
-  for (std::size_t course = 0; course < workload_.courses.size(); ++course) {
-    Truths truths(oracle_, workload_.courses[course]);
-    for (const Query query : queries) {
-      const std::vector<ResultRow> some = run(course, query, truths);
+void Comparison::run_all(const std::vector<workload::Query>& queries, std::vector<ResultRow>& rows) {
+  for (std::size_t trace = 0; trace < workload_.traces.size(); ++trace) {
+    ground_truth::GroundTruths truths(oracle_, workload_.traces[trace]);
+    for (const workload::Query query : queries) {
+      const std::vector<ResultRow> some = run(trace, query, truths);
       rows.insert(rows.end(), some.begin(), some.end());
     }
   }
@@ -109,78 +110,79 @@ void Comparison::run_all(const std::vector<Query>& queries, std::vector<ResultRo
 
 /// One trajectory on its way from the first answer to the rows.
 struct Comparison::Begun {
-  std::size_t course = 0;
-  Query query = Query::nearest;
-  SamplePlan plan;
-  std::deque<Case> cases = {};
-  std::vector<std::size_t> whose = {};  ///< the process of each case
-  std::vector<Case*> together = {};     ///< those that take turns
-  Case* controlled = nullptr;
-  std::optional<Case> control = std::nullopt;
-  std::vector<Order> orders = {};
-  std::size_t done = 0;  ///< of the orders
+  std::size_t trace = 0;
+  workload::Query query = workload::Query::nearest;
+  workload::SamplePlan plan;
+  std::deque<Measurement> measurements = {};
+  std::vector<std::size_t> whose = {};         ///< the process of each measurement
+  std::vector<Measurement*> interleaved = {};  ///< the measurements that take turns
+  Measurement* controlled = nullptr;
+  std::optional<Measurement> control = std::nullopt;
+  std::vector<Request> requests = {};
+  std::size_t done = 0;  ///< how many of the requests
 };
 
 Comparison::~Comparison() = default;
 
-std::vector<ResultRow> Comparison::run(std::size_t course, Query query, Truths& truths) {
-  begin(course, query, truths);
+std::vector<ResultRow> Comparison::run(std::size_t trace, workload::Query query,
+                                       ground_truth::GroundTruths& truths) {
+  begin(trace, query, truths);
   return end();
 }
 
-void Comparison::begin(std::size_t course, Query query) {
-  Truths truths(oracle_, workload_.courses[course]);
-  begin(course, query, truths);
+void Comparison::begin(std::size_t trace, workload::Query query) {
+  ground_truth::GroundTruths truths(oracle_, workload_.traces[trace]);
+  begin(trace, query, truths);
 }
 
-void Comparison::begin(std::size_t course, Query query, Truths& truths) {
-  auto begun = std::make_unique<Begun>(Begun{course, query, plan_for(course, truths)});
-  const std::string& trajectory = workload_.trajectories[course];
+void Comparison::begin(std::size_t trace, workload::Query query, ground_truth::GroundTruths& truths) {
+  auto begun = std::make_unique<Begun>(Begun{trace, query, plan_for(trace, truths)});
+  const std::string& trajectory = workload_.trajectories[trace];
   for (std::size_t i = 0; i < processes_.size(); ++i) {
     const std::string contestant = processes_[i].spec().text();
     if (!filter_(trajectory, contestant)) {
       left_out_.emplace_back(trajectory, contestant);
       continue;
     }
-    begun->cases.emplace_back(workload_, stage_, effort_, processes_[i], course, query, begun->plan);
+    begun->measurements.emplace_back(workload_, arena_, effort_, processes_[i], trace, query, begun->plan);
     begun->whose.push_back(i);
   }
   verify(*begun, truths);
   add_control(*begun, truths);
-  begun->orders = orders_for(begun->together.size(), effort_, Random(seed_ + course));
-  measure(*begun, begun->orders.size() / 2);
+  begun->requests = requests_for(begun->interleaved.size(), effort_, support::Random(seed_ + trace));
+  measure(*begun, begun->requests.size() / 2);
   begun_.push_back(std::move(begun));
 }
 
-void Comparison::verify(Begun& begun, Truths& truths) {
-  for (std::size_t i = 0; i < begun.cases.size(); ++i) {
-    Case& one = begun.cases[i];
-    check_for_interrupt();
-    progress_(workload_.trajectories[begun.course], one.contestant());
-    one.introduce();
-    verify(one, stored_by(begun.whose[i]), begun.course, truths);
-    begun.together.push_back(&one);
-    if (turns_ == Turns::together) continue;
-    begun.orders = orders_for(begun.together.size(), effort_, Random(seed_ + begun.course));
-    measure(begun, begun.orders.size());
+void Comparison::verify(Begun& begun, ground_truth::GroundTruths& truths) {
+  for (std::size_t i = 0; i < begun.measurements.size(); ++i) {
+    Measurement& one = begun.measurements[i];
+    support::check_for_interrupt();
+    progress_(workload_.trajectories[begun.trace], one.contestant());
+    one.calibrate();
+    verify(one, rounded_scene_of(begun.whose[i]), begun.trace, truths);
+    begun.interleaved.push_back(&one);
+    if (schedule_ == Schedule::interleaved) continue;
+    begun.requests = requests_for(begun.interleaved.size(), effort_, support::Random(seed_ + begun.trace));
+    measure(begun, begun.requests.size());
     begun.done = 0;
-    begun.together.clear();
-    one.dismiss();
+    begun.interleaved.clear();
+    one.shut_down();
   }
 }
 
-void Comparison::add_control(Begun& begun, Truths& truths) {
-  begun.controlled = to_control(begun.together);
+void Comparison::add_control(Begun& begun, ground_truth::GroundTruths& truths) {
+  begun.controlled = to_control(begun.interleaved);
   if (begun.controlled == nullptr) return;
-  begun.control.emplace(workload_, stage_, effort_, *control_, begun.course, begun.query, begun.plan);
-  begun.control->introduce_like(*begun.controlled);
+  begun.control.emplace(workload_, arena_, effort_, *control_, begun.trace, begun.query, begun.plan);
+  begun.control->calibrate_like(*begun.controlled);
   begun.control->verify(truths);
-  begun.together.push_back(&*begun.control);
+  begun.interleaved.push_back(&*begun.control);
 }
 
 std::vector<ResultRow> Comparison::end() {
   Begun& begun = *begun_.front();
-  measure(begun, begun.orders.size());
+  measure(begun, begun.requests.size());
   std::vector<ResultRow> rows = rows_of(begun);
   begun_.pop_front();
   return rows;
@@ -189,8 +191,8 @@ std::vector<ResultRow> Comparison::end() {
 std::vector<ResultRow> Comparison::so_far() {
   std::vector<ResultRow> rows;
   for (const std::unique_ptr<Begun>& begun : begun_) {
-    for (Case& one : begun->cases) {
-      ResultRow row = one.finish();
+    for (Measurement& one : begun->measurements) {
+      ResultRow row = one.row();
       if (row.throughput || row.status != "ok") rows.push_back(std::move(row));
     }
   }
@@ -200,58 +202,59 @@ std::vector<ResultRow> Comparison::so_far() {
 std::vector<ResultRow> Comparison::rows_of(Begun& begun) {
   std::vector<ResultRow> rows;
   std::optional<Control> found;
-  for (Case& one : begun.cases) {
-    rows.push_back(one.finish());
-    if (&one == begun.controlled) found = control_of(rows.back(), begun.control->finish());
+  for (Measurement& one : begun.measurements) {
+    rows.push_back(one.row());
+    if (&one == begun.controlled) found = control_of(rows.back(), begun.control->row());
   }
   if (effort_.repetitions > 0 && !rows.empty()) steadiness_.push_back(steadiness_of(rows, std::move(found)));
   return rows;
 }
 
-SamplePlan Comparison::plan_for(std::size_t course, Truths& truths) const {
-  const std::vector<Step>& steps = workload_.courses[course];
-  const std::vector<double> distances = truths.distances(telling_steps(steps.size()));
-  return {steps.size(), phases_of(steps, distances, workload_.mesh.diagonal()), seed_ + course};
+workload::SamplePlan Comparison::plan_for(std::size_t trace, ground_truth::GroundTruths& truths) const {
+  const std::vector<workload::Step>& steps = workload_.traces[trace];
+  const std::vector<double> distances = truths.distances(workload::telling_steps(steps.size()));
+  return {steps.size(), workload::phases_of(steps, distances, workload_.mesh.diagonal()), seed_ + trace};
 }
 
-Case* Comparison::to_control(const std::vector<Case*>& cases) {
+Measurement* Comparison::to_control(const std::vector<Measurement*>& measurements) {
   if (effort_.repetitions == 0) return nullptr;
-  Case* chosen = nullptr;
-  for (Case* const one : cases) {
+  Measurement* chosen = nullptr;
+  for (Measurement* const one : measurements) {
     if (!one->alive() || !one->claims_exactness()) continue;
     if (control_ && one->spec().text() == control_->spec().text()) return one;
     if (chosen == nullptr || one->calibrated_ns() < chosen->calibrated_ns()) chosen = one;
   }
   if (chosen == nullptr) return nullptr;
-  const ContestantSpec& spec = chosen->spec();
-  control_.emplace(stage_, spec, roster_.find(spec.name).worker_program(spec.values));
+  const contestants::ContestantSpec& spec = chosen->spec();
+  control_.emplace(arena_, spec, roster_.find(spec.name).worker_program(spec.values));
   return chosen;
 }
 
-const StoredScene* Comparison::stored_by(std::size_t process) {
-  std::optional<std::unique_ptr<const StoredScene>>& stored = stored_[process];
-  if (!stored) {
-    const ContestantSpec& spec = processes_[process].spec();
-    stored = stored_scene(roster_.find(spec.name), spec, workload_.mesh);
+const ground_truth::RoundedScene* Comparison::rounded_scene_of(std::size_t process) {
+  std::optional<std::unique_ptr<const ground_truth::RoundedScene>>& rounded = rounded_scenes_[process];
+  if (!rounded) {
+    const contestants::ContestantSpec& spec = processes_[process].spec();
+    rounded = rounded_scene(roster_.find(spec.name), spec, workload_.mesh);
   }
-  return stored->get();
+  return rounded->get();
 }
 
-void Comparison::verify(Case& one, const StoredScene* stored, std::size_t course, Truths& truths) {
-  if (stored == nullptr) return one.verify(truths);
-  Truths of_stored(stored->oracle(), stored->course(workload_.courses[course]));
-  one.verify(truths, &of_stored);
+void Comparison::verify(Measurement& one, const ground_truth::RoundedScene* rounded, std::size_t trace,
+                        ground_truth::GroundTruths& truths) {
+  if (rounded == nullptr) return one.verify(truths);
+  ground_truth::GroundTruths of_rounded(rounded->oracle(), rounded->trace(workload_.traces[trace]));
+  one.verify(truths, &of_rounded);
 }
 
 void Comparison::measure(Begun& begun, std::size_t end) {
   if (effort_.repetitions == 0) return;
   for (; begun.done < end; ++begun.done) {
-    const Order& order = begun.orders[begun.done];
-    check_for_interrupt();
-    Case& one = *begun.together[order.which];
-    progress_(workload_.trajectories[begun.course], one.contestant());
-    (one.*order.measurement)();
+    const Request& request = begun.requests[begun.done];
+    support::check_for_interrupt();
+    Measurement& one = *begun.interleaved[request.which];
+    progress_(workload_.trajectories[begun.trace], one.contestant());
+    (one.*request.action)();
   }
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::measurement

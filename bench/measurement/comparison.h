@@ -23,84 +23,87 @@
 #include "bench/workload/sample_plan.h"
 #include "bench/workload/workload.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::measurement {
 
-/// Called before each order to a worker.
+/// Called before each request to a worker.
 using Progress = std::function<void(const std::string& trajectory, const std::string& contestant)>;
 
-/// Which cases are wanted, by trajectory and contestant.
+/// Which measurements are wanted, by trajectory and contestant.
 using CaseFilter = std::function<bool(const std::string& trajectory, const std::string& contestant)>;
 
-/// together: all contestants are built before any is timed, and then timed in random order. one_by_one: each
-/// is built, verified, timed and ended before the next, where memory does not hold all of them.
-enum class Turns { together, one_by_one };
+/// interleaved: all contestants are built before any is timed, and then timed in random order. sequential:
+/// each is built, verified, timed and ended before the next, where memory does not hold all of them.
+enum class Schedule { interleaved, sequential };
 
 class Comparison {
  public:
   /// `roster` and `workload` must outlive it. A contestant that cannot run becomes a row, not an error.
-  Comparison(const Roster& roster, const Workload& workload, const std::vector<ContestantSpec>& contestants,
-             const WorkerOptions& workers, const Effort& effort, std::uint64_t seed);
+  Comparison(const contestants::Roster& roster, const workload::Workload& workload,
+             const std::vector<contestants::ContestantSpec>& contestants,
+             const workers::WorkerOptions& workers, const Effort& effort, std::uint64_t seed);
   ~Comparison();
 
   void set_progress(Progress progress) { progress_ = std::move(progress); }
   void set_filter(CaseFilter filter) { filter_ = std::move(filter); }
-  void set_turns(Turns turns) { turns_ = turns; }
+  void set_schedule(Schedule schedule) { schedule_ = schedule; }
   /// Its rows get this status instead of results.
-  void skip(const ContestantSpec& spec, const std::string& status);
+  void skip(const contestants::ContestantSpec& spec, const std::string& status);
 
   /// The rows of one trajectory, in the contestants' order. Throws ResourceError or Interrupted.
-  std::vector<ResultRow> run(std::size_t course, Query query);
+  std::vector<ResultRow> run(std::size_t trace, workload::Query query);
 
   /// Runs a trajectory in two parts, between which others may be begun: a machine that is slow for some
   /// seconds is then slow for a part of each trajectory's rounds, not for all of one's. end() is of the first
   /// that was begun.
-  void begin(std::size_t course, Query query);
+  void begin(std::size_t trace, workload::Query query);
   std::vector<ResultRow> end();
   /// The rows of those that were begun and not ended, with the repetitions that they have got, if any.
   std::vector<ResultRow> so_far();
 
-  /// All of them, appended to `rows` course by course, so that those finished before an exception are there.
-  /// What the oracle finds out about a course serves all queries.
-  void run_all(const std::vector<Query>& queries, std::vector<ResultRow>& rows);
+  /// All of them, appended to `rows` trace by trace, so that those finished before an exception are there.
+  /// What the oracle finds out about a trace serves all queries.
+  void run_all(const std::vector<workload::Query>& queries, std::vector<ResultRow>& rows);
 
-  /// Returns how steady each course and query was that was timed, in the order of the runs.
+  /// Returns how steady each trace and query was that was timed, in the order of the runs.
   const std::vector<Steadiness>& steadiness() const noexcept { return steadiness_; }
 
-  /// Not asked for, because the filter leaves them out: pairs of trajectory and contestant.
+  /// Returns what the filter left out: pairs of trajectory and contestant.
   const std::vector<std::pair<std::string, std::string>>& left_out() const noexcept { return left_out_; }
 
-  /// With what their workers said of themselves.
-  const std::deque<ContestantProcess>& contestants() const noexcept { return processes_; }
+  /// Returns the contestants with what their workers said of themselves.
+  const std::deque<workers::ContestantProcess>& contestants() const noexcept { return processes_; }
 
  private:
   struct Begun;
 
-  std::vector<ResultRow> run(std::size_t course, Query query, Truths& truths);
-  void begin(std::size_t course, Query query, Truths& truths);
-  void verify(Begun& begun, Truths& truths);
-  void add_control(Begun& begun, Truths& truths);
+  std::vector<ResultRow> run(std::size_t trace, workload::Query query, ground_truth::GroundTruths& truths);
+  void begin(std::size_t trace, workload::Query query, ground_truth::GroundTruths& truths);
+  void verify(Begun& begun, ground_truth::GroundTruths& truths);
+  void add_control(Begun& begun, ground_truth::GroundTruths& truths);
   std::vector<ResultRow> rows_of(Begun& begun);
-  /// The scene as that process's library stores it, made when first asked for; null where it is the given
+  /// The scene as that process's library rounds it, made when first asked for; null where it is the given
   /// one.
-  const StoredScene* stored_by(std::size_t process);
-  void verify(class Case& one, const StoredScene* stored, std::size_t course, Truths& truths);
-  /// Takes the orders of `begun` up to this one.
+  const ground_truth::RoundedScene* rounded_scene_of(std::size_t process);
+  void verify(class Measurement& one, const ground_truth::RoundedScene* rounded, std::size_t trace,
+              ground_truth::GroundTruths& truths);
+  /// Takes the requests of `begun` up to this one.
   void measure(Begun& begun, std::size_t end);
-  SamplePlan plan_for(std::size_t course, Truths& truths) const;
-  /// The process that times a contestant once more: that of the course before, where its contestant still is
+  workload::SamplePlan plan_for(std::size_t trace, ground_truth::GroundTruths& truths) const;
+  /// The process that times a contestant once more: that of the trace before, where its contestant still is
   /// among the right ones, or else the fastest one's. Null where there is none.
-  class Case* to_control(const std::vector<class Case*>& cases);
+  class Measurement* to_control(const std::vector<class Measurement*>& measurements);
 
-  const Roster& roster_;
-  const Workload& workload_;
+  const contestants::Roster& roster_;
+  const workload::Workload& workload_;
   Effort effort_;
   std::uint64_t seed_;
-  Turns turns_ = Turns::together;
-  WorkerStage stage_;
-  Oracle oracle_;
-  std::deque<ContestantProcess> processes_;
-  std::vector<std::optional<std::unique_ptr<const StoredScene>>> stored_;  ///< a process each
-  std::optional<ContestantProcess> control_;
+  Schedule schedule_ = Schedule::interleaved;
+  workers::SharedArena arena_;
+  oracle::Oracle oracle_;
+  std::deque<workers::ContestantProcess> processes_;
+  std::vector<std::optional<std::unique_ptr<const ground_truth::RoundedScene>>>
+      rounded_scenes_;  ///< a process each
+  std::optional<workers::ContestantProcess> control_;
   std::deque<std::unique_ptr<Begun>> begun_;
   std::vector<Steadiness> steadiness_;
   std::vector<std::pair<std::string, std::string>> left_out_;
@@ -108,4 +111,4 @@ class Comparison {
   CaseFilter filter_ = [](const std::string&, const std::string&) { return true; };
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::measurement

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace touchmark::bench {
+namespace touchmark::bench::measurement {
 namespace {
 
 /// The least value that at least `fraction` of all are not above.
@@ -12,13 +12,13 @@ double percentile(const std::vector<double>& sorted, double fraction) {
   return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
 }
 
-DeadlineMisses count_misses(std::span<const double> ns, const std::vector<Window>& windows,
+DeadlineMisses count_misses(std::span<const double> ns, const std::vector<workload::StepRange>& ranges,
                             double period_ns) {
   DeadlineMisses count;
   std::size_t step = 0;
-  for (const Window& window : windows) {
+  for (const workload::StepRange& range : ranges) {
     std::size_t run = 0;  // steps on both sides of a gap are no neighbours
-    for (const std::size_t end = step + window.size(); step < end; ++step) {
+    for (const std::size_t end = step + range.size(); step < end; ++step) {
       run = ns[step] > period_ns ? run + 1 : 0;
       count.misses += run > 0 ? 1 : 0;
       count.longest_run = std::max(count.longest_run, run);
@@ -29,7 +29,7 @@ DeadlineMisses count_misses(std::span<const double> ns, const std::vector<Window
 
 }  // namespace
 
-LatencySummary summarize_latency(std::span<const double> ns, const std::vector<Window>& windows) {
+LatencySummary summarize_latency(std::span<const double> ns, const std::vector<workload::StepRange>& ranges) {
   std::vector<double> sorted(ns.begin(), ns.end());
   std::sort(sorted.begin(), sorted.end());
   LatencySummary summary;
@@ -39,7 +39,7 @@ LatencySummary summarize_latency(std::span<const double> ns, const std::vector<W
   summary.p999 = percentile(sorted, 0.999);
   summary.max = sorted.back();
   for (std::size_t i = 0; i < deadlines_hz.size(); ++i) {
-    summary.deadlines[i] = count_misses(ns, windows, 1e9 / deadlines_hz[i]);
+    summary.deadlines[i] = count_misses(ns, ranges, 1e9 / deadlines_hz[i]);
   }
   return summary;
 }
@@ -56,4 +56,4 @@ std::vector<double> median_per_step(const std::vector<std::vector<double>>& pass
   return medians;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::measurement

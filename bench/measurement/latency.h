@@ -8,14 +8,14 @@
 
 #include "bench/contestants/contestant.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::measurement {
 
 /// The haptic convention is 1 kHz; texture needs 4 to 10 kHz (Choi & Tan 2004).
 inline constexpr std::array<double, 3> deadlines_hz{1000, 4000, 10000};
 
 struct DeadlineMisses {
   std::size_t misses = 0;       ///< steps that took longer than the period
-  std::size_t longest_run = 0;  ///< of neighbouring steps that all did
+  std::size_t longest_run = 0;  ///< how many neighbouring steps missed it one after the other
 };
 
 struct LatencySummary {
@@ -23,11 +23,11 @@ struct LatencySummary {
   std::array<DeadlineMisses, deadlines_hz.size()> deadlines;
 };
 
-/// `ns` holds the windows' steps one after the other. At least one step.
-LatencySummary summarize_latency(std::span<const double> ns, const std::vector<Window>& windows);
+/// `ns` holds the ranges' steps one after the other. At least one step.
+LatencySummary summarize_latency(std::span<const double> ns, const std::vector<workload::StepRange>& ranges);
 
-/// The same steps timed several times: each step's median, so that one interruption by the operating system
-/// does not count as the detector's. All passes have the same length; at least one.
+/// Returns each step's median over passes that timed the same steps, so that one interruption by the
+/// operating system does not count as the detector's. All passes have the same length; at least one.
 std::vector<double> median_per_step(const std::vector<std::vector<double>>& passes);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::measurement

@@ -10,58 +10,59 @@
 #include "bench/support/median.h"
 #include "bench/workload/sample_steps.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::measurement {
 namespace {
 
 constexpr std::uint64_t bootstrap_seed = 1;
 
 double median_absolute_deviation(std::vector<double> values) {
-  const double center = median(values);
+  const double center = support::median(values);
   for (double& value : values) value = std::abs(value - center);
-  return median(values);
+  return support::median(values);
 }
 
-double largest_radius(const std::vector<Step>& course) {
+double largest_radius(const std::vector<workload::Step>& trace) {
   double largest = 0;
-  for (const Step& step : course) largest = std::max(largest, step.probe.radius);
+  for (const workload::Step& step : trace) largest = std::max(largest, step.probe.radius);
   return largest;
 }
 
-double largest_reach(const std::vector<Step>& course) {
+double largest_reach(const std::vector<workload::Step>& trace) {
   double largest = 0;
-  for (const Step& step : course) largest = std::max(largest, step.reach);
+  for (const workload::Step& step : trace) largest = std::max(largest, step.reach);
   return largest;
 }
 
 }  // namespace
 
-Case::Case(const Workload& workload, const WorkerStage& stage, const Effort& effort,
-           ContestantProcess& process, std::size_t course, Query query, const SamplePlan& plan)
-    : stage_(stage), effort_(effort), process_(process), task_{course, query, 1}, plan_(plan) {
+Measurement::Measurement(const workload::Workload& workload, const workers::SharedArena& arena,
+                         const Effort& effort, workers::ContestantProcess& process, std::size_t trace,
+                         workload::Query query, const workload::SamplePlan& plan)
+    : arena_(arena), effort_(effort), process_(process), task_{trace, query, 1}, plan_(plan) {
   row_.detector = process.spec().name;
   row_.options = process.spec().options;
   row_.claimed = process.spec().claimed;
   row_.mesh = workload.mesh_name;
   row_.triangles = workload.mesh.size();
-  row_.trajectory = workload.trajectories[course];
+  row_.trajectory = workload.trajectories[trace];
   row_.query = query;
-  row_.radius = largest_radius(workload.courses[course]);
-  row_.reach = largest_reach(workload.courses[course]);
+  row_.radius = largest_radius(workload.traces[trace]);
+  row_.reach = largest_reach(workload.traces[trace]);
 }
 
 /// A worker that fails gives the row its status.
 template <class Action>
-void Case::attempt(Action action) {
+void Measurement::attempt(Action action) {
   if (!alive()) return;
   try {
     action();
-  } catch (const WorkerFailure& failure) {
+  } catch (const workers::WorkerFailure& failure) {
     row_.status = failure.what();
   }
 }
 
-void Case::begin() {
-  const Built& built = process_.build();
+void Measurement::begin() {
+  const workers::Built& built = process_.build();
   row_.accuracy = built.accuracy;
   row_.build_ms = built.build_ms;
   row_.bytes = built.bytes;
@@ -70,76 +71,76 @@ void Case::begin() {
     row_.status = "unsupported";
     return;
   }
-  process_.unmake();
+  process_.rebuild_if_lazy();
   row_.first_answer_ms = built.build_ms + process_.first(task_).ns_per_query / 1e6;
 }
 
-void Case::introduce() {
+void Measurement::calibrate() {
   attempt([&] {
     begin();
     if (!alive()) return;
-    calibrate();
+    choose_steps();
     choose_pieces();
   });
 }
 
-void Case::introduce_like(const Case& other) {
+void Measurement::calibrate_like(const Measurement& other) {
   attempt([&] {
     begin();
     task_ = other.task_;
-    windows_ = other.windows_;
+    ranges_ = other.ranges_;
     row_.steps = other.row_.steps;
     passes_ = other.passes_;
-    together_ = other.together_;
+    replays_ = other.replays_;
   });
 }
 
 /// On larger and larger beginnings of the sample, until a quarter of the budget is spent.
-void Case::calibrate() {
+void Measurement::choose_steps() {
   for (std::size_t wanted = 16;; wanted *= 4) {
-    Task task = task_;
-    task.windows = plan_.windows(wanted);
+    workers::Task task = task_;
+    task.ranges = plan_.ranges(wanted);
     calibrated_ns_ = std::max(process_.calibrate(task, 0).ns_per_query, 1.0);
-    const double elapsed = calibrated_ns_ * static_cast<double>(steps_in(task.windows));
+    const double elapsed = calibrated_ns_ * static_cast<double>(workload::steps_in(task.ranges));
     if (elapsed * 4 >= effort_.pass_budget_ns || wanted >= plan_.total()) return;
   }
 }
 
 /// All steps in pieces that other processes interrupt seldom, or blocks of the sample, which are short as
 /// well. The sample's size is rounded down to a power of two, so that two runs mostly have the same.
-void Case::choose_pieces() {
+void Measurement::choose_pieces() {
   constexpr double piece_ns = 0.5e6;  // far below what a scheduler gives to a process at a time
-  constexpr double most_pieces = 128;
+  constexpr double max_pieces = 128;
   const double affordable = effort_.pass_budget_ns / calibrated_ns_;
   const bool all = affordable >= static_cast<double>(plan_.total());
   const auto wanted = all ? plan_.total() : std::bit_floor(static_cast<std::size_t>(affordable));
-  task_.windows = plan_.windows(wanted);
-  windows_ = joined(task_.windows);
-  row_.steps = task_.steps = steps_in(windows_);
+  task_.ranges = plan_.ranges(wanted);
+  ranges_ = workload::joined(task_.ranges);
+  row_.steps = task_.steps = workload::steps_in(ranges_);
   const double pass_ns = calibrated_ns_ * static_cast<double>(row_.steps);
   if (all) {
-    const double parts = std::clamp(pass_ns / piece_ns, 1.0, most_pieces);
-    task_.windows = split({0, plan_.total()}, static_cast<std::size_t>(parts));
+    const double parts = std::clamp(pass_ns / piece_ns, 1.0, max_pieces);
+    task_.ranges = workload::split({0, plan_.total()}, static_cast<std::size_t>(parts));
     const double sample_ns = std::min(piece_ns, effort_.repetition_ns);
-    if (task_.windows.size() == 1) together_ = static_cast<std::int64_t>(std::max(sample_ns / pass_ns, 1.0));
+    if (task_.ranges.size() == 1) replays_ = static_cast<std::int64_t>(std::max(sample_ns / pass_ns, 1.0));
   }
-  const double passes = effort_.repetition_ns / (pass_ns * static_cast<double>(together_));
+  const double passes = effort_.repetition_ns / (pass_ns * static_cast<double>(replays_));
   passes_ = static_cast<std::int64_t>(std::max(passes, 1.0));
 }
 
-PieceTimes Case::piece_times() const {
+PieceTimes Measurement::piece_times() const {
   std::vector<Piece> pieces;
-  std::array<std::size_t, phase_count> timed{};
+  std::array<std::size_t, workload::phase_count> timed{};
   const bool all = row_.steps == plan_.total();
-  for (const Window& window : task_.windows) {
-    const std::size_t stratum = all ? 0 : static_cast<std::size_t>(plan_.phase_of(window));
-    pieces.push_back({window.size(), stratum});
-    timed[stratum] += window.size();
+  for (const workload::StepRange& range : task_.ranges) {
+    const std::size_t stratum = all ? 0 : static_cast<std::size_t>(plan_.phase_of(range));
+    pieces.push_back({range.size(), stratum});
+    timed[stratum] += range.size();
   }
   std::vector<Stratum> strata{{1, 0}};
   if (!all) strata.clear();
-  for (std::size_t i = 0; i < phase_count && !all; ++i) {
-    const auto steps = static_cast<double>(plan_.steps_of(static_cast<Phase>(i)));
+  for (std::size_t i = 0; i < workload::phase_count && !all; ++i) {
+    const auto steps = static_cast<double>(plan_.steps_of(static_cast<workload::Phase>(i)));
     const double untimed = steps > 0 ? 1 - static_cast<double>(timed[i]) / steps : 0;
     strata.push_back({steps / static_cast<double>(plan_.total()), untimed});
   }
@@ -148,70 +149,71 @@ PieceTimes Case::piece_times() const {
   return times;
 }
 
-void Case::verify(Truths& truths, Truths* stored) {
+void Measurement::verify(ground_truth::GroundTruths& truths, ground_truth::GroundTruths* rounded) {
   attempt([&] {
-    process_.unmake();
-    const Answered answered = process_.answer(task_);
+    process_.rebuild_if_lazy();
+    const workers::Answered answered = process_.answer(task_);
     row_.checksum = answered.checksum;
-    row_.work = summarize_work(stage_.room().work(row_.steps), answered.work);
+    row_.work = summarize_work(arena_.buffers().work(row_.steps), answered.work);
   });
-  if (alive()) judge(truths, stored);
+  if (alive()) judge(truths, rounded);
 }
 
-void Case::judge(Truths& truths, Truths* stored) {
-  const std::span<const Answer> answers = stage_.room().answers(row_.steps);
-  Checksum checksum;
-  for (const Answer& answer : answers) checksum.add(answer);
+void Measurement::judge(ground_truth::GroundTruths& truths, ground_truth::GroundTruths* rounded) {
+  const std::span<const workload::Answer> answers = arena_.buffers().answers(row_.steps);
+  workload::Checksum checksum;
+  for (const workload::Answer& answer : answers) checksum.add(answer);
   if (checksum.value() != row_.checksum) {
     row_.status = "checksum mismatch";
     return;
   }
   row_.decisions_checksum = decisions_checksum_of(task_.query, answers, *row_.accuracy);
-  row_.tally = truths.judge(task_.query, windows_, answers, *row_.accuracy, {}, &row_.wrong);
-  if (stored != nullptr) row_.stored_tally = stored->judge(task_.query, windows_, answers, *row_.accuracy);
+  row_.counts = truths.judge(task_.query, ranges_, answers, *row_.accuracy, {}, &row_.wrong);
+  if (rounded != nullptr)
+    row_.rounded_scene_counts = rounded->judge(task_.query, ranges_, answers, *row_.accuracy);
 }
 
-void Case::expect_verified_answers(const Timed& timed) {
+void Measurement::expect_verified_answers(const workers::Timed& timed) {
   if (!timed.steady || timed.checksum != row_.checksum) row_.status = "checksum mismatch";
 }
 
-void Case::first_pass() {
+void Measurement::first_pass() {
   attempt([&] {
-    process_.unmake();
-    const Timed timed = process_.first_pass(task_);
+    process_.rebuild_if_lazy();
+    const workers::Timed timed = process_.first_pass(task_);
     first_pass_ns_ = timed.ns_per_query;
     expect_verified_answers(timed);
   });
 }
 
 /// Whoever needs longer for a single pass than there is time for is repeated less often.
-void Case::repetition() {
+void Measurement::repetition() {
   constexpr std::size_t fewest = 3;
   const double budget =
       static_cast<double>(effort_.repetitions) * std::max(2 * effort_.pass_budget_ns, effort_.repetition_ns);
   if (repetitions_ns_.size() >= fewest && repeating_ns_ > budget) return;
   attempt([&] {
-    const Timed timed = process_.sample(task_, passes_, together_);
+    const workers::Timed timed = process_.sample(task_, passes_, replays_);
     repetitions_ns_.push_back(timed.ns_per_query);
     repetitions_cpu_ns_.push_back(timed.cpu_ns_per_query);
     repeating_ns_ +=
-        timed.cpu_ns_per_query * static_cast<double>(row_.steps) * static_cast<double>(passes_ * together_);
+        timed.cpu_ns_per_query * static_cast<double>(row_.steps) * static_cast<double>(passes_ * replays_);
     samples_.push_back(timed.samples);
     interrupted_ += timed.interrupted;
     expect_verified_answers(timed);
   });
 }
 
-void Case::latency_pass() {
+void Measurement::latency_pass() {
   attempt([&] {
-    const Timed timed = process_.latency(task_);
+    const workers::Timed timed = process_.latency(task_);
     expect_verified_answers(timed);
-    latencies_ns_.push_back(in_ns(stage_.room().ticks(row_.steps)));
-    if (process_.build().prepares) prepared_ns_.push_back(in_ns(stage_.room().prepare_ticks(row_.steps)));
+    latencies_ns_.push_back(in_ns(arena_.buffers().ticks(row_.steps)));
+    if (process_.build().prepares) prepared_ns_.push_back(in_ns(arena_.buffers().prepare_ticks(row_.steps)));
   });
 }
 
-std::vector<double> Case::in_ns(std::span<const std::uint64_t> ticks) const {
+std::vector<double> Measurement::in_ns(std::span<const std::uint64_t> ticks) const {
   std::vector<double> ns;
   ns.reserve(ticks.size());
   for (const std::uint64_t step : ticks) {
@@ -220,25 +222,25 @@ std::vector<double> Case::in_ns(std::span<const std::uint64_t> ticks) const {
   return ns;
 }
 
-void Case::dismiss() { process_.end(); }
+void Measurement::shut_down() { process_.end(); }
 
-ResultRow Case::finish() {
+ResultRow Measurement::row() {
   // What was timed before things went wrong is not a result.
   if (!alive() || repetitions_ns_.empty()) return row_;
   std::size_t samples = 0;
   for (const std::vector<double>& some : samples_) samples += some.size();
-  row_.throughput = ThroughputResult{median(repetitions_ns_),
+  row_.throughput = ThroughputResult{support::median(repetitions_ns_),
                                      *std::min_element(repetitions_ns_.begin(), repetitions_ns_.end()),
                                      median_absolute_deviation(repetitions_ns_),
                                      first_pass_ns_,
-                                     median(repetitions_cpu_ns_),
+                                     support::median(repetitions_cpu_ns_),
                                      repetitions_ns_.size(),
                                      piece_times().estimate(bootstrap_seed),
                                      static_cast<double>(interrupted_) / static_cast<double>(samples)};
-  if (!latencies_ns_.empty()) row_.latency = summarize_latency(median_per_step(latencies_ns_), windows_);
-  if (!prepared_ns_.empty()) row_.prepare = summarize_latency(median_per_step(prepared_ns_), windows_);
+  if (!latencies_ns_.empty()) row_.latency = summarize_latency(median_per_step(latencies_ns_), ranges_);
+  if (!prepared_ns_.empty()) row_.prepare = summarize_latency(median_per_step(prepared_ns_), ranges_);
   row_.clock_cost_ns = process_.opened().clock_cost_ns;
   return row_;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::measurement

@@ -15,67 +15,68 @@
 #include "bench/workload/sample_plan.h"
 #include "bench/workload/workload.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::measurement {
 
 /// Steps in the order of their declaration; each of the measuring ones may come several times, other
-/// contestants' in between. Whatever the worker does, the case goes on with its status; only ResourceError
-/// and Interrupted are thrown.
-class Case {
+/// contestants' in between. Whatever the worker does, the measurement goes on with its status; only
+/// ResourceError and Interrupted are thrown.
+class Measurement {
  public:
   /// All references must outlive it.
-  Case(const Workload& workload, const WorkerStage& stage, const Effort& effort, ContestantProcess& process,
-       std::size_t course, Query query, const SamplePlan& plan);
+  Measurement(const workload::Workload& workload, const workers::SharedArena& arena, const Effort& effort,
+              workers::ContestantProcess& process, std::size_t trace, workload::Query query,
+              const workload::SamplePlan& plan);
 
   std::string contestant() const { return row_.contestant(); }
   /// False once something went wrong, or for a query that the contestant does not answer.
   bool alive() const noexcept { return row_.status == "ok"; }
 
   /// Builds if that was not done, asks the first question, finds how many steps there is time for.
-  void introduce();
-  /// Introduces it with the steps and repetitions of another contestant's case.
-  void introduce_like(const Case& other);
-  /// Has the steps answered and judged, before anything is timed; once more by `stored`, unless that is null:
-  /// the truths of the scene as the contestant's library stores it.
-  void verify(Truths& truths, Truths* stored = nullptr);
+  void calibrate();
+  /// Calibrates it with the steps and repetitions of another contestant's measurement.
+  void calibrate_like(const Measurement& other);
+  /// Has the steps answered and judged, before anything is timed; once more by `rounded`, unless that is
+  /// null: the ground truth of the scene as the contestant's library stores it.
+  void verify(ground_truth::GroundTruths& truths, ground_truth::GroundTruths* rounded = nullptr);
 
-  /// With a fresh session, after others used the caches; what makes parts of itself later is built anew just
-  /// before, so that making them is in it.
+  /// Times a pass with a fresh session, after others used the caches. A detector that builds lazily is built
+  /// anew just before, so that this work is in the time.
   void first_pass();
   void repetition();
   void latency_pass();
 
   /// Ends the contestant's process, which takes its memory. Asked again, it would be built again.
-  void dismiss();
-  ResultRow finish();
+  void shut_down();
+  ResultRow row();
 
   bool claims_exactness() const noexcept {
     return row_.accuracy && row_.accuracy->guarantee == Guarantee::exact;
   }
   /// A query's, as found before anything was verified: for choosing, not for telling.
   double calibrated_ns() const noexcept { return calibrated_ns_; }
-  const ContestantSpec& spec() const noexcept { return process_.spec(); }
+  const contestants::ContestantSpec& spec() const noexcept { return process_.spec(); }
 
  private:
   template <class Action>
   void attempt(Action action);
   void begin();
-  void calibrate();
+  void choose_steps();
   void choose_pieces();
   PieceTimes piece_times() const;
   std::vector<double> in_ns(std::span<const std::uint64_t> ticks) const;
-  void expect_verified_answers(const Timed& timed);
-  void judge(Truths& truths, Truths* stored);
+  void expect_verified_answers(const workers::Timed& timed);
+  void judge(ground_truth::GroundTruths& truths, ground_truth::GroundTruths* rounded);
 
-  const WorkerStage& stage_;
+  const workers::SharedArena& arena_;
   const Effort& effort_;
-  ContestantProcess& process_;
+  workers::ContestantProcess& process_;
   ResultRow row_;
-  Task task_;
-  const SamplePlan& plan_;
-  std::vector<Window> windows_;  // those of the task, neighbours joined
+  workers::Task task_;
+  const workload::SamplePlan& plan_;
+  std::vector<workload::StepRange> ranges_;  // those of the task, neighbours joined
   double calibrated_ns_ = 0;
-  std::int64_t passes_ = 1;    // a repetition's
-  std::int64_t together_ = 1;  // passes a sample
+  std::int64_t passes_ = 1;   // a repetition's
+  std::int64_t replays_ = 1;  // passes a sample
   double first_pass_ns_ = 0;
   double repeating_ns_ = 0;                   // spent on repetitions
   std::vector<std::vector<double>> samples_;  // a repetition's each
@@ -86,4 +87,4 @@ class Case {
   std::vector<std::vector<double>> prepared_ns_;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::measurement

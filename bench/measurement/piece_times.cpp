@@ -8,7 +8,7 @@
 
 #include "bench/support/random.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::measurement {
 namespace {
 
 constexpr std::size_t resamples = 200;
@@ -21,7 +21,8 @@ double low_quantile(std::vector<double>& values) {
   return *at;
 }
 
-void draw_again(std::vector<std::size_t>& drawn, const std::vector<std::size_t>& from, Random& random) {
+void draw_again(std::vector<std::size_t>& drawn, const std::vector<std::size_t>& from,
+                support::Random& random) {
   drawn.clear();
   for (std::size_t i = 0; i < from.size(); ++i) drawn.push_back(from[random.below(from.size())]);
 }
@@ -75,7 +76,7 @@ double PieceTimes::total(const std::vector<double>& means) const {
 }
 
 UndisturbedTime PieceTimes::estimate(std::uint64_t seed) const {
-  Random random(seed);
+  support::Random random(seed);
   const std::vector<std::size_t> all_rounds = counted_to(rounds_.size()),
                                  all_pieces = counted_to(pieces_.size());
   std::vector<double> found;
@@ -97,4 +98,4 @@ UndisturbedTime PieceTimes::estimate(std::uint64_t seed) const {
   return {ns, std::min(ns, found[beyond]), std::max(ns, found[resamples - 1 - beyond])};
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::measurement

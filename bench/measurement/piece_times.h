@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace touchmark::bench {
+namespace touchmark::bench::measurement {
 
 /// A stretch of steps that is timed as a whole, again and again.
 struct Piece {
@@ -55,4 +55,4 @@ class PieceTimes {
   std::vector<std::vector<double>> rounds_;           ///< as they were added
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::measurement

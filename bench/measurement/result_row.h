@@ -17,7 +17,7 @@
 #include "bench/workload/answer.h"
 #include "core/detector.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::measurement {
 
 /// Fewer steps have no 99.9 %: one in a thousand of them is none.
 inline constexpr std::size_t steps_for_p999 = 1000;
@@ -30,8 +30,8 @@ struct ThroughputResult {
   double ns_per_query_first_pass = 0;  ///< fresh session; see Case::first_pass
   double cpu_ns_per_query = 0;         ///< median; without what other processes took of the core
   std::size_t repetitions = 0;
-  UndisturbedTime undisturbed{};  ///< of the whole trajectory; what contestants are ranked by
-  double disturbed_share = 0;     ///< of the samples it is from: interrupted for over a fifth of their time
+  UndisturbedTime undisturbed{};  ///< over the whole trajectory; what contestants are ranked by
+  double disturbed_share = 0;     ///< its samples that were interrupted for over a fifth of their time
 };
 
 struct WorkResult {
@@ -40,7 +40,7 @@ struct WorkResult {
   Work total;  ///< over all steps, by kind
 };
 
-/// Of at least one step; `total` is by all of them.
+/// Summarizes the work of at least one step; `total` is that of all of them.
 inline WorkResult summarize_work(std::span<const std::uint64_t> work, const Work& total) {
   return {static_cast<double>(total.total()) / static_cast<double>(work.size()),
           *std::max_element(work.begin(), work.end()), total};
@@ -49,25 +49,26 @@ inline WorkResult summarize_work(std::span<const std::uint64_t> work, const Work
 /// Empty is what was not measured, because the contestant did not come so far.
 struct ResultRow {
   std::string detector;
-  std::string options;  ///< those written out: "key=value,..."
+  std::string options;  ///< as written out: "key=value,..."
   std::string mesh;
   std::size_t triangles = 0;
   std::string trajectory;
-  Query query = Query::nearest;
+  workload::Query query = workload::Query::nearest;
   std::size_t steps = 0;      ///< replayed, timed and verified
   double radius = 0;          ///< mesh units
   double reach = 0;           ///< mesh units
-  std::string status = "ok";  ///< or unsupported, refused: ..., crashed:..., timeout, checksum mismatch
+  std::string status = "ok";  ///< else unsupported, refused: ..., crashed:..., timeout, checksum mismatch
 
   std::optional<Guarantee>
       claimed;  ///< by the contestant's entry, so known of one that never came to be built
-  std::optional<Accuracy> accuracy;   ///< as claimed once it was built
-  std::optional<Tally> tally;         ///< as found
-  std::optional<Tally> stored_tally;  ///< the same by the mesh that its library keeps, where that is another
+  std::optional<Accuracy> accuracy;           ///< as claimed once it was built
+  std::optional<oracle::ErrorCounts> counts;  ///< as found
+  std::optional<oracle::ErrorCounts>
+      rounded_scene_counts;  ///< by the mesh that its library keeps, where that is another
   std::optional<ThroughputResult> throughput;
   std::optional<LatencySummary> latency;
-  std::optional<LatencySummary> prepare;  ///< between steps, where the contestant does that
-  std::vector<WrongAnswer> wrong;         ///< the first ones of those that were charged
+  std::optional<LatencySummary> prepare;         ///< between steps, where the contestant does that
+  std::vector<ground_truth::WrongAnswer> wrong;  ///< the first ones of those that were charged
   std::string repeat;  ///< the command that prints the answer to a step, up to the step's number
   double clock_cost_ns = 0;
   std::optional<double> build_ms;
@@ -85,21 +86,24 @@ struct ResultRow {
   }
   bool claims_exactness() const { return claim() == Guarantee::exact; }
   /// It was judged, and did not do what it claims.
-  bool broke_its_word() const { return accuracy && tally && !keeps_its_word(*tally, *accuracy); }
+  bool violates_guarantee() const {
+    return accuracy && counts && !oracle::meets_guarantee(*counts, *accuracy);
+  }
 };
 
 /// What all who claim exactness must agree on: contact or none, and for `nearest` the triangle. Distances may
 /// differ in their last bits. Nothing for others, and for those that name any of several triangles equally
 /// near.
-inline std::optional<std::uint64_t> decisions_checksum_of(Query query, std::span<const Answer> answers,
+inline std::optional<std::uint64_t> decisions_checksum_of(workload::Query query,
+                                                          std::span<const workload::Answer> answers,
                                                           const Accuracy& accuracy) {
   if (accuracy.guarantee != Guarantee::exact) return std::nullopt;
-  if (query == Query::nearest && !accuracy.names_exactly) return std::nullopt;
-  Checksum checksum;
-  for (const Answer& answer : answers) {
-    Answer decision;
+  if (query == workload::Query::nearest && !accuracy.names_exactly) return std::nullopt;
+  workload::Checksum checksum;
+  for (const workload::Answer& answer : answers) {
+    workload::Answer decision;
     decision.found = answer.found;
-    if (query == Query::nearest) decision.triangle = answer.triangle;
+    if (query == workload::Query::nearest) decision.triangle = answer.triangle;
     checksum.add(decision);
   }
   return checksum.value();
@@ -113,9 +117,9 @@ inline std::optional<double> p999_of(const ResultRow& row, const std::optional<L
 
 /// How many answers found contact with the wrong distance, point, normal or side: at least so many, since one
 /// answer is counted under each of them.
-inline std::uint64_t answers_off(const Tally& tally) noexcept {
-  return std::max({tally.beyond_bound, tally.wrong_point, tally.wrong_normal, tally.wrong_side}) +
-         tally.malformed;
+inline std::uint64_t answers_off(const oracle::ErrorCounts& counts) noexcept {
+  return std::max({counts.beyond_bound, counts.wrong_point, counts.wrong_normal, counts.wrong_side}) +
+         counts.malformed;
 }
 
 /// As claimed; empty where it is not known.
@@ -133,4 +137,4 @@ inline std::string_view guarantee_name(std::optional<Guarantee> claim) noexcept 
 }
 inline std::string_view guarantee_name(const ResultRow& row) noexcept { return guarantee_name(row.claim()); }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::measurement

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace touchmark::bench {
+namespace touchmark::bench::measurement {
 
 std::optional<Control> control_of(const ResultRow& row, const ResultRow& control) {
   if (!row.throughput || !control.throughput) return std::nullopt;
@@ -27,11 +27,11 @@ const ResultRow* fastest_exact(const std::vector<ResultRow>& rows) {
   const ResultRow* best = nullptr;
   for (const ResultRow& row : rows) {
     const bool eligible = row.throughput && row.accuracy && row.accuracy->guarantee == Guarantee::exact &&
-                          !row.broke_its_word();
+                          !row.violates_guarantee();
     if (!eligible) continue;
     if (best == nullptr || row.throughput->undisturbed.ns < best->throughput->undisturbed.ns) best = &row;
   }
   return best;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::measurement

@@ -8,7 +8,7 @@
 
 #include "bench/measurement/result_row.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::measurement {
 
 /// Times further apart than this are told apart; nearer ones are not.
 inline constexpr double resolution = 1.15;
@@ -23,10 +23,10 @@ struct Control {
   bool ties() const noexcept { return ratio <= resolution && ratio * resolution >= 1; }
 };
 
-/// Of the rows of one trajectory and query.
+/// Says how steady the rows of one trajectory and query are.
 struct Steadiness {
   std::string mesh, trajectory;
-  Query query = Query::nearest;
+  workload::Query query = workload::Query::nearest;
   double disturbed_share = 0;  ///< the mean over the rows with times
   std::optional<Control> control;
 
@@ -39,7 +39,7 @@ std::optional<Control> control_of(const ResultRow& row, const ResultRow& control
 /// At least one row.
 Steadiness steadiness_of(const std::vector<ResultRow>& rows, std::optional<Control> control);
 
-/// Of them the fastest that claims exactness and was right; null where there is none with times.
+/// Returns the fastest row that claims exactness and was right; null where there is none with times.
 const ResultRow* fastest_exact(const std::vector<ResultRow>& rows);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::measurement

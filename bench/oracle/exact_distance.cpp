@@ -6,7 +6,7 @@
 
 #include "bench/oracle/exact_integers.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
 namespace {
 
 using exact::Grid;
@@ -170,4 +170,4 @@ std::strong_ordering compare_distance(const Vec3& point, const Triangle& triangl
   return exact::order(foot.square.numerator, Integer(r * r * foot.square.denominator));
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

@@ -10,13 +10,13 @@
 
 #include "bench/oracle/triangle.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
 
 /// The distance to the nearest of some triangles.
 struct ExactNearest {
   std::size_t which = 0;      ///< its place in the list; of several at exactly the same distance the first
   double high = 0;            ///< the distance, as a sum of two doubles: high is it rounded to nearest
-  double low = 0;             ///< and high + low is off by less than 2^-100 of it or one smallest double
+  double low = 0;             ///< high + low is off by less than 2^-100 of it or one smallest double
   Vec3 point = Vec3::Zero();  ///< the nearest point of that triangle, each coordinate within one ulp
   Vec3 direction = Vec3::Zero();  ///< unit, from the nearest point to the query point, to a few ulp; zero
                                   ///< where the distance is exactly zero
@@ -33,13 +33,13 @@ std::strong_ordering compare_distance(const Vec3& point, const Triangle& triangl
 std::strong_ordering compare_segment_distance(const Vec3& from, const Vec3& to, const Triangle& triangle,
                                               double radius);
 
-/// Compares the distance to the part of the way from `from` to `to` up to `fraction` in [0, 1], which ends at
-/// the very point from + fraction (to - from), be it a double or not.
+/// Compares the distance to the part of the path from `from` to `to` up to `fraction` in [0, 1], which ends
+/// at the very point from + fraction (to - from), be it a double or not.
 std::strong_ordering compare_part_distance(const Vec3& from, const Vec3& to, double fraction,
                                            const Triangle& triangle, double radius);
 
 /// Compares the distance to the last point of that part alone.
-std::strong_ordering compare_distance_on_way(const Vec3& from, const Vec3& to, double fraction,
-                                             const Triangle& triangle, double radius);
+std::strong_ordering compare_distance_on_path(const Vec3& from, const Vec3& to, double fraction,
+                                              const Triangle& triangle, double radius);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

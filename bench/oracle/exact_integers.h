@@ -14,7 +14,7 @@
 
 #include "bench/oracle/triangle.h"
 
-namespace touchmark::bench::exact {
+namespace touchmark::bench::oracle::exact {
 
 using Integer = mpz_class;
 
@@ -81,4 +81,4 @@ class Grid {
   int exponent_ = INT_MAX;
 };
 
-}  // namespace touchmark::bench::exact
+}  // namespace touchmark::bench::oracle::exact

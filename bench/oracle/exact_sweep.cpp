@@ -7,16 +7,16 @@
 #include "bench/oracle/exact_distance.h"
 #include "bench/oracle/exact_integers.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
 namespace {
 
 using exact::Grid;
 using exact::Integer;
 using exact::Vector;
 
-/// `way` is the segment, from the origin; `w` are the triangle's corners.
+/// `path` is the segment, from the origin; `w` are the triangle's corners.
 struct Configuration {
-  Vector way;
+  Vector path;
   std::array<Vector, 3> w;
   Integer squared_radius;
 };
@@ -24,13 +24,13 @@ struct Configuration {
 bool cross_through_the_face(const Configuration& c) {
   const Vector normal = cross(c.w[1] - c.w[0], c.w[2] - c.w[0]);
   const Integer start = -dot(c.w[0], normal);
-  const Integer drop = -dot(c.way, normal);  // start - end
+  const Integer drop = -dot(c.path, normal);  // start - end
   // In the plane (or no plane): if they meet at all, then at an end, a corner or an edge.
   if (drop == 0) return false;
   const bool reaches = drop > 0 ? (start >= 0 && start <= drop) : (start <= 0 && start >= drop);
   if (!reaches) return false;
-  // The crossing point is start / drop of the way. Times drop, which squared is positive:
-  const Vector q = scaled(start, c.way);
+  // The crossing point is start / drop of the path. Times drop, which squared is positive:
+  const Vector q = scaled(start, c.path);
   std::array<Vector, 3> from_q;
   for (std::size_t i = 0; i < 3; ++i) from_q[i] = scaled(drop, c.w[i]) - q;
   for (std::size_t i = 0; i < 3; ++i)
@@ -38,38 +38,39 @@ bool cross_through_the_face(const Configuration& c) {
   return true;
 }
 
-/// How the distance between the insides of the way and of an edge compares; greater if the least distance of
+/// How the distance between the insides of the path and of an edge compares; greater if the least distance of
 /// their lines is not inside both.
 std::strong_ordering compare_inside(const Configuration& c, const Vector& w, const Vector& v) {
   const Vector edge = v - w;
-  const Vector normal = cross(c.way, edge);
+  const Vector normal = cross(c.path, edge);
   const Integer determinant = dot(normal, normal);
   if (determinant == 0) return std::strong_ordering::greater;
-  // Least |w + t edge - s way|^2: s way.way - t way.edge = way.w and -s way.edge + t edge.edge = -edge.w.
-  const Integer a = dot(c.way, c.way), b = dot(c.way, edge), e = dot(edge, edge);
-  const Integer d = dot(c.way, w), f = dot(edge, w);
+  // Least |w + t edge - s path|^2: s path.path - t path.edge = path.w and -s path.edge + t edge.edge =
+  // -edge.w.
+  const Integer a = dot(c.path, c.path), b = dot(c.path, edge), e = dot(edge, edge);
+  const Integer d = dot(c.path, w), f = dot(edge, w);
   const Integer s = d * e - b * f, t = b * d - a * f;
   if (s < 0 || s > determinant || t < 0 || t > determinant) return std::strong_ordering::greater;
   const Integer height = dot(w, normal);
   return exact::order(Integer(height * height), Integer(c.squared_radius * determinant));
 }
 
-/// How the distance between a corner and the way compares.
+/// How the distance between a corner and the path compares.
 std::strong_ordering compare_corner(const Configuration& c, const Vector& w) {
-  const Integer along = dot(w, c.way), length = dot(c.way, c.way);
+  const Integer along = dot(w, c.path), length = dot(c.path, c.path);
   if (along <= 0) return exact::order(dot(w, w), c.squared_radius);
   if (along >= length) {
-    const Vector to_end = w - c.way;
+    const Vector to_end = w - c.path;
     return exact::order(dot(to_end, to_end), c.squared_radius);
   }
-  const Vector moment = cross(w, c.way);
+  const Vector moment = cross(w, c.path);
   return exact::order(dot(moment, moment), Integer(c.squared_radius * length));
 }
 
-/// How the distance between the way's end and the triangle compares: over the face to the plane, else to the
+/// How the distance between the path's end and the triangle compares: over the face to the plane, else to the
 /// nearest of its sides.
 std::strong_ordering compare_end(const Configuration& c) {
-  const std::array<Vector, 3> w = {c.w[0] - c.way, c.w[1] - c.way, c.w[2] - c.way};
+  const std::array<Vector, 3> w = {c.w[0] - c.path, c.w[1] - c.path, c.w[2] - c.path};
   const Vector normal = cross(w[1] - w[0], w[2] - w[0]);
   bool over_face = !exact::is_zero(normal);
   for (std::size_t i = 0; i < 3 && over_face; ++i) over_face = dot(cross(w[i], w[(i + 1) % 3]), normal) >= 0;
@@ -79,7 +80,7 @@ std::strong_ordering compare_end(const Configuration& c) {
   }
   std::strong_ordering least = std::strong_ordering::greater;
   for (std::size_t i = 0; i < 3; ++i) {
-    // From a corner's point of view the side is a way, and the end a corner.
+    // From a corner's point of view the side is a path, and the end a corner.
     const Vector& from = w[i];
     const Configuration side{w[(i + 1) % 3] - from, {}, c.squared_radius};
     least = exact::lesser(least, compare_corner(side, Vector{0, 0, 0} - from));
@@ -87,7 +88,8 @@ std::strong_ordering compare_end(const Configuration& c) {
   return least;
 }
 
-/// The part of the way as seen from its start, on a grid as much finer as the fraction's last digit asks for.
+/// The part of the path as seen from its start, on a grid as much finer as the fraction's last digit asks
+/// for.
 Configuration part_of(const Vec3& from, const Vec3& to, double fraction, const Triangle& triangle,
                       double radius) {
   Grid grid;
@@ -107,8 +109,8 @@ Configuration part_of(const Vec3& from, const Vec3& to, double fraction, const T
 
 }  // namespace
 
-std::strong_ordering compare_distance_on_way(const Vec3& from, const Vec3& to, double fraction,
-                                             const Triangle& triangle, double radius) {
+std::strong_ordering compare_distance_on_path(const Vec3& from, const Vec3& to, double fraction,
+                                              const Triangle& triangle, double radius) {
   if (std::isinf(radius)) return std::strong_ordering::less;
   return compare_end(part_of(from, to, fraction, triangle, radius));
 }
@@ -151,4 +153,4 @@ std::strong_ordering compare_segment_distance(const Vec3& from, const Vec3& to, 
   return least;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

@@ -14,7 +14,7 @@
 #include "bench/oracle/exact_integers.h"
 #include "bench/support/random.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
 namespace {
 
 using exact::Grid;
@@ -24,7 +24,7 @@ using exact::Vector;
 /// No coordinate beyond 2^20, so that doubles and integers hold it alike.
 using Direction = std::array<int, 3>;
 
-Direction draw(Random& random) {
+Direction draw(support::Random& random) {
   const auto coordinate = [&] { return static_cast<int>(random.below(1 << 21)) - (1 << 20); };
   const int x = coordinate(), y = coordinate(), z = coordinate();
   return {x, y, z | 1};
@@ -38,8 +38,8 @@ bool may_contain(const Triangle& t, const Vec3& p) {
   return true;
 }
 
-/// Do doubles show that the line misses the triangle? Their signs of direction . (w_i x w_j), two of them
-/// surely opposite.
+/// Returns true if doubles show that the line misses the triangle, by their signs of direction . (w_i x w_j),
+/// two of them surely opposite.
 bool surely_missed(const Triangle& t, const Vec3& p, const Direction& direction) {
   constexpr double roundings = 16 * std::numeric_limits<double>::epsilon();
   const Vec3 along(direction[0], direction[1], direction[2]);
@@ -101,14 +101,14 @@ std::optional<int> along_ray(const Vec3& p, std::span<const Triangle> triangles,
   return winding;
 }
 
-/// Sides that run one way cancel those that run back. (-0 and 0 are one place.)
+/// Sides that run one way cancel those that run back. (-0 and 0 are one position.)
 bool is_closed(std::span<const Triangle> triangles) {
-  using Place = std::array<double, 3>;
-  const auto place = [](const Vec3& v) { return Place{v.x() + 0.0, v.y() + 0.0, v.z() + 0.0}; };
-  std::map<std::pair<Place, Place>, int> balance;
+  using Coordinates = std::array<double, 3>;
+  const auto coordinates = [](const Vec3& v) { return Coordinates{v.x() + 0.0, v.y() + 0.0, v.z() + 0.0}; };
+  std::map<std::pair<Coordinates, Coordinates>, int> balance;
   for (const Triangle& t : triangles) {
     for (std::size_t i = 0; i < 3; ++i) {
-      const Place a = place(t[i]), b = place(t[(i + 1) % 3]);
+      const Coordinates a = coordinates(t[i]), b = coordinates(t[(i + 1) % 3]);
       if (a < b) ++balance[{a, b}];
       if (b < a) --balance[{b, a}];
     }
@@ -132,7 +132,7 @@ bool has_negative_volume(std::span<const Triangle> triangles) {
 std::optional<int> winding_exactly(const Vec3& point, std::span<const Triangle> triangles) {
   for (const Triangle& t : triangles)
     if (may_contain(t, point) && compare_distance(point, t, 0) == 0) return std::nullopt;
-  Random random(20);
+  support::Random random(20);
   for (;;) {
     const std::optional<int> winding = along_ray(point, triangles, draw(random));
     if (winding) return winding;
@@ -153,4 +153,4 @@ Side ExactSides::side(const Vec3& point) const {
   return inside_out_ ? Side::outside : Side::inside;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

@@ -9,7 +9,7 @@
 
 #include "bench/oracle/triangle.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
 
 /// Every edge must have as many triangles one way as the other; nothing where the point is on a triangle.
 /// Finite coordinates. Looks at every triangle.
@@ -20,10 +20,10 @@ class ExactSides {
  public:
   explicit ExactSides(const TriangleMesh& mesh);
 
-  /// Does every edge, by the places of its ends, have as many triangles one way as the other?
+  /// Returns true if every edge, by the positions of its ends, has as many triangles one way as the other.
   bool closed() const noexcept { return closed_; }
-  /// Of a closed mesh, for a finite point. By what core/sign/side_finder.h means: with a negative volume the
-  /// space all round is inside. Undecided where shells contradict each other.
+  /// Returns the side of a finite point, for a closed mesh, as core/sign/side_finder.h defines it: with a
+  /// negative volume the space all round is inside. Undecided where shells contradict each other.
   Side side(const Vec3& point) const;
 
  private:
@@ -32,4 +32,4 @@ class ExactSides {
   bool inside_out_ = false;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

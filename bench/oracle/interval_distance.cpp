@@ -9,7 +9,7 @@
 
 #include <Eigen/Geometry>
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
 namespace {
 
 // How the bounds come about. Let W be the corners relative to the point (for a segment: relative to either
@@ -73,13 +73,13 @@ void offer_triangle(const Corners& w, const Vec3& normal, Shortest& shortest) no
   if (const std::optional<Vec3> foot = on_face(w, normal)) shortest.offer(*foot);
 }
 
-/// The insides of the way (w0 to w1, v0 to v1: the same edge seen from both ends) and of an edge.
+/// The insides of the path (w0 to w1, v0 to v1: the same edge seen from both ends) and of an edge.
 void offer_edge(const Vec3& w0, const Vec3& v0, const Vec3& w1, const Vec3& v1, Shortest& shortest) noexcept {
-  const Vec3 edge = v0 - w0, way = w0 - w1;
-  const double a = way.squaredNorm(), b = way.dot(edge), e = edge.squaredNorm();
+  const Vec3 edge = v0 - w0, path = w0 - w1;
+  const double a = path.squaredNorm(), b = path.dot(edge), e = edge.squaredNorm();
   const double determinant = a * e - b * b;
   if (!(determinant > 0)) return;
-  const double d = way.dot(w0), f = edge.dot(w0);
+  const double d = path.dot(w0), f = edge.dot(w0);
   const double s = std::clamp((d * e - b * f) / determinant, 0.0, 1.0);
   const Vec3 w = w0 + s * (w1 - w0), v = v0 + s * (v1 - v0);
   shortest.offer(on_segment(w, v));
@@ -176,4 +176,4 @@ Interval segment_distance_interval(const Vec3& from, const Vec3& to, const Trian
   return scaled_back(bounds(shortest, normal, hull), exponent);
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

@@ -3,7 +3,7 @@
 
 #include "bench/oracle/triangle.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
 
 /// The true distance lies in [lo, hi]; 0 <= lo <= hi, hi may be infinite.
 struct Interval {
@@ -17,4 +17,4 @@ Interval distance_interval(const Vec3& point, const Triangle& triangle) noexcept
 /// From the segment `from`-`to` to a triangle, M being the largest distance from an end to a corner.
 Interval segment_distance_interval(const Vec3& from, const Vec3& to, const Triangle& triangle) noexcept;
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

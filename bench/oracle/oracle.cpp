@@ -12,7 +12,7 @@
 #include "bench/oracle/parallel.h"
 #include "bench/oracle/triangle_tree.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -29,9 +29,9 @@ double largest_difference(const Vec3& point, const Triangle& triangle) noexcept 
   return largest;
 }
 
-/// Is every point x of the triangle surely farther from `point` than `witness` q is? So it is when
-/// (p - q).(x - q) < 0, as |p - x|^2 = |p - q|^2 - 2 (p - q).(x - q) + |x - q|^2. From far away this tells
-/// triangles apart by their own size's rounding, where the distances themselves drown in theirs.
+/// Returns true if every point x of the triangle is surely farther from `point` than `witness` q is. So it is
+/// when (p - q).(x - q) < 0, as |p - x|^2 = |p - q|^2 - 2 (p - q).(x - q) + |x - q|^2. From far away this
+/// tells triangles apart by their own size's rounding, where the distances themselves drown in theirs.
 bool surely_farther(const Triangle& triangle, const Vec3& witness, const Vec3& point) noexcept {
   constexpr double roundings = 8 * unit_roundoff;  // two differences, three products and sums, two lengths
   const Vec3 to_point = point - witness;
@@ -50,7 +50,7 @@ Vec3 nearest_corner(std::span<const Triangle> triangles, const Vec3& point) noex
   return nearest;
 }
 
-/// Is the distance between the segment and the triangle at most `radius`? Exact.
+/// Returns true if the distance between the segment and the triangle is at most `radius`. Exact.
 bool segment_is_within(const Vec3& from, const Vec3& to, const Triangle& triangle, double radius) {
   const Interval distance = segment_distance_interval(from, to, triangle);
   if (distance.hi <= radius) return true;
@@ -58,8 +58,8 @@ bool segment_is_within(const Vec3& from, const Vec3& to, const Triangle& triangl
   return compare_segment_distance(from, to, triangle, radius) <= 0;
 }
 
-Truth truth_of(const Vec3& center, std::uint32_t index, const Triangle& triangle,
-               const ExactNearest& nearest) {
+GroundTruth truth_of(const Vec3& center, std::uint32_t index, const Triangle& triangle,
+                     const ExactNearest& nearest) {
   return {true,
           index,
           nearest.high,
@@ -78,7 +78,7 @@ struct Oracle::Structure {
   mutable std::once_flag sides_asked{};
   mutable std::optional<ExactSides> sides = std::nullopt;  // made when first asked for
 
-  Truth nearest(const Vec3& center, std::optional<std::uint32_t> hint) const;
+  GroundTruth nearest(const Vec3& center, std::optional<std::uint32_t> hint) const;
   std::vector<Candidate> candidates(const Vec3& center, std::optional<std::uint32_t> hint) const;
 };
 
@@ -104,7 +104,7 @@ std::vector<Candidate> Oracle::Structure::candidates(const Vec3& center,
   return found;
 }
 
-Truth Oracle::Structure::nearest(const Vec3& center, std::optional<std::uint32_t> hint) const {
+GroundTruth Oracle::Structure::nearest(const Vec3& center, std::optional<std::uint32_t> hint) const {
   if (!center.allFinite()) return {};
   std::vector<std::uint32_t> indices;
   std::vector<Triangle> triangles;
@@ -137,8 +137,8 @@ Oracle& Oracle::operator=(Oracle&&) noexcept = default;
 const TriangleMesh& Oracle::mesh() const noexcept { return *structure_->mesh; }
 unsigned Oracle::threads() const noexcept { return structure_->threads; }
 
-std::vector<Truth> Oracle::solve(std::span<const Probe> probes) const {
-  std::vector<Truth> truths(probes.size());
+std::vector<GroundTruth> Oracle::solve(std::span<const Probe> probes) const {
+  std::vector<GroundTruth> truths(probes.size());
   in_parallel(probes.size(), threads(), [&](std::size_t begin, std::size_t end) {
     std::optional<std::uint32_t> hint;
     for (std::size_t i = begin; i < end; ++i) {
@@ -152,29 +152,29 @@ std::vector<Truth> Oracle::solve(std::span<const Probe> probes) const {
   return truths;
 }
 
-std::vector<SweepTruth> Oracle::solve(std::span<const Sweep> sweeps) const {
-  std::vector<SweepTruth> truths(sweeps.size());
+std::vector<SweepGroundTruth> Oracle::solve(std::span<const Sweep> sweeps) const {
+  std::vector<SweepGroundTruth> truths(sweeps.size());
   in_parallel(sweeps.size(), threads(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) truths[i] = solve(sweeps[i]);
   });
   return truths;
 }
 
-Truth Oracle::solve(const Vec3& center) const { return structure_->nearest(center, std::nullopt); }
+GroundTruth Oracle::solve(const Vec3& center) const { return structure_->nearest(center, std::nullopt); }
 
-Truth Oracle::solve(const Vec3& center, std::uint32_t triangle) const {
+GroundTruth Oracle::solve(const Vec3& center, std::uint32_t triangle) const {
   if (!center.allFinite()) return {};
   const Triangle corners = triangle_of(mesh(), triangle);
   return truth_of(center, triangle, corners, nearest_exactly(center, {&corners, 1}));
 }
 
-SweepTruth Oracle::solve(const Sweep& sweep) const {
+SweepGroundTruth Oracle::solve(const Sweep& sweep) const {
   if (!sweep.from.allFinite() || !sweep.to.allFinite()) return {};
   const bool touching = segment_within(sweep.from, sweep.from, sweep.radius);
   return {true, touching || segment_within(sweep.from, sweep.to, sweep.radius), touching};
 }
 
-bool Oracle::within(const Truth& truth, const Vec3& center, double radius) const {
+bool Oracle::within(const GroundTruth& truth, const Vec3& center, double radius) const {
   if (!truth.defined || !(radius >= 0)) return false;
   // Rounding to nearest is monotone, so only equality leaves a doubt, and then `low` tells; unless it is
   // itself below what it is accurate to, or the result too small for either to be.
@@ -251,15 +251,15 @@ bool Oracle::touches_before(const Sweep& sweep, double fraction) const {
     const std::strong_ordering order = compare_part_distance(from, to, fraction, triangle, radius);
     if (order != 0) return order < 0;
     // At the very radius: only from here on?
-    return compare_distance_on_way(from, to, fraction, triangle, radius) != 0 ||
+    return compare_distance_on_path(from, to, fraction, triangle, radius) != 0 ||
            compare_part_distance(from, to, std::nextafter(fraction, 0), triangle, radius) <= 0;
   };
   return fraction > 0 && any_near(sweep, fraction, false, radius, touched);
 }
 
-bool Oracle::within_on_way(const Sweep& sweep, double fraction, double radius) const {
+bool Oracle::within_on_path(const Sweep& sweep, double fraction, double radius) const {
   return any_near(sweep, fraction, true, radius, [&](const Triangle& triangle) {
-    return compare_distance_on_way(sweep.from, sweep.to, fraction, triangle, radius) <= 0;
+    return compare_distance_on_path(sweep.from, sweep.to, fraction, triangle, radius) <= 0;
   });
 }
 
@@ -296,4 +296,4 @@ std::vector<std::uint32_t> Oracle::all_within(const Vec3& center, double radius)
   return found;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

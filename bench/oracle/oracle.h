@@ -13,23 +13,23 @@
 #include "core/probe.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
 
 /// The truth about one position. It does not depend on radius or reach, so one serves every query there.
-struct Truth {
+struct GroundTruth {
   bool defined = false;           ///< false when a coordinate of the centre is not finite: it touches nothing
   std::uint32_t triangle = 0;     ///< position in the mesh of a nearest triangle; of exact ties the lowest
   double high = 0;                ///< the distance rounded to nearest; infinite if beyond all doubles
   double low = 0;                 ///< high + low is the distance to 2^-100 of it
   Vec3 point = Vec3::Zero();      ///< the nearest point of `triangle`, rounded
   Vec3 direction = Vec3::Zero();  ///< unit, from `point` to the centre; zero where the distance is exactly 0
-  double largest_difference = 0;  ///< of the coordinates of the centre and of the corners of `triangle`
+  double largest_difference = 0;  ///< between coordinates of the centre and of the corners of `triangle`
 };
 
 /// The truth about one sweep.
-struct SweepTruth {
+struct SweepGroundTruth {
   bool defined = false;            ///< false when a coordinate is not finite: it hits nothing
-  bool hit = false;                ///< the way comes within the radius of the mesh, exactly
+  bool hit = false;                ///< the path comes within the radius of the mesh, exactly
   bool touching_at_start = false;  ///< it already is there at the start, exactly
 };
 
@@ -43,34 +43,36 @@ class Oracle {
   Oracle& operator=(Oracle&&) noexcept;
 
   /// One truth a probe, in order. To be computed once a trajectory and used for every contestant.
-  std::vector<Truth> solve(std::span<const Probe> probes) const;
-  std::vector<SweepTruth> solve(std::span<const Sweep> sweeps) const;
+  std::vector<GroundTruth> solve(std::span<const Probe> probes) const;
+  std::vector<SweepGroundTruth> solve(std::span<const Sweep> sweeps) const;
 
-  Truth solve(const Vec3& center) const;
-  SweepTruth solve(const Sweep& sweep) const;
+  GroundTruth solve(const Vec3& center) const;
+  SweepGroundTruth solve(const Sweep& sweep) const;
 
-  /// Is the distance at most `radius`? `truth` must be of `center`. Exact; false for a radius below 0 or NaN.
-  bool within(const Truth& truth, const Vec3& center, double radius) const;
-  /// Is the distance from `center` to this one triangle at most `radius`? Exact likewise.
+  /// Returns true if the distance is at most `radius`. `truth` must be of `center`. Exact; false for a radius
+  /// below 0 or NaN.
+  bool within(const GroundTruth& truth, const Vec3& center, double radius) const;
+  /// Returns true if the distance from `center` to this one triangle is at most `radius`. Exact likewise.
   bool within(std::uint32_t triangle, const Vec3& center, double radius) const;
-  /// Does the segment come within `radius` of the mesh? Exact likewise; false when a coordinate is not
-  /// finite.
+  /// Returns true if the segment comes within `radius` of the mesh. Exact likewise; false when a coordinate
+  /// is not finite.
   bool segment_within(const Vec3& from, const Vec3& to, double radius) const;
 
-  /// Does the sweep touch before that fraction of its way, of the points from + fraction (to - from) as they
-  /// are, none rounded? Exact likewise; but a ball that slides at the very radius since less than the
-  /// fraction's last digit ago is taken to touch there.
+  /// Returns true if the sweep touches before that fraction of its path, of the points from + fraction (to -
+  /// from) as they are, none rounded. Exact likewise; but a ball that slides at the very radius since less
+  /// than the fraction's last digit ago is taken to touch there.
   bool touches_before(const Sweep& sweep, double fraction) const;
-  /// Is the point at that fraction of the way, not rounded, within `radius` of the mesh? Exact likewise.
-  bool within_on_way(const Sweep& sweep, double fraction, double radius) const;
+  /// Returns true if the point at that fraction of the path, not rounded, is within `radius` of the mesh.
+  /// Exact likewise.
+  bool within_on_path(const Sweep& sweep, double fraction, double radius) const;
 
-  /// Does the segment pass through a triangle so well that no displacement of either by less than `margin`
-  /// could part them: the ends and the triangle's edges keep more than `margin` away? Exact likewise.
-  /// (Through the edge between two triangles is not through either.)
+  /// Returns true if the segment passes through a triangle so well that no displacement of either by less
+  /// than `margin` could part them: the ends and the triangle's edges keep more than `margin` away. Exact
+  /// likewise. (Through the edge between two triangles is not through either.)
   bool surely_crosses(const Vec3& from, const Vec3& to, double margin) const;
 
   /// The truth about `center` and this one triangle.
-  Truth solve(const Vec3& center, std::uint32_t triangle) const;
+  GroundTruth solve(const Vec3& center, std::uint32_t triangle) const;
   /// On which side a finite point is; nothing where the mesh is not closed. Looks at every triangle.
   std::optional<Side> side(const Vec3& center) const;
   /// Every triangle whose distance to `center` is at most `radius`, ascending. Exact.
@@ -81,12 +83,12 @@ class Oracle {
 
  private:
   struct Structure;
-  /// Is there one, of the triangles near to the way up to the fraction (or only to its end), of which that
-  /// holds?
+  /// Returns true if there is one, of the triangles near to the path up to the fraction (or only to its end),
+  /// of which that holds.
   template <class Holds>
   bool any_near(const Sweep& sweep, double fraction, bool only_end, double radius, const Holds& holds) const;
 
   std::unique_ptr<const Structure> structure_;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

@@ -6,7 +6,7 @@
 #include <future>
 #include <vector>
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
 
 /// Calls work(begin, end) for consecutive pieces of [0, size) from several threads. Rethrows what `work`
 /// throws.
@@ -27,4 +27,4 @@ void in_parallel(std::size_t size, unsigned threads, const Work& work) {
   for (std::future<void>& other : others) other.get();
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

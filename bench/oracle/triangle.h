@@ -7,7 +7,7 @@
 #include "core/probe.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
 
 /// Three corners as stored, any of which may coincide or be collinear.
 using Triangle = std::array<Vec3, 3>;
@@ -16,4 +16,4 @@ inline Triangle triangle_of(const TriangleMesh& mesh, std::uint32_t index) {
   return {mesh.corner(index, 0), mesh.corner(index, 1), mesh.corner(index, 2)};
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

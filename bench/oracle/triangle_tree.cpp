@@ -6,7 +6,7 @@
 
 #include "bench/oracle/interval_distance.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
 namespace {
 
 constexpr std::uint32_t leaf_size = 8;
@@ -24,7 +24,7 @@ double length_below(const Vec3& excess) noexcept {
   return std::min(excess.maxCoeff(), std::numeric_limits<double>::max()) * down;
 }
 
-/// The same rounded up.
+/// Returns the length of `excess`, rounded up.
 double length_above(const Vec3& excess) noexcept {
   const double squared = excess.squaredNorm();
   if (squared > 0x1p-900) return std::sqrt(squared) * up;
@@ -44,13 +44,13 @@ double distance_below(const Box& box, const Vec3& point) noexcept {
 
 double distance_below(const Box& box, const Vec3& from, const Vec3& to) noexcept {
   const Vec3 low = from.cwiseMin(to), high = from.cwiseMax(to);
-  const double apart = length_below((box.min - high).cwiseMax(low - box.max).cwiseMax(0));
-  // A slanting way's own box says little: measure to a ball around the box instead.
+  const double from_box = length_below((box.min - high).cwiseMax(low - box.max).cwiseMax(0));
+  // A slanting path's own box says little: measure to a ball around the box instead.
   const Vec3 center = 0.5 * box.min + 0.5 * box.max;
   const double radius = length_above((box.max - center).cwiseMax(center - box.min));
   const Interval to_center = segment_distance_interval(from, to, {center, center, center});
   const double from_ball = (to_center.lo - radius) * down;
-  return from_ball > apart ? from_ball : apart;
+  return from_ball > from_box ? from_ball : from_box;
 }
 
 /// A triangle and its centroid in units of the mesh's extent. Only the shape of the tree depends on it.
@@ -135,4 +135,4 @@ void TriangleTree::build(const TriangleMesh& mesh, std::vector<Key>& keys, std::
                   0};
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

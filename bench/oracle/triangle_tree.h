@@ -10,7 +10,7 @@
 
 #include "bench/oracle/triangle.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
 
 struct Box {
   Vec3 min, max;
@@ -22,7 +22,7 @@ inline Box box_of(const Triangle& t) noexcept {
 
 /// A number not above the distance from the point to the box.
 double distance_below(const Box& box, const Vec3& point) noexcept;
-/// The same for the segment `from`-`to`.
+/// Returns a lower bound of the distance from the segment `from`-`to` to the box.
 double distance_below(const Box& box, const Vec3& from, const Vec3& to) noexcept;
 
 class TriangleTree {
@@ -41,8 +41,8 @@ class TriangleTree {
  private:
   struct Node {
     Box box;
-    std::uint32_t first;  ///< of a leaf: place in order_; else: the second child (the first one is next)
-    std::uint32_t count;  ///< of a leaf's triangles; 0: not a leaf
+    std::uint32_t first;  ///< leaf: index into order_; else: the second child (the first one is next)
+    std::uint32_t count;  ///< a leaf's triangles; 0: not a leaf
   };
   struct Key;
 
@@ -80,4 +80,4 @@ void TriangleTree::visit(const Below& below, const double& limit, const Visit& v
   }
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

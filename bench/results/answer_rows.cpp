@@ -7,40 +7,40 @@
 #include "bench/oracle/judge.h"
 #include "bench/workload/query_name.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::results {
 namespace {
 
-bool touching(Query query, const Step& step, const Answer& answer) noexcept {
+bool touching(workload::Query query, const workload::Step& step, const workload::Answer& answer) noexcept {
   if (answer.found == 0) return false;
-  return query != Query::nearest || answer.distance <= step.probe.radius;
+  return query != workload::Query::nearest || answer.distance <= step.probe.radius;
 }
 
 }  // namespace
 
-std::string answer_header(Query query, bool with_side) {
+std::string answer_header(workload::Query query, bool with_side) {
   std::string header = "step,touching,triangle,distance,point_x,point_y,point_z,normal_x,normal_y,normal_z";
-  if (query == Query::sweep) header += ",fraction";
+  if (query == workload::Query::sweep) header += ",fraction";
   if (with_side) header += ",side";
   return header + "\n";
 }
 
-void append_answer_row(std::string& rows, Query query, std::size_t index, const Step& step,
-                       const Answer& answer, bool with_side) {
+void append_answer_row(std::string& rows, workload::Query query, std::size_t index,
+                       const workload::Step& step, const workload::Answer& answer, bool with_side) {
   const auto out = std::back_inserter(rows);
   fmt::format_to(out, "{},{}", index, touching(query, step, answer) ? 1 : 0);
-  if (query == Query::touches || answer.found == 0) {
-    rows += query == Query::sweep ? ",,,,,,,,," : ",,,,,,,,";
+  if (query == workload::Query::touches || answer.found == 0) {
+    rows += query == workload::Query::sweep ? ",,,,,,,,," : ",,,,,,,,";
     rows += with_side ? ",\n" : "\n";
     return;
   }
   rows += ',';
-  if (answer.triangle != no_triangle) fmt::format_to(out, "{}", answer.triangle);
+  if (answer.triangle != oracle::no_triangle) fmt::format_to(out, "{}", answer.triangle);
   fmt::format_to(out, ",{}", answer.distance);
   for (const double x : answer.point) fmt::format_to(out, ",{}", x);
   for (const double x : answer.normal) fmt::format_to(out, ",{}", x);
-  if (query == Query::sweep) fmt::format_to(out, ",{}", answer.fraction);
-  if (with_side) fmt::format_to(out, ",{}", name_of(answer.side));
+  if (query == workload::Query::sweep) fmt::format_to(out, ",{}", answer.fraction);
+  if (with_side) fmt::format_to(out, ",{}", workload::name_of(answer.side));
   rows += '\n';
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results

@@ -3,7 +3,7 @@
 #include "bench/generated/commit.h"
 #include "bench/generated/configuration.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::results {
 
 const BuildInfo& build_info() {
   static const BuildInfo info{TOUCHMARK_VERSION, TOUCHMARK_COMMIT,     TOUCHMARK_COMPILER,
@@ -16,4 +16,4 @@ const std::vector<LibraryVersion>& library_versions() {
   return versions;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-namespace touchmark::bench {
+namespace touchmark::bench::results {
 
 struct BuildInfo {
   std::string version;     ///< the project's
-  std::string commit;      ///< of the working tree, "-dirty" appended if it was changed; or "unknown"
+  std::string commit;      ///< the working tree's, "-dirty" appended if it was changed; or "unknown"
   std::string compiler;    ///< name and version
   std::string flags;       ///< what every file was compiled with
   std::string build_type;  ///< Release, ...
@@ -24,4 +24,4 @@ const BuildInfo& build_info();
 /// Libraries found when the program was configured.
 const std::vector<LibraryVersion>& library_versions();
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results

@@ -7,7 +7,7 @@
 
 #include "bench/support/text_table.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::results {
 namespace {
 
 std::string count(std::uint64_t value) { return value == 0 ? "0" : fmt::format("{}", value); }
@@ -18,24 +18,24 @@ std::string figure(double value) {
 }
 
 /// The least of the rows' times; infinite where there is none.
-struct Least {
+struct Minima {
   double ns = std::numeric_limits<double>::infinity();
   double p999 = std::numeric_limits<double>::infinity();
 };
 
-Least least_of(const std::vector<ResultRow>& rows) {
-  Least least;
-  for (const ResultRow& row : rows) {
+Minima minima_of(const std::vector<measurement::ResultRow>& rows) {
+  Minima least;
+  for (const measurement::ResultRow& row : rows) {
     if (row.throughput) least.ns = std::min(least.ns, row.throughput->undisturbed.ns);
-    if (const auto p999 = p999_of(row, row.latency)) least.p999 = std::min(least.p999, *p999);
+    if (const auto p999 = measurement::p999_of(row, row.latency)) least.p999 = std::min(least.p999, *p999);
   }
   return least;
 }
 
-std::vector<std::string> timing_cells(const ResultRow& row, const Least& least) {
+std::vector<std::string> timing_cells(const measurement::ResultRow& row, const Minima& least) {
   if (!row.throughput) return {row.status, "", "", "", "", "", ""};
-  const UndisturbedTime& time = row.throughput->undisturbed;
-  const std::optional<double> p999 = p999_of(row, row.latency);
+  const measurement::UndisturbedTime& time = row.throughput->undisturbed;
+  const std::optional<double> p999 = measurement::p999_of(row, row.latency);
   return {figure(time.ns),
           fmt::format("{}..{}", figure(time.low), figure(time.high)),
           fmt::format("{:.1f}", time.ns / least.ns),
@@ -45,36 +45,36 @@ std::vector<std::string> timing_cells(const ResultRow& row, const Least& least) 
           figure(1e9 / time.ns)};
 }
 
-std::vector<std::string> error_cells(const ResultRow& row) {
-  if (!row.tally) return {"", "", "", "", "", ""};
-  const Tally& tally = *row.tally;
+std::vector<std::string> error_cells(const measurement::ResultRow& row) {
+  if (!row.counts) return {"", "", "", "", "", ""};
+  const oracle::ErrorCounts& counts = *row.counts;
   const std::uint64_t others =
-      std::max({tally.wrong_point, tally.wrong_normal, tally.wrong_side}) + tally.malformed;
-  return {count(tally.missed),           count(tally.false_contacts), count(tally.wrong_triangle),
-          count(tally.beyond_tolerance), count(tally.rounding),       count(others)};
+      std::max({counts.wrong_point, counts.wrong_normal, counts.wrong_side}) + counts.malformed;
+  return {count(counts.missed),           count(counts.false_contacts), count(counts.wrong_triangle),
+          count(counts.beyond_tolerance), count(counts.rounding),       count(others)};
 }
 
 /// Empty where there is none. How long a contestant may take is the user's choice, so that a timeout is none.
-std::string fault_of(const ResultRow& row) {
+std::string fault_of(const measurement::ResultRow& row) {
   if (row.status == "checksum mismatch") return "timed answers differ from verified ones";
-  if (row.broke_its_word()) return "answers are not as exact as claimed";
+  if (row.violates_guarantee()) return "answers are not as exact as claimed";
   return row.claims_exactness() && row.status.starts_with("crashed") ? row.status : "";
 }
 
-bool is_exact(const ResultRow& row) {
-  return row.accuracy && row.accuracy->guarantee == Guarantee::exact && !row.broke_its_word();
+bool is_exact(const measurement::ResultRow& row) {
+  return row.accuracy && row.accuracy->guarantee == Guarantee::exact && !row.violates_guarantee();
 }
 
 /// Too near to the fastest to be told from it.
-bool is_beside(const ResultRow& row, const ResultRow& best) {
+bool is_beside(const measurement::ResultRow& row, const measurement::ResultRow& best) {
   return is_exact(row) && row.throughput &&
-         row.throughput->undisturbed.ns <= resolution * best.throughput->undisturbed.ns;
+         row.throughput->undisturbed.ns <= measurement::resolution * best.throughput->undisturbed.ns;
 }
 
-std::string least_p999(const std::vector<ResultRow>& rows) {
-  const ResultRow* least = nullptr;
-  for (const ResultRow& row : rows) {
-    if (!is_exact(row) || !p999_of(row, row.latency)) continue;
+std::string min_p999(const std::vector<measurement::ResultRow>& rows) {
+  const measurement::ResultRow* least = nullptr;
+  for (const measurement::ResultRow& row : rows) {
+    if (!is_exact(row) || !measurement::p999_of(row, row.latency)) continue;
     if (least == nullptr || row.latency->p999 < least->latency->p999) least = &row;
   }
   if (least == nullptr) return "";
@@ -82,11 +82,11 @@ std::string least_p999(const std::vector<ResultRow>& rows) {
                      figure(least->latency->p999));
 }
 
-std::string disturbance(const Steadiness& steadiness) {
+std::string disturbance(const measurement::Steadiness& steadiness) {
   std::string line =
       fmt::format("{:.0f} % of the samples were interrupted", 100 * steadiness.disturbed_share);
   if (steadiness.control) {
-    const Control& control = *steadiness.control;
+    const measurement::Control& control = *steadiness.control;
     line += fmt::format("; control: {} once more took {:.2f} times as long [{:.2f}, {:.2f}]{}",
                         control.contestant, control.ratio, control.low, control.high,
                         control.ties() ? "" : ": no tie");
@@ -96,14 +96,14 @@ std::string disturbance(const Steadiness& steadiness) {
 
 }  // namespace
 
-std::string timing_table(const std::vector<ResultRow>& rows) {
-  const std::string off = fmt::format("off>{:g}", physical_tolerance);
-  TextTable table({"detector", "guarantee", "missed", "false", "triangle", off, "rounding", "point/normal",
-                   "ns/query", "95 %", "x fastest", "p99.9 ns", "x least p99.9", "max ns", "Hz", "build ms",
-                   "MB", "steps"});
-  const Least least = least_of(rows);
-  for (const ResultRow& row : rows) {
-    std::vector<std::string> cells{row.contestant(), std::string(guarantee_name(row))};
+std::string timing_table(const std::vector<measurement::ResultRow>& rows) {
+  const std::string off = fmt::format("off>{:g}", oracle::physical_tolerance);
+  support::TextTable table({"detector", "guarantee", "missed", "false", "triangle", off, "rounding",
+                            "point/normal", "ns/query", "95 %", "x fastest", "p99.9 ns", "x least p99.9",
+                            "max ns", "Hz", "build ms", "MB", "steps"});
+  const Minima least = minima_of(rows);
+  for (const measurement::ResultRow& row : rows) {
+    std::vector<std::string> cells{row.contestant(), std::string(measurement::guarantee_name(row))};
     for (std::string& cell : error_cells(row)) cells.push_back(std::move(cell));
     for (std::string& cell : timing_cells(row, least)) cells.push_back(std::move(cell));
     cells.push_back(row.build_ms ? figure(*row.build_ms) : "");
@@ -114,14 +114,15 @@ std::string timing_table(const std::vector<ResultRow>& rows) {
   return table.text();
 }
 
-std::string verdict(const std::vector<ResultRow>& rows, const Steadiness& steadiness) {
-  const ResultRow* best = fastest_exact(rows);
+std::string verdict(const std::vector<measurement::ResultRow>& rows,
+                    const measurement::Steadiness& steadiness) {
+  const measurement::ResultRow* best = measurement::fastest_exact(rows);
   if (best == nullptr) return "no exact contestant was timed\n";
-  const UndisturbedTime& time = best->throughput->undisturbed;
+  const measurement::UndisturbedTime& time = best->throughput->undisturbed;
   std::string line = steadiness.conclusive() ? "" : "inconclusive, the control does not tie; ";
   line += fmt::format("fastest exact: {}, {} ns a query [{}, {}] ({} Hz)", best->contestant(),
                       figure(time.ns), figure(time.low), figure(time.high), figure(1e9 / time.ns));
-  for (const ResultRow& row : rows) {
+  for (const measurement::ResultRow& row : rows) {
     if (&row != best && is_beside(row, *best))
       line += fmt::format("; not told from it: {}, {} ns", row.contestant(),
                           figure(row.throughput->undisturbed.ns));
@@ -132,13 +133,13 @@ std::string verdict(const std::vector<ResultRow>& rows, const Steadiness& steadi
                                       figure(best->latency->max / 1e3))
                         : fmt::format("; does not hold 1 kHz: {} of {} steps were late", misses, best->steps);
   }
-  return line + '\n' + least_p999(rows) + disturbance(steadiness);
+  return line + '\n' + min_p999(rows) + disturbance(steadiness);
 }
 
-std::string work_table(const std::vector<ResultRow>& rows) {
-  TextTable table(
+std::string work_table(const std::vector<measurement::ResultRow>& rows) {
+  support::TextTable table(
       {"looked at a step", "cells", "spheres", "boxes", "triangles", "of all", "most", "exact decisions"});
-  for (const ResultRow& row : rows) {
+  for (const measurement::ResultRow& row : rows) {
     if (!row.work) continue;
     const auto steps = static_cast<double>(row.steps);
     const auto a_step = [&](std::uint64_t total) { return figure(static_cast<double>(total) / steps); };
@@ -151,10 +152,10 @@ std::string work_table(const std::vector<ResultRow>& rows) {
   return table.text();
 }
 
-bool tell_faults(const std::vector<ResultRow>& rows,
-                 const std::function<std::string(const ResultRow&)>& where) {
+bool print_faults(const std::vector<measurement::ResultRow>& rows,
+                  const std::function<std::string(const measurement::ResultRow&)>& where) {
   bool faulty = false;
-  for (const ResultRow& row : rows) {
+  for (const measurement::ResultRow& row : rows) {
     const std::string fault = fault_of(row);
     if (fault.empty()) continue;
     faulty = true;
@@ -163,4 +164,4 @@ bool tell_faults(const std::vector<ResultRow>& rows,
   return faulty;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results

@@ -8,19 +8,20 @@
 #include "bench/measurement/result_row.h"
 #include "bench/measurement/steadiness.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::results {
 
 /// `rows` are those of one trajectory.
-std::string timing_table(const std::vector<ResultRow>& rows);
+std::string timing_table(const std::vector<measurement::ResultRow>& rows);
 /// Who is fastest, and who cannot be told from it; whose 99.9 % is least; how disturbed the run was.
-std::string verdict(const std::vector<ResultRow>& rows, const Steadiness& steadiness);
+std::string verdict(const std::vector<measurement::ResultRow>& rows,
+                    const measurement::Steadiness& steadiness);
 /// What a step looked at on average, and at most; the rest of the mesh was skipped. Of most rivals only the
 /// triangles are seen that they hand to a callback.
-std::string work_table(const std::vector<ResultRow>& rows);
+std::string work_table(const std::vector<measurement::ResultRow>& rows);
 
-/// Says on stderr, a line each, which rows broke their word or were timed with other answers than the
+/// Says on stderr, a line each, which rows violated their guarantee or were timed with other answers than the
 /// verified ones; `where` names a row beside its contestant. False when there are none.
-bool tell_faults(const std::vector<ResultRow>& rows,
-                 const std::function<std::string(const ResultRow&)>& where);
+bool print_faults(const std::vector<measurement::ResultRow>& rows,
+                  const std::function<std::string(const measurement::ResultRow&)>& where);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results

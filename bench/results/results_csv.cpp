@@ -8,12 +8,12 @@
 #include "bench/support/numbers.h"
 #include "bench/workload/query_name.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::results {
 namespace {
 
 struct Column {
   std::string_view name;
-  std::string (*value)(const ResultRow& row);
+  std::string (*value)(const measurement::ResultRow& row);
 };
 
 std::string exactly(double value) { return fmt::format("{}", value); }
@@ -21,74 +21,74 @@ std::string exactly(double value) { return fmt::format("{}", value); }
 std::string rounded(double value) { return fmt::format("{:.6g}", value); }
 
 template <auto Member>
-std::string count_of(const ResultRow& row) {
-  return row.tally ? fmt::format("{}", (*row.tally).*Member) : "";
+std::string count_of(const measurement::ResultRow& row) {
+  return row.counts ? fmt::format("{}", (*row.counts).*Member) : "";
 }
 
 template <auto Member>
-std::string stored_count_of(const ResultRow& row) {
-  return row.stored_tally ? fmt::format("{}", (*row.stored_tally).*Member) : "";
+std::string stored_count_of(const measurement::ResultRow& row) {
+  return row.rounded_scene_counts ? fmt::format("{}", (*row.rounded_scene_counts).*Member) : "";
 }
 
 template <auto Member>
-std::string error_of(const ResultRow& row) {
-  return row.tally ? exactly((*row.tally).*Member) : "";
+std::string error_of(const measurement::ResultRow& row) {
+  return row.counts ? exactly((*row.counts).*Member) : "";
 }
 
 template <auto Member>
-std::string throughput_of(const ResultRow& row) {
+std::string throughput_of(const measurement::ResultRow& row) {
   return row.throughput ? rounded((*row.throughput).*Member) : "";
 }
 
 template <auto Member>
-std::string latency_of(const ResultRow& row) {
+std::string latency_of(const measurement::ResultRow& row) {
   return row.latency ? rounded((*row.latency).*Member) : "";
 }
 
 template <auto Member>
-std::string prepare_of(const ResultRow& row) {
+std::string prepare_of(const measurement::ResultRow& row) {
   return row.prepare ? rounded((*row.prepare).*Member) : "";
 }
 
 template <auto Latency>
-std::string p999_in(const ResultRow& row) {
-  const std::optional<double> ns = p999_of(row, row.*Latency);
+std::string p999_in(const measurement::ResultRow& row) {
+  const std::optional<double> ns = measurement::p999_of(row, row.*Latency);
   return ns ? rounded(*ns) : "";
 }
 
 template <auto Member>
-std::string undisturbed_of(const ResultRow& row) {
+std::string undisturbed_of(const measurement::ResultRow& row) {
   return row.throughput ? rounded(row.throughput->undisturbed.*Member) : "";
 }
 
 template <std::size_t Deadline>
-std::string misses_of(const ResultRow& row) {
+std::string misses_of(const measurement::ResultRow& row) {
   return row.latency ? fmt::format("{}", row.latency->deadlines[Deadline].misses) : "";
 }
 
 template <std::size_t Deadline>
-std::string longest_run_of(const ResultRow& row) {
+std::string longest_run_of(const measurement::ResultRow& row) {
   return row.latency ? fmt::format("{}", row.latency->deadlines[Deadline].longest_run) : "";
 }
 
 template <auto Member>
-std::string optional_time(const ResultRow& row) {
+std::string optional_time(const measurement::ResultRow& row) {
   return row.*Member ? rounded(*(row.*Member)) : "";
 }
 
 template <auto Member>
-std::string optional_count(const ResultRow& row) {
+std::string optional_count(const measurement::ResultRow& row) {
   return row.*Member ? fmt::format("{}", *(row.*Member)) : "";
 }
 
 template <auto Member>
-std::string work_of(const ResultRow& row) {
+std::string work_of(const measurement::ResultRow& row) {
   if (!row.work) return "";
   return rounded(static_cast<double>(row.work->total.*Member) / static_cast<double>(row.steps));
 }
 
-using R = ResultRow;
-using Row = const ResultRow&;
+using R = measurement::ResultRow;
+using Row = const measurement::ResultRow&;
 
 // The order is the contract. schema and run_id come before these.
 constexpr std::array columns{
@@ -97,25 +97,25 @@ constexpr std::array columns{
     Column{"mesh", [](Row row) { return row.mesh; }},
     Column{"triangles", [](Row row) { return fmt::format("{}", row.triangles); }},
     Column{"trajectory", [](Row row) { return row.trajectory; }},
-    Column{"query", [](Row row) { return std::string(name_of(row.query)); }},
+    Column{"query", [](Row row) { return std::string(workload::name_of(row.query)); }},
     Column{"steps", [](Row row) { return fmt::format("{}", row.steps); }},
     Column{"radius", [](Row row) { return exactly(row.radius); }},
     Column{"reach", [](Row row) { return exactly(row.reach); }},
-    Column{"guarantee", [](Row row) { return std::string(guarantee_name(row)); }},
-    Column{"missed", count_of<&Tally::missed>},
-    Column{"false_contacts", count_of<&Tally::false_contacts>},
-    Column{"wrong_triangle", count_of<&Tally::wrong_triangle>},
-    Column{"max_distance_error", error_of<&Tally::max_distance_error>},
-    Column{"max_distance_error_ulp", error_of<&Tally::max_distance_error_ulp>},
-    Column{"max_normal_angle_deg", error_of<&Tally::max_normal_angle_deg>},
-    Column{"unresolved", count_of<&Tally::unresolved>},
+    Column{"guarantee", [](Row row) { return std::string(measurement::guarantee_name(row)); }},
+    Column{"missed", count_of<&oracle::ErrorCounts::missed>},
+    Column{"false_contacts", count_of<&oracle::ErrorCounts::false_contacts>},
+    Column{"wrong_triangle", count_of<&oracle::ErrorCounts::wrong_triangle>},
+    Column{"max_distance_error", error_of<&oracle::ErrorCounts::max_distance_error>},
+    Column{"max_distance_error_ulp", error_of<&oracle::ErrorCounts::max_distance_error_ulp>},
+    Column{"max_normal_angle_deg", error_of<&oracle::ErrorCounts::max_normal_angle_deg>},
+    Column{"unresolved", count_of<&oracle::ErrorCounts::unresolved>},
     Column{"status", [](Row row) { return row.status; }},
-    Column{"ns_per_query", throughput_of<&ThroughputResult::ns_per_query>},
-    Column{"ns_p50", latency_of<&LatencySummary::p50>},
-    Column{"ns_p90", latency_of<&LatencySummary::p90>},
-    Column{"ns_p99", latency_of<&LatencySummary::p99>},
+    Column{"ns_per_query", throughput_of<&measurement::ThroughputResult::ns_per_query>},
+    Column{"ns_p50", latency_of<&measurement::LatencySummary::p50>},
+    Column{"ns_p90", latency_of<&measurement::LatencySummary::p90>},
+    Column{"ns_p99", latency_of<&measurement::LatencySummary::p99>},
     Column{"ns_p999", p999_in<&R::latency>},
-    Column{"ns_max", latency_of<&LatencySummary::max>},
+    Column{"ns_max", latency_of<&measurement::LatencySummary::max>},
     Column{"update_rate_hz",
            [](Row row) { return row.throughput ? rounded(1e9 / row.throughput->ns_per_query) : ""; }},
     Column{"deadline_misses_1khz", misses_of<0>},
@@ -129,21 +129,21 @@ constexpr std::array columns{
     Column{"repetitions",
            [](Row row) { return row.throughput ? fmt::format("{}", row.throughput->repetitions) : ""; }},
     // Appended to schema 1.
-    Column{"ns_per_query_min", throughput_of<&ThroughputResult::ns_per_query_min>},
-    Column{"ns_per_query_mad", throughput_of<&ThroughputResult::ns_per_query_mad>},
-    Column{"ns_per_query_first_pass", throughput_of<&ThroughputResult::ns_per_query_first_pass>},
+    Column{"ns_per_query_min", throughput_of<&measurement::ThroughputResult::ns_per_query_min>},
+    Column{"ns_per_query_mad", throughput_of<&measurement::ThroughputResult::ns_per_query_mad>},
+    Column{"ns_per_query_first_pass", throughput_of<&measurement::ThroughputResult::ns_per_query_first_pass>},
     Column{"deadline_misses_4khz", misses_of<1>},
     Column{"longest_miss_run_4khz", longest_run_of<1>},
     Column{"deadline_misses_10khz", misses_of<2>},
     Column{"longest_miss_run_10khz", longest_run_of<2>},
     Column{"clock_cost_ns", [](Row row) { return row.latency ? rounded(row.clock_cost_ns) : ""; }},
-    Column{"max_distance_error_of_diagonal", error_of<&Tally::max_distance_error_of_diagonal>},
-    Column{"beyond_bound", count_of<&Tally::beyond_bound>},
-    Column{"wrong_point", count_of<&Tally::wrong_point>},
-    Column{"wrong_normal", count_of<&Tally::wrong_normal>},
-    Column{"malformed", count_of<&Tally::malformed>},
-    Column{"cpu_ns_per_query", throughput_of<&ThroughputResult::cpu_ns_per_query>},
-    Column{"answers_checksum", [](Row row) { return row.checksum ? hex(*row.checksum) : ""; }},
+    Column{"max_distance_error_of_diagonal", error_of<&oracle::ErrorCounts::max_distance_error_of_diagonal>},
+    Column{"beyond_bound", count_of<&oracle::ErrorCounts::beyond_bound>},
+    Column{"wrong_point", count_of<&oracle::ErrorCounts::wrong_point>},
+    Column{"wrong_normal", count_of<&oracle::ErrorCounts::wrong_normal>},
+    Column{"malformed", count_of<&oracle::ErrorCounts::malformed>},
+    Column{"cpu_ns_per_query", throughput_of<&measurement::ThroughputResult::cpu_ns_per_query>},
+    Column{"answers_checksum", [](Row row) { return row.checksum ? support::hex(*row.checksum) : ""; }},
     Column{"cells_mean", work_of<&Work::cells>},
     Column{"spheres_mean", work_of<&Work::spheres>},
     Column{"boxes_mean", work_of<&Work::boxes>},
@@ -152,25 +152,27 @@ constexpr std::array columns{
            [](Row row) { return row.work ? fmt::format("{}", row.work->total.exact_decisions) : ""; }},
     Column{"decides_exactly",
            [](Row row) { return row.accuracy ? fmt::format("{:d}", row.accuracy->decides_exactly) : ""; }},
-    Column{"stored_missed", stored_count_of<&Tally::missed>},
-    Column{"stored_false_contacts", stored_count_of<&Tally::false_contacts>},
+    Column{"stored_missed", stored_count_of<&oracle::ErrorCounts::missed>},
+    Column{"stored_false_contacts", stored_count_of<&oracle::ErrorCounts::false_contacts>},
     Column{"stored_max_distance_error_of_diagonal",
            [](Row row) {
-             return row.stored_tally ? exactly(row.stored_tally->max_distance_error_of_diagonal) : "";
+             return row.rounded_scene_counts
+                        ? exactly(row.rounded_scene_counts->max_distance_error_of_diagonal)
+                        : "";
            }},
-    Column{"wrong_side", count_of<&Tally::wrong_side>},
-    Column{"prepare_ns_p50", prepare_of<&LatencySummary::p50>},
+    Column{"wrong_side", count_of<&oracle::ErrorCounts::wrong_side>},
+    Column{"prepare_ns_p50", prepare_of<&measurement::LatencySummary::p50>},
     Column{"prepare_ns_p999", p999_in<&R::prepare>},
-    Column{"prepare_ns_max", prepare_of<&LatencySummary::max>},
-    Column{"ns_undisturbed", undisturbed_of<&UndisturbedTime::ns>},
-    Column{"ns_undisturbed_low", undisturbed_of<&UndisturbedTime::low>},
-    Column{"ns_undisturbed_high", undisturbed_of<&UndisturbedTime::high>},
-    Column{"disturbed_share", throughput_of<&ThroughputResult::disturbed_share>},
+    Column{"prepare_ns_max", prepare_of<&measurement::LatencySummary::max>},
+    Column{"ns_undisturbed", undisturbed_of<&measurement::UndisturbedTime::ns>},
+    Column{"ns_undisturbed_low", undisturbed_of<&measurement::UndisturbedTime::low>},
+    Column{"ns_undisturbed_high", undisturbed_of<&measurement::UndisturbedTime::high>},
+    Column{"disturbed_share", throughput_of<&measurement::ThroughputResult::disturbed_share>},
     Column{"decisions_checksum",
-           [](Row row) { return row.decisions_checksum ? hex(*row.decisions_checksum) : ""; }},
-    Column{"judged", count_of<&Tally::judged>},
-    Column{"beyond_tolerance", count_of<&Tally::beyond_tolerance>},
-    Column{"rounding", count_of<&Tally::rounding>},
+           [](Row row) { return row.decisions_checksum ? support::hex(*row.decisions_checksum) : ""; }},
+    Column{"judged", count_of<&oracle::ErrorCounts::judged>},
+    Column{"beyond_tolerance", count_of<&oracle::ErrorCounts::beyond_tolerance>},
+    Column{"rounding", count_of<&oracle::ErrorCounts::rounding>},
 };
 
 }  // namespace
@@ -191,7 +193,7 @@ std::vector<std::string> results_columns() {
   return names;
 }
 
-std::vector<std::string> results_fields(const std::string& run_id, const ResultRow& row) {
+std::vector<std::string> results_fields(const std::string& run_id, const measurement::ResultRow& row) {
   std::vector<std::string> fields{std::to_string(results_schema), run_id};
   for (const Column& column : columns) fields.push_back(column.value(row));
   return fields;
@@ -206,10 +208,10 @@ std::string csv_line(const std::vector<std::string>& fields) {
   return line + '\n';
 }
 
-std::string results_csv(const std::string& run_id, const std::vector<ResultRow>& rows) {
+std::string results_csv(const std::string& run_id, const std::vector<measurement::ResultRow>& rows) {
   std::string csv = csv_line(results_columns());
-  for (const ResultRow& row : rows) csv += csv_line(results_fields(run_id, row));
+  for (const measurement::ResultRow& row : rows) csv += csv_line(results_fields(run_id, row));
   return csv;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results

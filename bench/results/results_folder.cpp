@@ -9,7 +9,7 @@
 #include "bench/support/atomic_file.h"
 #include "bench/support/failures.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::results {
 
 ResultsFolder::ResultsFolder(const std::string& path) : path_(path) {
   std::error_code error;
@@ -19,9 +19,9 @@ ResultsFolder::ResultsFolder(const std::string& path) : path_(path) {
       (!error && !std::filesystem::is_directory(path_))) {
     throw std::invalid_argument(fmt::format("--out \"{}\" is not a folder", path));
   }
-  if (error) throw ResourceError(fmt::format("cannot create {}: {}", path, error.message()));
+  if (error) throw support::ResourceError(fmt::format("cannot create {}: {}", path, error.message()));
   if (access(path_.c_str(), W_OK | X_OK) != 0) {
-    throw ResourceError(fmt::format("cannot write into {}", path));
+    throw support::ResourceError(fmt::format("cannot write into {}", path));
   }
 }
 
@@ -37,10 +37,11 @@ void ResultsFolder::write_file(const std::filesystem::path& name, const std::str
   std::error_code error;
   std::filesystem::create_directories(path.parent_path(), error);
   if (error)
-    throw ResourceError(fmt::format("cannot create {}: {}", path.parent_path().string(), error.message()));
-  AtomicFile file(path);
+    throw support::ResourceError(
+        fmt::format("cannot create {}: {}", path.parent_path().string(), error.message()));
+  support::AtomicFile file(path);
   file.write(text);
   file.commit();
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace touchmark::bench {
+namespace touchmark::bench::results {
 
 class ResultsFolder {
  public:
@@ -22,4 +22,4 @@ class ResultsFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results

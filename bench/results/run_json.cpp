@@ -16,7 +16,7 @@
 #include "bench/workload/content_hash.h"
 #include "bench/workload/query_name.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::results {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -30,16 +30,16 @@ Json libraries() {
   return json;
 }
 
-Json mesh_json(const Workload& workload) {
+Json mesh_json(const workload::Workload& workload) {
   return {{"name", workload.mesh_name},
           {"vertices", workload.mesh.vertices().size()},
           {"triangles", workload.mesh.size()},
           {"diagonal", workload.mesh.diagonal()},
-          {"fnv1a", hex(hash_of(workload.mesh))}};
+          {"fnv1a", support::hex(workload::hash_of(workload.mesh))}};
 }
 
 /// A file's own times, and speeds where the unit is known.
-void add_motion(Json& json, const Motion& motion, const std::optional<LengthUnit>& unit) {
+void add_motion(Json& json, const workload::Motion& motion, const std::optional<support::LengthUnit>& unit) {
   if (motion.recorded) {
     json["rows"] = motion.recorded->rows;
     json["duration_s"] = motion.recorded->duration_s;
@@ -52,52 +52,52 @@ void add_motion(Json& json, const Motion& motion, const std::optional<LengthUnit
   }
 }
 
-Json trajectories_json(const Workload& workload) {
+Json trajectories_json(const workload::Workload& workload) {
   Json json = Json::array();
   for (std::size_t i = 0; i < workload.trajectories.size(); ++i) {
-    json.push_back({{"name", workload.trajectories[i]}, {"steps", workload.courses[i].size()}});
+    json.push_back({{"name", workload.trajectories[i]}, {"steps", workload.traces[i].size()}});
     if (i < workload.motions.size()) add_motion(json.back(), workload.motions[i], workload.unit);
   }
   return json;
 }
 
-Json contestants_json(const std::deque<ContestantProcess>& contestants) {
+Json contestants_json(const std::deque<workers::ContestantProcess>& contestants) {
   Json json = Json::array();
-  for (const ContestantProcess& contestant : contestants)
+  for (const workers::ContestantProcess& contestant : contestants)
     json.push_back(contestant_json(contestant.spec(), contestant.opened().flushed_to_zero));
   return json;
 }
 
-Json clock_json(const std::deque<ContestantProcess>& contestants) {
-  Opened typical;
-  for (const ContestantProcess& contestant : contestants) {
+Json clock_json(const std::deque<workers::ContestantProcess>& contestants) {
+  workers::Opened typical;
+  for (const workers::ContestantProcess& contestant : contestants) {
     if (contestant.opened().clock_cost_ns > 0) typical = contestant.opened();
   }
-  return {{"name", TickClock::name},
+  return {{"name", contestants::TickClock::name},
           {"cost_ns", typical.clock_cost_ns},
           {"ns_per_tick", typical.ns_per_tick},
           {"note", "each step's latency includes one reading of the clock"}};
 }
 
-Json asked_json(const RunDescription& run, const Workload& workload,
-                const std::deque<ContestantProcess>& contestants) {
+Json asked_json(const RunDescription& run, const workload::Workload& workload,
+                const std::deque<workers::ContestantProcess>& contestants) {
   Json json{{"contestants", Json::array()},
             {"trajectories", workload.trajectories},
-            {"queries", {name_of(run.query)}},
+            {"queries", {workload::name_of(run.query)}},
             {"left_out", Json::array()}};
-  for (const ContestantProcess& contestant : contestants)
+  for (const workers::ContestantProcess& contestant : contestants)
     json["contestants"].push_back(contestant.spec().text());
   for (const auto& [trajectory, contestant] : run.left_out)
     json["left_out"].push_back({{"trajectory", trajectory}, {"contestant", contestant}});
   return json;
 }
 
-Json steadiness_json(const std::vector<Steadiness>& all) {
+Json steadiness_json(const std::vector<measurement::Steadiness>& all) {
   Json json = Json::array();
-  for (const Steadiness& one : all) {
+  for (const measurement::Steadiness& one : all) {
     Json entry{{"mesh", one.mesh},
                {"trajectory", one.trajectory},
-               {"query", name_of(one.query)},
+               {"query", workload::name_of(one.query)},
                {"disturbed_share", one.disturbed_share},
                {"conclusive", one.conclusive()}};
     if (one.control) {
@@ -111,18 +111,18 @@ Json steadiness_json(const std::vector<Steadiness>& all) {
   return json;
 }
 
-Json effort_json(const Effort& effort) {
+Json effort_json(const measurement::Effort& effort) {
   return {{"repetitions", effort.repetitions},
           {"repetition_ms", effort.repetition_ns / 1e6},
           {"pass_budget_ms", effort.pass_budget_ns / 1e6},
           {"latency_passes", effort.latency_passes},
           {"latency_note", "percentiles are of each step's median over the passes"},
-          {"undisturbed_quantile", PieceTimes::quantile}};
+          {"undisturbed_quantile", measurement::PieceTimes::quantile}};
 }
 
 }  // namespace
 
-Json contestant_json(const ContestantSpec& spec, bool flushed_to_zero) {
+Json contestant_json(const contestants::ContestantSpec& spec, bool flushed_to_zero) {
   return {{"name", spec.name},
           {"written_options", spec.options},
           {"options", spec.values.all()},
@@ -162,12 +162,12 @@ RunDescription begun_run(int argc, const char* const* argv) {
   return run;
 }
 
-std::string run_json(const RunDescription& run, const Workload& workload,
-                     const std::deque<ContestantProcess>& contestants) {
+std::string run_json(const RunDescription& run, const workload::Workload& workload,
+                     const std::deque<workers::ContestantProcess>& contestants) {
   Json json = run_circumstances(run);
   json["mesh"] = mesh_json(workload);
   if (workload.unit) json["unit"] = workload.unit->name;
-  json["query"] = name_of(run.query);
+  json["query"] = workload::name_of(run.query);
   json["radius"] = number(workload.radius);
   json["reach"] = workload.reach ? number(*workload.reach) : Json("radius");
   json["trajectories"] = trajectories_json(workload);
@@ -203,4 +203,4 @@ std::string new_run_id(const SystemInfo& system) {
   return fmt::format("{}-{:04x}", id, static_cast<unsigned>(getpid()) & 0xffffU);
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results

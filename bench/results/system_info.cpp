@@ -12,7 +12,7 @@
 #include "bench/support/numbers.h"
 #include "bench/workload/content_hash.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::results {
 namespace {
 
 std::string cpu_model() {
@@ -54,12 +54,12 @@ std::string machine_fingerprint() {
   std::string id;
   std::getline(file, id);
   const SystemInfo info = system_info();
-  ContentHash hash;
+  workload::ContentHash hash;
   hash.add(std::string_view("touchmark"));
   hash.add(std::string_view(id));
   hash.add(std::string_view(info.cpu_model));
   hash.add(static_cast<double>(info.cores));
-  return hex(hash.value());
+  return support::hex(hash.value());
 }
 
 std::optional<int> core_for_workers() {
@@ -80,4 +80,4 @@ std::string without_directories(const std::string& text) {
   return text.substr(0, value) + text.substr(text.rfind('/', end) + 1);
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results

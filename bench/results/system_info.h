@@ -5,12 +5,12 @@
 #include <optional>
 #include <string>
 
-namespace touchmark::bench {
+namespace touchmark::bench::results {
 
 struct SystemInfo {
   std::string cpu_model;  ///< "unknown" where it cannot be read
-  int cores = 0;          ///< that this process may use
-  std::string governor;   ///< of frequency scaling; "unknown" where it cannot be read
+  int cores = 0;          ///< how many this process may use
+  std::string governor;   ///< frequency scaling's; "unknown" where it cannot be read
   std::array<double, 3> load_average{};
   std::string date;  ///< UTC, ISO 8601
 };
@@ -27,4 +27,4 @@ std::optional<int> core_for_workers();
 /// A file's name in place of an absolute path, also behind "--option="; anything else as it is.
 std::string without_directories(const std::string& text);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results

@@ -12,14 +12,14 @@
 #include "bench/support/text_table.h"
 #include "bench/workload/query_name.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::results {
 namespace {
 
-/// All rows of one contestant together.
+/// Sums up all rows of one contestant.
 struct Summary {
   std::string contestant;
   std::string guarantee;
-  Tally tally;
+  oracle::ErrorCounts counts;
   std::size_t unsupported = 0;
   std::size_t refused = 0;
   std::size_t crashed = 0;
@@ -28,16 +28,16 @@ struct Summary {
   std::string short_of_memory;  ///< the first status that says so
 };
 
-bool answered(const ResultRow& row) { return row.status == "ok"; }
+bool answered(const measurement::ResultRow& row) { return row.status == "ok"; }
 constexpr std::string_view refusal = "refused: ";
-bool declined(const ResultRow& row) {
+bool declined(const measurement::ResultRow& row) {
   return row.status == "unsupported" || row.status.starts_with(refusal) ||
          row.status.starts_with("skipped: ");
 }
 
-void add(Summary& summary, const ResultRow& row) {
-  if (row.tally) summary.tally += *row.tally;
-  if (row.claim()) summary.guarantee = guarantee_name(row);
+void add(Summary& summary, const measurement::ResultRow& row) {
+  if (row.counts) summary.counts += *row.counts;
+  if (row.claim()) summary.guarantee = measurement::guarantee_name(row);
   summary.unsupported += row.status == "unsupported" ? 1 : 0;
   summary.refused += row.status.starts_with("refused") ? 1 : 0;
   summary.crashed += row.status.starts_with("crashed") ? 1 : 0;
@@ -46,9 +46,9 @@ void add(Summary& summary, const ResultRow& row) {
   if (is_short_of_memory(row) && summary.short_of_memory.empty()) summary.short_of_memory = row.status;
 }
 
-std::vector<Summary> summarize(const std::vector<ResultRow>& rows) {
+std::vector<Summary> summarize(const std::vector<measurement::ResultRow>& rows) {
   std::vector<Summary> summaries;
-  for (const ResultRow& row : rows) {
+  for (const measurement::ResultRow& row : rows) {
     const std::string name = row.contestant();
     auto found = std::find_if(summaries.begin(), summaries.end(),
                               [&](const Summary& summary) { return summary.contestant == name; });
@@ -61,26 +61,26 @@ std::vector<Summary> summarize(const std::vector<ResultRow>& rows) {
   return summaries;
 }
 
-bool without_fault(const ResultRow& row) {
+bool without_fault(const measurement::ResultRow& row) {
   if (declined(row)) return true;
-  if (!answered(row) || !row.tally) return false;
-  return !row.tally->charged();
+  if (!answered(row) || !row.counts) return false;
+  return !row.counts->charged();
 }
 
-std::string failure(const ResultRow& row) {
+std::string failure(const measurement::ResultRow& row) {
   std::string line = fmt::format("{} {}: {}, {}, {}: ", claim_is_broken(row) ? "BROKEN" : "faulty",
-                                 row.contestant(), row.mesh, row.trajectory, name_of(row.query));
+                                 row.contestant(), row.mesh, row.trajectory, workload::name_of(row.query));
   if (!answered(row)) return line + row.status;
-  const Tally& tally = *row.tally;
-  return line + fmt::format("of {} answers {}; largest distance error {:.3g} of the diagonal", tally.judged,
-                            charges_of(tally), tally.max_distance_error_of_diagonal);
+  const oracle::ErrorCounts& counts = *row.counts;
+  return line + fmt::format("of {} answers {}; largest distance error {:.3g} of the diagonal", counts.judged,
+                            ground_truth::charges_of(counts), counts.max_distance_error_of_diagonal);
 }
 
 /// Each of the row's wrong answers, and the command that repeats it.
-std::string wrong_answers(const ResultRow& row) {
+std::string wrong_answers(const measurement::ResultRow& row) {
   std::string text;
-  for (const WrongAnswer& wrong : row.wrong) {
-    text += fmt::format("  {}\n", described(wrong));
+  for (const ground_truth::WrongAnswer& wrong : row.wrong) {
+    text += fmt::format("  {}\n", ground_truth::described(wrong));
     if (!row.repeat.empty()) text += fmt::format("    {}{}\n", row.repeat, wrong.step);
   }
   return text;
@@ -88,8 +88,8 @@ std::string wrong_answers(const ResultRow& row) {
 
 }  // namespace
 
-bool claim_is_broken(const ResultRow& row) {
-  if (row.broke_its_word()) return true;
+bool claim_is_broken(const measurement::ResultRow& row) {
+  if (row.violates_guarantee()) return true;
   return row.claims_exactness() && !answered(row) && !declined(row);
 }
 
@@ -98,66 +98,66 @@ std::string_view verdict_on(bool broken, std::uint64_t judged) noexcept {
   return judged == 0 ? "nothing judged" : "as claimed";
 }
 
-bool is_short_of_memory(const ResultRow& row) {
-  return row.status.starts_with(refusal) && row.status.substr(refusal.size()).starts_with(no_memory);
+bool is_short_of_memory(const measurement::ResultRow& row) {
+  return row.status.starts_with(refusal) && row.status.substr(refusal.size()).starts_with(support::no_memory);
 }
 
-std::string judged_answers(const std::vector<ResultRow>& rows) {
+std::string judged_answers(const std::vector<measurement::ResultRow>& rows) {
   std::uint64_t judged = 0;
-  for (const ResultRow& row : rows) judged += row.tally ? row.tally->judged : 0;
+  for (const measurement::ResultRow& row : rows) judged += row.counts ? row.counts->judged : 0;
   return fmt::format("{} answers judged exactly\n", judged);
 }
 
-int status_of(const std::vector<ResultRow>& rows, bool faulty) {
-  if (faulty) return exit_check_failed;
+int status_of(const std::vector<measurement::ResultRow>& rows, bool faulty) {
+  if (faulty) return support::exit_check_failed;
   std::uint64_t judged = 0;
-  int status = exit_done;
+  int status = support::exit_done;
   for (const Summary& one : summarize(rows)) {
-    judged += one.tally.judged;
-    if (one.tally.judged > 0 || one.short_of_memory.empty()) continue;
+    judged += one.counts.judged;
+    if (one.counts.judged > 0 || one.short_of_memory.empty()) continue;
     fmt::print(stderr, "touchmark: {}: nothing judged: {}\n", one.contestant, one.short_of_memory);
-    status = exit_resources;
+    status = support::exit_resources;
   }
-  if (status != exit_done || judged > 0) return status;
+  if (status != support::exit_done || judged > 0) return status;
   fmt::print(stderr, "touchmark: inconclusive: 0 answers were judged\n");
-  return exit_inconclusive;
+  return support::exit_inconclusive;
 }
 
-std::string verification_table(const std::vector<ResultRow>& rows) {
-  TextTable table({"detector", "guarantee", "answers", "missed", "false", "triangle", "distance", "point",
-                   "normal", "side", "no number", "rounding", "unresolved", "error/diag", "unsupported",
-                   "refused", "crashed", "timeout", "verdict"});
+std::string verification_table(const std::vector<measurement::ResultRow>& rows) {
+  support::TextTable table({"detector", "guarantee", "answers", "missed", "false", "triangle", "distance",
+                            "point", "normal", "side", "no number", "rounding", "unresolved", "error/diag",
+                            "unsupported", "refused", "crashed", "timeout", "verdict"});
   const auto count = [](std::uint64_t value) { return fmt::format("{}", value); };
   for (const Summary& one : summarize(rows)) {
-    const Tally& tally = one.tally;
-    table.add({one.contestant, one.guarantee, count(tally.judged), count(tally.missed),
-               count(tally.false_contacts), count(tally.wrong_triangle), count(tally.beyond_bound),
-               count(tally.wrong_point), count(tally.wrong_normal), count(tally.wrong_side),
-               count(tally.malformed), count(tally.rounding), count(tally.unresolved),
-               fmt::format("{:.2g}", tally.max_distance_error_of_diagonal), count(one.unsupported),
+    const oracle::ErrorCounts& counts = one.counts;
+    table.add({one.contestant, one.guarantee, count(counts.judged), count(counts.missed),
+               count(counts.false_contacts), count(counts.wrong_triangle), count(counts.beyond_bound),
+               count(counts.wrong_point), count(counts.wrong_normal), count(counts.wrong_side),
+               count(counts.malformed), count(counts.rounding), count(counts.unresolved),
+               fmt::format("{:.2g}", counts.max_distance_error_of_diagonal), count(one.unsupported),
                count(one.refused), count(one.crashed), count(one.timed_out),
-               std::string(verdict_on(one.broken > 0, tally.judged))});
+               std::string(verdict_on(one.broken > 0, counts.judged))});
   }
   return table.text() + judged_answers(rows);
 }
 
-std::string list_of_failures(const std::vector<ResultRow>& rows, std::size_t most) {
-  std::vector<const ResultRow*> failures;
-  for (const ResultRow& row : rows) {
+std::string list_of_failures(const std::vector<measurement::ResultRow>& rows, std::size_t most) {
+  std::vector<const measurement::ResultRow*> failures;
+  for (const measurement::ResultRow& row : rows) {
     if (!without_fault(row)) failures.push_back(&row);
   }
   // Broken claims first: they are what the exit status is about.
   std::stable_partition(failures.begin(), failures.end(),
-                        [](const ResultRow* row) { return claim_is_broken(*row); });
+                        [](const measurement::ResultRow* row) { return claim_is_broken(*row); });
   std::string text;
-  std::set<std::string> told;
+  std::set<std::string> reported;
   for (std::size_t i = 0; i < std::min(most, failures.size()); ++i) {
     text += failure(*failures[i]) + '\n';
-    const bool is_first = !failures[i]->wrong.empty() && told.insert(failures[i]->contestant()).second;
+    const bool is_first = !failures[i]->wrong.empty() && reported.insert(failures[i]->contestant()).second;
     if (is_first) text += wrong_answers(*failures[i]);
   }
   if (failures.size() > most) text += fmt::format("and {} more\n", failures.size() - most);
   return text;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results

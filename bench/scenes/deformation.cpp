@@ -12,14 +12,14 @@
 
 #include "bench/support/random.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::scenes {
 namespace {
 
 constexpr double depth_of_radius = 0.25;
 constexpr double amplitude_of_diagonal = 0.01, waves_in_diagonal = 2;
 
 /// The `count` vertices nearest to one of them, the farthest last.
-std::vector<std::uint32_t> patch(const TriangleMesh& mesh, std::size_t count, Random& random) {
+std::vector<std::uint32_t> patch(const TriangleMesh& mesh, std::size_t count, support::Random& random) {
   const Vec3 middle = mesh.vertices()[mesh.triangles()[random.below(mesh.size())][0]];
   std::vector<double> squared;
   for (const Vec3& v : mesh.vertices()) squared.push_back((v - middle).squaredNorm());
@@ -46,7 +46,7 @@ Vec3 inwards(const TriangleMesh& mesh, const std::vector<std::uint32_t>& vertice
   return length > 0 ? Vec3(-sum / length) : Vec3(-Vec3::UnitZ());
 }
 
-void dent(const TriangleMesh& mesh, double share, Random& random, std::vector<Vec3>& vertices) {
+void dent(const TriangleMesh& mesh, double share, support::Random& random, std::vector<Vec3>& vertices) {
   const double wanted = std::round(share * static_cast<double>(vertices.size()));
   const std::vector<std::uint32_t> moved =
       patch(mesh, std::clamp<std::size_t>(static_cast<std::size_t>(wanted), 1, vertices.size()), random);
@@ -70,7 +70,7 @@ double wave(double t) {
   return 32 * s * s * (1 - s) * (1 - s) - 1;
 }
 
-void ripple(const TriangleMesh& mesh, Random& random, std::vector<Vec3>& vertices) {
+void ripple(const TriangleMesh& mesh, support::Random& random, std::vector<Vec3>& vertices) {
   const double diagonal = mesh.diagonal();
   if (!(diagonal > 0)) return;
   const Vec3 along = random.direction(), direction = random.direction();
@@ -84,7 +84,7 @@ void ripple(const TriangleMesh& mesh, Random& random, std::vector<Vec3>& vertice
 }  // namespace
 
 TriangleMesh deformed(const TriangleMesh& mesh, const Deformation& deformation) {
-  Random random(deformation.seed);
+  support::Random random(deformation.seed);
   std::vector<Vec3> vertices(mesh.vertices().begin(), mesh.vertices().end());
   if (deformation.share < 1) {
     dent(mesh, deformation.share, random, vertices);
@@ -115,4 +115,4 @@ void from_json(const nlohmann::json& json, Deformation& deformation) {
   json.at("seed").get_to(deformation.seed);
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::scenes

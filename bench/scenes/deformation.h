@@ -8,9 +8,9 @@
 
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::scenes {
 
-/// Of all vertices this share moves. Less than 1: a dent, the vertices nearest to one drawn at random,
+/// Moves this share of all vertices. Less than 1: a dent, the vertices nearest to one drawn at random,
 /// inwards by up to a quarter of their patch's radius, less towards its border. 1: a wave through everything,
 /// 1 % of the box's diagonal high and half a diagonal long.
 struct Deformation {
@@ -18,7 +18,7 @@ struct Deformation {
   std::uint64_t seed = 1;
 };
 
-/// The same for the same mesh on every machine.
+/// Returns the deformed mesh, equal on every machine for equal meshes.
 TriangleMesh deformed(const TriangleMesh& mesh, const Deformation& deformation);
 
 /// Vertices whose bits differ. Both meshes have as many.
@@ -27,4 +27,4 @@ std::size_t moved_vertices(const TriangleMesh& before, const TriangleMesh& after
 void to_json(nlohmann::json& json, const Deformation& deformation);
 void from_json(const nlohmann::json& json, Deformation& deformation);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::scenes

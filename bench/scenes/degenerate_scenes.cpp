@@ -10,7 +10,7 @@
 #include "bench/scenes/portable_sincos.h"
 #include "bench/support/random.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::scenes {
 namespace {
 
 using Corners = TriangleMesh::Corners;
@@ -29,7 +29,7 @@ struct Loose {
 };
 
 /// On a lattice of 2^-12, so that midpoints and sums of a few are exact.
-Vec3 dyadic_point(Random& random) {
+Vec3 dyadic_point(support::Random& random) {
   const auto coordinate = [&] { return static_cast<double>(random.below(8193)) / 4096 - 1; };
   const double x = coordinate(), y = coordinate(), z = coordinate();
   return {x, y, z};
@@ -45,7 +45,7 @@ TriangleMesh flat_triangles(double apex) {
     double height = 1;
     for (int power = 0; power <= 15; ++power, height /= 10) {
       for (int heading = 0; heading < 4; ++heading) {
-        const Turn direction = turn(heading / 4.0 + power / 64.0);
+        const SinCos direction = portable_sincos(heading / 4.0 + power / 64.0);
         const Vec3 along = direction.cos * right + direction.sin * ahead;
         const Vec3 start = (power / 8.0 - 1) * right + (heading / 2.0 - 0.75) * ahead;
         const Vec3 tip = start + apex * along + height * up;
@@ -69,7 +69,7 @@ TriangleMesh sliver_fan() {
   std::vector<Corners> triangles;
   double width = 1 - ratio, fraction = 0;  // the widths of all, in turns, sum to one but for 1e-9
   for (int i = 0; i <= slivers; ++i) {
-    const Turn rim = turn(fraction);
+    const SinCos rim = portable_sincos(fraction);
     vertices.emplace_back(rim.cos, rim.sin, 0);
     if (i > 0) triangles.push_back({0, static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(i + 1)});
     fraction += width;
@@ -79,7 +79,7 @@ TriangleMesh sliver_fan() {
 }
 
 TriangleMesh soup(std::uint64_t triangles) {
-  Random random(20170817);
+  support::Random random(20170817);
   Loose loose;
   loose.vertices.reserve(3 * triangles);
   loose.triangles.reserve(triangles);
@@ -98,7 +98,7 @@ TriangleMesh soup(std::uint64_t triangles) {
 }
 
 TriangleMesh degenerate() {
-  Random random(1234567);
+  support::Random random(1234567);
   Loose mixed;
   const TriangleMesh sphere = icosphere(1);
   for (std::size_t i = 0; i < sphere.size(); ++i) {
@@ -149,4 +149,4 @@ TriangleMesh needles() { return flat_triangles(0); }
 
 TriangleMesh caps() { return flat_triangles(0.5); }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::scenes

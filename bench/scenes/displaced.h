@@ -1,4 +1,4 @@
-/// The same triangles a little elsewhere: what an updated detector is built of before it follows its mesh.
+/// Moves some vertices of a mesh a little: what an updated detector is built of before it follows its mesh.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +8,13 @@
 #include "bench/support/random.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::scenes {
 
 /// Vertices in the lower half of the box's longest side go towards its middle, each by another part of the
 /// way, a tenth at most: the others stay, and so does the mesh's place and size, but for an eighth. What a
 /// hierarchy follows is then followed, not built anew; and no number leaves the range of double.
 inline TriangleMesh displaced(const TriangleMesh& mesh, std::uint64_t seed) {
-  Random random(seed);
+  support::Random random(seed);
   const Aabb& box = mesh.bounds();
   const Vec3 middle = 0.5 * box.min + 0.5 * box.max;
   int longest = 0;
@@ -29,4 +29,4 @@ inline TriangleMesh displaced(const TriangleMesh& mesh, std::uint64_t seed) {
           {mesh.ids().begin(), mesh.ids().end()}};
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::scenes

@@ -11,7 +11,7 @@
 
 #include "bench/scenes/portable_sincos.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::scenes {
 namespace {
 
 using Corners = TriangleMesh::Corners;
@@ -116,9 +116,9 @@ TriangleMesh torus(std::uint32_t around, std::uint32_t along) {
   surface.vertices.reserve(std::size_t{around} * along);
   surface.triangles.reserve(std::size_t{around} * along * 2);
   for (std::uint32_t i = 0; i < around; ++i) {
-    const Turn axis = turn(static_cast<double>(i) / around);
+    const SinCos axis = portable_sincos(static_cast<double>(i) / around);
     for (std::uint32_t j = 0; j < along; ++j) {
-      const Turn ring = turn(static_cast<double>(j) / along);
+      const SinCos ring = portable_sincos(static_cast<double>(j) / along);
       const double from_axis = 1 + tube * ring.cos;
       surface.add({from_axis * axis.cos, from_axis * axis.sin, tube * ring.sin});
     }
@@ -183,7 +183,8 @@ TriangleMesh cube() {
 
 TriangleMesh wedge() {
   constexpr std::uint32_t slices = 16;
-  const double half_back = turn(1.0 / 360).sin / turn(1.0 / 360).cos;  // one degree either side of the middle
+  const double half_back = portable_sincos(1.0 / 360).sin /
+                           portable_sincos(1.0 / 360).cos;  // one degree either side of the middle
   Surface surface;
   for (std::uint32_t i = 0; i <= slices; ++i) {
     const double y = static_cast<double>(i) / slices - 0.5;
@@ -203,4 +204,4 @@ TriangleMesh wedge() {
   return std::move(surface).mesh();
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::scenes

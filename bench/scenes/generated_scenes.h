@@ -7,10 +7,10 @@
 
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::scenes {
 
 /// More than any scene here may have; the memory at hand may set a lower limit.
-inline constexpr std::uint64_t most_generated_triangles = 200'000'000;
+inline constexpr std::uint64_t max_generated_triangles = 200'000'000;
 
 /// An icosahedron on the unit sphere, every triangle split in four `levels` times: 20 * 4^levels triangles.
 TriangleMesh icosphere(unsigned levels);
@@ -54,4 +54,4 @@ TriangleMesh cube();
 /// A closed blade, 1 long and 1 deep, its edge 2 degrees sharp.
 TriangleMesh wedge();
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::scenes

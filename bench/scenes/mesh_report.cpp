@@ -12,7 +12,7 @@
 #include "core/exact/double_double.h"
 #include "core/geometry/point_triangle.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::scenes {
 namespace {
 
 /// The cross product of slivers' edges, whose two terms nearly cancel.
@@ -111,4 +111,4 @@ MeshReport report_on(const TriangleMesh& mesh) {
   return report;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::scenes

@@ -9,7 +9,7 @@
 #include "core/sign/side_finder.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::scenes {
 
 /// Lengths in mesh units. Edges are those between distinct positions: vertices at one place count as one,
 /// whatever the file calls them.
@@ -25,8 +25,8 @@ struct MeshReport {
   /// here but the aspect ratio.
   std::size_t degenerate = 0;
   std::size_t edges = 0;
-  std::size_t boundary_edges = 0;         ///< of one triangle
-  std::size_t non_manifold_edges = 0;     ///< of more than two
+  std::size_t boundary_edges = 0;         ///< with one triangle
+  std::size_t non_manifold_edges = 0;     ///< with more than two
   std::int64_t euler_characteristic = 0;  ///< positions - edges + triangles
   bool closed = false;                    ///< every edge has two triangles
   bool oriented = false;                  ///< no two triangles run along an edge the same way
@@ -44,4 +44,4 @@ MeshReport report_on(const TriangleMesh& mesh);
 /// Longest edge over smallest height, from the stored doubles; infinite without area.
 double aspect_ratio(const Vec3& a, const Vec3& b, const Vec3& c);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::scenes

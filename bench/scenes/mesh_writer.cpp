@@ -14,7 +14,7 @@
 #include "bench/support/atomic_file.h"
 #include "core/geometry/point_triangle.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::scenes {
 namespace {
 
 /// Formats into memory and passes it on in large pieces.
@@ -39,7 +39,7 @@ class TextFile {
     buffer_.clear();
   }
 
-  AtomicFile file_;
+  support::AtomicFile file_;
   fmt::memory_buffer buffer_;
 };
 
@@ -110,4 +110,4 @@ void write_mesh(const TriangleMesh& mesh, const std::string& path) {
   file.commit();
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::scenes

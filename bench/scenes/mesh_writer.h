@@ -5,7 +5,7 @@
 
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::scenes {
 
 /// By the file's ending, of any case. STL is its text form, since the binary one holds floats; it names no
 /// vertices, so a reader finds three for each triangle.
@@ -18,4 +18,4 @@ MeshFormat mesh_format_of(const std::string& path);
 /// complete. Throws std::invalid_argument as above, ResourceError when it cannot be written.
 void write_mesh(const TriangleMesh& mesh, const std::string& path);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::scenes

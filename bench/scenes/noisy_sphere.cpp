@@ -8,7 +8,7 @@
 #include "bench/scenes/generated_scenes.h"
 #include "bench/scenes/portable_sincos.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::scenes {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -57,7 +57,7 @@ std::vector<std::uint32_t> ring_sizes(std::uint64_t vertices_on_rings) {
   double total = 0;
   for (std::size_t i = 0; i < rings; ++i) {
     const double circumference =
-        2 * pi * turn(static_cast<double>(i + 1) / static_cast<double>(2 * rings + 2)).sin;
+        2 * pi * portable_sincos(static_cast<double>(i + 1) / static_cast<double>(2 * rings + 2)).sin;
     wanted[i] = std::max(circumference / edge - 3, 1e-3);
     total += wanted[i];
   }
@@ -88,9 +88,10 @@ class NoisySphere {
   TriangleMesh mesh() && {
     add({1, 0}, {1, 0});
     for (std::size_t ring = 0; ring < sizes_.size(); ++ring) {
-      const Turn latitude = turn(static_cast<double>(ring + 1) / static_cast<double>(2 * sizes_.size() + 2));
+      const SinCos latitude =
+          portable_sincos(static_cast<double>(ring + 1) / static_cast<double>(2 * sizes_.size() + 2));
       for (std::uint32_t i = 0; i < sizes_[ring]; ++i) {
-        add(latitude, turn(static_cast<double>(i) / static_cast<double>(sizes_[ring])));
+        add(latitude, portable_sincos(static_cast<double>(i) / static_cast<double>(sizes_[ring])));
       }
     }
     add({-1, 0}, {1, 0});
@@ -105,7 +106,7 @@ class NoisySphere {
   }
 
  private:
-  void add(const Turn& latitude, const Turn& longitude) {
+  void add(const SinCos& latitude, const SinCos& longitude) {
     const Vec3 direction(latitude.sin * longitude.cos, latitude.sin * longitude.sin, latitude.cos);
     double height = jitter_ * signed_unit(mixed(vertices_.size()));
     double amplitude = 0.06, frequency = 2;
@@ -150,4 +151,4 @@ class NoisySphere {
 
 TriangleMesh noisy_sphere(std::uint64_t triangles) { return NoisySphere(triangles).mesh(); }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::scenes

@@ -4,14 +4,14 @@
 
 #include <cmath>
 
-namespace touchmark::bench {
+namespace touchmark::bench::scenes {
 
-struct Turn {
+struct SinCos {
   double cos = 1, sin = 0;
 };
 
 /// The direction at `fraction` of a full turn, within about one rounding. Any finite fraction.
-inline Turn turn(double fraction) noexcept {
+inline SinCos portable_sincos(double fraction) noexcept {
   constexpr double full_turn = 6.283185307179586476925;
   const double quarters = std::nearbyint(4 * fraction);
   const double angle =
@@ -35,4 +35,4 @@ inline Turn turn(double fraction) noexcept {
   }
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::scenes

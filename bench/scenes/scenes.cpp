@@ -16,7 +16,7 @@
 #include "bench/support/numbers.h"
 #include "core/mesh_io/mesh_io.h"
 
-namespace touchmark::bench {
+namespace touchmark:: ::scenes {
 namespace {
 
 namespace fs = std::filesystem;
@@ -34,7 +34,7 @@ struct Request {
 
 std::uint64_t whole_number(const Request& request, std::string_view text, std::string_view what,
                            std::uint64_t least, std::uint64_t most) {
-  const std::optional<std::uint64_t> value = parse_count(text);
+  const std::optional<std::uint64_t> value = support::parse_count(text);
   if (!value || *value < least || *value > most) {
     throw request.refusal(
         fmt::format("{} \"{}\" is not a whole number from {} to {}", what, text, least, most));
@@ -49,7 +49,7 @@ const std::string& parameter(const Request& request, std::string_view form) {
 
 /// For closed meshes and soup alike: corners, up to three vertices each, a transformed copy.
 void require_memory_for(const Request& request, std::uint64_t triangles, std::uint64_t vertices) {
-  require_memory(
+  support::require_memory(
       fmt::format("mesh \"{}\": {} triangles", request.whole, triangles),
       static_cast<double>(2 * (triangles * sizeof(TriangleMesh::Corners) + vertices * sizeof(Vec3))));
 }
@@ -60,7 +60,8 @@ TriangleMesh load_file(const fs::path& file) {
   if (fs::is_regular_file(file, ignored)) {
     const std::uintmax_t size = fs::file_size(file, ignored);
     if (!ignored)
-      require_memory(fmt::format("mesh {}: {} bytes", file.string(), size), 2 * static_cast<double>(size));
+      support::require_memory(fmt::format("mesh {}: {} bytes", file.string(), size),
+                              2 * static_cast<double>(size));
   }
   return touchmark::load_mesh(file);
 }
@@ -80,8 +81,8 @@ TriangleMesh make_torus(const Request& request) {
   const std::uint64_t around = whole_number(request, text.substr(0, cross), "N", 3, most);
   const std::uint64_t along = whole_number(request, text.substr(cross + 1), "M", 3, most);
   const std::uint64_t triangles = 2 * around * along;
-  if (triangles > most_generated_triangles) {
-    throw request.refusal(fmt::format("{} triangles, more than {}", triangles, most_generated_triangles));
+  if (triangles > max_generated_triangles) {
+    throw request.refusal(fmt::format("{} triangles, more than {}", triangles, max_generated_triangles));
   }
   require_memory_for(request, triangles, triangles / 2);
   return torus(static_cast<std::uint32_t>(around), static_cast<std::uint32_t>(along));
@@ -89,14 +90,14 @@ TriangleMesh make_torus(const Request& request) {
 
 TriangleMesh make_noisy_sphere(const Request& request) {
   const std::string& text = parameter(request, "noisy-sphere:TRIANGLES");
-  const std::uint64_t triangles = whole_number(request, text, "TRIANGLES", 6, most_generated_triangles);
+  const std::uint64_t triangles = whole_number(request, text, "TRIANGLES", 6, max_generated_triangles);
   require_memory_for(request, triangles, triangles / 2);
   return noisy_sphere(triangles);
 }
 
 TriangleMesh make_soup(const Request& request) {
   const std::string& text = parameter(request, "soup:N");
-  const std::uint64_t triangles = whole_number(request, text, "N", 1, most_generated_triangles);
+  const std::uint64_t triangles = whole_number(request, text, "N", 1, max_generated_triangles);
   require_memory_for(request, triangles, 3 * triangles);
   return soup(triangles);
 }
@@ -210,7 +211,7 @@ struct Modifier {
 };
 
 double finite_number(const Request& request, std::string_view modifier, std::string_view text) {
-  const std::optional<double> value = parse_number(text);
+  const std::optional<double> value = support::parse_number(text);
   if (!value || *value > std::numeric_limits<double>::max() ||
       *value < std::numeric_limits<double>::lowest()) {
     throw request.refusal(fmt::format("@{} \"{}\" is not a finite number", modifier, text));
@@ -266,8 +267,9 @@ TriangleMesh modified(TriangleMesh mesh, const Modifier& modifier) {
   }
   std::vector<std::string> known;
   for (const Scene& scene : all_scenes) known.push_back(scene.name());
-  throw request.refusal(fmt::format("no scene and no file has this name; did you mean {}?",
-                                    near_names(request.name.substr(0, request.name.find(':')), known)));
+  throw request.refusal(
+      fmt::format("no scene and no file has this name; did you mean {}?",
+                  support::near_names(request.name.substr(0, request.name.find(':')), known)));
 }
 
 TriangleMesh load_unmodified(Request& request) {
@@ -314,4 +316,4 @@ TriangleMesh load_mesh(const std::string& name, bool normalize) {
   return normalize ? mesh.normalized() : mesh;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::::scenes

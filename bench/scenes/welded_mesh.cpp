@@ -5,7 +5,7 @@
 #include <numeric>
 #include <tuple>
 
-namespace touchmark::bench {
+namespace touchmark::bench::scenes {
 namespace {
 
 bool precedes(const Vec3& a, const Vec3& b) {
@@ -40,4 +40,4 @@ WeldedMesh::WeldedMesh(const TriangleMesh& mesh) {
   });
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::scenes

@@ -9,7 +9,7 @@
 #include "core/probe.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::scenes {
 
 /// One side of a triangle, named from its lower node.
 struct TriangleSide {
@@ -38,4 +38,4 @@ class WeldedMesh {
   }
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::scenes

@@ -9,7 +9,7 @@
 #include "bench/support/failures.h"
 #include "bench/support/system_limit.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 
 namespace {
 
@@ -62,4 +62,4 @@ void AtomicFile::fail(int error) const {
   throw ResourceError("cannot write " + path_ + ": " + described_with_limit(error));
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 
 class AtomicFile {
  public:
@@ -31,4 +31,4 @@ class AtomicFile {
   std::FILE* file_;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

@@ -11,7 +11,7 @@
 
 #include "bench/support/failures.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 namespace {
 
 std::optional<std::uint64_t> free_memory() {
@@ -53,4 +53,4 @@ void require_memory_for_triangles(std::size_t count, double bytes_each) {
                  bytes_each * static_cast<double>(count));
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

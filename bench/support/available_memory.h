@@ -1,4 +1,4 @@
-/// Whether there is room, asked before memory is taken.
+/// Checks for enough memory before it is taken.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 
 /// Bytes that can be taken now without swapping and within the process's own limit (ulimit -v), which so is a
 /// budget that anybody can state; nothing where the system does not say.
@@ -16,13 +16,13 @@ std::optional<std::uint64_t> available_memory();
 /// number of bytes, infinity too.
 void require_memory(std::string_view what, double bytes);
 
-/// The same for "N triangles at B bytes each".
+/// Requires memory for "N triangles at B bytes each".
 void require_memory_for_triangles(std::size_t count, double bytes_each);
 
 /// Any detector keeps a copy of the triangles, and a structure over them.
-inline constexpr double least_bytes_per_triangle = 150;
+inline constexpr double min_bytes_per_triangle = 150;
 
 /// How a contestant's refusal begins that is for want of memory.
 inline constexpr std::string_view no_memory = "no memory: ";
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

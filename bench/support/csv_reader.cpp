@@ -7,11 +7,11 @@
 
 #include <fmt/format.h>
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 namespace {
 
 constexpr std::size_t longest_field = 1 << 16;  // a file without commas or line ends must not fill the memory
-constexpr std::size_t most_fields = 1 << 16;
+constexpr std::size_t max_fields = 1 << 16;
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
 bool ends_record(int c) { return c == '\n' || c == EOF; }
@@ -90,7 +90,7 @@ bool CsvReader::next(std::vector<std::string>& fields) {
   fields.clear();
   int last = separator_;
   while (last == separator_) {
-    if (fields.size() == most_fields) throw error("a record has more than 65536 fields");
+    if (fields.size() == max_fields) throw error("a record has more than 65536 fields");
     fields.emplace_back();
     last = read_field(fields.back());
   }
@@ -185,4 +185,4 @@ void CsvReader::skip_what_is_no_record() {
   }
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

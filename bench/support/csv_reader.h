@@ -10,7 +10,7 @@
 
 #include "core/mesh_io/input_file.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 
 /// Commas, semicolons or tabs: what stands most often outside quotes. A line without a word in it holds
 /// numbers, in which a comma beside semicolons or tabs is a decimal one.
@@ -35,7 +35,7 @@ class CsvReader {
   /// The next record's fields without their quotes; false at the end. Empty lines are skipped. Throws
   /// std::invalid_argument for an open quote, a field of more than 64 KiB or a read error.
   bool next(std::vector<std::string>& fields);
-  /// Where the last record began, from 1.
+  /// Returns the line on which the last record began, from 1.
   std::size_t line() const { return record_line_; }
   /// An exception that names the file and, once a record was read, its line.
   std::invalid_argument error(const std::string& what) const;
@@ -61,4 +61,4 @@ class CsvReader {
   std::string last_comment_;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

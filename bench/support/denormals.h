@@ -5,7 +5,7 @@
 #include <xmmintrin.h>
 #endif
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 
 /// Switches denormal numbers on and says whether they had been off. For the calling thread and those it
 /// starts later.
@@ -20,4 +20,4 @@ inline bool restore_denormals() noexcept {
 #endif
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 namespace {
 
 /// Insertions, deletions and replacements of one character (Levenshtein).
@@ -36,4 +36,4 @@ std::string near_names(std::string_view mistyped, const std::vector<std::string>
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

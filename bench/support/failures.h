@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 
 enum ExitStatus : int {
   exit_done = 0,
@@ -15,7 +15,7 @@ enum ExitStatus : int {
   exit_interrupted = 130  ///< Ctrl-C; what was finished is kept
 };
 
-/// Something outside ran out or broke: the disk is full, no process can be started.
+/// Thrown when something outside ran out or broke: the disk is full, no process can be started.
 class ResourceError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -27,4 +27,4 @@ class Interrupted : public std::runtime_error {
   Interrupted() : std::runtime_error("interrupted") {}
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

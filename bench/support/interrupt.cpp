@@ -4,7 +4,7 @@
 
 #include "bench/support/failures.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
@@ -27,4 +27,4 @@ void check_for_interrupt() {
   if (interrupted != 0) throw Interrupted();
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

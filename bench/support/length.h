@@ -7,7 +7,7 @@
 #include "bench/support/numbers.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 
 /// A length as written: in mesh units, or in percent of the mesh's box diagonal ("0.5%").
 struct Length {
@@ -28,4 +28,4 @@ inline std::optional<Length> parse_length(std::string_view text) noexcept {
   return Length{*value, percent};
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

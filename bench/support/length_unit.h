@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 
 struct LengthUnit {
   std::string_view name;
@@ -22,4 +22,4 @@ inline std::optional<LengthUnit> length_unit_named(std::string_view name) noexce
   return std::nullopt;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

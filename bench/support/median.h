@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 
 /// Median: the mean of the two in the middle of an even number. 0 of nothing.
 inline double median(std::vector<double> values) {
@@ -15,4 +15,4 @@ inline double median(std::vector<double> values) {
   return (*middle + *std::max_element(values.begin(), middle)) / 2;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 
 /// The whole text as a double ("inf" allowed, "nan" not); nothing when it is anything else or out of range.
 inline std::optional<double> parse_number(std::string_view text) noexcept {
@@ -41,4 +41,4 @@ inline std::optional<std::uint64_t> parse_hex(std::string_view text) noexcept {
   return value;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

@@ -2,7 +2,7 @@
 
 #include <ctime>
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 
 /// What this thread has had of the processor: what others took of a shared one does not count.
 inline double processor_ns() noexcept {
@@ -11,4 +11,4 @@ inline double processor_ns() noexcept {
   return 1e9 * static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec);
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

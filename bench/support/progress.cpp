@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 
 ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) != 0) {}
 
@@ -33,4 +33,4 @@ void ProgressLine::clear() {
   shown_ = false;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

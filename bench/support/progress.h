@@ -4,7 +4,7 @@
 #include <chrono>
 #include <string>
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 
 class ProgressLine {
  public:
@@ -28,4 +28,4 @@ class ProgressLine {
 /// A line on stderr that stays, the first time it comes up: the same may come up for each mesh of many.
 void note_once(const std::string& text);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

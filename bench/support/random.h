@@ -10,10 +10,11 @@
 
 #include "core/probe.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 
-/// Of the triangle, as uniform as u and v are in [0, 1): the far half of the parallelogram is turned onto it.
-inline Vec3 place_in_triangle(const Vec3& a, const Vec3& b, const Vec3& c, double u, double v) {
+/// Returns a point of the triangle, as uniform as u and v are in [0, 1): the far half of the parallelogram is
+/// turned onto it.
+inline Vec3 point_in_triangle(const Vec3& a, const Vec3& b, const Vec3& c, double u, double v) {
   if (u + v > 1) u = 1 - u, v = 1 - v;
   return a + u * (b - a) + v * (c - a);
 }
@@ -47,4 +48,4 @@ class Random {
   std::mt19937_64 bits_;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

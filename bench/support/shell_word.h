@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 
 /// Returns the text as one word for a shell: in quotes where it needs them.
 inline std::string quoted(const std::string& word) {
@@ -16,4 +16,4 @@ inline std::string quoted(const std::string& word) {
   return text + '\'';
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

@@ -9,7 +9,7 @@
 #include "bench/support/failures.h"
 #include "bench/support/system_limit.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 
 void reserve_standard_descriptors() {
   for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
@@ -24,4 +24,4 @@ void reserve_standard_descriptors() {
   }
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

@@ -9,7 +9,7 @@
 #include "bench/support/failures.h"
 #include "bench/support/system_limit.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 namespace {
 
 /// After a failed write.
@@ -28,4 +28,4 @@ bool StandardOutput::write(std::string_view text) {
 
 bool StandardOutput::finish() { return std::fflush(stdout) == 0 || refuse_or_stop(errno); }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

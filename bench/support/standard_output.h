@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 
 class StandardOutput {
  public:
@@ -17,4 +17,4 @@ class StandardOutput {
   bool finish();
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

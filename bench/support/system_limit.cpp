@@ -12,7 +12,7 @@
 
 #include "bench/support/failures.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 namespace {
 
 std::optional<rlim_t> limit_of(decltype(RLIMIT_AS) resource) {
@@ -78,4 +78,4 @@ void survive_limits() {
   std::signal(SIGXCPU, end_out_of_time);
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

@@ -5,7 +5,7 @@
 
 struct rusage;
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 
 /// The limit that is behind `error`, an errno: ": no more than 8 open files in a process (ulimit -n)". Empty
 /// where it is none that is known.
@@ -16,7 +16,7 @@ std::string described_with_limit(int error);
 /// ": no more than 100 MB in a process (ulimit -v)"; empty where the memory of a process is not limited.
 std::string memory_limit();
 
-/// Has a process that used so much come to the end of the processor time that one may have?
+/// Returns true if a process that used so much has come to the end of the processor time that one may have.
 bool used_up_its_time(const rusage& used);
 std::string time_limit();  ///< "no more than 5 s of processor time in a process (ulimit -t)"
 
@@ -24,4 +24,4 @@ std::string time_limit();  ///< "no more than 5 s of processor time in a process
 /// program with one line and exit_resources: no signal ends it without a word.
 void survive_limits();
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

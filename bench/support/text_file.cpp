@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 namespace {
 
 struct Close {
@@ -35,4 +35,4 @@ std::string read_text_file(const std::string& path) {
   return text;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

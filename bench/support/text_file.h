@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 
 inline constexpr std::size_t largest_text_file = std::size_t{1} << 30;
 
@@ -12,4 +12,4 @@ inline constexpr std::size_t largest_text_file = std::size_t{1} << 30;
 /// `largest_text_file`.
 std::string read_text_file(const std::string& path);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

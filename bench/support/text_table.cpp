@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace touchmark::bench {
+namespace touchmark::bench::support {
 
 std::string TextTable::text() const {
   std::vector<std::size_t> widths(rows_.front().size());
@@ -21,4 +21,4 @@ std::string TextTable::text() const {
   return text;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::support

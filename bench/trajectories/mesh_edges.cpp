@@ -9,7 +9,7 @@
 #include "bench/scenes/welded_mesh.h"
 #include "core/geometry/point_triangle.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::trajectories {
 namespace {
 
 constexpr double cosine_of_sharp = 0.8660254037844386;  // 30 degrees
@@ -44,12 +44,12 @@ Vec3 bisector_of(std::span<const Face> faces, const Vec3& along) {
 }  // namespace
 
 MeshEdges::MeshEdges(const TriangleMesh& mesh) {
-  WeldedMesh welded(mesh);
+  scenes::WeldedMesh welded(mesh);
   nodes_ = std::move(welded.nodes);
   std::vector<Face> faces;
-  welded.each_edge([&](std::span<const TriangleSide> sides) {
+  welded.each_edge([&](std::span<const scenes::TriangleSide> sides) {
     faces.clear();
-    for (const TriangleSide& side : sides) {
+    for (const scenes::TriangleSide& side : sides) {
       const Vec3 normal = prepare(mesh, side.triangle).normal;
       if (!normal.isZero(0)) faces.push_back({normal, side.forward});
     }
@@ -74,4 +74,4 @@ void MeshEdges::link() {
   }
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::trajectories

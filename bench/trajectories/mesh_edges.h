@@ -8,7 +8,7 @@
 #include "core/probe.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::trajectories {
 
 struct MeshEdge {
   std::uint32_t from, to;  ///< nodes of the graph
@@ -38,4 +38,4 @@ class MeshEdges {
   std::vector<std::uint32_t> incident_;  ///< edges, by node
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::trajectories

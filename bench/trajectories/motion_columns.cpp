@@ -10,7 +10,7 @@
 
 #include "bench/trajectories/motion_field.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::trajectories {
 namespace {
 
 using Header = std::vector<std::string>;
@@ -31,7 +31,8 @@ std::string plain(std::string_view name) {
 }
 
 /// The column that is called just so, else the one whose name differs in capitals and the like.
-std::optional<MotionColumn> find_column(const CsvReader& file, const Header& header, std::string_view name) {
+std::optional<MotionColumn> find_column(const support::CsvReader& file, const Header& header,
+                                        std::string_view name) {
   const std::string wanted = plain(name);
   std::optional<MotionColumn> found;
   for (const bool exactly : {true, false}) {
@@ -45,7 +46,7 @@ std::optional<MotionColumn> find_column(const CsvReader& file, const Header& hea
   return found;
 }
 
-MotionColumns named_columns(const CsvReader& file, const Header& header) {
+MotionColumns named_columns(const support::CsvReader& file, const Header& header) {
   for (const std::string_view prefix : position_prefixes) {
     MotionColumns columns;
     std::size_t found = 0;
@@ -73,7 +74,7 @@ MotionColumns named_columns(const CsvReader& file, const Header& header) {
 }
 
 /// `header` is empty where the file has none.
-MotionColumn chosen_column(const CsvReader& file, const Header& header, std::size_t count,
+MotionColumn chosen_column(const support::CsvReader& file, const Header& header, std::size_t count,
                            const ColumnChoice& choice) {
   if (const std::size_t* const number = std::get_if<std::size_t>(&choice)) {
     if (*number > count)
@@ -89,7 +90,7 @@ MotionColumn chosen_column(const CsvReader& file, const Header& header, std::siz
   return *found;
 }
 
-MotionColumns chosen_columns(const CsvReader& file, const Header& header, std::size_t count,
+MotionColumns chosen_columns(const support::CsvReader& file, const Header& header, std::size_t count,
                              const ChosenColumns& chosen) {
   MotionColumns columns;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -109,14 +110,15 @@ bool needs_no_header(const std::optional<ChosenColumns>& chosen) {
 }
 
 bool holds_numbers(const Header& row) {
-  return std::none_of(row.begin(), row.end(), [](const std::string& field) { return has_words(field); });
+  return std::none_of(row.begin(), row.end(),
+                      [](const std::string& field) { return support::has_words(field); });
 }
 
 /// The names in a comment, where it has as many as the rows have fields.
-Header names_in_comment(const CsvReader& file, std::size_t count) {
+Header names_in_comment(const support::CsvReader& file, std::size_t count) {
   const std::string& comment = file.last_comment();
   Header names;
-  for (std::size_t begin = 0; begin <= comment.size() && has_words(comment);) {
+  for (std::size_t begin = 0; begin <= comment.size() && support::has_words(comment);) {
     const std::size_t end = std::min(comment.find(file.separator(), begin), comment.size());
     std::string_view name = trimmed(std::string_view(comment).substr(begin, end - begin));
     if (name.size() > 1 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
@@ -128,7 +130,7 @@ Header names_in_comment(const CsvReader& file, std::size_t count) {
 
 }  // namespace
 
-MotionColumns read_motion_header(CsvReader& file, const std::optional<ChosenColumns>& chosen,
+MotionColumns read_motion_header(support::CsvReader& file, const std::optional<ChosenColumns>& chosen,
                                  std::vector<std::string>& first_row) {
   Header header;
   if (!file.next(header)) throw file.error("the file is empty: it needs a header that names x, y and z");
@@ -145,4 +147,4 @@ MotionColumns read_motion_header(CsvReader& file, const std::optional<ChosenColu
   return columns;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::trajectories

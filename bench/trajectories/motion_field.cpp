@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-namespace touchmark::bench {
+namespace touchmark::bench::trajectories {
 
 std::string_view trimmed(std::string_view text) noexcept {
   const auto first = text.find_first_not_of(" \t");
@@ -51,4 +51,4 @@ double NumberReader::read(const std::string& field, const std::string& column) {
   return value;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::trajectories

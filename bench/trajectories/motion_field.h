@@ -6,7 +6,7 @@
 
 #include "bench/support/csv_reader.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::trajectories {
 
 /// Without spaces and tabs at its ends.
 std::string_view trimmed(std::string_view text) noexcept;
@@ -17,14 +17,14 @@ std::string shown(std::string_view text);
 /// Reads numbers with a decimal point, or throughout with a decimal comma where no comma separates columns.
 class NumberReader {
  public:
-  explicit NumberReader(const CsvReader& file) : file_(file) {}
+  explicit NumberReader(const support::CsvReader& file) : file_(file) {}
 
   /// A finite number; throws std::invalid_argument with file, line and column.
   double read(const std::string& field, const std::string& column);
 
  private:
-  const CsvReader& file_;
+  const support::CsvReader& file_;
   char decimal_ = 0;  // the first that was seen
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::trajectories

@@ -8,7 +8,7 @@
 
 #include "bench/support/numbers.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::trajectories {
 namespace {
 
 [[noreturn]] void refuse_columns(const std::string& text, const std::string& why) {
@@ -19,7 +19,7 @@ namespace {
 
 ColumnChoice choice_of(const std::string& text, const std::string& column) {
   if (column.empty()) refuse_columns(text, "a column is empty");
-  const std::optional<std::uint64_t> number = parse_count(column);
+  const std::optional<std::uint64_t> number = support::parse_count(column);
   if (!number) return column;
   if (*number == 0) refuse_columns(text, "columns are counted from 1");
   return static_cast<std::size_t>(*number);
@@ -31,7 +31,7 @@ bool is_time(std::string_view key) {
 
 /// A number above 0 that has an inverse.
 double positive(const char* option, const std::string& text) {
-  const std::optional<double> value = parse_number(text);
+  const std::optional<double> value = support::parse_number(text);
   if (!value || !(*value > 0) || !std::isfinite(*value) || !std::isfinite(1 / *value))
     throw std::invalid_argument(fmt::format("{} \"{}\" is not a finite number above 0", option, text));
   return *value;
@@ -54,16 +54,16 @@ ChosenColumns parse_columns(const std::string& text) {
     begin = end + 1;
     const std::size_t equals = std::min(part.find('='), part.size());
     const std::string key = part.substr(0, equals);
-    std::optional<ColumnChoice>* const place = key == "x"        ? &position[0]
-                                               : key == "y"      ? &position[1]
-                                               : key == "z"      ? &position[2]
-                                               : key == "radius" ? &columns.radius
-                                               : is_time(key)    ? &columns.time
-                                                                 : nullptr;
-    if (equals == part.size() || place == nullptr)
+    std::optional<ColumnChoice>* const slot = key == "x"        ? &position[0]
+                                              : key == "y"      ? &position[1]
+                                              : key == "z"      ? &position[2]
+                                              : key == "radius" ? &columns.radius
+                                              : is_time(key)    ? &columns.time
+                                                                : nullptr;
+    if (equals == part.size() || slot == nullptr)
       refuse_columns(text, fmt::format("\"{}\" is not KEY=COL with a known key", part));
-    if (*place) refuse_columns(text, fmt::format("\"{}\" is one {} too many", part, key));
-    *place = choice_of(text, part.substr(equals + 1));
+    if (*slot) refuse_columns(text, fmt::format("\"{}\" is one {} too many", part, key));
+    *slot = choice_of(text, part.substr(equals + 1));
     if (is_time(key)) columns.seconds = seconds_of(key);
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -82,4 +82,4 @@ MotionOptions parse_motion_options(const std::string& columns, const std::string
   return options;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::trajectories

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <variant>
 
-namespace touchmark::bench {
+namespace touchmark::bench::trajectories {
 
 /// A column by its name in the header, or by its number, from 1.
 using ColumnChoice = std::variant<std::string, std::size_t>;
@@ -41,4 +41,4 @@ ChosenColumns parse_columns(const std::string& text);
 MotionOptions parse_motion_options(const std::string& columns, const std::string& scale,
                                    const std::string& rate);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::trajectories

@@ -7,7 +7,7 @@
 
 #include "core/probe.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::trajectories {
 
 class Path {
  public:
@@ -55,8 +55,8 @@ class Path {
 
   std::size_t steps_;
   std::vector<Vec3> positions_;
-  Vec3 corner_ = Vec3::Zero();  ///< where the last flight was headed
+  Vec3 corner_ = Vec3::Zero();  ///< the last flight's target
   double left_over_ = 0;        ///< from the last position to there
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::trajectories

@@ -5,7 +5,7 @@
 #include <limits>
 #include <type_traits>
 
-namespace touchmark::bench {
+namespace touchmark::bench::trajectories {
 namespace {
 
 constexpr double longest_interval = 1.5;  // of usual ones; with a row missing it is 2
@@ -60,4 +60,4 @@ Trajectory resampled(const Trajectory& recorded, double rate_hz, std::size_t mos
   return result;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::trajectories

@@ -5,7 +5,7 @@
 
 #include "bench/trajectories/trajectory.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::trajectories {
 
 /// The first row that comes more than one and a half times the usual (the median) interval after the row
 /// before it: a row is missing there. 0 where there is none.
@@ -19,4 +19,4 @@ double ticks_at(const Trajectory& recorded, double rate_hz);
 /// At most `most` ticks, 0 means all.
 Trajectory resampled(const Trajectory& recorded, double rate_hz, std::size_t most);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::trajectories

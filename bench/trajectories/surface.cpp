@@ -9,7 +9,7 @@
 
 #include "core/geometry/point_triangle.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::trajectories {
 namespace {
 
 /// The edges from corner 0, in units of the largest coordinate, so that no product overflows or vanishes.
@@ -62,27 +62,28 @@ Contact Surface::nearest(const Vec3& center) {
   return *contact;
 }
 
-Place Surface::random_place(Random& random) const {
+SurfacePoint Surface::random_surface_point(support::Random& random) const {
   const double at = random.unit() * weight_up_to_.back();
   const auto found = std::upper_bound(weight_up_to_.begin(), weight_up_to_.end(), at);
   const auto last = static_cast<std::ptrdiff_t>(mesh_.size()) - 1;
   const auto triangle = static_cast<std::uint32_t>(std::min(found - weight_up_to_.begin(), last));
   const double u = random.unit(), v = random.unit();
-  return {place_in_triangle(mesh_.corner(triangle, 0), mesh_.corner(triangle, 1), mesh_.corner(triangle, 2),
-                            u, v),
+  return {support::point_in_triangle(mesh_.corner(triangle, 0), mesh_.corner(triangle, 1),
+                                     mesh_.corner(triangle, 2), u, v),
           normal_of(mesh_, triangle)};
 }
 
-double Surface::thickness(const Place& place, double scale) {
+double Surface::thickness(const SurfacePoint& surface_point, double scale) {
   // The ball behind the place that touches it there has it for nearest until the ball reaches another part.
   // That is the other side only if it faces away: near an edge the ball meets the next face.
   for (int halvings = 10; halvings >= 2; --halvings) {
     const double radius = std::ldexp(scale, -halvings);
-    const Contact contact = nearest(place.point - radius * place.normal);
+    const Contact contact = nearest(surface_point.point - radius * surface_point.normal);
     if (contact.distance < 0.9 * radius)
-      return contact.normal.dot(place.normal) > 0.5 ? radius : std::numeric_limits<double>::infinity();
+      return contact.normal.dot(surface_point.normal) > 0.5 ? radius
+                                                            : std::numeric_limits<double>::infinity();
   }
   return std::numeric_limits<double>::infinity();
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::trajectories

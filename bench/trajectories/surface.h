@@ -8,11 +8,11 @@
 #include "core/sphere_cluster/sphere_cluster.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::trajectories {
 
 /// A point of the surface and the unit normal of its face, counter-clockwise side; for a triangle without
 /// area a unit vector across it.
-struct Place {
+struct SurfacePoint {
   Vec3 point;
   Vec3 normal;
 };
@@ -26,10 +26,10 @@ class Surface {
   /// finite.
   Contact nearest(const Vec3& center);
   /// Uniform by area; by length, then by count, where the mesh has no area or is a single point.
-  Place random_place(Random& random) const;
+  SurfacePoint random_surface_point(support::Random& random) const;
   /// About how far it is to the other side behind the place, within a factor of two; infinity when there is
   /// none within half of `scale`, or an edge is nearer.
-  double thickness(const Place& place, double scale);
+  double thickness(const SurfacePoint& surface_point, double scale);
 
  private:
   using Nearest = SphereCluster;
@@ -40,4 +40,4 @@ class Surface {
   std::vector<double> weight_up_to_;  ///< one a triangle, the sum of the weights so far
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::trajectories

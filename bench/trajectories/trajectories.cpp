@@ -9,7 +9,7 @@
 #include "bench/trajectories/trajectory_csv.h"
 #include "bench/trajectories/trajectory_shapes.h"
 
-namespace touchmark::bench {
+namespace touchmark:: ::trajectories {
 namespace {
 
 constexpr std::size_t default_steps = 20'000;
@@ -79,10 +79,10 @@ Trajectory make_trajectory(const std::string& what, const TriangleMesh& mesh,
   const double diagonal = unit_of_length(mesh, options.radius);
   const std::size_t steps = options.steps == 0 ? default_steps : options.steps;
   return {shape->name,
-          shape->positions(
-              {mesh, steps, Random(options.seed), diagonal, std::min(options.radius, 0.05 * diagonal)}),
+          shape->positions({mesh, steps, support::Random(options.seed), diagonal,
+                            std::min(options.radius, 0.05 * diagonal)}),
           {},
           {}};
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::::trajectories

@@ -10,22 +10,22 @@
 #include "bench/trajectories/trajectory.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark:: ::trajectories {
 
 struct TrajectoryInfo {
   std::string name;
   std::string description;  ///< one line
 };
 
-/// Those that need no file.
+/// Returns the trajectories that need no file.
 std::vector<TrajectoryInfo> trajectories();
 
 struct TrajectoryOptions {
   std::size_t steps =
       0;  ///< 0: 20,000 generated ones, all of a file; else at most the first so many of a file
-  std::uint64_t seed = 1;     ///< of generated ones
+  std::uint64_t seed = 1;     ///< for generated ones
   double radius = 0;          ///< the probe's, mesh units: says what "in contact" is; may be infinite
-  MotionOptions motion = {};  ///< of a file
+  MotionOptions motion = {};  ///< for a file
 };
 
 /// True of a name from the list.
@@ -38,4 +38,4 @@ bool is_generated(const std::string& name);
 Trajectory make_trajectory(const std::string& what, const TriangleMesh& mesh,
                            const TrajectoryOptions& options = {});
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::::trajectories

@@ -8,13 +8,13 @@
 
 #include "core/probe.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::trajectories {
 
 /// What a recorded motion's own times say.
 struct RecordedTiming {
   std::size_t rows = 0;
   double duration_s = 0;               ///< from the first row to the last
-  std::optional<double> resampled_hz;  ///< of the steps, where they are not the rows
+  std::optional<double> resampled_hz;  ///< the steps' rate, where they are not the rows
 
   /// Rows a second on average; nothing where all is one moment.
   std::optional<double> rate_hz() const noexcept {
@@ -28,9 +28,9 @@ struct Trajectory {
   std::vector<Vec3> positions;  ///< mesh units
   std::vector<double> radii;    ///< one a position, or empty: the command line's radius throughout
   std::vector<double> times_s;  ///< one a position, or empty: step / 1000
-  std::optional<RecordedTiming> recorded = std::nullopt;  ///< of a file with times
+  std::optional<RecordedTiming> recorded = std::nullopt;  ///< for a file with times
 
   std::size_t size() const noexcept { return positions.size(); }
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::trajectories

@@ -20,18 +20,19 @@
 #include "bench/trajectories/motion_field.h"
 #include "bench/trajectories/resampling.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::trajectories {
 namespace {
 
-constexpr double most_ticks = 100'000'000;  // of a resampled motion, as of --steps
+constexpr double max_ticks = 100'000'000;  // of a resampled motion, as of --steps
 constexpr double bytes_a_tick = 256;        // here and in the workers
 
 /// Reads the rows of one file.
 class MotionReader {
  public:
-  MotionReader(CsvReader& file, const std::string& path, std::size_t most, const MotionOptions& options)
+  MotionReader(support::CsvReader& file, const std::string& path, std::size_t most,
+               const MotionOptions& options)
       : file_(file),
-        most_(most),
+        max_(most),
         options_(options),
         numbers_(file),
         columns_(read_motion_header(file, options.columns, row_)),
@@ -51,8 +52,8 @@ class MotionReader {
   void check_times();
   [[noreturn]] void fail(std::size_t line, const std::string& what) const;
 
-  CsvReader& file_;
-  std::size_t most_;
+  support::CsvReader& file_;
+  std::size_t max_;
   const MotionOptions& options_;
   NumberReader numbers_;
   std::vector<std::string> row_;  // at first what was read in search of a header
@@ -82,9 +83,9 @@ bool MotionReader::next_row() {
 
 /// True once the rows hold as many steps as are wanted.
 bool MotionReader::has_enough() const {
-  if (most_ == 0 || motion_.size() == 0) return false;
-  if (!options_.rate_hz) return motion_.size() >= most_;
-  return ticks_at(motion_, *options_.rate_hz) >= static_cast<double>(most_);
+  if (max_ == 0 || motion_.size() == 0) return false;
+  if (!options_.rate_hz) return motion_.size() >= max_;
+  return ticks_at(motion_, *options_.rate_hz) >= static_cast<double>(max_);
 }
 
 double MotionReader::coordinate(const MotionColumn& column) {
@@ -135,12 +136,13 @@ void MotionReader::check_times() {
   motion_.recorded = RecordedTiming{times.size(), duration, options_.rate_hz};
   if (options_.rate_hz) {
     const double ticks = ticks_at(motion_, *options_.rate_hz);
-    if (most_ == 0 && ticks > most_ticks) {
+    if (max_ == 0 && ticks > max_ticks) {
       throw std::invalid_argument(fmt::format("{}: {} s at --rate {} are {:.0f} steps, more than {:.0f}",
-                                              motion_.name, duration, *options_.rate_hz, ticks, most_ticks));
+                                              motion_.name, duration, *options_.rate_hz, ticks, max_ticks));
     }
-    const double steps = most_ == 0 ? ticks : std::min(ticks, static_cast<double>(most_));
-    require_memory(fmt::format("trajectory {}: {:.0f} steps", motion_.name, steps), bytes_a_tick * steps);
+    const double steps = max_ == 0 ? ticks : std::min(ticks, static_cast<double>(max_));
+    support::require_memory(fmt::format("trajectory {}: {:.0f} steps", motion_.name, steps),
+                            bytes_a_tick * steps);
   } else if (const std::size_t row = first_gap(times)) {
     fail(lines_[row],
          fmt::format("column {}: {:.6g} s after the row before, longer than the usual interval: rows "
@@ -155,7 +157,7 @@ Trajectory MotionReader::read() {
   if (!columns_.time) return std::move(motion_);
   check_times();
   if (!options_.rate_hz) return std::move(motion_);
-  Trajectory ticks = resampled(motion_, *options_.rate_hz, most_);
+  Trajectory ticks = resampled(motion_, *options_.rate_hz, max_);
   ticks.recorded = motion_.recorded;
   return ticks;
 }
@@ -173,21 +175,21 @@ void require_memory_for(const std::string& path) {
   if (!std::filesystem::is_regular_file(path, error)) return;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (!error)
-    require_memory("trajectory " + path + ": " + std::to_string(size) + " bytes",
-                   4 * static_cast<double>(size));
+    support::require_memory("trajectory " + path + ": " + std::to_string(size) + " bytes",
+                            4 * static_cast<double>(size));
 }
 
 }  // namespace
 
 Trajectory read_trajectory(const std::string& path, std::size_t most, const MotionOptions& options) {
-  CsvReader file(path);
+  support::CsvReader file(path);
   file.accept_any_dialect();
   if (most == 0) require_memory_for(path);
   return MotionReader(file, path, most, options).read();
 }
 
 void write_trajectory(const Trajectory& trajectory, const std::string& path) {
-  AtomicFile file(path);
+  support::AtomicFile file(path);
   const bool timed = !trajectory.times_s.empty(), sized = !trajectory.radii.empty();
   file.write(std::string(timed ? "time_s," : "") + "x,y,z" + (sized ? ",radius\n" : "\n"));
   std::string line;
@@ -201,4 +203,4 @@ void write_trajectory(const Trajectory& trajectory, const std::string& path) {
   file.commit();
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::trajectories

@@ -7,7 +7,7 @@
 #include "bench/trajectories/motion_options.h"
 #include "bench/trajectories/trajectory.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::trajectories {
 
 /// A header that names the columns (bench/trajectories/motion_columns.h says how, or `options` do), then one
 /// row a tick. Commas, semicolons or tabs separate; beside semicolons and tabs numbers may have decimal
@@ -28,4 +28,4 @@ Trajectory read_trajectory(const std::string& path, std::size_t most = 0, const 
 /// when it cannot be written.
 void write_trajectory(const Trajectory& trajectory, const std::string& path);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::trajectories

@@ -7,19 +7,19 @@
 #include "bench/trajectories/motion_path.h"
 #include "bench/trajectories/trajectory_shapes.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::trajectories {
 namespace {
 
 /// Walks from node to node along the edges of a mesh, along sharp ones as long as there are any to follow.
 class EdgeWalk {
  public:
-  EdgeWalk(const MeshEdges& mesh, std::uint32_t edge, Random& random)
+  EdgeWalk(const MeshEdges& mesh, std::uint32_t edge, support::Random& random)
       : mesh_(mesh), edge_(edge), forward_(random.below(2) == 0), done_(random.unit() * length()) {}
 
   const MeshEdge& edge() const { return mesh_.edges()[edge_]; }
   Vec3 position() const { return start() + done_ / length() * (end() - start()); }
 
-  void advance(double step, Random& random) {
+  void advance(double step, support::Random& random) {
     constexpr int turns = 64;  // where edges are far shorter than a step, a tick's walk is cut
     done_ += step;
     for (int i = 0; i < turns && done_ > length(); ++i) {
@@ -35,7 +35,7 @@ class EdgeWalk {
   double length() const { return (end() - start()).norm(); }
 
   /// On to another edge at the end of this one: a sharp one if there is one, back where there is none at all.
-  void turn(Random& random) {
+  void turn(support::Random& random) {
     const std::uint32_t node = forward_ ? edge().to : edge().from;
     std::uint32_t next = edge_;
     for (const bool sharp : {true, false}) {
@@ -63,7 +63,7 @@ class Starts {
     collect(mesh, true);
     if (edges_.empty()) collect(mesh, false);
   }
-  std::optional<std::uint32_t> random(Random& random) const {
+  std::optional<std::uint32_t> random(support::Random& random) const {
     if (edges_.empty()) return std::nullopt;
     const double at = random.unit() * length_up_to_.back();
     const auto found = std::upper_bound(length_up_to_.begin(), length_up_to_.end(), at);
@@ -99,7 +99,7 @@ Positions edge(Motion motion) {
   const MeshEdges mesh(motion.mesh);
   const Starts starts(mesh);
   const double step = 0.0005 * motion.diagonal;
-  constexpr std::size_t ticks_a_place = 2000, ticks_a_diagonal = 200;
+  constexpr std::size_t ticks_a_position = 2000, ticks_a_diagonal = 200;
   Path path(motion.steps);
   while (!path.full()) {
     const std::optional<std::uint32_t> start = starts.random(motion.random);
@@ -110,9 +110,9 @@ Positions edge(Motion motion) {
     EdgeWalk walk(mesh, *start, motion.random);
     Vec3 offset = Vec3::Zero();
     double height = 0.9 * motion.radius * motion.random.unit();
-    const double way = path.distance_to(walk.position()) / motion.diagonal;
-    path.go(walk.position(), static_cast<std::size_t>(1 + way * ticks_a_diagonal));
-    for (std::size_t i = 0; i < ticks_a_place && !path.full(); ++i) {
+    const double distance = path.distance_to(walk.position()) / motion.diagonal;
+    path.go(walk.position(), static_cast<std::size_t>(1 + distance * ticks_a_diagonal));
+    for (std::size_t i = 0; i < ticks_a_position && !path.full(); ++i) {
       walk.advance(step, motion.random);
       height = std::clamp(height + motion.random.between(-0.2, 0.2) * step, 0.0, 0.9 * motion.radius);
       offset += limited(height * walk.edge().bisector - offset, step);
@@ -122,4 +122,4 @@ Positions edge(Motion motion) {
   return std::move(path).positions();
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::trajectories

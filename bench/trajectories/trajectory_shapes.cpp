@@ -7,7 +7,7 @@
 #include "bench/trajectories/motion_path.h"
 #include "bench/trajectories/surface.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::trajectories {
 namespace {
 
 /// Short runs move faster, so that they too come down on the surface several times.
@@ -16,7 +16,9 @@ double pace(std::size_t steps) { return std::clamp(static_cast<double>(steps) / 
 std::size_t ticks(double count) { return static_cast<std::size_t>(std::max(1.0, std::ceil(count))); }
 
 /// As far beyond the surface as half a ball reaches: in contact whatever the radius.
-Vec3 pressed(const Place& place, double radius) { return place.point - 0.5 * radius * place.normal; }
+Vec3 pressed(const SurfacePoint& surface_point, double radius) {
+  return surface_point.point - 0.5 * radius * surface_point.normal;
+}
 
 /// On the ray from the surface through the centre, no farther than `height`.
 Vec3 held_to(const Contact& contact, const Vec3& center, double height) {
@@ -27,23 +29,23 @@ Vec3 held_to(const Contact& contact, const Vec3& center, double height) {
 /// round.
 class Progress {
  public:
-  explicit Progress(double least_extent) : least_extent_(least_extent) {}
+  explicit Progress(double min_extent) : min_extent_(min_extent) {}
 
   void dead_end() { ++dead_ends_; }
   bool stalled(const Vec3& position) {
     visited_.extend(position);
-    if (dead_ends_ >= most_dead_ends) return true;
+    if (dead_ends_ >= max_dead_ends) return true;
     if (++ticks_ < ticks_watched) return false;
-    const bool confined = !(visited_.diagonal() > least_extent_);
+    const bool confined = !(visited_.diagonal() > min_extent_);
     visited_ = {};
     ticks_ = 0;
     return confined;
   }
-  void restart() { *this = Progress(least_extent_); }
+  void restart() { *this = Progress(min_extent_); }
 
  private:
-  static constexpr int ticks_watched = 1024, most_dead_ends = 32;
-  double least_extent_;
+  static constexpr int ticks_watched = 1024, max_dead_ends = 32;
+  double min_extent_;
   int ticks_ = 0, dead_ends_ = 0;
   Aabb visited_;
 };
@@ -62,8 +64,8 @@ Positions slide(Motion motion) {
   Vec3 heading = Vec3::Zero();
   Progress progress(0.1 * motion.diagonal);
   const auto land = [&] {
-    const Place place = surface.random_place(motion.random);
-    path.push_back(place.point + 0.5 * highest * place.normal);
+    const SurfacePoint surface_point = surface.random_surface_point(motion.random);
+    path.push_back(surface_point.point + 0.5 * highest * surface_point.normal);
     heading = motion.random.direction();
     progress.restart();
   };
@@ -100,10 +102,10 @@ Positions approach(Motion motion) {
   const std::size_t way_in = ticks(600 * slowness), press = ticks(60 * slowness);
   Path path(motion.steps);
   while (!path.full()) {
-    const Place place = surface.random_place(motion.random);
-    const Vec3 start = place.point + 0.3 * motion.diagonal * place.normal;
-    const Vec3 light = place.point + 0.5 * motion.radius * place.normal;
-    const Vec3 firm = pressed(place, motion.radius);
+    const SurfacePoint surface_point = surface.random_surface_point(motion.random);
+    const Vec3 start = surface_point.point + 0.3 * motion.diagonal * surface_point.normal;
+    const Vec3 light = surface_point.point + 0.5 * motion.radius * surface_point.normal;
+    const Vec3 firm = pressed(surface_point, motion.radius);
     // To the next start in a straight line, through the object if need be.
     path.go(start, ticks(1000 * slowness * path.distance_to(start) / motion.diagonal));
     path.go(firm, way_in);
@@ -168,11 +170,12 @@ Positions tap(Motion motion) {
   const std::size_t stroke = ticks(20 * slowness);
   Path path(motion.steps);
   while (!path.full()) {
-    const Place place = surface.random_place(motion.random);
-    const Vec3 lifted = place.point + (2 * motion.radius + 0.01 * motion.diagonal) * place.normal;
+    const SurfacePoint surface_point = surface.random_surface_point(motion.random);
+    const Vec3 lifted =
+        surface_point.point + (2 * motion.radius + 0.01 * motion.diagonal) * surface_point.normal;
     path.go(lifted, ticks(200 * slowness * path.distance_to(lifted) / motion.diagonal));
     for (int i = 0; i < 3; ++i) {
-      path.go(pressed(place, motion.radius), stroke);
+      path.go(pressed(surface_point, motion.radius), stroke);
       path.go(lifted, stroke);
     }
   }
@@ -182,20 +185,20 @@ Positions tap(Motion motion) {
 namespace {
 
 /// The thinnest few of many random places.
-std::vector<Place> thin_places(Surface& surface, Motion& motion) {
+std::vector<SurfacePoint> find_thin_points(Surface& surface, Motion& motion) {
   struct Measured {
     double thickness;
-    Place place;
+    SurfacePoint surface_point;
   };
   std::vector<Measured> found;
   for (int i = 0; i < 256; ++i) {
-    const Place place = surface.random_place(motion.random);
-    found.push_back({surface.thickness(place, motion.diagonal), place});
+    const SurfacePoint surface_point = surface.random_surface_point(motion.random);
+    found.push_back({surface.thickness(surface_point, motion.diagonal), surface_point});
   }
   std::stable_sort(found.begin(), found.end(),
                    [](const Measured& a, const Measured& b) { return a.thickness < b.thickness; });
-  std::vector<Place> thinnest;
-  for (std::size_t i = 0; i < 64; ++i) thinnest.push_back(found[i].place);
+  std::vector<SurfacePoint> thinnest;
+  for (std::size_t i = 0; i < 64; ++i) thinnest.push_back(found[i].surface_point);
   return thinnest;
 }
 
@@ -205,13 +208,14 @@ Positions cross(Motion motion) {
   Surface surface(motion.mesh);
   const double speed = std::clamp(4 * motion.radius, 0.01 * motion.diagonal, 0.5 * motion.diagonal);
   const double run_up = std::max(0.1 * motion.diagonal, 3 * speed);
-  const std::vector<Place> places = thin_places(surface, motion);
+  const std::vector<SurfacePoint> thin_points = find_thin_points(surface, motion);
   Path path(motion.steps);
   while (!path.full()) {
-    const Place& place = places[motion.random.below(places.size())];
+    const SurfacePoint& surface_point = thin_points[motion.random.below(thin_points.size())];
     // Not always square on: tilted by up to 45 degrees.
-    const Vec3 way = (place.normal + motion.random.unit() * motion.random.direction()).normalized();
-    const Vec3 a = place.point + run_up * way, b = place.point - run_up * way;
+    const Vec3 direction =
+        (surface_point.normal + motion.random.unit() * motion.random.direction()).normalized();
+    const Vec3 a = surface_point.point + run_up * direction, b = surface_point.point - run_up * direction;
     const bool outwards = motion.random.below(2) == 0;
     path.fly(outwards ? b : a, speed);
     path.fly(outwards ? a : b, speed);
@@ -219,4 +223,4 @@ Positions cross(Motion motion) {
   return std::move(path).positions();
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::trajectories

@@ -8,13 +8,13 @@
 #include "core/probe.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::trajectories {
 
 /// What all of them are given. `steps` positions come back.
 struct Motion {
   const TriangleMesh& mesh;
   std::size_t steps;  ///< at least 1
-  Random random;
+  support::Random random;
   double diagonal;  ///< the unit of length, > 0: the mesh's diagonal, or a stand-in where that is zero
   double radius;    ///< the probe's, cut to 0.05 diagonal: a larger ball would not follow the surface
 };
@@ -29,4 +29,4 @@ Positions tap(Motion motion);
 Positions edge(Motion motion);
 Positions cross(Motion motion);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::trajectories

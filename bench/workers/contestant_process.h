@@ -1,5 +1,5 @@
-/// A contestant in its worker process: orders as functions. A worker that failed is started anew, and its
-/// contestant built anew, when the next order comes; a failed build is not tried again.
+/// A contestant in its worker process: requests as functions. A worker that failed is started anew, and its
+/// contestant built anew, when the next request comes; a failed build is not tried again.
 #pragma once
 
 #include <chrono>
@@ -16,26 +16,26 @@
 #include "bench/workers/worker_protocol.h"
 #include "bench/workload/workload.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workers {
 
 struct WorkerOptions {
   std::vector<std::string> flags;  ///< --benchmark_*
-  std::optional<int> core;         ///< where all workers run
-  std::chrono::milliseconds build_patience{120'000};
-  std::chrono::milliseconds order_patience{30'000};
+  std::optional<int> core;         ///< the core that all workers run on
+  std::chrono::milliseconds build_timeout{120'000};
+  std::chrono::milliseconds request_timeout{30'000};
   bool calibrate_clock = true;  ///< needed by latency(), takes 20 ms
   bool show_output = false;
 };
 
-/// The shared memory that the workers of one workload stand on.
-class WorkerStage {
+/// The shared memory of all workers of one workload.
+class SharedArena {
  public:
   /// Throws ResourceError when memory is short.
-  WorkerStage(const Workload& workload, WorkerOptions options);
+  SharedArena(const workload::Workload& workload, WorkerOptions options);
 
   const WorkerOptions& options() const noexcept { return options_; }
   const WorkloadLayout& layout() const noexcept { return layout_; }
-  const OutputRoom& room() const noexcept { return room_; }
+  const OutputBuffers& buffers() const noexcept { return buffers_; }
   WorkerLaunch launch(const std::string& program) const;
 
  private:
@@ -43,52 +43,52 @@ class WorkerStage {
   WorkloadLayout layout_;
   SharedMemory input_;
   SharedMemory output_;
-  OutputRoom room_;
+  OutputBuffers buffers_;
 };
 
 class ContestantProcess {
  public:
-  /// The stage must outlive it.
-  ContestantProcess(const WorkerStage& stage, ContestantSpec spec, std::string worker_program);
+  /// The arena must outlive it.
+  ContestantProcess(const SharedArena& arena, contestants::ContestantSpec spec, std::string worker_program);
 
-  const ContestantSpec& spec() const noexcept { return spec_; }
-  /// Set once the first order came through.
+  const contestants::ContestantSpec& spec() const noexcept { return spec_; }
+  /// Set once the first request came through.
   const Opened& opened() const noexcept { return opened_; }
 
   // All throw WorkerFailure, whose what() is the status for the row, ResourceError or Interrupted.
   const Built& build();
-  /// Where the detector makes parts of itself later, builds it anew if it was asked anything since: all is to
-  /// be made again. Elsewhere that would change nothing, and nothing is done.
-  void unmake();
+  /// Builds a lazily built detector anew if it was asked anything since: all of its parts are to
+  /// be built again. Does nothing for others, which would not change.
+  void rebuild_if_lazy();
   Timed first(const Task& task);
-  /// Replays the task's windows once, or, where it names none, as many steps as `budget_ns` allows.
+  /// Replays the task's ranges once, or, where it names none, as many steps as `budget_ns` allows.
   Timed calibrate(const Task& task, double budget_ns);
   Answered answer(const Task& task);
-  /// The answer to that step alone, by a fresh session; it lies first in the output room.
+  /// The answer to that step alone, by a fresh session; it lies first in the output buffers.
   Answered answer_afresh(const Task& task, std::size_t step);
   Timed first_pass(const Task& task);
   Timed time(const Task& task, std::int64_t passes);
-  Timed sample(const Task& task, std::int64_t passes, std::int64_t together);
+  Timed sample(const Task& task, std::int64_t passes, std::int64_t replays);
   Timed latency(const Task& task);
   /// The detector follows the mesh as it is deformed; or, built anew, is that of the deformed mesh.
-  Updated update(const Deformation& deformation);
-  void rebuild(const Deformation& deformation);
+  Updated update(const scenes::Deformation& deformation);
+  void rebuild(const scenes::Deformation& deformation);
 
   /// Seconds that all its workers were waited for, building included.
   double busy_s() const noexcept { return busy_s_; }
-  /// Ends the worker. The next order starts one anew.
+  /// Ends the worker. The next request starts one anew.
   void end() { process_.reset(); }
-  /// From now on orders throw a WorkerFailure of this status.
-  void give_up(std::string status);
+  /// From now on requests throw a WorkerFailure of this status.
+  void mark_failed(std::string status);
 
  private:
   void start();
-  nlohmann::json order_build();
-  nlohmann::json order(const char* what, const Task& task, const nlohmann::json& more);
-  nlohmann::json ask(const nlohmann::json& order, std::chrono::milliseconds patience);
+  nlohmann::json request_build();
+  nlohmann::json request(const char* what, const Task& task, const nlohmann::json& more);
+  nlohmann::json ask(const nlohmann::json& request, std::chrono::milliseconds timeout);
 
-  const WorkerStage& stage_;
-  ContestantSpec spec_;
+  const SharedArena& arena_;
+  contestants::ContestantSpec spec_;
   std::string program_;
   std::unique_ptr<WorkerProcess> process_;
   Opened opened_;
@@ -98,4 +98,4 @@ class ContestantProcess {
   double busy_s_ = 0;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workers

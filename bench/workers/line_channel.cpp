@@ -6,7 +6,7 @@
 #include <poll.h>
 #include <sys/socket.h>
 
-namespace touchmark::bench {
+namespace touchmark::bench::workers {
 
 bool LineChannel::send(std::string line) const {
   line += '\n';
@@ -40,4 +40,4 @@ bool LineChannel::read_some() {
   return count > 0;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workers

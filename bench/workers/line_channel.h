@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace touchmark::bench {
+namespace touchmark::bench::workers {
 
 class LineChannel {
  public:
@@ -36,4 +36,4 @@ class LineChannel {
   std::string received_;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workers

@@ -12,12 +12,12 @@
 #include "bench/support/failures.h"
 #include "bench/support/system_limit.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workers {
 namespace {
 
-ResourceError no_memory(std::size_t bytes, int error) {
-  return ResourceError(fmt::format("cannot share {} MB with the workers: {}", (bytes >> 20U) + 1,
-                                   described_with_limit(error)));
+support::ResourceError no_memory(std::size_t bytes, int error) {
+  return support::ResourceError(fmt::format("cannot share {} MB with the workers: {}", (bytes >> 20U) + 1,
+                                            support::described_with_limit(error)));
 }
 
 }  // namespace
@@ -63,4 +63,4 @@ SharedMemory::~SharedMemory() {
   if (descriptor_ >= 0) close(descriptor_);
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workers

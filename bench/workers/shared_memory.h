@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <span>
 
-namespace touchmark::bench {
+namespace touchmark::bench::workers {
 
 /// An anonymous file mapped into memory; unmapped and closed at the end of its life.
 class SharedMemory {
@@ -31,4 +31,4 @@ class SharedMemory {
   std::byte* data_ = nullptr;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workers

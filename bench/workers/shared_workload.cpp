@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace touchmark::bench {
+namespace touchmark::bench::workers {
 namespace {
 
 constexpr std::size_t doubles_a_step = 5;  // centre, radius, reach
@@ -57,13 +57,13 @@ std::size_t mesh_bytes(const WorkloadLayout& layout) noexcept {
 
 std::size_t WorkloadLayout::input_bytes() const noexcept {
   std::size_t bytes = mesh_bytes(*this);
-  for (const std::size_t steps : course_steps) bytes += steps * doubles_a_step * sizeof(double);
+  for (const std::size_t steps : trace_steps) bytes += steps * doubles_a_step * sizeof(double);
   return bytes;
 }
 
-std::size_t WorkloadLayout::longest_course() const noexcept {
+std::size_t WorkloadLayout::longest_trace() const noexcept {
   std::size_t longest = 0;
-  for (const std::size_t steps : course_steps) longest = std::max(longest, steps);
+  for (const std::size_t steps : trace_steps) longest = std::max(longest, steps);
   return longest;
 }
 
@@ -71,43 +71,43 @@ void to_json(nlohmann::json& json, const WorkloadLayout& layout) {
   json = {{"vertices", layout.vertices},
           {"triangles", layout.triangles},
           {"ids", layout.ids},
-          {"course_steps", layout.course_steps}};
+          {"course_steps", layout.trace_steps}};
 }
 
 void from_json(const nlohmann::json& json, WorkloadLayout& layout) {
   json.at("vertices").get_to(layout.vertices);
   json.at("triangles").get_to(layout.triangles);
   json.at("ids").get_to(layout.ids);
-  json.at("course_steps").get_to(layout.course_steps);
+  json.at("course_steps").get_to(layout.trace_steps);
 }
 
-std::size_t OutputRoom::bytes_for(std::size_t steps) noexcept {
-  return steps * (sizeof(Answer) + 2 * sizeof(std::uint64_t));
+std::size_t OutputBuffers::bytes_for(std::size_t steps) noexcept {
+  return steps * (sizeof(workload::Answer) + 2 * sizeof(std::uint64_t));
 }
 
-OutputRoom::OutputRoom(std::span<std::byte> bytes, std::size_t steps) {
+OutputBuffers::OutputBuffers(std::span<std::byte> bytes, std::size_t steps) {
   assert(bytes.size() >= bytes_for(steps));
   // All are plain bytes (see answer.h), and the mapping is page-aligned.
-  auto* answers = reinterpret_cast<Answer*>(bytes.data());
+  auto* answers = reinterpret_cast<workload::Answer*>(bytes.data());
   answers_ = {answers, steps};
-  work_ = {reinterpret_cast<std::uint64_t*>(bytes.data() + steps * sizeof(Answer)), steps};
+  work_ = {reinterpret_cast<std::uint64_t*>(bytes.data() + steps * sizeof(workload::Answer)), steps};
   prepare_ticks_ = {work_.data() + steps, steps};
 }
 
-WorkloadLayout layout_of(const TriangleMesh& mesh, const std::vector<std::vector<Step>>& courses) {
+WorkloadLayout layout_of(const TriangleMesh& mesh, const std::vector<std::vector<workload::Step>>& traces) {
   WorkloadLayout layout{mesh.vertices().size(), mesh.size(), mesh.ids().size(), {}};
-  for (const std::vector<Step>& course : courses) layout.course_steps.push_back(course.size());
+  for (const std::vector<workload::Step>& trace : traces) layout.trace_steps.push_back(trace.size());
   return layout;
 }
 
-SharedMemory write_input(const TriangleMesh& mesh, const std::vector<std::vector<Step>>& courses) {
-  SharedMemory memory = SharedMemory::create(layout_of(mesh, courses).input_bytes());
+SharedMemory write_input(const TriangleMesh& mesh, const std::vector<std::vector<workload::Step>>& traces) {
+  SharedMemory memory = SharedMemory::create(layout_of(mesh, traces).input_bytes());
   Cursor cursor(memory.bytes().data());
   for (const Vec3& vertex : mesh.vertices()) cursor.put(vertex);
   for (const TriangleMesh::Corners& corners : mesh.triangles()) cursor.put(corners);
   for (const TriangleId id : mesh.ids()) cursor.put(id);
-  for (const std::vector<Step>& course : courses) {
-    for (const Step& step : course) {
+  for (const std::vector<workload::Step>& trace : traces) {
+    for (const workload::Step& step : trace) {
       cursor.put(step.probe.center);
       cursor.put(step.probe.radius);
       cursor.put(step.reach);
@@ -127,18 +127,19 @@ TriangleMesh read_mesh(std::span<const std::byte> input, const WorkloadLayout& l
   return {std::move(vertices), std::move(triangles), std::move(ids)};
 }
 
-std::vector<std::vector<Step>> read_courses(std::span<const std::byte> input, const WorkloadLayout& layout) {
+std::vector<std::vector<workload::Step>> read_traces(std::span<const std::byte> input,
+                                                     const WorkloadLayout& layout) {
   Reader reader(input.data() + mesh_bytes(layout));
-  std::vector<std::vector<Step>> courses;
-  for (const std::size_t steps : layout.course_steps) {
-    std::vector<Step>& course = courses.emplace_back(steps);
-    for (Step& step : course) {
+  std::vector<std::vector<workload::Step>> traces;
+  for (const std::size_t steps : layout.trace_steps) {
+    std::vector<workload::Step>& trace = traces.emplace_back(steps);
+    for (workload::Step& step : trace) {
       step.probe.center = reader.get_vec3();
       step.probe.radius = reader.get<double>();
       step.reach = reader.get<double>();
     }
   }
-  return courses;
+  return traces;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workers

@@ -1,5 +1,5 @@
-/// The mesh and the courses, written once by the program and read by every worker, and the room that workers
-/// answer into. Only one worker works at a time, so they share that room.
+/// The mesh and the traces, written once by the program and read by every worker, and the output buffers that
+/// workers answer into. Only one worker works at a time, so they share these.
 #pragma once
 
 #include <cstddef>
@@ -14,29 +14,29 @@
 #include "bench/workload/answer.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workers {
 
-/// The sizes of what lies one after the other in the input: vertices, corners, ids, then each course's steps.
+/// The sizes of what lies one after the other in the input: vertices, corners, ids, then each trace's steps.
 struct WorkloadLayout {
   std::size_t vertices = 0;
   std::size_t triangles = 0;
   std::size_t ids = 0;
-  std::vector<std::size_t> course_steps;
+  std::vector<std::size_t> trace_steps;
 
   std::size_t input_bytes() const noexcept;
-  std::size_t longest_course() const noexcept;
+  std::size_t longest_trace() const noexcept;
 };
 
 void to_json(nlohmann::json& json, const WorkloadLayout& layout);
 void from_json(const nlohmann::json& json, WorkloadLayout& layout);
 
-/// Where one order's results go. Answers and work, or two kinds of ticks: a step needs one or the other.
-class OutputRoom {
+/// Holds one request's results. Answers and work, or two kinds of ticks: a step needs one or the other.
+class OutputBuffers {
  public:
   static std::size_t bytes_for(std::size_t steps) noexcept;
-  OutputRoom(std::span<std::byte> bytes, std::size_t steps);
+  OutputBuffers(std::span<std::byte> bytes, std::size_t steps);
 
-  std::span<Answer> answers(std::size_t steps) const noexcept { return answers_.first(steps); }
+  std::span<workload::Answer> answers(std::size_t steps) const noexcept { return answers_.first(steps); }
   std::span<std::uint64_t> work(std::size_t steps) const noexcept { return work_.first(steps); }
   std::span<std::uint64_t> ticks(std::size_t steps) const noexcept { return work_.first(steps); }
   std::span<std::uint64_t> prepare_ticks(std::size_t steps) const noexcept {
@@ -44,17 +44,18 @@ class OutputRoom {
   }
 
  private:
-  std::span<Answer> answers_;
+  std::span<workload::Answer> answers_;
   std::span<std::uint64_t> work_;
   std::span<std::uint64_t> prepare_ticks_;
 };
 
 /// The program's side: fills the input. Throws ResourceError when memory is short.
-SharedMemory write_input(const TriangleMesh& mesh, const std::vector<std::vector<Step>>& courses);
-WorkloadLayout layout_of(const TriangleMesh& mesh, const std::vector<std::vector<Step>>& courses);
+SharedMemory write_input(const TriangleMesh& mesh, const std::vector<std::vector<workload::Step>>& traces);
+WorkloadLayout layout_of(const TriangleMesh& mesh, const std::vector<std::vector<workload::Step>>& traces);
 
 /// The worker's side.
 TriangleMesh read_mesh(std::span<const std::byte> input, const WorkloadLayout& layout);
-std::vector<std::vector<Step>> read_courses(std::span<const std::byte> input, const WorkloadLayout& layout);
+std::vector<std::vector<workload::Step>> read_traces(std::span<const std::byte> input,
+                                                     const WorkloadLayout& layout);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workers

@@ -10,7 +10,7 @@
 #include "bench/support/processor_time.h"
 #include "bench/workload/sample_steps.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workers {
 namespace {
 
 /// Keeps the one run's times. The library's own reporters write elsewhere, and its CSV one aborts when
@@ -38,7 +38,7 @@ class KeepTimesPerPass : public benchmark::BenchmarkReporter {
 class AnswersOfPasses {
  public:
   explicit AnswersOfPasses(Throughput& result) : result_(result) {}
-  void add(const Checksum& checksum) {
+  void add(const workload::Checksum& checksum) {
     result_.steady = result_.steady && (first_ || checksum.value() == result_.checksum);
     result_.checksum = checksum.value();
     first_ = false;
@@ -54,7 +54,7 @@ class SampleClock {
  public:
   void stop(double passes, Throughput& result) const {
     const Clock::time_point end = Clock::now();
-    const double processor = processor_ns() - processor_start_;
+    const double processor = support::processor_ns() - processor_start_;
     const double elapsed = std::chrono::duration<double, std::nano>(end - start_).count();
     constexpr double undisturbed = 1.2;  // elapsed over processor time, at most
     result.samples.push_back(std::min(elapsed, processor) / passes);
@@ -63,7 +63,7 @@ class SampleClock {
 
  private:
   using Clock = std::chrono::steady_clock;
-  double processor_start_ = processor_ns();
+  double processor_start_ = support::processor_ns();
   Clock::time_point start_ = Clock::now();
 };
 
@@ -99,42 +99,44 @@ std::vector<std::string> initialize_throughput(const std::vector<std::string>& f
   return {pointers.begin() + 1, pointers.begin() + std::max(count, 1)};
 }
 
-Throughput measure_throughput(Contestant& contestant, const Course& course,
-                              const std::vector<Window>& windows, std::int64_t passes) {
+Throughput measure_throughput(contestants::Contestant& contestant, const workload::QueryTrace& trace,
+                              const std::vector<workload::StepRange>& ranges, std::int64_t passes) {
   Throughput result;
   AnswersOfPasses answers(result);
   run_passes(
       [&] {
-        Checksum checksum;
-        for (const Window& window : windows) contestant.replay(course, window, checksum);
+        workload::Checksum checksum;
+        for (const workload::StepRange& range : ranges) contestant.replay(trace, range, checksum);
         answers.add(checksum);
       },
-      passes, static_cast<double>(steps_in(windows)), result);
+      passes, static_cast<double>(workload::steps_in(ranges)), result);
   return result;
 }
 
-Throughput sample_throughput(Contestant& contestant, const Course& course, const std::vector<Window>& windows,
-                             std::int64_t passes, std::int64_t together) {
-  assert(together == 1 || windows.size() == 1);
+Throughput sample_throughput(contestants::Contestant& contestant, const workload::QueryTrace& trace,
+                             const std::vector<workload::StepRange>& ranges, std::int64_t passes,
+                             std::int64_t replays) {
+  assert(replays == 1 || ranges.size() == 1);
   Throughput result;
   AnswersOfPasses answers(result);
-  result.samples.reserve(windows.size() * static_cast<std::size_t>(std::max<std::int64_t>(passes, 1)));
+  result.samples.reserve(ranges.size() * static_cast<std::size_t>(std::max<std::int64_t>(passes, 1)));
   const auto pass = [&] {
-    Checksum checksum;
-    for (const Window& window : windows) {
+    workload::Checksum checksum;
+    for (const workload::StepRange& range : ranges) {
       const SampleClock clock;
-      for (std::int64_t i = 0; i < together; ++i) {
-        if (i > 0) answers.add(std::exchange(checksum, Checksum()));
-        contestant.replay(course, window, checksum);
+      for (std::int64_t i = 0; i < replays; ++i) {
+        if (i > 0) answers.add(std::exchange(checksum, workload::Checksum()));
+        contestant.replay(trace, range, checksum);
       }
-      clock.stop(static_cast<double>(together), result);
+      clock.stop(static_cast<double>(replays), result);
     }
     answers.add(checksum);
   };
-  Checksum unused;
-  contestant.replay(course, windows.back(), unused);
-  run_passes(pass, passes, static_cast<double>(steps_in(windows)) * static_cast<double>(together), result);
+  workload::Checksum unused;
+  contestant.replay(trace, ranges.back(), unused);
+  run_passes(pass, passes, static_cast<double>(workload::steps_in(ranges)) * static_cast<double>(replays),
+             result);
   return result;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workers

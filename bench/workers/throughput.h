@@ -1,5 +1,5 @@
 /// Throughput by Google Benchmark: how long a query takes when a trajectory is replayed as fast as it goes.
-/// The clock is read between windows only, never inside the loop over steps. Runs in a worker.
+/// The clock is read between ranges only, never inside the loop over steps. Runs in a worker.
 #pragma once
 
 #include <cstdint>
@@ -8,29 +8,30 @@
 
 #include "bench/contestants/contestant.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workers {
 
 struct Throughput {
   double ns_per_query = 0;      ///< elapsed, the mean over all passes
   double cpu_ns_per_query = 0;  ///< the process's own time: without what others took of the core
-  std::uint64_t checksum = 0;   ///< of one pass
+  std::uint64_t checksum = 0;   ///< one pass's
   bool steady = true;           ///< every pass had the same checksum
   std::vector<double> samples;  ///< see measure_throughput; ns
-  std::size_t interrupted = 0;  ///< of the samples, how many took over 1.2 times their processor time
+  std::size_t interrupted = 0;  ///< samples that took over 1.2 times their processor time
 };
 
 /// Hands --benchmark_* flags to the library. Those it does not know come back.
 std::vector<std::string> initialize_throughput(const std::vector<std::string>& flags);
 
-/// Replays all windows `passes` times (at least once) without forgetting the session in between.
-Throughput measure_throughput(Contestant& contestant, const Course& course,
-                              const std::vector<Window>& windows, std::int64_t passes);
+/// Replays all ranges `passes` times (at least once) without forgetting the session in between.
+Throughput measure_throughput(contestants::Contestant& contestant, const workload::QueryTrace& trace,
+                              const std::vector<workload::StepRange>& ranges, std::int64_t passes);
 
-/// The same, each window timed apart: a sample is the shorter of its elapsed and its processor time. A window
-/// is replayed `together` times in a sample, more than once only where there is no other. `samples` holds
-/// those of the windows in turn, pass by pass, each divided by `together`. The last window is replayed
-/// before, so that the first does not pay for what others did to the caches.
-Throughput sample_throughput(Contestant& contestant, const Course& course, const std::vector<Window>& windows,
-                             std::int64_t passes, std::int64_t together);
+/// Replays all ranges `passes` times, each range timed separately: a sample is the shorter of its elapsed and
+/// its processor time. A range is replayed `replays` times in a sample, more than once only where there is no
+/// other. `samples` holds those of the ranges in turn, pass by pass, each divided by `replays`. The last
+/// range is replayed before, so that the first does not pay for what others did to the caches.
+Throughput sample_throughput(contestants::Contestant& contestant, const workload::QueryTrace& trace,
+                             const std::vector<workload::StepRange>& ranges, std::int64_t passes,
+                             std::int64_t replays);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workers

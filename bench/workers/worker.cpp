@@ -1,7 +1,6 @@
 #include "bench/workers/worker.h"
 
 #include <algorithm>
-#include <chrono>
 #include <exception>
 #include <memory>
 #include <new>
@@ -22,25 +21,19 @@
 #include "bench/support/available_memory.h"
 #include "bench/support/denormals.h"
 #include "bench/support/failures.h"
-#include "bench/support/median.h"
 #include "bench/support/processor_time.h"
 #include "bench/support/system_limit.h"
 #include "bench/workers/line_channel.h"
 #include "bench/workers/shared_memory.h"
 #include "bench/workers/shared_workload.h"
 #include "bench/workers/throughput.h"
+#include "bench/workers/update_timing.h"
 #include "bench/workers/worker_protocol.h"
 #include "bench/workload/query_name.h"
 #include "bench/workload/sample_steps.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workers {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double ns_since(Clock::time_point start) {
-  return std::chrono::duration<double, std::nano>(Clock::now() - start).count();
-}
 
 std::uint64_t heap_in_use() {
   const struct mallinfo2 info = mallinfo2();
@@ -54,32 +47,32 @@ std::string dumped(const nlohmann::json& json) {
 
 class Worker {
  public:
-  explicit Worker(const Roster& roster)
+  explicit Worker(const contestants::Roster& roster)
       : roster_(roster),
         input_(SharedMemory::attach(worker_input, SharedMemory::Access::read)),
         output_(SharedMemory::attach(worker_output, SharedMemory::Access::write)) {}
 
-  /// The reply to one order.
-  nlohmann::json obey(const nlohmann::json& order) {
-    const std::string what = order.at("order");
-    if (what == "open") return open(order.at("layout"), order.at("calibrate_clock"));
+  /// Returns the reply to one request.
+  nlohmann::json dispatch(const nlohmann::json& request) {
+    const std::string what = request.at("order");
+    if (what == "open") return open(request.at("layout"), request.at("calibrate_clock"));
     if (what == "build") {
-      take_remarks();
-      nlohmann::json reply = build(order.at("contestant"));
-      reply["remarks"] = take_remarks();
+      contestants::take_remarks();
+      nlohmann::json reply = build(request.at("contestant"));
+      reply["remarks"] = contestants::take_remarks();
       return reply;
     }
     if (contestant_ == nullptr) throw std::logic_error("nothing is built");
-    if (what == "update") return update(order.at("contestant"), order.at("deformation"));
-    if (what == "rebuild") return rebuild(order.at("contestant"), order.at("deformation"));
-    const Task task = order.at("task");
+    if (what == "update") return update(request.at("contestant"), request.at("deformation"));
+    if (what == "rebuild") return rebuild(request.at("contestant"), request.at("deformation"));
+    const Task task = request.at("task");
     if (what == "first") return first(task);
-    if (what == "calibrate") return calibrate(task, order.at("budget_ns"));
+    if (what == "calibrate") return calibrate(task, request.at("budget_ns"));
     if (what == "answer") return answer(task);
-    if (what == "answer_afresh") return answer_afresh(task, order.at("step"));
+    if (what == "answer_afresh") return answer_afresh(task, request.at("step"));
     if (what == "first_pass") return first_pass(task);
-    if (what == "time") return time(task, order.at("passes"));
-    if (what == "sample") return sample(task, order.at("passes"), order.at("together"));
+    if (what == "time") return time(task, request.at("passes"));
+    if (what == "sample") return sample(task, request.at("passes"), request.at("together"));
     if (what == "latency") return latency(task);
     throw std::logic_error("unknown order " + what);
   }
@@ -87,8 +80,8 @@ class Worker {
  private:
   nlohmann::json open(const WorkloadLayout& layout, bool with_clock);
   nlohmann::json build(const std::string& spec);
-  nlohmann::json update(const std::string& spec, const Deformation& deformation);
-  nlohmann::json rebuild(const std::string& spec, const Deformation& deformation);
+  nlohmann::json update(const std::string& spec, const scenes::Deformation& deformation);
+  nlohmann::json rebuild(const std::string& spec, const scenes::Deformation& deformation);
   nlohmann::json refused(std::string why);
   nlohmann::json first(const Task& task);
   nlohmann::json calibrate(const Task& task, double budget_ns);
@@ -96,40 +89,42 @@ class Worker {
   nlohmann::json answer_afresh(const Task& task, std::size_t step);
   nlohmann::json first_pass(const Task& task);
   nlohmann::json time(const Task& task, std::int64_t passes);
-  nlohmann::json sample(const Task& task, std::int64_t passes, std::int64_t together);
+  nlohmann::json sample(const Task& task, std::int64_t passes, std::int64_t replays);
   nlohmann::json latency(const Task& task);
 
-  Course course_of(const Task& task) const { return {task.query, courses_.at(task.course)}; }
-  std::vector<Window> windows_of(const Task& task) const {
-    return task.windows.empty() ? plan_windows(courses_.at(task.course).size(), task.steps) : task.windows;
+  workload::QueryTrace trace_of(const Task& task) const { return {task.query, traces_.at(task.trace)}; }
+  std::vector<workload::StepRange> ranges_of(const Task& task) const {
+    return task.ranges.empty() ? workload::sample_steps(traces_.at(task.trace).size(), task.steps)
+                               : task.ranges;
   }
-  double timed_build(const ContestantSpec& spec);
-  Timed timed_replay(const Course& course, const std::vector<Window>& windows);
+  double timed_build(const contestants::ContestantSpec& spec);
+  Timed timed_replay(const workload::QueryTrace& trace, const std::vector<workload::StepRange>& ranges);
 
-  const Roster& roster_;
+  const contestants::Roster& roster_;
   SharedMemory input_;
   SharedMemory output_;
   WorkloadLayout layout_;
-  std::optional<OutputRoom> room_;
+  std::optional<OutputBuffers> buffers_;
   std::optional<TriangleMesh> mesh_;
-  std::vector<std::vector<Step>> courses_;
-  std::unique_ptr<Contestant> contestant_;
+  std::vector<std::vector<workload::Step>> traces_;
+  std::unique_ptr<contestants::Contestant> contestant_;
 };
 
 nlohmann::json Worker::open(const WorkloadLayout& layout, bool with_clock) {
   Opened opened;
-  opened.flushed_to_zero = restore_denormals();
+  opened.flushed_to_zero = support::restore_denormals();
   layout_ = layout;
   mesh_ = read_mesh(input_.bytes(), layout);
-  courses_ = read_courses(input_.bytes(), layout);
-  room_.emplace(output_.bytes(), layout.longest_course());
-  const ClockCalibration clock = with_clock ? calibrate_clock() : ClockCalibration{};
+  traces_ = read_traces(input_.bytes(), layout);
+  buffers_.emplace(output_.bytes(), layout.longest_trace());
+  const contestants::ClockCalibration clock =
+      with_clock ? contestants::calibrate_clock() : contestants::ClockCalibration{};
   opened.clock_cost_ns = clock.cost_ns;
   opened.ns_per_tick = clock.ns_per_tick;
   return opened;
 }
 
-double Worker::timed_build(const ContestantSpec& spec) {
+double Worker::timed_build(const contestants::ContestantSpec& spec) {
   contestant_.reset();
   roster_.require_memory_for(spec, mesh_->size());
   const Clock::time_point start = Clock::now();
@@ -138,7 +133,7 @@ double Worker::timed_build(const ContestantSpec& spec) {
 }
 
 nlohmann::json Worker::build(const std::string& spec_text) {
-  const ContestantSpec spec = roster_.parse(spec_text);
+  const contestants::ContestantSpec spec = roster_.parse(spec_text);
   if (!mesh_) mesh_ = read_mesh(input_.bytes(), layout_);
   Built built;
   const std::uint64_t heap_before = heap_in_use();
@@ -151,11 +146,11 @@ nlohmann::json Worker::build(const std::string& spec_text) {
     constexpr double short_build_ns = 20e6;
     while (times_ns.size() < 5 && times_ns.front() < short_build_ns) times_ns.push_back(timed_build(spec));
   } catch (const std::bad_alloc&) {
-    return refused(fmt::format("{}all of it is taken", no_memory));
-  } catch (const ResourceError& error) {
-    return refused(fmt::format("{}{}", no_memory, error.what()));
+    return refused(fmt::format("{}all of it is taken", support::no_memory));
+  } catch (const support::ResourceError& error) {
+    return refused(fmt::format("{}{}", support::no_memory, error.what()));
   } catch (const std::system_error& error) {
-    if (limit_behind(error.code().value()).empty()) return refused(error.what());
+    if (support::limit_behind(error.code().value()).empty()) return refused(error.what());
     throw;  // for want of threads or descriptors, which is no fault of the mesh
   } catch (const std::exception& error) {
     return refused(error.what());
@@ -166,11 +161,11 @@ nlohmann::json Worker::build(const std::string& spec_text) {
   mesh_.reset();  // detectors hold copies of what they need
   built.bytes = contestant_->bytes();
   built.accuracy = contestant_->accuracy();
-  for (const Query query : all_queries) {
+  for (const workload::Query query : workload::all_queries) {
     if (contestant_->answers(query)) built.queries.push_back(query);
   }
   built.prepares = contestant_->prepares();
-  built.makes_later = contestant_->makes_later();
+  built.builds_lazily = contestant_->builds_lazily();
   return built;
 }
 
@@ -181,55 +176,24 @@ nlohmann::json Worker::refused(std::string why) {
   return built;
 }
 
-Timed Worker::timed_replay(const Course& course, const std::vector<Window>& windows) {
-  Checksum checksum;
+Timed Worker::timed_replay(const workload::QueryTrace& trace,
+                           const std::vector<workload::StepRange>& ranges) {
+  workload::Checksum checksum;
   const Clock::time_point start = Clock::now();
-  for (const Window& window : windows) contestant_->replay(course, window, checksum);
+  for (const workload::StepRange& range : ranges) contestant_->replay(trace, range, checksum);
   const double elapsed = ns_since(start);
-  return {elapsed / static_cast<double>(steps_in(windows)), 0, checksum.value(), true, {}};
+  return {elapsed / static_cast<double>(workload::steps_in(ranges)), 0, checksum.value(), true, {}};
 }
 
-nlohmann::json Worker::update(const std::string& spec_text, const Deformation& deformation) {
-  constexpr std::size_t fewest_rounds = 3, most_rounds = 25;
-  constexpr double enough_ns = 1e9;
-  Updated updated;
-  updated.supported = contestant_->updates();
-  if (!updated.supported) return updated;
-  const ContestantSpec spec = roster_.parse(spec_text);
-  const TriangleMesh rest = read_mesh(input_.bytes(), layout_), moved = deformed(rest, deformation);
-  const auto timed_update = [&](const TriangleMesh& mesh) {
-    const Clock::time_point start = Clock::now();
-    contestant_->update(mesh);
-    return ns_since(start);
-  };
-  std::vector<double> builds, updates, ratios;
-  try {
-    contestant_->update(rest);
-    roster_.require_memory_for(spec, moved.size());
-    const Clock::time_point start = Clock::now();
-    while (builds.size() < fewest_rounds || (builds.size() < most_rounds && ns_since(start) < enough_ns)) {
-      const double there = timed_update(moved), back = timed_update(rest);
-      const Clock::time_point before = Clock::now();
-      std::unique_ptr<Contestant> anew = roster_.build(spec, moved);
-      builds.push_back(ns_since(before));
-      updates.insert(updates.end(), {there, back});
-      ratios.push_back(0.5 * (there + back) / builds.back());
-    }
-    contestant_->update(moved);
-  } catch (const std::exception& error) {
-    updated.refused = error.what();
-    return updated;
-  }
-  updated.rounds = builds.size();
-  updated.build_ms = median(builds) / 1e6;
-  updated.update_ms = median(updates) / 1e6;
-  updated.update_over_build = median(ratios);
-  return updated;
+nlohmann::json Worker::update(const std::string& spec_text, const scenes::Deformation& deformation) {
+  if (!contestant_->updates()) return Updated{};
+  const TriangleMesh rest = read_mesh(input_.bytes(), layout_);
+  return time_updates(*contestant_, roster_, roster_.parse(spec_text), rest, deformation);
 }
 
-nlohmann::json Worker::rebuild(const std::string& spec, const Deformation& deformation) {
-  const ContestantSpec parsed = roster_.parse(spec);
-  const TriangleMesh moved = deformed(read_mesh(input_.bytes(), layout_), deformation);
+nlohmann::json Worker::rebuild(const std::string& spec, const scenes::Deformation& deformation) {
+  const contestants::ContestantSpec parsed = roster_.parse(spec);
+  const TriangleMesh moved = scenes::deformed(read_mesh(input_.bytes(), layout_), deformation);
   roster_.require_memory_for(parsed, moved.size());
   contestant_ = roster_.build(parsed, moved);
   return nlohmann::json::object();
@@ -237,86 +201,87 @@ nlohmann::json Worker::rebuild(const std::string& spec, const Deformation& defor
 
 nlohmann::json Worker::first(const Task& task) {
   contestant_->forget();
-  return timed_replay(course_of(task), {{0, 1}});
+  return timed_replay(trace_of(task), {{0, 1}});
 }
 
 nlohmann::json Worker::calibrate(const Task& task, double budget_ns) {
-  if (!task.windows.empty()) {
-    const double start = processor_ns();
-    Timed timed = timed_replay(course_of(task), task.windows);
-    const double processor = (processor_ns() - start) / static_cast<double>(steps_in(task.windows));
+  if (!task.ranges.empty()) {
+    const double start = support::processor_ns();
+    Timed timed = timed_replay(trace_of(task), task.ranges);
+    const double processor =
+        (support::processor_ns() - start) / static_cast<double>(workload::steps_in(task.ranges));
     timed.ns_per_query = std::min(timed.ns_per_query, processor);
     return timed;
   }
-  const std::size_t total = courses_.at(task.course).size();
+  const std::size_t total = traces_.at(task.trace).size();
   for (std::size_t steps = 2;; steps *= 4) {
-    const std::vector<Window> windows = plan_windows(total, steps);
-    const Timed timed = timed_replay(course_of(task), windows);
-    const double elapsed = timed.ns_per_query * static_cast<double>(steps_in(windows));
+    const std::vector<workload::StepRange> ranges = workload::sample_steps(total, steps);
+    const Timed timed = timed_replay(trace_of(task), ranges);
+    const double elapsed = timed.ns_per_query * static_cast<double>(workload::steps_in(ranges));
     if (elapsed * 4 >= budget_ns || steps >= total) return timed;
   }
 }
 
 nlohmann::json Worker::answer(const Task& task) {
-  const Course course = course_of(task);
-  const std::vector<Window> windows = windows_of(task);
-  const std::size_t steps = steps_in(windows);
+  const workload::QueryTrace trace = trace_of(task);
+  const std::vector<workload::StepRange> ranges = ranges_of(task);
+  const std::size_t steps = workload::steps_in(ranges);
   contestant_->forget();
   std::size_t done = 0;
-  for (const Window& window : windows) {
-    contestant_->answer(course, window, room_->answers(steps).subspan(done, window.size()),
-                        room_->work(steps).subspan(done, window.size()));
-    done += window.size();
+  for (const workload::StepRange& range : ranges) {
+    contestant_->answer(trace, range, buffers_->answers(steps).subspan(done, range.size()),
+                        buffers_->work(steps).subspan(done, range.size()));
+    done += range.size();
   }
-  Checksum checksum;
-  for (const Answer& answer : room_->answers(steps)) checksum.add(answer);
+  workload::Checksum checksum;
+  for (const workload::Answer& answer : buffers_->answers(steps)) checksum.add(answer);
   return Answered{checksum.value(), contestant_->work()};
 }
 
 nlohmann::json Worker::answer_afresh(const Task& task, std::size_t step) {
   contestant_->forget();
-  contestant_->answer(course_of(task), {step, step + 1}, room_->answers(1), room_->work(1));
-  Checksum checksum;
-  checksum.add(room_->answers(1).front());
+  contestant_->answer(trace_of(task), {step, step + 1}, buffers_->answers(1), buffers_->work(1));
+  workload::Checksum checksum;
+  checksum.add(buffers_->answers(1).front());
   return Answered{checksum.value(), contestant_->work()};
 }
 
 nlohmann::json Worker::first_pass(const Task& task) {
   contestant_->forget();
-  Timed timed = timed_replay(course_of(task), windows_of(task));
+  Timed timed = timed_replay(trace_of(task), ranges_of(task));
   timed.work = contestant_->work();
   return timed;
 }
 
 nlohmann::json Worker::time(const Task& task, std::int64_t passes) {
-  const Throughput throughput = measure_throughput(*contestant_, course_of(task), windows_of(task), passes);
+  const Throughput throughput = measure_throughput(*contestant_, trace_of(task), ranges_of(task), passes);
   return Timed{
       throughput.ns_per_query, throughput.cpu_ns_per_query, throughput.checksum, throughput.steady, {}};
 }
 
-nlohmann::json Worker::sample(const Task& task, std::int64_t passes, std::int64_t together) {
+nlohmann::json Worker::sample(const Task& task, std::int64_t passes, std::int64_t replays) {
   const Throughput throughput =
-      sample_throughput(*contestant_, course_of(task), windows_of(task), passes, together);
+      sample_throughput(*contestant_, trace_of(task), ranges_of(task), passes, replays);
   return Timed{
       throughput.ns_per_query, throughput.cpu_ns_per_query, throughput.checksum, throughput.steady, {},
       throughput.samples,      throughput.interrupted};
 }
 
 nlohmann::json Worker::latency(const Task& task) {
-  const Course course = course_of(task);
-  const std::vector<Window> windows = windows_of(task);
-  const std::span<std::uint64_t> ticks = room_->ticks(steps_in(windows));
-  const std::span<std::uint64_t> prepare_ticks = room_->prepare_ticks(ticks.size());
+  const workload::QueryTrace trace = trace_of(task);
+  const std::vector<workload::StepRange> ranges = ranges_of(task);
+  const std::span<std::uint64_t> ticks = buffers_->ticks(workload::steps_in(ranges));
+  const std::span<std::uint64_t> prepare_ticks = buffers_->prepare_ticks(ticks.size());
   // No page fault inside a timed step.
   std::fill(ticks.begin(), ticks.end(), 0);
   std::fill(prepare_ticks.begin(), prepare_ticks.end(), 0);
-  Checksum checksum;
+  workload::Checksum checksum;
   std::size_t done = 0;
   const Clock::time_point start = Clock::now();
-  for (const Window& window : windows) {
-    contestant_->replay_clocked(course, window, checksum, ticks.subspan(done, window.size()),
-                                prepare_ticks.subspan(done, window.size()));
-    done += window.size();
+  for (const workload::StepRange& range : ranges) {
+    contestant_->replay_clocked(trace, range, checksum, ticks.subspan(done, range.size()),
+                                prepare_ticks.subspan(done, range.size()));
+    done += range.size();
   }
   return Timed{ns_since(start) / static_cast<double>(done), 0, checksum.value(), true, {}};
 }
@@ -324,32 +289,32 @@ nlohmann::json Worker::latency(const Task& task) {
 void serve(Worker worker, LineChannel channel) {
   std::string line;
   while (channel.receive(line, std::nullopt, [] {}) == LineChannel::Outcome::line) {
-    if (!channel.send(dumped(worker.obey(nlohmann::json::parse(line))))) return;
+    if (!channel.send(dumped(worker.dispatch(nlohmann::json::parse(line))))) return;
   }
 }
 
 }  // namespace
 
-int run_worker(int argc, char** argv, const Roster& roster) {
+int run_worker(int argc, char** argv, const contestants::Roster& roster) {
   const LineChannel channel(worker_control);
-  const auto give_up = [&](const std::string& what) {
+  const auto reply_exhausted = [&](const std::string& what) {
     channel.send(dumped({{out_of_resources, what}}));
-    return exit_resources;
+    return support::exit_resources;
   };
   try {
     initialize_throughput({argv + 1, argv + argc});
     serve(Worker(roster), LineChannel(worker_control));
-    return exit_done;
+    return support::exit_done;
   } catch (const std::bad_alloc&) {
-    return give_up("out of memory" + memory_limit());
-  } catch (const ResourceError& error) {
-    return give_up(error.what());
+    return reply_exhausted("out of memory" + support::memory_limit());
+  } catch (const support::ResourceError& error) {
+    return reply_exhausted(error.what());
   } catch (const std::system_error& error) {
-    return give_up(error.what() + limit_behind(error.code().value()));
+    return reply_exhausted(error.what() + support::limit_behind(error.code().value()));
   } catch (const std::exception& error) {
     fmt::print(stderr, "worker: {}\n", error.what());
-    return exit_resources;
+    return support::exit_resources;
   }
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workers

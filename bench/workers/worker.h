@@ -1,13 +1,13 @@
-/// The inside of a worker process: builds one contestant and does what the program orders, see
+/// The inside of a worker process: builds one contestant and does what the program requests, see
 /// worker_protocol.h.
 #pragma once
 
 #include "bench/contestants/contestant_info.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workers {
 
 /// What a worker program's main function returns. Arguments are --benchmark_* flags. Ends when the program
 /// closes the control socket.
-int run_worker(int argc, char** argv, const Roster& roster);
+int run_worker(int argc, char** argv, const contestants::Roster& roster);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workers

@@ -24,7 +24,7 @@
 #include "bench/support/system_limit.h"
 #include "bench/workers/worker_protocol.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workers {
 namespace {
 
 /// The exit status of a program that could not be loaded, as the dynamic loader and shells have it.
@@ -93,7 +93,7 @@ void restrict_to_core(int core) {
 
 [[noreturn]] void become_worker(const WorkerLaunch& launch, const Exec& exec, int control, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(exit_resources);  // it died before the line above
+  if (getppid() != parent) _exit(support::exit_resources);  // it died before the line above
   // Ctrl-C goes to the whole foreground group; the program decides what it means.
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_IGN);
   if (!launch.show_output) silence_output();
@@ -121,11 +121,12 @@ bool worker_program_exists(const std::string& program) {
 
 WorkerProcess::WorkerProcess(const WorkerLaunch& launch) : program_(launch.program) {
   if (!worker_program_exists(launch.program)) {
-    throw ResourceError(fmt::format("the program {} is not beside this one", launch.program));
+    throw support::ResourceError(fmt::format("the program {} is not beside this one", launch.program));
   }
   std::array<int, 2> sockets{};
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets.data()) != 0) {
-    throw ResourceError(fmt::format("cannot talk to a worker: {}", described_with_limit(errno)));
+    throw support::ResourceError(
+        fmt::format("cannot talk to a worker: {}", support::described_with_limit(errno)));
   }
   const Exec exec(launch);
   const pid_t parent = getpid();
@@ -135,7 +136,8 @@ WorkerProcess::WorkerProcess(const WorkerLaunch& launch) : program_(launch.progr
   close(sockets[1]);
   if (process_ < 0) {
     close(sockets[0]);
-    throw ResourceError(fmt::format("cannot start a worker: {}", described_with_limit(error)));
+    throw support::ResourceError(
+        fmt::format("cannot start a worker: {}", support::described_with_limit(error)));
   }
   control_ = sockets[0];
   channel_ = LineChannel(control_);
@@ -157,29 +159,30 @@ WorkerProcess::Ending WorkerProcess::end() {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   process_ = -1;
-  ending.out_of_time = WIFSIGNALED(ending.status) && used_up_its_time(used);
+  ending.out_of_time = WIFSIGNALED(ending.status) && support::used_up_its_time(used);
   return ending;
 }
 
 void WorkerProcess::explain(const Ending& ending) const {
-  if (ending.out_of_time) throw ResourceError(fmt::format("{}: {}", program_, time_limit()));
+  if (ending.out_of_time)
+    throw support::ResourceError(fmt::format("{}: {}", program_, support::time_limit()));
   const std::string how = how_it_ended(ending.status);
   if (replied_) throw WorkerFailure(how);
   if (WIFEXITED(ending.status) && WEXITSTATUS(ending.status) == not_loaded) {
-    throw ResourceError(
+    throw support::ResourceError(
         fmt::format("{} cannot be loaded: a library is missing, or there is too little memory{}", program_,
-                    memory_limit()));
+                    support::memory_limit()));
   }
-  throw ResourceError(
-      fmt::format("{} ended before it knew whom to run: {}{}", program_, how, memory_limit()));
+  throw support::ResourceError(
+      fmt::format("{} ended before it knew whom to run: {}{}", program_, how, support::memory_limit()));
 }
 
-nlohmann::json WorkerProcess::ask(const nlohmann::json& order, std::chrono::milliseconds patience) {
+nlohmann::json WorkerProcess::ask(const nlohmann::json& request, std::chrono::milliseconds timeout) {
   if (process_ <= 0) throw WorkerFailure("ended");
-  channel_.send(order.dump());  // one that is gone may have left a reply that says why
+  channel_.send(request.dump());  // one that is gone may have left a reply that says why
   std::string line;
-  const auto deadline = std::chrono::steady_clock::now() + patience;
-  switch (channel_.receive(line, deadline, check_for_interrupt)) {
+  const auto deadline = std::chrono::steady_clock::now() + timeout;
+  switch (channel_.receive(line, deadline, support::check_for_interrupt)) {
     case LineChannel::Outcome::line:
       break;
     case LineChannel::Outcome::closed:
@@ -192,15 +195,15 @@ nlohmann::json WorkerProcess::ask(const nlohmann::json& order, std::chrono::mill
   nlohmann::json reply = nlohmann::json::parse(line);
   if (const auto error = reply.find(start_error_key); error != reply.end()) {
     end();
-    throw ResourceError(
-        fmt::format("cannot start {}: {}", program_, described_with_limit(error->get<int>())));
+    throw support::ResourceError(
+        fmt::format("cannot start {}: {}", program_, support::described_with_limit(error->get<int>())));
   }
   if (const auto what = reply.find(out_of_resources); what != reply.end()) {
     end();
-    throw ResourceError(fmt::format("{}: {}", program_, what->get<std::string>()));
+    throw support::ResourceError(fmt::format("{}: {}", program_, what->get<std::string>()));
   }
   replied_ = true;
   return reply;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workers

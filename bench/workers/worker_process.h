@@ -1,4 +1,4 @@
-/// The outside of a worker process: starts it, orders, waits with a deadline, and says how it ended.
+/// The outside of a worker process: starts it, sends requests, waits with a deadline, and says how it ended.
 #pragma once
 
 #include <chrono>
@@ -12,7 +12,7 @@
 
 #include "bench/workers/line_channel.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workers {
 
 /// The worker did not answer; what() is the status for its row: "timeout", "crashed:SIGSEGV",
 /// "crashed:exit 3".
@@ -42,11 +42,11 @@ class WorkerProcess {
   /// Throws WorkerFailure (the process is gone then), Interrupted, or ResourceError where the machine, not
   /// the contestant, kept the worker from answering: no descriptor, memory or processor time was left for it,
   /// or it ended before it knew whom to run.
-  nlohmann::json ask(const nlohmann::json& order, std::chrono::milliseconds patience);
+  nlohmann::json ask(const nlohmann::json& request, std::chrono::milliseconds timeout);
 
  private:
   struct Ending {
-    int status = 0;  ///< of waitpid
+    int status = 0;  ///< waitpid's
     bool out_of_time = false;
   };
   Ending end();  // makes sure it is gone and says how it went
@@ -59,7 +59,7 @@ class WorkerProcess {
   LineChannel channel_{-1};
 };
 
-/// Is there such a program beside this one?
+/// Returns true if there is such a program beside this one.
 bool worker_program_exists(const std::string& program);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workers

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace touchmark::bench {
+namespace touchmark::bench::workers {
 namespace {
 
 // JSON has no infinity, so doubles that may be infinite travel as their bits.
@@ -33,22 +33,21 @@ Work work_from(const nlohmann::json& json) {
 }  // namespace
 
 void to_json(nlohmann::json& json, const Task& task) {
-  std::vector<std::size_t> windows;
-  for (const Window& window : task.windows) windows.insert(windows.end(), {window.begin, window.end});
-  json = {{"course", task.course},
+  std::vector<std::size_t> ranges;
+  for (const workload::StepRange& range : task.ranges) ranges.insert(ranges.end(), {range.begin, range.end});
+  json = {{"course", task.trace},
           {"query", static_cast<std::uint32_t>(task.query)},
           {"steps", task.steps},
-          {"windows", windows}};
+          {"windows", ranges}};
 }
 
 void from_json(const nlohmann::json& json, Task& task) {
-  json.at("course").get_to(task.course);
-  task.query = static_cast<Query>(json.at("query").get<std::uint32_t>());
+  json.at("course").get_to(task.trace);
+  task.query = static_cast<workload::Query>(json.at("query").get<std::uint32_t>());
   json.at("steps").get_to(task.steps);
-  const auto windows = json.at("windows").get<std::vector<std::size_t>>();
-  task.windows.clear();
-  for (std::size_t i = 0; i + 1 < windows.size(); i += 2)
-    task.windows.push_back({windows[i], windows[i + 1]});
+  const auto ranges = json.at("windows").get<std::vector<std::size_t>>();
+  task.ranges.clear();
+  for (std::size_t i = 0; i + 1 < ranges.size(); i += 2) task.ranges.push_back({ranges[i], ranges[i + 1]});
 }
 
 void to_json(nlohmann::json& json, const Opened& opened) {
@@ -65,7 +64,7 @@ void from_json(const nlohmann::json& json, Opened& opened) {
 
 void to_json(nlohmann::json& json, const Built& built) {
   std::vector<std::uint32_t> queries;
-  for (const Query query : built.queries) queries.push_back(static_cast<std::uint32_t>(query));
+  for (const workload::Query query : built.queries) queries.push_back(static_cast<std::uint32_t>(query));
   json = {{"refused", built.refused},
           {"build_ms", built.build_ms},
           {"bytes", built.bytes},
@@ -77,7 +76,7 @@ void to_json(nlohmann::json& json, const Built& built) {
           {"names_exactly", built.accuracy.names_exactly},
           {"queries", queries},
           {"prepares", built.prepares},
-          {"makes_later", built.makes_later}};
+          {"makes_later", built.builds_lazily}};
 }
 
 void from_json(const nlohmann::json& json, Built& built) {
@@ -90,10 +89,10 @@ void from_json(const nlohmann::json& json, Built& built) {
                     json.at("names_exactly").get<bool>()};
   built.queries.clear();
   for (const nlohmann::json& query : json.at("queries")) {
-    built.queries.push_back(static_cast<Query>(query.get<std::uint32_t>()));
+    built.queries.push_back(static_cast<workload::Query>(query.get<std::uint32_t>()));
   }
   json.at("prepares").get_to(built.prepares);
-  json.at("makes_later").get_to(built.makes_later);
+  json.at("makes_later").get_to(built.builds_lazily);
 }
 
 void to_json(nlohmann::json& json, const Answered& answered) {
@@ -137,4 +136,4 @@ void from_json(const nlohmann::json& json, Updated& updated) {
   json.at("update_over_build").get_to(updated.update_over_build);
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workers

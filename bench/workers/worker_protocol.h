@@ -1,5 +1,5 @@
-/// What the program and a worker say to each other: one JSON object a line, an order and its reply in turn.
-/// Bulk data (mesh, courses, answers, times) goes through shared memory, see shared_workload.h.
+/// What the program and a worker say to each other: one JSON object a line, a request and its reply in turn.
+/// Bulk data (mesh, traces, answers, times) goes through shared memory, see shared_workload.h.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 #include "bench/workload/answer.h"
 #include "core/detector.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workers {
 
 /// The descriptors a worker finds open.
 inline constexpr int worker_control = 3;
@@ -23,18 +23,18 @@ inline constexpr int worker_output = 5;
 /// The key of a reply that says what the worker itself, not its contestant, was short of.
 inline constexpr const char* out_of_resources = "out_of_resources";
 
-/// Which steps of which course are meant: those of `windows`, or, where there are none, of
-/// plan_windows(steps of the course, `steps`).
+/// Which steps of which trace are meant: those of `ranges`, or, where there are none, of
+/// sample_steps(steps of the trace, `steps`).
 struct Task {
-  std::size_t course = 0;
-  Query query = Query::nearest;
+  std::size_t trace = 0;
+  workload::Query query = workload::Query::nearest;
   std::size_t steps = 1;
-  std::vector<Window> windows = {};  ///< ascending
+  std::vector<workload::StepRange> ranges = {};  ///< ascending
 };
 
-/// Reply to "open": the worker has read the mesh and the courses.
+/// Reply to "open": the worker has read the mesh and the traces.
 struct Opened {
-  double clock_cost_ns = 0;  ///< of one reading in the latency pass
+  double clock_cost_ns = 0;  ///< one reading's in the latency pass
   double ns_per_tick = 1;
   bool flushed_to_zero = false;  ///< a library had switched denormal numbers off; the worker switched them on
 };
@@ -46,27 +46,27 @@ struct Built {
   std::uint64_t bytes = 0;
   std::uint64_t heap_bytes = 0;  ///< growth of the heap
   Accuracy accuracy;
-  std::vector<Query> queries;
+  std::vector<workload::Query> queries;
   bool prepares = false;
-  bool makes_later = false;  ///< parts of itself, by the first queries
+  bool builds_lazily = false;  ///< its first queries build parts of it
 };
 
-/// Reply to "answer": answers and work lie in the output room, from a fresh session.
+/// Reply to "answer": answers and work lie in the output buffers, from a fresh session.
 struct Answered {
   std::uint64_t checksum = 0;
-  Work work;  ///< of all steps
+  Work work;  ///< all steps'
 };
 
 /// Reply to "first" (one step, fresh session), "calibrate", "first_pass" (fresh session), "time", "sample"
-/// and "latency" (ticks lie in the output room).
+/// and "latency" (ticks lie in the output buffers).
 struct Timed {
   double ns_per_query = 0;      ///< elapsed; of "calibrate" the shorter of that and the processor time
-  double cpu_ns_per_query = 0;  ///< of "time" and "sample" only
+  double cpu_ns_per_query = 0;  ///< "time" and "sample" only
   std::uint64_t checksum = 0;
   bool steady = true;                ///< every pass gave the same checksum
-  Work work;                         ///< of "first_pass" only, of all steps
-  std::vector<double> samples = {};  ///< of "sample" only: see sample_throughput
-  std::size_t interrupted = 0;       ///< of the samples
+  Work work;                         ///< "first_pass" only: all steps'
+  std::vector<double> samples = {};  ///< "sample" only: see sample_throughput
+  std::size_t interrupted = 0;       ///< how many samples were
 };
 
 /// Reply to "update": the detector follows the deformed mesh now. Updates, there and back, and builds of the
@@ -93,4 +93,4 @@ void from_json(const nlohmann::json& json, Answered& answered);
 void to_json(nlohmann::json& json, const Timed& timed);
 void from_json(const nlohmann::json& json, Timed& timed);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workers

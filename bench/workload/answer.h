@@ -8,7 +8,7 @@
 
 #include "core/probe.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workload {
 
 enum class Query : std::uint32_t { touches, nearest, sweep };
 
@@ -51,4 +51,4 @@ class Checksum {
   std::uint64_t value_ = 0;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workload

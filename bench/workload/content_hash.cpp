@@ -1,6 +1,6 @@
 #include "bench/workload/content_hash.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workload {
 
 std::uint64_t hash_of(const TriangleMesh& mesh) {
   ContentHash hash;
@@ -10,9 +10,9 @@ std::uint64_t hash_of(const TriangleMesh& mesh) {
   return hash.value();
 }
 
-std::uint64_t hash_of(std::span<const Step> course) {
+std::uint64_t hash_of(std::span<const Step> trace) {
   ContentHash hash;
-  for (const Step& step : course) {
+  for (const Step& step : trace) {
     hash.add(step.probe.center.data(), 3 * sizeof(double));
     hash.add(step.probe.radius);
     hash.add(step.reach);
@@ -20,4 +20,4 @@ std::uint64_t hash_of(std::span<const Step> course) {
   return hash.value();
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workload

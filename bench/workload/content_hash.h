@@ -1,4 +1,4 @@
-/// What a mesh or a course holds, as a number: equal content has equal numbers on every machine.
+/// What a mesh or a trace holds, as a number: equal content has equal numbers on every machine.
 #pragma once
 
 #include <bit>
@@ -10,7 +10,7 @@
 #include "bench/workload/steps.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workload {
 
 /// FNV-1a, 64 bits.
 class ContentHash {
@@ -23,7 +23,7 @@ class ContentHash {
     const auto bits = std::bit_cast<std::uint64_t>(value);
     add(&bits, sizeof bits);
   }
-  /// With its end, so that "ab", "c" is not "a", "bc".
+  /// Adds a text with its end, so that "ab", "c" is not "a", "bc".
   void add(std::string_view text) noexcept {
     add(text.data(), text.size());
     add("", 1);
@@ -37,6 +37,6 @@ class ContentHash {
 /// Over the bits of vertices, corners and ids.
 std::uint64_t hash_of(const TriangleMesh& mesh);
 /// Over the bits of each step's centre, radius and reach.
-std::uint64_t hash_of(std::span<const Step> course);
+std::uint64_t hash_of(std::span<const Step> trace);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workload

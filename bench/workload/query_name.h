@@ -7,7 +7,7 @@
 
 #include "bench/workload/answer.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workload {
 
 inline constexpr std::array<Query, 3> all_queries{Query::touches, Query::nearest, Query::sweep};
 
@@ -47,4 +47,4 @@ inline const char* name_of(Side side) noexcept {
   return "";
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workload

@@ -6,13 +6,13 @@
 
 #include "bench/support/random.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workload {
 namespace {
 
 /// As many blocks at least, cut shorter where that is more steps than are wanted.
-constexpr std::size_t fewest_blocks = 16;
-/// Of each phase that has as many: one tells nothing of how blocks differ.
-constexpr std::size_t fewest_of_a_phase = 2;
+constexpr std::size_t min_blocks = 16;
+/// Blocks drawn of each phase that has as many: one tells nothing of how blocks differ.
+constexpr std::size_t min_of_a_phase = 2;
 constexpr double nearness = 0.02;  // diagonals
 constexpr std::size_t telling_of_a_block = 3;
 
@@ -23,12 +23,12 @@ struct Drawn {
 
 /// The blocks of one phase in random order, with keys spread evenly over [0, 1), or -1 for those that come
 /// first.
-void draw(std::vector<std::size_t> blocks, Random& random, std::vector<Drawn>& drawn) {
+void draw(std::vector<std::size_t> blocks, support::Random& random, std::vector<Drawn>& drawn) {
   random.shuffle(blocks);
   const double offset = random.unit();
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const double key = (static_cast<double>(i) + offset) / static_cast<double>(blocks.size());
-    drawn.push_back({i < fewest_of_a_phase ? -1 : key, blocks[i]});
+    drawn.push_back({i < min_of_a_phase ? -1 : key, blocks[i]});
   }
 }
 
@@ -47,27 +47,27 @@ SamplePlan::SamplePlan(std::size_t total, std::vector<Phase> phases, std::uint64
     blocks[phase].push_back(block);
     steps_[phase] += std::min(block_steps, total_ - block * block_steps);
   }
-  Random random(seed);
+  support::Random random(seed);
   std::vector<Drawn> drawn;
   for (std::vector<std::size_t>& some : blocks) draw(std::move(some), random, drawn);
   std::stable_sort(drawn.begin(), drawn.end(), [](const Drawn& a, const Drawn& b) { return a.key < b.key; });
   for (const Drawn& one : drawn) {
     order_.push_back(one.block);
-    fewest_ += one.key < 0 ? 1 : 0;
+    min_ += one.key < 0 ? 1 : 0;
   }
 }
 
-std::vector<Window> SamplePlan::windows(std::size_t wanted) const {
+std::vector<StepRange> SamplePlan::ranges(std::size_t wanted) const {
   if (wanted >= total_) return {{0, total_}};
-  const std::size_t length = std::clamp<std::size_t>(wanted / fewest_blocks, 1, block_steps);
-  const std::size_t count = std::min(std::max(wanted / length, fewest_), order_.size());
-  std::vector<Window> windows;
+  const std::size_t length = std::clamp<std::size_t>(wanted / min_blocks, 1, block_steps);
+  const std::size_t count = std::min(std::max(wanted / length, min_), order_.size());
+  std::vector<StepRange> ranges;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t begin = order_[i] * block_steps;
-    windows.push_back({begin, std::min(begin + length, total_)});
+    ranges.push_back({begin, std::min(begin + length, total_)});
   }
-  std::sort(windows.begin(), windows.end(), [](Window a, Window b) { return a.begin < b.begin; });
-  return windows;
+  std::sort(ranges.begin(), ranges.end(), [](StepRange a, StepRange b) { return a.begin < b.begin; });
+  return ranges;
 }
 
 std::vector<std::size_t> telling_steps(std::size_t total) {
@@ -90,4 +90,4 @@ std::vector<Phase> phases_of(std::span<const Step> steps, std::span<const double
   return phases;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workload

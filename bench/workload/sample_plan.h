@@ -11,9 +11,9 @@
 
 #include "bench/workload/steps.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workload {
 
-/// Of a block: where its nearest step is. `near` is within 2 % of the mesh's diagonal of touching.
+/// Says where a block's nearest step is. `near` is within 2 % of the mesh's diagonal of touching.
 enum class Phase : std::uint8_t { contact, near, free };
 inline constexpr std::size_t phase_count = 3;
 
@@ -23,23 +23,23 @@ class SamplePlan {
   static constexpr std::size_t block_steps = 32;
   static std::size_t blocks_in(std::size_t steps) noexcept { return (steps + block_steps - 1) / block_steps; }
 
-  /// Of `total` steps, with a phase for each of their blocks. The same for the same arguments.
+  /// Plans for `total` steps, with a phase for each of their blocks. Equal arguments give equal plans.
   SamplePlan(std::size_t total, std::vector<Phase> phases, std::uint64_t seed);
 
-  /// Disjoint windows, ascending, each in one block, of about `wanted` steps in all: about as large a share
-  /// of each phase, and at least two blocks of it. One window of all steps where `wanted` is as many.
-  std::vector<Window> windows(std::size_t wanted) const;
+  /// Disjoint ranges, ascending, each in one block, of about `wanted` steps in all: about as large a share
+  /// of each phase, and at least two blocks of it. One range of all steps where `wanted` is as many.
+  std::vector<StepRange> ranges(std::size_t wanted) const;
 
   std::size_t total() const noexcept { return total_; }
-  Phase phase_of(Window window) const { return phases_.at(window.begin / block_steps); }
+  Phase phase_of(StepRange range) const { return phases_.at(range.begin / block_steps); }
   std::size_t steps_of(Phase phase) const noexcept { return steps_[static_cast<std::size_t>(phase)]; }
 
  private:
   std::size_t total_;
   std::vector<Phase> phases_;                     ///< a block each
   std::array<std::size_t, phase_count> steps_{};  ///< a phase each
-  std::vector<std::size_t> order_;                ///< of blocks: any beginning of it is a sample by phase
-  std::size_t fewest_ = 0;                        ///< blocks at the beginning that no sample goes without
+  std::vector<std::size_t> order_;  ///< blocks in an order whose every beginning is a sample by phase
+  std::size_t min_ = 0;             ///< blocks at the beginning that no sample goes without
 };
 
 /// What a block's phase is told from: its first, middle and last step.
@@ -49,4 +49,4 @@ std::vector<std::size_t> telling_steps(std::size_t total);
 std::vector<Phase> phases_of(std::span<const Step> steps, std::span<const double> telling_distances,
                              double diagonal);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workload

@@ -7,17 +7,17 @@
 
 #include "bench/workload/steps.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workload {
 
-/// Disjoint windows, ascending, of about `wanted` steps in all (at least 1; all `total` if wanted >= total).
-std::vector<Window> plan_windows(std::size_t total, std::size_t wanted);
+/// Disjoint ranges, ascending, of about `wanted` steps in all (at least 1; all `total` if wanted >= total).
+std::vector<StepRange> sample_steps(std::size_t total, std::size_t wanted);
 
-/// Those that meet made one.
-std::vector<Window> joined(const std::vector<Window>& windows);
+/// Joins ranges that meet.
+std::vector<StepRange> joined(const std::vector<StepRange>& ranges);
 
-/// The window in so many parts, as equal as can be; not more than it has steps.
-std::vector<Window> split(Window window, std::size_t parts);
+/// The range in so many parts, as equal as can be; not more than it has steps.
+std::vector<StepRange> split(StepRange range, std::size_t parts);
 
-std::size_t steps_in(const std::vector<Window>& windows) noexcept;
+std::size_t steps_in(const std::vector<StepRange>& ranges) noexcept;
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workload

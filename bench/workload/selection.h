@@ -11,16 +11,16 @@
 #include "bench/trajectories/motion_options.h"
 #include "bench/workload/answer.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workload {
 
 struct Selection {
   std::vector<Query> queries;  ///< one, or all three
-  Length radius;
-  std::optional<Length> reach;  ///< nothing: each probe's radius
+  support::Length radius;
+  std::optional<support::Length> reach;  ///< nothing: each probe's radius
   std::optional<std::size_t> steps;
-  MotionOptions motion;
-  std::optional<LengthUnit> unit;  ///< of the mesh; nothing: unknown
+  trajectories::MotionOptions motion;
+  std::optional<support::LengthUnit> unit;  ///< the mesh's; nothing: unknown
   std::uint64_t seed = 1;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workload

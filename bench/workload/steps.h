@@ -7,26 +7,26 @@
 #include "bench/workload/answer.h"
 #include "core/probe.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workload {
 
 /// One servo tick's question. A sweep goes from the previous step's centre to this one's; the first step's
 /// stands still.
 struct Step {
   Probe probe;
-  double reach = 0;  ///< of `nearest`
+  double reach = 0;  ///< for `nearest`
 };
 
-/// The steps [begin, end) of a course.
-struct Window {
+/// The steps [begin, end) of a trace.
+struct StepRange {
   std::size_t begin = 0;
   std::size_t end = 0;
   std::size_t size() const noexcept { return end - begin; }
 };
 
 /// A whole trajectory with what is asked along it.
-struct Course {
+struct QueryTrace {
   Query query = Query::nearest;
   std::span<const Step> steps;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workload

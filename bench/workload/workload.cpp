@@ -10,22 +10,23 @@
 #include "bench/support/progress.h"
 #include "bench/trajectories/trajectories.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workload {
 namespace {
 
-std::vector<Step> course_along(const Trajectory& trajectory, double radius, std::optional<double> reach) {
-  std::vector<Step> course(trajectory.size());
-  for (std::size_t i = 0; i < course.size(); ++i) {
-    course[i].probe = {trajectory.positions[i], trajectory.radii.empty() ? radius : trajectory.radii[i]};
-    course[i].reach = reach.value_or(course[i].probe.radius);
+std::vector<Step> trace_along(const trajectories::Trajectory& trajectory, double radius,
+                              std::optional<double> reach) {
+  std::vector<Step> trace(trajectory.size());
+  for (std::size_t i = 0; i < trace.size(); ++i) {
+    trace[i].probe = {trajectory.positions[i], trajectory.radii.empty() ? radius : trajectory.radii[i]};
+    trace[i].reach = reach.value_or(trace[i].probe.radius);
   }
-  return course;
+  return trace;
 }
 
 /// A recorded trajectory is replayed whole unless --steps says otherwise (0 stands for that).
 std::size_t steps_of(const std::string& name, const Selection& selection, std::size_t default_steps) {
   if (selection.steps) return *selection.steps;
-  return is_generated(name) ? default_steps : 0;
+  return trajectories::is_generated(name) ? default_steps : 0;
 }
 
 /// In this process and the workers': a position, the step here, in the shared memory and there, and the
@@ -37,35 +38,37 @@ void require_memory_for(const std::vector<std::string>& trajectories, const Sele
   double steps = 0;
   for (const std::string& name : trajectories)
     steps += static_cast<double>(steps_of(name, selection, default_steps));
-  require_memory(fmt::format("trajectory {}: {:.0f} steps", fmt::join(trajectories, ", "), steps),
-                 steps * bytes_a_step);
+  support::require_memory(fmt::format("trajectory {}: {:.0f} steps", fmt::join(trajectories, ", "), steps),
+                          steps * bytes_a_step);
 }
 
 /// A step is a millisecond where no times say otherwise.
-Motion motion_of(const Trajectory& trajectory) {
+Motion motion_of(const trajectories::Trajectory& trajectory) {
   Motion motion{0, 0, trajectory.recorded};
-  double way = 0, duration = 0;
+  double length = 0, duration = 0;
   for (std::size_t i = 1; i < trajectory.size(); ++i) {
     const double piece = (trajectory.positions[i] - trajectory.positions[i - 1]).stableNorm();
     const double time = trajectory.times_s.empty() ? 1e-3 : trajectory.times_s[i] - trajectory.times_s[i - 1];
-    way += piece;
+    length += piece;
     duration += time;
     motion.max_speed = std::max(motion.max_speed, piece / time);
   }
-  if (duration > 0) motion.mean_speed = way / duration;
+  if (duration > 0) motion.mean_speed = length / duration;
   return motion;
 }
 
-void say_that_rows_are_steps(const Trajectory& trajectory) {
+void say_that_rows_are_steps(const trajectories::Trajectory& trajectory) {
   if (!trajectory.recorded || trajectory.recorded->resampled_hz) return;
   const std::optional<double> rate = trajectory.recorded->rate_hz();
-  note_once(fmt::format("{}: each row is a step, whatever the time ({}{:.6g} s); --rate HZ resamples by time",
-                        trajectory.name, rate ? fmt::format("{:.6g} Hz, ", *rate) : "",
-                        trajectory.recorded->duration_s));
+  support::note_once(fmt::format(
+      "{}: each row is a step, whatever the time ({}{:.6g} s); --rate HZ resamples by time", trajectory.name,
+      rate ? fmt::format("{:.6g} Hz, ", *rate) : "", trajectory.recorded->duration_s));
 }
 
-void expect_a_motion_file(const std::vector<std::string>& trajectories, const MotionOptions& options) {
-  if (options.are_given() && std::all_of(trajectories.begin(), trajectories.end(), &is_generated)) {
+void expect_a_motion_file(const std::vector<std::string>& trajectories,
+                          const trajectories::MotionOptions& options) {
+  if (options.are_given() &&
+      std::all_of(trajectories.begin(), trajectories.end(), &trajectories::is_generated)) {
     throw std::invalid_argument(fmt::format("{} is of motion files, and no --trajectory is one",
                                             options.columns   ? "--columns"
                                             : options.rate_hz ? "--rate"
@@ -79,21 +82,21 @@ Workload make_workload(std::string mesh_name, TriangleMesh mesh, const Selection
                        const std::vector<std::string>& trajectories, std::size_t default_steps) {
   Workload workload{std::move(mesh_name), std::move(mesh), 0, {}, {}, {}};
   constexpr double bytes_a_triangle = 100;  // for sampling the surface, and the workers' copy
-  require_memory(fmt::format("trajectories on {} triangles", workload.mesh.size()),
-                 bytes_a_triangle * static_cast<double>(workload.mesh.size()));
+  support::require_memory(fmt::format("trajectories on {} triangles", workload.mesh.size()),
+                          bytes_a_triangle * static_cast<double>(workload.mesh.size()));
   workload.radius = selection.radius.in_mesh_units(workload.mesh);
   if (selection.reach) workload.reach = selection.reach->in_mesh_units(workload.mesh);
   workload.unit = selection.unit;
   expect_a_motion_file(trajectories, selection.motion);
   require_memory_for(trajectories, selection, default_steps);
   for (const std::string& name : trajectories) {
-    const Trajectory trajectory = make_trajectory(
+    const trajectories::Trajectory trajectory = trajectories::make_trajectory(
         name, workload.mesh,
         {steps_of(name, selection, default_steps), selection.seed, workload.radius, selection.motion});
     say_that_rows_are_steps(trajectory);
     workload.motions.push_back(motion_of(trajectory));
     workload.trajectories.push_back(trajectory.name);
-    workload.courses.push_back(course_along(trajectory, workload.radius, workload.reach));
+    workload.traces.push_back(trace_along(trajectory, workload.radius, workload.reach));
   }
   return workload;
 }
@@ -103,10 +106,10 @@ std::string length_text(const Workload& workload, double length) {
                        : fmt::format("{:.6g}", length);
 }
 
-std::string course_text(const Workload& workload, std::size_t course) {
-  std::string text = fmt::format("{} steps", workload.courses[course].size());
-  if (course >= workload.motions.size()) return text;
-  const Motion& motion = workload.motions[course];
+std::string trace_text(const Workload& workload, std::size_t trace) {
+  std::string text = fmt::format("{} steps", workload.traces[trace].size());
+  if (trace >= workload.motions.size()) return text;
+  const Motion& motion = workload.motions[trace];
   if (motion.recorded) {
     text += fmt::format(", {:.6g} s", motion.recorded->duration_s);
     if (const auto rate = motion.recorded->rate_hz()) text += fmt::format(" at {:.6g} Hz", *rate);
@@ -120,4 +123,4 @@ std::string course_text(const Workload& workload, std::size_t course) {
   return text;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workload

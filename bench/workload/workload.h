@@ -11,12 +11,12 @@
 #include "bench/workload/steps.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workload {
 
 /// How fast a trajectory is, and what its file says of time.
 struct Motion {
   double mean_speed = 0, max_speed = 0;  ///< mesh units a second
-  std::optional<RecordedTiming> recorded;
+  std::optional<trajectories::RecordedTiming> recorded;
 };
 
 struct Workload {
@@ -25,9 +25,9 @@ struct Workload {
   double radius = 0;            ///< mesh units; of the trajectories that bring none of their own
   std::optional<double> reach;  ///< mesh units; nothing: each probe's radius
   std::vector<std::string> trajectories;
-  std::vector<std::vector<Step>> courses;         ///< one a trajectory
-  std::vector<Motion> motions = {};               ///< one a trajectory, or none
-  std::optional<LengthUnit> unit = std::nullopt;  ///< nothing: unknown
+  std::vector<std::vector<Step>> traces;                   ///< one a trajectory
+  std::vector<Motion> motions = {};                        ///< one a trajectory, or none
+  std::optional<support::LengthUnit> unit = std::nullopt;  ///< nothing: unknown
 };
 
 /// Generates the trajectories, of `default_steps` unless --steps was given, or reads them whole. Says on
@@ -40,6 +40,6 @@ std::string length_text(const Workload& workload, double length);
 
 /// What reports say of a trajectory beside its name: "20000 steps", its times and, where the unit is known,
 /// its speed.
-std::string course_text(const Workload& workload, std::size_t course);
+std::string trace_text(const Workload& workload, std::size_t trace);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workload

@@ -19,52 +19,52 @@
 #include "core/grid_group/grid_group.h"
 #include "core/search/linear_scan.h"
 #include "core/sphere_cluster/sphere_cluster.h"
-#include "tests/bench/oracle/hard_triangles.h"
+#include "tests/bench/oracle/corner_case_triangles.h"
 
 namespace touchmark {
 namespace {
 
-using bench::mesh_of;
+using bench::experiments::stress::mesh_of;
 
 constexpr double unit_roundoff = 0x1p-53;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// |d - d*| / (u M).
-double error_in_roundings(const HardCase& c) {
+double error_in_roundings(const CornerCase& c) {
   const PreparedTriangle triangle = prepare(c.triangle[0], c.triangle[1], c.triangle[2], 0);
   Aabb bounds;
   for (const Vec3& corner : c.triangle) bounds.extend(corner);
   Work work;
   const std::optional<Contact> contact =
       LinearScan{{&triangle, 1}, bounds, {}}.nearest(c.point, infinity, work);
-  const bench::ExactNearest exact = bench::nearest_exactly(c.point, {&c.triangle, 1});
+  const bench::oracle::ExactNearest exact = bench::oracle::nearest_exactly(c.point, {&c.triangle, 1});
   const double unit = unit_roundoff * c.largest_difference();
   if (!contact || !(unit > 0)) return 0;
   return std::abs((contact->distance - exact.high) - exact.low) / unit;
 }
 
 /// The same but for a little more or less in one place, or in all of them.
-HardCase nudged(const HardCase& c, HardCases& hard) {
-  HardCase other = c;
-  const double size = hard.magnitude(-17, -1) * c.largest_difference();
-  const std::size_t one = hard.below(5);
+CornerCase nudged(const CornerCase& c, CornerCases& cases) {
+  CornerCase other = c;
+  const double size = cases.magnitude(-17, -1) * c.largest_difference();
+  const std::size_t one = cases.below(5);
   for (std::size_t i = 0; i < 3; ++i)
-    if (one == i || one == 4) other.triangle[i] += size * hard.vector();
-  if (one >= 3) other.point += size * hard.vector();
+    if (one == i || one == 4) other.triangle[i] += size * cases.vector();
+  if (one >= 3) other.point += size * cases.vector();
   return other;
 }
 
-class CertifiedBound : public testing::TestWithParam<HardFamily> {};
+class CertifiedBound : public testing::TestWithParam<CornerCaseFamily> {};
 
 TEST_P(CertifiedBound, IsKeptEvenUphill) {
   constexpr int climbs = 40, steps = 150;
-  HardCases hard(50);
+  CornerCases cases(50);
   double worst = 0;
   for (int climb = 0; climb < climbs; ++climb) {
-    HardCase at = placed(GetParam(), hard, climb);
+    CornerCase at = placed(GetParam(), cases, climb);
     double height = error_in_roundings(at);
     for (int step = 0; step < steps; ++step) {
-      const HardCase next = nudged(at, hard);
+      const CornerCase next = nudged(at, cases);
       const double error = error_in_roundings(next);
       ASSERT_LE(error, 16) << "climb " << climb << ", step " << step;
       if (error < height) continue;
@@ -84,25 +84,25 @@ struct NearTie {
   Vec3 center;
 };
 
-NearTie near_tie(HardCases& hard) {
-  const double away = hard.magnitude(0, 6), along = 4 * hard.vector().x();
-  const Vec3 center = Vec3::Constant(along), place = center + away * hard.vector();
-  HardCases::Corners one, other;
+NearTie near_tie(CornerCases& cases) {
+  const double away = cases.magnitude(0, 6), along = 4 * cases.vector().x();
+  const Vec3 center = Vec3::Constant(along), place = center + away * cases.vector();
+  CornerCases::Corners one, other;
   for (std::size_t i = 0; i < 3; ++i) {
-    one[i] = place + hard.vector();
+    one[i] = place + cases.vector();
     other[i] = {one[i].y(), one[i].z(), one[i].x()};
   }
-  double& last = other[hard.below(3)][static_cast<int>(hard.below(3))];
-  for (std::size_t ulps = hard.below(3); ulps > 0; --ulps)
-    last = std::nextafter(last, hard.below(2) == 0 ? infinity : -infinity);
-  return {hard.below(2) == 0 ? mesh_of({one, other}) : mesh_of({other, one}), center};
+  double& last = other[cases.below(3)][static_cast<int>(cases.below(3))];
+  for (std::size_t ulps = cases.below(3); ulps > 0; --ulps)
+    last = std::nextafter(last, cases.below(2) == 0 ? infinity : -infinity);
+  return {cases.below(2) == 0 ? mesh_of({one, other}) : mesh_of({other, one}), center};
 }
 
 TEST(NearTies, NameTheFirstOfTheExactlyNearest) {
-  HardCases hard(52);
+  CornerCases cases(52);
   for (int i = 0; i < 4000; ++i) {
-    const NearTie tie = near_tie(hard);
-    const bench::Truth truth = bench::Oracle(tie.mesh, 1).solve(tie.center);
+    const NearTie tie = near_tie(cases);
+    const bench::oracle::GroundTruth truth = bench::oracle::Oracle(tie.mesh, 1).solve(tie.center);
     const auto ask = [&](const auto& detector) {
       typename std::decay_t<decltype(detector)>::Session session;
       return detector.nearest({tie.center, 0}, infinity, session);
@@ -121,7 +121,7 @@ TEST(NearTies, NameTheFirstOfTheExactlyNearest) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Nearest, CertifiedBound, testing::ValuesIn(hard_families()),
+INSTANTIATE_TEST_SUITE_P(Nearest, CertifiedBound, testing::ValuesIn(corner_case_families()),
                          [](const auto& family) { return family.param.name; });
 
 }  // namespace

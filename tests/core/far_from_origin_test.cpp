@@ -22,7 +22,7 @@
 namespace touchmark {
 namespace {
 
-using bench::Random;
+using bench::support::Random;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -121,7 +121,7 @@ TEST(CellTreeFarAway, KnowsItAfterAnUpdate) {
     SCOPED_TRACE("2^" + std::to_string(exponent));
     const TriangleMesh mesh = ball_at(exponent);
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-      grid::TriangleStore store = grid::TriangleStore::build(bench::displaced(mesh, seed));
+      grid::TriangleStore store = grid::TriangleStore::build(bench::scenes::displaced(mesh, seed));
       const grid::BoxTree before(store);
       for (const bool rough : {false, true}) {
         grid::TriangleStore moving = store;
@@ -137,7 +137,7 @@ TEST(CellTreeFarAway, KnowsItAfterAnUpdate) {
 }
 
 /// Doubles on the mesh, near it and anywhere about it: a session goes on from one to the next.
-std::vector<Vec3> centers_about(const TriangleMesh& mesh, std::size_t count) {
+std::vector<Vec3> centers_near(const TriangleMesh& mesh, std::size_t count) {
   Random random(11);
   const Vec3 extent = mesh.bounds().extent();
   std::vector<Vec3> centers;
@@ -180,9 +180,9 @@ template <class D>
 void expect_of_built_and_updated(const TriangleMesh& mesh, const typename D::Options& options,
                                  const std::string& name) {
   const BruteForce exact = BruteForce::build(mesh);
-  const std::vector<Vec3> centers = centers_about(mesh, 60);
+  const std::vector<Vec3> centers = centers_near(mesh, 60);
   expect_answers_of_brute_force(D::build(mesh, options), exact, centers, name);
-  D updated = D::build(bench::displaced(mesh, 1), options);
+  D updated = D::build(bench::scenes::displaced(mesh, 1), options);
   typename D::Session session;
   for (const Vec3& center : centers) updated.nearest({center, 0}, 0.1, session);  // makes what is made later
   updated.update(mesh);

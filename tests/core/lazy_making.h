@@ -25,7 +25,7 @@ struct Question {
 
 /// Walks along a unit sphere, and leaps to anywhere.
 inline std::vector<Question> questions() {
-  bench::Random random(17);
+  bench::support::Random random(17);
   std::vector<Question> all;
   for (int walk = 0; walk < 40; ++walk) {
     Vec3 center = (1 + 0.1 * random.unit()) * random.direction();
@@ -41,8 +41,9 @@ inline std::vector<Question> questions() {
 
 /// All that there is to ask, at a place.
 template <class D>
-std::vector<bench::Answer> ask(const D& detector, const Question& question, typename D::Session& session) {
-  using bench::Answer;
+std::vector<bench::workload::Answer> ask(const D& detector, const Question& question,
+                                         typename D::Session& session) {
+  using bench::workload::Answer;
   const Probe probe{question.center, 0.02};
   const auto contact = detector.nearest(probe, question.reach, session);
   Answer touch;
@@ -63,7 +64,7 @@ class LazyMaking : public testing::Test {
     }
   }
   std::vector<std::size_t> shuffled(unsigned seed) const {
-    bench::Random random(seed);
+    bench::support::Random random(seed);
     std::vector<std::size_t> order = order_;
     for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.below(i)]);
     return order;
@@ -76,8 +77,8 @@ class LazyMaking : public testing::Test {
     typename D::Session session;
     int wrong = 0;
     for (const std::size_t i : order) {
-      const std::vector<bench::Answer> answers = ask(detector, all_[i], session);
-      const std::size_t bytes = answers.size() * sizeof(bench::Answer);
+      const std::vector<bench::workload::Answer> answers = ask(detector, all_[i], session);
+      const std::size_t bytes = answers.size() * sizeof(bench::workload::Answer);
       wrong += std::memcmp(answers.data(), expected_[i].data(), bytes) == 0 ? 0 : 1;
     }
     return wrong;
@@ -101,7 +102,7 @@ class LazyMaking : public testing::Test {
   const D whole_ = D::build(mesh_);
   const std::vector<Question> all_ = questions();
   std::vector<std::size_t> order_;
-  std::vector<std::vector<bench::Answer>> expected_;
+  std::vector<std::vector<bench::workload::Answer>> expected_;
 };
 
 }  // namespace touchmark::test

@@ -17,7 +17,7 @@
 #include "core/brute_force/brute_force.h"
 #include "core/grid_group/grid_group.h"
 #include "core/sphere_cluster/sphere_cluster.h"
-#include "tests/bench/oracle/hard_meshes.h"
+#include "tests/bench/oracle/corner_case_meshes.h"
 
 namespace touchmark {
 namespace {
@@ -35,12 +35,12 @@ struct Scene {
 
 std::vector<Scene> scenes() {
   std::vector<Scene> all;
-  for (const NamedMesh& named : hard_meshes()) {
-    const bench::Oracle oracle(named.mesh);
-    HardCases hard(90);
+  for (const NamedMesh& named : corner_case_meshes()) {
+    const bench::oracle::Oracle oracle(named.mesh);
+    CornerCases cases(90);
     Scene scene{named.name, named.mesh, {}, {}};
-    for (const Vec3& point : hard_points(named.mesh, hard, 30)) {
-      const bench::Truth truth = oracle.solve(point);
+    for (const Vec3& point : corner_case_points(named.mesh, cases, 30)) {
+      const bench::oracle::GroundTruth truth = oracle.solve(point);
       if (!truth.defined || std::isinf(truth.high)) continue;
       for (const double radius : {truth.high, std::nextafter(truth.high, 0.0),
                                   std::nextafter(truth.high, infinity), 2 * truth.high}) {
@@ -155,10 +155,10 @@ TEST(Symmetries, OtherAxesChangeNoDecision) {
 
 TEST(Symmetries, AnotherOrderOfTheTrianglesChangesNoBitOfADistance) {
   for (const Scene& scene : scenes()) {
-    HardCases hard(91);
+    CornerCases cases(91);
     std::vector<TriangleMesh::Corners> triangles(scene.mesh.triangles().begin(),
                                                  scene.mesh.triangles().end());
-    hard.shuffle(triangles);
+    cases.shuffle(triangles);
     const TriangleMesh mesh({scene.mesh.vertices().begin(), scene.mesh.vertices().end()},
                             std::move(triangles));
     for_every_form([&](const char* name, const auto& form) {

@@ -22,8 +22,8 @@
 namespace touchmark {
 namespace {
 
-using bench::Answer;
-using bench::Random;
+using bench::support::Random;
+using bench::workload::Answer;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 

@@ -17,10 +17,10 @@
 namespace touchmark::fuzz {
 namespace {
 
-using bench::Answer;
-using bench::Query;
-using bench::Step;
-using bench::Truth;
+using bench::oracle::GroundTruth;
+using bench::workload::Answer;
+using bench::workload::Query;
+using bench::workload::Step;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -45,13 +45,13 @@ double read_length(Script& script, double distance) {
 }
 
 /// One way through one mesh, with what is asked at each step and the truth there.
-struct Course {
+struct QueryTrace {
   TriangleMesh mesh;
-  bench::Oracle oracle;
+  bench::oracle::Oracle oracle;
   std::vector<Step> steps;
-  std::vector<Truth> truths;
+  std::vector<GroundTruth> truths;
 
-  Course(TriangleMesh given, Script& script) : mesh(std::move(given)), oracle(mesh, 1) {
+  QueryTrace(TriangleMesh given, Script& script) : mesh(std::move(given)), oracle(mesh, 1) {
     for (std::size_t left = 1 + script.below(8); left > 0; --left) {
       const Vec3 center = read_center(script, mesh);
       truths.push_back(oracle.solve(center));
@@ -62,7 +62,8 @@ struct Course {
   }
 };
 
-std::vector<Answer> ask(bench::Contestant& detector, Query query, const std::vector<Step>& steps) {
+std::vector<Answer> ask(bench::contestants::Contestant& detector, Query query,
+                        const std::vector<Step>& steps) {
   std::vector<Answer> answers(steps.size());
   std::vector<std::uint64_t> work(steps.size());
   detector.answer({query, steps}, {0, steps.size()}, answers, work);
@@ -73,35 +74,37 @@ const char* name_of(Query query) {
   return query == Query::touches ? "touches" : query == Query::nearest ? "nearest" : "sweep";
 }
 
-void judge(const Course& course, Query query, std::size_t step, const Answer& answer,
+void judge(const QueryTrace& trace, Query query, std::size_t step, const Answer& answer,
            const Accuracy& accuracy) {
-  const Probe& probe = course.steps[step].probe;
-  bench::Tally tally;
+  const Probe& probe = trace.steps[step].probe;
+  bench::oracle::ErrorCounts counts;
   if (query == Query::sweep) {
     const std::vector<Sweep> sweep = {
-        {course.steps[step > 0 ? step - 1 : 0].probe.center, probe.center, probe.radius}};
-    tally = bench::judge(course.oracle, course.oracle.solve(sweep), sweep, std::span(&answer, 1), accuracy);
+        {trace.steps[step > 0 ? step - 1 : 0].probe.center, probe.center, probe.radius}};
+    counts =
+        bench::oracle::judge(trace.oracle, trace.oracle.solve(sweep), sweep, std::span(&answer, 1), accuracy);
   } else {
-    tally = bench::judge(course.oracle, std::span(&course.truths[step], 1), query, std::span(&probe, 1),
-                         course.steps[step].reach, std::span(&answer, 1), accuracy);
+    counts =
+        bench::oracle::judge(trace.oracle, std::span(&trace.truths[step], 1), query, std::span(&probe, 1),
+                             trace.steps[step].reach, std::span(&answer, 1), accuracy);
   }
-  if (bench::keeps_its_word(tally, accuracy)) return;
+  if (bench::oracle::meets_guarantee(counts, accuracy)) return;
   fail(std::string("brute force, ") + name_of(query) + " at step " + std::to_string(step) + ": " +
-       std::to_string(tally.missed) + " missed, " + std::to_string(tally.false_contacts) + " false, " +
-       std::to_string(tally.wrong_triangle) + " wrong triangle, " + std::to_string(tally.beyond_bound) +
-       " beyond, " + std::to_string(tally.wrong_point) + " point, " + std::to_string(tally.wrong_normal) +
-       " normal, " + std::to_string(tally.malformed) + " malformed");
+       std::to_string(counts.missed) + " missed, " + std::to_string(counts.false_contacts) + " false, " +
+       std::to_string(counts.wrong_triangle) + " wrong triangle, " + std::to_string(counts.beyond_bound) +
+       " beyond, " + std::to_string(counts.wrong_point) + " point, " + std::to_string(counts.wrong_normal) +
+       " normal, " + std::to_string(counts.malformed) + " malformed");
 }
 
-void examine(const Course& course) {
-  const std::vector<ExactForm> forms = exact_forms(course.mesh);
-  bench::Contestant& reference = *forms.front().detector;
+void examine(const QueryTrace& trace) {
+  const std::vector<ExactForm> forms = exact_forms(trace.mesh);
+  bench::contestants::Contestant& reference = *forms.front().detector;
   for (const Query query : {Query::nearest, Query::touches, Query::sweep}) {
-    const std::vector<Answer> expected = ask(reference, query, course.steps);
+    const std::vector<Answer> expected = ask(reference, query, trace.steps);
     for (std::size_t i = 0; i < expected.size(); ++i)
-      judge(course, query, i, expected[i], reference.accuracy());
+      judge(trace, query, i, expected[i], reference.accuracy());
     for (const ExactForm& form : forms) {
-      const std::vector<Answer> answers = ask(*form.detector, query, course.steps);
+      const std::vector<Answer> answers = ask(*form.detector, query, trace.steps);
       for (std::size_t i = 0; i < answers.size(); ++i) {
         if (std::memcmp(&answers[i], &expected[i], sizeof(Answer)) == 0) continue;
         fail(form.name + " differs from brute force, " + name_of(query) + " at step " + std::to_string(i));
@@ -116,12 +119,12 @@ void examine(const Course& course) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace touchmark;
   fuzz::Script script({data, size});
-  std::optional<fuzz::Course> course;
+  std::optional<fuzz::QueryTrace> trace;
   try {
-    course.emplace(fuzz::read_mesh(script), script);
+    trace.emplace(fuzz::read_mesh(script), script);
   } catch (const MeshError&) {
     return 0;
   }
-  fuzz::examine(*course);
+  fuzz::examine(*trace);
   return 0;
 }

@@ -26,9 +26,11 @@ class MemoryFile {
   int file_;
 };
 
-void read(const std::string& path, std::size_t most, const bench::MotionOptions& options, std::size_t size) {
+void read(const std::string& path, std::size_t most, const bench::trajectories::MotionOptions& options,
+          std::size_t size) {
   try {
-    const bench::Trajectory trajectory = bench::read_trajectory(path, most, options);
+    const bench::trajectories::Trajectory trajectory =
+        bench::trajectories::read_trajectory(path, most, options);
     require(trajectory.size() > 0, "no steps");
     require(trajectory.size() <= (options.rate_hz ? most : size), "more steps than bytes, or than wanted");
     for (const Vec3& position : trajectory.positions) require(position.allFinite(), "not finite");
@@ -50,8 +52,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace touchmark;
   const fuzz::MemoryFile file(data, size);
   fuzz::read(file.path(), 0, {}, size);
-  fuzz::read(file.path(), 100, bench::parse_motion_options("", "1000", "333"), size);
-  fuzz::read(file.path(), 100, bench::parse_motion_options("x=2,y=3,z=4,time_ms=1", "", "1000"), size);
-  fuzz::read(file.path(), 0, bench::parse_motion_options("x=1,y=2,z=3", "1e-3", ""), size);
+  fuzz::read(file.path(), 100, bench::trajectories::parse_motion_options("", "1000", "333"), size);
+  fuzz::read(file.path(), 100, bench::trajectories::parse_motion_options("x=2,y=3,z=4,time_ms=1", "", "1000"),
+             size);
+  fuzz::read(file.path(), 0, bench::trajectories::parse_motion_options("x=1,y=2,z=3", "1e-3", ""), size);
   return 0;
 }

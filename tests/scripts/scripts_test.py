@@ -1,5 +1,7 @@
 #!/usr/bin/python3
-"""What the shell scripts say when they are asked or asked wrongly, and check_layers on this repository."""
+"""What the shell scripts say when they are asked or asked wrongly, and check_layers and check_comments on this
+repository.
+"""
 import os
 import pathlib
 import re
@@ -20,14 +22,16 @@ def run(*command, **options):
 class Scripts(unittest.TestCase):
     def test_all_show_an_example(self):
         for name in ("setup", "bench", "test", "dev", "plot", "papers",
-                     "plot-papers", "regress", "gate-trials", "record", "sweep-slurm", "check_layers"):
+                     "plot-papers", "regress", "gate-trials", "record", "sweep-slurm", "check_layers",
+                     "check_comments"):
             done = run(SCRIPTS / name, "--help")
             self.assertEqual(done.returncode, 0, name)
             self.assertRegex(done.stdout, "example: ", name)
 
     def test_refuse_what_they_do_not_know(self):
         for name in ("setup", "dev", "plot", "papers", "plot-papers",
-                     "regress", "gate-trials", "record", "sweep-slurm", "check_layers"):
+                     "regress", "gate-trials", "record", "sweep-slurm", "check_layers",
+                     "check_comments"):
             self.assertEqual(run(SCRIPTS / name, "--no-such-thing", "x").returncode, 2, name)
 
     def test_bench_forwards_help_to_the_program(self):
@@ -133,6 +137,25 @@ class CheckLayers(unittest.TestCase):
             done = run(SCRIPTS / "check_layers", "--root", root)
         self.assertEqual(done.returncode, 1)
         self.assertEqual(done.stderr, 'core/probe.h:2: #include "bench/workload/answer.h": core must not include bench\n')
+
+
+class CheckComments(unittest.TestCase):
+    def test_finds_what_it_forbids(self):
+        done = run(SCRIPTS / "check_comments", "--self-test")
+        self.assertEqual((done.returncode, done.stdout), (0, "check_comments: clean\n"), done.stderr)
+
+    def test_finds_bench_and_the_baselines_clean(self):
+        done = run(SCRIPTS / "check_comments", "bench", "baselines")
+        self.assertEqual((done.returncode, done.stdout), (0, "check_comments: clean\n"), done.stderr)
+
+    def test_names_file_and_line(self):
+        with tempfile.TemporaryDirectory() as root:
+            file = pathlib.Path(root) / "core" / "probe.h"
+            file.parent.mkdir()
+            file.write_text("#pragma once\nint size;  ///< of a tree\n", encoding="utf-8")
+            done = run(SCRIPTS / "check_comments", "--root", root, "core")
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stderr, 'core/probe.h:2: a comment begins with "of": of a tree\n')
 
 
 if __name__ == "__main__":

@@ -29,14 +29,14 @@
 #include "bench/support/standard_output.h"
 #include "bench/workload/query_name.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
 namespace {
 
 constexpr std::size_t faulty_rows_shown = 20;
 const std::vector<std::string> default_trajectories{"slide", "approach", "hover", "jump"};
 
 struct BenchOptions {
-  Selectors selectors;
+  contestants::Selectors selectors;
   std::string out;
   bool quick = false;
   bool frontier = false;
@@ -44,16 +44,16 @@ struct BenchOptions {
   WorkerSelectors workers;
 };
 
-Effort effort_for(const BenchOptions& options, const BenchmarkFlags& flags) {
-  Effort effort;
-  if (options.quick) effort = quick_effort;
+measurement::Effort effort_for(const BenchOptions& options, const BenchmarkFlags& flags) {
+  measurement::Effort effort;
+  if (options.quick) effort = measurement::quick_effort;
   effort.repetitions = flags.repetitions.value_or(effort.repetitions);
   if (flags.min_time_s) effort.repetition_ns = *flags.min_time_s * 1e9;
   return effort;
 }
 
-std::string mesh_of(const Selectors& selectors) {
-  return selectors.meshes.empty() ? default_scene() : selectors.meshes.front();
+std::string mesh_of(const contestants::Selectors& selectors) {
+  return selectors.meshes.empty() ? scenes::default_scene() : selectors.meshes.front();
 }
 
 /// The whole run, from the checked command line to the last row.
@@ -67,7 +67,7 @@ class BenchRun {
 
  private:
   void run_trajectories();
-  void end_trajectory(std::size_t course);
+  void end_trajectory(std::size_t trace);
   void save_so_far();
   void save(bool finished) const;
   bool wanted(const std::string& trajectory, const std::string& contestant) const {
@@ -79,41 +79,42 @@ class BenchRun {
   }
 
   BenchmarkFlags flags_;
-  Selectors selectors_;
-  CheckedSelectors selection_;
-  std::optional<ResultsFolder> folder_;
-  RunDescription description_;
-  Workload workload_;
-  std::optional<Comparison> comparison_;
-  ProgressLine progress_;
-  StandardOutput out_;
+  contestants::Selectors selectors_;
+  contestants::CheckedSelectors selection_;
+  std::optional<results::ResultsFolder> folder_;
+  results::RunDescription description_;
+  workload::Workload workload_;
+  std::optional<measurement::Comparison> comparison_;
+  support::ProgressLine progress_;
+  support::StandardOutput out_;
   bool shows_work_;
-  std::vector<ResultRow> rows_;
+  std::vector<measurement::ResultRow> rows_;
   std::size_t kept_ = 0;  ///< rows that were last saved
 };
 
-Workload workload_for(const BenchOptions& options, const CheckedSelectors& selection) {
-  const Selectors& selectors = options.selectors;
+workload::Workload workload_for(const BenchOptions& options, const contestants::CheckedSelectors& selection) {
+  const contestants::Selectors& selectors = options.selectors;
   const std::string mesh = mesh_of(selectors);
-  return make_workload(without_directories(mesh), load_mesh(mesh, selectors.normalize), selection,
-                       selectors.trajectories.empty() ? default_trajectories : selectors.trajectories,
-                       options.quick ? 5000 : 20000);
+  return workload::make_workload(
+      results::without_directories(mesh), scenes::load_mesh(mesh, selectors.normalize), selection,
+      selectors.trajectories.empty() ? default_trajectories : selectors.trajectories,
+      options.quick ? 5000 : 20000);
 }
 
 BenchRun::BenchRun(const ProgramContext& context, const BenchOptions& options, const BenchmarkFlags& flags)
     : flags_(flags),
       selectors_(options.selectors),
-      selection_(check(options.selectors, context.roster)),
-      description_(begun_run(context.argc, context.argv)),
+      selection_(contestants::check(options.selectors, context.roster)),
+      description_(results::begun_run(context.argc, context.argv)),
       workload_(workload_for(options, selection_)),
       shows_work_(options.work) {
   if (!options.out.empty() && !flags.list_tests) folder_.emplace(options.out);
-  description_.flushed_to_zero = restore_denormals();
+  description_.flushed_to_zero = support::restore_denormals();
   description_.query = selection_.queries.front();
   description_.seed = selection_.seed;
   description_.effort = effort_for(options, flags);
-  description_.core = core_for_workers();
-  WorkerOptions workers = worker_options(options.workers);
+  description_.core = results::core_for_workers();
+  workers::WorkerOptions workers = worker_options(options.workers);
   workers.flags = flags.forwarded;
   workers.core = description_.core;
   comparison_.emplace(context.roster, workload_, selection_.contestants, workers, description_.effort,
@@ -128,7 +129,7 @@ BenchRun::BenchRun(const ProgramContext& context, const BenchOptions& options, c
 
 void BenchRun::list_cases() {
   for (const std::string& trajectory : workload_.trajectories) {
-    for (const ContestantSpec& spec : selection_.contestants) {
+    for (const contestants::ContestantSpec& spec : selection_.contestants) {
       if (wanted(trajectory, spec.text())) out_.write(fmt::format("{}/{}\n", spec.text(), trajectory));
     }
   }
@@ -136,17 +137,17 @@ void BenchRun::list_cases() {
 
 void BenchRun::save(bool finished) const {
   if (!folder_) return;
-  RunDescription description = description_;
+  results::RunDescription description = description_;
   description.finished = finished;
   description.steadiness = comparison_->steadiness();
   description.left_out = comparison_->left_out();
-  folder_->write(results_csv(description.run_id, rows_),
-                 run_json(description, workload_, comparison_->contestants()));
+  folder_->write(results::results_csv(description.run_id, rows_),
+                 results::run_json(description, workload_, comparison_->contestants()));
 }
 
 /// What has been timed in part counts as well, should it end here.
 void BenchRun::save_so_far() {
-  std::vector<ResultRow> rows = rows_;
+  std::vector<measurement::ResultRow> rows = rows_;
   std::ranges::move(comparison_->so_far(), std::back_inserter(rows_));
   save(false);
   kept_ = rows_.size();
@@ -154,49 +155,51 @@ void BenchRun::save_so_far() {
 }
 
 void BenchRun::run_trajectories() {
-  for (std::size_t course = 0; course < workload_.courses.size(); ++course) {
-    comparison_->begin(course, description_.query);
+  for (std::size_t trace = 0; trace < workload_.traces.size(); ++trace) {
+    comparison_->begin(trace, description_.query);
     save_so_far();
   }
-  for (std::size_t course = 0; course < workload_.courses.size(); ++course) end_trajectory(course);
+  for (std::size_t trace = 0; trace < workload_.traces.size(); ++trace) end_trajectory(trace);
 }
 
-void BenchRun::end_trajectory(std::size_t course) {
-  std::vector<ResultRow> rows = comparison_->end();
+void BenchRun::end_trajectory(std::size_t trace) {
+  std::vector<measurement::ResultRow> rows = comparison_->end();
   if (rows.empty()) return;
-  for (ResultRow& row : rows)
+  for (measurement::ResultRow& row : rows)
     row.repeat = repeat_command(selectors_, mesh_of(selectors_), named(), workload_, row);
   rows_.insert(rows_.end(), rows.begin(), rows.end());
   save_so_far();
   progress_.clear();
-  out_.write(fmt::format("\n{} ({})\n{}{}", workload_.trajectories[course], course_text(workload_, course),
-                         timing_table(rows), verdict(rows, comparison_->steadiness().back())));
-  if (shows_work_) out_.write('\n' + work_table(rows));
+  out_.write(fmt::format("\n{} ({})\n{}{}", workload_.trajectories[trace],
+                         workload::trace_text(workload_, trace), results::timing_table(rows),
+                         results::verdict(rows, comparison_->steadiness().back())));
+  if (shows_work_) out_.write('\n' + results::work_table(rows));
   out_.finish();
 }
 
 int BenchRun::run() {
-  watch_for_interrupts();
+  support::watch_for_interrupts();
   out_.write(fmt::format("{}: {} triangles, {} within {}, radius {}\n", workload_.mesh_name,
-                         workload_.mesh.size(), name_of(description_.query),
-                         length_text(workload_, workload_.reach.value_or(workload_.radius)),
-                         length_text(workload_, workload_.radius)));
+                         workload_.mesh.size(), workload::name_of(description_.query),
+                         workload::length_text(workload_, workload_.reach.value_or(workload_.radius)),
+                         workload::length_text(workload_, workload_.radius)));
   try {
     run_trajectories();
-  } catch (const Interrupted&) {
+  } catch (const support::Interrupted&) {
     progress_.clear();
     save_so_far();
     fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", kept_);
-    return exit_interrupted;
+    return support::exit_interrupted;
   }
   save(true);
-  std::vector<ResultRow> broken;  // what others err by is in the table
-  std::copy_if(rows_.begin(), rows_.end(), std::back_inserter(broken), claim_is_broken);
-  const std::string failures = list_of_failures(broken, faulty_rows_shown);
-  out_.write(fmt::format("\n{}{}", judged_answers(rows_), failures.empty() ? "" : "\n" + failures));
+  std::vector<measurement::ResultRow> broken;  // what others err by is in the table
+  std::copy_if(rows_.begin(), rows_.end(), std::back_inserter(broken), results::claim_is_broken);
+  const std::string failures = results::list_of_failures(broken, faulty_rows_shown);
+  out_.write(fmt::format("\n{}{}", results::judged_answers(rows_), failures.empty() ? "" : "\n" + failures));
   out_.finish();
-  const bool faulty = tell_faults(rows_, [](const ResultRow& row) { return row.trajectory; });
-  return rows_.empty() ? exit_done : status_of(rows_, faulty);
+  const bool faulty =
+      results::print_faults(rows_, [](const measurement::ResultRow& row) { return row.trajectory; });
+  return rows_.empty() ? support::exit_done : results::status_of(rows_, faulty);
 }
 
 }  // namespace
@@ -227,7 +230,7 @@ void add_bench(CLI::App& program, ProgramContext& context) {
   command->final_callback([options, command, &context] {
     const BenchmarkFlags flags = parse_benchmark_flags(command->remaining());
     if (options->frontier) {
-      for (const ContestantSpec& spec : context.roster.frontier())
+      for (const contestants::ContestantSpec& spec : context.roster.frontier())
         options->selectors.detectors.push_back(spec.text());
     }
     BenchRun run(context, *options, flags);
@@ -236,4 +239,4 @@ void add_bench(CLI::App& program, ProgramContext& context) {
   });
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

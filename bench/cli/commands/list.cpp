@@ -11,41 +11,42 @@
 #include "bench/trajectories/trajectories.h"
 #include "bench/workload/query_name.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
 namespace {
 
-std::string about(const OptionInfo& option) {
-  const std::string values = option.kind == OptionKind::choice
+std::string description_of(const contestants::OptionInfo& option) {
+  const std::string values = option.kind == contestants::OptionKind::choice
                                  ? fmt::format("{}", fmt::join(option.choices, "|"))
-                             : option.kind == OptionKind::length ? "LENGTH"
-                                                                 : "NUMBER";
+                             : option.kind == contestants::OptionKind::length ? "LENGTH"
+                                                                              : "NUMBER";
   return fmt::format("      {}={}  (default {})  {}\n", option.key, values, option.default_value,
                      option.summary);
 }
 
-std::string about(const ContestantInfo& contestant) {
+std::string description_of(const contestants::ContestantInfo& contestant) {
   std::vector<std::string_view> queries;
-  for (const Query query : contestant.queries) queries.push_back(name_of(query));
+  for (const workload::Query query : contestant.queries) queries.push_back(workload::name_of(query));
   std::string text = fmt::format("  {}{}\n      {}\n", contestant.name,
                                  contestant.built() ? "" : "  (not built)", contestant.summary);
   if (!contestant.built()) return text;
   text += fmt::format("      answers {}; {}\n", fmt::join(queries, ", "), contestant.accuracy);
-  for (const OptionInfo& option : contestant.options) text += about(option);
+  for (const contestants::OptionInfo& option : contestant.options) text += description_of(option);
   return text;
 }
 
-std::string list(const Roster& roster) {
+std::string list(const contestants::Roster& roster) {
   std::string text = "contestants: --detector NAME[:key=value,...]\n";
-  for (const ContestantInfo& contestant : roster.contestants()) text += about(contestant);
+  for (const contestants::ContestantInfo& contestant : roster.contestants())
+    text += description_of(contestant);
   text += "\nscenes: --mesh NAME[@scale=S][@offset=O][@normalize], or a mesh file\n";
-  for (const SceneInfo& scene : scenes()) {
+  for (const scenes::SceneInfo& scene : scenes::scenes()) {
     text += fmt::format("  {:<28}{}{}\n", scene.name, scene.description,
                         scene.available ? "" : "  (not installed)");
   }
   text +=
       "\ntrajectories: --trajectory NAME, or a motion file: CSV with columns x,y,z and perhaps time_s, "
       "radius\n";
-  for (const TrajectoryInfo& trajectory : trajectories()) {
+  for (const trajectories::TrajectoryInfo& trajectory : trajectories::trajectories()) {
     text += fmt::format("  {:<28}{}\n", trajectory.name, trajectory.description);
   }
   return text;
@@ -56,7 +57,7 @@ std::string list(const Roster& roster) {
 void add_list(CLI::App& program, ProgramContext& context) {
   CLI::App* command = program.add_subcommand("list", "what can be chosen: contestants, scenes, trajectories");
   command->footer("Example: touchmark list\n");
-  command->final_callback([&context] { StandardOutput().write(list(context.roster)); });
+  command->final_callback([&context] { support::StandardOutput().write(list(context.roster)); });
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

@@ -16,7 +16,7 @@
 #include "bench/support/atomic_file.h"
 #include "bench/support/numbers.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -27,10 +27,12 @@ struct MergeOptions {
   bool accuracy_only = false;
 };
 
-bool is_job_file(const fs::path& path) { return path.extension() == ".json" && is_hex(path.stem().string()); }
+bool is_job_file(const fs::path& path) {
+  return path.extension() == ".json" && support::is_hex(path.stem().string());
+}
 
-std::vector<FoundJob> jobs_of(const std::vector<std::string>& folders) {
-  std::vector<FoundJob> jobs;
+std::vector<batch::FoundJob> jobs_of(const std::vector<std::string>& folders) {
+  std::vector<batch::FoundJob> jobs;
   for (const std::string& folder : folders) {
     std::vector<std::string> paths;
     try {
@@ -42,30 +44,30 @@ std::vector<FoundJob> jobs_of(const std::vector<std::string>& folders) {
     }
     if (paths.empty()) throw std::invalid_argument(fmt::format("{}: no finished job in it", folder));
     std::sort(paths.begin(), paths.end());
-    for (const std::string& path : paths) jobs.push_back(found_job(path));
+    for (const std::string& path : paths) jobs.push_back(batch::found_job(path));
   }
   return jobs;
 }
 
-void keep_machine(std::vector<FoundJob>& jobs, const std::string& machine) {
-  std::erase_if(jobs, [&](const FoundJob& job) { return !job.result.machine.starts_with(machine); });
+void keep_machine(std::vector<batch::FoundJob>& jobs, const std::string& machine) {
+  std::erase_if(jobs, [&](const batch::FoundJob& job) { return !job.result.machine.starts_with(machine); });
   if (jobs.empty())
     throw std::invalid_argument(fmt::format("--machine \"{}\": no job is from there", machine));
 }
 
 void merge(const MergeOptions& options) {
-  std::optional<Manifest> manifest;
-  if (!options.manifest.empty()) manifest = Manifest::read(options.manifest);
-  std::vector<FoundJob> jobs = jobs_of(options.paths);
+  std::optional<batch::Manifest> manifest;
+  if (!options.manifest.empty()) manifest = batch::Manifest::read(options.manifest);
+  std::vector<batch::FoundJob> jobs = jobs_of(options.paths);
   if (!options.machine.empty()) keep_machine(jobs, options.machine);
-  if (!options.accuracy_only) expect_one_machine(jobs);
-  for (FoundJob& job : jobs) {
-    if (options.accuracy_only || !job.timed) drop_times(job);
+  if (!options.accuracy_only) batch::expect_one_machine(jobs);
+  for (batch::FoundJob& job : jobs) {
+    if (options.accuracy_only || !job.timed) batch::drop_times(job);
   }
-  jobs = in_order(std::move(jobs), manifest);
-  AtomicFile file(options.out);
-  file.write(csv_line(results_columns()));
-  for (const FoundJob& job : jobs) file.write(csv_line(job.result.fields));
+  jobs = batch::in_order(std::move(jobs), manifest);
+  support::AtomicFile file(options.out);
+  file.write(results::csv_line(results::results_columns()));
+  for (const batch::FoundJob& job : jobs) file.write(results::csv_line(job.result.fields));
   file.commit();
   fmt::print(stderr, "touchmark: {} rows\n", jobs.size());
 }
@@ -90,4 +92,4 @@ void add_merge(CLI::App& program, ProgramContext&) {
   command->final_callback([options] { merge(*options); });
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

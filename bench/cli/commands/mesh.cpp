@@ -16,7 +16,7 @@
 #include "bench/support/available_memory.h"
 #include "bench/support/standard_output.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
 namespace {
 
 struct InfoOptions {
@@ -53,7 +53,7 @@ struct Metric {
 };
 
 /// Sizes in metres, square metres and cubic metres.
-std::vector<Metric> metrics_of(const MeshReport& report, const LengthUnit& unit) {
+std::vector<Metric> metrics_of(const scenes::MeshReport& report, const support::LengthUnit& unit) {
   const double m = unit.metres;
   const Vec3 size = report.bounds.max - report.bounds.min;
   std::vector<Metric> metrics{{"size_x_m", size.x() * m},
@@ -68,7 +68,7 @@ std::vector<Metric> metrics_of(const MeshReport& report, const LengthUnit& unit)
   return metrics;
 }
 
-std::string as_text(const MeshReport& report, const std::optional<LengthUnit>& unit) {
+std::string as_text(const scenes::MeshReport& report, const std::optional<support::LengthUnit>& unit) {
   std::string text;
   const auto line = [&text](const char* what, const auto& value) {
     text += fmt::format("{}: {}\n", what, value);
@@ -105,8 +105,8 @@ std::string as_text(const MeshReport& report, const std::optional<LengthUnit>& u
   return text;
 }
 
-std::string as_json(const std::string& mesh, const MeshReport& report,
-                    const std::optional<LengthUnit>& unit) {
+std::string as_json(const std::string& mesh, const scenes::MeshReport& report,
+                    const std::optional<support::LengthUnit>& unit) {
   const auto triple = [](const Vec3& v) { return nlohmann::ordered_json{v.x(), v.y(), v.z()}; };
   nlohmann::ordered_json json;
   json["mesh"] = mesh;
@@ -152,12 +152,12 @@ void add_info(CLI::App& mesh_command) {
       "Example: touchmark mesh info bunny@normalize\n"
       "         touchmark mesh info part.stl --unit mm\n");
   command->final_callback([options] {
-    const std::optional<LengthUnit> unit = checked_unit(options->unit);
-    const TriangleMesh mesh = load_mesh(options->mesh, options->normalize);
-    require_memory(fmt::format("edges and sides of {} triangles", mesh.size()),
-                   bytes_reported_on * static_cast<double>(mesh.size()));
-    const MeshReport report = report_on(mesh);
-    StandardOutput out;
+    const std::optional<support::LengthUnit> unit = contestants::checked_unit(options->unit);
+    const TriangleMesh mesh = scenes::load_mesh(options->mesh, options->normalize);
+    support::require_memory(fmt::format("edges and sides of {} triangles", mesh.size()),
+                            bytes_reported_on * static_cast<double>(mesh.size()));
+    const scenes::MeshReport report = scenes::report_on(mesh);
+    support::StandardOutput out;
     out.write(options->json ? as_json(options->mesh, report, unit) : as_text(report, unit));
     out.finish();
   });
@@ -182,4 +182,4 @@ void add_mesh(CLI::App& program, ProgramContext&) {
   add_mesh_subdivide(*command);
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

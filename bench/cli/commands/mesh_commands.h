@@ -7,7 +7,7 @@ namespace CLI {
 class App;
 }
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
 
 /// --mesh, also without its name, and --normalize.
 void add_mesh_options(CLI::App& command, std::string& mesh, bool& normalize);
@@ -15,4 +15,4 @@ void add_mesh_options(CLI::App& command, std::string& mesh, bool& normalize);
 void add_mesh_measure(CLI::App& mesh_command);
 void add_mesh_subdivide(CLI::App& mesh_command);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

@@ -20,7 +20,7 @@
 #include "core/sphere_cluster/published/triangle_spheres.h"
 #include "core/subdivision/mesh_measures.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
 namespace {
 
 struct MeasureOptions {
@@ -37,7 +37,7 @@ Vec3 parse_center(const std::string& text) {
   for (int axis = 0; axis < 3; ++axis) {
     const std::size_t comma = axis < 2 ? text.find(',', begin) : text.size();
     const std::optional<double> number =
-        comma == std::string::npos ? std::nullopt : parse_number(text.substr(begin, comma - begin));
+        comma == std::string::npos ? std::nullopt : support::parse_number(text.substr(begin, comma - begin));
     if (!number || !std::isfinite(*number))
       throw std::invalid_argument(fmt::format("--center {}: three numbers, as 0,0.5,-1", text));
     center[axis] = *number;
@@ -105,11 +105,12 @@ void add_mesh_measure(CLI::App& mesh_command) {
   command->footer("Example: touchmark mesh measure bunny\n");
   command->final_callback([options] {
     const Vec3 center = parse_center(options->center);
-    nlohmann::ordered_json measures = measures_of(load_mesh(options->mesh, options->normalize), center);
-    StandardOutput out;
+    nlohmann::ordered_json measures =
+        measures_of(scenes::load_mesh(options->mesh, options->normalize), center);
+    support::StandardOutput out;
     out.write(options->json ? measures.dump(2) + "\n" : as_text(measures));
     out.finish();
   });
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

@@ -23,7 +23,7 @@
 #include "core/subdivision/mesh_measures.h"
 #include "core/subdivision/subdivision.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
 namespace {
 
 const std::vector<std::string> method_names = {"butterfly", "catmull-clark", "catmull-clark-linear",
@@ -42,17 +42,17 @@ struct SubdivideOptions {
 /// The words checked, but for the threshold, which may need the mesh.
 struct Request {
   SubdivisionOptions subdivision;
-  Length threshold;
+  support::Length threshold;
 };
 
 Request check(const SubdivideOptions& options) {
   Request request;
   request.subdivision.method = subdivision_method(options.method).value();
-  const std::optional<std::uint64_t> levels = parse_count(options.levels);
+  const std::optional<std::uint64_t> levels = support::parse_count(options.levels);
   if (!levels || *levels > static_cast<std::uint64_t>(std::numeric_limits<int>::max()))
     throw std::invalid_argument(fmt::format("--levels {}: a whole number, 0 or more", options.levels));
   request.subdivision.levels = static_cast<int>(*levels);
-  const std::optional<Length> threshold = parse_length(options.threshold);
+  const std::optional<support::Length> threshold = support::parse_length(options.threshold);
   if (!threshold) {
     throw std::invalid_argument(fmt::format(
         "--threshold {}: a length of 0 or more in mesh units, or a percentage of the box diagonal "
@@ -63,7 +63,7 @@ Request check(const SubdivideOptions& options) {
   // Only the paper's tool knows a threshold, so one is taken to ask for that tool's way.
   const bool as_the_tool = options.form.empty() ? threshold->value > 0 : options.form == "meshlab";
   request.subdivision.form = as_the_tool ? SubdivisionForm::meshlab : SubdivisionForm::published;
-  mesh_format_of(options.output);
+  scenes::mesh_format_of(options.output);
   return request;
 }
 
@@ -96,19 +96,19 @@ void warn_of_seams(const SubdivideOptions& options, const TriangleMesh& coarse) 
 /// What a triangle takes while it is made: 50 million take about 4 GB.
 constexpr double bytes_a_triangle = 86;
 
-/// Where every edge splits, what comes of it is known beforehand; elsewhere it may come to what there is room
-/// for. Too many for a mesh are refused by subdivide itself.
+/// Limits the result to memory. The size is known beforehand where every edge splits; elsewhere it may come
+/// to what there is room for. Too many for a mesh are refused by subdivide itself.
 void keep_within_memory(SubdivisionOptions& options, std::size_t triangles) {
   const bool by_faces = options.method == SubdivisionMethod::catmull_clark ||
                         options.method == SubdivisionMethod::catmull_clark_linear;
   if (by_faces || options.threshold == 0) {
     const double fine = static_cast<double>(triangles) * std::pow(4.0, options.levels) * (by_faces ? 1.5 : 1);
     if (fine <= static_cast<double>(options.max_triangles))
-      require_memory(fmt::format("{:.0f} triangles after level {}", fine, options.levels),
-                     bytes_a_triangle * fine);
+      support::require_memory(fmt::format("{:.0f} triangles after level {}", fine, options.levels),
+                              bytes_a_triangle * fine);
     return;
   }
-  const std::optional<std::uint64_t> available = available_memory();
+  const std::optional<std::uint64_t> available = support::available_memory();
   if (!available) return;
   const double most = static_cast<double>(*available) / bytes_a_triangle;
   if (most < static_cast<double>(options.max_triangles))
@@ -122,8 +122,8 @@ void subdivide_into_file(const SubdivideOptions& options) {
   keep_within_memory(request.subdivision, coarse.size());
   warn_of_seams(options, coarse);
   const TriangleMesh fine = subdivide(coarse, request.subdivision);
-  write_mesh(fine, options.output);
-  StandardOutput out;
+  scenes::write_mesh(fine, options.output);
+  support::StandardOutput out;
   out.write(summary(options, request.subdivision, coarse, fine));
   out.finish();
 }
@@ -162,4 +162,4 @@ void add_mesh_subdivide(CLI::App& mesh_command) {
   command->final_callback([options] { subdivide_into_file(*options); });
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

@@ -4,7 +4,7 @@
 #include "bench/cli/commands/paper_commands.h"
 #include "bench/cli/program.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
 
 void add_paper(CLI::App& program, ProgramContext& context) {
   CLI::App* command = program.add_subcommand("paper", "a paper's experiment, beside the numbers it prints");
@@ -14,4 +14,4 @@ void add_paper(CLI::App& program, ProgramContext& context) {
   add_paper_choi_sung(*command, context);
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

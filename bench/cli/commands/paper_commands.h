@@ -5,11 +5,11 @@ namespace CLI {
 class App;
 }
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
 
 struct ProgramContext;
 
 void add_paper_choi_sung(CLI::App& paper_command, ProgramContext& context);
 void add_paper_park_jang(CLI::App& paper_command, ProgramContext& context);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

@@ -9,8 +9,8 @@
 
 #include "bench/cli/commands/paper_commands.h"
 #include "bench/cli/program.h"
-#include "bench/experiments/papers/paper_course.h"
 #include "bench/experiments/papers/paper_options.h"
+#include "bench/experiments/papers/paper_trace.h"
 #include "bench/experiments/papers/park_jang.h"
 #include "bench/experiments/papers/picture_files.h"
 #include "bench/results/results_folder.h"
@@ -20,23 +20,26 @@
 #include "core/grid_group/published/scan_grid.h"
 #include "core/search/plane_filter.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
+
+namespace papers = experiments::papers;
+
 namespace {
 
 struct ParkJangOptions {
   std::vector<std::string> meshes;
-  std::string most_groups;
-  PaperOptions common{"results/papers/park-jang-2018", "0.1%", "", "1", false};
+  std::string max_groups;
+  papers::PaperOptions common{"results/papers/park-jang-2018", "0.1%", "", "1", false};
 };
 
-ParkJangSettings checked(const ParkJangOptions& options) {
+papers::ParkJangSettings checked(const ParkJangOptions& options) {
   const bool quick = options.common.quick;
-  ParkJangSettings settings;
-  settings.steps = checked_number("--steps", options.common.steps, 1, 1'000'000, quick ? 20 : 200);
-  settings.seed = checked_seed(options.common.seed);
-  settings.radius = checked_finite_length("--radius", options.common.radius);
-  settings.groups = park_jang_group_counts(
-      checked_number("--most-groups", options.most_groups, 1, 1'000'000, quick ? 1000 : 35'000));
+  papers::ParkJangSettings settings;
+  settings.steps = papers::checked_number("--steps", options.common.steps, 1, 1'000'000, quick ? 20 : 200);
+  settings.seed = papers::checked_seed(options.common.seed);
+  settings.radius = papers::checked_finite_length("--radius", options.common.radius);
+  settings.groups = papers::park_jang_group_counts(
+      papers::checked_number("--most-groups", options.max_groups, 1, 1'000'000, quick ? 1000 : 35'000));
   if (quick) settings.effort = {2, 1e5};
   return settings;
 }
@@ -44,20 +47,21 @@ ParkJangSettings checked(const ParkJangOptions& options) {
 /// Figs 4 to 6: the model, its groups, and the triangles of one group that holds a probe on the surface.
 class GroupPictures {
  public:
-  GroupPictures(const PaperMesh& mesh, const ParkJangSettings& settings, const ResultsFolder& folder)
+  GroupPictures(const papers::PaperMesh& mesh, const papers::ParkJangSettings& settings,
+                const results::ResultsFolder& folder)
       : mesh_(mesh), folder_(folder) {
     const double radius = settings.radius.in_mesh_units(mesh.mesh);
-    hip_ = paper_course("slide", mesh.mesh, 1, settings.seed, radius).front().probe.center;
+    hip_ = papers::paper_trace("slide", mesh.mesh, 1, settings.seed, radius).front().probe.center;
   }
 
   void write() const {
-    folder_.write_file("pictures/original-mesh.csv", triangles_csv(mesh_.mesh));
-    const auto cubes = groups(grid::Shape::cube, park_jang_cubes);
-    folder_.write_file("pictures/cube-groups.csv", boxes_csv(cubes.boxes()));
+    folder_.write_file("pictures/original-mesh.csv", papers::triangles_csv(mesh_.mesh));
+    const auto cubes = groups(grid::Shape::cube, papers::park_jang_cubes);
+    folder_.write_file("pictures/cube-groups.csv", papers::boxes_csv(cubes.boxes()));
     write_active("cube", cubes,
                  [&](std::size_t group) { return cubes.boxes()[group].squared_distance(hip_); });
-    const auto spheres = groups(grid::Shape::sphere, park_jang_spheres);
-    folder_.write_file("pictures/sphere-groups.csv", spheres_csv(spheres.spheres()));
+    const auto spheres = groups(grid::Shape::sphere, papers::park_jang_spheres);
+    folder_.write_file("pictures/sphere-groups.csv", papers::spheres_csv(spheres.spheres()));
     write_active("sphere", spheres, [&](std::size_t group) {
       const Sphere& sphere = spheres.spheres()[group];
       return (sphere.center - hip_).norm() - sphere.radius;
@@ -89,40 +93,41 @@ class GroupPictures {
       if (gap(group) < gap(active)) active = group;
     }
     folder_.write_file(fmt::format("pictures/{}-active.csv", shape),
-                       triangles_csv(mesh_.mesh, grid.members(active)));
+                       papers::triangles_csv(mesh_.mesh, grid.members(active)));
   }
 
-  const PaperMesh& mesh_;
-  const ResultsFolder& folder_;
+  const papers::PaperMesh& mesh_;
+  const results::ResultsFolder& folder_;
   Vec3 hip_;
 };
 
 int run(const ParkJangOptions& options) {
-  const ParkJangSettings settings = checked(options);
-  const std::vector<PaperMesh> meshes = park_jang_meshes(options.meshes, options.common.quick);
-  const ResultsFolder folder(options.common.out);
-  watch_for_interrupts();
-  restore_denormals();
+  const papers::ParkJangSettings settings = checked(options);
+  const std::vector<papers::PaperMesh> meshes =
+      papers::park_jang_meshes(options.meshes, options.common.quick);
+  const results::ResultsFolder folder(options.common.out);
+  support::watch_for_interrupts();
+  support::restore_denormals();
   // Of a mesh between the Stanford resolutions; the groups need a box that can be divided.
-  const PaperMesh& pictured = meshes[std::min<std::size_t>(meshes.size() - 1, 2)];
+  const papers::PaperMesh& pictured = meshes[std::min<std::size_t>(meshes.size() - 1, 2)];
   if (FilterFrame::fits(pictured.mesh.bounds()) && pictured.mesh.diagonal() > 0)
     GroupPictures(pictured, settings, folder).write();
-  ProgressLine progress;
-  const ParkJangResult result =
-      run_park_jang(meshes, settings, [&](const std::string& what) { progress.show(what); });
+  support::ProgressLine progress;
+  const papers::ParkJangResult result =
+      papers::run_park_jang(meshes, settings, [&](const std::string& what) { progress.show(what); });
   progress.clear();
-  folder.write_file("times.csv", park_jang_times(result).csv());
-  folder.write_file("best.csv", park_jang_best_table(result).csv());
-  folder.write_file("numbers.csv", claims_table(park_jang_claims(result)).csv());
-  folder.write_file("report.md", park_jang_report(meshes, settings, result));
+  folder.write_file("times.csv", papers::park_jang_times(result).csv());
+  folder.write_file("best.csv", papers::park_jang_best_table(result).csv());
+  folder.write_file("numbers.csv", papers::claims_table(papers::park_jang_claims(result)).csv());
+  folder.write_file("report.md", papers::park_jang_report(meshes, settings, result));
   if (!result.finished) {
     fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", result.rows.size());
-    return exit_interrupted;
+    return support::exit_interrupted;
   }
-  fmt::print("{}\n", summary(park_jang_claims(result)));
-  if (result.answers_agree) return exit_done;
+  fmt::print("{}\n", papers::summary(papers::park_jang_claims(result)));
+  if (result.answers_agree) return support::exit_done;
   fmt::print(stderr, "touchmark: the forms answer differently on some mesh (times.csv)\n");
-  return exit_check_failed;
+  return support::exit_check_failed;
 }
 
 }  // namespace
@@ -137,11 +142,11 @@ void add_paper_park_jang(CLI::App& paper_command, ProgramContext& context) {
       ->type_name("MESH")
       ->expected(1)
       ->take_all();
-  command->add_option("--most-groups", options->most_groups, "up to how many groups")->type_name("N");
-  add_paper_options(*command, options->common);
+  command->add_option("--most-groups", options->max_groups, "up to how many groups")->type_name("N");
+  papers::add_paper_options(*command, options->common);
   command->footer(
       "Example: touchmark paper park-jang-2018 --mesh bunny --out results/papers/park-jang-2018\n");
   command->final_callback([options, &context] { context.status = run(*options); });
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

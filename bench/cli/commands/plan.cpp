@@ -20,28 +20,29 @@
 #include "bench/workload/content_hash.h"
 #include "bench/workload/query_name.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
 namespace {
 
 struct PlanOptions {
   std::vector<std::string> meshes, trajectories, detectors, queries, radii, reaches, seeds;
   std::string steps, effort = "full", out;
   bool normalize = false;
-  MotionSelectors motion;
+  contestants::MotionSelectors motion;
 };
 
-std::vector<Query> checked_queries(const std::vector<std::string>& names) {
-  std::vector<Query> queries;
+std::vector<workload::Query> checked_queries(const std::vector<std::string>& names) {
+  std::vector<workload::Query> queries;
   for (const std::string& name : names) {
-    const std::optional<Query> query = query_named(name);
+    const std::optional<workload::Query> query = workload::query_named(name);
     if (!query && name != "all") {
       throw std::invalid_argument(
           fmt::format("--query \"{}\" is not one of touches, nearest, sweep, all", name));
     }
     if (query) queries.push_back(*query);
-    if (name == "all") queries.insert(queries.end(), all_queries.begin(), all_queries.end());
+    if (name == "all")
+      queries.insert(queries.end(), workload::all_queries.begin(), workload::all_queries.end());
   }
-  return queries.empty() ? std::vector{Query::nearest} : queries;
+  return queries.empty() ? std::vector{workload::Query::nearest} : queries;
 }
 
 std::vector<std::string> or_else(std::vector<std::string> given, std::vector<std::string> otherwise) {
@@ -50,34 +51,35 @@ std::vector<std::string> or_else(std::vector<std::string> given, std::vector<std
 
 class Planner {
  public:
-  Planner(const Roster& roster, const PlanOptions& options)
+  Planner(const contestants::Roster& roster, const PlanOptions& options)
       : roster_(roster), options_(options), queries_(checked_queries(options.queries)) {
-    effort_named(options.effort);
-    manifest_.version = build_info().version;
+    batch::effort_named(options.effort);
+    manifest_.version = results::build_info().version;
     manifest_.effort = options.effort;
   }
 
-  Manifest plan() {
-    for (const std::string& mesh : or_else(options_.meshes, {default_scene()})) plan_mesh(mesh);
+  batch::Manifest plan() {
+    for (const std::string& mesh : or_else(options_.meshes, {scenes::default_scene()})) plan_mesh(mesh);
     return std::move(manifest_);
   }
 
  private:
   void plan_mesh(const std::string& mesh);
-  void plan_courses(const std::string& mesh, const TriangleMesh& loaded, const Selectors& selectors);
-  void add_scene(SweepScene scene, const std::vector<ContestantSpec>& contestants);
+  void plan_traces(const std::string& mesh, const TriangleMesh& loaded,
+                   const contestants::Selectors& selectors);
+  void add_scene(batch::SweepScene scene, const std::vector<contestants::ContestantSpec>& contestants);
 
-  const Roster& roster_;
+  const contestants::Roster& roster_;
   const PlanOptions& options_;
-  std::vector<Query> queries_;
-  Manifest manifest_;
+  std::vector<workload::Query> queries_;
+  batch::Manifest manifest_;
   std::set<std::string> ids_;
-  ProgressLine progress_;
+  support::ProgressLine progress_;
 };
 
 void Planner::plan_mesh(const std::string& mesh) {
-  const TriangleMesh loaded = load_mesh(mesh, options_.normalize);
-  Selectors selectors;
+  const TriangleMesh loaded = scenes::load_mesh(mesh, options_.normalize);
+  contestants::Selectors selectors;
   selectors.detectors = options_.detectors;
   selectors.steps = options_.steps;
   selectors.motion = options_.motion;
@@ -87,56 +89,59 @@ void Planner::plan_mesh(const std::string& mesh) {
         selectors.radius = radius;
         selectors.reach = reach;
         selectors.seed = seed;
-        plan_courses(mesh, loaded, selectors);
+        plan_traces(mesh, loaded, selectors);
       }
     }
   }
 }
 
-void Planner::plan_courses(const std::string& mesh, const TriangleMesh& loaded, const Selectors& selectors) {
-  const CheckedSelectors selection = check(selectors, roster_);
+void Planner::plan_traces(const std::string& mesh, const TriangleMesh& loaded,
+                          const contestants::Selectors& selectors) {
+  const contestants::CheckedSelectors selection = contestants::check(selectors, roster_);
   const std::vector<std::string> trajectories =
       or_else(options_.trajectories, {"slide", "approach", "hover", "jump"});
   progress_.show(fmt::format("{}, radius {}, seed {}", mesh, selectors.radius, selectors.seed));
   const std::size_t default_steps = options_.effort == "quick" ? 5000 : 20000;
-  const Workload workload = make_workload(mesh, loaded, selection, trajectories, default_steps);
+  const workload::Workload workload =
+      workload::make_workload(mesh, loaded, selection, trajectories, default_steps);
   for (std::size_t i = 0; i < trajectories.size(); ++i) {
-    for (const Query query : queries_) {
-      SweepScene scene{mesh,
-                       options_.normalize,
-                       hash_of(loaded),
-                       trajectories[i],
-                       hash_of(workload.courses[i]),
-                       workload.courses[i].size(),
-                       selection.seed,
-                       selectors.radius,
-                       selectors.reach,
-                       query,
-                       {},
-                       options_.motion};
+    for (const workload::Query query : queries_) {
+      batch::SweepScene scene{mesh,
+                              options_.normalize,
+                              workload::hash_of(loaded),
+                              trajectories[i],
+                              workload::hash_of(workload.traces[i]),
+                              workload.traces[i].size(),
+                              selection.seed,
+                              selectors.radius,
+                              selectors.reach,
+                              query,
+                              {},
+                              options_.motion};
       add_scene(std::move(scene), selection.contestants);
     }
   }
 }
 
 /// A job that was planned before, by its content, is not planned again.
-void Planner::add_scene(SweepScene scene, const std::vector<ContestantSpec>& contestants) {
-  for (const ContestantSpec& contestant : contestants) {
-    const std::string id = job_id(scene, contestant.text(), manifest_.effort, manifest_.version);
+void Planner::add_scene(batch::SweepScene scene,
+                        const std::vector<contestants::ContestantSpec>& contestants) {
+  for (const contestants::ContestantSpec& contestant : contestants) {
+    const std::string id = batch::job_id(scene, contestant.text(), manifest_.effort, manifest_.version);
     if (ids_.insert(id).second) scene.jobs.push_back({id, contestant.text()});
   }
   if (!scene.jobs.empty()) manifest_.scenes.push_back(std::move(scene));
 }
 
-void run(const Roster& roster, const PlanOptions& options) {
-  const Manifest manifest = Planner(roster, options).plan();
+void run(const contestants::Roster& roster, const PlanOptions& options) {
+  const batch::Manifest manifest = Planner(roster, options).plan();
   if (options.out.empty()) {
-    StandardOutput out;
+    support::StandardOutput out;
     out.write(manifest.json());
     out.finish();
     return;
   }
-  AtomicFile file(options.out);
+  support::AtomicFile file(options.out);
   file.write(manifest.json());
   file.commit();
   fmt::print(stderr, "touchmark: {} jobs in {} scenes\n", manifest.jobs(), manifest.scenes.size());
@@ -182,4 +187,4 @@ void add_plan(CLI::App& program, ProgramContext& context) {
   command->final_callback([options, &context] { run(context.roster, *options); });
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

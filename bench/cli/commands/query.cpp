@@ -26,18 +26,18 @@
 #include "bench/workload/query_name.h"
 #include "bench/workload/workload.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
 namespace {
 
 constexpr std::size_t block_size = 1 << 16;  // bytes of rows written at once
 
 struct QueryOptions {
-  Selectors selectors;
+  contestants::Selectors selectors;
   std::string csv, step, session = "replayed";
   WorkerSelectors workers;
 };
 
-/// Where the rows go: a file that gets its name when it is complete, or standard output.
+/// Writes the rows: to a file that gets its name when it is complete, or standard output.
 class RowSink {
  public:
   explicit RowSink(const std::string& path) {
@@ -58,11 +58,11 @@ class RowSink {
   }
 
  private:
-  StandardOutput output_;
-  std::optional<AtomicFile> file_;
+  support::StandardOutput output_;
+  std::optional<support::AtomicFile> file_;
 };
 
-void check_there_is_one(const Selectors& selectors) {
+void check_there_is_one(const contestants::Selectors& selectors) {
   if (selectors.detectors.size() != 1) {
     throw std::invalid_argument(
         fmt::format("query needs exactly one --detector; {} given", selectors.detectors.size()));
@@ -73,28 +73,29 @@ void check_there_is_one(const Selectors& selectors) {
   }
 }
 
-Workload workload_for(const Selectors& selectors, const CheckedSelectors& selection) {
-  const std::string mesh = selectors.meshes.empty() ? default_scene() : selectors.meshes.front();
+workload::Workload workload_for(const contestants::Selectors& selectors,
+                                const contestants::CheckedSelectors& selection) {
+  const std::string mesh = selectors.meshes.empty() ? scenes::default_scene() : selectors.meshes.front();
   const std::vector<std::string> slide{"slide"};
-  return make_workload(mesh, load_mesh(mesh, selectors.normalize), selection,
-                       selectors.trajectories.empty() ? slide : selectors.trajectories, 0);
+  return workload::make_workload(mesh, scenes::load_mesh(mesh, selectors.normalize), selection,
+                                 selectors.trajectories.empty() ? slide : selectors.trajectories, 0);
 }
 
 /// A whole trajectory takes a slow contestant its time; there is Ctrl-C, and --timeout where nobody watches.
-WorkerOptions patient(const WorkerSelectors& selectors) {
-  WorkerOptions options = worker_options(selectors);
+workers::WorkerOptions patient(const WorkerSelectors& selectors) {
+  workers::WorkerOptions options = worker_options(selectors);
   options.calibrate_clock = false;
-  if (selectors.timeout.empty()) options.order_patience = std::chrono::hours(24);
+  if (selectors.timeout.empty()) options.request_timeout = std::chrono::hours(24);
   return options;
 }
 
-void write_rows(RowSink& sink, Query query, std::span<const Step> course, std::span<const Answer> answers,
-                bool with_side) {
-  std::string rows = answer_header(query, with_side);
-  for (std::size_t i = 0; i < course.size(); ++i) {
-    append_answer_row(rows, query, i, course[i], answers[i], with_side);
+void write_rows(RowSink& sink, workload::Query query, std::span<const workload::Step> trace,
+                std::span<const workload::Answer> answers, bool with_side) {
+  std::string rows = results::answer_header(query, with_side);
+  for (std::size_t i = 0; i < trace.size(); ++i) {
+    results::append_answer_row(rows, query, i, trace[i], answers[i], with_side);
     if (rows.size() < block_size) continue;
-    check_for_interrupt();
+    support::check_for_interrupt();
     if (!sink.write(rows)) return;
     rows.clear();
   }
@@ -102,38 +103,39 @@ void write_rows(RowSink& sink, Query query, std::span<const Step> course, std::s
 }
 
 std::size_t checked_step(const std::string& text) {
-  const std::optional<std::uint64_t> step = parse_count(text);
+  const std::optional<std::uint64_t> step = support::parse_count(text);
   if (!step)
     throw std::invalid_argument(fmt::format("--step \"{}\" is not a whole number of 0 or more", text));
   return *step;
 }
 
-void run_query(const QueryOptions& options, const Roster& roster) {
+void run_query(const QueryOptions& options, const contestants::Roster& roster) {
   check_there_is_one(options.selectors);
-  const CheckedSelectors selection = check(options.selectors, roster);
-  const WorkerOptions workers = patient(options.workers);
-  const Query query = selection.queries.front();
-  const ContestantSpec& spec = selection.contestants.front();
-  const Workload workload = workload_for(options.selectors, selection);
-  const std::vector<Step>& course = workload.courses.front();
+  const contestants::CheckedSelectors selection = contestants::check(options.selectors, roster);
+  const workers::WorkerOptions workers = patient(options.workers);
+  const workload::Query query = selection.queries.front();
+  const contestants::ContestantSpec& spec = selection.contestants.front();
+  const workload::Workload workload = workload_for(options.selectors, selection);
+  const std::vector<workload::Step>& trace = workload.traces.front();
   RowSink sink(options.csv);  // before the work: a name that cannot be written is known at once
 
   if (!options.step.empty()) {
     const SessionBefore session = options.session == "fresh" ? SessionBefore::fresh : SessionBefore::replayed;
     const std::size_t step = checked_step(options.step);
-    if (sink.write(rows_of_step(roster, workload, workers, spec, {0, query, course.size()}, step, session)))
+    if (sink.write(rows_of_step(roster, workload, workers, spec, {0, query, trace.size()}, step, session)))
       sink.finish();
     return;
   }
-  const WorkerStage stage(workload, workers);
-  ContestantProcess process(stage, spec, roster.find(spec.name).worker_program(spec.values));
+  const workers::SharedArena arena(workload, workers);
+  workers::ContestantProcess process(arena, spec, roster.find(spec.name).worker_program(spec.values));
   try {
     check_it_answers(process.build(), query, spec.text());
-    process.answer({0, query, course.size()});
-  } catch (const WorkerFailure& failure) {
+    process.answer({0, query, trace.size()});
+  } catch (const workers::WorkerFailure& failure) {
     explain(failure, spec.text());
   }
-  write_rows(sink, query, course, stage.room().answers(course.size()), asks_for_side(spec.values));
+  write_rows(sink, query, trace, arena.buffers().answers(trace.size()),
+             contestants::asks_for_side(spec.values));
 }
 
 }  // namespace
@@ -165,14 +167,14 @@ void add_query(CLI::App& program, ProgramContext& context) {
       "--detector grid-group\n"
       "With the option side=on (--detector grid-group:side=on) a last column tells inside from outside.\n");
   command->final_callback([options, &context] {
-    watch_for_interrupts();
+    support::watch_for_interrupts();
     try {
       run_query(*options, context.roster);
-    } catch (const Interrupted&) {
+    } catch (const support::Interrupted&) {
       fmt::print(stderr, "touchmark: interrupted; no rows are kept\n");
-      context.status = exit_interrupted;
+      context.status = support::exit_interrupted;
     }
   });
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

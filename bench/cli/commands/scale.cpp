@@ -34,7 +34,10 @@
 #include "bench/support/standard_output.h"
 #include "bench/workload/query_name.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
+
+namespace scaling = experiments::scaling;
+
 namespace {
 
 // Those of the default comparison whose time does not grow with the mesh as a scan's does.
@@ -48,29 +51,31 @@ const std::set<std::string> scaled_by_default{"aabb-tree",
                                               "cgal:kernel=simple,hint=bounded"};
 constexpr const char* default_sizes = "1k,10k,100k,1M,10M";
 constexpr const char* quick_sizes = "1k,10k,100k";
-constexpr std::chrono::milliseconds default_build_patience{600'000};
+constexpr std::chrono::milliseconds default_build_timeout{600'000};
 /// What a contestant may take while it is built: a guess, more than twice what the largest keeps.
 constexpr double bytes_per_triangle = 1500;
 
 struct ScaleOptions {
-  Selectors selectors;
+  contestants::Selectors selectors;
   std::string sizes, limit = "60", out;
   bool quick = false;
   WorkerSelectors workers;
 };
 
 double checked_limit(const std::string& text) {
-  const std::optional<double> seconds = parse_number(text);
+  const std::optional<double> seconds = support::parse_number(text);
   if (!seconds || !(*seconds > 0))
     throw std::invalid_argument(fmt::format("--limit-seconds \"{}\" is not a number above 0, or inf", text));
   return *seconds;
 }
 
-CheckedSelectors checked(const Selectors& selectors, const Roster& roster) {
-  CheckedSelectors selection = check(selectors, roster);
+contestants::CheckedSelectors checked(const contestants::Selectors& selectors,
+                                      const contestants::Roster& roster) {
+  contestants::CheckedSelectors selection = contestants::check(selectors, roster);
   if (selectors.detectors.empty()) {
-    std::erase_if(selection.contestants,
-                  [](const ContestantSpec& spec) { return !scaled_by_default.contains(spec.text()); });
+    std::erase_if(selection.contestants, [](const contestants::ContestantSpec& spec) {
+      return !scaled_by_default.contains(spec.text());
+    });
   }
   return selection;
 }
@@ -84,10 +89,12 @@ class ScaleRun {
 
  private:
   void run_mesh(const std::string& name);
-  std::vector<ResultRow> run_course(Comparison& comparison, const Workload& workload, std::size_t course);
-  void skip_known(Comparison& comparison, std::size_t triangles);
-  void note_too_much(const Comparison& comparison, const std::vector<ResultRow>& rows);
-  Turns turns_for(const Workload& workload) const;
+  std::vector<measurement::ResultRow> run_trace(measurement::Comparison& comparison,
+                                                const workload::Workload& workload, std::size_t trace);
+  void skip_known(measurement::Comparison& comparison, std::size_t triangles);
+  void note_too_much(const measurement::Comparison& comparison,
+                     const std::vector<measurement::ResultRow>& rows);
+  measurement::Schedule schedule_for(const workload::Workload& workload) const;
   void save(bool finished) const;
 
   /// The smallest mesh that was too much for a contestant.
@@ -96,18 +103,18 @@ class ScaleRun {
     std::string status;  ///< for the rows of larger ones
   };
 
-  const Roster& roster_;
+  const contestants::Roster& roster_;
   const ScaleOptions& options_;
-  CheckedSelectors selection_;
+  contestants::CheckedSelectors selection_;
   double limit_s_;
   std::vector<std::string> meshes_;
-  std::optional<ResultsFolder> folder_;
-  RunDescription description_;
-  WorkerOptions workers_;
-  ProgressLine progress_;
-  StandardOutput out_;
+  std::optional<results::ResultsFolder> folder_;
+  results::RunDescription description_;
+  workers::WorkerOptions workers_;
+  support::ProgressLine progress_;
+  support::StandardOutput out_;
   std::map<std::string, TooMuch> too_much_;  // by contestant
-  std::vector<ResultRow> rows_;
+  std::vector<measurement::ResultRow> rows_;
   std::vector<std::string> runs_;  // run.json of each mesh
 };
 
@@ -116,34 +123,37 @@ ScaleRun::ScaleRun(const ProgramContext& context, const ScaleOptions& options)
       options_(options),
       selection_(checked(options.selectors, context.roster)),
       limit_s_(checked_limit(options.limit)),
-      meshes_(meshes_of_sizes(options.selectors.meshes.empty() ? std::vector<std::string>{"noisy-sphere"}
-                                                               : options.selectors.meshes,
-                              options.sizes, options.quick ? quick_sizes : default_sizes)),
-      description_(begun_run(context.argc, context.argv)),
+      meshes_(scaling::meshes_of_sizes(options.selectors.meshes.empty()
+                                           ? std::vector<std::string>{"noisy-sphere"}
+                                           : options.selectors.meshes,
+                                       options.sizes, options.quick ? quick_sizes : default_sizes)),
+      description_(results::begun_run(context.argc, context.argv)),
       workers_(worker_options(options.workers)) {
   // A name that is wrong should not be found out after the smaller meshes.
   for (const std::string& mesh : meshes_) {
-    if (!comes_in_sizes(family_of(mesh))) load_mesh(mesh, options.selectors.normalize);
+    if (!scaling::comes_in_sizes(scaling::family_of(mesh)))
+      scenes::load_mesh(mesh, options.selectors.normalize);
   }
   if (!options.out.empty()) folder_.emplace(options.out);
-  if (options.workers.timeout.empty()) workers_.build_patience = default_build_patience;
-  description_.flushed_to_zero = restore_denormals();
+  if (options.workers.timeout.empty()) workers_.build_timeout = default_build_timeout;
+  description_.flushed_to_zero = support::restore_denormals();
   description_.query = selection_.queries.front();
   description_.seed = selection_.seed;
-  if (options.quick) description_.effort = quick_effort;
-  description_.core = workers_.core = core_for_workers();
+  if (options.quick) description_.effort = measurement::quick_effort;
+  description_.core = workers_.core = results::core_for_workers();
 }
 
 /// All at once while there is room, so that times of one mesh compare as those of `touchmark bench` do.
-Turns ScaleRun::turns_for(const Workload& workload) const {
+measurement::Schedule ScaleRun::schedule_for(const workload::Workload& workload) const {
   const double all = bytes_per_triangle * static_cast<double>(workload.mesh.size()) *
                      static_cast<double>(selection_.contestants.size());
-  const std::optional<std::uint64_t> available = available_memory();
-  return available && all > static_cast<double>(*available) / 2 ? Turns::one_by_one : Turns::together;
+  const std::optional<std::uint64_t> available = support::available_memory();
+  return available && all > static_cast<double>(*available) / 2 ? measurement::Schedule::sequential
+                                                                : measurement::Schedule::interleaved;
 }
 
-void ScaleRun::skip_known(Comparison& comparison, std::size_t triangles) {
-  for (const ContestantSpec& spec : selection_.contestants) {
+void ScaleRun::skip_known(measurement::Comparison& comparison, std::size_t triangles) {
+  for (const contestants::ContestantSpec& spec : selection_.contestants) {
     const auto found = too_much_.find(spec.text());
     if (found == too_much_.end() || found->second.triangles >= triangles) continue;
     comparison.skip(spec, found->second.status);
@@ -152,79 +162,81 @@ void ScaleRun::skip_known(Comparison& comparison, std::size_t triangles) {
   }
 }
 
-/// Those that took too long, and those that did not get through at all.
-void ScaleRun::note_too_much(const Comparison& comparison, const std::vector<ResultRow>& rows) {
+/// Contestants that took too long, and those that did not get through at all.
+void ScaleRun::note_too_much(const measurement::Comparison& comparison,
+                             const std::vector<measurement::ResultRow>& rows) {
   const auto note = [&](const std::string& contestant, const std::string& why) {
-    const ResultRow& row = rows.front();
+    const measurement::ResultRow& row = rows.front();
     too_much_.try_emplace(contestant,
                           TooMuch{row.triangles, fmt::format("skipped: {} on {}", why, row.mesh)});
   };
-  for (const ResultRow& row : rows) {
+  for (const measurement::ResultRow& row : rows) {
     if (row.status != "ok" && row.status != "unsupported" && !row.status.starts_with("skipped"))
       note(row.contestant(), row.status);
   }
-  for (const ContestantProcess& process : comparison.contestants()) {
+  for (const workers::ContestantProcess& process : comparison.contestants()) {
     if (process.busy_s() > limit_s_)
       note(process.spec().text(), fmt::format("took {:.3g} s", process.busy_s()));
   }
 }
 
-std::vector<ResultRow> ScaleRun::run_course(Comparison& comparison, const Workload& workload,
-                                            std::size_t course) {
-  std::vector<ResultRow> rows = comparison.run(course, description_.query);
+std::vector<measurement::ResultRow> ScaleRun::run_trace(measurement::Comparison& comparison,
+                                                        const workload::Workload& workload,
+                                                        std::size_t trace) {
+  std::vector<measurement::ResultRow> rows = comparison.run(trace, description_.query);
   progress_.clear();
-  out_.write(fmt::format("\n{}, {} ({})\n{}{}", workload.mesh_name, workload.trajectories[course],
-                         course_text(workload, course), timing_table(rows),
-                         verdict(rows, comparison.steadiness().back())));
+  out_.write(fmt::format("\n{}, {} ({})\n{}{}", workload.mesh_name, workload.trajectories[trace],
+                         workload::trace_text(workload, trace), results::timing_table(rows),
+                         results::verdict(rows, comparison.steadiness().back())));
   out_.finish();
   return rows;
 }
 
 void ScaleRun::run_mesh(const std::string& name) {
   progress_.show(fmt::format("{}: making the mesh and the trajectories", name));
-  const Selectors& selectors = options_.selectors;
-  const Workload workload = make_workload(
-      without_directories(name), load_mesh(name, selectors.normalize), selection_,
+  const contestants::Selectors& selectors = options_.selectors;
+  const workload::Workload workload = workload::make_workload(
+      results::without_directories(name), scenes::load_mesh(name, selectors.normalize), selection_,
       selectors.trajectories.empty() ? std::vector<std::string>{"slide"} : selectors.trajectories,
       options_.quick ? 5000 : 20000);
   progress_.show(fmt::format("{}: preparing the oracle", name));
-  Comparison comparison(roster_, workload, selection_.contestants, workers_, description_.effort,
-                        selection_.seed);
-  comparison.set_turns(turns_for(workload));
+  measurement::Comparison comparison(roster_, workload, selection_.contestants, workers_, description_.effort,
+                                     selection_.seed);
+  comparison.set_schedule(schedule_for(workload));
   comparison.set_progress([&](const std::string& trajectory, const std::string& contestant) {
     progress_.show(fmt::format("{}, {}: {}", workload.mesh_name, trajectory, contestant));
   });
   skip_known(comparison, workload.mesh.size());
-  std::vector<ResultRow> rows;
-  for (std::size_t course = 0; course < workload.courses.size(); ++course)
-    std::ranges::move(run_course(comparison, workload, course), std::back_inserter(rows));
+  std::vector<measurement::ResultRow> rows;
+  for (std::size_t trace = 0; trace < workload.traces.size(); ++trace)
+    std::ranges::move(run_trace(comparison, workload, trace), std::back_inserter(rows));
   note_too_much(comparison, rows);
   std::ranges::move(rows, std::back_inserter(rows_));
   description_.steadiness = comparison.steadiness();
-  runs_.push_back(run_json(description_, workload, comparison.contestants()));
+  runs_.push_back(results::run_json(description_, workload, comparison.contestants()));
   save(runs_.size() == meshes_.size());
 }
 
 void ScaleRun::save(bool finished) const {
   if (!folder_) return;
-  folder_->write(results_csv(description_.run_id, rows_), joined_run_json(runs_, finished));
-  folder_->write_file("scaling.csv", scaling_csv(growth_of(rows_)));
+  folder_->write(results::results_csv(description_.run_id, rows_), results::joined_run_json(runs_, finished));
+  folder_->write_file("scaling.csv", scaling::scaling_csv(scaling::growth_of(rows_)));
 }
 
 int ScaleRun::run() {
-  watch_for_interrupts();
+  support::watch_for_interrupts();
   bool interrupted = false;
   try {
     for (const std::string& mesh : meshes_) run_mesh(mesh);
-  } catch (const Interrupted&) {
+  } catch (const support::Interrupted&) {
     interrupted = true;
     progress_.clear();
     fmt::print(stderr, "touchmark: interrupted; the rows of {} finished meshes are kept\n", runs_.size());
   }
-  out_.write(growth_table(growth_of(rows_)));
-  if (interrupted) return exit_interrupted;
-  const auto where = [](const ResultRow& row) { return row.mesh + ", " + row.trajectory; };
-  return tell_faults(rows_, where) ? exit_check_failed : exit_done;
+  out_.write(scaling::growth_table(scaling::growth_of(rows_)));
+  if (interrupted) return support::exit_interrupted;
+  const auto where = [](const measurement::ResultRow& row) { return row.mesh + ", " + row.trajectory; };
+  return results::print_faults(rows_, where) ? support::exit_check_failed : support::exit_done;
 }
 
 }  // namespace
@@ -259,4 +271,4 @@ void add_scale(CLI::App& program, ProgramContext& context) {
   command->final_callback([options, &context] { context.status = ScaleRun(context, *options).run(); });
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

@@ -27,16 +27,19 @@
 #include "bench/support/standard_output.h"
 #include "bench/workload/query_name.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
+
+namespace stress = experiments::stress;
+
 namespace {
 
-constexpr std::uint64_t most_probes = 1'000'000'000;
+constexpr std::uint64_t max_probes = 1'000'000'000;
 constexpr std::size_t faults_shown = 20;
-/// For a build or a course: rivals that hang do so in many of them.
-constexpr std::chrono::milliseconds stress_patience{20'000};
+/// For a build or a trace: rivals that hang do so in many of them.
+constexpr std::chrono::milliseconds stress_timeout{20'000};
 
 struct StressOptions {
-  Selectors selectors;  // of which detectors and seed
+  contestants::Selectors selectors;  // of which detectors and seed
   bool sweep_too = false;
   std::vector<std::string> families;
   std::string probes = "1000";
@@ -45,68 +48,69 @@ struct StressOptions {
 };
 
 std::size_t checked_probes(const std::string& text) {
-  const std::optional<std::uint64_t> probes = parse_count(text);
-  if (!probes || *probes < 1 || *probes > most_probes) {
+  const std::optional<std::uint64_t> probes = support::parse_count(text);
+  if (!probes || *probes < 1 || *probes > max_probes) {
     throw std::invalid_argument(
-        fmt::format("--probes \"{}\" is not a whole number from 1 to {}", text, most_probes));
+        fmt::format("--probes \"{}\" is not a whole number from 1 to {}", text, max_probes));
   }
   return *probes;
 }
 
-std::vector<const Family*> checked_families(const std::vector<std::string>& names) {
-  std::vector<const Family*> chosen;
-  for (const std::string& name : names) chosen.push_back(&family_named(name));
+std::vector<const stress::Family*> checked_families(const std::vector<std::string>& names) {
+  std::vector<const stress::Family*> chosen;
+  for (const std::string& name : names) chosen.push_back(&stress::family_named(name));
   if (chosen.empty()) {
-    for (const Family& family : families()) chosen.push_back(&family);
+    for (const stress::Family& family : stress::families()) chosen.push_back(&family);
   }
   return chosen;
 }
 
-StressRequest request_of(const StressOptions& options, const Roster& roster) {
-  const CheckedSelectors selection = check(options.selectors, roster, Variety::many);
-  StressRequest request;
+stress::StressRequest request_of(const StressOptions& options, const contestants::Roster& roster) {
+  const contestants::CheckedSelectors selection =
+      contestants::check(options.selectors, roster, contestants::Variety::many);
+  stress::StressRequest request;
   request.families = checked_families(options.families);
   request.contestants = selection.contestants;
   request.queries = selection.queries;
-  if (!options.sweep_too) std::erase(request.queries, Query::sweep);
+  if (!options.sweep_too) std::erase(request.queries, workload::Query::sweep);
   request.seed = selection.seed;
   request.probes = checked_probes(options.probes);
   request.workers = worker_options(options.workers);
   request.workers.calibrate_clock = false;
   if (options.workers.timeout.empty())
-    request.workers.build_patience = request.workers.order_patience = stress_patience;
+    request.workers.build_timeout = request.workers.request_timeout = stress_timeout;
   return request;
 }
 
 /// As that of rows, see verification_report.h.
-int status_of(const std::vector<Score>& scores) {
+int status_of(const std::vector<stress::Score>& scores) {
   std::map<std::string, std::uint64_t> judged;
   std::map<std::string, std::string> short_of_memory;
   std::uint64_t all_judged = 0;
-  for (const Score& score : scores) {
-    if (score.broken) return exit_check_failed;
-    all_judged += score.tally.judged;
-    judged[score.contestant()] += score.tally.judged;
+  for (const stress::Score& score : scores) {
+    if (score.broken) return support::exit_check_failed;
+    all_judged += score.counts.judged;
+    judged[score.contestant()] += score.counts.judged;
     if (!score.short_of_memory.empty()) short_of_memory.emplace(score.contestant(), score.short_of_memory);
   }
-  int status = exit_done;
+  int status = support::exit_done;
   for (const auto& [contestant, why] : short_of_memory) {
     if (judged[contestant] > 0) continue;
     fmt::print(stderr, "touchmark: {}: nothing judged: {}\n", contestant, why);
-    status = exit_resources;
+    status = support::exit_resources;
   }
-  if (status != exit_done || all_judged > 0) return status;
+  if (status != support::exit_done || all_judged > 0) return status;
   fmt::print(stderr, "touchmark: inconclusive: 0 answers were judged\n");
-  return exit_inconclusive;
+  return support::exit_inconclusive;
 }
 
 class StressCommand {
  public:
   StressCommand(const ProgramContext& context, const StressOptions& options)
       : run_(context.roster, request_of(options, context.roster)),
-        description_(begun_run(context.argc, context.argv)) {
+        description_(results::begun_run(context.argc, context.argv)) {
     if (!options.out.empty()) folder_.emplace(options.out);
-    description_.flushed_to_zero = restore_denormals();
+    description_.flushed_to_zero = support::restore_denormals();
     description_.seed = run_.request().seed;
   }
 
@@ -115,66 +119,71 @@ class StressCommand {
  private:
   void report(bool finished);
 
-  StressRun run_;
-  std::optional<ResultsFolder> folder_;
-  RunDescription description_;
-  ProgressLine progress_;
+  stress::StressRun run_;
+  std::optional<results::ResultsFolder> folder_;
+  results::RunDescription description_;
+  support::ProgressLine progress_;
 };
 
 void StressCommand::report(bool finished) {
   progress_.clear();
-  const std::string faults = list_of_failures(run_.faults(), faults_shown);
-  StandardOutput().write(stress_table(run_.scores()) + (faults.empty() ? "" : "\n" + faults));
+  const std::string faults = results::list_of_failures(run_.faults(), faults_shown);
+  support::StandardOutput().write(stress::stress_table(run_.scores()) +
+                                  (faults.empty() ? "" : "\n" + faults));
   if (!folder_) return;
   description_.finished = finished;
-  folder_->write_file("stress.csv", stress_csv(description_.run_id, run_.scores()));
-  folder_->write_file("run.json", stress_json(description_, run_));
+  folder_->write_file("stress.csv", stress::stress_csv(description_.run_id, run_.scores()));
+  folder_->write_file("run.json", stress::stress_json(description_, run_));
 }
 
 int StressCommand::run() {
-  watch_for_interrupts();
+  support::watch_for_interrupts();
   try {
     run_.run([&](const std::string& what) { progress_.show(what); });
-  } catch (const Interrupted&) {
+  } catch (const support::Interrupted&) {
     report(false);
     fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", run_.scores().size());
-    return exit_interrupted;
+    return support::exit_interrupted;
   }
   report(true);
   return status_of(run_.scores());
 }
 
 /// "QUERY/MESH/COURSE/STEP": one answer of the only family, by the only contestant.
-void repeat_one(const StressOptions& options, const Roster& roster) {
-  const StressRequest request = request_of(options, roster);
+void repeat_one(const StressOptions& options, const contestants::Roster& roster) {
+  const stress::StressRequest request = request_of(options, roster);
   if (options.families.size() != 1 || options.selectors.detectors.size() != 1) {
     throw std::invalid_argument("--repeat needs exactly one --family and one --detector");
   }
   std::istringstream text(options.repeat);
   std::vector<std::string> parts;
   for (std::string part; std::getline(text, part, '/');) parts.push_back(part);
-  const std::optional<Query> query = parts.size() == 4 ? query_named(parts[0]) : std::nullopt;
-  std::vector<std::uint64_t> places;
+  const std::optional<workload::Query> query =
+      parts.size() == 4 ? workload::query_named(parts[0]) : std::nullopt;
+  std::vector<std::uint64_t> indices;
   for (std::size_t i = 1; query && i < parts.size(); ++i) {
-    if (const auto place = parse_count(parts[i])) places.push_back(*place);
+    if (const auto index = support::parse_count(parts[i])) indices.push_back(*index);
   }
-  if (places.size() != 3) {
+  if (indices.size() != 3) {
     throw std::invalid_argument(
         fmt::format("--repeat \"{}\" is not QUERY/MESH/COURSE/STEP, as nearest/0/0/17", options.repeat));
   }
-  const std::vector<Workload> workloads = request.families.front()->make(request.seed, request.probes);
-  if (places[0] >= workloads.size() || places[1] >= workloads[places[0]].courses.size()) {
+  const std::vector<workload::Workload> workloads =
+      request.families.front()->make(request.seed, request.probes);
+  if (indices[0] >= workloads.size() || indices[1] >= workloads[indices[0]].traces.size()) {
     throw std::invalid_argument(
         fmt::format("--repeat \"{}\" names a mesh or course that is not", options.repeat));
   }
-  const Task task{places[1], *query, workloads[places[0]].courses[places[1]].size()};
-  StandardOutput().write(rows_of_step(roster, workloads[places[0]], request.workers,
-                                      request.contestants.front(), task, places[2], SessionBefore::replayed));
+  const workers::Task task{indices[1], *query, workloads[indices[0]].traces[indices[1]].size()};
+  support::StandardOutput().write(rows_of_step(roster, workloads[indices[0]], request.workers,
+                                               request.contestants.front(), task, indices[2],
+                                               SessionBefore::replayed));
 }
 
 std::string list_of_families() {
   std::string list = "Families:\n";
-  for (const Family& family : families()) list += fmt::format("  {:<18}{}\n", family.name, family.meaning);
+  for (const stress::Family& family : stress::families())
+    list += fmt::format("  {:<18}{}\n", family.name, family.meaning);
   return list;
 }
 
@@ -216,10 +225,10 @@ void add_stress(CLI::App& program, ProgramContext& context) {
                   "Example: touchmark stress --detector grid-group --detector bullet --family needles --out "
                   "results/today\n");
   command->final_callback([options, &context] {
-    restore_denormals();
+    support::restore_denormals();
     if (!options->repeat.empty()) return repeat_one(*options, context.roster);
     context.status = StressCommand(context, *options).run();
   });
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

@@ -21,13 +21,16 @@
 #include "bench/support/standard_output.h"
 #include "bench/support/text_table.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
+
+namespace papers = experiments::papers;
+
 namespace {
 
 struct TuneOptions {
   std::string mesh, rate, levels, threshold = "1%";
   std::vector<std::string> methods, clusterings;
-  PaperOptions common{"", "0.5%", "", "1", false};
+  papers::PaperOptions common{"", "0.5%", "", "1", false};
 };
 
 std::vector<SubdivisionMethod> checked_methods(const std::vector<std::string>& names) {
@@ -45,23 +48,23 @@ std::vector<SubdivisionMethod> checked_methods(const std::vector<std::string>& n
 std::vector<double> checked_clusterings(const std::vector<std::string>& texts, const TriangleMesh& mesh) {
   std::vector<double> distances;
   for (const std::string& text : texts)
-    distances.push_back(checked_finite_length("--clustering", text).in_mesh_units(mesh));
+    distances.push_back(papers::checked_finite_length("--clustering", text).in_mesh_units(mesh));
   if (!distances.empty()) return distances;
   for (const double times : {0.0, 0.5, 1.0, 2.0, 4.0})
-    distances.push_back(times * choi_sung_clustering_percent / 100 * mesh.diagonal());
+    distances.push_back(times * papers::choi_sung_clustering_percent / 100 * mesh.diagonal());
   return distances;
 }
 
-FrontierSettings checked(const TuneOptions& options, const TriangleMesh& mesh) {
+papers::FrontierSettings checked(const TuneOptions& options, const TriangleMesh& mesh) {
   const bool quick = options.common.quick;
-  FrontierSettings settings;
+  papers::FrontierSettings settings;
   settings.methods = checked_methods(options.methods);
-  settings.levels = static_cast<int>(checked_number("--levels", options.levels, 0, 8, quick ? 1 : 3));
-  settings.threshold = checked_finite_length("--threshold", options.threshold).in_mesh_units(mesh);
+  settings.levels = static_cast<int>(papers::checked_number("--levels", options.levels, 0, 8, quick ? 1 : 3));
+  settings.threshold = papers::checked_finite_length("--threshold", options.threshold).in_mesh_units(mesh);
   settings.clusterings = checked_clusterings(options.clusterings, mesh);
-  settings.radius = checked_finite_length("--radius", options.common.radius).in_mesh_units(mesh);
-  settings.steps = checked_number("--steps", options.common.steps, 1, 1'000'000, quick ? 50 : 1000);
-  settings.seed = checked_seed(options.common.seed);
+  settings.radius = papers::checked_finite_length("--radius", options.common.radius).in_mesh_units(mesh);
+  settings.steps = papers::checked_number("--steps", options.common.steps, 1, 1'000'000, quick ? 50 : 1000);
+  settings.seed = papers::checked_seed(options.common.seed);
   if (quick) {
     settings.samples = 100;
     settings.effort = {2, 1e5};
@@ -71,27 +74,27 @@ FrontierSettings checked(const TuneOptions& options, const TriangleMesh& mesh) {
 
 double percent_of(double error, double diagonal) { return diagonal > 0 ? 100 * error / diagonal : 0; }
 
-std::string table_of(const FrontierResult& result, double diagonal, double rate) {
-  TextTable table({"surface", "form", "clustering", "triangles", "spheres", "error %", "99 % within us", "Hz",
-                   "in time", "best"});
-  for (const FrontierPoint& p : result.points) {
+std::string table_of(const papers::FrontierResult& result, double diagonal, double rate) {
+  support::TextTable table({"surface", "form", "clustering", "triangles", "spheres", "error %",
+                            "99 % within us", "Hz", "in time", "best"});
+  for (const papers::FrontierPoint& p : result.points) {
     table.add({fmt::format("{} {}", p.method, p.level), p.form, fmt::format("{:.4g}", p.clustering),
                std::to_string(p.triangles), std::to_string(p.spheres),
                fmt::format("{:.4f}", percent_of(p.error.mean, diagonal)),
                p.ns_p99 ? fmt::format("{:.3g}", *p.ns_p99 * 1e-3) : "",
-               p.ns_p99 ? fmt::format("{:.4g}", 1e9 / *p.ns_p99) : "", holds_rate(p, rate) ? "yes" : "no",
-               p.best ? "*" : ""});
+               p.ns_p99 ? fmt::format("{:.4g}", 1e9 / *p.ns_p99) : "",
+               papers::holds_rate(p, rate) ? "yes" : "no", p.best ? "*" : ""});
   }
   return table.text();
 }
 
-std::string description(const char* which, const std::optional<FrontierPoint>& point,
+std::string description(const char* which, const std::optional<papers::FrontierPoint>& point,
                         const TuneOptions& options, double diagonal) {
   if (!point || !point->ns_p99) return fmt::format("{}: none holds {} Hz\n", which, options.rate);
   std::string text = fmt::format(
       "{}: {} level {}, {}, mean error {:.4f} % of the box diagonal, 99 of 100 queries within {:.4g} us\n",
-      which, point->method, point->level, detector_of(*point), percent_of(point->error.mean, diagonal),
-      *point->ns_p99 * 1e-3);
+      which, point->method, point->level, papers::detector_of(*point),
+      percent_of(point->error.mean, diagonal), *point->ns_p99 * 1e-3);
   if (point->level > 0) {
     text += fmt::format(
         "  touchmark mesh subdivide --mesh {} --method {} --levels {} --threshold {} --form meshlab --output "
@@ -99,35 +102,35 @@ std::string description(const char* which, const std::optional<FrontierPoint>& p
         options.mesh, point->method, point->level, options.threshold);
   }
   text += fmt::format("  touchmark bench --mesh {} --detector {}\n",
-                      point->level > 0 ? "fine.ply" : options.mesh, detector_of(*point));
+                      point->level > 0 ? "fine.ply" : options.mesh, papers::detector_of(*point));
   return text;
 }
 
 int run(const TuneOptions& options) {
-  const double rate = checked_positive("--rate", options.rate);
-  const TriangleMesh mesh = load_scene(options.mesh);
-  const FrontierSettings settings = checked(options, mesh);
-  std::optional<ResultsFolder> folder;
+  const double rate = papers::checked_positive("--rate", options.rate);
+  const TriangleMesh mesh = scenes::load_scene(options.mesh);
+  const papers::FrontierSettings settings = checked(options, mesh);
+  std::optional<results::ResultsFolder> folder;
   if (!options.common.out.empty()) folder.emplace(options.common.out);
-  watch_for_interrupts();
-  restore_denormals();
-  ProgressLine progress;
-  const FrontierResult result =
-      run_frontier(mesh, settings, [&](const std::string& what) { progress.show(what); });
+  support::watch_for_interrupts();
+  support::restore_denormals();
+  support::ProgressLine progress;
+  const papers::FrontierResult result =
+      papers::run_frontier(mesh, settings, [&](const std::string& what) { progress.show(what); });
   progress.clear();
-  if (folder) folder->write_file("tune.csv", frontier_table(result, mesh.diagonal()).csv());
+  if (folder) folder->write_file("tune.csv", papers::frontier_table(result, mesh.diagonal()).csv());
   if (!result.finished) {
     fmt::print(stderr, "touchmark: interrupted; {} rows are kept\n", result.points.size());
-    return exit_interrupted;
+    return support::exit_interrupted;
   }
   for (const std::string& what : result.left_out) fmt::print(stderr, "touchmark: left out: {}\n", what);
-  const Tuned tuned = tune(result, rate);
-  StandardOutput out;
+  const papers::Tuned tuned = papers::tune(result, rate);
+  support::StandardOutput out;
   out.write(table_of(result, mesh.diagonal(), rate));
   out.write(description("as published", tuned.published, options, mesh.diagonal()));
   out.write(description("fast and exact", tuned.fast, options, mesh.diagonal()));
   out.finish();
-  return tuned.published || tuned.fast ? exit_done : exit_check_failed;
+  return tuned.published || tuned.fast ? support::exit_done : support::exit_check_failed;
 }
 
 }  // namespace
@@ -158,10 +161,10 @@ void add_tune(CLI::App& program, ProgramContext& context) {
       ->type_name("LENGTH")
       ->expected(1)
       ->take_all();
-  add_paper_options(*command, options->common);
+  papers::add_paper_options(*command, options->common);
   command->footer(
       "Exit status 1: nothing tried holds the rate.\nExample: touchmark tune --rate 1000 --mesh bunny\n");
   command->final_callback([options, &context] { context.status = run(*options); });
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

@@ -24,7 +24,10 @@
 #include "bench/support/standard_output.h"
 #include "bench/trajectories/motion_path.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
+
+namespace update = experiments::update;
+
 namespace {
 
 // Ours, and rivals with an update of their own or in the form that is fastest to build; the others are asked
@@ -43,14 +46,14 @@ constexpr std::string_view asked_by_default[] = {"brute-force",
                                                  "cgal:kernel=simple,hint=bounded"};
 
 struct UpdateOptions {
-  Selectors selectors;
+  contestants::Selectors selectors;
   std::string shares = "1%,10%,100%";
   std::string out;
   WorkerSelectors workers;
 };
 
 double checked_share(std::string_view text) {
-  const std::optional<Length> share = parse_length(text);
+  const std::optional<support::Length> share = support::parse_length(text);
   const double value = share ? (share->percent ? share->value / 100 : share->value) : 0;
   if (!(value > 0 && value <= 1)) {
     throw std::invalid_argument(
@@ -69,12 +72,13 @@ std::vector<double> checked_shares(std::string_view text) {
   }
 }
 
-CheckedSelectors checked(const Selectors& selectors, const Roster& roster) {
-  CheckedSelectors selection = check(selectors, roster);
+contestants::CheckedSelectors checked(const contestants::Selectors& selectors,
+                                      const contestants::Roster& roster) {
+  contestants::CheckedSelectors selection = contestants::check(selectors, roster);
   if (!selectors.detectors.empty()) return selection;
   selection.contestants.clear();
   for (const std::string_view text : asked_by_default) {
-    ContestantSpec spec = roster.parse(std::string(text));
+    contestants::ContestantSpec spec = roster.parse(std::string(text));
     if (roster.find(spec.name).built()) selection.contestants.push_back(std::move(spec));
   }
   return selection;
@@ -88,53 +92,53 @@ std::string checked_trajectory(const std::vector<std::string>& names) {
 }
 
 int update(const ProgramContext& context, const UpdateOptions& options) {
-  const CheckedSelectors selection = checked(options.selectors, context.roster);
+  const contestants::CheckedSelectors selection = checked(options.selectors, context.roster);
   const std::vector<double> shares = checked_shares(options.shares);
   const std::string trajectory = checked_trajectory(options.selectors.trajectories);
-  WorkerOptions workers = worker_options(options.workers);
+  workers::WorkerOptions workers = worker_options(options.workers);
   workers.calibrate_clock = false;
-  RunDescription description = begun_run(context.argc, context.argv);
-  description.flushed_to_zero = restore_denormals();
+  results::RunDescription description = results::begun_run(context.argc, context.argv);
+  description.flushed_to_zero = support::restore_denormals();
   description.query = selection.queries.front();
   description.seed = selection.seed;
-  description.core = workers.core = core_for_workers();
-  std::optional<ResultsFolder> folder;
+  description.core = workers.core = results::core_for_workers();
+  std::optional<results::ResultsFolder> folder;
   if (!options.out.empty()) folder.emplace(options.out);
 
   const std::string name =
-      options.selectors.meshes.empty() ? default_scene() : options.selectors.meshes.front();
-  ProgressLine progress;
-  progress.show(fmt::format("{}: deforming it", without_directories(name)));
-  UpdateRun run(context.roster, selection.contestants, selection, without_directories(name),
-                load_mesh(name, options.selectors.normalize), shares, trajectory, workers);
-  watch_for_interrupts();
-  std::vector<UpdateRow> rows;
-  int status = exit_done;
+      options.selectors.meshes.empty() ? scenes::default_scene() : options.selectors.meshes.front();
+  support::ProgressLine progress;
+  progress.show(fmt::format("{}: deforming it", results::without_directories(name)));
+  update::UpdateRun run(context.roster, selection.contestants, selection, results::without_directories(name),
+                        scenes::load_mesh(name, options.selectors.normalize), shares, trajectory, workers);
+  support::watch_for_interrupts();
+  std::vector<update::UpdateRow> rows;
+  int status = support::exit_done;
   try {
     for (std::size_t i = 0; i < selection.contestants.size(); ++i) {
-      const std::vector<UpdateRow> more = run.run(i, [&](double share) {
+      const std::vector<update::UpdateRow> more = run.run(i, [&](double share) {
         progress.show(fmt::format("{}, {:g} %: {}", run.workload().mesh_name, 100 * share,
                                   selection.contestants[i].text()));
       });
       rows.insert(rows.end(), more.begin(), more.end());
     }
-  } catch (const Interrupted&) {
-    status = exit_interrupted;
+  } catch (const support::Interrupted&) {
+    status = support::exit_interrupted;
     description.finished = false;
   }
   progress.clear();
-  StandardOutput().write(update_table(rows));
+  support::StandardOutput().write(update::update_table(rows));
   if (folder) {
-    folder->write_file("update.csv", update_csv(rows));
-    folder->write_file("run.json", run_json(description, run.workload(), run.contestants()));
+    folder->write_file("update.csv", update::update_csv(rows));
+    folder->write_file("run.json", results::run_json(description, run.workload(), run.contestants()));
   }
-  if (status == exit_interrupted)
+  if (status == support::exit_interrupted)
     fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", rows.size());
-  for (const UpdateRow& row : rows) {
+  for (const update::UpdateRow& row : rows) {
     const bool crashed = row.status.starts_with("crashed") &&
                          context.roster.parse(row.contestant()).claimed == Guarantee::exact;
-    if (!row.broke_its_word() && !crashed) continue;
-    if (status == exit_done) status = exit_check_failed;
+    if (!row.violates_guarantee() && !crashed) continue;
+    if (status == support::exit_done) status = support::exit_check_failed;
     fmt::print(stderr, "touchmark: {} after {:g} % moved: {}\n", row.contestant(), 100 * row.share,
                crashed ? row.status : "answers are not as exact as claimed");
   }
@@ -165,4 +169,4 @@ void add_update(CLI::App& program, ProgramContext& context) {
   command->final_callback([options, &context] { context.status = update(context, *options); });
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

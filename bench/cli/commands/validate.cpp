@@ -17,7 +17,11 @@
 #include "bench/results/validation/run_check.h"
 #include "bench/support/standard_output.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
+
+namespace stress = experiments::stress;
+namespace validation = results::validation;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -59,53 +63,54 @@ std::vector<std::string> files_of(const std::vector<std::string>& paths) {
   return files;
 }
 
-std::string check_json(const std::string& path, Faults& faults) {
-  const std::optional<LocatedJson> run = read_located_json(path, faults);
-  if (run) check_run(path, *run, faults);
+std::string check_json(const std::string& path, validation::Faults& faults) {
+  const std::optional<validation::LocatedJson> run = validation::read_located_json(path, faults);
+  if (run) validation::check_run(path, *run, faults);
   return "run";
 }
 
 bool is_stress_csv(const fs::path& path) { return path.filename() == "stress.csv"; }
 
 /// The run.json beside a results.csv or stress.csv; its own faults are reported where it is checked itself.
-std::optional<LocatedJson> run_beside(const fs::path& path) {
-  const fs::path beside = path.parent_path() / "run.json";
-  if ((path.filename() != "results.csv" && !is_stress_csv(path)) || !fs::exists(beside)) return std::nullopt;
-  Faults reported_elsewhere;
-  std::optional<LocatedJson> run = read_located_json(beside, reported_elsewhere);
+std::optional<validation::LocatedJson> run_next_to(const fs::path& path) {
+  const fs::path run_path = path.parent_path() / "run.json";
+  if ((path.filename() != "results.csv" && !is_stress_csv(path)) || !fs::exists(run_path))
+    return std::nullopt;
+  validation::Faults reported_elsewhere;
+  std::optional<validation::LocatedJson> run = validation::read_located_json(run_path, reported_elsewhere);
   return run && run->value.is_object() ? std::move(run) : std::nullopt;
 }
 
-std::string check_csv(const std::string& path, Faults& faults) {
-  const CsvTable table = read_csv_table(path, faults);
-  check_form(table, faults);
-  const std::optional<LocatedJson> run = run_beside(path);
-  const nlohmann::json* about = run ? &run->value : nullptr;
+std::string check_csv(const std::string& path, validation::Faults& faults) {
+  const validation::CsvTable table = validation::read_csv_table(path, faults);
+  validation::check_form(table, faults);
+  const std::optional<validation::LocatedJson> run = run_next_to(path);
+  const nlohmann::json* run_json = run ? &run->value : nullptr;
   if (is_stress_csv(path)) {
-    check_stress(table, about, faults);
+    stress::check_stress(table, run_json, faults);
     return fmt::format("stress, {} rows", table.records.size());
   }
   const bool results =
       fs::path(path).filename() == "results.csv" || table.has("run_id") || table.has("answers_checksum");
-  if (results) check_results(table, about, faults);
+  if (results) validation::check_results(table, run_json, faults);
   return fmt::format("{}, {} rows", results ? "results" : "another table, checked for its form only",
                      table.records.size());
 }
 
 int validate(const std::vector<std::string>& paths) {
-  StandardOutput out;
+  support::StandardOutput out;
   std::size_t total = 0;
   const std::vector<std::string> files = files_of(paths);
   for (const std::string& path : files) {
-    Faults faults;
+    validation::Faults faults;
     const std::string kind = is_run_json(path) ? check_json(path, faults) : check_csv(path, faults);
-    for (const Fault& fault : faults) out.write(line_of(fault) + "\n");
+    for (const validation::Fault& fault : faults) out.write(validation::line_of(fault) + "\n");
     if (faults.empty()) out.write(fmt::format("{}: fine ({})\n", path, kind));
     total += faults.size();
   }
   if (total > 0) out.write(fmt::format("{} faults in {} files\n", total, files.size()));
   out.finish();
-  return total > 0 ? exit_check_failed : exit_done;
+  return total > 0 ? support::exit_check_failed : support::exit_done;
 }
 
 }  // namespace
@@ -125,4 +130,4 @@ void add_validate(CLI::App& program, ProgramContext& context) {
   command->final_callback([paths, &context] { context.status = validate(*paths); });
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

@@ -26,7 +26,7 @@
 #include "bench/trajectories/trajectories.h"
 #include "bench/workload/query_name.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
 namespace {
 
 constexpr std::size_t steps_on_every_scene = 200;
@@ -34,7 +34,7 @@ constexpr std::size_t steps_on_a_mesh = 2000;
 constexpr std::size_t failures_shown = 40;
 
 struct VerifyOptions {
-  Selectors selectors;
+  contestants::Selectors selectors;
   std::string out;
   WorkerSelectors workers;
 };
@@ -42,7 +42,7 @@ struct VerifyOptions {
 std::vector<std::string> meshes_for(const VerifyOptions& options) {
   if (!options.selectors.meshes.empty()) return options.selectors.meshes;
   std::vector<std::string> meshes;
-  for (const SceneInfo& scene : scenes()) {
+  for (const scenes::SceneInfo& scene : scenes::scenes()) {
     if (scene.example.empty()) continue;
     for (const char* modifier : {"", "@offset=1e6", "@scale=1e-6", "@scale=1e6"}) {
       meshes.push_back(scene.example + modifier);
@@ -54,16 +54,17 @@ std::vector<std::string> meshes_for(const VerifyOptions& options) {
 std::vector<std::string> trajectories_for(const VerifyOptions& options) {
   if (!options.selectors.trajectories.empty()) return options.selectors.trajectories;
   std::vector<std::string> names;
-  for (const TrajectoryInfo& trajectory : trajectories()) names.push_back(trajectory.name);
+  for (const trajectories::TrajectoryInfo& trajectory : trajectories::trajectories())
+    names.push_back(trajectory.name);
   return names;
 }
 
 class VerifyRun {
  public:
-  VerifyRun(const Roster& roster, const VerifyOptions& options)
+  VerifyRun(const contestants::Roster& roster, const VerifyOptions& options)
       : roster_(roster),
         options_(options),
-        selection_(check(options.selectors, roster, Variety::many)),
+        selection_(contestants::check(options.selectors, roster, contestants::Variety::many)),
         workers_(worker_options(options.workers)) {
     workers_.calibrate_clock = false;
     if (!options.out.empty()) folder_.emplace(options.out);
@@ -75,22 +76,22 @@ class VerifyRun {
   void verify_mesh(const std::string& mesh);
   int report(bool finished);
 
-  const Roster& roster_;
+  const contestants::Roster& roster_;
   VerifyOptions options_;
-  CheckedSelectors selection_;
-  WorkerOptions workers_;
-  std::optional<ResultsFolder> folder_;
-  ProgressLine progress_;
-  std::vector<ResultRow> rows_;
+  contestants::CheckedSelectors selection_;
+  workers::WorkerOptions workers_;
+  std::optional<results::ResultsFolder> folder_;
+  support::ProgressLine progress_;
+  std::vector<measurement::ResultRow> rows_;
 };
 
 void VerifyRun::verify_mesh(const std::string& mesh) {
   const std::size_t steps = options_.selectors.meshes.empty() ? steps_on_every_scene : steps_on_a_mesh;
-  const Workload workload =
-      make_workload(without_directories(mesh), load_mesh(mesh, options_.selectors.normalize), selection_,
-                    trajectories_for(options_), steps);
-  Comparison comparison(roster_, workload, selection_.contestants, workers_, accuracy_effort,
-                        selection_.seed);
+  const workload::Workload workload = workload::make_workload(
+      results::without_directories(mesh), scenes::load_mesh(mesh, options_.selectors.normalize), selection_,
+      trajectories_for(options_), steps);
+  measurement::Comparison comparison(roster_, workload, selection_.contestants, workers_,
+                                     measurement::accuracy_effort, selection_.seed);
   comparison.set_progress([&](const std::string& trajectory, const std::string& contestant) {
     progress_.show(fmt::format("{}, {}: {}", workload.mesh_name, trajectory, contestant));
   });
@@ -102,7 +103,7 @@ void VerifyRun::verify_mesh(const std::string& mesh) {
   };
   try {
     comparison.run_all(selection_.queries, rows_);
-  } catch (const Interrupted&) {
+  } catch (const support::Interrupted&) {
     say_how_to_repeat();
     throw;
   }
@@ -111,22 +112,23 @@ void VerifyRun::verify_mesh(const std::string& mesh) {
 
 int VerifyRun::report(bool finished) {
   progress_.clear();
-  const std::string failures = list_of_failures(rows_, failures_shown);
-  StandardOutput().write(verification_table(rows_) + (failures.empty() ? "" : "\n" + failures));
-  if (folder_) folder_->write(results_csv(new_run_id(system_info()), rows_));
+  const std::string failures = results::list_of_failures(rows_, failures_shown);
+  support::StandardOutput().write(results::verification_table(rows_) +
+                                  (failures.empty() ? "" : "\n" + failures));
+  if (folder_) folder_->write(results::results_csv(results::new_run_id(results::system_info()), rows_));
   if (!finished) {
     fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", rows_.size());
-    return exit_interrupted;
+    return support::exit_interrupted;
   }
-  return status_of(rows_, std::any_of(rows_.begin(), rows_.end(), claim_is_broken));
+  return results::status_of(rows_, std::any_of(rows_.begin(), rows_.end(), results::claim_is_broken));
 }
 
 int VerifyRun::run() {
-  watch_for_interrupts();
-  restore_denormals();
+  support::watch_for_interrupts();
+  support::restore_denormals();
   try {
     for (const std::string& mesh : meshes_for(options_)) verify_mesh(mesh);
-  } catch (const Interrupted&) {
+  } catch (const support::Interrupted&) {
     return report(false);
   }
   return report(true);
@@ -138,7 +140,7 @@ void add_verify(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<VerifyOptions>();
   options->selectors.query = "all";
   CLI::App* command = program.add_subcommand("verify", "check contestants' answers against the exact oracle");
-  add_selectors(*command, options->selectors, Variety::many);
+  add_selectors(*command, options->selectors, contestants::Variety::many);
   command->add_option("--out", options->out, "folder for results.csv")->type_name("DIR");
   add_worker_selectors(*command, options->workers);
   command->footer(
@@ -151,4 +153,4 @@ void add_verify(CLI::App& program, ProgramContext& context) {
       [options, &context] { context.status = VerifyRun(context.roster, *options).run(); });
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "bench/contestants/roster_options.h"
-#include "bench/experiments/papers/paper_course.h"
+#include "bench/experiments/papers/paper_trace.h"
 #include "bench/scenes/welded_mesh.h"
 #include "bench/support/available_memory.h"
 #include "bench/support/failures.h"
@@ -19,7 +19,7 @@
 #include "core/sphere_cluster/sphere_cluster.h"
 #include "core/subdivision/mesh_measures.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 namespace {
 
 /// object.position in the paper's volume: the origin, unless the mesh lies elsewhere.
@@ -45,9 +45,9 @@ Vec3 face_normal(const TriangleMesh& mesh, std::uint32_t triangle) {
 
 /// How creased the surface looks. Smooth ones halve it with every level, flat facets stay creased.
 double crease_deg(const TriangleMesh& mesh) {
-  const WeldedMesh welded(mesh);
+  const scenes::WeldedMesh welded(mesh);
   double sum = 0, length = 0;
-  welded.each_edge([&](std::span<const TriangleSide> sides) {
+  welded.each_edge([&](std::span<const scenes::TriangleSide> sides) {
     if (sides.size() != 2) return;
     const Vec3 a = face_normal(mesh, sides[0].triangle), b = face_normal(mesh, sides[1].triangle);
     const double angle = std::atan2(a.cross(b).norm(), a.dot(b));
@@ -67,13 +67,13 @@ struct Numbers {
 class Experiment {
  public:
   Experiment(const TriangleMesh& original, const ChoiSungSettings& settings, const SurfaceSink& sink,
-             const Narrate& narrate)
+             const PrintProgress& print_progress)
       : original_(original),
         settings_(settings),
         sink_(sink),
-        narrate_(narrate),
-        course_(paper_course("slide", original, settings.steps, settings.seed, settings.radius)),
-        timing_(course_, Query::nearest, settings.seed) {}
+        print_progress_(print_progress),
+        trace_(paper_trace("slide", original, settings.steps, settings.seed, settings.radius)),
+        timing_(trace_, workload::Query::nearest, settings.seed) {}
 
   ChoiSungResult run() {
     try {
@@ -83,10 +83,10 @@ class Experiment {
           measure_surface(name_of(method), level, choi_sung_surface(original_, method, level));
       }
       timing_.run(settings_.effort, [this](std::size_t round, std::size_t) {
-        narrate_(fmt::format("timing, round {} of {}", round + 1, settings_.effort.rounds));
+        print_progress_(fmt::format("timing, round {} of {}", round + 1, settings_.effort.rounds));
       });
       result_.finished = true;
-    } catch (const Interrupted&) {
+    } catch (const support::Interrupted&) {
     }
     for (std::size_t i = 0; i < result_.rows.size(); ++i) fill_times(result_.rows[i], numbers_[i]);
     return std::move(result_);
@@ -94,8 +94,8 @@ class Experiment {
 
  private:
   void measure_surface(std::string_view method, int level, const TriangleMesh& mesh) {
-    narrate_(fmt::format("{} level {}: {} triangles", method, level, mesh.size()));
-    require_memory_for_triangles(mesh.size(), least_bytes_per_triangle);
+    print_progress_(fmt::format("{} level {}: {} triangles", method, level, mesh.size()));
+    support::require_memory_for_triangles(mesh.size(), support::min_bytes_per_triangle);
     SurfaceMeasures surface{std::string(method), level, mesh.size(), mean_triangle_area(mesh)};
     const double volume = absolute_volume(mesh, volume_center(original_));
     if (level == 0) original_volume_ = volume;
@@ -116,12 +116,12 @@ class Experiment {
     row.relative_tightness = original_tightness_ > 0 ? row.tightness / original_tightness_ : 1;
     Numbers numbers;
     const auto spheres = [&](Lookup lookup) {
-      return timing_.add(contestant<SphereCluster>(
+      return timing_.add(contestants::contestant<SphereCluster>(
           mesh, {.clustering = clustering, .lookup = lookup, .order = settings_.order}));
     };
     numbers.scan = spheres(Lookup::scan);
     numbers.tree = spheres(Lookup::tree);
-    if (clustering == 0) numbers.grid = timing_.add(contestant<GridGroup>(mesh, {}));
+    if (clustering == 0) numbers.grid = timing_.add(contestants::contestant<GridGroup>(mesh, {}));
     check_answers(numbers);
     result_.rows.push_back(std::move(row));
     numbers_.push_back(numbers);
@@ -143,8 +143,8 @@ class Experiment {
   const TriangleMesh& original_;
   const ChoiSungSettings& settings_;
   const SurfaceSink& sink_;
-  const Narrate& narrate_;
-  std::vector<Step> course_;
+  const PrintProgress& print_progress_;
+  std::vector<workload::Step> trace_;
   InterleavedTiming timing_;
   ChoiSungResult result_;
   std::vector<Numbers> numbers_;  // one a row
@@ -161,8 +161,8 @@ TriangleMesh choi_sung_surface(const TriangleMesh& original, SubdivisionMethod m
 }
 
 ChoiSungResult run_choi_sung(const TriangleMesh& original, const ChoiSungSettings& settings,
-                             const SurfaceSink& sink, const Narrate& narrate) {
-  return Experiment(original, settings, sink, narrate).run();
+                             const SurfaceSink& sink, const PrintProgress& print_progress) {
+  return Experiment(original, settings, sink, print_progress).run();
 }
 
 const ChoiSungRow* find_row(const ChoiSungResult& result, SubdivisionMethod method, int level,
@@ -174,4 +174,4 @@ const ChoiSungRow* find_row(const ChoiSungResult& result, SubdivisionMethod meth
   return found == result.rows.end() ? nullptr : &*found;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

@@ -14,7 +14,7 @@
 #include "core/sphere_cluster/clustering.h"
 #include "core/subdivision/subdivision.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 
 /// In the paper's order, each as its tool applied it.
 inline constexpr std::array<SubdivisionMethod, 5> choi_sung_methods{
@@ -32,7 +32,7 @@ struct ChoiSungSettings {
   int levels = 3;
   std::size_t steps = 2000;
   std::uint64_t seed = 1;
-  double radius = 0;      ///< of the probe, mesh units
+  double radius = 0;      ///< the probe's, mesh units
   double clustering = 0;  ///< distance, mesh units
   VisitOrder order = VisitOrder::breadth_first;
   TimingEffort effort;
@@ -68,7 +68,7 @@ struct ChoiSungResult {
 };
 
 /// Called with what is being done.
-using Narrate = std::function<void(const std::string& what)>;
+using PrintProgress = std::function<void(const std::string& what)>;
 
 /// Surface k of a method: MeshLab's way, with the paper's threshold.
 TriangleMesh choi_sung_surface(const TriangleMesh& original, SubdivisionMethod method, int level);
@@ -79,10 +79,10 @@ using SurfaceSink = std::function<void(const SurfaceMeasures&, const TriangleMes
 
 /// After Ctrl-C the rows that have been measured come back, `finished` false.
 ChoiSungResult run_choi_sung(const TriangleMesh& original, const ChoiSungSettings& settings,
-                             const SurfaceSink& sink, const Narrate& narrate);
+                             const SurfaceSink& sink, const PrintProgress& print_progress);
 
 /// The row of a method at a level; level 0 whatever the method. Nothing when it was not reached.
 const ChoiSungRow* find_row(const ChoiSungResult& result, SubdivisionMethod method, int level,
                             bool clustered);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

@@ -11,7 +11,7 @@
 #include "bench/experiments/papers/choi_sung_report.h"
 #include "bench/experiments/papers/choi_sung_scores.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 namespace {
 
 namespace printed = choi_sung_printed;
@@ -167,7 +167,7 @@ class Claims {
     best(
         "Fig. 8", "Catmull-Clark makes the smallest triangles", catmull_clark_linear, 1, false,
         [](const auto& r) { return r.surface.mean_area; }, std::nullopt);
-    fewest_spheres();
+    min_spheres();
     const auto vertices_factor = [&](SubdivisionMethod m, int level) {
       const auto at = [&](int l) {
         return static_cast<double>(find_row(result_, m, l, false)->surface.triangles);
@@ -213,7 +213,7 @@ class Claims {
         reason);
   }
 
-  void fewest_spheres() {
+  void min_spheres() {
     using enum SubdivisionMethod;
     bool holds = true;
     std::string found;
@@ -285,4 +285,4 @@ std::vector<Claim> choi_sung_claims(const ChoiSungResult& result, bool own_mesh)
   return Claims(result, own_mesh).all();
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

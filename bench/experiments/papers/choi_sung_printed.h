@@ -4,7 +4,7 @@
 
 #include <array>
 
-namespace touchmark::bench::choi_sung_printed {
+namespace touchmark::bench::experiments::papers::choi_sung_printed {
 
 /// LS3 at levels 0 to 3, without and with clustering.
 struct Level {
@@ -28,4 +28,4 @@ inline constexpr std::array<std::array<int, 3>, 5> tool_triangles{{{3580, 13620,
                                                                    {3580, 13600, 38444},
                                                                    {3580, 13668, 40730}}};
 
-}  // namespace touchmark::bench::choi_sung_printed
+}  // namespace touchmark::bench::experiments::papers::choi_sung_printed

@@ -8,7 +8,7 @@
 
 #include "bench/experiments/papers/paper_report.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 namespace {
 
 std::string setting(const PaperMesh& mesh, const ChoiSungSettings& settings, const ChoiSungResult& result) {
@@ -157,4 +157,4 @@ std::string choi_sung_report(const PaperMesh& mesh, const ChoiSungSettings& sett
   return text;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

@@ -9,7 +9,7 @@
 #include "bench/experiments/papers/frontier.h"
 #include "bench/experiments/papers/table.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 
 /// Table 1 in full, with what it leaves out: one row a surface, without and with clustering.
 Table choi_sung_table1(const ChoiSungResult& result);
@@ -17,7 +17,8 @@ Table choi_sung_table1(const ChoiSungResult& result);
 Table choi_sung_table2(const ChoiSungResult& result);
 /// LS3 without and with clustering, and the reduction ratios.
 Table choi_sung_table3(const ChoiSungResult& result);
-/// The same queries by the exact fast forms, and how many times the published scan's update rate they hold.
+/// Compares the exact fast forms on these queries, and says how many times the published scan's update rate
+/// they hold.
 Table choi_sung_fast_table(const ChoiSungResult& result);
 
 /// Number by number. `own_mesh`: it is the mesh of the paper.
@@ -31,4 +32,4 @@ std::vector<Claim> choi_sung_tool_counts(const ChoiSungResult& result, bool own_
 std::string choi_sung_report(const PaperMesh& mesh, const ChoiSungSettings& settings,
                              const ChoiSungResult& result, const FrontierResult& frontier);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 namespace {
 
 int levels_of(const ChoiSungResult& result) {
@@ -67,4 +67,4 @@ std::vector<MethodScores> choi_sung_scores(const ChoiSungResult& result) {
   return scores;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

@@ -6,7 +6,7 @@
 
 #include "bench/experiments/papers/choi_sung.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 
 /// The paper gives no formula but "the resulting values of differences are converted to the scores ranging
 /// from 0 to 5". Here: each criterion's difference from level 0, averaged over the levels, scored linearly
@@ -29,4 +29,4 @@ std::vector<MethodScores> choi_sung_scores(const ChoiSungResult& result);
 /// 5 for the least value, 0 for the greatest, in between in proportion; 5 for all when they are equal.
 std::vector<double> scores_of(const std::vector<double>& badness);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

@@ -3,7 +3,7 @@
 #include "bench/experiments/papers/choi_sung_report.h"
 #include "bench/experiments/papers/choi_sung_scores.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 namespace {
 
 std::string number(double value) { return fmt::format("{:.6g}", value); }
@@ -117,4 +117,4 @@ Table choi_sung_fast_table(const ChoiSungResult& result) {
   return table;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 namespace {
 
 const char* word_for(Agreement agreement) {
@@ -83,4 +83,4 @@ std::string summary(const std::vector<Claim>& claims) {
                      count(Agreement::yes), count(Agreement::nearly), count(Agreement::no));
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

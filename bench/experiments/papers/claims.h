@@ -6,14 +6,14 @@
 
 #include "bench/experiments/papers/table.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 
 /// How a number agrees with the printed one.
 enum class Agreement { yes, nearly, no, not_printed };
 
 struct Claim {
   std::string where;       ///< in the paper: "Table 3, level 1"
-  std::string what;        ///< of what
+  std::string what;        ///< what is claimed
   std::string printed;     ///< "?" where no copy at hand shows it
   std::string reproduced;  ///< empty where it was not measured
   Agreement agreement = Agreement::not_printed;
@@ -29,10 +29,10 @@ Claim statement_claim(std::string where, std::string statement, bool holds, std:
                       std::string why_not);
 
 Table claims_table(const std::vector<Claim>& claims);
-/// The same in Markdown, reasons numbered and told below the table.
+/// Returns the claims in Markdown, with the reasons numbered below the table.
 std::string claims_markdown(const std::vector<Claim>& claims);
 
 /// "23 of 40 agree, 5 nearly, 12 do not".
 std::string summary(const std::vector<Claim>& claims);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

@@ -5,9 +5,9 @@
 
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 
-/// Is the library there?
+/// Returns true if the library is there.
 bool can_decimate() noexcept;
 
 /// Edges collapse in the order of their quadric error (Garland & Heckbert 1997) until `triangles` are left,
@@ -15,4 +15,4 @@ bool can_decimate() noexcept;
 /// Throws MeshError when the library is missing or the mesh is no manifold that it can take.
 TriangleMesh decimate(const TriangleMesh& mesh, std::size_t triangles);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

@@ -1,6 +1,6 @@
 #include "bench/experiments/papers/decimation.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 
 bool can_decimate() noexcept { return false; }
 
@@ -9,4 +9,4 @@ TriangleMesh decimate(const TriangleMesh&, std::size_t) {
       "this build cannot decimate meshes: libopenmesh-dev was not installed; name one with --mesh");
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

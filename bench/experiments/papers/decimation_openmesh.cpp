@@ -6,7 +6,7 @@
 #include "bench/experiments/papers/decimation.h"
 #include "core/subdivision/subdivision.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 namespace {
 
 struct DoubleTraits : OpenMesh::DefaultTraits {
@@ -61,4 +61,4 @@ TriangleMesh decimate(const TriangleMesh& mesh, std::size_t triangles) {
   return converted(work);
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

@@ -7,28 +7,29 @@
 
 #include <fmt/format.h>
 
-#include "bench/experiments/papers/paper_course.h"
+#include "bench/experiments/papers/paper_trace.h"
 #include "bench/support/failures.h"
 #include "bench/support/interrupt.h"
 #include "core/grid_group/grid_group.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 namespace {
 
 // Farther than any sphere about a triangle reaches.
 constexpr double offset_in_diagonals = 0.1;
 /// Triangles of the reference: what a second or two can make and search.
-constexpr std::size_t most_reference = 2'000'000;
+constexpr std::size_t max_reference = 2'000'000;
 
 class Exploration {
  public:
-  Exploration(const TriangleMesh& original, const FrontierSettings& settings, const Narrate& narrate)
+  Exploration(const TriangleMesh& original, const FrontierSettings& settings,
+              const PrintProgress& print_progress)
       : original_(original),
         settings_(settings),
-        narrate_(narrate),
-        course_(paper_course("slide", original, settings.steps, settings.seed, settings.radius)),
-        timing_(course_, Query::nearest, settings.seed) {}
+        print_progress_(print_progress),
+        trace_(paper_trace("slide", original, settings.steps, settings.seed, settings.radius)),
+        timing_(trace_, workload::Query::nearest, settings.seed) {}
 
   FrontierResult run() {
     try {
@@ -38,10 +39,10 @@ class Exploration {
         for (int level = 1; level <= settings_.levels; ++level) add_level(method, level);
       }
       timing_.run(settings_.effort, [this](std::size_t round, std::size_t) {
-        narrate_(fmt::format("frontier: timing, round {} of {}", round + 1, settings_.effort.rounds));
+        print_progress_(fmt::format("frontier: timing, round {} of {}", round + 1, settings_.effort.rounds));
       });
       result_.finished = true;
-    } catch (const Interrupted&) {
+    } catch (const support::Interrupted&) {
     }
     for (std::size_t i = 0; i < result_.points.size(); ++i) {
       const TimedTurns timed = timing_.timed(i);
@@ -53,9 +54,9 @@ class Exploration {
 
  private:
   void make_reference() {
-    narrate_("frontier: the smooth surface");
+    print_progress_("frontier: the smooth surface");
     int levels = 1;
-    for (std::size_t size = 16 * original_.size(); levels < settings_.levels + 2 && size <= most_reference;
+    for (std::size_t size = 16 * original_.size(); levels < settings_.levels + 2 && size <= max_reference;
          size *= 4)
       ++levels;
     const TriangleMesh smooth = subdivide(
@@ -72,7 +73,7 @@ class Exploration {
                                    .levels = level,
                                    .threshold = settings_.threshold,
                                    .form = SubdivisionForm::meshlab,
-                                   .max_triangles = settings_.most_triangles});
+                                   .max_triangles = settings_.max_triangles});
     } catch (const MeshError& error) {
       result_.left_out.push_back(fmt::format("{} level {}: {}", name_of(method), level, error.what()));
       return;
@@ -81,7 +82,7 @@ class Exploration {
   }
 
   void add_surface(std::string_view method, int level, const TriangleMesh& mesh) {
-    narrate_(fmt::format("frontier: {} level {}", method, level));
+    print_progress_(fmt::format("frontier: {} level {}", method, level));
     // Every exact form answers for the same surface, so one error does for all of them.
     const SphereCluster tree = SphereCluster::build(mesh);
     FrontierPoint point{std::string(method),       level, "scan", 0, mesh.size(), mesh.size(),
@@ -109,14 +110,14 @@ class Exploration {
 
   template <class D>
   void add(const FrontierPoint& point, D detector) {
-    timing_.add(std::make_unique<ContestantOf<D>>(std::move(detector)));
+    timing_.add(std::make_unique<contestants::ContestantOf<D>>(std::move(detector)));
     result_.points.push_back(point);
   }
 
   const TriangleMesh& original_;
   const FrontierSettings& settings_;
-  const Narrate& narrate_;
-  std::vector<Step> course_;
+  const PrintProgress& print_progress_;
+  std::vector<workload::Step> trace_;
   InterleavedTiming timing_;
   std::optional<ReferenceSurface> reference_;
   FrontierResult result_;  // point i is the timing's detector i
@@ -141,8 +142,8 @@ void mark_best(std::vector<FrontierPoint>& points, const std::function<bool(cons
 }
 
 FrontierResult run_frontier(const TriangleMesh& original, const FrontierSettings& settings,
-                            const Narrate& narrate) {
-  FrontierResult result = Exploration(original, settings, narrate).run();
+                            const PrintProgress& print_progress) {
+  FrontierResult result = Exploration(original, settings, print_progress).run();
   mark_best(result.points, [](const FrontierPoint&) { return true; });
   return result;
 }
@@ -160,4 +161,4 @@ Table frontier_table(const FrontierResult& result, double diagonal) {
   return table;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

@@ -15,7 +15,7 @@
 #include "bench/experiments/papers/interleaved_timing.h"
 #include "bench/experiments/papers/table.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 
 struct FrontierSettings {
   std::vector<SubdivisionMethod> methods{choi_sung_methods.begin(), choi_sung_methods.end()};
@@ -23,11 +23,11 @@ struct FrontierSettings {
   double threshold = 0;             ///< mesh units: edges longer than this split; 0: all do
   std::vector<double> clusterings;  ///< mesh units; 0 among them: a sphere a triangle
   bool fast_forms = true;           ///< the exact tree and grid besides the published scans
-  double radius = 0;                ///< of the probe that is timed, mesh units
+  double radius = 0;                ///< the timed probe's, mesh units
   std::size_t steps = 500;
-  std::size_t samples = 2000;  ///< of the error
+  std::size_t samples = 2000;  ///< points at which the error is measured
   std::uint64_t seed = 1;
-  std::size_t most_triangles = 500'000;  ///< a level with more is left out
+  std::size_t max_triangles = 500'000;  ///< a level with more is left out
   TimingEffort effort;
 };
 
@@ -55,7 +55,7 @@ struct FrontierResult {
 /// surface for all methods, since a method's own limit would excuse what it does to the shape (mid-point's is
 /// the coarse mesh).
 FrontierResult run_frontier(const TriangleMesh& original, const FrontierSettings& settings,
-                            const Narrate& narrate);
+                            const PrintProgress& print_progress);
 
 /// Marks the points that no other of those for which `among` holds beats.
 void mark_best(std::vector<FrontierPoint>& points, const std::function<bool(const FrontierPoint&)>& among);
@@ -63,4 +63,4 @@ void mark_best(std::vector<FrontierPoint>& points, const std::function<bool(cons
 /// `diagonal`: of the original mesh, for errors in percent of it.
 Table frontier_table(const FrontierResult& result, double diagonal);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

@@ -7,16 +7,16 @@
 #include "bench/trajectories/surface.h"
 #include "core/subdivision/mesh_measures.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 
 ReferenceSurface::ReferenceSurface(const TriangleMesh& mesh, double offset, std::size_t samples,
                                    std::uint64_t seed) {
-  Surface surface(mesh);
-  Random random(seed);
+  trajectories::Surface surface(mesh);
+  support::Random random(seed);
   const double outwards = signed_volume(mesh) < 0 ? -1 : 1;
   for (std::size_t i = 0; i < samples; ++i) {
-    const Place place = surface.random_place(random);
-    centers_.push_back(place.point + outwards * offset * place.normal);
+    const trajectories::SurfacePoint surface_point = surface.random_surface_point(random);
+    centers_.push_back(surface_point.point + outwards * offset * surface_point.normal);
     distances_.push_back(surface.nearest(centers_.back()).distance);
   }
 }
@@ -35,4 +35,4 @@ GeometricError ReferenceSurface::error_of_distances(const std::vector<double>& d
   return error;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

@@ -11,7 +11,7 @@
 #include "core/sphere_cluster/sphere_cluster.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 
 /// The error at a probe's centre is |distance answered - distance to the reference surface|: by how much a
 /// contact of a ball comes too early or too late.
@@ -28,7 +28,7 @@ class ReferenceSurface {
   /// uniform by area: far enough to be outside of every sphere that stands for the surface there.
   ReferenceSurface(const TriangleMesh& mesh, double offset, std::size_t samples, std::uint64_t seed);
 
-  /// Of a detector with any reach.
+  /// Returns the error of a detector with any reach.
   template <class D>
   GeometricError error_of(const D& detector) const {
     typename D::Session session;
@@ -46,7 +46,7 @@ class ReferenceSurface {
   GeometricError error_of_distances(const std::vector<double>& distances) const;
 
   std::vector<Vec3> centers_;
-  std::vector<double> distances_;  ///< of the centres to the reference
+  std::vector<double> distances_;  ///< from the centres to the reference
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

@@ -11,10 +11,10 @@
 #include "bench/support/processor_time.h"
 #include "bench/support/random.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 namespace {
 
-std::vector<std::size_t> shuffled(std::size_t count, Random& random) {
+std::vector<std::size_t> shuffled(std::size_t count, support::Random& random) {
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
   random.shuffle(order);
@@ -23,11 +23,12 @@ std::vector<std::size_t> shuffled(std::size_t count, Random& random) {
 
 }  // namespace
 
-InterleavedTiming::InterleavedTiming(std::span<const Step> steps, Query query, std::uint64_t seed)
-    : course_{query, steps}, seed_(seed) {}
+InterleavedTiming::InterleavedTiming(std::span<const workload::Step> steps, workload::Query query,
+                                     std::uint64_t seed)
+    : trace_{query, steps}, seed_(seed) {}
 
-std::size_t InterleavedTiming::add(std::unique_ptr<Contestant> contestant) {
-  check_for_interrupt();
+std::size_t InterleavedTiming::add(std::unique_ptr<contestants::Contestant> contestant) {
+  support::check_for_interrupt();
   Entry entry;
   entry.contestant = std::move(contestant);
   answer_once(entry);
@@ -36,12 +37,12 @@ std::size_t InterleavedTiming::add(std::unique_ptr<Contestant> contestant) {
 }
 
 void InterleavedTiming::answer_once(Entry& entry) const {
-  const std::size_t steps = course_.steps.size();
-  std::vector<Answer> answers(steps);
+  const std::size_t steps = trace_.steps.size();
+  std::vector<workload::Answer> answers(steps);
   std::vector<std::uint64_t> work(steps);
-  entry.contestant->answer(course_, {0, steps}, answers, work);
-  Checksum checksum;
-  for (const Answer& answer : answers) {
+  entry.contestant->answer(trace_, {0, steps}, answers, work);
+  workload::Checksum checksum;
+  for (const workload::Answer& answer : answers) {
     checksum.add(answer);
     entry.timed.contacts += answer.found;
   }
@@ -51,25 +52,25 @@ void InterleavedTiming::answer_once(Entry& entry) const {
   entry.contestant->forget();
 }
 
-void InterleavedTiming::turn(Entry& entry, double least_turn_ns) const {
+void InterleavedTiming::turn(Entry& entry, double min_turn_ns) const {
   const auto replay = [&](std::int64_t passes) {
-    Checksum checksum;
-    const double start = processor_ns();
+    workload::Checksum checksum;
+    const double start = support::processor_ns();
     for (std::int64_t i = 0; i < passes; ++i)
-      entry.contestant->replay(course_, {0, course_.steps.size()}, checksum);
-    return std::max(processor_ns() - start, 1.0);
+      entry.contestant->replay(trace_, {0, trace_.steps.size()}, checksum);
+    return std::max(support::processor_ns() - start, 1.0);
   };
   if (entry.passes == 0)
-    entry.passes = static_cast<std::int64_t>(std::clamp(std::ceil(least_turn_ns / replay(1)), 1.0, 1e6));
+    entry.passes = static_cast<std::int64_t>(std::clamp(std::ceil(min_turn_ns / replay(1)), 1.0, 1e6));
   const double ns = replay(entry.passes);
-  entry.turn_ns.push_back(ns / static_cast<double>(entry.passes) / static_cast<double>(course_.steps.size()));
+  entry.turn_ns.push_back(ns / static_cast<double>(entry.passes) / static_cast<double>(trace_.steps.size()));
   clock_steps(entry);
 }
 
 void InterleavedTiming::clock_steps(Entry& entry) const {
-  std::vector<std::uint64_t> ticks(course_.steps.size());
-  Checksum checksum;
-  entry.contestant->replay_clocked(course_, {0, course_.steps.size()}, checksum, ticks, {});
+  std::vector<std::uint64_t> ticks(trace_.steps.size());
+  workload::Checksum checksum;
+  entry.contestant->replay_clocked(trace_, {0, trace_.steps.size()}, checksum, ticks, {});
   std::vector<double> ns;
   ns.reserve(ticks.size());
   for (const std::uint64_t step : ticks)
@@ -79,12 +80,12 @@ void InterleavedTiming::clock_steps(Entry& entry) const {
 
 void InterleavedTiming::run(const TimingEffort& effort,
                             const std::function<void(std::size_t, std::size_t)>& progress) {
-  Random random(seed_);
+  support::Random random(seed_);
   for (std::size_t round = 0; round < effort.rounds; ++round) {
     for (const std::size_t detector : shuffled(entries_.size(), random)) {
-      check_for_interrupt();
+      support::check_for_interrupt();
       progress(round, detector);
-      turn(entries_[detector], effort.least_turn_ns);
+      turn(entries_[detector], effort.min_turn_ns);
     }
   }
 }
@@ -92,13 +93,14 @@ void InterleavedTiming::run(const TimingEffort& effort,
 TimedTurns InterleavedTiming::timed(std::size_t detector) const {
   TimedTurns timed = entries_[detector].timed;
   const Entry& entry = entries_[detector];
-  timed.ns = median(entry.turn_ns);
+  timed.ns = support::median(entry.turn_ns);
   if (!entry.step_ns.empty()) {
-    const double measured =
-        summarize_latency(median_per_step(entry.step_ns), {{0, course_.steps.size()}}).p99;
+    const double measured = measurement::summarize_latency(measurement::median_per_step(entry.step_ns),
+                                                           {{0, trace_.steps.size()}})
+                                .p99;
     timed.ns_p99 = std::max({measured, clock_.cost_ns, clock_.ns_per_tick});
   }
   return timed;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

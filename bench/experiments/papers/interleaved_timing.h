@@ -13,14 +13,14 @@
 #include "bench/contestants/contestant.h"
 #include "bench/contestants/tick_clock.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 
 struct TimingEffort {
   std::size_t rounds = 5;
-  double least_turn_ns = 10e6;  ///< a turn replays the course until it has lasted so long
+  double min_turn_ns = 10e6;  ///< a turn replays the trace until it has lasted so long
 };
 
-/// What a detector did on the course, turn by turn.
+/// What a detector did on the trace, turn by turn.
 struct TimedTurns {
   double ns = 0;  ///< per query, median over the rounds; 0 before the first
   /// What 99 of 100 queries are done in, each step's median over the rounds; nothing before the first. At
@@ -34,10 +34,10 @@ struct TimedTurns {
 class InterleavedTiming {
  public:
   /// The steps must outlive it and be at least one.
-  InterleavedTiming(std::span<const Step> steps, Query query, std::uint64_t seed);
+  InterleavedTiming(std::span<const workload::Step> steps, workload::Query query, std::uint64_t seed);
 
-  /// Takes the detector in and answers the course once, untimed. The number by which timed() knows it.
-  std::size_t add(std::unique_ptr<Contestant> contestant);
+  /// Takes the detector in and answers the trace once, untimed. The number by which timed() knows it.
+  std::size_t add(std::unique_ptr<contestants::Contestant> contestant);
 
   /// May throw Interrupted; the finished turns count nevertheless. `progress` is called before each turn with
   /// the round, from 0, and the detector's number.
@@ -48,20 +48,20 @@ class InterleavedTiming {
 
  private:
   struct Entry {
-    std::unique_ptr<Contestant> contestant;
+    std::unique_ptr<contestants::Contestant> contestant;
     TimedTurns timed;
     std::int64_t passes = 0;                   ///< in a turn; 0: not known yet
     std::vector<double> turn_ns;               ///< per query, one a round
     std::vector<std::vector<double>> step_ns;  ///< by round and step
   };
   void answer_once(Entry& entry) const;
-  void turn(Entry& entry, double least_turn_ns) const;
+  void turn(Entry& entry, double min_turn_ns) const;
   void clock_steps(Entry& entry) const;
 
-  Course course_;
-  ClockCalibration clock_ = calibrate_clock();
+  workload::QueryTrace trace_;
+  contestants::ClockCalibration clock_ = contestants::calibrate_clock();
   std::uint64_t seed_;
   std::vector<Entry> entries_;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

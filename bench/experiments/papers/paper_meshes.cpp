@@ -13,7 +13,7 @@
 #include "bench/results/system_info.h"
 #include "bench/scenes/scenes.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 namespace {
 
 namespace fs = std::filesystem;
@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 constexpr std::size_t choi_sung_triangles = 902;
 constexpr double choi_sung_diagonal = 2.61541;
 
-/// Where meshes may lie that no package ships: $TOUCHMARK_MODELS, or ../shared/models beside the working
-/// folder or beside the repository that the program was built in (its path is
+/// Returns the folders of meshes that no package ships: $TOUCHMARK_MODELS, or ../shared/models beside the
+/// working folder or beside the repository that the program was built in (its path is
 /// REPOSITORY/build/PRESET/bin/touchmark).
 std::vector<fs::path> model_folders() {
   if (const char* folder = std::getenv("TOUCHMARK_MODELS")) return {folder};
@@ -45,14 +45,15 @@ std::optional<fs::path> model(const char* file) {
 }
 
 PaperMesh decimated(const std::string& scene, std::size_t triangles) {
-  TriangleMesh mesh = decimate(load_scene(scene), triangles);
+  TriangleMesh mesh = decimate(scenes::load_scene(scene), triangles);
   std::string origin =
       fmt::format("{} decimated to {} triangles (OpenMesh, quadric error)", scene, mesh.size());
-  return {fmt::format("{}-{}", without_directories(scene), mesh.size()), std::move(mesh), std::move(origin)};
+  return {fmt::format("{}-{}", results::without_directories(scene), mesh.size()), std::move(mesh),
+          std::move(origin)};
 }
 
 PaperMesh requested_mesh(const std::string& name) {
-  return {without_directories(name), load_scene(name), "as asked for with --mesh"};
+  return {results::without_directories(name), scenes::load_scene(name), "as asked for with --mesh"};
 }
 
 }  // namespace
@@ -68,8 +69,8 @@ PaperMesh choi_sung_mesh(const std::string& requested) {
     return mesh;
   }
   if (const std::optional<fs::path> file = model("bunny-902.ply"))
-    return {file->filename().string(), load_scene(file->string()), "the paper's own"};
-  PaperMesh mesh = decimated(default_scene(), choi_sung_triangles);
+    return {file->filename().string(), scenes::load_scene(file->string()), "the paper's own"};
+  PaperMesh mesh = decimated(scenes::default_scene(), choi_sung_triangles);
   mesh.origin += ", in place of the paper's own, which is not here: its counts cannot come out";
   return mesh;
 }
@@ -78,18 +79,18 @@ std::vector<PaperMesh> park_jang_meshes(const std::vector<std::string>& requeste
   std::vector<PaperMesh> meshes;
   for (const std::string& name : requested) meshes.push_back(requested_mesh(name));
   if (!requested.empty()) return meshes;
-  const std::string whole = default_scene();
+  const std::string whole = scenes::default_scene();
   const std::pair<const char*, std::size_t> stanford[] = {
       {"bun_zipper_res4.ply", 948}, {"bun_zipper_res3.ply", 3851}, {"bun_zipper_res2.ply", 16301}};
   for (const auto& [file, triangles] : stanford) {
     if (const std::optional<fs::path> path = model(file))
-      meshes.push_back({file, load_scene(path->string()), "of the Stanford laboratory"});
+      meshes.push_back({file, scenes::load_scene(path->string()), "of the Stanford laboratory"});
     else if (can_decimate())
       meshes.push_back(decimated(whole, triangles));
     if (quick && !meshes.empty()) return meshes;
   }
-  meshes.push_back({whole, load_scene(whole), "whole"});
+  meshes.push_back({whole, scenes::load_scene(whole), "whole"});
   return meshes;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

@@ -6,7 +6,7 @@
 
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 
 struct PaperMesh {
   std::string name;  ///< without folders
@@ -24,7 +24,7 @@ PaperMesh choi_sung_mesh(const std::string& requested);
 /// used. `requested` replaces them.
 std::vector<PaperMesh> park_jang_meshes(const std::vector<std::string>& requested, bool quick);
 
-/// Is it the mesh that Choi & Sung used, so that their counts must come out?
+/// Returns true if it is the mesh that Choi & Sung used, so that their counts must come out.
 bool is_choi_sungs_bunny(const TriangleMesh& mesh);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

@@ -9,7 +9,7 @@
 
 #include "bench/support/numbers.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 namespace {
 
 std::invalid_argument bad_value(std::string_view option, const std::string& value,
@@ -36,8 +36,8 @@ void add_paper_options(CLI::App& command, PaperOptions& options) {
   command.add_flag("--quick", options.quick, "few steps, rounds and cases: to see that it works");
 }
 
-Length checked_finite_length(std::string_view option, const std::string& text) {
-  const std::optional<Length> length = parse_length(text);
+support::Length checked_finite_length(std::string_view option, const std::string& text) {
+  const std::optional<support::Length> length = support::parse_length(text);
   if (!length || !std::isfinite(length->value)) {
     throw bad_value(option, text,
                     "a finite length: 0 or more in mesh units, or in percent of the box diagonal, as 0.5%");
@@ -46,7 +46,7 @@ Length checked_finite_length(std::string_view option, const std::string& text) {
 }
 
 double checked_positive(std::string_view option, const std::string& text) {
-  const std::optional<double> number = parse_number(text);
+  const std::optional<double> number = support::parse_number(text);
   if (!number || !(*number > 0) || !std::isfinite(*number)) throw bad_value(option, text, "a number above 0");
   return *number;
 }
@@ -54,16 +54,16 @@ double checked_positive(std::string_view option, const std::string& text) {
 std::size_t checked_number(std::string_view option, const std::string& text, std::size_t least,
                            std::size_t most, std::size_t otherwise) {
   if (text.empty()) return otherwise;
-  const std::optional<std::uint64_t> number = parse_count(text);
+  const std::optional<std::uint64_t> number = support::parse_count(text);
   if (!number || *number < least || *number > most)
     throw bad_value(option, text, fmt::format("a whole number from {} to {}", least, most));
   return *number;
 }
 
 std::uint64_t checked_seed(const std::string& text) {
-  const std::optional<std::uint64_t> seed = parse_count(text);
+  const std::optional<std::uint64_t> seed = support::parse_count(text);
   if (!seed) throw bad_value("--seed", text, "a whole number from 0 to 18446744073709551615");
   return *seed;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

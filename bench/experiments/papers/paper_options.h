@@ -12,7 +12,7 @@ namespace CLI {
 class App;
 }
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 
 /// As given, still unchecked.
 struct PaperOptions {
@@ -29,7 +29,7 @@ void add_paper_options(CLI::App& command, PaperOptions& options);
 // All throw std::invalid_argument naming the option and the value.
 
 /// A finite length of 0 or more.
-Length checked_finite_length(std::string_view option, const std::string& text);
+support::Length checked_finite_length(std::string_view option, const std::string& text);
 /// A finite number above 0.
 double checked_positive(std::string_view option, const std::string& text);
 /// `least` to `most`; the default when the text is empty.
@@ -37,4 +37,4 @@ std::size_t checked_number(std::string_view option, const std::string& text, std
                            std::size_t most, std::size_t otherwise);
 std::uint64_t checked_seed(const std::string& text);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

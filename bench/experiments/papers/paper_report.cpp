@@ -5,11 +5,11 @@
 #include "bench/results/build_info.h"
 #include "bench/results/system_info.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 
 std::string report_machine() {
-  const SystemInfo system = system_info();
-  const BuildInfo& build = build_info();
+  const results::SystemInfo system = results::system_info();
+  const results::BuildInfo& build = results::build_info();
   return fmt::format(
       "Measured {} on {} ({} cores, load {:.2f}), {} build by {}, commit {}. Times are of this machine; only "
       "their "
@@ -26,4 +26,4 @@ std::string report_setting(const PaperMesh& mesh) {
                      mesh.mesh.size(), mesh.mesh.diagonal(), mesh.origin);
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

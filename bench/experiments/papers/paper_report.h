@@ -5,11 +5,11 @@
 
 #include "bench/experiments/papers/paper_meshes.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 
 /// Machine, compiler and commit, the mesh, and what the times are.
 std::string report_setting(const PaperMesh& mesh);
 /// The machine's line alone.
 std::string report_machine();
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

@@ -7,38 +7,38 @@
 #include <fmt/format.h>
 
 #include "bench/contestants/roster_options.h"
-#include "bench/experiments/papers/paper_course.h"
+#include "bench/experiments/papers/paper_trace.h"
 #include "bench/support/available_memory.h"
 #include "bench/support/failures.h"
 #include "bench/support/interrupt.h"
 #include "core/brute_force/brute_force.h"
 #include "core/grid_group/grid_group.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 namespace {
 
 /// One mesh: the ungrouped form, the published ones at every count, the fast one.
 class MeshExperiment {
  public:
-  MeshExperiment(const PaperMesh& mesh, const ParkJangSettings& settings, const Narrate& narrate)
+  MeshExperiment(const PaperMesh& mesh, const ParkJangSettings& settings, const PrintProgress& print_progress)
       : mesh_(mesh),
         settings_(settings),
-        narrate_(narrate),
-        course_(paper_course("slide", mesh.mesh, settings.steps, settings.seed,
-                             settings.radius.in_mesh_units(mesh.mesh))),
-        timing_(course_, Query::nearest, settings.seed) {}
+        print_progress_(print_progress),
+        trace_(paper_trace("slide", mesh.mesh, settings.steps, settings.seed,
+                           settings.radius.in_mesh_units(mesh.mesh))),
+        timing_(trace_, workload::Query::nearest, settings.seed) {}
 
   /// Throws Interrupted; the rows so far can be taken nevertheless.
   void run() {
-    require_memory_for_triangles(mesh_.mesh.size(), least_bytes_per_triangle);
-    add("ungrouped", 0, 0, contestant<BruteForce>(mesh_.mesh, {}));
+    support::require_memory_for_triangles(mesh_.mesh.size(), support::min_bytes_per_triangle);
+    add("ungrouped", 0, 0, contestants::contestant<BruteForce>(mesh_.mesh, {}));
     for (const auto shape : {GridGroup::Shape::cube, GridGroup::Shape::sphere}) add_counts(shape);
     GridGroup direct = GridGroup::build(mesh_.mesh);
     const double cell = direct.cell();
-    add("direct", cell, 0, std::make_unique<ContestantOf<GridGroup>>(std::move(direct)));
+    add("direct", cell, 0, std::make_unique<contestants::ContestantOf<GridGroup>>(std::move(direct)));
     timing_.run(settings_.effort, [this](std::size_t round, std::size_t detector) {
-      narrate_(fmt::format("{}, round {} of {}: {} {}", mesh_.name, round + 1, settings_.effort.rounds,
-                           rows_[detector].form, rows_[detector].groups));
+      print_progress_(fmt::format("{}, round {} of {}: {} {}", mesh_.name, round + 1, settings_.effort.rounds,
+                                  rows_[detector].form, rows_[detector].groups));
     });
   }
 
@@ -58,7 +58,7 @@ class MeshExperiment {
   void add_counts(GridGroup::Shape shape) {
     std::size_t last = 0;
     for (const std::size_t groups : settings_.groups) {
-      narrate_(fmt::format("{}: {} groups", mesh_.name, groups));
+      print_progress_(fmt::format("{}: {} groups", mesh_.name, groups));
       GridGroup detector =
           GridGroup::build(mesh_.mesh, {.shape = shape, .lookup = GridGroup::Lookup::scan, .groups = groups});
       // Small meshes do not come in every number of groups.
@@ -66,19 +66,20 @@ class MeshExperiment {
       last = detector.groups();
       const double cell = detector.cell();
       add(shape == GridGroup::Shape::cube ? "cube" : "sphere", cell, last,
-          std::make_unique<ContestantOf<GridGroup>>(std::move(detector)));
+          std::make_unique<contestants::ContestantOf<GridGroup>>(std::move(detector)));
     }
   }
 
-  void add(const char* form, double cell, std::size_t groups, std::unique_ptr<Contestant> detector) {
+  void add(const char* form, double cell, std::size_t groups,
+           std::unique_ptr<contestants::Contestant> detector) {
     timing_.add(std::move(detector));
     rows_.push_back({mesh_.name, mesh_.mesh.size(), form, cell, groups, std::nullopt});
   }
 
   const PaperMesh& mesh_;
   const ParkJangSettings& settings_;
-  const Narrate& narrate_;
-  std::vector<Step> course_;
+  const PrintProgress& print_progress_;
+  std::vector<workload::Step> trace_;
   InterleavedTiming timing_;
   std::vector<ParkJangRow> rows_;  // row i is the timing's detector i
 };
@@ -95,14 +96,14 @@ std::vector<std::size_t> park_jang_group_counts(std::size_t most) {
 }
 
 ParkJangResult run_park_jang(const std::vector<PaperMesh>& meshes, const ParkJangSettings& settings,
-                             const Narrate& narrate) {
+                             const PrintProgress& print_progress) {
   ParkJangResult result;
   for (const PaperMesh& mesh : meshes) {
-    MeshExperiment experiment(mesh, settings, narrate);
+    MeshExperiment experiment(mesh, settings, print_progress);
     bool interrupted = false;
     try {
       experiment.run();
-    } catch (const Interrupted&) {
+    } catch (const support::Interrupted&) {
       interrupted = true;
     }
     const std::vector<ParkJangRow> rows = experiment.rows();
@@ -141,4 +142,4 @@ std::vector<ParkJangBest> park_jang_best(const ParkJangResult& result) {
   return all;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

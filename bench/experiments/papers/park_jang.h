@@ -16,16 +16,16 @@
 #include "bench/experiments/papers/paper_meshes.h"
 #include "bench/support/length.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 
 /// In the paper: the groups of Figs 5 and 6, and from where on the time rises again in Fig. 7.
 inline constexpr std::size_t park_jang_cubes = 379, park_jang_spheres = 2115, park_jang_turn = 783;
 
 struct ParkJangSettings {
-  std::vector<std::size_t> groups;  ///< that are aimed at
+  std::vector<std::size_t> groups;  ///< the numbers that are aimed at
   std::size_t steps = 200;
   std::uint64_t seed = 1;
-  Length radius;  ///< of the probe
+  support::Length radius;  ///< the probe's
   TimingEffort effort;
 };
 /// One group to `most`, the paper's counts among them.
@@ -51,7 +51,7 @@ struct ParkJangBest {
   std::string mesh;
   std::size_t triangles = 0;
   std::string shape;
-  std::size_t groups = 0;           ///< of the least time
+  std::size_t groups = 0;           ///< the count with the least time
   std::size_t from = 0, to = 0;     ///< groups whose time is within 10 % of it
   double ns = 0, ungrouped_ns = 0;  ///< per query
   double last_ns = 0;               ///< at the most groups
@@ -59,9 +59,9 @@ struct ParkJangBest {
 };
 
 ParkJangResult run_park_jang(const std::vector<PaperMesh>& meshes, const ParkJangSettings& settings,
-                             const Narrate& narrate);
+                             const PrintProgress& print_progress);
 
-/// Of every mesh and shape that was timed.
+/// Returns the best of every mesh and shape that was timed.
 std::vector<ParkJangBest> park_jang_best(const ParkJangResult& result);
 std::vector<Claim> park_jang_claims(const ParkJangResult& result);
 
@@ -71,4 +71,4 @@ Table park_jang_best_table(const ParkJangResult& result);
 std::string park_jang_report(const std::vector<PaperMesh>& meshes, const ParkJangSettings& settings,
                              const ParkJangResult& result);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

@@ -9,7 +9,7 @@
 #include "bench/experiments/papers/park_jang.h"
 #include "bench/support/median.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 namespace {
 
 std::string number(double value) { return fmt::format("{:.6g}", value); }
@@ -71,7 +71,7 @@ bool mostly_slower(const std::vector<double>& ratios) {
 Claim shapes_claim(const SpheresAgainstCubes& shapes) {
   Claim claim{"Fig. 7", "spheres are slower than cubes at equal count", "holds",
               fmt::format("{:.2f} times as long up to the best count, {:.2f} times beyond (medians)",
-                          median(shapes.up_to_best), median(shapes.beyond))};
+                          support::median(shapes.up_to_best), support::median(shapes.beyond))};
   const bool early = mostly_slower(shapes.up_to_best), late = mostly_slower(shapes.beyond);
   claim.agreement = early && late ? Agreement::yes : early ? Agreement::nearly : Agreement::no;
   if (!(early && late)) {
@@ -239,4 +239,4 @@ std::string park_jang_report(const std::vector<PaperMesh>& meshes, const ParkJan
   return text;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

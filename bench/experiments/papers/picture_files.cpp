@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 namespace {
 
 // Six digits are more than any pixel shows.
@@ -50,4 +50,4 @@ std::string boxes_csv(std::span<const Aabb> boxes) {
   return text;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

@@ -6,7 +6,7 @@
 
 #include "bench/results/results_csv.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 namespace {
 
 std::string markdown_line(const std::vector<std::string>& cells) {
@@ -22,8 +22,8 @@ void Table::add(std::vector<std::string> row) {
 }
 
 std::string Table::csv() const {
-  std::string text = csv_line(header_);
-  for (const std::vector<std::string>& row : rows_) text += csv_line(row);
+  std::string text = results::csv_line(header_);
+  for (const std::vector<std::string>& row : rows_) text += results::csv_line(row);
   return text;
 }
 
@@ -34,4 +34,4 @@ std::string Table::markdown() const {
   return text;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

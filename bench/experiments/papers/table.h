@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 
 class Table {
  public:
@@ -23,4 +23,4 @@ class Table {
   std::vector<std::vector<std::string>> rows_;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

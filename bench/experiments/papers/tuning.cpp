@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 
 bool holds_rate(const FrontierPoint& point, double rate) {
   return point.ns_p99 && *point.ns_p99 * rate <= 1e9;
@@ -33,4 +33,4 @@ std::string detector_of(const FrontierPoint& point) {
   return text;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

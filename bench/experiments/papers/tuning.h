@@ -6,20 +6,20 @@
 
 #include "bench/experiments/papers/frontier.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 
 struct Tuned {
-  std::optional<FrontierPoint> published;  ///< of the scans and the fast level
-  std::optional<FrontierPoint> fast;       ///< of the tree and the grid
+  std::optional<FrontierPoint> published;  ///< the best of the scans and the fast level
+  std::optional<FrontierPoint> fast;       ///< the best of the tree and the grid
 };
 
-/// Do 99 of 100 queries end within a period of `rate` Hz?
+/// Returns true if 99 of 100 queries end within a period of `rate` Hz.
 bool holds_rate(const FrontierPoint& point, double rate);
 
-/// Of those that hold the rate the one of the least mean error, of several the fastest.
+/// Chooses the point of least mean error that holds the rate; of several the fastest.
 Tuned tune(const FrontierResult& result, double rate);
 
 /// As --detector takes it.
 std::string detector_of(const FrontierPoint& point);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

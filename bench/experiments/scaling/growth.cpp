@@ -11,7 +11,7 @@
 #include "bench/support/text_table.h"
 #include "bench/workload/query_name.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::scaling {
 namespace {
 
 constexpr int scaling_schema = 1;
@@ -19,10 +19,10 @@ constexpr int scaling_schema = 1;
 struct Quantity {
   std::string_view name;
   const char* heading;
-  std::optional<double> (*of)(const ResultRow& row);
+  std::optional<double> (*of)(const measurement::ResultRow& row);
 };
 
-using Row = const ResultRow&;
+using Row = const measurement::ResultRow&;
 using Value = std::optional<double>;
 
 constexpr std::array quantities{
@@ -33,25 +33,26 @@ constexpr std::array quantities{
     Quantity{"ns_per_query", "ns/query",
              [](Row row) { return row.throughput ? Value(row.throughput->undisturbed.ns) : Value(); }},
     Quantity{"ns_p50", "p50", [](Row row) { return row.latency ? Value(row.latency->p50) : Value(); }},
-    Quantity{"ns_p999", "p99.9", [](Row row) { return p999_of(row, row.latency); }},
+    Quantity{"ns_p999", "p99.9", [](Row row) { return measurement::p999_of(row, row.latency); }},
 };
 
-/// Do rows of these two lie on one curve?
+/// Returns true if rows of these two lie on one curve.
 bool same_curve(Row a, Row b) {
   return a.contestant() == b.contestant() && a.trajectory == b.trajectory && a.query == b.query &&
          family_of(a.mesh) == family_of(b.mesh);
 }
 
-std::optional<Growth> growth_along(const std::vector<const ResultRow*>& curve, const Quantity& quantity) {
+std::optional<Growth> growth_along(const std::vector<const measurement::ResultRow*>& curve,
+                                   const Quantity& quantity) {
   Growth growth;
   std::vector<SizedQuantity> points;
-  for (const ResultRow* row : curve) {
+  for (const measurement::ResultRow* row : curve) {
     const Value value = quantity.of(*row);
     if (!value || !(*value > 0)) continue;
     points.push_back({static_cast<double>(row->triangles), *value});
-    growth.most_triangles = std::max(growth.most_triangles, row->triangles);
-    growth.least_triangles =
-        points.size() == 1 ? row->triangles : std::min(growth.least_triangles, row->triangles);
+    growth.max_triangles = std::max(growth.max_triangles, row->triangles);
+    growth.min_triangles =
+        points.size() == 1 ? row->triangles : std::min(growth.min_triangles, row->triangles);
   }
   const std::optional<PowerLaw> law = fit_power_law(points);
   if (!law) return std::nullopt;
@@ -79,9 +80,9 @@ bool same_table(const Growth& a, const Growth& b) {
 
 }  // namespace
 
-std::vector<Growth> growth_of(const std::vector<ResultRow>& rows) {
-  std::vector<std::vector<const ResultRow*>> curves;
-  for (const ResultRow& row : rows) {
+std::vector<Growth> growth_of(const std::vector<measurement::ResultRow>& rows) {
+  std::vector<std::vector<const measurement::ResultRow*>> curves;
+  for (const measurement::ResultRow& row : rows) {
     if (row.status != "ok") continue;
     const auto curve = std::find_if(curves.begin(), curves.end(),
                                     [&](const auto& known) { return same_curve(*known.front(), row); });
@@ -97,17 +98,17 @@ std::vector<Growth> growth_of(const std::vector<ResultRow>& rows) {
 }
 
 std::string scaling_csv(const std::vector<Growth>& growths) {
-  std::string csv = csv_line({"schema", "detector", "options", "trajectory", "quantity", "points", "exponent",
-                              "exponent_low", "exponent_high", "factor", "family", "query", "least_triangles",
-                              "most_triangles"});
+  std::string csv = results::csv_line({"schema", "detector", "options", "trajectory", "quantity", "points",
+                                       "exponent", "exponent_low", "exponent_high", "factor", "family",
+                                       "query", "least_triangles", "most_triangles"});
   for (const Growth& growth : growths) {
     const PowerLaw& law = growth.law;
-    csv += csv_line({fmt::format("{}", scaling_schema), growth.detector, growth.options, growth.trajectory,
-                     std::string(growth.quantity), fmt::format("{}", law.points), rounded(law.exponent),
-                     law.interval ? rounded(law.interval->low) : "",
-                     law.interval ? rounded(law.interval->high) : "", rounded(law.factor), growth.family,
-                     std::string(name_of(growth.query)), fmt::format("{}", growth.least_triangles),
-                     fmt::format("{}", growth.most_triangles)});
+    csv += results::csv_line(
+        {fmt::format("{}", scaling_schema), growth.detector, growth.options, growth.trajectory,
+         std::string(growth.quantity), fmt::format("{}", law.points), rounded(law.exponent),
+         law.interval ? rounded(law.interval->low) : "", law.interval ? rounded(law.interval->high) : "",
+         rounded(law.factor), growth.family, std::string(workload::name_of(growth.query)),
+         fmt::format("{}", growth.min_triangles), fmt::format("{}", growth.max_triangles)});
   }
   return csv;
 }
@@ -122,7 +123,7 @@ std::string growth_table(const std::vector<Growth>& growths) {
     if (std::none_of(tables.begin(), tables.end(), same)) tables.push_back(&growth);
   }
   for (const Growth* kind : tables) {
-    TextTable table(header);
+    support::TextTable table(header);
     std::vector<std::string> names;
     for (const Growth& growth : growths) {
       const bool known = std::find(names.begin(), names.end(), growth.contestant()) != names.end();
@@ -138,11 +139,11 @@ std::string growth_table(const std::vector<Growth>& growths) {
       }
       table.add(std::move(cells));
     }
-    text +=
-        fmt::format("\n{}{}{}, {}: exponent of the number of triangles [95 % interval]\n{}", kind->family,
-                    kind->family.empty() ? "" : ", ", kind->trajectory, name_of(kind->query), table.text());
+    text += fmt::format("\n{}{}{}, {}: exponent of the number of triangles [95 % interval]\n{}", kind->family,
+                        kind->family.empty() ? "" : ", ", kind->trajectory, workload::name_of(kind->query),
+                        table.text());
   }
   return text;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::scaling

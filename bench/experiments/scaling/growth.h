@@ -10,7 +10,7 @@
 #include "bench/experiments/scaling/power_law.h"
 #include "bench/measurement/result_row.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::scaling {
 
 /// One quantity of one contestant on the meshes of one family along one trajectory.
 struct Growth {
@@ -18,21 +18,21 @@ struct Growth {
   std::string options;
   std::string family;  ///< see family_of
   std::string trajectory;
-  Query query = Query::nearest;
+  workload::Query query = workload::Query::nearest;
   std::string_view quantity;  ///< its column in results.csv
-  std::size_t least_triangles = 0;
-  std::size_t most_triangles = 0;
+  std::size_t min_triangles = 0;
+  std::size_t max_triangles = 0;
   PowerLaw law;
 
   std::string contestant() const { return options.empty() ? detector : detector + ":" + options; }
 };
 
-/// Of rows with status ok; where they are of fewer than two sizes there is nothing to tell.
-std::vector<Growth> growth_of(const std::vector<ResultRow>& rows);
+/// Fits the growth over rows with status ok; empty where they are of fewer than two sizes.
+std::vector<Growth> growth_of(const std::vector<measurement::ResultRow>& rows);
 
 std::string scaling_csv(const std::vector<Growth>& growths);
 
 /// A table for each family and trajectory: exponents and their intervals.
 std::string growth_table(const std::vector<Growth>& growths);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::scaling

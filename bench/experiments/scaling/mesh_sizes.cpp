@@ -11,10 +11,10 @@
 #include "bench/scenes/generated_scenes.h"
 #include "bench/support/numbers.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::scaling {
 namespace {
 
-constexpr std::uint64_t least_triangles = 6;  // of a noisy sphere
+constexpr std::uint64_t min_triangles = 6;  // of a noisy sphere
 
 /// "1.5M".
 std::optional<std::uint64_t> parse_size(std::string_view text) {
@@ -22,8 +22,8 @@ std::optional<std::uint64_t> parse_size(std::string_view text) {
   if (text.ends_with('k')) unit = 1e3;
   if (text.ends_with('M')) unit = 1e6;
   if (unit > 1) text.remove_suffix(1);
-  const double size = parse_number(text).value_or(0) * unit;
-  if (!(size >= least_triangles && size <= most_generated_triangles) || size != std::floor(size)) {
+  const double size = support::parse_number(text).value_or(0) * unit;
+  if (!(size >= min_triangles && size <= scenes::max_generated_triangles) || size != std::floor(size)) {
     return std::nullopt;
   }
   return static_cast<std::uint64_t>(size);
@@ -43,7 +43,7 @@ std::vector<std::uint64_t> parse_sizes(const std::string& text) {
       throw std::invalid_argument(
           fmt::format("--sizes \"{}\": \"{}\" is not a whole number of triangles from {} to {}, as 5000, 5k "
                       "or 1.5M",
-                      text, part, least_triangles, most_generated_triangles));
+                      text, part, min_triangles, scenes::max_generated_triangles));
     }
     sizes.push_back(*size);
     begin = end + 1;
@@ -85,4 +85,4 @@ std::string family_of(const std::string& mesh) {
   return colon == std::string::npos ? "" : mesh.substr(0, colon);
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::scaling

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::scaling {
 
 /// "1k,30k,1.5M": whole numbers of triangles, at least two different ones. Throws std::invalid_argument.
 std::vector<std::uint64_t> parse_sizes(const std::string& text);
@@ -16,11 +16,11 @@ std::vector<std::uint64_t> parse_sizes(const std::string& text);
 std::vector<std::string> meshes_of_sizes(const std::vector<std::string>& names, const std::string& sizes,
                                          const std::string& otherwise);
 
-/// Is this a family that is generated in any size?
+/// Returns true if this is a family that is generated in any size.
 bool comes_in_sizes(const std::string& family);
 
 /// What a mesh is one size of: the name before its parameter, "noisy-sphere" of "noisy-sphere:1000"; empty
 /// for a mesh that has none.
 std::string family_of(const std::string& mesh);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::scaling

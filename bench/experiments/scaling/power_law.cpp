@@ -3,7 +3,7 @@
 #include <cassert>
 #include <cmath>
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::scaling {
 namespace {
 
 constexpr double half_pi = 1.57079632679489661923;
@@ -67,4 +67,4 @@ std::optional<PowerLaw> fit_power_law(std::span<const SizedQuantity> measured) {
   return law;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::scaling

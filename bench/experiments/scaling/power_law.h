@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::scaling {
 
 /// Both above 0.
 struct SizedQuantity {
@@ -34,4 +34,4 @@ std::optional<PowerLaw> fit_power_law(std::span<const SizedQuantity> measured);
 /// above 0 and below 1; of at least one degree of freedom.
 double student_t(double probability, std::size_t degrees);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::scaling

@@ -7,7 +7,7 @@
 #include "bench/experiments/stress/makers.h"
 #include "bench/support/did_you_mean.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::stress {
 namespace {
 
 constexpr bool at_the_edge = true;  // of contact: Family::adversarial
@@ -55,7 +55,7 @@ constexpr std::array list{
     Family{"motions", "every trajectory of the comparison on ordinary and thin meshes", false,
            &stress::motions},
     Family{"ordinary", "balls of every size anywhere about small meshes, other ones with each seed", false,
-           &stress::ordinary},
+           &stress::control_family},
     Family{"near-ties",
            "two or more triangles as far but for rounding: turned images, and where the nearest changes",
            false, &stress::near_ties},
@@ -75,7 +75,7 @@ const Family& family_named(std::string_view name) {
     names.emplace_back(family.name);
   }
   throw std::invalid_argument(
-      fmt::format("unknown family \"{}\"; the nearest names: {}", name, near_names(name, names)));
+      fmt::format("unknown family \"{}\"; the nearest names: {}", name, support::near_names(name, names)));
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::stress

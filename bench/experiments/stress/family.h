@@ -11,12 +11,12 @@
 
 #include "bench/workload/workload.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::stress {
 
-/// Meshes and the questions about them. The same for the same seed and number; about `probes` in all, at
-/// least a few for each mesh. Throws MeshError where no mesh can be made of it: every contestant refuses it
-/// then.
-using MakeQuestions = std::vector<Workload> (*)(std::uint64_t seed, std::size_t probes);
+/// Makes meshes and the questions about them. Equal seeds and numbers give equal ones; about `probes` in all,
+/// at least a few for each mesh. Throws MeshError where no mesh can be made of it: every contestant refuses
+/// it then.
+using MakeQuestions = std::vector<workload::Workload> (*)(std::uint64_t seed, std::size_t probes);
 
 struct Family {
   std::string_view name;
@@ -32,4 +32,4 @@ std::span<const Family> families();
 /// Throws std::invalid_argument naming the nearest names.
 const Family& family_named(std::string_view name);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::stress

@@ -6,52 +6,53 @@
 #include "bench/experiments/stress/questions.h"
 #include "bench/scenes/generated_scenes.h"
 
-namespace touchmark::bench::stress {
+namespace touchmark::bench::experiments::stress {
 namespace {
 
 /// A reach of twice the distance, so that it is not the reach that makes a search look closer.
-std::vector<Step> well_within_reach(const Oracle& oracle, const std::vector<Vec3>& centers) {
-  std::vector<Step> course;
-  for (const Vec3& center : centers) course.push_back(asked(center, 2 * oracle.solve(center).high));
-  return course;
+std::vector<workload::Step> well_within_reach(const oracle::Oracle& oracle,
+                                              const std::vector<Vec3>& centers) {
+  std::vector<workload::Step> trace;
+  for (const Vec3& center : centers) trace.push_back(asked(center, 2 * oracle.solve(center).high));
+  return trace;
 }
 
-Workload turned(HardCases& hard, std::size_t probes) {
-  TriangleMesh mesh = turned_images(hard, 12);
+workload::Workload turned(CornerCases& cases, std::size_t probes) {
+  TriangleMesh mesh = turned_images(cases, 12);
   std::vector<Vec3> centers;
-  while (centers.size() < probes) centers.push_back(on_the_diagonal(hard));
-  std::vector<Step> course = well_within_reach(Oracle(mesh), centers);
-  return about({"turned images", std::move(mesh)}, "on the axis of turning", std::move(course));
+  while (centers.size() < probes) centers.push_back(on_the_diagonal(cases));
+  std::vector<workload::Step> trace = well_within_reach(oracle::Oracle(mesh), centers);
+  return workload_on({"turned images", std::move(mesh)}, "on the axis of turning", std::move(trace));
 }
 
-/// `way`: how far apart the ends are between which the nearest changes, at most.
-Workload between(NamedMesh named, HardCases& hard, double way, std::size_t probes) {
-  const Oracle oracle(named.mesh);
+/// `length`: how far apart the ends are between which the nearest changes, at most.
+workload::Workload between(NamedMesh named, CornerCases& cases, double length, std::size_t probes) {
+  const oracle::Oracle oracle(named.mesh);
   std::vector<Vec3> centers;
   const double size = 0.5 * named.mesh.diagonal();
   while (centers.size() < probes) {
-    const Vec3 from = named.mesh.bounds().center() + hard.magnitude(-2, 0.5) * size * hard.vector();
-    const Vec3 place = where_the_nearest_changes(oracle, from, from + way * size * hard.vector());
-    for (const Vec3& neighbour : with_neighbours(place, hard))
+    const Vec3 from = named.mesh.bounds().center() + cases.magnitude(-2, 0.5) * size * cases.vector();
+    const Vec3 position = where_the_nearest_changes(oracle, from, from + length * size * cases.vector());
+    for (const Vec3& neighbour : with_neighbors(position, cases))
       if (centers.size() < probes) centers.push_back(neighbour);
   }
-  std::vector<Step> course = well_within_reach(oracle, centers);
-  return about(std::move(named), "where the nearest changes", std::move(course));
+  std::vector<workload::Step> trace = well_within_reach(oracle, centers);
+  return workload_on(std::move(named), "where the nearest changes", std::move(trace));
 }
 
 }  // namespace
 
-std::vector<Workload> near_ties(std::uint64_t seed, std::size_t probes) {
-  HardCases hard(seed);
+std::vector<workload::Workload> near_ties(std::uint64_t seed, std::size_t probes) {
+  CornerCases cases(seed);
   const std::size_t each = share_of(probes, 4);
-  std::vector<HardCases::Corners> soup;
-  for (int i = 0; i < 80; ++i) soup.push_back(i % 4 == 0 ? hard.needle() : hard.plain());
-  std::vector<Workload> workloads;
-  workloads.push_back(turned(hard, each));
-  workloads.push_back(turned(hard, each));
-  workloads.push_back(between({"needles and others", mesh_of(soup)}, hard, 0.5, each));
-  workloads.push_back(between({"icosphere", icosphere(2)}, hard, 0.2, each));
+  std::vector<CornerCases::Corners> soup;
+  for (int i = 0; i < 80; ++i) soup.push_back(i % 4 == 0 ? cases.needle() : cases.plain());
+  std::vector<workload::Workload> workloads;
+  workloads.push_back(turned(cases, each));
+  workloads.push_back(turned(cases, each));
+  workloads.push_back(between({"needles and others", mesh_of(soup)}, cases, 0.5, each));
+  workloads.push_back(between({"icosphere", scenes::icosphere(2)}, cases, 0.2, each));
   return workloads;
 }
 
-}  // namespace touchmark::bench::stress
+}  // namespace touchmark::bench::experiments::stress

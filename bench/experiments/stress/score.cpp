@@ -2,19 +2,19 @@
 
 #include "bench/results/verification_report.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::stress {
 namespace {
 
 /// What exactness is about: contact, the triangle and the distance. A normal or point that is off is told,
 /// and is no broken claim: where squares of lengths leave the range of doubles no direction is promised.
-bool breaks_the_claim(const ResultRow& row) {
+bool breaks_the_claim(const measurement::ResultRow& row) {
   if (!row.claims_exactness()) return false;
   const bool declined = row.status == "unsupported" || row.status.starts_with("refused");
-  if (!row.tally) return !declined;
-  const Tally& tally = *row.tally;
-  return row.status != "ok" ||
-         tally.missed + tally.false_contacts + tally.wrong_triangle + tally.beyond_bound + tally.malformed >
-             0;
+  if (!row.counts) return !declined;
+  const oracle::ErrorCounts& counts = *row.counts;
+  return row.status != "ok" || counts.missed + counts.false_contacts + counts.wrong_triangle +
+                                       counts.beyond_bound + counts.malformed >
+                                   0;
 }
 
 }  // namespace
@@ -39,35 +39,35 @@ std::string_view name_of(Standing standing) noexcept {
   return "";
 }
 
-Score::Score(const ResultRow& first, const Family& of)
+Score::Score(const measurement::ResultRow& first, const Family& of)
     : detector(first.detector), options(first.options), family(&of), query(first.query) {}
 
-bool Score::is_of(const ResultRow& row, const Family& of) const {
+bool Score::is_of(const measurement::ResultRow& row, const Family& of) const {
   return family == &of && query == row.query && detector == row.detector && options == row.options;
 }
 
-void Score::add(const ResultRow& row, bool of_another_mesh) {
+void Score::add(const measurement::ResultRow& row, bool of_another_mesh) {
   meshes += of_another_mesh ? 1 : 0;
-  if (row.claim()) guarantee = guarantee_name(row);
-  if (row.tally) tally += *row.tally;
-  if (row.tally && row.throughput) {
-    ns_ += row.throughput->ns_per_query * static_cast<double>(row.tally->judged);
-    timed_ += row.tally->judged;
+  if (row.claim()) guarantee = measurement::guarantee_name(row);
+  if (row.counts) counts += *row.counts;
+  if (row.counts && row.throughput) {
+    ns_ += row.throughput->ns_per_query * static_cast<double>(row.counts->judged);
+    timed_ += row.counts->judged;
   }
   timeouts += row.status == "timeout" ? 1 : 0;
   refusals += row.status.starts_with("refused") ? 1 : 0;
   unsupported += row.status == "unsupported" ? 1 : 0;
   // A checksum mismatch is a worker whose memory cannot be trusted.
   crashes += row.status.starts_with("crashed") || row.status == "checksum mismatch" ? 1 : 0;
-  if (is_short_of_memory(row) && short_of_memory.empty()) short_of_memory = row.status;
+  if (results::is_short_of_memory(row) && short_of_memory.empty()) short_of_memory = row.status;
   broken = broken || breaks_the_claim(row);
 }
 
 Standing Score::standing() const noexcept {
   if (crashes > 0) return Standing::crashed;
   if (timeouts > 0) return Standing::timeout;
-  if (tally.missed + tally.false_contacts + tally.malformed > 0) return Standing::wrong;
-  if (tally.wrong_triangle + answers_off(tally) > 0) return Standing::inexact;
+  if (counts.missed + counts.false_contacts + counts.malformed > 0) return Standing::wrong;
+  if (counts.wrong_triangle + measurement::answers_off(counts) > 0) return Standing::inexact;
   if (refusals > 0) return Standing::refused;
   return unsupported > 0 ? Standing::unsupported : Standing::clean;
 }
@@ -77,4 +77,4 @@ std::optional<double> Score::ns_per_query() const {
   return ns_ / static_cast<double>(timed_);
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::stress

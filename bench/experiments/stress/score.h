@@ -9,7 +9,7 @@
 #include "bench/experiments/stress/family.h"
 #include "bench/measurement/result_row.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::stress {
 
 /// What is worst about it, the worst last.
 enum class Standing {
@@ -25,10 +25,10 @@ std::string_view name_of(Standing standing) noexcept;
 
 class Score {
  public:
-  Score(const ResultRow& first, const Family& family);
+  Score(const measurement::ResultRow& first, const Family& family);
 
-  bool is_of(const ResultRow& row, const Family& family) const;
-  void add(const ResultRow& row, bool of_another_mesh);
+  bool is_of(const measurement::ResultRow& row, const Family& family) const;
+  void add(const measurement::ResultRow& row, bool of_another_mesh);
 
   std::string contestant() const { return options.empty() ? detector : detector + ":" + options; }
   Standing standing() const noexcept;
@@ -38,11 +38,11 @@ class Score {
   std::string detector;
   std::string options;
   const Family* family;
-  Query query;
+  workload::Query query;
   std::string guarantee;  ///< as claimed; empty where it is not known
-  Tally tally;
+  oracle::ErrorCounts counts;
   std::uint64_t meshes = 0;
-  std::uint64_t crashes = 0;  ///< courses that a worker did not survive, and so on
+  std::uint64_t crashes = 0;  ///< traces that a worker did not survive, and so on
   std::uint64_t timeouts = 0;
   std::uint64_t refusals = 0;
   std::uint64_t unsupported = 0;
@@ -55,4 +55,4 @@ class Score {
   std::uint64_t timed_ = 0;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::stress

@@ -8,15 +8,15 @@
 
 #include <Eigen/Geometry>
 
-#include "bench/experiments/stress/hard_cases.h"
+#include "bench/experiments/stress/corner_cases.h"
 #include "bench/experiments/stress/makers.h"
 #include "bench/experiments/stress/questions.h"
 #include "bench/oracle/oracle.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::stress {
 namespace {
 
-using Corners = HardCases::Corners;
+using Corners = CornerCases::Corners;
 
 double turn(std::size_t i, std::size_t count) {
   return 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(count);
@@ -46,7 +46,7 @@ SharedFeature book(std::string name, std::size_t count, const Vec3& from, const 
           {Vec3(middle - 0.25 * up), from, Vec3(from - 0.1 * along - 0.1 * up), Vec3(middle - 0x1p-30 * up)}};
 }
 
-/// The same triangles again and again, in a plane that x and y span.
+/// Repeats one pair of triangles in a plane that x and y span.
 SharedFeature sheet(std::string name, std::size_t count, const Vec3& x, const Vec3& y) {
   const Vec3 origin(0.5, 0.25, 0.125), up = x.cross(y);
   const auto at = [&](double u, double v) { return Vec3(origin + u * x + v * y); };
@@ -65,7 +65,7 @@ SharedFeature sheet(std::string name, std::size_t count, const Vec3& x, const Ve
 }
 
 /// Whole points of a sphere about the origin, in no order.
-std::vector<Vec3> whole_points(std::size_t count, HardCases& hard) {
+std::vector<Vec3> whole_points(std::size_t count, CornerCases& cases) {
   // 5 * 13 * 17 * 29 squared is the sum of three squares in very many ways.
   constexpr int radius = 32045, coarse = 17;
   std::vector<Vec3> points;
@@ -78,16 +78,16 @@ std::vector<Vec3> whole_points(std::size_t count, HardCases& hard) {
       for (const double sign : {1.0, -1.0}) points.emplace_back(sign * x, y, -sign * z);
     }
   }
-  for (std::size_t i = points.size(); i > 1; --i) std::swap(points[i - 1], points[hard.below(i)]);
+  for (std::size_t i = points.size(); i > 1; --i) std::swap(points[i - 1], points[cases.below(i)]);
   return points;
 }
 
 /// Spikes outwards of points about the origin.
-SharedFeature spikes(std::string name, const std::vector<Vec3>& tips, HardCases& hard) {
+SharedFeature spikes(std::string name, const std::vector<Vec3>& tips, CornerCases& cases) {
   std::vector<Corners> triangles;
   for (const Vec3& tip : tips) {
-    const Vec3 a = 2 * tip + 0.1 * tip.norm() * hard.vector();
-    triangles.push_back({tip, a, 2 * tip + 0.1 * tip.norm() * hard.vector()});
+    const Vec3 a = 2 * tip + 0.1 * tip.norm() * cases.vector();
+    triangles.push_back({tip, a, 2 * tip + 0.1 * tip.norm() * cases.vector()});
   }
   return {std::move(name), mesh_of(triangles), {Vec3::Zero()}};
 }
@@ -105,16 +105,16 @@ SharedFeature tangents(std::string name, const std::vector<Vec3>& points, bool f
   return {std::move(name), mesh_of(triangles), {Vec3::Zero()}};
 }
 
-std::vector<Vec3> directions(std::size_t count, HardCases& hard) {
+std::vector<Vec3> directions(std::size_t count, CornerCases& cases) {
   std::vector<Vec3> all;
-  while (all.size() < count) all.push_back(hard.vector().normalized());
+  while (all.size() < count) all.push_back(cases.vector().normalized());
   return all;
 }
 
 }  // namespace
 
 std::vector<SharedFeature> shared_feature_meshes(std::size_t triangles) {
-  HardCases hard(17);
+  CornerCases cases(17);
   std::vector<SharedFeature> all;
   all.push_back(fan("cone", triangles, {0.125, 0.25, 0.5}, 1));
   all.push_back(fan("disc", triangles, Vec3::Zero(), 0));
@@ -122,10 +122,10 @@ std::vector<SharedFeature> shared_feature_meshes(std::size_t triangles) {
   all.push_back(book("upright book", triangles, Vec3::Zero(), {0, 0, 2}));
   all.push_back(sheet("level sheets", triangles, Vec3::UnitX(), Vec3::UnitY()));
   all.push_back(sheet("oblique sheets", triangles, {0.6, 0.1, 0.7}, {-0.3, 0.9, 0.2}));
-  all.push_back(spikes("spikes of whole points", whole_points(triangles, hard), hard));
-  all.push_back(spikes("spikes", directions(triangles, hard), hard));
-  all.push_back(tangents("tangent edges", directions(triangles, hard), false));
-  all.push_back(tangents("tangent faces", directions(triangles, hard), true));
+  all.push_back(spikes("spikes of whole points", whole_points(triangles, cases), cases));
+  all.push_back(spikes("spikes", directions(triangles, cases), cases));
+  all.push_back(tangents("tangent edges", directions(triangles, cases), false));
+  all.push_back(tangents("tangent faces", directions(triangles, cases), true));
   return all;
 }
 
@@ -134,34 +134,34 @@ namespace stress {
 namespace {
 
 /// These centres first, then others about them, from a diagonal away to hardly beside them.
-std::vector<Vec3> centers_about(const std::vector<Vec3>& given, double diagonal, std::size_t count,
-                                HardCases& hard) {
+std::vector<Vec3> centers_near(const std::vector<Vec3>& given, double diagonal, std::size_t count,
+                               CornerCases& cases) {
   std::vector<Vec3> centers(given.begin(),
                             given.begin() + static_cast<std::ptrdiff_t>(std::min(count, given.size())));
   while (centers.size() < count) {
-    const double way = std::ldexp(diagonal, -static_cast<int>(hard.below(60)));
-    centers.push_back(given[hard.below(given.size())] + way * hard.vector());
+    const double distance = std::ldexp(diagonal, -static_cast<int>(cases.below(60)));
+    centers.push_back(given[cases.below(given.size())] + distance * cases.vector());
   }
   return centers;
 }
 
 }  // namespace
 
-std::vector<Workload> shared_features(std::uint64_t seed, std::size_t probes) {
+std::vector<workload::Workload> shared_features(std::uint64_t seed, std::size_t probes) {
   std::vector<SharedFeature> all = shared_feature_meshes(200);
-  HardCases hard(seed);
-  std::vector<Workload> workloads;
+  CornerCases cases(seed);
+  std::vector<workload::Workload> workloads;
   const std::size_t centers_each = share_of(probes, 4 * all.size());
   for (SharedFeature& shared : all) {
-    shared.centers = centers_about(shared.centers, shared.mesh.diagonal(), centers_each, hard);
-    std::vector<Step> course = at_the_exact_distance(shared.mesh, shared.centers);
-    const Oracle oracle(shared.mesh);
-    for (const Vec3& center : shared.centers) course.push_back(asked(center, 2 * oracle.solve(center).high));
-    workloads.push_back(about({std::move(shared.name), std::move(shared.mesh)},
-                              "as near to all by a shared place", std::move(course)));
+    shared.centers = centers_near(shared.centers, shared.mesh.diagonal(), centers_each, cases);
+    std::vector<workload::Step> trace = at_the_exact_distance(shared.mesh, shared.centers);
+    const oracle::Oracle oracle(shared.mesh);
+    for (const Vec3& center : shared.centers) trace.push_back(asked(center, 2 * oracle.solve(center).high));
+    workloads.push_back(workload_on({std::move(shared.name), std::move(shared.mesh)},
+                                    "as near to all by a shared place", std::move(trace)));
   }
   return workloads;
 }
 
 }  // namespace stress
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::stress

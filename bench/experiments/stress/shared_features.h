@@ -8,7 +8,7 @@
 
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::stress {
 
 struct SharedFeature {
   std::string name;
@@ -16,7 +16,7 @@ struct SharedFeature {
   std::vector<Vec3> centers;
 };
 
-/// Of about so many triangles, at least 64. The same for the same number.
+/// Returns meshes of about so many triangles, at least 64. Equal numbers give equal meshes.
 std::vector<SharedFeature> shared_feature_meshes(std::size_t triangles);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::stress

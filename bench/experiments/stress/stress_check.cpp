@@ -13,14 +13,17 @@
 #include "bench/support/numbers.h"
 #include "bench/workload/query_name.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::stress {
+
+namespace validation = results::validation;
+
 namespace {
 
 constexpr std::array filled{"run_id", "detector", "family"};
 constexpr std::array counts{"adversarial",    "meshes",       "probes",      "missed",       "false_contacts",
                             "wrong_triangle", "beyond_bound", "wrong_point", "wrong_normal", "malformed",
                             "unresolved",     "crashes",      "timeouts",    "refusals"};
-/// Of the probes, each at most once.
+/// Columns that count probes, each at most once.
 constexpr std::array of_probes{"missed",      "false_contacts", "wrong_triangle", "beyond_bound",
                                "wrong_point", "wrong_normal",   "malformed",      "unresolved"};
 constexpr std::array appended{"beyond_tolerance", "rounding", "wrong_side"};
@@ -35,14 +38,15 @@ bool is_among(const List& list, const std::string& text) {
 
 class StressCheck {
  public:
-  StressCheck(const CsvTable& table, const nlohmann::json* run, Faults& faults)
+  StressCheck(const validation::CsvTable& table, const nlohmann::json* run, validation::Faults& faults)
       : table_(table), run_(run), faults_(faults) {}
 
   void check() {
     const std::vector<std::string> names = stress_columns();
-    if (!begins_with_columns(table_, {names.begin(), names.end()}, names.size() - appended.size(), faults_))
+    if (!validation::begins_with_columns(table_, {names.begin(), names.end()}, names.size() - appended.size(),
+                                         faults_))
       return;
-    for (const CsvRecord& record : table_.records) {
+    for (const validation::CsvRecord& record : table_.records) {
       if (record.fields.size() != table_.header.size()) continue;  // check_form has said so
       row_ = &record;
       check_words();
@@ -55,7 +59,8 @@ class StressCheck {
   void check_words() {
     expect(field("schema") == std::to_string(stress_schema), "schema", "is not 1");
     for (const char* column : filled) expect(!field(column).empty(), column, "must not be empty");
-    expect(query_named(field("query")).has_value(), "query", "is not one of touches, nearest, sweep");
+    expect(workload::query_named(field("query")).has_value(), "query",
+           "is not one of touches, nearest, sweep");
     expect(is_among(guarantees, field("guarantee")), "guarantee",
            "is not one of exact, conservative, approximate");
     if (run_ == nullptr || !run_->is_object()) return;
@@ -65,22 +70,22 @@ class StressCheck {
 
   void check_numbers() {
     for (const char* column : counts)
-      expect(parse_count(field(column)).has_value(), column, "is not a whole number of 0 or more");
+      expect(support::parse_count(field(column)).has_value(), column, "is not a whole number of 0 or more");
     const std::uint64_t probes = count("probes");
     for (const char* column : of_probes)
       expect(count(column) <= probes, column, fmt::format("is above probes {}", probes));
     for (const char* column : appended) {
       if (!table_.has(column)) continue;
-      expect(parse_count(field(column)).has_value(), column, "is not a whole number of 0 or more");
+      expect(support::parse_count(field(column)).has_value(), column, "is not a whole number of 0 or more");
       expect(count(column) <= probes, column, fmt::format("is above probes {}", probes));
     }
     expect(count("adversarial") <= 1, "adversarial", "is not 0 or 1");
     for (const char* column : errors) {
-      const std::optional<double> value = parse_number(field(column));
+      const std::optional<double> value = support::parse_number(field(column));
       expect(field(column).empty() ? probes == 0 : value && *value >= 0, column,
              "is not a number of 0 or more, or inf");
     }
-    const std::optional<double> ns = parse_number(field("ns_per_query"));
+    const std::optional<double> ns = support::parse_number(field("ns_per_query"));
     expect(field("ns_per_query").empty() || (ns && *ns > 0 && std::isfinite(*ns)), "ns_per_query",
            "is not a finite number above 0");
   }
@@ -101,21 +106,23 @@ class StressCheck {
   }
 
   std::string field(const std::string& column) const { return table_.field(*row_, column); }
-  std::uint64_t count(const std::string& column) const { return parse_count(field(column)).value_or(0); }
+  std::uint64_t count(const std::string& column) const {
+    return support::parse_count(field(column)).value_or(0);
+  }
   void expect(bool right, const std::string& column, const std::string& wrong) {
     if (!right) faults_.push_back({table_.path, row_->line, column, field(column), wrong});
   }
 
-  const CsvTable& table_;
+  const validation::CsvTable& table_;
   const nlohmann::json* run_;
-  Faults& faults_;
-  const CsvRecord* row_ = nullptr;
+  validation::Faults& faults_;
+  const validation::CsvRecord* row_ = nullptr;
 };
 
 }  // namespace
 
-void check_stress(const CsvTable& table, const nlohmann::json* run, Faults& faults) {
+void check_stress(const validation::CsvTable& table, const nlohmann::json* run, validation::Faults& faults) {
   StressCheck(table, run, faults).check();
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::stress

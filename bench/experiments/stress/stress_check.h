@@ -1,4 +1,4 @@
-/// Is a file a stress.csv of schema 1, and does it agree with itself and with its run.json?
+/// Checks that a file is a stress.csv of schema 1, and agrees with itself and with its run.json.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -6,9 +6,10 @@
 #include "bench/results/validation/fault.h"
 #include "bench/results/validation/results_check.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::stress {
 
 /// `run` is the run.json beside the file, if there is one.
-void check_stress(const CsvTable& table, const nlohmann::json* run, Faults& faults);
+void check_stress(const results::validation::CsvTable& table, const nlohmann::json* run,
+                  results::validation::Faults& faults);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::stress

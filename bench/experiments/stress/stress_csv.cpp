@@ -7,7 +7,7 @@
 #include "bench/results/results_csv.h"
 #include "bench/workload/query_name.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::stress {
 namespace {
 
 struct Column {
@@ -20,11 +20,11 @@ std::string count(std::uint64_t value) { return fmt::format("{}", value); }
 
 template <auto Member>
 std::string counted(const Score& score) {
-  return count(score.tally.*Member);
+  return count(score.counts.*Member);
 }
 template <auto Member>
 std::string error(const Score& score) {
-  return score.tally.judged > 0 ? number(score.tally.*Member) : "";
+  return score.counts.judged > 0 ? number(score.counts.*Member) : "";
 }
 
 using S = const Score&;
@@ -38,18 +38,18 @@ constexpr std::array columns{
     Column{"guarantee", [](S score) { return std::string(score.guarantee); }},
     Column{"adversarial", [](S score) { return count(score.family->adversarial ? 1 : 0); }},
     Column{"meshes", [](S score) { return count(score.meshes); }},
-    Column{"probes", counted<&Tally::judged>},
-    Column{"missed", counted<&Tally::missed>},
-    Column{"false_contacts", counted<&Tally::false_contacts>},
-    Column{"wrong_triangle", counted<&Tally::wrong_triangle>},
-    Column{"beyond_bound", counted<&Tally::beyond_bound>},
-    Column{"wrong_point", counted<&Tally::wrong_point>},
-    Column{"wrong_normal", counted<&Tally::wrong_normal>},
-    Column{"malformed", counted<&Tally::malformed>},
-    Column{"unresolved", counted<&Tally::unresolved>},
-    Column{"max_distance_error", error<&Tally::max_distance_error>},
-    Column{"max_distance_error_of_diagonal", error<&Tally::max_distance_error_of_diagonal>},
-    Column{"max_distance_error_ulp", error<&Tally::max_distance_error_ulp>},
+    Column{"probes", counted<&oracle::ErrorCounts::judged>},
+    Column{"missed", counted<&oracle::ErrorCounts::missed>},
+    Column{"false_contacts", counted<&oracle::ErrorCounts::false_contacts>},
+    Column{"wrong_triangle", counted<&oracle::ErrorCounts::wrong_triangle>},
+    Column{"beyond_bound", counted<&oracle::ErrorCounts::beyond_bound>},
+    Column{"wrong_point", counted<&oracle::ErrorCounts::wrong_point>},
+    Column{"wrong_normal", counted<&oracle::ErrorCounts::wrong_normal>},
+    Column{"malformed", counted<&oracle::ErrorCounts::malformed>},
+    Column{"unresolved", counted<&oracle::ErrorCounts::unresolved>},
+    Column{"max_distance_error", error<&oracle::ErrorCounts::max_distance_error>},
+    Column{"max_distance_error_of_diagonal", error<&oracle::ErrorCounts::max_distance_error_of_diagonal>},
+    Column{"max_distance_error_ulp", error<&oracle::ErrorCounts::max_distance_error_ulp>},
     Column{"status", [](S score) { return std::string(name_of(score.standing())); }},
     Column{"crashes", [](S score) { return count(score.crashes); }},
     Column{"timeouts", [](S score) { return count(score.timeouts); }},
@@ -60,9 +60,9 @@ constexpr std::array columns{
              return ns ? fmt::format("{:.6g}", *ns) : std::string();
            }},
     // Appended to schema 1.
-    Column{"beyond_tolerance", counted<&Tally::beyond_tolerance>},
-    Column{"rounding", counted<&Tally::rounding>},
-    Column{"wrong_side", counted<&Tally::wrong_side>},
+    Column{"beyond_tolerance", counted<&oracle::ErrorCounts::beyond_tolerance>},
+    Column{"rounding", counted<&oracle::ErrorCounts::rounding>},
+    Column{"wrong_side", counted<&oracle::ErrorCounts::wrong_side>},
 };
 
 }  // namespace
@@ -74,13 +74,13 @@ std::vector<std::string> stress_columns() {
 }
 
 std::string stress_csv(const std::string& run_id, const std::vector<Score>& scores) {
-  std::string csv = csv_line(stress_columns());
+  std::string csv = results::csv_line(stress_columns());
   for (const Score& score : scores) {
     std::vector<std::string> fields{std::to_string(stress_schema), run_id};
     for (const Column& column : columns) fields.push_back(column.value(score));
-    csv += csv_line(fields);
+    csv += results::csv_line(fields);
   }
   return csv;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::stress

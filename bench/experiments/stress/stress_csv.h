@@ -6,7 +6,7 @@
 
 #include "bench/experiments/stress/score.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::stress {
 
 inline constexpr int stress_schema = 1;
 
@@ -14,4 +14,4 @@ std::string stress_csv(const std::string& run_id, const std::vector<Score>& scor
 
 std::vector<std::string> stress_columns();
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::stress

@@ -11,30 +11,30 @@
 #include "bench/support/text_table.h"
 #include "bench/workload/query_name.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::stress {
 namespace {
 
 /// One contestant's scores of one family, whatever the query.
 struct Cell {
   Standing standing = Standing::clean;
-  Tally tally;
+  oracle::ErrorCounts counts;
 
   void add(const Score& score) {
     standing = std::max(standing, score.standing());
-    tally += score.tally;
+    counts += score.counts;
   }
   std::string text() const {
     switch (standing) {
       case Standing::clean:
         return ".";
       case Standing::unsupported:
-        return tally.judged > 0 ? "." : "-";
+        return counts.judged > 0 ? "." : "-";
       case Standing::refused:
         return "R";
       case Standing::inexact:
-        return fmt::format("~{}", tally.wrong_triangle + answers_off(tally));
+        return fmt::format("~{}", counts.wrong_triangle + measurement::answers_off(counts));
       case Standing::wrong:
-        return fmt::format("{}", tally.missed + tally.false_contacts + tally.malformed);
+        return fmt::format("{}", counts.missed + counts.false_contacts + counts.malformed);
       case Standing::timeout:
         return "T";
       case Standing::crashed:
@@ -45,7 +45,7 @@ struct Cell {
 };
 
 template <class Value>
-std::size_t place_in(std::vector<Value>& list, const Value& value) {
+std::size_t column_of(std::vector<Value>& list, const Value& value) {
   const auto found = std::find(list.begin(), list.end(), value);
   if (found != list.end()) return static_cast<std::size_t>(found - list.begin());
   list.push_back(value);
@@ -59,8 +59,8 @@ std::string letter(std::size_t column) {
 std::string sums(const std::vector<Score>& scores) {
   std::uint64_t answers = 0, adversarial = 0;
   for (const Score& score : scores) {
-    answers += score.tally.judged;
-    if (score.family->adversarial) adversarial += score.tally.judged;
+    answers += score.counts.judged;
+    if (score.family->adversarial) adversarial += score.counts.judged;
   }
   return fmt::format("{} answers judged exactly, {} of them at the edge of contact\n", answers, adversarial);
 }
@@ -74,22 +74,22 @@ std::string stress_table(const std::vector<Score>& scores) {
   std::map<std::size_t, bool> broken;
   std::map<std::size_t, std::uint64_t> judged;
   for (const Score& score : scores) {
-    const std::size_t row = place_in(contestants, score.contestant());
-    cells[{row, place_in(shown, score.family)}].add(score);
+    const std::size_t row = column_of(contestants, score.contestant());
+    cells[{row, column_of(shown, score.family)}].add(score);
     broken[row] = broken[row] || score.broken;
-    judged[row] += score.tally.judged;
+    judged[row] += score.counts.judged;
   }
   std::vector<std::string> header{"contestant"};
   for (std::size_t column = 0; column < shown.size(); ++column) header.push_back(letter(column));
   header.emplace_back("verdict");
-  TextTable table(header);
+  support::TextTable table(header);
   for (std::size_t row = 0; row < contestants.size(); ++row) {
     std::vector<std::string> line{contestants[row]};
     for (std::size_t column = 0; column < shown.size(); ++column) {
       const auto cell = cells.find({row, column});
       line.push_back(cell == cells.end() ? "" : cell->second.text());
     }
-    line.emplace_back(verdict_on(broken[row], judged[row]));
+    line.emplace_back(results::verdict_on(broken[row], judged[row]));
     table.add(line);
   }
   std::string text = table.text() + '\n';
@@ -98,17 +98,17 @@ std::string stress_table(const std::vector<Score>& scores) {
   text +=
       "N missed, made up or malformed, ~N otherwise off by more than declared, or, where nothing is "
       "declared, than " +
-      fmt::format("{:g}", physical_tolerance) +
+      fmt::format("{:g}", oracle::physical_tolerance) +
       " of the diagonal, . none, R refused, - unsupported, C crashed, T timeout\n";
   return text + sums(scores);
 }
 
-std::string stress_json(const RunDescription& description, const StressRun& run) {
+std::string stress_json(const results::RunDescription& description, const StressRun& run) {
   using Json = nlohmann::ordered_json;
-  Json json = run_circumstances(description);
+  Json json = results::run_circumstances(description);
   const StressRequest& request = run.request();
   json["queries"] = Json::array();
-  for (const Query query : request.queries) json["queries"].push_back(name_of(query));
+  for (const workload::Query query : request.queries) json["queries"].push_back(name_of(query));
   json["probes"] = request.probes;
   json["families"] = Json::array();
   for (const Family* family : request.families) {
@@ -121,8 +121,8 @@ std::string stress_json(const RunDescription& description, const StressRun& run)
   }
   json["contestants"] = Json::array();
   for (std::size_t i = 0; i < request.contestants.size(); ++i)
-    json["contestants"].push_back(contestant_json(request.contestants[i], run.flushed_to_zero(i)));
+    json["contestants"].push_back(results::contestant_json(request.contestants[i], run.flushed_to_zero(i)));
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::stress

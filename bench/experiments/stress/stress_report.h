@@ -8,11 +8,11 @@
 #include "bench/experiments/stress/stress_run.h"
 #include "bench/results/run_json.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::stress {
 
 /// Contestants by families, what the columns stand for, and the sums.
 std::string stress_table(const std::vector<Score>& scores);
 
-std::string stress_json(const RunDescription& description, const StressRun& run);
+std::string stress_json(const results::RunDescription& description, const StressRun& run);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::stress

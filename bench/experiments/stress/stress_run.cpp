@@ -12,7 +12,7 @@
 #include "bench/support/shell_word.h"
 #include "bench/workload/query_name.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::stress {
 namespace {
 
 constexpr std::size_t probes_a_round = 20'000;
@@ -21,20 +21,21 @@ constexpr std::size_t faults_kept = 1000;
 constexpr double pass_budget_ns = 2e9;
 /// One repetition, to see that the same questions get the same answers again, and how fast; in a family's
 /// first round, as further ones only ask more.
-constexpr Effort first_effort{1, 0, pass_budget_ns, 0}, further_effort{0, 0, pass_budget_ns, 0};
+constexpr measurement::Effort first_effort{1, 0, pass_budget_ns, 0}, further_effort{0, 0, pass_budget_ns, 0};
 
 /// To be followed by the step's number; see --repeat of `touchmark stress`.
-std::string repeat_command(const Family& family, std::uint64_t seed, std::size_t probes, std::size_t place,
-                           const Workload& workload, const ResultRow& row) {
-  const auto course = std::find(workload.trajectories.begin(), workload.trajectories.end(), row.trajectory);
+std::string repeat_command(const Family& family, std::uint64_t seed, std::size_t probes,
+                           std::size_t workload_index, const workload::Workload& workload,
+                           const measurement::ResultRow& row) {
+  const auto trace = std::find(workload.trajectories.begin(), workload.trajectories.end(), row.trajectory);
   return fmt::format("touchmark stress --family {} --seed {} --probes {} --detector {} --repeat {}/{}/{}/",
-                     family.name, seed, probes, quoted(row.contestant()), name_of(row.query), place,
-                     course - workload.trajectories.begin());
+                     family.name, seed, probes, support::quoted(row.contestant()), name_of(row.query),
+                     workload_index, trace - workload.trajectories.begin());
 }
 
 }  // namespace
 
-StressRun::StressRun(const Roster& roster, StressRequest request)
+StressRun::StressRun(const contestants::Roster& roster, StressRequest request)
     : roster_(roster), request_(std::move(request)), flushed_to_zero_(request_.contestants.size()) {}
 
 FamilyCount StressRun::count_of(const Family& family) const {
@@ -55,7 +56,7 @@ void StressRun::run(const Progress& progress) {
 void StressRun::run_round(const Family& family, std::uint64_t seed, std::size_t probes,
                           const Progress& progress) {
   progress(fmt::format("{}: asking the oracle", family.name));
-  std::vector<Workload> workloads;
+  std::vector<workload::Workload> workloads;
   try {
     workloads = family.make(seed, probes);
   } catch (const MeshError& error) {
@@ -63,34 +64,36 @@ void StressRun::run_round(const Family& family, std::uint64_t seed, std::size_t 
     return;
   }
   ++counts_[&family].rounds;
-  for (std::size_t place = 0; place < workloads.size(); ++place) {
-    if (!workloads[place].courses.empty())
-      run_workload(family, seed, probes, place, workloads[place], progress);
+  for (std::size_t workload_index = 0; workload_index < workloads.size(); ++workload_index) {
+    if (!workloads[workload_index].traces.empty())
+      run_workload(family, seed, probes, workload_index, workloads[workload_index], progress);
   }
 }
 
-void StressRun::run_workload(const Family& family, std::uint64_t seed, std::size_t probes, std::size_t place,
-                             const Workload& workload, const Progress& progress) {
-  const Effort& effort = counts_[&family].rounds > 1 ? further_effort : first_effort;
-  Comparison comparison(roster_, workload, request_.contestants, request_.workers, effort, request_.seed);
-  comparison.set_progress([&](const std::string& course, const std::string& contestant) {
-    progress(fmt::format("{}, {}, {}: {}", family.name, workload.mesh_name, course, contestant));
+void StressRun::run_workload(const Family& family, std::uint64_t seed, std::size_t probes,
+                             std::size_t workload_index, const workload::Workload& workload,
+                             const Progress& progress) {
+  const measurement::Effort& effort = counts_[&family].rounds > 1 ? further_effort : first_effort;
+  measurement::Comparison comparison(roster_, workload, request_.contestants, request_.workers, effort,
+                                     request_.seed);
+  comparison.set_progress([&](const std::string& trace, const std::string& contestant) {
+    progress(fmt::format("{}, {}, {}: {}", family.name, workload.mesh_name, trace, contestant));
   });
-  std::vector<ResultRow> rows;
+  std::vector<measurement::ResultRow> rows;
   const auto keep = [&] {
-    for (ResultRow& row : rows) {
-      row.repeat = repeat_command(family, seed, probes, place, workload, row);
+    for (measurement::ResultRow& row : rows) {
+      row.repeat = repeat_command(family, seed, probes, workload_index, workload, row);
       add(family, row, row.trajectory == workload.trajectories.front());
     }
   };
   try {
     comparison.run_all(request_.queries, rows);
-  } catch (const Interrupted&) {
+  } catch (const support::Interrupted&) {
     keep();
     throw;
   }
   keep();
-  for (const std::vector<Step>& course : workload.courses) counts_[&family].probes += course.size();
+  for (const std::vector<workload::Step>& trace : workload.traces) counts_[&family].probes += trace.size();
   for (std::size_t i = 0; i < request_.contestants.size(); ++i) {
     if (comparison.contestants()[i].opened().flushed_to_zero) flushed_to_zero_[i] = true;
   }
@@ -98,9 +101,9 @@ void StressRun::run_workload(const Family& family, std::uint64_t seed, std::size
 
 /// There is no mesh to give to any of them.
 void StressRun::refuse_all(const Family& family, const std::string& why) {
-  for (const ContestantSpec& spec : request_.contestants) {
-    for (const Query query : request_.queries) {
-      ResultRow row;
+  for (const contestants::ContestantSpec& spec : request_.contestants) {
+    for (const workload::Query query : request_.queries) {
+      measurement::ResultRow row;
       row.detector = spec.name;
       row.options = spec.options;
       row.claimed = spec.claimed;
@@ -112,13 +115,14 @@ void StressRun::refuse_all(const Family& family, const std::string& why) {
 }
 
 std::size_t StressRun::place_of(const Score& score) const {
-  const auto spec = std::find_if(
-      request_.contestants.begin(), request_.contestants.end(),
-      [&](const ContestantSpec& one) { return one.name == score.detector && one.options == score.options; });
+  const auto spec = std::find_if(request_.contestants.begin(), request_.contestants.end(),
+                                 [&](const contestants::ContestantSpec& one) {
+                                   return one.name == score.detector && one.options == score.options;
+                                 });
   return static_cast<std::size_t>(spec - request_.contestants.begin());
 }
 
-void StressRun::add(const Family& family, const ResultRow& row, bool of_another_mesh) {
+void StressRun::add(const Family& family, const measurement::ResultRow& row, bool of_another_mesh) {
   auto score =
       std::find_if(scores_.begin(), scores_.end(), [&](const Score& one) { return one.is_of(row, family); });
   if (score == scores_.end()) {
@@ -129,9 +133,9 @@ void StressRun::add(const Family& family, const ResultRow& row, bool of_another_
     score = scores_.insert(after, first);
   }
   score->add(row, of_another_mesh);
-  if (list_of_failures({row}, 1).empty() || faults_.size() == faults_kept) return;
+  if (results::list_of_failures({row}, 1).empty() || faults_.size() == faults_kept) return;
   faults_.push_back(row);
   faults_.back().mesh = fmt::format("{}: {}", family.name, row.mesh);
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::stress

@@ -10,7 +10,7 @@
 #include "bench/results/results_csv.h"
 #include "bench/support/text_table.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::update {
 namespace {
 
 struct Column {
@@ -27,13 +27,13 @@ std::string of_update(Row row) {
   return row.updated ? fmt::format("{:.6g}", static_cast<double>((*row.updated).*Member)) : "";
 }
 template <auto Member>
-std::string of_tally(Row row) {
-  return row.tally ? fmt::format("{}", (*row.tally).*Member) : "";
+std::string of_counts(Row row) {
+  return row.counts ? fmt::format("{}", (*row.counts).*Member) : "";
 }
 
 std::string guarantee(Row row) {
   if (!row.accuracy) return "";
-  return std::string(guarantee_name(row.accuracy->guarantee));
+  return std::string(measurement::guarantee_name(row.accuracy->guarantee));
 }
 
 // The order is the contract. schema comes before these.
@@ -47,24 +47,24 @@ constexpr std::array columns{
     Column{"moved_vertices", [](Row row) { return fmt::format("{}", row.moved_vertices); }},
     Column{"guarantee", guarantee},
     Column{"status", [](Row row) { return row.status; }},
-    Column{"rounds", of_update<&Updated::rounds>},
-    Column{"build_ms", of_update<&Updated::build_ms>},
-    Column{"update_ms", of_update<&Updated::update_ms>},
-    Column{"update_over_build", of_update<&Updated::update_over_build>},
+    Column{"rounds", of_update<&workers::Updated::rounds>},
+    Column{"build_ms", of_update<&workers::Updated::build_ms>},
+    Column{"update_ms", of_update<&workers::Updated::update_ms>},
+    Column{"update_over_build", of_update<&workers::Updated::update_over_build>},
     Column{"ns_per_query_updated", [](Row row) { return rounded(row.ns_updated); }},
     Column{"ns_per_query_built", [](Row row) { return rounded(row.ns_built); }},
     Column{"answers_as_built",
            [](Row row) {
              return std::string(!row.answers_as_built ? "" : *row.answers_as_built ? "1" : "0");
            }},
-    Column{"judged", of_tally<&Tally::judged>},
-    Column{"missed", of_tally<&Tally::missed>},
-    Column{"false_contacts", of_tally<&Tally::false_contacts>},
-    Column{"wrong_triangle", of_tally<&Tally::wrong_triangle>},
-    Column{"beyond_bound", of_tally<&Tally::beyond_bound>},
-    Column{"malformed", of_tally<&Tally::malformed>},
-    Column{"unresolved", of_tally<&Tally::unresolved>},
-    Column{"max_distance_error_of_diagonal", of_tally<&Tally::max_distance_error_of_diagonal>},
+    Column{"judged", of_counts<&oracle::ErrorCounts::judged>},
+    Column{"missed", of_counts<&oracle::ErrorCounts::missed>},
+    Column{"false_contacts", of_counts<&oracle::ErrorCounts::false_contacts>},
+    Column{"wrong_triangle", of_counts<&oracle::ErrorCounts::wrong_triangle>},
+    Column{"beyond_bound", of_counts<&oracle::ErrorCounts::beyond_bound>},
+    Column{"malformed", of_counts<&oracle::ErrorCounts::malformed>},
+    Column{"unresolved", of_counts<&oracle::ErrorCounts::unresolved>},
+    Column{"max_distance_error_of_diagonal", of_counts<&oracle::ErrorCounts::max_distance_error_of_diagonal>},
 };
 
 template <class Values, class Value>
@@ -84,24 +84,24 @@ std::string table_of(const std::vector<UpdateRow>& rows, const std::string& mesh
   for (const double share : shares) header.push_back(fmt::format("{:g} %", 100 * share));
   for (const char* name : {"query then", "missed", "false", "triangle", "off", "status"})
     header.emplace_back(name);
-  TextTable table(header);
+  support::TextTable table(header);
   for (const std::string& contestant : contestants) {
     std::vector<std::string> cells{contestant, ""};
     std::optional<double> dearest;
-    Tally errors;
+    oracle::ErrorCounts errors;
     std::string status = "ok";
     for (const UpdateRow& row : rows) {
       if (row.mesh != mesh || row.contestant() != contestant) continue;
       if (row.updated) cells[1] = fmt::format("{:.3g}", row.updated->build_ms);
       cells.push_back(row.updated ? fmt::format("{:.3g}", row.updated->update_over_build) : "");
-      if (row.tally) errors += *row.tally;
+      if (row.counts) errors += *row.counts;
       if (row.status != "ok") status = row.status;
       if (row.ns_updated && row.ns_built)
         dearest = std::max(dearest.value_or(0), *row.ns_updated / std::max(*row.ns_built, 1e-3));
     }
     cells.push_back(dearest ? fmt::format("{:.2f}", *dearest) : "");
     for (const std::uint64_t count :
-         {errors.missed, errors.false_contacts, errors.wrong_triangle, answers_off(errors)})
+         {errors.missed, errors.false_contacts, errors.wrong_triangle, measurement::answers_off(errors)})
       cells.push_back(status == "ok" ? fmt::format("{}", count) : "");
     cells.push_back(status);
     table.add(std::move(cells));
@@ -117,11 +117,11 @@ std::string table_of(const std::vector<UpdateRow>& rows, const std::string& mesh
 std::string update_csv(const std::vector<UpdateRow>& rows) {
   std::vector<std::string> header{"schema"};
   for (const Column& column : columns) header.emplace_back(column.name);
-  std::string csv = csv_line(header);
+  std::string csv = results::csv_line(header);
   for (const UpdateRow& row : rows) {
     std::vector<std::string> fields{fmt::format("{}", update_schema)};
     for (const Column& column : columns) fields.push_back(column.value(row));
-    csv += csv_line(fields);
+    csv += results::csv_line(fields);
   }
   return csv;
 }
@@ -134,4 +134,4 @@ std::string update_table(const std::vector<UpdateRow>& rows) {
   return text;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::update

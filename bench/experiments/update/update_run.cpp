@@ -11,23 +11,23 @@
 #include "bench/trajectories/trajectories.h"
 #include "bench/workload/sample_steps.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::update {
 namespace {
 
 constexpr std::size_t default_steps = 5000;
-constexpr std::size_t probes_about_what_moved = 1000;
+constexpr std::size_t probes_near_what_moved = 1000;
 constexpr double ns_to_time = 50e6;
 
 /// About places where moved vertices were and are, within four radii.
-std::vector<Step> about_what_moved(const TriangleMesh& before, const TriangleMesh& after, const Step& like,
-                                   std::uint64_t seed) {
+std::vector<workload::Step> near_what_moved(const TriangleMesh& before, const TriangleMesh& after,
+                                            const workload::Step& like, std::uint64_t seed) {
   std::vector<std::size_t> moved;
   for (std::size_t i = 0; i < before.vertices().size(); ++i)
     if (std::memcmp(before.vertices()[i].data(), after.vertices()[i].data(), 3 * sizeof(double)) != 0)
       moved.push_back(i);
-  Random random(seed);
-  std::vector<Step> steps;
-  for (std::size_t i = 0; i < probes_about_what_moved && !moved.empty(); ++i) {
+  support::Random random(seed);
+  std::vector<workload::Step> steps;
+  for (std::size_t i = 0; i < probes_near_what_moved && !moved.empty(); ++i) {
     const std::size_t vertex = moved[random.below(moved.size())];
     const Vec3& near = (i % 2 == 0 ? before : after).vertices()[vertex];
     steps.push_back(like);
@@ -39,79 +39,80 @@ std::vector<Step> about_what_moved(const TriangleMesh& before, const TriangleMes
 
 }  // namespace
 
-UpdateRun::Scene::Scene(const TriangleMesh& undeformed, const Deformation& how)
+UpdateRun::Scene::Scene(const TriangleMesh& undeformed, const scenes::Deformation& how)
     : deformation(how),
-      mesh(deformed(undeformed, how)),
-      moved(moved_vertices(undeformed, mesh)),
+      mesh(scenes::deformed(undeformed, how)),
+      moved(scenes::moved_vertices(undeformed, mesh)),
       oracle(mesh) {}
 
-UpdateRun::UpdateRun(const Roster& roster, const std::vector<ContestantSpec>& contestants,
-                     const Selection& selection, std::string mesh_name, const TriangleMesh& mesh,
+UpdateRun::UpdateRun(const contestants::Roster& roster,
+                     const std::vector<contestants::ContestantSpec>& contestants,
+                     const workload::Selection& selection, std::string mesh_name, const TriangleMesh& mesh,
                      const std::vector<double>& shares, const std::string& trajectory,
-                     const WorkerOptions& workers)
+                     const workers::WorkerOptions& workers)
     : query_(selection.queries.front()),
       workload_{[&] {
-        Workload all{std::move(mesh_name), mesh, selection.radius.in_mesh_units(mesh), {}, {}, {}};
+        workload::Workload all{std::move(mesh_name), mesh, selection.radius.in_mesh_units(mesh), {}, {}, {}};
         if (selection.reach) all.reach = selection.reach->in_mesh_units(mesh);
         for (const double share : shares) {
-          scenes_.push_back(std::make_unique<Scene>(mesh, Deformation{share, selection.seed}));
-          Workload one =
-              make_workload(all.mesh_name, scenes_.back()->mesh, selection, {trajectory}, default_steps);
+          scenes_.push_back(std::make_unique<Scene>(mesh, scenes::Deformation{share, selection.seed}));
+          workload::Workload one = workload::make_workload(all.mesh_name, scenes_.back()->mesh, selection,
+                                                           {trajectory}, default_steps);
           const std::string after = fmt::format("after {:g} % moved", 100 * share);
           all.trajectories.push_back(one.trajectories[0] + ' ' + after);
           all.trajectories.push_back("about what moved " + after);
           all.motions.push_back(one.motions[0]);
           all.motions.emplace_back();
           all.unit = one.unit;
-          all.courses.push_back(std::move(one.courses[0]));
-          all.courses.push_back(
-              about_what_moved(mesh, scenes_.back()->mesh, all.courses.back()[0], selection.seed));
+          all.traces.push_back(std::move(one.traces[0]));
+          all.traces.push_back(
+              near_what_moved(mesh, scenes_.back()->mesh, all.traces.back()[0], selection.seed));
         }
         return all;
       }()},
       stage_(workload_, workers) {
-  for (const ContestantSpec& spec : contestants)
+  for (const contestants::ContestantSpec& spec : contestants)
     processes_.emplace_back(stage_, spec, roster.find(spec.name).worker_program(spec.values));
-  for (std::size_t course = 0; course < workload_.courses.size(); ++course) {
-    Scene& scene = *scenes_[course / courses_a_scene];
-    scene.truths.emplace_back(scene.oracle, workload_.courses[course]);
+  for (std::size_t trace = 0; trace < workload_.traces.size(); ++trace) {
+    Scene& scene = *scenes_[trace / traces_a_scene];
+    scene.truths.emplace_back(scene.oracle, workload_.traces[trace]);
   }
 }
 
-Task UpdateRun::task_for(std::size_t course) const {
-  return {course, query_, workload_.courses[course].size()};
+workers::Task UpdateRun::task_for(std::size_t trace) const {
+  return {trace, query_, workload_.traces[trace].size()};
 }
 
-Timed UpdateRun::timed(ContestantProcess& process, const Task& task) const {
+workers::Timed UpdateRun::timed(workers::ContestantProcess& process, const workers::Task& task) const {
   const double pass_ns =
       std::max(process.first_pass(task).ns_per_query, 1.0) * static_cast<double>(task.steps);
   return process.time(task, static_cast<std::int64_t>(std::max(ns_to_time / pass_ns, 1.0)));
 }
 
-void UpdateRun::measure(ContestantProcess& process, std::size_t index, UpdateRow& row) {
+void UpdateRun::measure(workers::ContestantProcess& process, std::size_t index, UpdateRow& row) {
   Scene& scene = *scenes_[index];
-  const Built& built = process.build();
+  const workers::Built& built = process.build();
   row.accuracy = built.accuracy;
   const bool answers = std::find(built.queries.begin(), built.queries.end(), query_) != built.queries.end();
-  const Updated updated = answers ? process.update(scene.deformation) : Updated{};
+  const workers::Updated updated = answers ? process.update(scene.deformation) : workers::Updated{};
   if (!updated.supported) {
     row.status = "unsupported";
     return;
   }
-  if (!updated.refused.empty()) throw WorkerFailure("refused: " + updated.refused);
+  if (!updated.refused.empty()) throw workers::WorkerFailure("refused: " + updated.refused);
   row.updated = updated;
-  Tally tally;
-  for (std::size_t k = 0; k < courses_a_scene; ++k) {
-    const Task task = task_for(courses_a_scene * index + k);
+  oracle::ErrorCounts counts;
+  for (std::size_t k = 0; k < traces_a_scene; ++k) {
+    const workers::Task task = task_for(traces_a_scene * index + k);
     process.answer(task);
-    tally += scene.truths[k].judge(query_, plan_windows(task.steps, task.steps),
-                                   stage_.room().answers(task.steps), *row.accuracy);
+    counts += scene.truths[k].judge(query_, workload::sample_steps(task.steps, task.steps),
+                                    stage_.room().answers(task.steps), *row.accuracy);
   }
-  row.tally = tally;
-  const Task along = task_for(courses_a_scene * index);
-  const Timed after_update = timed(process, along);
+  row.counts = counts;
+  const workers::Task along = task_for(traces_a_scene * index);
+  const workers::Timed after_update = timed(process, along);
   process.rebuild(scene.deformation);
-  const Timed after_build = timed(process, along);
+  const workers::Timed after_build = timed(process, along);
   row.ns_updated = after_update.cpu_ns_per_query;
   row.ns_built = after_build.cpu_ns_per_query;
   row.answers_as_built = after_update.checksum == after_build.checksum;
@@ -119,11 +120,11 @@ void UpdateRun::measure(ContestantProcess& process, std::size_t index, UpdateRow
 
 std::vector<UpdateRow> UpdateRun::run(std::size_t contestant,
                                       const std::function<void(double share)>& progress) {
-  ContestantProcess& process = processes_[contestant];
-  const ContestantSpec& spec = process.spec();
+  workers::ContestantProcess& process = processes_[contestant];
+  const contestants::ContestantSpec& spec = process.spec();
   std::vector<UpdateRow> rows;
   for (std::size_t i = 0; i < scenes_.size(); ++i) {
-    check_for_interrupt();
+    support::check_for_interrupt();
     progress(scenes_[i]->deformation.share);
     UpdateRow& row = rows.emplace_back();
     row.detector = spec.name;
@@ -135,7 +136,7 @@ std::vector<UpdateRow> UpdateRun::run(std::size_t contestant,
     row.moved_vertices = scenes_[i]->moved;
     try {
       measure(process, i, row);
-    } catch (const WorkerFailure& failure) {
+    } catch (const workers::WorkerFailure& failure) {
       row.status = failure.what();
     }
   }
@@ -143,4 +144,4 @@ std::vector<UpdateRow> UpdateRun::run(std::size_t contestant,
   return rows;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::update

@@ -18,44 +18,45 @@
 #include "bench/workload/workload.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::update {
 
 class UpdateRun {
  public:
   /// Throws std::invalid_argument or MeshError.
-  UpdateRun(const Roster& roster, const std::vector<ContestantSpec>& contestants, const Selection& selection,
-            std::string mesh_name, const TriangleMesh& mesh, const std::vector<double>& shares,
-            const std::string& trajectory, const WorkerOptions& workers);
+  UpdateRun(const contestants::Roster& roster, const std::vector<contestants::ContestantSpec>& contestants,
+            const workload::Selection& selection, std::string mesh_name, const TriangleMesh& mesh,
+            const std::vector<double>& shares, const std::string& trajectory,
+            const workers::WorkerOptions& workers);
 
   /// A row for each share. Whatever the worker does is the status of the rest of them; only ResourceError and
   /// Interrupted are thrown.
   std::vector<UpdateRow> run(std::size_t contestant, const std::function<void(double share)>& progress);
 
-  const Workload& workload() const noexcept { return workload_; }
-  const std::deque<ContestantProcess>& contestants() const noexcept { return processes_; }
+  const workload::Workload& workload() const noexcept { return workload_; }
+  const std::deque<workers::ContestantProcess>& contestants() const noexcept { return processes_; }
 
  private:
   /// A deformed mesh with what is asked of it: first the trajectory, then probes about what moved.
   struct Scene {
-    Scene(const TriangleMesh& mesh, const Deformation& how);
+    Scene(const TriangleMesh& mesh, const scenes::Deformation& how);
 
-    Deformation deformation;
+    scenes::Deformation deformation;
     TriangleMesh mesh;
     std::size_t moved;
-    Oracle oracle;
-    std::vector<Truths> truths;  // one a course
+    oracle::Oracle oracle;
+    std::vector<ground_truth::GroundTruths> truths;  // one a trace
   };
-  static constexpr std::size_t courses_a_scene = 2;
+  static constexpr std::size_t traces_a_scene = 2;
 
-  void measure(ContestantProcess& process, std::size_t scene, UpdateRow& row);
-  Task task_for(std::size_t course) const;
-  Timed timed(ContestantProcess& process, const Task& task) const;
+  void measure(workers::ContestantProcess& process, std::size_t scene, UpdateRow& row);
+  workers::Task task_for(std::size_t trace) const;
+  workers::Timed timed(workers::ContestantProcess& process, const workers::Task& task) const;
 
-  Query query_;
+  workload::Query query_;
   std::vector<std::unique_ptr<Scene>> scenes_;
-  Workload workload_;
-  WorkerStage stage_;
-  std::deque<ContestantProcess> processes_;
+  workload::Workload workload_;
+  workers::SharedArena arena_;
+  std::deque<workers::ContestantProcess> processes_;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::update

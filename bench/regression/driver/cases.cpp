@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-namespace touchmark::bench::regression {
+namespace touchmark::bench::regression::driver {
 namespace {
 
 constexpr auto touches = touchmark_gate_touches;
@@ -89,4 +89,4 @@ bool Case::needs_file() const { return std::string_view(scene) == "bunny"; }
 
 std::span<const Case> cases() { return pinned; }
 
-}  // namespace touchmark::bench::regression
+}  // namespace touchmark::bench::regression::driver

@@ -7,7 +7,7 @@
 
 #include "bench/regression/driver/plugin.h"
 
-namespace touchmark::bench::regression {
+namespace touchmark::bench::regression::driver {
 
 struct Case {
   const char* detector;  ///< as the plug-in knows it
@@ -15,15 +15,15 @@ struct Case {
   const char* trajectory;
   TouchmarkGateQuery query;
   std::size_t steps;
-  bool timed;  ///< else only its answers and its work are compared
+  bool timed;  ///< false: only its answers and its work are compared
 
   /// DETECTOR/SCENE/TRAJECTORY/QUERY
   std::string name() const;
-  /// Does the mesh come from a file that another machine may lack, or have another edition of?
+  /// Returns true if the mesh comes from a file that another machine may lack, or have another edition of.
   bool needs_file() const;
 };
 
-/// Those of one scene and detector stand together.
+/// Returns all cases; those of one scene and detector stand together.
 std::span<const Case> cases();
 
-}  // namespace touchmark::bench::regression
+}  // namespace touchmark::bench::regression::driver

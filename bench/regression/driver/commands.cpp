@@ -22,7 +22,7 @@
 #include "bench/support/processor_time.h"
 #include "bench/support/random.h"
 
-namespace touchmark::bench::regression {
+namespace touchmark::bench::regression::driver {
 namespace {
 
 std::string answers_row(const PluginLibrary& plugin, Workloads& workloads, const Case& asked) {
@@ -49,7 +49,8 @@ bool share_detector(const Case& a, const Case& b) {
   return std::string_view(a.detector) == b.detector && std::string_view(a.scene) == b.scene;
 }
 
-/// Those whose mesh is here. Throws std::invalid_argument when `only` names what is no timed case.
+/// Returns the cases whose mesh is here. Throws std::invalid_argument when `only` names what is no timed
+/// case.
 std::vector<Group> timed_groups(const std::vector<std::string>& only, Workloads& workloads) {
   std::vector<Group> groups;
   std::size_t found = 0;
@@ -69,7 +70,8 @@ std::vector<Group> timed_groups(const std::vector<std::string>& only, Workloads&
 
 class Sitting {
  public:
-  Sitting(const std::array<PluginLibrary, 3>& plugins, const std::array<double, 3>& again, Random& random)
+  Sitting(const std::array<PluginLibrary, 3>& plugins, const std::array<double, 3>& again,
+          support::Random& random)
       : plugins_(plugins), again_(again), random_(random) {}
 
   /// False when one of the plug-ins refuses.
@@ -90,9 +92,9 @@ class Sitting {
       TouchmarkGatePass mine = pass;
       (void)plugins_[i].replay(detectors_[i], mine);
       mine.again = again_[i];
-      const double before = processor_ns();
+      const double before = support::processor_ns();
       (void)plugins_[i].replay(detectors_[i], mine);
-      ns[i] = processor_ns() - before;
+      ns[i] = support::processor_ns() - before;
     }
     return ns;
   }
@@ -106,7 +108,7 @@ class Sitting {
 
   const std::array<PluginLibrary, 3>& plugins_;
   const std::array<double, 3>& again_;
-  Random& random_;
+  support::Random& random_;
   std::array<PluginLibrary::Detector, 3> detectors_;
 };
 
@@ -115,7 +117,7 @@ class Sitting {
 void write_answers(const std::string& plugin, const std::string& out) {
   const PluginLibrary library(plugin);
   Workloads workloads;
-  AtomicFile file(out);
+  support::AtomicFile file(out);
   file.write("case,needs_file,inputs,cells,spheres,boxes,triangles,answers,details,note\n");
   for (const Case& asked : cases()) file.write(answers_row(library, workloads, asked));
   file.commit();
@@ -146,7 +148,7 @@ void count_instructions(const std::string& plugin, double again) {
   }
 #else
   (void)plugin, (void)again;
-  throw ResourceError("built without valgrind's headers: install valgrind and build again");
+  throw support::ResourceError("built without valgrind's headers: install valgrind and build again");
 #endif
 }
 
@@ -156,8 +158,8 @@ void write_times(const Timing& timing, const std::string& out) {
   const std::array<double, 3> again = {timing.base_again, timing.base_again, timing.head_again};
   Workloads workloads;
   const std::vector<Group> groups = timed_groups(timing.only, workloads);
-  Random random(timing.seed);
-  AtomicFile file(out);
+  support::Random random(timing.seed);
+  support::AtomicFile file(out);
   file.write("case,sitting,round,base_ns,control_ns,head_ns\n");
   for (std::size_t sitting = 0; sitting < timing.sittings; ++sitting) {
     for (const Group& group : groups) {
@@ -176,4 +178,4 @@ void write_times(const Timing& timing, const std::string& out) {
   file.commit();
 }
 
-}  // namespace touchmark::bench::regression
+}  // namespace touchmark::bench::regression::driver

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace touchmark::bench::regression {
+namespace touchmark::bench::regression::driver {
 
 /// case,needs_file,inputs,cells,spheres,boxes,triangles,answers,details,note: checksums in hexadecimal; where
 /// there is a note, it says why there are no numbers.
@@ -21,9 +21,9 @@ void count_instructions(const std::string& plugin, double again);
 struct Timing {
   std::string base, control, head;  ///< plug-ins; control is a copy of base under another name
   std::vector<std::string> only;    ///< names of cases; empty: all timed ones
-  std::uint64_t seed = 1;           ///< of the order
+  std::uint64_t seed = 1;           ///< for the random order
   std::size_t sittings = 6;         ///< how often detectors are built anew, so that memory lies elsewhere
-  std::size_t rounds = 25;          ///< of each sitting: every plug-in once, in random order
+  std::size_t rounds = 25;          ///< in each sitting: every plug-in once, in random order
   double base_again = 0;            ///< slows base and control down; see TouchmarkGatePass
   double head_again = 0;
 };
@@ -32,4 +32,4 @@ struct Timing {
 /// left out.
 void write_times(const Timing& timing, const std::string& out);
 
-}  // namespace touchmark::bench::regression
+}  // namespace touchmark::bench::regression::driver

@@ -22,7 +22,7 @@ int fail(int status, const std::string& what) {
 }
 
 void list_cases() {
-  for (const regression::Case& listed : regression::cases())
+  for (const regression::driver::Case& listed : regression::driver::cases())
     fmt::print("{}{}\n", listed.name(), listed.timed ? "" : " (not timed)");
 }
 
@@ -40,19 +40,19 @@ int main(int argc, char** argv) {
       "Example: touchmark-regression answers --plugin build/regress/head/plugin.so --out answers.csv\n");
   std::string plugin, out;
   double again = 0;
-  regression::Timing timing;
+  regression::driver::Timing timing;
 
   program.add_subcommand("list", "the pinned cases")->callback(list_cases);
 
   auto* const answers = program.add_subcommand("answers", "work counters and checksums of every case");
   answers->add_option("--plugin", plugin)->required();
   answers->add_option("--out", out)->required();
-  answers->callback([&] { regression::write_answers(plugin, out); });
+  answers->callback([&] { regression::driver::write_answers(plugin, out); });
 
   auto* const instructions = program.add_subcommand("instructions", "under callgrind: a dump for every case");
   instructions->add_option("--plugin", plugin)->required();
   add_share(*instructions, "--again", again, "share of the steps to ask twice");
-  instructions->callback([&] { regression::count_instructions(plugin, again); });
+  instructions->callback([&] { regression::driver::count_instructions(plugin, again); });
 
   auto* const times = program.add_subcommand("times", "three builds in one process, in random order");
   times->add_option("--base", timing.base)->required();
@@ -65,7 +65,7 @@ int main(int argc, char** argv) {
   add_share(*times, "--base-again", timing.base_again, "share of the steps that base and control ask twice");
   add_share(*times, "--head-again", timing.head_again, "share of the steps that head asks twice");
   times->add_option("--out", out)->required();
-  times->callback([&] { regression::write_times(timing, out); });
+  times->callback([&] { regression::driver::write_times(timing, out); });
 
   try {
     program.parse(argc, argv);

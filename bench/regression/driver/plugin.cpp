@@ -39,25 +39,27 @@ using touchmark::Vec3;
 /// Whether, which and how far: little enough to be folded in while time is taken.
 class Answers {
  public:
-  void add(bool touching) noexcept { fold(touching ? 1 : 0); }
-  void add(const std::optional<Contact>& contact) noexcept { contact ? add(*contact, 0) : fold(0); }
+  void add(bool touching) noexcept { hash_combine(touching ? 1 : 0); }
+  void add(const std::optional<Contact>& contact) noexcept { contact ? add(*contact, 0) : hash_combine(0); }
   void add(const std::optional<Impact>& impact) noexcept {
-    impact ? add(impact->contact, impact->fraction) : fold(0);
+    impact ? add(impact->contact, impact->fraction) : hash_combine(0);
   }
   std::uint64_t value() const noexcept { return value_; }
   static std::uint64_t details() noexcept { return 0; }
 
  private:
   void add(const Contact& contact, double fraction) noexcept {
-    fold((std::uint64_t{contact.triangle} + 1) ^ std::bit_cast<std::uint64_t>(fraction));
-    fold(std::bit_cast<std::uint64_t>(contact.distance));
+    hash_combine((std::uint64_t{contact.triangle} + 1) ^ std::bit_cast<std::uint64_t>(fraction));
+    hash_combine(std::bit_cast<std::uint64_t>(contact.distance));
   }
-  void fold(std::uint64_t bits) noexcept { value_ = (std::rotl(value_, 7) ^ bits) * 0x9e3779b97f4a7c15ULL; }
+  void hash_combine(std::uint64_t bits) noexcept {
+    value_ = (std::rotl(value_, 7) ^ bits) * 0x9e3779b97f4a7c15ULL;
+  }
 
   std::uint64_t value_ = 1;  // of nothing found in one step is not that of nothing in two
 };
 
-/// And where, and facing which way.
+/// Hashes points and normals, too.
 class FullAnswers {
  public:
   void add(bool touching) noexcept { answers_.add(touching); }
@@ -100,34 +102,34 @@ class DetectorOf final : public TouchmarkGateDetector {
  private:
   using Session = typename D::Session;
 
-  template <class Fold>
+  template <class Hash>
   TouchmarkGateResult run(const TouchmarkGatePass& pass) const {
     Session session;
-    Fold fold;
-    ask(pass, 0, pass.count, session, fold);
+    Hash hash;
+    ask(pass, 0, pass.count, session, hash);
     const touchmark::Work& work = session.work;
     TouchmarkGateResult result = {work.cells,     work.spheres, work.boxes,
-                                  work.triangles, fold.value(), fold.details()};
+                                  work.triangles, hash.value(), hash.details()};
     if (pass.again > 0) ask_again(pass);
     return result;
   }
 
-  template <class Fold>
+  template <class Hash>
   void ask(const TouchmarkGatePass& pass, std::size_t begin, std::size_t end, Session& session,
-           Fold& fold) const noexcept {
+           Hash& hash) const noexcept {
     switch (pass.query) {
       case touchmark_gate_touches:
         for (std::size_t i = begin; i < end; ++i)
-          fold.add(detector_.touches(Probe{center_of(pass, i), pass.radius}, session));
+          hash.add(detector_.touches(Probe{center_of(pass, i), pass.radius}, session));
         return;
       case touchmark_gate_nearest:
         for (std::size_t i = begin; i < end; ++i)
-          fold.add(detector_.nearest(Probe{center_of(pass, i), pass.radius}, pass.reach, session));
+          hash.add(detector_.nearest(Probe{center_of(pass, i), pass.radius}, pass.reach, session));
         return;
       case touchmark_gate_sweep:
         for (std::size_t i = begin; i < end; ++i) {
           const Vec3 from = center_of(pass, i > 0 ? i - 1 : 0);
-          fold.add(detector_.first_hit(touchmark::Sweep{from, center_of(pass, i), pass.radius}, session));
+          hash.add(detector_.first_hit(touchmark::Sweep{from, center_of(pass, i), pass.radius}, session));
         }
         return;
     }
@@ -140,11 +142,11 @@ class DetectorOf final : public TouchmarkGateDetector {
     const auto run_length = static_cast<std::size_t>(run);
     const auto period = static_cast<std::size_t>(run / share + 0.5);
     Session session;
-    Answers fold;
+    Answers hash;
     for (std::size_t begin = 0; begin < pass.count; begin += period)
-      ask(pass, begin, std::min(begin + run_length, pass.count), session, fold);
+      ask(pass, begin, std::min(begin + run_length, pass.count), session, hash);
     static volatile std::uint64_t kept;  // so that the work is not optimised away
-    kept = fold.value();
+    kept = hash.value();
   }
 
   D detector_;

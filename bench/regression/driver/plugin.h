@@ -26,17 +26,17 @@ struct TouchmarkGatePass {
   const double* centers;  ///< three a step
   std::size_t count;
   double radius;
-  double reach;  ///< of `nearest`
+  double reach;  ///< for `nearest`
   /// What the gate's own trials slow a build down with: this share of the steps is asked a second time, in
   /// short runs spread over the trajectory, with a session of their own whose work is not counted. 0: none.
   double again;
 };
 
-/// The same on every machine, for the same mesh and pass.
+/// What a pass gives; equal on every machine for equal meshes and passes.
 struct TouchmarkGateResult {
   std::uint64_t cells, spheres, boxes, triangles;  ///< the session's work counters
   std::uint64_t answers;  ///< a checksum: whether found, triangle, distance and fraction, in order
-  std::uint64_t details;  ///< the same of points and normals; `answer` only
+  std::uint64_t details;  ///< a checksum over points and normals; `answer` only
 };
 
 struct TouchmarkGateDetector;

@@ -5,7 +5,7 @@
 
 #include <dlfcn.h>
 
-namespace touchmark::bench::regression {
+namespace touchmark::bench::regression::driver {
 namespace {
 
 template <class Function>
@@ -46,4 +46,4 @@ TouchmarkGateResult PluginLibrary::replay(const Detector& detector, const Touchm
   return result;
 }
 
-}  // namespace touchmark::bench::regression
+}  // namespace touchmark::bench::regression::driver

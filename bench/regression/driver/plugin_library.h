@@ -6,7 +6,7 @@
 
 #include "bench/regression/driver/plugin.h"
 
-namespace touchmark::bench::regression {
+namespace touchmark::bench::regression::driver {
 
 /// Never unloaded: a detector may outlive it.
 class PluginLibrary {
@@ -33,4 +33,4 @@ class PluginLibrary {
   decltype(&touchmark_gate_destroy) destroy_;
 };
 
-}  // namespace touchmark::bench::regression
+}  // namespace touchmark::bench::regression::driver

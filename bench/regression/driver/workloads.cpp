@@ -6,7 +6,7 @@
 #include "bench/scenes/scenes.h"
 #include "bench/trajectories/trajectories.h"
 
-namespace touchmark::bench::regression {
+namespace touchmark::bench::regression::driver {
 namespace {
 
 constexpr double radius_of_diagonal = 0.005;
@@ -45,15 +45,16 @@ std::uint64_t fingerprint(const Workload& workload) {
 
 bool Workloads::available(const Case& asked) {
   if (!asked.needs_file()) return true;
-  const std::vector<SceneInfo> known = scenes();
-  return std::any_of(known.begin(), known.end(),
-                     [&](const SceneInfo& info) { return info.name == asked.scene && info.available; });
+  const std::vector<scenes::SceneInfo> known = scenes::scenes();
+  return std::any_of(known.begin(), known.end(), [&](const scenes::SceneInfo& info) {
+    return info.name == asked.scene && info.available;
+  });
 }
 
 const Workloads::Scene& Workloads::scene(const std::string& name) {
   const auto found = scenes_.find(name);
   if (found != scenes_.end()) return found->second;
-  TriangleMesh mesh = load_scene(name);
+  TriangleMesh mesh = scenes::load_scene(name);
   std::vector<double> vertices = flat(mesh.vertices());
   std::vector<std::uint32_t> triangles;
   triangles.reserve(3 * mesh.size());
@@ -69,7 +70,8 @@ Workload Workloads::of(const Case& asked) {
   std::vector<double>& centers =
       centers_[{asked.scene + std::string(1, '/') + asked.trajectory, asked.steps}];
   if (centers.empty())
-    centers = flat(make_trajectory(asked.trajectory, scene.mesh, {asked.steps, 1, radius}).positions);
+    centers =
+        flat(trajectories::make_trajectory(asked.trajectory, scene.mesh, {asked.steps, 1, radius}).positions);
   Workload workload;
   workload.mesh = {scene.vertices.data(), scene.vertices.size() / 3, scene.triangles.data(),
                    scene.triangles.size() / 3};
@@ -78,4 +80,4 @@ Workload Workloads::of(const Case& asked) {
   return workload;
 }
 
-}  // namespace touchmark::bench::regression
+}  // namespace touchmark::bench::regression::driver

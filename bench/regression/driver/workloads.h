@@ -10,7 +10,7 @@
 #include "bench/regression/driver/cases.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench::regression {
+namespace touchmark::bench::regression::driver {
 
 struct Workload {
   TouchmarkGateMesh mesh = {};
@@ -39,4 +39,4 @@ class Workloads {
   std::map<std::pair<std::string, std::size_t>, std::vector<double>> centers_;
 };
 
-}  // namespace touchmark::bench::regression
+}  // namespace touchmark::bench::regression::driver

@@ -11,7 +11,7 @@
 #include "bench/support/csv_reader.h"
 #include "bench/support/numbers.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::regression::gate {
 namespace {
 
 /// Columns are only ever appended. The last ones may be missing or empty.
@@ -24,7 +24,7 @@ constexpr std::size_t needed_columns = 9;
 /// One record by the names of its columns.
 class Record {
  public:
-  Record(const CsvReader& reader, const std::vector<std::string>& header,
+  Record(const support::CsvReader& reader, const std::vector<std::string>& header,
          const std::vector<std::string>& fields)
       : reader_(reader), header_(header), fields_(fields) {}
 
@@ -37,22 +37,22 @@ class Record {
   bool has(const std::string& column) const { return !text(column).empty(); }
 
   double ratio(const std::string& column) const {
-    const std::optional<double> value = parse_number(text(column));
+    const std::optional<double> value = support::parse_number(text(column));
     if (!value || !(*value > 0) || !std::isfinite(*value)) refuse(column, "a number above 0");
     return *value;
   }
   double amount(const std::string& column) const {
-    const std::optional<double> value = parse_number(text(column));
+    const std::optional<double> value = support::parse_number(text(column));
     if (!value || *value < 0) refuse(column, "a number of 0 or more");
     return *value;
   }
   std::uint64_t count(const std::string& column) const {
-    const std::optional<std::uint64_t> value = parse_count(text(column));
+    const std::optional<std::uint64_t> value = support::parse_count(text(column));
     if (!value) refuse(column, "a whole number");
     return *value;
   }
   std::uint64_t hash(const std::string& column) const {
-    const std::optional<std::uint64_t> value = parse_hex(text(column));
+    const std::optional<std::uint64_t> value = support::parse_hex(text(column));
     if (!value) refuse(column, "a hexadecimal number");
     return *value;
   }
@@ -61,7 +61,7 @@ class Record {
   }
 
  private:
-  const CsvReader& reader_;
+  const support::CsvReader& reader_;
   const std::vector<std::string>& header_;
   const std::vector<std::string>& fields_;
 };
@@ -71,14 +71,14 @@ BaselineRow row_of(const Record& record) {
   row.key = {record.text("mesh"), record.text("trajectory"), record.text("query"), record.text("detector"),
              record.text("reference")};
   row.mesh_hash = record.hash("mesh_fnv1a");
-  row.course_hash = record.hash("course_fnv1a");
+  row.trace_hash = record.hash("course_fnv1a");
   row.steps = record.count("steps");
   if (row.steps == 0) record.refuse("steps", "above 0");
   row.ratio.ratio = row.ratio.low = row.ratio.high = record.ratio("ratio");
   if (record.has("ratio_low")) row.ratio.low = record.ratio("ratio_low");
   if (record.has("ratio_high")) row.ratio.high = record.ratio("ratio_high");
   if (record.has("work_mean"))
-    row.work = WorkResult{record.amount("work_mean"), record.count("work_max"), {}};
+    row.work = measurement::WorkResult{record.amount("work_mean"), record.count("work_max"), {}};
   if (record.has("answers_checksum")) row.checksum = record.hash("answers_checksum");
   row.version = record.text("version");
   row.commit = record.text("commit");
@@ -88,18 +88,18 @@ BaselineRow row_of(const Record& record) {
 
 std::string line_of(const BaselineRow& row) {
   const GateKey& key = row.key;
-  return csv_line({key.mesh, key.trajectory, key.query, key.detector, key.reference, hex(row.mesh_hash),
-                   hex(row.course_hash), fmt::format("{}", row.steps), fmt::format("{:.6g}", row.ratio.ratio),
-                   fmt::format("{:.6g}", row.ratio.low), fmt::format("{:.6g}", row.ratio.high),
-                   row.work ? fmt::format("{}", row.work->mean) : "",
-                   row.work ? fmt::format("{}", row.work->max) : "", row.checksum ? hex(*row.checksum) : "",
-                   row.version, row.commit, row.cpu});
+  return results::csv_line(
+      {key.mesh, key.trajectory, key.query, key.detector, key.reference, support::hex(row.mesh_hash),
+       support::hex(row.trace_hash), fmt::format("{}", row.steps), fmt::format("{:.6g}", row.ratio.ratio),
+       fmt::format("{:.6g}", row.ratio.low), fmt::format("{:.6g}", row.ratio.high),
+       row.work ? fmt::format("{}", row.work->mean) : "", row.work ? fmt::format("{}", row.work->max) : "",
+       row.checksum ? support::hex(*row.checksum) : "", row.version, row.commit, row.cpu});
 }
 
 }  // namespace
 
 Baseline Baseline::read(const std::string& path) {
-  CsvReader reader(path);
+  support::CsvReader reader(path);
   std::vector<std::string> header, fields;
   reader.next(header);
   for (std::size_t i = 0; i < needed_columns; ++i) {
@@ -134,9 +134,9 @@ void Baseline::put(BaselineRow row) {
 }
 
 std::string Baseline::csv() const {
-  std::string text = csv_line({columns.begin(), columns.end()});
+  std::string text = results::csv_line({columns.begin(), columns.end()});
   for (const BaselineRow& row : rows_) text += line_of(row);
   return text;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::regression::gate

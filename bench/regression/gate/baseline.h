@@ -10,7 +10,7 @@
 #include "bench/measurement/result_row.h"
 #include "bench/regression/gate/bootstrap.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::regression::gate {
 
 /// What is compared: a detector against a reference on the same steps.
 struct GateKey {
@@ -26,12 +26,12 @@ struct GateKey {
 struct BaselineRow {
   GateKey key;
   std::uint64_t mesh_hash = 0;
-  std::uint64_t course_hash = 0;
-  std::size_t steps = 0;  ///< replayed, of the course's
+  std::uint64_t trace_hash = 0;
+  std::size_t steps = 0;  ///< replayed, of the trace's
   RatioInterval ratio;    ///< the detector's time over the reference's
-  std::optional<WorkResult> work;
+  std::optional<measurement::WorkResult> work;
   std::optional<std::uint64_t> checksum;
-  std::string version, commit, cpu;  ///< that it was written with; not compared
+  std::string version, commit, cpu;  ///< the program and machine that wrote it; not compared
 };
 
 class Baseline {
@@ -48,4 +48,4 @@ class Baseline {
   std::vector<BaselineRow> rows_;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::regression::gate

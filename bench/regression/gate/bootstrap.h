@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-namespace touchmark::bench {
+namespace touchmark::bench::regression::gate {
 
 struct RatioInterval {
   double ratio = 1;  ///< the median
@@ -17,4 +17,4 @@ struct RatioInterval {
 /// The same for the same numbers and seed.
 RatioInterval median_ratio(std::span<const double> log_ratios, std::uint64_t seed);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::regression::gate

@@ -8,7 +8,7 @@
 #include "bench/regression/gate/baseline.h"
 #include "bench/regression/gate/judge.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::regression::gate {
 
 struct GateLine {
   GateKey key;
@@ -21,4 +21,4 @@ struct GateLine {
 std::string gate_table(const std::vector<GateLine>& lines);
 std::string gate_csv(const std::vector<GateLine>& lines, double tolerance);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::regression::gate

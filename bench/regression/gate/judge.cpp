@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace touchmark::bench {
+namespace touchmark::bench::regression::gate {
 
 std::string_view name_of(Verdict verdict) noexcept {
   switch (verdict) {
@@ -28,7 +28,7 @@ Judgement judge(double baseline, double tolerance, const std::function<Batch()>&
   const double half_way = baseline * std::sqrt(1 + tolerance);
   Judgement judgement;
   int slower = 0, in_doubt = 0;
-  while (judgement.batches < most_batches) {
+  while (judgement.batches < max_batches) {
     judgement.batch = next_batch();
     ++judgement.batches;
     if (!control_holds(judgement.batch, tolerance)) continue;
@@ -45,4 +45,4 @@ Judgement judge(double baseline, double tolerance, const std::function<Batch()>&
   return judgement;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::regression::gate

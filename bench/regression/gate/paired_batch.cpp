@@ -12,34 +12,34 @@
 #include "bench/support/random.h"
 #include "bench/workload/sample_steps.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::regression::gate {
 
 /// One of the three, with the times of its turns.
 class PairedBatches::Contender {
  public:
-  Contender(const PairedBatches& batches, const ContestantSpec& spec)
+  Contender(const PairedBatches& batches, const contestants::ContestantSpec& spec)
       : batches_(batches),
-        process_(batches.stage_, spec, batches.roster_.find(spec.name).worker_program(spec.values)),
-        task_{batches.pair_.course, batches.pair_.query, 1} {}
+        process_(batches.arena_, spec, batches.roster_.find(spec.name).worker_program(spec.values)),
+        task_{batches.pair_.trace, batches.pair_.query, 1} {}
 
  private:
   [[noreturn]] void fail(const std::string& what) const {
     throw GateFailure(fmt::format("{} on {}: {}", process_.spec().text(),
-                                  batches_.workload_.trajectories[task_.course], what));
+                                  batches_.workload_.trajectories[task_.trace], what));
   }
 
   template <class Action>
   auto attempt(Action action) {
     try {
       return action();
-    } catch (const WorkerFailure& failure) {
+    } catch (const workers::WorkerFailure& failure) {
       fail(failure.what());
     }
   }
 
  public:
   void build() {
-    const Built& built = attempt([&] { return process_.build(); });
+    const workers::Built& built = attempt([&] { return process_.build(); });
     if (std::find(built.queries.begin(), built.queries.end(), task_.query) == built.queries.end()) {
       fail("does not answer this query");
     }
@@ -51,19 +51,20 @@ class PairedBatches::Contender {
   }
 
   /// Before anything is timed.
-  GateAnswers answer(std::size_t steps, Truths& truths) {
+  GateAnswers answer(std::size_t steps, ground_truth::GroundTruths& truths) {
     task_.steps = steps;
-    const std::vector<Window> windows = plan_windows(batches_.workload_.courses[task_.course].size(), steps);
-    const Answered answered = attempt([&] { return process_.answer(task_); });
-    const OutputRoom& room = batches_.stage_.room();
-    const std::size_t count = steps_in(windows);
+    const std::vector<workload::StepRange> ranges =
+        workload::sample_steps(batches_.workload_.traces[task_.trace].size(), steps);
+    const workers::Answered answered = attempt([&] { return process_.answer(task_); });
+    const workers::OutputBuffers& buffers = batches_.arena_.buffers();
+    const std::size_t count = workload::steps_in(ranges);
     checksum_ = answered.checksum;
-    const Tally tally = truths.judge(task_.query, windows, room.answers(count), accuracy_);
-    judged_ += tally.judged;
-    if (!keeps_its_word(tally, accuracy_)) {
+    const oracle::ErrorCounts counts = truths.judge(task_.query, ranges, buffers.answers(count), accuracy_);
+    judged_ += counts.judged;
+    if (!oracle::meets_guarantee(counts, accuracy_)) {
       fail("gives wrong answers (touchmark verify says which)");
     }
-    return {checksum_, summarize_work(room.work(count), answered.work)};
+    return {checksum_, measurement::summarize_work(buffers.work(count), answered.work)};
   }
 
   /// One turn that is not counted tells how many passes a turn has.
@@ -78,14 +79,14 @@ class PairedBatches::Contender {
 
  private:
   double timed(std::int64_t passes) {
-    const Timed timed = attempt([&] { return process_.time(task_, passes); });
+    const workers::Timed timed = attempt([&] { return process_.time(task_, passes); });
     if (!timed.steady || timed.checksum != checksum_) fail("answers otherwise when it is timed");
     return timed.cpu_ns_per_query;
   }
 
   const PairedBatches& batches_;
-  ContestantProcess process_;
-  Task task_;
+  workers::ContestantProcess process_;
+  workers::Task task_;
   Accuracy accuracy_;
   std::uint64_t checksum_ = 0;
   std::uint64_t judged_ = 0;
@@ -103,12 +104,12 @@ std::vector<double> differences(const std::vector<double>& a, const std::vector<
 
 }  // namespace
 
-PairedBatches::PairedBatches(const Roster& roster, const Workload& workload, const WorkerStage& stage,
-                             const Oracle& oracle, GatePair pair, const GateEffort& effort, std::size_t steps,
-                             std::uint64_t seed)
+PairedBatches::PairedBatches(const contestants::Roster& roster, const workload::Workload& workload,
+                             const workers::SharedArena& arena, const oracle::Oracle& oracle, GatePair pair,
+                             const GateEffort& effort, std::size_t steps, std::uint64_t seed)
     : roster_(roster),
       workload_(workload),
-      stage_(stage),
+      arena_(arena),
       oracle_(oracle),
       pair_(std::move(pair)),
       effort_(effort),
@@ -118,9 +119,9 @@ PairedBatches::PairedBatches(const Roster& roster, const Workload& workload, con
 void PairedBatches::choose_steps(Contender& detector, Contender& reference) {
   const double budget = effort_.longest_pass_ns;
   const double slower = std::max(detector.ns_per_query(budget), reference.ns_per_query(budget));
-  const std::size_t all = workload_.courses[pair_.course].size();
+  const std::size_t all = workload_.traces[pair_.trace].size();
   const double wanted = std::clamp(budget / slower, 1.0, static_cast<double>(all));
-  steps_ = steps_in(plan_windows(all, static_cast<std::size_t>(wanted)));
+  steps_ = workload::steps_in(workload::sample_steps(all, static_cast<std::size_t>(wanted)));
 }
 
 Batch PairedBatches::measure() {
@@ -129,19 +130,19 @@ Batch PairedBatches::measure() {
   for (Contender& contender : contenders) contender.build();
   auto& [detector, reference, control] = contenders;
   if (steps_ == 0) choose_steps(detector, reference);
-  Truths truths(oracle_, workload_.courses[pair_.course]);
+  ground_truth::GroundTruths truths(oracle_, workload_.traces[pair_.trace]);
   answers_ = detector.answer(steps_, truths);
   reference.answer(steps_, truths);
   control.answer(steps_, truths);
   for (const Contender& contender : contenders) judged_ += contender.judged();
   for (Contender& contender : contenders) contender.warm_up(effort_.turn_ns);
 
-  Random random(seed_++);
+  support::Random random(seed_++);
   std::array<std::size_t, 3> order{0, 1, 2};
   for (std::size_t round = 0; round < effort_.rounds; ++round) {
     random.shuffle(order);
     for (const std::size_t which : order) {
-      check_for_interrupt();
+      support::check_for_interrupt();
       contenders[which].turn();
     }
   }
@@ -150,4 +151,4 @@ Batch PairedBatches::measure() {
           median_ratio(differences(control.log_ns(), reference.log_ns()), seed_)};
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::regression::gate

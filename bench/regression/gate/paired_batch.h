@@ -13,62 +13,62 @@
 #include "bench/workers/contestant_process.h"
 #include "bench/workload/workload.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::regression::gate {
 
-/// A detector, or the reference, that did not answer as it should: crashed, refused the mesh, broke its word,
-/// or answered otherwise when it was timed. what() says who and how.
+/// A detector, or the reference, that did not answer as it should: crashed, refused the mesh, violated its
+/// guarantee, or answered otherwise when it was timed. what() says who and how.
 class GateFailure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
 struct GateEffort {
-  std::size_t rounds = 31;        ///< of one turn each
+  std::size_t rounds = 31;        ///< one turn each
   double turn_ns = 8e6;           ///< a turn replays the steps until it has lasted so long
-  double longest_pass_ns = 20e6;  ///< that a replay of the steps may take, where the gate chooses how many
+  double longest_pass_ns = 20e6;  ///< a replay of the steps may take so long where the gate chooses how many
 };
 
 struct GatePair {
-  ContestantSpec detector;
-  ContestantSpec reference;
-  std::size_t course = 0;
-  Query query = Query::nearest;
+  contestants::ContestantSpec detector;
+  contestants::ContestantSpec reference;
+  std::size_t trace = 0;
+  workload::Query query = workload::Query::nearest;
 };
 
 /// What the detector answered, checked against the oracle.
 struct GateAnswers {
   std::uint64_t checksum = 0;
-  WorkResult work;
+  measurement::WorkResult work;
 };
 
 class PairedBatches {
  public:
   /// All references must outlive it. `steps` 0: as many as both have time for.
-  PairedBatches(const Roster& roster, const Workload& workload, const WorkerStage& stage,
-                const Oracle& oracle, GatePair pair, const GateEffort& effort, std::size_t steps,
-                std::uint64_t seed);
+  PairedBatches(const contestants::Roster& roster, const workload::Workload& workload,
+                const workers::SharedArena& arena, const oracle::Oracle& oracle, GatePair pair,
+                const GateEffort& effort, std::size_t steps, std::uint64_t seed);
 
   /// Starts the three processes anew, so that chance in how memory was laid out is drawn anew, too. Throws
   /// GateFailure, ResourceError or Interrupted.
   Batch measure();
 
-  /// Replayed of the course; known after the first batch.
+  /// Replayed of the trace; known after the first batch.
   std::size_t steps() const noexcept { return steps_; }
   /// The detector's, after the first batch.
   const GateAnswers& answers() const noexcept { return *answers_; }
   /// Answers judged in all batches, of the detector, the reference and its control.
   std::uint64_t judged() const noexcept { return judged_; }
-  /// Of the last batch, one a round: detector over reference.
+  /// Returns the last batch's ratios, one a round: detector over reference.
   const std::vector<double>& log_ratios() const noexcept { return log_ratios_; }
 
  private:
   class Contender;
   void choose_steps(Contender& detector, Contender& reference);
 
-  const Roster& roster_;
-  const Workload& workload_;
-  const WorkerStage& stage_;
-  const Oracle& oracle_;
+  const contestants::Roster& roster_;
+  const workload::Workload& workload_;
+  const workers::SharedArena& arena_;
+  const oracle::Oracle& oracle_;
   GatePair pair_;
   GateEffort effort_;
   std::size_t steps_;
@@ -78,4 +78,4 @@ class PairedBatches {
   std::uint64_t judged_ = 0;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::regression::gate

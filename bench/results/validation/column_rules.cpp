@@ -9,29 +9,31 @@
 #include "bench/support/numbers.h"
 #include "bench/workload/query_name.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::results::validation {
 namespace {
 
 bool is_anything(std::string_view) { return true; }
 bool is_schema(std::string_view text) { return text == std::to_string(results_schema); }
-bool is_count(std::string_view text) { return parse_count(text).has_value(); }
-bool is_above_zero_count(std::string_view text) { return is_count(text) && *parse_count(text) > 0; }
-bool is_query(std::string_view text) { return query_named(text).has_value(); }
+bool is_count(std::string_view text) { return support::parse_count(text).has_value(); }
+bool is_above_zero_count(std::string_view text) { return is_count(text) && *support::parse_count(text) > 0; }
+bool is_query(std::string_view text) { return workload::query_named(text).has_value(); }
 
 bool is_length(std::string_view text) {
-  const std::optional<double> value = parse_number(text);
+  const std::optional<double> value = support::parse_number(text);
   return value && *value >= 0;
 }
 
-bool is_finite(std::string_view text) { return is_length(text) && std::isfinite(*parse_number(text)); }
-bool is_above_zero(std::string_view text) { return is_finite(text) && *parse_number(text) > 0; }
+bool is_finite(std::string_view text) {
+  return is_length(text) && std::isfinite(*support::parse_number(text));
+}
+bool is_above_zero(std::string_view text) { return is_finite(text) && *support::parse_number(text) > 0; }
 
 bool is_angle(std::string_view text) {
   constexpr double rounding = 1e-9;  // of the conversion from radians
-  return is_finite(text) && *parse_number(text) <= 180 + rounding;
+  return is_finite(text) && *support::parse_number(text) <= 180 + rounding;
 }
 
-bool is_share(std::string_view text) { return is_finite(text) && *parse_number(text) <= 1; }
+bool is_share(std::string_view text) { return is_finite(text) && *support::parse_number(text) <= 1; }
 
 bool is_bit(std::string_view text) { return text == "0" || text == "1"; }
 
@@ -130,7 +132,7 @@ constexpr std::array rules{
     counted("wrong_normal", Presence::judged),
     counted("malformed", Presence::judged),
     measured("cpu_ns_per_query", Presence::timed),
-    ColumnRule{"answers_checksum", Presence::judged, &is_hex, "is not 16 hexadecimal digits"},
+    ColumnRule{"answers_checksum", Presence::judged, &support::is_hex, "is not 16 hexadecimal digits"},
     measured("cells_mean", Presence::optional),
     measured("spheres_mean", Presence::optional),
     measured("boxes_mean", Presence::optional),
@@ -148,7 +150,7 @@ constexpr std::array rules{
     clocked("ns_undisturbed_low"),
     clocked("ns_undisturbed_high"),
     ColumnRule{"disturbed_share", Presence::timed, &is_share, "is not a share from 0 to 1"},
-    ColumnRule{"decisions_checksum", Presence::optional, &is_hex, "is not 16 hexadecimal digits"},
+    ColumnRule{"decisions_checksum", Presence::optional, &support::is_hex, "is not 16 hexadecimal digits"},
     counted("judged", Presence::judged),
     counted("beyond_tolerance", Presence::judged),
     counted("rounding", Presence::judged),
@@ -158,4 +160,4 @@ constexpr std::array rules{
 
 std::span<const ColumnRule> column_rules() { return rules; }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results::validation

@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-namespace touchmark::bench {
+namespace touchmark::bench::results::validation {
 
 enum class Presence {
   always,
@@ -27,4 +27,4 @@ std::span<const ColumnRule> column_rules();
 
 inline constexpr std::size_t columns_of_the_contract = 36;
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results::validation

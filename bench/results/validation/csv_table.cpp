@@ -7,7 +7,7 @@
 #include "bench/results/validation/results_check.h"
 #include "bench/support/csv_reader.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::results::validation {
 
 bool CsvTable::has(const std::string& column) const {
   return std::find(header.begin(), header.end(), column) != header.end();
@@ -33,7 +33,7 @@ bool begins_with_columns(const CsvTable& table, const std::vector<std::string_vi
 
 CsvTable read_csv_table(const std::string& path, Faults& faults) {
   CsvTable table{path, {}, {}};
-  CsvReader reader(path);
+  support::CsvReader reader(path);
   try {
     if (!reader.next(table.header)) faults.push_back({path, 0, "", "", "the file is empty"});
     for (std::vector<std::string> fields; reader.next(fields);) {
@@ -65,4 +65,4 @@ void check_form(const CsvTable& table, Faults& faults) {
   }
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results::validation

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace touchmark::bench {
+namespace touchmark::bench::results::validation {
 namespace {
 
 /// Short, and without line ends or anything else that a terminal would obey.
@@ -25,4 +25,4 @@ std::string line_of(const Fault& fault) {
   return fmt::format("{} {}", line, fault.wrong);
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results::validation

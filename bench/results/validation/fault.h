@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace touchmark::bench {
+namespace touchmark::bench::results::validation {
 
 struct Fault {
   std::string file;
@@ -20,4 +20,4 @@ using Faults = std::vector<Fault>;
 /// `results.csv:3: ns_p50 "fast" is not a number`: one line, whatever the value holds.
 std::string line_of(const Fault& fault);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results::validation

@@ -9,17 +9,17 @@
 
 #include <fmt/format.h>
 
-namespace touchmark::bench {
+namespace touchmark::bench::results::validation {
 namespace {
 
 using Json = nlohmann::json;
 
-struct Place {
+struct Location {
   std::string pointer;
   const Json& value;
 };
 
-void check(const Json& schema, const Place& place, std::vector<SchemaFault>& faults);
+void check(const Json& schema, const Location& location, std::vector<SchemaFault>& faults);
 
 bool has_type(const Json& value, std::string_view type) {
   if (type == "integer") {
@@ -31,81 +31,82 @@ bool has_type(const Json& value, std::string_view type) {
          (type == "boolean" && value.is_boolean()) || (type == "null" && value.is_null());
 }
 
-/// Of objects and arrays only what they are: they may be nested deeper than dump() can recur.
+/// Names only the kind of objects and arrays: they may be nested deeper than dump() can recur.
 std::string shown(const Json& value) {
   if (value.is_object()) return fmt::format("{{{} members}}", value.size());
   if (value.is_array()) return fmt::format("[{} items]", value.size());
   return value.is_string() ? value.get<std::string>() : value.dump();
 }
 
-void fail(const Place& place, std::string wrong, std::vector<SchemaFault>& faults) {
-  faults.push_back({place.pointer, shown(place.value), std::move(wrong)});
+void fail(const Location& location, std::string wrong, std::vector<SchemaFault>& faults) {
+  faults.push_back({location.pointer, shown(location.value), std::move(wrong)});
 }
 
-std::string child(const Place& place, const std::string& key) { return place.pointer + "/" + key; }
+std::string child(const Location& location, const std::string& key) { return location.pointer + "/" + key; }
 
-void check_members(const Json& schemas, const Place& place, std::vector<SchemaFault>& faults) {
-  if (!place.value.is_object()) return;
-  for (const auto& [key, member] : place.value.items()) {
-    if (schemas.contains(key)) check(schemas[key], {child(place, key), member}, faults);
+void check_members(const Json& schemas, const Location& location, std::vector<SchemaFault>& faults) {
+  if (!location.value.is_object()) return;
+  for (const auto& [key, member] : location.value.items()) {
+    if (schemas.contains(key)) check(schemas[key], {child(location, key), member}, faults);
   }
 }
 
-void check_required(const Json& keys, const Place& place, std::vector<SchemaFault>& faults) {
-  if (!place.value.is_object()) return;
+void check_required(const Json& keys, const Location& location, std::vector<SchemaFault>& faults) {
+  if (!location.value.is_object()) return;
   for (const Json& key : keys) {
-    if (place.value.contains(key.get<std::string>())) continue;
-    faults.push_back({child(place, key), "", "is missing"});
+    if (location.value.contains(key.get<std::string>())) continue;
+    faults.push_back({child(location, key), "", "is missing"});
   }
 }
 
-/// Of the members that `properties` does not name: no such are in use beside it.
-void check_every_member(const Json& schema, const Place& place, std::vector<SchemaFault>& faults) {
-  if (!place.value.is_object()) return;
-  for (const auto& [key, member] : place.value.items()) check(schema, {child(place, key), member}, faults);
+/// Checks all members: no schema has `properties` beside it, which would name some of them.
+void check_every_member(const Json& schema, const Location& location, std::vector<SchemaFault>& faults) {
+  if (!location.value.is_object()) return;
+  for (const auto& [key, member] : location.value.items())
+    check(schema, {child(location, key), member}, faults);
 }
 
-void check_items(const Json& schema, const Place& place, std::vector<SchemaFault>& faults) {
-  if (!place.value.is_array()) return;
-  for (std::size_t i = 0; i < place.value.size(); ++i) {
-    check(schema, {child(place, std::to_string(i)), place.value[i]}, faults);
+void check_items(const Json& schema, const Location& location, std::vector<SchemaFault>& faults) {
+  if (!location.value.is_array()) return;
+  for (std::size_t i = 0; i < location.value.size(); ++i) {
+    check(schema, {child(location, std::to_string(i)), location.value[i]}, faults);
   }
 }
 
-void check_pattern(const Json& keyword, const Place& place, std::vector<SchemaFault>& faults) {
-  if (!place.value.is_string()) return;
+void check_pattern(const Json& keyword, const Location& location, std::vector<SchemaFault>& faults) {
+  if (!location.value.is_string()) return;
   constexpr std::size_t longest = 4096;  // the library's matcher recurs once a character
   const auto& pattern = keyword.get_ref<const std::string&>();
-  const auto& text = place.value.get_ref<const std::string&>();
+  const auto& text = location.value.get_ref<const std::string&>();
   if (text.size() > longest || !std::regex_search(text, std::regex(pattern))) {
-    fail(place, fmt::format("does not match {}", pattern), faults);
+    fail(location, fmt::format("does not match {}", pattern), faults);
   }
 }
 
-void check_any_of(const Json& schemas, const Place& place, std::vector<SchemaFault>& faults) {
+void check_any_of(const Json& schemas, const Location& location, std::vector<SchemaFault>& faults) {
   for (const Json& schema : schemas) {
     std::vector<SchemaFault> within;
-    check(schema, place, within);
+    check(schema, location, within);
     if (within.empty()) return;
   }
-  fail(place, fmt::format("is none of {}", schemas.dump()), faults);
+  fail(location, fmt::format("is none of {}", schemas.dump()), faults);
 }
 
-void check_type(const Json& types, const Place& place, std::vector<SchemaFault>& faults) {
-  if (!has_type(place.value, types.get<std::string>())) {
-    fail(place, fmt::format("is not of type {}", types.get<std::string>()), faults);
+void check_type(const Json& types, const Location& location, std::vector<SchemaFault>& faults) {
+  if (!has_type(location.value, types.get<std::string>())) {
+    fail(location, fmt::format("is not of type {}", types.get<std::string>()), faults);
   }
 }
 
-void check_size(const Json& limit, const Place& place, std::vector<SchemaFault>& faults, bool least) {
-  if (!place.value.is_array()) return;
-  const std::size_t size = place.value.size(), bound = limit.get<std::size_t>();
+void check_size(const Json& limit, const Location& location, std::vector<SchemaFault>& faults, bool least) {
+  if (!location.value.is_array()) return;
+  const std::size_t size = location.value.size(), bound = limit.get<std::size_t>();
   if (least ? size < bound : size > bound) {
-    fail(place, fmt::format("has {} items, not at {} {}", size, least ? "least" : "most", bound), faults);
+    fail(location, fmt::format("has {} items, not at {} {}", size, least ? "least" : "most", bound), faults);
   }
 }
 
-using Check = void (*)(const Json& keyword, const Place& place, std::vector<SchemaFault>& faults);
+using Check = void (*)(const Json& keyword, const Location& location, std::vector<SchemaFault>& faults);
 
 struct Keyword {
   std::string_view name;
@@ -121,36 +122,40 @@ constexpr std::array keywords{
     Keyword{"pattern", &check_pattern},
     Keyword{"anyOf", &check_any_of},
     Keyword{"const",
-            [](const Json& keyword, const Place& place, std::vector<SchemaFault>& faults) {
-              if (place.value != keyword) fail(place, fmt::format("is not {}", keyword.dump()), faults);
+            [](const Json& keyword, const Location& location, std::vector<SchemaFault>& faults) {
+              if (location.value != keyword) fail(location, fmt::format("is not {}", keyword.dump()), faults);
             }},
     Keyword{"enum",
-            [](const Json& keyword, const Place& place, std::vector<SchemaFault>& faults) {
-              if (std::find(keyword.begin(), keyword.end(), place.value) != keyword.end()) return;
-              fail(place, fmt::format("is none of {}", keyword.dump()), faults);
+            [](const Json& keyword, const Location& location, std::vector<SchemaFault>& faults) {
+              if (std::find(keyword.begin(), keyword.end(), location.value) != keyword.end()) return;
+              fail(location, fmt::format("is none of {}", keyword.dump()), faults);
             }},
     Keyword{"minLength",
-            [](const Json& keyword, const Place& place, std::vector<SchemaFault>& faults) {
-              if (!place.value.is_string()) return;
-              if (place.value.get_ref<const std::string&>().size() >= keyword.get<std::size_t>()) return;
-              fail(place, "is too short", faults);
+            [](const Json& keyword, const Location& location, std::vector<SchemaFault>& faults) {
+              if (!location.value.is_string()) return;
+              if (location.value.get_ref<const std::string&>().size() >= keyword.get<std::size_t>()) return;
+              fail(location, "is too short", faults);
             }},
     Keyword{"minimum",
-            [](const Json& keyword, const Place& place, std::vector<SchemaFault>& faults) {
-              if (place.value.is_number() && place.value < keyword) {
-                fail(place, fmt::format("is below {}", keyword.dump()), faults);
+            [](const Json& keyword, const Location& location, std::vector<SchemaFault>& faults) {
+              if (location.value.is_number() && location.value < keyword) {
+                fail(location, fmt::format("is below {}", keyword.dump()), faults);
               }
             }},
     Keyword{"maximum",
-            [](const Json& keyword, const Place& place, std::vector<SchemaFault>& faults) {
-              if (place.value.is_number() && place.value > keyword) {
-                fail(place, fmt::format("is above {}", keyword.dump()), faults);
+            [](const Json& keyword, const Location& location, std::vector<SchemaFault>& faults) {
+              if (location.value.is_number() && location.value > keyword) {
+                fail(location, fmt::format("is above {}", keyword.dump()), faults);
               }
             }},
-    Keyword{"minItems", [](const Json& keyword, const Place& place,
-                           std::vector<SchemaFault>& faults) { check_size(keyword, place, faults, true); }},
-    Keyword{"maxItems", [](const Json& keyword, const Place& place,
-                           std::vector<SchemaFault>& faults) { check_size(keyword, place, faults, false); }},
+    Keyword{"minItems",
+            [](const Json& keyword, const Location& location, std::vector<SchemaFault>& faults) {
+              check_size(keyword, location, faults, true);
+            }},
+    Keyword{"maxItems",
+            [](const Json& keyword, const Location& location, std::vector<SchemaFault>& faults) {
+              check_size(keyword, location, faults, false);
+            }},
 };
 
 constexpr std::array notes{"$schema", "$id", "title", "description"};
@@ -161,9 +166,9 @@ const Keyword* keyword_named(const std::string& name) {
   return found == keywords.end() ? nullptr : &*found;
 }
 
-void check(const Json& schema, const Place& place, std::vector<SchemaFault>& faults) {
+void check(const Json& schema, const Location& location, std::vector<SchemaFault>& faults) {
   for (const auto& [name, value] : schema.items()) {
-    if (const Keyword* const keyword = keyword_named(name)) keyword->check(value, place, faults);
+    if (const Keyword* const keyword = keyword_named(name)) keyword->check(value, location, faults);
   }
 }
 
@@ -200,4 +205,4 @@ void JsonSchema::check(const std::string& path, const LocatedJson& document, Fau
   }
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results::validation

@@ -9,10 +9,10 @@
 #include "bench/results/validation/fault.h"
 #include "bench/results/validation/located_json.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::results::validation {
 
 struct SchemaFault {
-  std::string pointer;  ///< of the offending value
+  std::string pointer;  ///< names the offending value
   std::string value;    ///< as text; of objects and arrays only their size
   std::string wrong;    ///< "is not of type integer"
 };
@@ -23,11 +23,11 @@ class JsonSchema {
   explicit JsonSchema(nlohmann::json schema);
 
   std::vector<SchemaFault> check(const nlohmann::json& document) const;
-  /// The same as faults of the file that the document was read from.
+  /// Appends what is wrong as faults of the file that the document was read from.
   void check(const std::string& path, const LocatedJson& document, Faults& faults) const;
 
  private:
   nlohmann::json schema_;
 };
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results::validation

@@ -10,7 +10,7 @@
 
 #include "bench/support/text_file.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::results::validation {
 namespace {
 
 constexpr std::size_t deepest = 100;  // the pointers of what is nested deeper would fill the memory
@@ -143,7 +143,7 @@ std::size_t LocatedJson::line_of(const std::string& pointer) const {
 }
 
 std::optional<LocatedJson> read_located_json(const std::string& path, Faults& faults) {
-  const std::string text = read_text_file(path);
+  const std::string text = support::read_text_file(path);
   LocatedJson document;
   try {
     document.value = nlohmann::json::parse(text);
@@ -163,4 +163,4 @@ std::optional<LocatedJson> read_located_json(const std::string& path, Faults& fa
   return whole ? std::optional(std::move(document)) : std::nullopt;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results::validation

@@ -10,13 +10,13 @@
 
 #include "bench/results/validation/fault.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::results::validation {
 
 struct LocatedJson {
   nlohmann::json value;
   std::map<std::string, std::size_t> lines;  ///< by JSON pointer (RFC 6901); from 1
 
-  /// Of the value, or of the nearest that holds it.
+  /// Returns the line of the value, or of the nearest that holds it.
   std::size_t line_of(const std::string& pointer) const;
 };
 
@@ -24,4 +24,4 @@ struct LocatedJson {
 /// std::invalid_argument when the file cannot be read.
 std::optional<LocatedJson> read_located_json(const std::string& path, Faults& faults);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results::validation

@@ -13,7 +13,7 @@
 #include "bench/results/validation/rows_asked.h"
 #include "bench/support/numbers.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::results::validation {
 namespace {
 
 // Times are written with six digits, so that two of them may disagree in the last.
@@ -134,7 +134,8 @@ void ResultsCheck::check_presence(const ColumnRule& rule, const std::string& tex
 
 void ResultsCheck::check_order() {
   for (const auto& [low, high] : ascending) {
-    const std::optional<double> less = parse_number(field(low)), more = parse_number(field(high));
+    const std::optional<double> less = support::parse_number(field(low)),
+                                more = support::parse_number(field(high));
     if (less && more && *less > *more * (1 + rounding)) {
       fault(low, fmt::format("is above {} {}", high, field(high)));
     }
@@ -142,8 +143,8 @@ void ResultsCheck::check_order() {
 }
 
 void ResultsCheck::check_rate() {
-  const std::optional<double> ns = parse_number(field("ns_per_query"));
-  const std::optional<double> rate = parse_number(field("update_rate_hz"));
+  const std::optional<double> ns = support::parse_number(field("ns_per_query"));
+  const std::optional<double> rate = support::parse_number(field("update_rate_hz"));
   if (ns && rate && std::abs(*ns * *rate / 1e9 - 1) > 2 * rounding) {
     fault("update_rate_hz", fmt::format("is not 1e9 / ns_per_query {}", field("ns_per_query")));
   }
@@ -154,10 +155,10 @@ void ResultsCheck::check_rate() {
 /// other.
 void ResultsCheck::check_mean() {
   constexpr double between_passes = 1.25;
-  const std::optional<double> most = parse_number(field("ns_max"));
-  const std::optional<double> disturbed = parse_number(field("disturbed_share"));
+  const std::optional<double> most = support::parse_number(field("ns_max"));
+  const std::optional<double> disturbed = support::parse_number(field("disturbed_share"));
   for (const char* const column : {"ns_per_query", "ns_undisturbed"}) {
-    const std::optional<double> mean = parse_number(field(column));
+    const std::optional<double> mean = support::parse_number(field(column));
     const bool interrupted = column == std::string_view("ns_per_query") && disturbed && *disturbed > 0;
     if (mean && most && !interrupted && *mean > between_passes * *most)
       fault(column, fmt::format("is above ns_max {}", field("ns_max")));
@@ -166,9 +167,9 @@ void ResultsCheck::check_mean() {
 
 /// From so many steps on there is a 99.9 %; of fewer it was told only before `ns_undisturbed` was.
 void ResultsCheck::check_p999() {
-  const std::optional<std::uint64_t> steps = parse_count(field("steps"));
+  const std::optional<std::uint64_t> steps = support::parse_count(field("steps"));
   if (!steps || !is_ok(table_, *row_)) return;
-  const bool enough = *steps >= steps_for_p999;
+  const bool enough = *steps >= measurement::steps_for_p999;
   if (enough && timed_ && field("ns_p999").empty()) fault("ns_p999", "must not be empty from 1,000 steps on");
   if (!enough && !field("ns_undisturbed").empty() && !field("ns_p999").empty())
     fault("ns_p999", "must be empty below 1,000 steps");
@@ -178,7 +179,7 @@ void ResultsCheck::check_p999() {
 void ResultsCheck::check_exactness() {
   if (field("guarantee") != "exact" || !is_ok(table_, *row_)) return;
   for (const char* const column : {"missed", "false_contacts", "wrong_triangle"}) {
-    const std::optional<std::uint64_t> wrong = parse_count(field(column));
+    const std::optional<std::uint64_t> wrong = support::parse_count(field(column));
     if (wrong && *wrong > 0) fault(column, "must be 0 where the guarantee is exact");
   }
 }
@@ -223,4 +224,4 @@ void check_results(const CsvTable& table, const nlohmann::json* run, Faults& fau
   ResultsCheck(table, run, faults).check();
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results::validation

@@ -1,4 +1,4 @@
-/// Is a file a results.csv of schema 1, and does it agree with itself and with its run.json?
+/// Checks that a file is a results.csv of schema 1, and agrees with itself and with its run.json.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 #include "bench/results/validation/fault.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::results::validation {
 
 struct CsvRecord {
   std::size_t line = 0;
@@ -32,8 +32,8 @@ struct CsvTable {
 /// when it cannot be opened.
 CsvTable read_csv_table(const std::string& path, Faults& faults);
 
-/// Does the header begin with these names, as far as it goes, and at least with so many of them? The first
-/// that is another becomes a fault.
+/// Returns true if the header begins with these names, as far as it goes, and at least with so many of them.
+/// The first that is another becomes a fault.
 bool begins_with_columns(const CsvTable& table, const std::vector<std::string_view>& names,
                          std::size_t at_least, Faults& faults);
 
@@ -43,4 +43,4 @@ void check_form(const CsvTable& table, Faults& faults);
 /// `run` is the run.json beside the file, if there is one.
 void check_results(const CsvTable& table, const nlohmann::json* run, Faults& faults);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results::validation

@@ -10,7 +10,7 @@
 
 #include "bench/support/numbers.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::results::validation {
 namespace {
 
 using Json = nlohmann::json;
@@ -106,8 +106,9 @@ void check_missing(const CsvTable& table, const Json& run, Faults& faults) {
             --rows;
             continue;
           }
-          const std::string about = fmt::format("{} on {}, {}", contestant, mesh, trajectory);
-          faults.push_back({table.path, 1, "rows", about, "is missing, and run.json says it was asked for"});
+          const std::string subject = fmt::format("{} on {}, {}", contestant, mesh, trajectory);
+          faults.push_back(
+              {table.path, 1, "rows", subject, "is missing, and run.json says it was asked for"});
         }
       }
     }
@@ -144,4 +145,4 @@ void check_exact_peers(const CsvTable& table, Faults& faults) {
   }
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results::validation

@@ -1,4 +1,4 @@
-/// Is a document a run.json? Its schema is results/run.schema.json, built into the program.
+/// Checks that a document is a run.json. Its schema is results/run.schema.json, built into the program.
 #pragma once
 
 #include <string>
@@ -6,11 +6,11 @@
 #include "bench/results/validation/fault.h"
 #include "bench/results/validation/located_json.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::results::validation {
 
 /// results/run.schema.json, as it was when the program was built.
 extern const char* const run_schema;
 
 void check_run(const std::string& path, const LocatedJson& run, Faults& faults);
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results::validation

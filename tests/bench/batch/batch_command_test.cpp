@@ -12,7 +12,7 @@
 #include "bench/support/csv_reader.h"
 #include "tests/bench/cli/run_touchmark.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::batch {
 namespace {
 
 namespace fs = std::filesystem;
@@ -20,7 +20,7 @@ using Json = nlohmann::json;
 using Row = std::map<std::string, std::string>;
 
 std::vector<Row> rows_of(const std::string& path) {
-  CsvReader reader(path);
+  support::CsvReader reader(path);
   std::vector<std::string> header, fields;
   reader.next(header);
   std::vector<Row> rows;
@@ -259,4 +259,4 @@ TEST_F(Sweep, NamesWhatIsWrongOnTheCommandLine) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::batch

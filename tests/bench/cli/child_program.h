@@ -14,7 +14,7 @@
 
 #include "tests/temporary_folder.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
 
 inline std::string content_of(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
@@ -62,4 +62,4 @@ inline Outcome run_program_at(const std::vector<std::string>& command, const std
   return ChildProgram(command, output).wait();
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

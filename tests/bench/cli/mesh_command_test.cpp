@@ -5,7 +5,7 @@
 
 #include "tests/bench/cli/run_touchmark.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
 namespace {
 
 TEST(MeshInfo, PrintsOneLineAMeasure) {
@@ -90,4 +90,4 @@ TEST(MeshInfo, AFullDiskIsStatusThree) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

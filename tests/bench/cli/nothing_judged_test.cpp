@@ -16,7 +16,7 @@
 #include "tests/bench/cli/child_program.h"
 #include "tests/bench/cli/run_touchmark.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
 namespace {
 
 const std::string hostile = TOUCHMARK_HOSTILE_PROGRAM;
@@ -273,4 +273,4 @@ TEST(Query, RefusesAStepThatIsNot) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

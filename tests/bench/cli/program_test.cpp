@@ -15,7 +15,7 @@
 #include "tests/bench/cli/child_program.h"
 #include "tests/bench/cli/run_touchmark.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
 namespace {
 
 const std::string hostile = TOUCHMARK_HOSTILE_PROGRAM;
@@ -314,4 +314,4 @@ TEST(Bench, CtrlCKeepsTheFinishedRowsAndEndsTheWorkers) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

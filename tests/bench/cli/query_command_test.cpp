@@ -9,7 +9,7 @@
 #include "core/geometry/sphere_triangle_sweep.h"
 #include "tests/bench/cli/run_touchmark.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
 namespace {
 
 const std::string header =
@@ -232,4 +232,4 @@ TEST(QueryCommand, RefusesBadInputInOneLine) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

@@ -8,7 +8,7 @@
 
 #include "tests/bench/cli/child_program.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::cli {
 
 /// `output` is where standard output goes instead of Outcome::out.
 inline Outcome run_touchmark(const std::vector<std::string>& arguments, const std::string& output = "") {
@@ -33,4 +33,4 @@ inline void expect_bad_input(const std::vector<std::string>& arguments,
   }
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::cli

@@ -8,11 +8,11 @@
 #include "bench/contestants/roster.h"
 #include "bench/scenes/scenes.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::contestants {
 namespace {
 
 TEST(ClaimedGuarantee, IsThatOfTheBuiltContestant) {
-  const TriangleMesh mesh = load_scene("icosphere:1");
+  const TriangleMesh mesh = scenes::load_scene("icosphere:1");
   std::vector<ContestantSpec> specs = roster().thorough_set();
   for (const ContestantSpec& spec : roster().frontier()) specs.push_back(spec);
   std::size_t compared = 0;
@@ -40,4 +40,4 @@ TEST(ClaimedGuarantee, FollowsTheOptions) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::contestants

@@ -7,7 +7,7 @@
 
 #include "bench/support/failures.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::contestants {
 namespace {
 
 Roster small_roster() {
@@ -78,7 +78,7 @@ TEST(Roster, RefusesAContestantThatTakesMoreMemoryThanThereIs) {
   const Roster roster = small_roster();
   const ContestantSpec frugal = roster.parse("grid-group"), greedy = roster.parse("grid-group:bytes=1e30");
   EXPECT_NO_THROW(roster.require_memory_for(frugal, 1000));
-  EXPECT_THROW(roster.require_memory_for(greedy, 1000), ResourceError);
+  EXPECT_THROW(roster.require_memory_for(greedy, 1000), support::ResourceError);
 }
 
 TEST(Roster, LeavesOutOfTheDefaultSetWhatIsNotBuilt) {
@@ -89,4 +89,4 @@ TEST(Roster, LeavesOutOfTheDefaultSetWhatIsNotBuilt) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::contestants

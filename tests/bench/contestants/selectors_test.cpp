@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace touchmark::bench {
+namespace touchmark::bench::contestants {
 namespace {
 
 std::string error_of(const Selectors& selectors) {
@@ -20,15 +20,15 @@ std::string error_of(const Selectors& selectors) {
 
 TEST(Length, IsInMeshUnitsOrInPercentOfTheBoxDiagonal) {
   const TriangleMesh mesh({{0, 0, 0}, {3, 0, 0}, {0, 4, 0}}, {{0, 1, 2}});
-  EXPECT_EQ(parse_length("0.5%")->in_mesh_units(mesh), 0.5 / 100 * 5);
-  EXPECT_EQ(parse_length("0.5")->in_mesh_units(mesh), 0.5);
-  EXPECT_EQ(parse_length("0")->in_mesh_units(mesh), 0);
-  EXPECT_EQ(parse_length("inf")->in_mesh_units(mesh), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(support::parse_length("0.5%")->in_mesh_units(mesh), 0.5 / 100 * 5);
+  EXPECT_EQ(support::parse_length("0.5")->in_mesh_units(mesh), 0.5);
+  EXPECT_EQ(support::parse_length("0")->in_mesh_units(mesh), 0);
+  EXPECT_EQ(support::parse_length("inf")->in_mesh_units(mesh), std::numeric_limits<double>::infinity());
 }
 
 TEST(Length, RefusesWhatIsNoLength) {
   for (const char* bad : {"", "%", "-1", "nan", "1 %", "1mm", "5%%", "1e999"}) {
-    EXPECT_FALSE(parse_length(bad)) << bad;
+    EXPECT_FALSE(support::parse_length(bad)) << bad;
   }
 }
 
@@ -60,4 +60,4 @@ TEST(Selectors, NameTheOptionAndTheValueThatIsWrong) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::contestants

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace touchmark::bench {
+namespace touchmark::bench::measurement {
 namespace {
 
 TEST(Latency, PercentilesAreTheLeastValuesThatSoManyAreNotAbove) {
@@ -47,4 +47,4 @@ TEST(Latency, AnInterruptionInOnePassOfThreeDoesNotCount) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::measurement

@@ -4,14 +4,14 @@
 
 #include "bench/support/random.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::measurement {
 namespace {
 
 /// Two pieces of 10 steps that take 100 and 300 ns, in rounds of two samples each, of which a share is
 /// interrupted.
 UndisturbedTime with_interruptions(double share, std::uint64_t seed) {
   PieceTimes times({{10, 0}, {10, 0}}, {{1, 0}});
-  Random random(seed);
+  support::Random random(seed);
   for (int round = 0; round < 15; ++round) {
     std::vector<double> ns;
     for (const double undisturbed : {100.0, 300.0, 100.0, 300.0}) {
@@ -57,4 +57,4 @@ TEST(PieceTimes, HaveAnIntervalThatSaysWhatASampleCannot) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::measurement

@@ -6,10 +6,13 @@
 
 #include "bench/oracle/exact_distance.h"
 #include "bench/oracle/interval_distance.h"
-#include "tests/bench/oracle/hard_triangles.h"
+#include "tests/bench/oracle/corner_case_triangles.h"
 #include "tests/bench/oracle/rational_hull.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
+
+namespace stress = experiments::stress;
+
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -19,32 +22,32 @@ struct Case {
   Triangle triangle;
 };
 
-Case hard_case(HardCases& hard, int number) {
+Case corner_case(stress::CornerCases& cases, int number) {
   Triangle t;
   switch (number % 6) {
     case 0:
-      t = hard.needle();
+      t = cases.needle();
       break;
     case 1:
-      t = hard.cap();
+      t = cases.cap();
       break;
     case 2:
-      t = hard.collinear();
+      t = cases.collinear();
       break;
     case 3:
-      t = hard.coincident();
+      t = cases.coincident();
       break;
     case 4:
-      t = hard.plain();
+      t = cases.plain();
       break;
     default:
-      t = hard.on_lattice();
+      t = cases.on_lattice();
   }
-  Case result{hard.point_about(t), hard.point_about(t), t};
-  if (number % 6 == 5 && hard.below(2) == 0) result.from = hard.lattice(), result.to = hard.lattice();
-  if (hard.below(4) == 0) {
-    const double scale = hard.magnitude(-9, 9);
-    const Vec3 offset = hard.magnitude(-9, 9) * hard.vector();
+  Case result{cases.point_near(t), cases.point_near(t), t};
+  if (number % 6 == 5 && cases.below(2) == 0) result.from = cases.lattice(), result.to = cases.lattice();
+  if (cases.below(4) == 0) {
+    const double scale = cases.magnitude(-9, 9);
+    const Vec3 offset = cases.magnitude(-9, 9) * cases.vector();
     for (Vec3* v : {&result.from, &result.to, &result.triangle[0], &result.triangle[1], &result.triangle[2]})
       *v = scale * *v + offset;
   }
@@ -62,9 +65,9 @@ bool is_root(double high, double low, const mpq_class& square) {
 mpq_class squared(double x) { return mpq_class(x) * mpq_class(x); }
 
 TEST(ExactDistance, EqualsTheOptimumByMultipliers) {
-  HardCases hard(1);
+  stress::CornerCases cases(1);
   for (int i = 0; i < 6000; ++i) {
-    const Case c = hard_case(hard, i);
+    const Case c = corner_case(cases, i);
     const mpq_class expected = squared_distance_by_multipliers(c.from, c.triangle);
     const ExactNearest found = nearest_exactly(c.from, {&c.triangle, 1});
     ASSERT_TRUE(is_root(found.high, found.low, expected)) << i;
@@ -77,10 +80,10 @@ TEST(ExactDistance, EqualsTheOptimumByMultipliers) {
 }
 
 TEST(ExactDistance, TheDirectionIsThatOfTheVectorFromTheNearestPoint) {
-  HardCases hard(2);
+  stress::CornerCases cases(2);
   for (int i = 0; i < 2000; ++i) {
-    const Triangle t = hard.plain();
-    const Vec3 p = 2 * hard.vector();
+    const Triangle t = cases.plain();
+    const Vec3 p = 2 * cases.vector();
     const ExactNearest found = nearest_exactly(p, {&t, 1});
     EXPECT_NEAR((p - found.point - found.high * found.direction).norm(), 0, 1e-15) << i;
     EXPECT_NEAR(found.direction.norm(), 1, 1e-15);
@@ -88,10 +91,10 @@ TEST(ExactDistance, TheDirectionIsThatOfTheVectorFromTheNearestPoint) {
 }
 
 TEST(ExactSegmentDistance, EqualsTheOptimumByMultipliers) {
-  HardCases hard(3);
+  stress::CornerCases cases(3);
   int crossing = 0;
   for (int i = 0; i < 900; ++i) {
-    const Case c = hard_case(hard, i);
+    const Case c = corner_case(cases, i);
     const mpq_class expected = squared_segment_distance_by_multipliers(c.from, c.to, c.triangle);
     const double distance = std::sqrt(expected.get_d());
     if (expected == 0) ++crossing;
@@ -102,9 +105,9 @@ TEST(ExactSegmentDistance, EqualsTheOptimumByMultipliers) {
 }
 
 TEST(IntervalDistance, HoldsTheExactDistance) {
-  HardCases hard(4);
+  stress::CornerCases cases(4);
   for (int i = 0; i < 30000; ++i) {
-    const Case c = hard_case(hard, i);
+    const Case c = corner_case(cases, i);
     const Interval interval = distance_interval(c.from, c.triangle);
     ASSERT_LE(interval.lo, interval.hi);
     ASSERT_TRUE(compare_distance(c.from, c.triangle, interval.lo) >= 0) << i;
@@ -113,9 +116,9 @@ TEST(IntervalDistance, HoldsTheExactDistance) {
 }
 
 TEST(IntervalDistance, HoldsTheExactDistanceOfASegment) {
-  HardCases hard(5);
+  stress::CornerCases cases(5);
   for (int i = 0; i < 9000; ++i) {
-    const Case c = hard_case(hard, i);
+    const Case c = corner_case(cases, i);
     const Interval interval = segment_distance_interval(c.from, c.to, c.triangle);
     ASSERT_LE(interval.lo, interval.hi);
     ASSERT_TRUE(compare_segment_distance(c.from, c.to, c.triangle, interval.lo) >= 0) << i;
@@ -124,11 +127,11 @@ TEST(IntervalDistance, HoldsTheExactDistanceOfASegment) {
 }
 
 TEST(IntervalDistance, HoldsTheExactDistanceAtEveryMagnitude) {
-  HardCases hard(6);
+  stress::CornerCases cases(6);
   for (int i = 0; i < 4000; ++i) {
-    const double scale = hard.magnitude(-320, 307);
-    const Triangle t = {scale * hard.vector(), scale * hard.vector(), scale * hard.vector()};
-    const Vec3 p = scale * hard.vector();
+    const double scale = cases.magnitude(-320, 307);
+    const Triangle t = {scale * cases.vector(), scale * cases.vector(), scale * cases.vector()};
+    const Vec3 p = scale * cases.vector();
     const Interval interval = distance_interval(p, t);
     ASSERT_TRUE(compare_distance(p, t, interval.lo) >= 0) << scale;
     ASSERT_TRUE(compare_distance(p, t, interval.hi) <= 0) << scale;
@@ -136,16 +139,16 @@ TEST(IntervalDistance, HoldsTheExactDistanceAtEveryMagnitude) {
 }
 
 TEST(IntervalDistance, IsNarrowOnOrdinaryTriangles) {
-  HardCases hard(7);
+  stress::CornerCases cases(7);
   for (int i = 0; i < 5000; ++i) {
     // Sides and heights of the order of one, the point no nearer than that.
-    const Triangle t = {Vec3(0, 0, 0), Vec3(hard.between(1, 2), 0, 0),
-                        Vec3(hard.between(0, 1), hard.between(1, 2), 0)};
-    const Vec3 p = 4 * hard.vector() + Vec3(0, 0, 5);
+    const Triangle t = {Vec3(0, 0, 0), Vec3(cases.between(1, 2), 0, 0),
+                        Vec3(cases.between(0, 1), cases.between(1, 2), 0)};
+    const Vec3 p = 4 * cases.vector() + Vec3(0, 0, 5);
     const Interval interval = distance_interval(p, t);
     EXPECT_LE(interval.hi - interval.lo, 64 * 0x1p-53 * 10);
   }
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -93,4 +93,4 @@ TEST(ExactDistance, TheRadiusIsComparedExactly) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

@@ -13,9 +13,12 @@
 #include <gtest/gtest.h>
 
 #include "core/brute_force/brute_force.h"
-#include "tests/bench/oracle/hard_meshes.h"
+#include "tests/bench/oracle/corner_case_meshes.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
+
+namespace stress = experiments::stress;
+
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -33,7 +36,7 @@ struct Counts {
   bool operator==(const Counts&) const = default;
 };
 
-Counts counts(const Tally& t) {
+Counts counts(const ErrorCounts& t) {
   return {t.missed,      t.false_contacts, t.wrong_triangle, t.beyond_bound,
           t.wrong_point, t.wrong_normal,   t.malformed,      t.unresolved};
 }
@@ -48,122 +51,123 @@ std::ostream& operator<<(std::ostream& out, const Counts& c) {
 /// knows.
 class LyingDetector : public testing::Test {
  protected:
-  using Lie = std::function<void(Answer&)>;
+  using Lie = std::function<void(workload::Answer&)>;
 
   LyingDetector() {
-    HardCases hard(31);
+    stress::CornerCases cases(31);
     for (int i = 0; i < 300; ++i) {
-      const double distance = i % 3 == 0 ? hard.between(1.2, 4) * radius : hard.between(0.1, 0.6) * radius;
-      probes.push_back({(1 + distance) * hard.vector().normalized(), radius});
+      const double distance = i % 3 == 0 ? cases.between(1.2, 4) * radius : cases.between(0.1, 0.6) * radius;
+      probes.push_back({(1 + distance) * cases.vector().normalized(), radius});
     }
     truths = oracle.solve(probes);
     for (std::size_t i = 0; i < probes.size(); ++i) answers.push_back(truthful(truths[i], radius));
   }
 
-  static Answer truthful(const Truth& truth, double reach) {
+  static workload::Answer truthful(const GroundTruth& truth, double reach) {
     if (!(truth.high <= reach)) return {};
-    return Answer::of({truth.point, truth.direction, truth.high, truth.triangle});
+    return workload::Answer::of({truth.point, truth.direction, truth.high, truth.triangle});
   }
 
   /// Every answer for which `found` holds is changed by `lie`.
-  Tally tally_of(const Lie& lie, bool found = true, const Accuracy& accuracy = exact) const {
-    std::vector<Answer> lies = answers;
-    for (Answer& answer : lies)
+  ErrorCounts errors_of(const Lie& lie, bool found = true, const Accuracy& accuracy = exact) const {
+    std::vector<workload::Answer> lies = answers;
+    for (workload::Answer& answer : lies)
       if ((answer.found != 0) == found) lie(answer);
-    return judge(oracle, truths, Query::nearest, probes, radius, lies, accuracy);
+    return judge(oracle, truths, workload::Query::nearest, probes, radius, lies, accuracy);
   }
 
   TriangleMesh mesh = octasphere(8);
   Oracle oracle{mesh};
   std::vector<Probe> probes;
-  std::vector<Truth> truths;
-  std::vector<Answer> answers;
+  std::vector<GroundTruth> truths;
+  std::vector<workload::Answer> answers;
   static constexpr std::uint64_t touching = 200, free = 100;
 };
 
 TEST_F(LyingDetector, IsNotChargedWhileItTellsTheTruth) {
-  const Tally tally = judge(oracle, truths, Query::nearest, probes, radius, answers, exact);
-  EXPECT_EQ(counts(tally), Counts{});
-  EXPECT_EQ(tally.judged, probes.size());
-  EXPECT_LE(tally.max_distance_error_ulp, 0.5);
-  EXPECT_LE(tally.max_normal_angle_deg, 1e-12);
-  EXPECT_TRUE(keeps_its_word(tally, exact));
+  const ErrorCounts errors = judge(oracle, truths, workload::Query::nearest, probes, radius, answers, exact);
+  EXPECT_EQ(counts(errors), Counts{});
+  EXPECT_EQ(errors.judged, probes.size());
+  EXPECT_LE(errors.max_distance_error_ulp, 0.5);
+  EXPECT_LE(errors.max_normal_angle_deg, 1e-12);
+  EXPECT_TRUE(meets_guarantee(errors, exact));
 }
 
 TEST_F(LyingDetector, IsCaughtMissing) {
-  const Tally tally = tally_of([](Answer& a) { a = {}; });
-  EXPECT_EQ(counts(tally), Counts{.missed = touching});
-  EXPECT_FALSE(keeps_its_word(tally, exact));
-  EXPECT_FALSE(keeps_its_word(tally, {Guarantee::conservative, 0, 0}));
+  const ErrorCounts errors = errors_of([](workload::Answer& a) { a = {}; });
+  EXPECT_EQ(counts(errors), Counts{.missed = touching});
+  EXPECT_FALSE(meets_guarantee(errors, exact));
+  EXPECT_FALSE(meets_guarantee(errors, {Guarantee::conservative, 0, 0}));
 }
 
 TEST_F(LyingDetector, IsCaughtInventing) {
-  const Tally tally = tally_of([](Answer& a) { a.found = 1; }, false);
-  EXPECT_EQ(counts(tally), Counts{.false_contacts = free});
-  EXPECT_FALSE(keeps_its_word(tally, exact));
-  EXPECT_TRUE(keeps_its_word(tally, {Guarantee::conservative, 0, 0}));
+  const ErrorCounts errors = errors_of([](workload::Answer& a) { a.found = 1; }, false);
+  EXPECT_EQ(counts(errors), Counts{.false_contacts = free});
+  EXPECT_FALSE(meets_guarantee(errors, exact));
+  EXPECT_TRUE(meets_guarantee(errors, {Guarantee::conservative, 0, 0}));
 }
 
 TEST_F(LyingDetector, IsCaughtNamingAnotherTriangle) {
-  const Tally tally = tally_of([&](Answer& a) { a.triangle = opposite(a.triangle); });
-  EXPECT_EQ(counts(tally), Counts{.wrong_triangle = touching});
-  EXPECT_FALSE(keeps_its_word(tally, exact));
+  const ErrorCounts errors = errors_of([&](workload::Answer& a) { a.triangle = opposite(a.triangle); });
+  EXPECT_EQ(counts(errors), Counts{.wrong_triangle = touching});
+  EXPECT_FALSE(meets_guarantee(errors, exact));
 }
 
 TEST_F(LyingDetector, IsCaughtNamingATriangleThatIsNot) {
   const auto size = static_cast<TriangleId>(mesh.size());
-  EXPECT_EQ(counts(tally_of([&](Answer& a) { a.triangle = size; })), Counts{.wrong_triangle = touching});
+  EXPECT_EQ(counts(errors_of([&](workload::Answer& a) { a.triangle = size; })),
+            Counts{.wrong_triangle = touching});
 }
 
 TEST_F(LyingDetector, IsCaughtShiftingTheDistance) {
   const double shift = 1e-12;
   for (const double by : {shift, -shift}) {
-    const Tally tally = tally_of([&](Answer& a) { a.distance += by; });
-    EXPECT_EQ(counts(tally), Counts{.beyond_bound = touching});
-    EXPECT_NEAR(tally.max_distance_error, shift, 1e-16);
-    EXPECT_NEAR(tally.max_distance_error_of_diagonal, shift / mesh.diagonal(), 1e-16);
-    EXPECT_GT(tally.max_distance_error_ulp, shift / (0.8 * radius * 0x1p-52) * 0.99);
-    EXPECT_FALSE(keeps_its_word(tally, exact));
+    const ErrorCounts errors = errors_of([&](workload::Answer& a) { a.distance += by; });
+    EXPECT_EQ(counts(errors), Counts{.beyond_bound = touching});
+    EXPECT_NEAR(errors.max_distance_error, shift, 1e-16);
+    EXPECT_NEAR(errors.max_distance_error_of_diagonal, shift / mesh.diagonal(), 1e-16);
+    EXPECT_GT(errors.max_distance_error_ulp, shift / (0.8 * radius * 0x1p-52) * 0.99);
+    EXPECT_FALSE(meets_guarantee(errors, exact));
   }
 }
 
 TEST_F(LyingDetector, IsCaughtTurningTheNormal) {
   const double degrees = 0.01;
-  const Tally tally = tally_of([&](Answer& a) {
+  const ErrorCounts errors = errors_of([&](workload::Answer& a) {
     const Vec3 normal(a.normal[0], a.normal[1], a.normal[2]);
     const Vec3 turned = Eigen::AngleAxisd(degrees * std::numbers::pi / 180, normal.unitOrthogonal()) * normal;
     std::copy(turned.begin(), turned.end(), a.normal);
   });
-  EXPECT_EQ(counts(tally), Counts{.wrong_normal = touching});
-  EXPECT_NEAR(tally.max_normal_angle_deg, degrees, 1e-9);
-  EXPECT_FALSE(keeps_its_word(tally, exact));
+  EXPECT_EQ(counts(errors), Counts{.wrong_normal = touching});
+  EXPECT_NEAR(errors.max_normal_angle_deg, degrees, 1e-9);
+  EXPECT_FALSE(meets_guarantee(errors, exact));
 }
 
 TEST_F(LyingDetector, IsCaughtTurningTheNormalInward) {
-  const Tally tally = tally_of([](Answer& a) {
+  const ErrorCounts errors = errors_of([](workload::Answer& a) {
     for (double& x : a.normal) x = -x;
   });
-  EXPECT_EQ(counts(tally), Counts{.wrong_normal = touching});
-  EXPECT_NEAR(tally.max_normal_angle_deg, 180, 1e-6);
+  EXPECT_EQ(counts(errors), Counts{.wrong_normal = touching});
+  EXPECT_NEAR(errors.max_normal_angle_deg, 180, 1e-6);
 }
 
 TEST_F(LyingDetector, IsCaughtStretchingTheNormal) {
-  EXPECT_EQ(counts(tally_of([](Answer& a) {
+  EXPECT_EQ(counts(errors_of([](workload::Answer& a) {
               for (double& x : a.normal) x *= 1.001;
             })),
             Counts{.wrong_normal = touching});
 }
 
 TEST_F(LyingDetector, IsCaughtLiftingThePointOffTheMesh) {
-  const Tally tally = tally_of([](Answer& a) {
+  const ErrorCounts errors = errors_of([](workload::Answer& a) {
     for (std::size_t k = 0; k < 3; ++k) a.point[k] += 1e-9 * a.normal[k];
   });
-  EXPECT_EQ(counts(tally), Counts{.wrong_point = touching});
-  EXPECT_NEAR(tally.max_point_error, 1e-9, 1e-13);
+  EXPECT_EQ(counts(errors), Counts{.wrong_point = touching});
+  EXPECT_NEAR(errors.max_point_error, 1e-9, 1e-13);
 }
 
 TEST_F(LyingDetector, IsCaughtGivingAPointThatIsNotTheNearest) {
-  EXPECT_EQ(counts(tally_of([&](Answer& a) {
+  EXPECT_EQ(counts(errors_of([&](workload::Answer& a) {
               const Vec3& corner = mesh.corner(a.triangle, 0);
               std::copy(corner.begin(), corner.end(), a.point);
             })),
@@ -172,38 +176,41 @@ TEST_F(LyingDetector, IsCaughtGivingAPointThatIsNotTheNearest) {
 
 TEST_F(LyingDetector, IsCaughtAnsweringWithWhatIsNoNumber) {
   for (const double bad : {nan, infinity, -infinity}) {
-    const std::array<Lie, 3> lies = {[&](Answer& a) { a.distance = bad; },
-                                     [&](Answer& a) { a.point[1] = bad; },
-                                     [&](Answer& a) { a.normal[2] = bad; }};
+    const std::array<Lie, 3> lies = {[&](workload::Answer& a) { a.distance = bad; },
+                                     [&](workload::Answer& a) { a.point[1] = bad; },
+                                     [&](workload::Answer& a) { a.normal[2] = bad; }};
     for (const Lie& lie : lies) {
-      const Tally tally = tally_of(lie);
-      EXPECT_EQ(counts(tally), Counts{.malformed = touching});
-      EXPECT_FALSE(keeps_its_word(tally, {Guarantee::approximate, infinity, infinity}));
+      const ErrorCounts errors = errors_of(lie);
+      EXPECT_EQ(counts(errors), Counts{.malformed = touching});
+      EXPECT_FALSE(meets_guarantee(errors, {Guarantee::approximate, infinity, infinity}));
     }
   }
-  EXPECT_EQ(counts(tally_of([](Answer& a) { a.distance = -1e-300; })), Counts{.malformed = touching});
+  EXPECT_EQ(counts(errors_of([](workload::Answer& a) { a.distance = -1e-300; })),
+            Counts{.malformed = touching});
 }
 
 TEST_F(LyingDetector, MayBeOffByWhatItDeclares) {
   const Accuracy millionth = {Guarantee::approximate, 0, 1e-6};
-  const auto shift = [](double by) { return [by](Answer& a) { a.distance += by; }; };
-  EXPECT_EQ(counts(tally_of(shift(0.9e-6), true, millionth)), Counts{});
-  EXPECT_EQ(counts(tally_of(shift(1.1e-6), true, millionth)), Counts{.beyond_bound = touching});
+  const auto shift = [](double by) { return [by](workload::Answer& a) { a.distance += by; }; };
+  EXPECT_EQ(counts(errors_of(shift(0.9e-6), true, millionth)), Counts{});
+  EXPECT_EQ(counts(errors_of(shift(1.1e-6), true, millionth)), Counts{.beyond_bound = touching});
   const Accuracy relative = {Guarantee::approximate, 1e-5, 0};  // of differences of 0.05 to 0.3 here
-  EXPECT_EQ(counts(tally_of(shift(0.4e-6), true, relative)), Counts{});
-  EXPECT_EQ(counts(tally_of(shift(4e-6), true, relative)), Counts{.beyond_bound = touching});
+  EXPECT_EQ(counts(errors_of(shift(0.4e-6), true, relative)), Counts{});
+  EXPECT_EQ(counts(errors_of(shift(4e-6), true, relative)), Counts{.beyond_bound = touching});
 }
 
 TEST_F(LyingDetector, GainsNothingByDeclaringNothing) {
   for (const double unknown : {infinity, nan}) {
     const Accuracy accuracy = {Guarantee::approximate, 0, unknown};
-    EXPECT_EQ(counts(tally_of([](Answer&) {}, true, accuracy)), Counts{});
-    EXPECT_EQ(counts(tally_of([](Answer& a) { a = {}; }, true, accuracy)), Counts{.missed = touching});
+    EXPECT_EQ(counts(errors_of([](workload::Answer&) {}, true, accuracy)), Counts{});
+    EXPECT_EQ(counts(errors_of([](workload::Answer& a) { a = {}; }, true, accuracy)),
+              Counts{.missed = touching});
     const double tolerance = physical_tolerance * mesh.diagonal();
-    EXPECT_EQ(counts(tally_of([&](Answer& a) { a.distance += 1.01 * tolerance; }, true, accuracy)),
+    EXPECT_EQ(counts(errors_of([&](workload::Answer& a) { a.distance += 1.01 * tolerance; }, true, accuracy)),
               Counts{.beyond_bound = touching});
-    EXPECT_EQ(counts(tally_of([](Answer& a) { a.triangle = opposite(a.triangle); }, true, accuracy)),
-              Counts{.wrong_triangle = touching});
+    EXPECT_EQ(
+        counts(errors_of([](workload::Answer& a) { a.triangle = opposite(a.triangle); }, true, accuracy)),
+        Counts{.wrong_triangle = touching});
   }
 }
 
@@ -212,8 +219,8 @@ TEST_F(LyingDetector, IsNotChargedForRoundingThatItDeclaresNothingAbout) {
   const Accuracy nothing = {Guarantee::approximate, infinity, 0};
   const double tolerance = physical_tolerance * mesh.diagonal();
   const auto counted = [&](double shift, const Accuracy& accuracy) {
-    const Tally tally = tally_of([&](Answer& a) { a.distance += shift; }, true, accuracy);
-    return std::array{tally.beyond_bound, tally.beyond_tolerance, tally.rounding};
+    const ErrorCounts errors = errors_of([&](workload::Answer& a) { a.distance += shift; }, true, accuracy);
+    return std::array{errors.beyond_bound, errors.beyond_tolerance, errors.rounding};
   };
   using Expected = std::array<std::uint64_t, 3>;
   EXPECT_EQ(counted(1e-16, nothing), (Expected{0, 0, 0})) << "less than doubles must be off by";
@@ -224,13 +231,14 @@ TEST_F(LyingDetector, IsNotChargedForRoundingThatItDeclaresNothingAbout) {
   EXPECT_EQ(counted(1e-12, exact), (Expected{touching, 0, touching}));
   EXPECT_EQ(counted(1.01 * tolerance, {Guarantee::approximate, 0, 1e-3}), (Expected{0, touching, 0}));
   // A neighbour's triangle that is as near but for rounding is no wrong one, and one that is a hand away is.
-  EXPECT_EQ(tally_of([](Answer& a) { a.triangle = opposite(a.triangle); }, true, nothing).wrong_triangle,
-            touching);
+  EXPECT_EQ(
+      errors_of([](workload::Answer& a) { a.triangle = opposite(a.triangle); }, true, nothing).wrong_triangle,
+      touching);
 }
 
 TEST_F(LyingDetector, HasItsFirstWrongAnswersNamed) {
   for (const std::size_t first : {0U, 17U, 250U}) {
-    std::vector<Answer> lies = answers;
+    std::vector<workload::Answer> lies = answers;
     std::vector<std::size_t> expected;
     for (std::size_t i = first; i < lies.size(); ++i) {
       if (lies[i].found == 0) continue;
@@ -238,39 +246,41 @@ TEST_F(LyingDetector, HasItsFirstWrongAnswersNamed) {
       if (expected.size() < 3) expected.push_back(i);
     }
     Charges charges;
-    judge(oracle, truths, Query::nearest, probes, radius, lies, exact, {}, &charges);
+    judge(oracle, truths, workload::Query::nearest, probes, radius, lies, exact, {}, &charges);
     std::vector<std::size_t> named;
     for (const Charge& one : charges.kept()) {
       named.push_back(one.step);
-      EXPECT_EQ(counts(one.tally), Counts{.beyond_bound = 1});
+      EXPECT_EQ(counts(one.errors), Counts{.beyond_bound = 1});
     }
     EXPECT_EQ(named, expected);
   }
 }
 
 TEST_F(LyingDetector, IsNotChargedForATriangleItDoesNotName) {
-  EXPECT_EQ(counts(tally_of([](Answer& a) { a.triangle = no_triangle; })), Counts{});
+  EXPECT_EQ(counts(errors_of([](workload::Answer& a) { a.triangle = no_triangle; })), Counts{});
 }
 
 TEST_F(LyingDetector, IsNotChargedForFieldsItDoesNotFillIn) {
-  std::vector<Answer> bare(answers.size());
+  std::vector<workload::Answer> bare(answers.size());
   for (std::size_t i = 0; i < bare.size(); ++i) bare[i].found = answers[i].found;
-  const Tally tally = judge(oracle, truths, Query::nearest, probes, radius, bare, exact,
-                            {.triangle = false, .distance = false, .point = false, .normal = false});
-  EXPECT_EQ(counts(tally), Counts{});
+  const ErrorCounts errors = judge(oracle, truths, workload::Query::nearest, probes, radius, bare, exact,
+                                   {.triangle = false, .distance = false, .point = false, .normal = false});
+  EXPECT_EQ(counts(errors), Counts{});
 }
 
 TEST_F(LyingDetector, IsJudgedByItsYesOrNoAloneWhenAskedForTouches) {
-  std::vector<Answer> lies(answers.size());
+  std::vector<workload::Answer> lies(answers.size());
   for (std::size_t i = 0; i < lies.size(); ++i) lies[i] = {answers[i].found, 12345, nan, nan};
-  EXPECT_EQ(counts(judge(oracle, truths, Query::touches, probes, 0, lies, exact)), Counts{});
-  for (Answer& lie : lies) lie.found = lie.found == 0 ? 1 : 0;
-  EXPECT_EQ(counts(judge(oracle, truths, Query::touches, probes, 0, lies, exact)),
+  EXPECT_EQ(counts(judge(oracle, truths, workload::Query::touches, probes, 0, lies, exact)), Counts{});
+  for (workload::Answer& lie : lies) lie.found = lie.found == 0 ? 1 : 0;
+  EXPECT_EQ(counts(judge(oracle, truths, workload::Query::touches, probes, 0, lies, exact)),
             (Counts{.missed = touching, .false_contacts = free}));
 }
 
 TEST_F(LyingDetector, IsJudgedAsFarAsItGot) {
-  EXPECT_EQ(judge(oracle, truths, Query::nearest, probes, radius, {answers.data(), 17}, exact).judged, 17U);
+  EXPECT_EQ(
+      judge(oracle, truths, workload::Query::nearest, probes, radius, {answers.data(), 17}, exact).judged,
+      17U);
 }
 
 TEST(Judge, MeasuresWhereSquaresUnderflowOrOverflow) {
@@ -281,37 +291,38 @@ TEST(Judge, MeasuresWhereSquaresUnderflowOrOverflow) {
     const BruteForce detector = BruteForce::build(mesh);
     BruteForce::Session session;
     const std::vector<Probe> probes = {{unit * Vec3(0.5, 0.5, 1), 0}, {unit * Vec3(-1, -1, 0.5), 0}};
-    std::vector<Answer> answers;
+    std::vector<workload::Answer> answers;
     for (const Probe& probe : probes)
-      answers.push_back(Answer::of(detector.nearest(probe, infinity, session).value()));
-    const Tally tally =
-        judge(oracle, oracle.solve(probes), Query::nearest, probes, infinity, answers, detector.accuracy());
-    EXPECT_EQ(counts(tally), Counts()) << "unit 2^" << exponent;
+      answers.push_back(workload::Answer::of(detector.nearest(probe, infinity, session).value()));
+    const ErrorCounts errors = judge(oracle, oracle.solve(probes), workload::Query::nearest, probes, infinity,
+                                     answers, detector.accuracy());
+    EXPECT_EQ(counts(errors), Counts()) << "unit 2^" << exponent;
   }
 }
 
 TEST_F(LyingDetector, TouchesNothingWithAProbeThatIsNoNumber) {
   const std::vector<Probe> bad = {{Vec3(nan, 0, 0), radius}, {Vec3(0, infinity, 0), radius}};
-  const std::vector<Truth> none = oracle.solve(bad);
-  const auto tally_of_two = [&](double reach, std::span<const Answer> two) {
-    return counts(judge(oracle, none, Query::nearest, bad, reach, two, exact));
+  const std::vector<GroundTruth> none = oracle.solve(bad);
+  const auto errors_of_two = [&](double reach, std::span<const workload::Answer> two) {
+    return counts(judge(oracle, none, workload::Query::nearest, bad, reach, two, exact));
   };
-  EXPECT_EQ(tally_of_two(infinity, std::vector<Answer>(2)), Counts{});
-  EXPECT_EQ(tally_of_two(1e300, {answers.data() + 1, 2}), Counts{.false_contacts = 2});
+  EXPECT_EQ(errors_of_two(infinity, std::vector<workload::Answer>(2)), Counts{});
+  EXPECT_EQ(errors_of_two(1e300, {answers.data() + 1, 2}), Counts{.false_contacts = 2});
   // Infinitely far away is within infinite reach, or not: as you like.
-  EXPECT_EQ(tally_of_two(infinity, {answers.data() + 1, 2}), Counts{.false_contacts = 1});
+  EXPECT_EQ(errors_of_two(infinity, {answers.data() + 1, 2}), Counts{.false_contacts = 1});
 }
 
 /// Probes over the plate z = 0 at exactly representable heights.
 class Threshold : public testing::Test {
  protected:
-  Tally tally_of(double height, double reach, bool found, const Accuracy& accuracy) const {
+  ErrorCounts errors_of(double height, double reach, bool found, const Accuracy& accuracy) const {
     const std::vector<Probe> probes = {{Vec3(1.25, 1.25, height), reach}};
-    const Answer contact = Answer::of({Vec3(1.25, 1.25, 0), Vec3(0, 0, 1), height, 8});
-    const std::vector<Answer> answers = {found ? contact : Answer{}};
-    const Tally touches = judge(oracle, oracle.solve(probes), Query::touches, probes, 0, answers, accuracy);
-    const Tally nearest =
-        judge(oracle, oracle.solve(probes), Query::nearest, probes, reach, answers, accuracy);
+    const workload::Answer contact = workload::Answer::of({Vec3(1.25, 1.25, 0), Vec3(0, 0, 1), height, 8});
+    const std::vector<workload::Answer> answers = {found ? contact : workload::Answer{}};
+    const ErrorCounts touches =
+        judge(oracle, oracle.solve(probes), workload::Query::touches, probes, 0, answers, accuracy);
+    const ErrorCounts nearest =
+        judge(oracle, oracle.solve(probes), workload::Query::nearest, probes, reach, answers, accuracy);
     EXPECT_EQ(counts(touches), counts(nearest));
     return nearest;
   }
@@ -322,36 +333,36 @@ class Threshold : public testing::Test {
 
 TEST_F(Threshold, IsDecidedToTheLastBit) {
   const Accuracy unknown = {Guarantee::exact, infinity, 0};
-  EXPECT_EQ(counts(tally_of(0.5, 0.5, true, unknown)), Counts{});
-  EXPECT_EQ(counts(tally_of(0.5, 0.5, false, unknown)), Counts{.missed = 1});
-  EXPECT_EQ(counts(tally_of(0.5, std::nextafter(0.5, 0), false, unknown)), Counts{});
-  EXPECT_EQ(counts(tally_of(0.5, std::nextafter(0.5, 0), true, unknown)), Counts{.false_contacts = 1});
+  EXPECT_EQ(counts(errors_of(0.5, 0.5, true, unknown)), Counts{});
+  EXPECT_EQ(counts(errors_of(0.5, 0.5, false, unknown)), Counts{.missed = 1});
+  EXPECT_EQ(counts(errors_of(0.5, std::nextafter(0.5, 0), false, unknown)), Counts{});
+  EXPECT_EQ(counts(errors_of(0.5, std::nextafter(0.5, 0), true, unknown)), Counts{.false_contacts = 1});
 }
 
 TEST_F(Threshold, WithinTheDeclaredAccuracyIsUnresolvedAndNeverWrong) {
   const Accuracy thousandth = {Guarantee::exact, 0, 1e-3};
-  EXPECT_EQ(counts(tally_of(0.5, 0.5009, false, thousandth)), Counts{.unresolved = 1});
-  EXPECT_EQ(counts(tally_of(0.5, 0.4991, true, thousandth)), Counts{.unresolved = 1});
-  EXPECT_EQ(counts(tally_of(0.5, 0.5011, false, thousandth)), Counts{.missed = 1});
-  EXPECT_EQ(counts(tally_of(0.5, 0.4989, true, thousandth)), Counts{.false_contacts = 1});
-  EXPECT_TRUE(keeps_its_word(tally_of(0.5, 0.5009, false, thousandth), thousandth));
+  EXPECT_EQ(counts(errors_of(0.5, 0.5009, false, thousandth)), Counts{.unresolved = 1});
+  EXPECT_EQ(counts(errors_of(0.5, 0.4991, true, thousandth)), Counts{.unresolved = 1});
+  EXPECT_EQ(counts(errors_of(0.5, 0.5011, false, thousandth)), Counts{.missed = 1});
+  EXPECT_EQ(counts(errors_of(0.5, 0.4989, true, thousandth)), Counts{.false_contacts = 1});
+  EXPECT_TRUE(meets_guarantee(errors_of(0.5, 0.5009, false, thousandth), thousandth));
 }
 
 TEST_F(Threshold, OfTheRoundingKindIsUnresolvedForAKernelInDouble) {
-  EXPECT_EQ(counts(tally_of(0.5, std::nextafter(0.5, 0), true, exact)), Counts{.unresolved = 1});
-  EXPECT_EQ(counts(tally_of(0.5, 0.5, false, exact)), Counts{.unresolved = 1});
-  EXPECT_EQ(counts(tally_of(0.5, 0.5 - 1e-13, true, exact)), Counts{.false_contacts = 1});
+  EXPECT_EQ(counts(errors_of(0.5, std::nextafter(0.5, 0), true, exact)), Counts{.unresolved = 1});
+  EXPECT_EQ(counts(errors_of(0.5, 0.5, false, exact)), Counts{.unresolved = 1});
+  EXPECT_EQ(counts(errors_of(0.5, 0.5 - 1e-13, true, exact)), Counts{.false_contacts = 1});
 }
 
 TEST_F(Threshold, IsNotExcusedForOneThatDecidesExactly) {
   Accuracy certain = {Guarantee::exact, 0, 1e-3, true};
-  EXPECT_EQ(counts(tally_of(0.5, std::nextafter(0.5, 0), true, certain)), Counts{.false_contacts = 1});
-  EXPECT_EQ(counts(tally_of(0.5, 0.5, false, certain)), Counts{.missed = 1});
-  EXPECT_EQ(counts(tally_of(0.5, 0.5, true, certain)), Counts{});
+  EXPECT_EQ(counts(errors_of(0.5, std::nextafter(0.5, 0), true, certain)), Counts{.false_contacts = 1});
+  EXPECT_EQ(counts(errors_of(0.5, 0.5, false, certain)), Counts{.missed = 1});
+  EXPECT_EQ(counts(errors_of(0.5, 0.5, true, certain)), Counts{});
 }
 
 TEST_F(Threshold, AtInfinityIsNeverUnresolved) {
-  EXPECT_EQ(counts(tally_of(0.5, infinity, false, {Guarantee::exact, 0, 1e3})), Counts{.missed = 1});
+  EXPECT_EQ(counts(errors_of(0.5, infinity, false, {Guarantee::exact, 0, 1e3})), Counts{.missed = 1});
 }
 
 TEST(Judge, AnIdStandsForEveryTriangleOfItsPolygon) {
@@ -361,8 +372,10 @@ TEST(Judge, AnIdStandsForEveryTriangleOfItsPolygon) {
   const Oracle oracle(mesh);
   const std::vector<Probe> probes = {{{0.9, 0.9, 0.5}, 1}};
   const auto charged = [&](TriangleId id) {
-    const std::vector<Answer> answers = {Answer::of({Vec3(0.9, 0.9, 0), Vec3(0, 0, 1), 0.5, id})};
-    return judge(oracle, oracle.solve(probes), Query::nearest, probes, 1, answers, exact).wrong_triangle;
+    const std::vector<workload::Answer> answers = {
+        workload::Answer::of({Vec3(0.9, 0.9, 0), Vec3(0, 0, 1), 0.5, id})};
+    return judge(oracle, oracle.solve(probes), workload::Query::nearest, probes, 1, answers, exact)
+        .wrong_triangle;
   };
   EXPECT_EQ(charged(5), 0U);
   for (const TriangleId wrong : {0U, 1U, 7U, 9U, 10U}) EXPECT_EQ(charged(wrong), 1U) << wrong;
@@ -370,77 +383,80 @@ TEST(Judge, AnIdStandsForEveryTriangleOfItsPolygon) {
 
 TEST(Judge, AnyOfTheTiedTrianglesWillDoAndItsOwnDirectionIsTheRightOne) {
   // Midway between two parallel triangles.
-  const TriangleMesh mesh = mesh_of(
+  const TriangleMesh mesh = stress::mesh_of(
       {{Vec3(0, 0, 1), Vec3(4, 0, 1), Vec3(0, 4, 1)}, {Vec3(0, 0, -1), Vec3(4, 0, -1), Vec3(0, 4, -1)}});
   const Oracle oracle(mesh);
   const std::vector<Probe> probes = {{{1, 1, 0}, 1}};
-  const auto tally_of = [&](TriangleId id, double side) {
-    const std::vector<Answer> answers = {Answer::of({Vec3(1, 1, side), Vec3(0, 0, -side), 1, id})};
-    return counts(judge(oracle, oracle.solve(probes), Query::nearest, probes, 1, answers, exact));
+  const auto errors_of = [&](TriangleId id, double side) {
+    const std::vector<workload::Answer> answers = {
+        workload::Answer::of({Vec3(1, 1, side), Vec3(0, 0, -side), 1, id})};
+    return counts(judge(oracle, oracle.solve(probes), workload::Query::nearest, probes, 1, answers, exact));
   };
-  EXPECT_EQ(tally_of(0, 1), Counts{});
-  EXPECT_EQ(tally_of(1, -1), Counts{});
-  EXPECT_EQ(tally_of(no_triangle, 1), Counts{});
-  EXPECT_EQ(tally_of(no_triangle, -1), Counts{});
-  EXPECT_EQ(tally_of(0, -1), (Counts{.wrong_point = 1, .wrong_normal = 1}));
+  EXPECT_EQ(errors_of(0, 1), Counts{});
+  EXPECT_EQ(errors_of(1, -1), Counts{});
+  EXPECT_EQ(errors_of(no_triangle, 1), Counts{});
+  EXPECT_EQ(errors_of(no_triangle, -1), Counts{});
+  EXPECT_EQ(errors_of(0, -1), (Counts{.wrong_point = 1, .wrong_normal = 1}));
 }
 
 TEST(Judge, OnTheMeshTheNormalIsNotJudgedButForItsLength) {
   const TriangleMesh mesh = plate(2);
   const Oracle oracle(mesh);
   const std::vector<Probe> probes = {{{0.25, 0.25, 0}, 1}};
-  const auto tally_of = [&](const Vec3& normal) {
-    const std::vector<Answer> answers = {Answer::of({probes[0].center, normal, 0, 0})};
-    return counts(judge(oracle, oracle.solve(probes), Query::nearest, probes, 1, answers, exact));
+  const auto errors_of = [&](const Vec3& normal) {
+    const std::vector<workload::Answer> answers = {workload::Answer::of({probes[0].center, normal, 0, 0})};
+    return counts(judge(oracle, oracle.solve(probes), workload::Query::nearest, probes, 1, answers, exact));
   };
-  EXPECT_EQ(tally_of({0, 0, 1}), Counts{});
-  EXPECT_EQ(tally_of({0, 0, -1}), Counts{});
-  EXPECT_EQ(tally_of({0, 0, 0}), Counts{.wrong_normal = 1});
+  EXPECT_EQ(errors_of({0, 0, 1}), Counts{});
+  EXPECT_EQ(errors_of({0, 0, -1}), Counts{});
+  EXPECT_EQ(errors_of({0, 0, 0}), Counts{.wrong_normal = 1});
 }
 
 TEST(Judge, FindsNoFaultWithBruteForceOnHardMeshes) {
-  HardCases hard(32);
-  for (const auto& [name, mesh] : hard_meshes()) {
+  stress::CornerCases cases(32);
+  for (const auto& [name, mesh] : corner_case_meshes()) {
     if (name == "huge plate") continue;  // its squares overflow in the kernel
     const Oracle oracle(mesh);
     const BruteForce detector = BruteForce::build(mesh);
     BruteForce::Session session;
     std::vector<Probe> probes;
-    std::vector<Answer> answers;
-    for (const Vec3& point : hard_points(mesh, hard, 200)) {
+    std::vector<workload::Answer> answers;
+    for (const Vec3& point : corner_case_points(mesh, cases, 200)) {
       probes.push_back({point, 0});
       const auto contact = detector.nearest(probes.back(), infinity, session);
-      answers.push_back(contact ? Answer::of(*contact) : Answer{});
+      answers.push_back(contact ? workload::Answer::of(*contact) : workload::Answer{});
     }
-    const Tally tally = judge(oracle, oracle.solve(probes), Query::nearest, probes, infinity, answers, exact);
-    EXPECT_EQ(counts(tally), Counts{}) << name;
+    const ErrorCounts errors =
+        judge(oracle, oracle.solve(probes), workload::Query::nearest, probes, infinity, answers, exact);
+    EXPECT_EQ(counts(errors), Counts{}) << name;
   }
 }
 
 /// Balls thrown at a ball from all sides; the truth about the fraction is brute force's.
 class LyingSweep : public testing::Test {
  protected:
-  using Lie = std::function<void(Answer&)>;
+  using Lie = std::function<void(workload::Answer&)>;
 
   LyingSweep() {
-    HardCases hard(33);
+    stress::CornerCases cases(33);
     const BruteForce detector = BruteForce::build(mesh);
     BruteForce::Session session;
     for (int i = 0; i < 120; ++i) {
-      const Vec3 from = 2 * hard.vector().normalized();
-      const Vec3 aim = (i % 3 == 0 ? 4.0 : 0.5) * hard.vector().normalized();
+      const Vec3 from = 2 * cases.vector().normalized();
+      const Vec3 aim = (i % 3 == 0 ? 4.0 : 0.5) * cases.vector().normalized();
       Sweep sweep{from, aim, radius};
       if (i % 3 == 0) sweep.to = from + 0.4 * from.unitOrthogonal();  // tangential: no hit
       sweeps.push_back(sweep);
       const auto impact = detector.first_hit(sweep, session);
-      answers.push_back(impact ? Answer::of(impact->contact, impact->fraction) : Answer{});
+      answers.push_back(impact ? workload::Answer::of(impact->contact, impact->fraction)
+                               : workload::Answer{});
     }
     truths = oracle.solve(sweeps);
   }
 
-  Tally tally_of(const Lie& lie, bool found = true, const Accuracy& accuracy = exact) const {
-    std::vector<Answer> lies = answers;
-    for (Answer& answer : lies)
+  ErrorCounts errors_of(const Lie& lie, bool found = true, const Accuracy& accuracy = exact) const {
+    std::vector<workload::Answer> lies = answers;
+    for (workload::Answer& answer : lies)
       if ((answer.found != 0) == found) lie(answer);
     return judge(oracle, truths, sweeps, lies, accuracy);
   }
@@ -448,22 +464,22 @@ class LyingSweep : public testing::Test {
   TriangleMesh mesh = octasphere(8);
   Oracle oracle{mesh};
   std::vector<Sweep> sweeps;
-  std::vector<SweepTruth> truths;
-  std::vector<Answer> answers;
+  std::vector<SweepGroundTruth> truths;
+  std::vector<workload::Answer> answers;
   static constexpr std::uint64_t hits = 80, misses = 40;
 };
 
 TEST_F(LyingSweep, IsNotChargedWhileItTellsTheTruth) {
-  EXPECT_EQ(counts(tally_of([](Answer&) {})), Counts{});
+  EXPECT_EQ(counts(errors_of([](workload::Answer&) {})), Counts{});
 }
 
 TEST_F(LyingSweep, IsCaughtMissing) {
-  EXPECT_EQ(counts(tally_of([](Answer& a) { a = {}; })), Counts{.missed = hits});
+  EXPECT_EQ(counts(errors_of([](workload::Answer& a) { a = {}; })), Counts{.missed = hits});
 }
 
 TEST_F(LyingSweep, IsCaughtInventing) {
-  EXPECT_EQ(counts(tally_of(
-                [](Answer& a) {
+  EXPECT_EQ(counts(errors_of(
+                [](workload::Answer& a) {
                   a.found = 1;
                   a.fraction = 0.5;
                 },
@@ -472,14 +488,14 @@ TEST_F(LyingSweep, IsCaughtInventing) {
 }
 
 TEST_F(LyingSweep, IsCaughtReportingTooEarly) {
-  const Tally tally = tally_of([](Answer& a) { a.fraction -= 1e-9; });
-  EXPECT_EQ(counts(tally), Counts{.false_contacts = hits});
-  EXPECT_LT(tally.max_distance_error, 3e-9);  // 1e-9 of a way of at most 2.5
-  EXPECT_GT(tally.max_distance_error, 1e-9);
+  const ErrorCounts errors = errors_of([](workload::Answer& a) { a.fraction -= 1e-9; });
+  EXPECT_EQ(counts(errors), Counts{.false_contacts = hits});
+  EXPECT_LT(errors.max_distance_error, 3e-9);  // 1e-9 of a way of at most 2.5
+  EXPECT_GT(errors.max_distance_error, 1e-9);
 }
 
 TEST_F(LyingSweep, IsCaughtReportingTooLate) {
-  EXPECT_EQ(counts(tally_of([](Answer& a) { a.fraction += 1e-9; })), Counts{.missed = hits});
+  EXPECT_EQ(counts(errors_of([](workload::Answer& a) { a.fraction += 1e-9; })), Counts{.missed = hits});
 }
 
 TEST_F(LyingSweep, IsCaughtReportingTheSecondContactInsteadOfTheFirst) {
@@ -491,55 +507,57 @@ TEST_F(LyingSweep, IsCaughtReportingTheSecondContactInsteadOfTheFirst) {
     const std::vector<Sweep> through = {{{2, 0.1, 0.2}, {-2, 0.1, 0.2}, size}};
     const auto from_behind = detector.first_hit({through[0].to, through[0].from, size}, session);
     ASSERT_TRUE(from_behind);
-    const std::vector<Answer> late = {Answer::of(from_behind->contact, 1 - from_behind->fraction)};
+    const std::vector<workload::Answer> late = {
+        workload::Answer::of(from_behind->contact, 1 - from_behind->fraction)};
     EXPECT_EQ(counts(judge(oracle, oracle.solve(through), through, late, exact)), Counts{.missed = 1});
   }
 }
 
 TEST_F(LyingSweep, OfABarePointIsCaughtMissing) {
   const std::vector<Sweep> through = {{{2, 0.1, 0.2}, {-2, 0.1, 0.2}, 0}};
-  const std::vector<Answer> none(1);
+  const std::vector<workload::Answer> none(1);
   EXPECT_EQ(counts(judge(oracle, oracle.solve(through), through, none, exact)), Counts{.missed = 1});
 }
 
 TEST_F(LyingSweep, IsCaughtNamingAnotherTriangle) {
-  EXPECT_EQ(counts(tally_of([](Answer& a) { a.triangle = opposite(a.triangle); })),
+  EXPECT_EQ(counts(errors_of([](workload::Answer& a) { a.triangle = opposite(a.triangle); })),
             Counts{.wrong_triangle = hits});
 }
 
 TEST_F(LyingSweep, IsCaughtShiftingTheDistance) {
-  EXPECT_EQ(counts(tally_of([](Answer& a) { a.distance += 1e-9; })), Counts{.beyond_bound = hits});
+  EXPECT_EQ(counts(errors_of([](workload::Answer& a) { a.distance += 1e-9; })), Counts{.beyond_bound = hits});
 }
 
 TEST_F(LyingSweep, IsCaughtWithAFractionThatIsNone) {
   for (const double bad : {nan, infinity, -1e-300, std::nextafter(1, 2)})
-    EXPECT_EQ(counts(tally_of([&](Answer& a) { a.fraction = bad; })), Counts{.malformed = hits});
+    EXPECT_EQ(counts(errors_of([&](workload::Answer& a) { a.fraction = bad; })), Counts{.malformed = hits});
 }
 
 TEST_F(LyingSweep, OfASweepThatStartsTouchingIsCaughtReportingLater) {
   const TriangleMesh flat = plate(3);
   const Oracle truth(flat);
   const std::vector<Sweep> start = {{{1.25, 1.25, 0.25}, {1.25, 1.25, -1}, 0.5}};
-  const auto tally_at = [&](double fraction, double distance) {
-    const Answer answer = Answer::of({Vec3(1.25, 1.25, 0), Vec3(0, 0, 1), distance, 8}, fraction);
-    return counts(judge(truth, truth.solve(start), start, std::vector<Answer>{answer}, exact));
+  const auto errors_at = [&](double fraction, double distance) {
+    const workload::Answer answer =
+        workload::Answer::of({Vec3(1.25, 1.25, 0), Vec3(0, 0, 1), distance, 8}, fraction);
+    return counts(judge(truth, truth.solve(start), start, std::vector<workload::Answer>{answer}, exact));
   };
-  EXPECT_EQ(tally_at(0, 0.25), Counts{});
-  EXPECT_EQ(tally_at(0.1, 0.125), Counts{.missed = 1});
+  EXPECT_EQ(errors_at(0, 0.25), Counts{});
+  EXPECT_EQ(errors_at(0.1, 0.125), Counts{.missed = 1});
 }
 
 TEST_F(LyingSweep, WithinTheDeclaredAccuracyIsUnresolved) {
   const TriangleMesh flat = plate(3);
   const Oracle truth(flat);
   const std::vector<Sweep> almost = {{{1.25, 1.25, 1}, {1.25, 1.25, 0.5}, 0.4999}};
-  const Answer end = Answer::of({Vec3(1.25, 1.25, 0), Vec3(0, 0, 1), 0.5, 8}, 1);
-  const auto tally_with = [&](double absolute) {
-    return counts(judge(truth, truth.solve(almost), almost, std::vector<Answer>{end},
+  const workload::Answer end = workload::Answer::of({Vec3(1.25, 1.25, 0), Vec3(0, 0, 1), 0.5, 8}, 1);
+  const auto errors_with = [&](double absolute) {
+    return counts(judge(truth, truth.solve(almost), almost, std::vector<workload::Answer>{end},
                         {Guarantee::approximate, 0, absolute}));
   };
-  EXPECT_EQ(tally_with(1e-3), Counts{.unresolved = 1});
-  EXPECT_EQ(tally_with(1e-5), Counts{.false_contacts = 1});
-  EXPECT_EQ(tally_with(infinity), Counts{.false_contacts = 1});
+  EXPECT_EQ(errors_with(1e-3), Counts{.unresolved = 1});
+  EXPECT_EQ(errors_with(1e-5), Counts{.false_contacts = 1});
+  EXPECT_EQ(errors_with(infinity), Counts{.false_contacts = 1});
 }
 
 /// Above a plate, by one ulp wherever that matters.
@@ -549,8 +567,10 @@ TEST_F(LyingSweep, WhoDecidesExactlyIsExcusedNothing) {
   const auto told = [&](double from, double to, double size, std::optional<double> fraction) {
     const std::vector<Sweep> sweep = {{{1.25, 1.25, from}, {1.25, 1.25, to}, size}};
     const double height = from + fraction.value_or(0) * (to - from);
-    const Answer hit = Answer::of({Vec3(1.25, 1.25, 0), Vec3(0, 0, 1), height, 8}, fraction.value_or(0));
-    return counts(judge(truth, truth.solve(sweep), sweep, std::vector<Answer>{fraction ? hit : Answer{}},
+    const workload::Answer hit =
+        workload::Answer::of({Vec3(1.25, 1.25, 0), Vec3(0, 0, 1), height, 8}, fraction.value_or(0));
+    return counts(judge(truth, truth.solve(sweep), sweep,
+                        std::vector<workload::Answer>{fraction ? hit : workload::Answer{}},
                         touchmark::certified));
   };
   const double above = std::nextafter(0.5, 1), below = std::nextafter(0.5, 0);
@@ -568,8 +588,8 @@ TEST_F(LyingSweep, WhoDecidesExactlyIsExcusedNothing) {
   EXPECT_EQ(told(1, 0.5, below, std::nullopt), Counts{});
 }
 
-TEST(Tally, AddsCountsAndKeepsTheLargestErrors) {
-  Tally a, b;
+TEST(ErrorCounts, AddsCountsAndKeepsTheLargestErrors) {
+  ErrorCounts a, b;
   a.missed = 1, a.max_distance_error = 2, a.max_normal_angle_deg = 1;
   b.missed = 2, b.max_distance_error = 1, b.max_normal_angle_deg = 3;
   a += b;
@@ -579,4 +599,4 @@ TEST(Tally, AddsCountsAndKeepsTheLargestErrors) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

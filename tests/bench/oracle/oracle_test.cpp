@@ -6,9 +6,12 @@
 #include <gtest/gtest.h>
 
 #include "bench/oracle/exact_distance.h"
-#include "tests/bench/oracle/hard_meshes.h"
+#include "tests/bench/oracle/corner_case_meshes.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
+
+namespace stress = experiments::stress;
+
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -26,11 +29,11 @@ std::vector<Probe> probes_at(const std::vector<Vec3>& points) {
 }
 
 TEST(Oracle, CullsNothingThatAPlainSearchFinds) {
-  HardCases hard(21);
-  for (const auto& [name, mesh] : hard_meshes()) {
+  stress::CornerCases cases(21);
+  for (const auto& [name, mesh] : corner_case_meshes()) {
     const std::vector<Triangle> triangles = all_triangles(mesh);
-    const std::vector<Vec3> points = hard_points(mesh, hard, 60);
-    const std::vector<Truth> truths = Oracle(mesh, 2).solve(probes_at(points));
+    const std::vector<Vec3> points = corner_case_points(mesh, cases, 60);
+    const std::vector<GroundTruth> truths = Oracle(mesh, 2).solve(probes_at(points));
     for (std::size_t i = 0; i < points.size(); ++i) {
       const ExactNearest expected = nearest_exactly(points[i], triangles);
       ASSERT_TRUE(truths[i].defined);
@@ -44,10 +47,10 @@ TEST(Oracle, CullsNothingThatAPlainSearchFinds) {
 }
 
 TEST(Oracle, FindsAllThatAPlainSearchFindsWithinARadius) {
-  HardCases hard(22);
-  for (const auto& [name, mesh] : hard_meshes()) {
+  stress::CornerCases cases(22);
+  for (const auto& [name, mesh] : corner_case_meshes()) {
     const Oracle oracle(mesh, 1);
-    for (const Vec3& point : hard_points(mesh, hard, 20)) {
+    for (const Vec3& point : corner_case_points(mesh, cases, 20)) {
       const double nearest = oracle.solve(point).high;
       for (const double radius : {nearest, std::nextafter(nearest, 0), 1.01 * nearest, infinity}) {
         std::vector<std::uint32_t> expected;
@@ -60,15 +63,15 @@ TEST(Oracle, FindsAllThatAPlainSearchFindsWithinARadius) {
 }
 
 TEST(Oracle, ASegmentComesWithinARadiusWhenItDoesSoOfOneTriangle) {
-  HardCases hard(23);
+  stress::CornerCases cases(23);
   int yes = 0, no = 0;
-  for (const auto& [name, mesh] : hard_meshes()) {
+  for (const auto& [name, mesh] : corner_case_meshes()) {
     const Oracle oracle(mesh, 1);
-    const std::vector<Vec3> points = hard_points(mesh, hard, 24);
+    const std::vector<Vec3> points = corner_case_points(mesh, cases, 24);
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
       const Vec3 &from = points[i], &to = points[i + 1];
       const double at_end = oracle.solve(to).high;
-      for (const double radius : {0.0, at_end, std::nextafter(at_end, 0), at_end * hard.fraction()}) {
+      for (const double radius : {0.0, at_end, std::nextafter(at_end, 0), at_end * cases.fraction()}) {
         bool expected = false;
         for (std::uint32_t t = 0; t < mesh.size() && !expected; ++t)
           expected = compare_segment_distance(from, to, triangle_of(mesh, t), radius) <= 0;
@@ -82,11 +85,11 @@ TEST(Oracle, ASegmentComesWithinARadiusWhenItDoesSoOfOneTriangle) {
 }
 
 TEST(Oracle, DecidesTheRadiusToTheLastBit) {
-  HardCases hard(24);
-  for (const auto& [name, mesh] : hard_meshes()) {
+  stress::CornerCases cases(24);
+  for (const auto& [name, mesh] : corner_case_meshes()) {
     const Oracle oracle(mesh, 1);
-    for (const Vec3& point : hard_points(mesh, hard, 40)) {
-      const Truth truth = oracle.solve(point);
+    for (const Vec3& point : corner_case_points(mesh, cases, 40)) {
+      const GroundTruth truth = oracle.solve(point);
       for (const double radius :
            {truth.high, std::nextafter(truth.high, 0), std::nextafter(truth.high, infinity)}) {
         const bool expected = compare_distance(point, triangle_of(mesh, truth.triangle), radius) <= 0;
@@ -99,7 +102,8 @@ TEST(Oracle, DecidesTheRadiusToTheLastBit) {
 
 TEST(Oracle, OneTriangleOfManyIsMeasuredAlone) {
   const TriangleMesh mesh = plate(2);
-  const Truth truth = Oracle(mesh).solve({0.25, 0.25, 1}, 7);  // the square from (1,1) to (2,2), upper half
+  const GroundTruth truth =
+      Oracle(mesh).solve({0.25, 0.25, 1}, 7);  // the square from (1,1) to (2,2), upper half
   EXPECT_EQ(truth.triangle, 7U);
   EXPECT_EQ(truth.point, Vec3(1.5, 1.5, 0));
 }
@@ -133,10 +137,11 @@ TEST(Oracle, ARadiusThatIsNoneTouchesNothing) {
 
 TEST(Oracle, TheEdgeOfTheDoublesIsNotTheEndOfIt) {
   const double most = std::numeric_limits<double>::max();
-  const TriangleMesh mesh = mesh_of({{Vec3(-most, -most, -most), Vec3(-most, 0, 0), Vec3(-most, 1, 1)}});
+  const TriangleMesh mesh =
+      stress::mesh_of({{Vec3(-most, -most, -most), Vec3(-most, 0, 0), Vec3(-most, 1, 1)}});
   const Oracle oracle(mesh);
   const Vec3 center(most, most, most);
-  const Truth truth = oracle.solve(center);
+  const GroundTruth truth = oracle.solve(center);
   EXPECT_TRUE(truth.defined);
   EXPECT_EQ(truth.high, infinity);
   EXPECT_FALSE(oracle.within(truth, center, most));
@@ -147,7 +152,7 @@ TEST(Oracle, TheEdgeOfTheDoublesIsNotTheEndOfIt) {
 TEST(Oracle, ASweepHitsWhatStandsInItsWay) {
   const TriangleMesh mesh = plate(2);
   const Oracle oracle(mesh);
-  const SweepTruth through = oracle.solve(Sweep{{0.5, 0.5, 1}, {0.5, 0.5, -1}, 0});
+  const SweepGroundTruth through = oracle.solve(Sweep{{0.5, 0.5, 1}, {0.5, 0.5, -1}, 0});
   EXPECT_TRUE(through.hit);
   EXPECT_FALSE(through.touching_at_start);
   EXPECT_TRUE(oracle.solve(Sweep{{0.5, 0.5, 0.25}, {0.5, 0.5, 1}, 0.25}).touching_at_start);
@@ -156,7 +161,7 @@ TEST(Oracle, ASweepHitsWhatStandsInItsWay) {
 }
 
 TEST(Oracle, ACrossingIsSureWhenItKeepsAwayFromEndsAndEdges) {
-  const TriangleMesh mesh = mesh_of({{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)}});
+  const TriangleMesh mesh = stress::mesh_of({{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)}});
   const Oracle oracle(mesh);
   const auto crosses = [&](double x, double top, double bottom) {
     return oracle.surely_crosses({x, 1, top}, {x, 1, bottom}, 0.5);
@@ -170,10 +175,10 @@ TEST(Oracle, ACrossingIsSureWhenItKeepsAwayFromEndsAndEdges) {
 }
 
 TEST(Oracle, TheNumberOfThreadsChangesNothing) {
-  HardCases hard(25);
+  stress::CornerCases cases(25);
   const TriangleMesh mesh = octasphere(8);
-  const std::vector<Probe> probes = probes_at(hard_points(mesh, hard, 500));
-  const std::vector<Truth> one = Oracle(mesh, 1).solve(probes), many = Oracle(mesh, 8).solve(probes);
+  const std::vector<Probe> probes = probes_at(corner_case_points(mesh, cases, 500));
+  const std::vector<GroundTruth> one = Oracle(mesh, 1).solve(probes), many = Oracle(mesh, 8).solve(probes);
   for (std::size_t i = 0; i < probes.size(); ++i) {
     EXPECT_EQ(one[i].triangle, many[i].triangle);
     EXPECT_EQ(one[i].high, many[i].high);
@@ -182,4 +187,4 @@ TEST(Oracle, TheNumberOfThreadsChangesNothing) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

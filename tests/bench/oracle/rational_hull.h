@@ -14,7 +14,7 @@
 
 #include "bench/oracle/triangle.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::oracle {
 
 using RationalVector = std::array<mpq_class, 3>;
 
@@ -46,7 +46,7 @@ inline std::optional<std::vector<mpq_class>> solve_linear(std::vector<std::vecto
   return x;
 }
 
-inline mpq_class least_squared_length(const std::vector<RationalVector>& corners) {
+inline mpq_class min_squared_length(const std::vector<RationalVector>& corners) {
   std::optional<mpq_class> least;
   for (unsigned set = 1; set < 1U << corners.size(); ++set) {
     if (std::popcount(set) > 4) continue;
@@ -77,7 +77,7 @@ inline mpq_class least_squared_length(const std::vector<RationalVector>& corners
 }
 
 inline mpq_class squared_distance_by_multipliers(const Vec3& point, const Triangle& t) {
-  return least_squared_length({difference(t[0], point), difference(t[1], point), difference(t[2], point)});
+  return min_squared_length({difference(t[0], point), difference(t[1], point), difference(t[2], point)});
 }
 
 inline mpq_class squared_segment_distance_by_multipliers(const Vec3& from, const Vec3& to,
@@ -85,7 +85,7 @@ inline mpq_class squared_segment_distance_by_multipliers(const Vec3& from, const
   std::vector<RationalVector> corners;
   for (const Vec3& end : {from, to})
     for (const Vec3& v : t) corners.push_back(difference(v, end));
-  return least_squared_length(corners);
+  return min_squared_length(corners);
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::oracle

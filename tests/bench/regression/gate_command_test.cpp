@@ -8,7 +8,7 @@
 
 #include "tests/bench/cli/run_touchmark.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::regression::gate {
 namespace {
 
 const std::string hostile = TOUCHMARK_HOSTILE_PROGRAM;
@@ -100,9 +100,9 @@ TEST_F(Gate, RefusesABaselineForSomethingElse) {
   const Outcome other_detector = gate("honest");
   EXPECT_EQ(other_detector.status, 2);
   EXPECT_NE(other_detector.err.find("no row for honest against honest"), std::string::npos);
-  const Outcome other_course = gate("paced", {"--seed", "2"});
-  EXPECT_EQ(other_course.status, 2);
-  EXPECT_NE(other_course.err.find("another trajectory"), std::string::npos) << other_course.err;
+  const Outcome other_trace = gate("paced", {"--seed", "2"});
+  EXPECT_EQ(other_trace.status, 2);
+  EXPECT_NE(other_trace.err.find("another trajectory"), std::string::npos) << other_trace.err;
   const Outcome other_mesh = gate("paced", {"--normalize"});
   EXPECT_EQ(other_mesh.status, 2);
   EXPECT_NE(other_mesh.err.find("another mesh"), std::string::npos) << other_mesh.err;
@@ -133,4 +133,4 @@ TEST_F(Gate, NamesWhatIsWrongOnTheCommandLine) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::regression::gate

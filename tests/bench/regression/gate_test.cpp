@@ -12,11 +12,11 @@
 #include "bench/support/random.h"
 #include "tests/temporary_folder.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::regression::gate {
 namespace {
 
 /// Log-ratios about `center`, nearly normal with standard deviation `spread`.
-std::vector<double> rounds(std::size_t count, double center, double spread, Random& random) {
+std::vector<double> rounds(std::size_t count, double center, double spread, support::Random& random) {
   std::vector<double> values(count);
   for (double& value : values) {
     double sum = 0;
@@ -42,7 +42,7 @@ TEST(MedianRatio, IsNotMovedByAFewRoundsThatWereInterrupted) {
 }
 
 TEST(MedianRatio, HoldsTheTrueRatioNineteenTimesInTwenty) {
-  Random random(5);
+  support::Random random(5);
   int held = 0;
   constexpr int trials = 400;
   for (int trial = 0; trial < trials; ++trial) {
@@ -56,7 +56,7 @@ TEST(MedianRatio, HoldsTheTrueRatioNineteenTimesInTwenty) {
 }
 
 TEST(MedianRatio, IsTheSameForTheSameSeed) {
-  Random random(6);
+  support::Random random(6);
   const std::vector<double> values = rounds(31, 0, 0.1, random);
   EXPECT_EQ(median_ratio(values, 7).low, median_ratio(values, 7).low);
 }
@@ -112,7 +112,7 @@ BaselineRow example() {
           7,
           500,
           {1.25, 1.2, 1.3},
-          WorkResult{25.5348, 199, {}},
+          measurement::WorkResult{25.5348, 199, {}},
           0xfeb9b2fc58af4d3c,
           "0.1.0",
           "abc",
@@ -162,7 +162,7 @@ TEST(Baseline, MayLackWhatIsComparedOnlyIfItIsThere) {
   const BaselineRow* const row = read.find({"m", "t", "nearest", "d", "r"});
   ASSERT_NE(row, nullptr);
   EXPECT_EQ(row->ratio.ratio, 1.5);
-  EXPECT_EQ(row->course_hash, 0xbU);
+  EXPECT_EQ(row->trace_hash, 0xbU);
   EXPECT_FALSE(row->checksum.has_value());
 }
 
@@ -189,4 +189,4 @@ TEST(Baseline, NamesLineAndValueOfWhatItCannotUse) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::regression::gate

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace touchmark::bench {
+namespace touchmark::bench::results {
 namespace {
 
 // The contract of schema 1: appended to, never changed.
@@ -40,7 +40,7 @@ TEST(ResultsCsv, QuotesAsRfc4180Does) {
 }
 
 TEST(ResultsCsv, LeavesEmptyWhatWasNotMeasured) {
-  ResultRow row;
+  measurement::ResultRow row;
   row.detector = "fcl";
   row.options = "bv=obb,method=distance";
   row.mesh = "soup:10";
@@ -58,10 +58,10 @@ TEST(ResultsCsv, LeavesEmptyWhatWasNotMeasured) {
 }
 
 TEST(ResultsCsv, WritesRadiusAndErrorsSoThatTheyReadBackTheSame) {
-  ResultRow row;
+  measurement::ResultRow row;
   row.radius = 0.1 + 0.2;
-  row.tally.emplace();
-  row.tally->max_distance_error = 1.0 / 3e300;
+  row.counts.emplace();
+  row.counts->max_distance_error = 1.0 / 3e300;
   const std::string csv = results_csv("run", {row});
   EXPECT_NE(csv.find(",0.30000000000000004,"), std::string::npos);
   const std::string error = csv.substr(csv.find("e-301") - 18, 23);
@@ -69,4 +69,4 @@ TEST(ResultsCsv, WritesRadiusAndErrorsSoThatTheyReadBackTheSame) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results

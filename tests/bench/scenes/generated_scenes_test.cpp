@@ -11,7 +11,7 @@
 #include "bench/scenes/mesh_report.h"
 #include "bench/scenes/portable_sincos.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::scenes {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -26,15 +26,15 @@ void expect_solid(const MeshReport& report, int genus) {
   EXPECT_GT(report.volume.value_or(-1), 0);
 }
 
-TEST(Turn, AgreesWithTheLibraryToOneRounding) {
+TEST(SinCos, AgreesWithTheLibraryToOneRounding) {
   for (int i = -1000; i <= 3000; ++i) {
     const double fraction = i / 997.0;
-    const Turn direction = turn(fraction);
+    const SinCos direction = portable_sincos(fraction);
     EXPECT_NEAR(direction.cos, std::cos(2 * pi * fraction), 1e-15 * (1 + std::abs(fraction)));
     EXPECT_NEAR(direction.sin, std::sin(2 * pi * fraction), 1e-15 * (1 + std::abs(fraction)));
   }
-  EXPECT_EQ(turn(0.25).cos, 0);
-  EXPECT_EQ(turn(0.5).cos, -1);
+  EXPECT_EQ(portable_sincos(0.25).cos, 0);
+  EXPECT_EQ(portable_sincos(0.5).cos, -1);
 }
 
 TEST(GeneratedScenes, AnIcosphereApproachesTheUnitSphere) {
@@ -205,4 +205,4 @@ TEST(GeneratedScenes, NeedlesAndCapsReachAspectRatiosOf1e15) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::scenes

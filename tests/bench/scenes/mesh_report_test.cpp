@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace touchmark::bench {
+namespace touchmark::bench::scenes {
 namespace {
 
 const std::vector<Vec3> tetrahedron_corners = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -91,4 +91,4 @@ TEST(AspectRatio, IsTheLongestEdgeOverTheSmallestHeight) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::scenes

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace touchmark::bench {
+namespace touchmark:: ::scenes {
 namespace {
 
 std::string refusal(const std::string& name) {
@@ -74,4 +74,4 @@ TEST(Scenes, ABadNameOrParameterIsNamedInOneLine) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::::scenes

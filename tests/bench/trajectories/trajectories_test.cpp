@@ -11,7 +11,7 @@
 #include "bench/trajectories/mesh_edges.h"
 #include "core/aabb_tree/aabb_tree.h"
 
-namespace touchmark::bench {
+namespace touchmark:: ::trajectories {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -56,7 +56,7 @@ TriangleMesh plate() {
 }
 
 TriangleMesh soup() {
-  Random random(5);
+  support::Random random(5);
   std::vector<Vec3> v;
   std::vector<TriangleMesh::Corners> t;
   for (std::uint32_t i = 0; i < 60; ++i) {
@@ -158,7 +158,7 @@ TEST(Trajectories, AreTheSameForTheSameSeedAndDifferForAnother) {
 }
 
 TEST(Trajectories, UseTheRandomBitsOfTheStandard) {
-  Random random(5489);
+  support::Random random(5489);
   for (int i = 0; i < 9'999; ++i) random.unit();
   // [rand.predef]: the 10000th output of mt19937_64 is 9981545732273789042.
   EXPECT_EQ(random.unit(), static_cast<double>(9981545732273789042ULL >> 11) * 0x1p-53);
@@ -431,4 +431,4 @@ TEST(Trajectories, JumpOnlyWhereTheyMustTakeOff) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::::trajectories

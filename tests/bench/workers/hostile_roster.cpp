@@ -18,7 +18,7 @@
 #include "core/brute_force/brute_force.h"
 #include "core/grid_group/grid_group.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workers {
 namespace {
 
 [[noreturn]] void hang() {
@@ -146,22 +146,24 @@ struct TouchesOnly {
 };
 
 template <Detector D>
-ContestantInfo contestant(std::string name) {
-  ContestantInfo info;
+contestants::ContestantInfo contestant(std::string name) {
+  contestants::ContestantInfo info;
   info.name = std::move(name);
   info.accuracy = "exact";
-  info.queries = queries_of<D>();
-  info.build = [](const TriangleMesh& mesh, const OptionValues&) -> std::unique_ptr<Contestant> {
-    return std::make_unique<ContestantOf<D>>(D::build(mesh, {}));
+  info.queries = contestants::queries_of<D>();
+  info.build = [](const TriangleMesh& mesh,
+                  const contestants::OptionValues&) -> std::unique_ptr<contestants::Contestant> {
+    return std::make_unique<contestants::ContestantOf<D>>(D::build(mesh, {}));
   };
-  info.worker_program = [](const OptionValues&) { return "touchmark-hostile-worker"; };
+  info.worker_program = [](const contestants::OptionValues&) { return "touchmark-hostile-worker"; };
   return info;
 }
 
-ContestantInfo makes_later() {
-  ContestantInfo info = contestant<GridGroup>("makes-later");
-  info.build = [](const TriangleMesh& mesh, const OptionValues&) -> std::unique_ptr<Contestant> {
-    return std::make_unique<ContestantOf<GridGroup>>(
+contestants::ContestantInfo makes_later() {
+  contestants::ContestantInfo info = contestant<GridGroup>("makes-later");
+  info.build = [](const TriangleMesh& mesh,
+                  const contestants::OptionValues&) -> std::unique_ptr<contestants::Contestant> {
+    return std::make_unique<contestants::ContestantOf<GridGroup>>(
         GridGroup::build(mesh, {.construction = GridGroup::Construction::lazy}));
   };
   return info;
@@ -171,8 +173,8 @@ ContestantInfo makes_later() {
 
 std::int64_t hostile_ns() noexcept { return spent_ns; }
 
-const Roster& hostile_roster() {
-  static const Roster all(
+const contestants::Roster& hostile_roster() {
+  static const contestants::Roster all(
       {contestant<Misbehaving<Honest>>("honest"), contestant<Misbehaving<Aborts>>("aborts"),
        contestant<Misbehaving<AbortsAtBuild>>("aborts-at-build"),
        contestant<Misbehaving<DividesByZero>>("divides-by-zero"), contestant<Misbehaving<Throws>>("throws"),
@@ -185,4 +187,4 @@ const Roster& hostile_roster() {
   return all;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workers

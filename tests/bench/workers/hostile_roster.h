@@ -5,14 +5,14 @@
 
 #include "bench/contestants/contestant_info.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workers {
 
 /// honest, aborts, aborts-at-build, divides-by-zero, throws, exits, hangs, hangs-at-build, refuses, lies,
 /// fickle, touches-only, paced, moody, stalls, and makes-later, which is a lazy GridGroup. They run in the
 /// program touchmark-hostile-worker.
-const Roster& hostile_roster();
+const contestants::Roster& hostile_roster();
 
 /// What the answers of this process's contestants so far claim to have cost, in nanoseconds.
 std::int64_t hostile_ns() noexcept;
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workers

@@ -22,5 +22,5 @@ extern "C" int clock_gettime(clockid_t clock, timespec* time) noexcept {
 }
 
 int main(int argc, char** argv) {
-  return touchmark::bench::run_worker(argc, argv, touchmark::bench::hostile_roster());
+  return touchmark::bench::workers::run_worker(argc, argv, touchmark::bench::hostile_roster());
 }

@@ -9,38 +9,39 @@
 #include "bench/scenes/scenes.h"
 #include "tests/bench/workers/hostile_roster.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workers {
 namespace {
 
 constexpr std::size_t steps = 40;
 
-Workload small_workload() {
-  Selection selection;
+workload::Workload small_workload() {
+  workload::Selection selection;
   selection.radius = {1, true};
-  return make_workload("icosphere:1", load_scene("icosphere:1"), selection, {"slide", "tap"}, steps);
+  return workload::make_workload("icosphere:1", scenes::load_scene("icosphere:1"), selection,
+                                 {"slide", "tap"}, steps);
 }
 
 /// The rows of each trajectory in turn.
-std::vector<ResultRow> rows_of(const std::vector<std::string>& contestants, bool timed = false) {
-  const Workload workload = small_workload();
-  std::vector<ContestantSpec> specs;
+std::vector<measurement::ResultRow> rows_of(const std::vector<std::string>& contestants, bool timed = false) {
+  const workload::Workload workload = small_workload();
+  std::vector<contestants::ContestantSpec> specs;
   for (const std::string& name : contestants) specs.push_back(hostile_roster().parse(name));
   WorkerOptions workers;
-  workers.build_patience = workers.order_patience = std::chrono::seconds(5);
-  Effort effort;
+  workers.build_timeout = workers.request_timeout = std::chrono::seconds(5);
+  measurement::Effort effort;
   effort.repetitions = timed ? 2 : 0;
   effort.repetition_ns = 2e6;
-  Comparison comparison(hostile_roster(), workload, specs, workers, effort, 1);
-  std::vector<ResultRow> rows;
-  for (std::size_t course = 0; course < workload.courses.size(); ++course) {
-    const std::vector<ResultRow> some = comparison.run(course, Query::nearest);
+  measurement::Comparison comparison(hostile_roster(), workload, specs, workers, effort, 1);
+  std::vector<measurement::ResultRow> rows;
+  for (std::size_t trace = 0; trace < workload.traces.size(); ++trace) {
+    const std::vector<measurement::ResultRow> some = comparison.run(trace, workload::Query::nearest);
     rows.insert(rows.end(), some.begin(), some.end());
   }
   return rows;
 }
 
 std::string status_of(const std::string& contestant) {
-  const std::vector<ResultRow> rows = rows_of({contestant, "honest"});
+  const std::vector<measurement::ResultRow> rows = rows_of({contestant, "honest"});
   EXPECT_EQ(rows.size(), 4U);
   EXPECT_EQ(rows[1].status, "ok") << "the contestant after it must not suffer";
   EXPECT_EQ(rows[3].status, "ok");
@@ -78,29 +79,29 @@ TEST(WorkerSurvival, AHangDuringTheBuildIsWaitedForOnlyOnce) {
 }
 
 TEST(WorkerSurvival, ALieIsCountedAndBreaksTheClaim) {
-  const std::vector<ResultRow> rows = rows_of({"lies"});
-  ASSERT_TRUE(rows[0].tally);
-  EXPECT_GT(rows[0].tally->beyond_bound, 0U);
-  EXPECT_TRUE(rows[0].broke_its_word());
+  const std::vector<measurement::ResultRow> rows = rows_of({"lies"});
+  ASSERT_TRUE(rows[0].counts);
+  EXPECT_GT(rows[0].counts->beyond_bound, 0U);
+  EXPECT_TRUE(rows[0].violates_guarantee());
 }
 
 TEST(WorkerSurvival, AnswersThatDifferWhenTimedAreAMismatchAndNoResult) {
-  const std::vector<ResultRow> rows = rows_of({"fickle", "honest"}, true);
+  const std::vector<measurement::ResultRow> rows = rows_of({"fickle", "honest"}, true);
   EXPECT_EQ(rows[0].status, "checksum mismatch");
   EXPECT_FALSE(rows[0].throughput);
-  EXPECT_FALSE(rows[0].broke_its_word()) << "it was right when it was verified, or this tests nothing";
+  EXPECT_FALSE(rows[0].violates_guarantee()) << "it was right when it was verified, or this tests nothing";
   EXPECT_EQ(rows[1].status, "ok");
 }
 
 TEST(WorkerSurvival, AnHonestContestantIsMeasuredInEveryColumn) {
-  const std::vector<ResultRow> rows = rows_of({"honest"}, true);
+  const std::vector<measurement::ResultRow> rows = rows_of({"honest"}, true);
   ASSERT_EQ(rows.size(), 2U);
-  for (const ResultRow& row : rows) {
+  for (const measurement::ResultRow& row : rows) {
     EXPECT_EQ(row.status, "ok");
     EXPECT_EQ(row.steps, steps);
-    ASSERT_TRUE(row.tally && row.throughput && row.latency && row.work && row.build_ms && row.bytes);
-    EXPECT_EQ(row.tally->judged, steps);
-    EXPECT_FALSE(row.broke_its_word());
+    ASSERT_TRUE(row.counts && row.throughput && row.latency && row.work && row.build_ms && row.bytes);
+    EXPECT_EQ(row.counts->judged, steps);
+    EXPECT_FALSE(row.violates_guarantee());
     EXPECT_EQ(row.throughput->repetitions, 2U);
     EXPECT_GT(row.throughput->ns_per_query_min, 0);
     EXPECT_LE(row.throughput->ns_per_query_min, row.throughput->ns_per_query);
@@ -114,4 +115,4 @@ TEST(WorkerSurvival, AnHonestContestantIsMeasuredInEveryColumn) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workers

@@ -8,10 +8,10 @@
 
 #include "bench/workload/sample_steps.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::workload {
 namespace {
 
-/// A motion that repeats itself every 8 blocks: 1 in contact, 2 near, 5 free. Equally spaced windows alias on
+/// A motion that repeats itself every 8 blocks: 1 in contact, 2 near, 5 free. Equally spaced ranges alias on
 /// it.
 std::vector<Phase> repeating(std::size_t blocks) {
   std::vector<Phase> phases;
@@ -23,20 +23,20 @@ std::vector<Phase> repeating(std::size_t blocks) {
 constexpr std::size_t total = 20000;
 SamplePlan plan() { return {total, repeating(SamplePlan::blocks_in(total)), 1}; }
 
-std::array<double, phase_count> shares(const SamplePlan& plan, const std::vector<Window>& windows) {
+std::array<double, phase_count> shares(const SamplePlan& plan, const std::vector<StepRange>& ranges) {
   std::array<double, phase_count> shares{};
-  for (const Window& window : windows)
-    shares[static_cast<std::size_t>(plan.phase_of(window))] += static_cast<double>(window.size());
-  for (double& share : shares) share /= static_cast<double>(steps_in(windows));
+  for (const StepRange& range : ranges)
+    shares[static_cast<std::size_t>(plan.phase_of(range))] += static_cast<double>(range.size());
+  for (double& share : shares) share /= static_cast<double>(steps_in(ranges));
   return shares;
 }
 
 TEST(SamplePlan, IsTheWholeWayWhereThereIsTimeForIt) {
   for (const std::size_t wanted : {total, total + 1, 10 * total}) {
-    const std::vector<Window> windows = plan().windows(wanted);
-    ASSERT_EQ(windows.size(), 1U);
-    EXPECT_EQ(windows[0].begin, 0U);
-    EXPECT_EQ(windows[0].end, total);
+    const std::vector<StepRange> ranges = plan().ranges(wanted);
+    ASSERT_EQ(ranges.size(), 1U);
+    EXPECT_EQ(ranges[0].begin, 0U);
+    EXPECT_EQ(ranges[0].end, total);
   }
 }
 
@@ -45,23 +45,23 @@ TEST(SamplePlan, HasDisjointAscendingWindowsInsideOneBlockEachWhateverTheCounts)
     const SamplePlan some(steps, repeating(SamplePlan::blocks_in(steps)), 3);
     for (std::size_t wanted = 1; wanted < steps; ++wanted) {
       std::size_t end = 0;
-      const std::vector<Window> windows = some.windows(wanted);
-      for (const Window& window : windows) {
-        ASSERT_GE(window.begin, end);
-        ASSERT_GT(window.end, window.begin);
-        ASSERT_LE(window.end, steps);
-        ASSERT_EQ(window.begin / SamplePlan::block_steps, (window.end - 1) / SamplePlan::block_steps);
-        end = window.end;
+      const std::vector<StepRange> ranges = some.ranges(wanted);
+      for (const StepRange& range : ranges) {
+        ASSERT_GE(range.begin, end);
+        ASSERT_GT(range.end, range.begin);
+        ASSERT_LE(range.end, steps);
+        ASSERT_EQ(range.begin / SamplePlan::block_steps, (range.end - 1) / SamplePlan::block_steps);
+        end = range.end;
       }
-      ASSERT_LE(steps_in(windows), std::max<std::size_t>(wanted, 6)) << "two blocks of three phases at least";
+      ASSERT_LE(steps_in(ranges), std::max<std::size_t>(wanted, 6)) << "two blocks of three phases at least";
     }
   }
 }
 
 TEST(SamplePlan, HasEachPhaseInItsShareAlsoWhereTheMotionRepeatsItself) {
   for (const std::size_t wanted : {1024U, 2048U, 4096U, 8192U}) {
-    const std::array<double, phase_count> found = shares(plan(), plan().windows(wanted));
-    EXPECT_GE(steps_in(plan().windows(wanted)), wanted * 9 / 10);
+    const std::array<double, phase_count> found = shares(plan(), plan().ranges(wanted));
+    EXPECT_GE(steps_in(plan().ranges(wanted)), wanted * 9 / 10);
     EXPECT_NEAR(found[0], 1.0 / 8, 2.5 * SamplePlan::block_steps / wanted);
     EXPECT_NEAR(found[1], 2.0 / 8, 2.5 * SamplePlan::block_steps / wanted);
   }
@@ -70,8 +70,8 @@ TEST(SamplePlan, HasEachPhaseInItsShareAlsoWhereTheMotionRepeatsItself) {
 TEST(SamplePlan, HasTwoBlocksOfEachPhaseHoweverFewStepsAreWanted) {
   for (const std::size_t wanted : {1U, 2U, 8U, 16U, 100U}) {
     std::array<int, phase_count> blocks{};
-    for (const Window& window : plan().windows(wanted))
-      ++blocks[static_cast<std::size_t>(plan().phase_of(window))];
+    for (const StepRange& range : plan().ranges(wanted))
+      ++blocks[static_cast<std::size_t>(plan().phase_of(range))];
     for (const int count : blocks) EXPECT_GE(count, 2) << wanted;
   }
 }
@@ -79,10 +79,10 @@ TEST(SamplePlan, HasTwoBlocksOfEachPhaseHoweverFewStepsAreWanted) {
 TEST(SamplePlan, NestsSoThatASlowerContestantsStepsAreAmongAFasterOnes) {
   for (std::size_t wanted = 8; wanted < 16384; wanted *= 2) {
     std::set<std::size_t> larger;
-    for (const Window& window : plan().windows(2 * wanted))
-      for (std::size_t i = window.begin; i < window.end; ++i) larger.insert(i);
-    for (const Window& window : plan().windows(wanted))
-      for (std::size_t i = window.begin; i < window.end; ++i) ASSERT_TRUE(larger.contains(i)) << wanted;
+    for (const StepRange& range : plan().ranges(2 * wanted))
+      for (std::size_t i = range.begin; i < range.end; ++i) larger.insert(i);
+    for (const StepRange& range : plan().ranges(wanted))
+      for (std::size_t i = range.begin; i < range.end; ++i) ASSERT_TRUE(larger.contains(i)) << wanted;
   }
 }
 
@@ -95,4 +95,4 @@ TEST(SamplePlan, TellsPhasesByTheNearestOfTheTellingSteps) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workload

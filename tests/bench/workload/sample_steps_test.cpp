@@ -2,24 +2,24 @@
 
 #include <gtest/gtest.h>
 
-namespace touchmark::bench {
+namespace touchmark::bench::workload {
 namespace {
 
 TEST(Windows, AreTheWholeWayWhereThereIsTimeForIt) {
   for (const std::size_t wanted : {100U, 101U, 1000000U}) {
-    const std::vector<Window> windows = plan_windows(100, wanted);
-    ASSERT_EQ(windows.size(), 1U);
-    EXPECT_EQ(windows[0].begin, 0U);
-    EXPECT_EQ(windows[0].end, 100U);
+    const std::vector<StepRange> ranges = sample_steps(100, wanted);
+    ASSERT_EQ(ranges.size(), 1U);
+    EXPECT_EQ(ranges[0].begin, 0U);
+    EXPECT_EQ(ranges[0].end, 100U);
   }
 }
 
 TEST(Windows, AreSplitIntoEqualPartsAndJoinedAgain) {
   for (const std::size_t parts : {1U, 2U, 3U, 7U, 100U, 1000U}) {
-    const std::vector<Window> some = split({5, 105}, parts);
+    const std::vector<StepRange> some = split({5, 105}, parts);
     ASSERT_EQ(some.size(), std::min<std::size_t>(parts, 100));
-    for (const Window& window : some) EXPECT_LE(window.size(), 100 / some.size() + 1);
-    const std::vector<Window> whole = joined(some);
+    for (const StepRange& range : some) EXPECT_LE(range.size(), 100 / some.size() + 1);
+    const std::vector<StepRange> whole = joined(some);
     ASSERT_EQ(whole.size(), 1U);
     EXPECT_EQ(whole[0].begin, 5U);
     EXPECT_EQ(whole[0].end, 105U);
@@ -31,26 +31,26 @@ TEST(Windows, AreDisjointAscendingAndInsideWhateverTheCounts) {
   for (std::size_t total = 1; total < 200; ++total) {
     for (std::size_t wanted = 0; wanted < total; ++wanted) {
       std::size_t end = 0;
-      const std::vector<Window> windows = plan_windows(total, wanted);
-      for (const Window& window : windows) {
-        ASSERT_GE(window.begin, end);
-        ASSERT_GT(window.end, window.begin);
-        ASSERT_LE(window.end, total);
-        end = window.end;
+      const std::vector<StepRange> ranges = sample_steps(total, wanted);
+      for (const StepRange& range : ranges) {
+        ASSERT_GE(range.begin, end);
+        ASSERT_GT(range.end, range.begin);
+        ASSERT_LE(range.end, total);
+        end = range.end;
       }
-      ASSERT_GE(steps_in(windows), 1U);
-      ASSERT_LE(steps_in(windows), std::max<std::size_t>(wanted, 1));
+      ASSERT_GE(steps_in(ranges), 1U);
+      ASSERT_LE(steps_in(ranges), std::max<std::size_t>(wanted, 1));
     }
   }
 }
 
 TEST(Windows, AreSpreadOverTheWholeWayAndAlmostAsManyStepsAsWanted) {
-  const std::vector<Window> windows = plan_windows(20000, 1000);
-  EXPECT_GE(steps_in(windows), 900U);
-  EXPECT_EQ(windows.front().begin, 0U);
-  EXPECT_GT(windows.back().end, 18000U);
-  EXPECT_GE(windows.front().size(), 16U);  // neighbours, so that a session can profit
+  const std::vector<StepRange> ranges = sample_steps(20000, 1000);
+  EXPECT_GE(steps_in(ranges), 900U);
+  EXPECT_EQ(ranges.front().begin, 0U);
+  EXPECT_GT(ranges.back().end, 18000U);
+  EXPECT_GE(ranges.front().size(), 16U);  // neighbours, so that a session can profit
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::workload

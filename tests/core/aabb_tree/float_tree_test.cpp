@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/oracle/oracle.h"
-#include "tests/bench/oracle/hard_meshes.h"
+#include "tests/bench/oracle/corner_case_meshes.h"
 
 namespace touchmark {
 namespace {
@@ -27,15 +27,15 @@ struct Errors {
 /// Every answer within what the tree declares of the oracle's: distance, triangle, point, and contact where
 /// the radius is farther from the distance than that.
 Errors check(const TriangleMesh& mesh, std::uint64_t seed, int points) {
-  const bench::Oracle oracle(mesh, 1);
+  const bench::oracle::Oracle oracle(mesh, 1);
   const FloatTree tree = FloatTree::build(mesh);
   const Accuracy accuracy = tree.accuracy();
   EXPECT_EQ(accuracy.guarantee, Guarantee::approximate);
   FloatTree::Session session;
-  HardCases hard(seed);
+  CornerCases cases(seed);
   Errors errors;
-  for (const Vec3& point : hard_points(mesh, hard, points)) {
-    const bench::Truth truth = oracle.solve(point);
+  for (const Vec3& point : corner_case_points(mesh, cases, points)) {
+    const bench::oracle::GroundTruth truth = oracle.solve(point);
     if (!truth.defined || truth.high > 0x1p40 * mesh.diagonal()) continue;
     const double bound = (accuracy.relative * truth.largest_difference + accuracy.absolute) * as_declared;
     const std::optional<Contact> contact = tree.nearest({point, 0}, infinity, session);
@@ -60,7 +60,7 @@ Errors check(const TriangleMesh& mesh, std::uint64_t seed, int points) {
 }
 
 TEST(FloatTree, KeepsItsBoundOnHardMeshes) {
-  for (const NamedMesh& named : hard_meshes()) {
+  for (const NamedMesh& named : corner_case_meshes()) {
     SCOPED_TRACE(named.name);
     const Errors errors = check(named.mesh, 31, 200);
     EXPECT_GT(errors.asked, 100U);
@@ -81,14 +81,14 @@ TEST(FloatTree, LosesNothingToOffsetAndScale) {
 }
 
 TEST(FloatTree, FindsTheLeastOfAllAsComputed) {
-  HardCases hard(34);
-  std::vector<HardCases::Corners> triangles;
-  for (int i = 0; i < 300; ++i) triangles.push_back(hard.mixed());
+  CornerCases cases(34);
+  std::vector<CornerCases::Corners> triangles;
+  for (int i = 0; i < 300; ++i) triangles.push_back(cases.mixed());
   const TriangleMesh mesh = mesh_of(triangles);
   const FloatTree tree = FloatTree::build(mesh), flat = FloatTree::build(mesh, {255});
   FloatTree::Session session, other;
   for (int i = 0; i < 300; ++i) {
-    const Probe probe{2 * hard.vector(), 0};
+    const Probe probe{2 * cases.vector(), 0};
     const auto contact = tree.nearest(probe, infinity, session),
                expected = flat.nearest(probe, infinity, other);
     ASSERT_TRUE(contact && expected);

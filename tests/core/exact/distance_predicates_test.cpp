@@ -10,12 +10,12 @@
 #include <gtest/gtest.h>
 
 #include "bench/oracle/exact_distance.h"
-#include "tests/bench/oracle/hard_triangles.h"
+#include "tests/bench/oracle/corner_case_triangles.h"
 
 namespace touchmark {
 namespace {
 
-using Corners = HardCases::Corners;
+using Corners = CornerCases::Corners;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double largest = std::numeric_limits<double>::max();
@@ -27,12 +27,12 @@ std::vector<double> radii(double distance) {
           infinity};
 }
 
-bool within_by_oracle(const HardCase& c, double radius) {
-  return radius >= 0 && bench::compare_distance(c.point, c.triangle, radius) <= 0;
+bool within_by_oracle(const CornerCase& c, double radius) {
+  return radius >= 0 && bench::oracle::compare_distance(c.point, c.triangle, radius) <= 0;
 }
 
-void expect_oracle_agrees(const HardCase& c) {
-  const bench::ExactNearest truth = bench::nearest_exactly(c.point, {&c.triangle, 1});
+void expect_oracle_agrees(const CornerCase& c) {
+  const bench::oracle::ExactNearest truth = bench::oracle::nearest_exactly(c.point, {&c.triangle, 1});
   for (const double radius : radii(std::min(truth.high, largest)))
     ASSERT_EQ(within_exactly(c.triangle, c.point, radius), within_by_oracle(c, radius)) << radius;
   const ClosestPoint closest = closest_point_exactly(c.triangle, c.point);
@@ -49,25 +49,25 @@ void expect_oracle_agrees(const HardCase& c) {
   }
 }
 
-class ExactDecision : public testing::TestWithParam<HardFamily> {};
+class ExactDecision : public testing::TestWithParam<CornerCaseFamily> {};
 
 /// Ways to the point from another case's, at the radii where their distance may begin to be within.
 TEST_P(ExactDecision, OfPartsOfAWayIsTheOracles) {
-  HardCases hard(62);
+  CornerCases cases(62);
   std::size_t within = 0, beyond = 0;
   for (int i = 0; i < 1000; ++i) {
-    const HardCase c = placed(GetParam(), hard, i);
+    const CornerCase c = placed(GetParam(), cases, i);
     const Vec3 from = i % 3 == 0 ? c.point : Vec3(c.triangle[0] + 3 * (c.triangle[1] - c.point));
     if (!from.allFinite()) continue;
-    const double fraction = i % 2 == 0 ? 1 : std::round(hard.fraction() * 0x1p53) / 0x1p53;
-    const double distance = bench::nearest_exactly(c.point, {&c.triangle, 1}).high;
+    const double fraction = i % 2 == 0 ? 1 : std::round(cases.fraction() * 0x1p53) / 0x1p53;
+    const double distance = bench::oracle::nearest_exactly(c.point, {&c.triangle, 1}).high;
     for (const double radius : radii(std::min(distance, largest))) {
-      const bool expected = bench::compare_part_distance(from, c.point, fraction, c.triangle, radius) <= 0;
+      const bool expected = bench::oracle::compare_part_distance(from, c.point, fraction, c.triangle, radius) <= 0;
       ASSERT_EQ(path_within_exactly(c.triangle, from, c.point, fraction, radius), expected)
           << "case " << i << ", radius " << radius << ", fraction " << fraction;
       ++(expected ? within : beyond);
       if (fraction == 1) {
-        ASSERT_EQ(bench::compare_segment_distance(from, c.point, c.triangle, radius) <= 0, expected);
+        ASSERT_EQ(bench::oracle::compare_segment_distance(from, c.point, c.triangle, radius) <= 0, expected);
       }
     }
   }
@@ -76,34 +76,34 @@ TEST_P(ExactDecision, OfPartsOfAWayIsTheOracles) {
 }
 
 TEST_P(ExactDecision, IsTheOracles) {
-  HardCases hard(60);
+  CornerCases cases(60);
   for (int i = 0; i < 4000; ++i) {
-    ASSERT_NO_FATAL_FAILURE(expect_oracle_agrees(placed(GetParam(), hard, i))) << "case " << i;
+    ASSERT_NO_FATAL_FAILURE(expect_oracle_agrees(placed(GetParam(), cases, i))) << "case " << i;
   }
 }
 
 TEST_P(ExactDecision, IsTheOraclesWhereverInTheRangeOfDouble) {
-  HardCases hard(61);
+  CornerCases cases(61);
   for (int i = 0; i < 1000; ++i) {
-    HardCase c{GetParam().triangle(hard), Vec3::Zero()};
-    c.point = hard.point_about(c.triangle);
+    CornerCase c{GetParam().triangle(cases), Vec3::Zero()};
+    c.point = cases.point_near(c.triangle);
     // At either end, or each corner at a size of its own.
     const double common = i % 3 == 0 ? 0x1p1000 : 0x1p-1060;
-    for (Vec3* v : c.vectors()) *v *= i % 3 == 2 ? hard.magnitude(-300, 300) : common;
+    for (Vec3* v : c.vectors()) *v *= i % 3 == 2 ? cases.magnitude(-300, 300) : common;
     ASSERT_NO_FATAL_FAILURE(expect_oracle_agrees(c)) << "case " << i;
   }
 }
 
 TEST_P(ExactDecision, OrdersTrianglesAsTheOracleDoes) {
-  HardCases hard(62);
+  CornerCases cases(62);
   for (int i = 0; i < 2000; ++i) {
-    const Corners a = GetParam().triangle(hard);
+    const Corners a = GetParam().triangle(cases);
     // Beside each other, so that ties are common, or anything.
-    const Corners b = i % 2 == 0 ? Corners{a[1], a[0], hard.lattice()} : GetParam().triangle(hard);
-    const Vec3 point = hard.point_about(a);
-    const std::array<bench::Triangle, 2> forward = {a, b}, backward = {b, a};
-    const std::size_t first = bench::nearest_exactly(point, forward).which;
-    const std::size_t second = bench::nearest_exactly(point, backward).which;
+    const Corners b = i % 2 == 0 ? Corners{a[1], a[0], cases.lattice()} : GetParam().triangle(cases);
+    const Vec3 point = cases.point_near(a);
+    const std::array<bench::oracle::Triangle, 2> forward = {a, b}, backward = {b, a};
+    const std::size_t first = bench::oracle::nearest_exactly(point, forward).which;
+    const std::size_t second = bench::oracle::nearest_exactly(point, backward).which;
     const auto order = first == 1    ? std::strong_ordering::greater
                        : second == 1 ? std::strong_ordering::less
                                      : std::strong_ordering::equal;
@@ -111,7 +111,7 @@ TEST_P(ExactDecision, OrdersTrianglesAsTheOracleDoes) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, ExactDecision, testing::ValuesIn(hard_families()),
+INSTANTIATE_TEST_SUITE_P(Families, ExactDecision, testing::ValuesIn(corner_case_families()),
                          [](const auto& family) { return family.param.name; });
 
 TEST(ExactDecisions, TheWholeRangeOfDoubleAtOnce) {

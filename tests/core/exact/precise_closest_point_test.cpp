@@ -7,24 +7,24 @@
 #include <gtest/gtest.h>
 
 #include "bench/oracle/exact_distance.h"
-#include "tests/bench/oracle/hard_triangles.h"
+#include "tests/bench/oracle/corner_case_triangles.h"
 
 namespace touchmark {
 namespace {
 
-using Corners = HardCases::Corners;
+using Corners = CornerCases::Corners;
 
-class CloseFeet : public testing::TestWithParam<HardFamily> {};
+class CloseFeet : public testing::TestWithParam<CornerCaseFamily> {};
 
 TEST_P(CloseFeet, KeepTheErrorTheyState) {
-  HardCases hard(80);
+  CornerCases cases(80);
   for (int i = 0; i < 8000; ++i) {
-    const HardCase c = placed(GetParam(), hard, i);
+    const CornerCase c = placed(GetParam(), cases, i);
     const std::optional<CloseFoot> close = precise_closest_point(c.triangle, c.point);
     if (!close) continue;
     const ClosestPoint& closest = close->closest;
     ASSERT_LE(closest.error, 0x1p-60 * c.largest_difference()) << i;
-    const bench::ExactNearest truth = bench::nearest_exactly(c.point, {&c.triangle, 1});
+    const bench::oracle::ExactNearest truth = bench::oracle::nearest_exactly(c.point, {&c.triangle, 1});
     const double off = (closest.distance.high - truth.high) + (closest.distance.low - truth.low);
     ASSERT_LE(std::abs(off), closest.error + 0x1p-98 * truth.high) << i;  // what the oracle rounds, too
     // The nearest point is one, so the offset is the oracle's, as far as doubles can tell.
@@ -34,12 +34,12 @@ TEST_P(CloseFeet, KeepTheErrorTheyState) {
 }
 
 TEST_P(CloseFeet, OfTheSameFeatureAreTies) {
-  HardCases hard(81);
+  CornerCases cases(81);
   int ties = 0;
   for (int i = 0; i < 4000; ++i) {
-    const Corners a = GetParam().triangle(hard);
-    const Corners b = {a[1], a[0], hard.vector()};
-    const Vec3 point = hard.point_about(a);
+    const Corners a = GetParam().triangle(cases);
+    const Corners b = {a[1], a[0], cases.vector()};
+    const Vec3 point = cases.point_near(a);
     const std::optional<CloseFoot> first = precise_closest_point(a, point),
                                    second = precise_closest_point(b, point);
     if (!first || !second || !on_same_feature(*first, *second)) continue;
@@ -52,19 +52,19 @@ TEST_P(CloseFeet, OfTheSameFeatureAreTies) {
 }
 
 TEST_P(CloseFeet, OverLevelFacesAreExact) {
-  HardCases hard(83);
+  CornerCases cases(83);
   int on_border = 0;
   for (int i = 0; i < 4000; ++i) {
-    Corners t = GetParam().triangle(hard);
+    Corners t = GetParam().triangle(cases);
     const Eigen::Index axis = i % 3;
     const auto k = static_cast<std::size_t>(i / 3 % 3);
     for (const std::size_t other : {(k + 1) % 3, (k + 2) % 3}) t[other][axis] = t[k][axis];
     // Over the middle of a side, or beside it by a rounding; anywhere else.
-    Vec3 point = i % 2 == 0 ? Vec3(0.5 * (t[0] + t[1])) : hard.point_about(t);
-    point[axis] = hard.point_about(t)[axis];
+    Vec3 point = i % 2 == 0 ? Vec3(0.5 * (t[0] + t[1])) : cases.point_near(t);
+    point[axis] = cases.point_near(t)[axis];
     const std::optional<CloseFoot> close = precise_closest_point(t, point);
     if (!close || close->feature) continue;
-    const bench::ExactNearest truth = bench::nearest_exactly(point, {&t, 1});
+    const bench::oracle::ExactNearest truth = bench::oracle::nearest_exactly(point, {&t, 1});
     if (i % 2 == 0) ++on_border;
     ASSERT_EQ(close->closest.error, 0) << i;
     ASSERT_EQ(close->closest.distance.high, truth.high) << i;
@@ -76,17 +76,17 @@ TEST_P(CloseFeet, OverLevelFacesAreExact) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, CloseFeet, testing::ValuesIn(hard_families()),
+INSTANTIATE_TEST_SUITE_P(Families, CloseFeet, testing::ValuesIn(corner_case_families()),
                          [](const auto& family) { return family.param.name; });
 
 TEST(CloseFoot, TellsNearlyAlwaysWhatIsNearestToAPlainTriangle) {
-  HardCases hard(82);
+  CornerCases cases(82);
   int unknown = 0;
   for (int i = 0; i < 10000; ++i) {
-    const Corners t = hard.plain();
-    const double part = hard.fraction();
+    const Corners t = cases.plain();
+    const double part = cases.fraction();
     const Vec3 on_edge = (1 - part) * t[0] + part * t[1];
-    if (!precise_closest_point(t, on_edge + hard.magnitude(-17, 0) * hard.vector())) ++unknown;
+    if (!precise_closest_point(t, on_edge + cases.magnitude(-17, 0) * cases.vector())) ++unknown;
   }
   EXPECT_LE(unknown, 2);
 }
@@ -113,23 +113,23 @@ struct Hinge {
   Corners a, b;
   Vec3 point;
 
-  Hinge(HardCases& hard, int i) {
-    const Vec3 p = hard.vector(), q = hard.vector(), r = hard.vector();
+  Hinge(CornerCases& cases, int i) {
+    const Vec3 p = cases.vector(), q = cases.vector(), r = cases.vector();
     const Vec3 other = p + q - r;
-    const double bend = i % 3 == 0 ? 0.0 : hard.magnitude(i % 3 == 1 ? -17 : -4, 0);
+    const double bend = i % 3 == 0 ? 0.0 : cases.magnitude(i % 3 == 1 ? -17 : -4, 0);
     const Vec3 normal = (q - p).cross(r - p).normalized();
     a = {p, q, r};
     b = {q, p, other + bend * normal};
-    const double part = hard.fraction();
-    point = (1 - part) * p + part * q + hard.fraction() * normal + hard.magnitude(-18, -15) * hard.vector();
+    const double part = cases.fraction();
+    point = (1 - part) * p + part * q + cases.fraction() * normal + cases.magnitude(-18, -15) * cases.vector();
   }
 };
 
 TEST(CloseFoot, TellsWhichOfTwoFacesThatShareAnEdgeIsNearer) {
-  HardCases hard(84);
+  CornerCases cases(84);
   int inside = 0, told_inside = 0, told_by_edge = 0;
   for (int i = 0; i < 6000; ++i) {
-    const Hinge hinge(hard, i);
+    const Hinge hinge(cases, i);
     const std::optional<CloseFoot> a = precise_closest_point(hinge.a, hinge.point),
                                    b = precise_closest_point(hinge.b, hinge.point);
     if (!a || !b) continue;

@@ -9,22 +9,24 @@
 #include "bench/oracle/interval_distance.h"
 #include "core/detector.h"
 #include "core/geometry/point_triangle.h"
-#include "tests/bench/oracle/hard_triangles.h"
+#include "tests/bench/oracle/corner_case_triangles.h"
 
 namespace touchmark {
 namespace {
 
-using bench::ExactNearest;
-using Corners = HardCases::Corners;
+using bench::oracle::ExactNearest;
+using Corners = CornerCases::Corners;
 
 constexpr double unit_roundoff = 0x1p-53;
 
-ExactNearest exact_nearest(const HardCase& c) { return bench::nearest_exactly(c.point, {&c.triangle, 1}); }
+ExactNearest exact_nearest(const CornerCase& c) {
+  return bench::oracle::nearest_exactly(c.point, {&c.triangle, 1});
+}
 
 PreparedTriangle prepared(const Corners& t) { return prepare(t[0], t[1], t[2], 0); }
 
 /// |d - d*| / (u M).
-double error_in_roundings(const HardCase& c) {
+double error_in_roundings(const CornerCase& c) {
   const ExactNearest exact = exact_nearest(c);
   const double distance = std::sqrt(squared_distance(prepared(c.triangle), c.point));
   const double error = std::abs((distance - exact.high) - exact.low);
@@ -32,14 +34,15 @@ double error_in_roundings(const HardCase& c) {
 }
 
 /// The contact's fields agree with its distance as far as that bound lets them.
-void expect_consistent_contact(const HardCase& c) {
+void expect_consistent_contact(const CornerCase& c) {
   const ExactNearest exact = exact_nearest(c);
   const Contact contact = contact_on(prepared(c.triangle), c.point, 3);
   const double bound = kernel_relative_error * c.largest_difference();
   const double coordinates = std::max(c.point.cwiseAbs().maxCoeff(), contact.point.cwiseAbs().maxCoeff());
   EXPECT_EQ(contact.distance, std::sqrt(squared_distance(prepared(c.triangle), c.point)));
   EXPECT_NEAR(contact.normal.norm(), 1, 1e-14);
-  EXPECT_LE(bench::distance_interval(contact.point, c.triangle).lo, bound + 4 * unit_roundoff * coordinates);
+  EXPECT_LE(bench::oracle::distance_interval(contact.point, c.triangle).lo,
+            bound + 4 * unit_roundoff * coordinates);
   // Two points of a convex set whose distances to a third differ by little are near each other.
   const double shift = bound + 2 * std::sqrt(bound * (exact.high + bound));
   if (exact.high > bound) {
@@ -47,13 +50,13 @@ void expect_consistent_contact(const HardCase& c) {
   }
 }
 
-class HardTriangles : public testing::TestWithParam<HardFamily> {};
+class HardTriangles : public testing::TestWithParam<CornerCaseFamily> {};
 
 TEST_P(HardTriangles, KeepsItsBound) {
-  HardCases hard(40);
+  CornerCases cases(40);
   double worst = 0;
   for (int i = 0; i < 8000; ++i) {
-    const HardCase c = placed(GetParam(), hard, i);
+    const CornerCase c = placed(GetParam(), cases, i);
     const double error = error_in_roundings(c);
     ASSERT_LE(error * unit_roundoff, kernel_relative_error) << "case " << i;
     worst = std::max(worst, error);
@@ -62,25 +65,26 @@ TEST_P(HardTriangles, KeepsItsBound) {
   RecordProperty("worst_error_in_roundings", std::to_string(worst));
 }
 
-INSTANTIATE_TEST_SUITE_P(PointTriangle, HardTriangles, testing::ValuesIn(hard_families()),
+INSTANTIATE_TEST_SUITE_P(PointTriangle, HardTriangles, testing::ValuesIn(corner_case_families()),
                          [](const auto& family) { return family.param.name; });
 
 TEST(PointTriangleAgainstTheOracle, TheTipOfANeedle) {
-  HardCases hard(41);
+  CornerCases cases(41);
   for (int i = 0; i < 5000; ++i) {
-    const Vec3 tip = hard.vector(), end = hard.vector();
-    const double width = hard.magnitude(-15, -2);
-    const HardCase c{{tip, end, end + width * hard.vector()}, tip + hard.magnitude(-16, -3) * hard.vector()};
+    const Vec3 tip = cases.vector(), end = cases.vector();
+    const double width = cases.magnitude(-15, -2);
+    const CornerCase c{{tip, end, end + width * cases.vector()},
+                       tip + cases.magnitude(-16, -3) * cases.vector()};
     ASSERT_LE(error_in_roundings(c) * unit_roundoff, kernel_relative_error) << i;
   }
 }
 
 TEST(PointTriangleAgainstTheOracle, AMillionAwayFromZeroWithSidesOfAThousandth) {
-  HardCases hard(42);
+  CornerCases cases(42);
   for (int i = 0; i < 5000; ++i) {
-    const Vec3 far = 1e6 * hard.vector();
-    HardCase c{{far, far + 1e-3 * hard.vector(), far + 1e-3 * hard.vector()}, Vec3::Zero()};
-    c.point = hard.point_over(c.triangle);
+    const Vec3 far = 1e6 * cases.vector();
+    CornerCase c{{far, far + 1e-3 * cases.vector(), far + 1e-3 * cases.vector()}, Vec3::Zero()};
+    c.point = cases.point_above(c.triangle);
     ASSERT_LE(error_in_roundings(c) * unit_roundoff, kernel_relative_error) << i;
   }
 }
@@ -88,10 +92,10 @@ TEST(PointTriangleAgainstTheOracle, AMillionAwayFromZeroWithSidesOfAThousandth) 
 // The worst found by hill climbing: in the middle of a needle, on its face, a few roundings from either edge.
 // 16.5 roundings, so the bound was raised from the 16 that random probes suggested to what can be derived.
 TEST(PointTriangleAgainstTheOracle, OnTheFaceOfANeedleAFewRoundingsWide) {
-  const HardCase c{{Vec3(0x1.0140ab31900dep+0, 0x1.00d1a790f8d81p+0, 0x1.003b866ab8ba5p+0),
-                    Vec3(-0x1.010ad60f2f7d4p+0, -0x1.ffc5a5226ebep-1, -0x1.000480dd7208ep+0),
-                    Vec3(0x1.e4797fa64496cp-1, 0x1.e3b33cc58b115p-1, 0x1.e28dc72ed039ep-1)},
-                   Vec3(-0x1.0758aafc84327p-11, 0x1.de21a12996c7fp-11, -0x1.00afc68142273p-11)};
+  const CornerCase c{{Vec3(0x1.0140ab31900dep+0, 0x1.00d1a790f8d81p+0, 0x1.003b866ab8ba5p+0),
+                      Vec3(-0x1.010ad60f2f7d4p+0, -0x1.ffc5a5226ebep-1, -0x1.000480dd7208ep+0),
+                      Vec3(0x1.e4797fa64496cp-1, 0x1.e3b33cc58b115p-1, 0x1.e28dc72ed039ep-1)},
+                     Vec3(-0x1.0758aafc84327p-11, 0x1.de21a12996c7fp-11, -0x1.00afc68142273p-11)};
   EXPECT_LE(error_in_roundings(c) * unit_roundoff, kernel_relative_error);
 }
 

@@ -54,7 +54,7 @@ TEST(TriangleBox, NeverMissesAPointOfTheTriangleInTheBox) {
       const std::array<Vec3, 3> corner = {point(random) + shift, point(random) + shift,
                                           point(random) + shift};
       const double a = std::abs(number(random)), b = std::abs(number(random));
-      const Vec3 inside = bench::place_in_triangle(corner[0], corner[1], corner[2], a, b);
+      const Vec3 inside = bench::support::point_in_triangle(corner[0], corner[1], corner[2], a, b);
       const Vec3 half = round % 2 == 0 ? Vec3::Zero() : Vec3(1e-3 * point(random).cwiseAbs());
       ASSERT_TRUE(overlaps(corner, {inside - half, inside + half}));
     }

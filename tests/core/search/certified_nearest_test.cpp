@@ -18,7 +18,7 @@
 #include "core/brute_force/brute_force.h"
 #include "core/grid_group/grid_group.h"
 #include "core/sphere_cluster/sphere_cluster.h"
-#include "tests/bench/oracle/hard_meshes.h"
+#include "tests/bench/oracle/corner_case_meshes.h"
 
 namespace touchmark {
 namespace {
@@ -27,10 +27,10 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double unit_roundoff = 0x1p-53;
 
 std::vector<NamedMesh> meshes() {
-  std::vector<NamedMesh> all = hard_meshes();
-  HardCases hard(70);
-  std::vector<HardCases::Corners> soup;
-  for (int i = 0; i < 40; ++i) soup.push_back(i % 2 == 0 ? hard.plain() : hard.needle());
+  std::vector<NamedMesh> all = corner_case_meshes();
+  CornerCases cases(70);
+  std::vector<CornerCases::Corners> soup;
+  for (int i = 0; i < 40; ++i) soup.push_back(i % 2 == 0 ? cases.plain() : cases.needle());
   for (const int exponent : {-1060, -500, -131, -100, 199, 230, 500, 1000})
     all.push_back(
         {"soup by 2^" + std::to_string(exponent),
@@ -54,15 +54,15 @@ bool same(const std::optional<Contact>& a, const std::optional<Contact>& b) {
 /// One mesh, probed where it is hard.
 struct Exam {
   const NamedMesh& named;
-  bench::Oracle oracle;
+  bench::oracle::Oracle oracle;
   BruteForce reference;
   std::vector<Vec3> points;
-  std::vector<bench::Truth> truths;
+  std::vector<bench::oracle::GroundTruth> truths;
 
   explicit Exam(const NamedMesh& mesh, int count)
       : named(mesh), oracle(mesh.mesh), reference(BruteForce::build(mesh.mesh)) {
-    HardCases hard(71);
-    points = hard_points(mesh.mesh, hard, count);
+    CornerCases cases(71);
+    points = corner_case_points(mesh.mesh, cases, count);
     for (const Vec3& point : points) truths.push_back(oracle.solve(point));
   }
 
@@ -132,19 +132,19 @@ TEST(CertifiedNearest, SphereClusterDecidesAsTheOracleDoes) {
 }
 
 TEST(CertifiedNearest, AtTheVeryDistanceTheExactlyNearestOfManyIsFound) {
-  HardCases hard(72);
-  std::vector<HardCases::Corners> fan;
-  const Vec3 tip = hard.vector();
-  for (int i = 0; i < 50; ++i) fan.push_back({tip, tip + hard.vector(), tip + hard.vector()});
+  CornerCases cases(72);
+  std::vector<CornerCases::Corners> fan;
+  const Vec3 tip = cases.vector();
+  for (int i = 0; i < 50; ++i) fan.push_back({tip, tip + cases.vector(), tip + cases.vector()});
   const TriangleMesh mesh = mesh_of(fan);
-  const bench::Oracle oracle(mesh);
+  const bench::oracle::Oracle oracle(mesh);
   const AabbTree detector = AabbTree::build(mesh);
   AabbTree::Session session;
   for (int i = 0; i < 2000; ++i) {
-    const auto& t = fan[hard.below(fan.size())];
-    const Vec3 point = i % 2 == 0 ? Vec3(tip + hard.magnitude(-17, -14) * hard.vector())
-                                  : hard.point_about({t[0], t[1], t[2]});
-    const bench::Truth truth = oracle.solve(point);
+    const auto& t = fan[cases.below(fan.size())];
+    const Vec3 point = i % 2 == 0 ? Vec3(tip + cases.magnitude(-17, -14) * cases.vector())
+                                  : cases.point_near({t[0], t[1], t[2]});
+    const bench::oracle::GroundTruth truth = oracle.solve(point);
     const double reach = truth.low > 0 ? std::nextafter(truth.high, infinity) : truth.high;
     const auto contact = detector.nearest({point, 0}, reach, session);
     ASSERT_TRUE(contact);
@@ -195,7 +195,7 @@ TEST(CertifiedNearest, AtTheSmallestHeightsOverABorderTheNormalIsTheFaces) {
 TEST(CertifiedNearest, OverABorderOfLevelFacesNamesTheFirstWithoutWholeNumbers) {
   const TriangleMesh mesh = plate(6);
   const AabbTree detector = AabbTree::build(mesh);
-  const bench::Oracle oracle(mesh);
+  const bench::oracle::Oracle oracle(mesh);
   AabbTree::Session session;
   for (int i = 1; i < 100; ++i) {
     const double x = 0.06 * i;
@@ -220,10 +220,10 @@ TEST(CertifiedNearest, OnAnEdgeButForRoundingNeedsNoExactDecision) {
   const TriangleMesh mesh = lopsided_octasphere();
   const AabbTree detector = AabbTree::build(mesh);
   AabbTree::Session session;
-  HardCases hard(73);
+  CornerCases cases(73);
   for (int i = 0; i < 10000; ++i) {
-    const auto t = static_cast<std::uint32_t>(hard.below(mesh.size()));
-    const double part = hard.fraction();
+    const auto t = static_cast<std::uint32_t>(cases.below(mesh.size()));
+    const double part = cases.fraction();
     const Vec3 point = (1 - part) * mesh.corner(t, 0) + part * mesh.corner(t, 1);
     const auto contact = detector.nearest({point, 0}, 0.5, session);
     ASSERT_TRUE(contact);
@@ -250,13 +250,13 @@ TEST(CertifiedNearest, AProbeThatSlidesNeedsNoExactDecision) {
 template <class D>
 void expect_decisions_within_rounding(const typename D::Options& uncertified_options) {
   const TriangleMesh mesh = octasphere(12);
-  const bench::Oracle oracle(mesh);
+  const bench::oracle::Oracle oracle(mesh);
   const D detector = D::build(mesh, uncertified_options);
   EXPECT_FALSE(detector.accuracy().decides_exactly);
   typename D::Session session;
-  HardCases hard(74);
-  for (const Vec3& point : hard_points(mesh, hard, 200)) {
-    const bench::Truth truth = oracle.solve(point);
+  CornerCases cases(74);
+  for (const Vec3& point : corner_case_points(mesh, cases, 200)) {
+    const bench::oracle::GroundTruth truth = oracle.solve(point);
     const double error = detector.accuracy().relative * truth.largest_difference;
     for (const double off : {-2.0, -1.0, 0.0, 1.0, 2.0}) {
       const double radius = truth.high + off * error;

@@ -8,24 +8,24 @@
 
 #include "bench/experiments/stress/near_ties.h"
 #include "bench/oracle/oracle.h"
-#include "tests/bench/oracle/hard_meshes.h"
+#include "tests/bench/oracle/corner_case_meshes.h"
 
 namespace touchmark {
 namespace {
 
-PreparedTriangle prepared(const HardCases::Corners& t) { return prepare(t[0], t[1], t[2], 0); }
+PreparedTriangle prepared(const CornerCases::Corners& t) { return prepare(t[0], t[1], t[2], 0); }
 
 /// In either order: beside a border the one may be certain where the other is not.
-bool share(const HardCases::Corners& a, const HardCases::Corners& b, const Vec3& point) {
+bool share(const CornerCases::Corners& a, const CornerCases::Corners& b, const Vec3& point) {
   return surely_share_nearest(prepared(a), prepared(b), point) ||
          surely_share_nearest(prepared(b), prepared(a), point);
 }
 
 /// The oracle names the first of exact ties.
-bool are_equally_near(const HardCases::Corners& a, const HardCases::Corners& b, const Vec3& point) {
+bool are_equally_near(const CornerCases::Corners& a, const CornerCases::Corners& b, const Vec3& point) {
   const TriangleMesh one = mesh_of({a, b}), other = mesh_of({b, a});
-  return bench::Oracle(one, 1).solve(point).triangle == 0 &&
-         bench::Oracle(other, 1).solve(point).triangle == 0;
+  return bench::oracle::Oracle(one, 1).solve(point).triangle == 0 &&
+         bench::oracle::Oracle(other, 1).solve(point).triangle == 0;
 }
 
 const Vec3 p(0, 0, 0), q(1, 0, 0), left(0.5, 1, -0.25), right(0.5, -1, -0.25);
@@ -54,7 +54,8 @@ TEST(SharedFeature, IsNoneOfTrianglesThatMeetElsewhere) {
 }
 
 TEST(SharedFeature, IsAllOfTheSameTriangleTurnedOrOpposed) {
-  for (const HardCases::Corners& other : {HardCases::Corners{q, left, p}, HardCases::Corners{left, q, p}})
+  for (const CornerCases::Corners& other :
+       {CornerCases::Corners{q, left, p}, CornerCases::Corners{left, q, p}})
     EXPECT_TRUE(share({p, q, left}, other, {0.5, 0.3, 0.5}));
   EXPECT_FALSE(share({p, p, q}, {p, q, left}, {0.5, 0.3, 0.5})) << "its corners are among the other's only";
   EXPECT_TRUE(share({p, p, q}, {q, q, p}, {0.5, 0.3, 0.5}));
@@ -62,17 +63,18 @@ TEST(SharedFeature, IsAllOfTheSameTriangleTurnedOrOpposed) {
 
 /// On the borders between features and beside them, and anywhere: what is said for certain is so.
 TEST(SharedFeature, IsNeverClaimedWhereTheDistancesDiffer) {
-  HardCases hard(31);
+  CornerCases cases(31);
   int claimed = 0;
   for (int i = 0; i < 300; ++i) {
-    const Vec3 a = hard.vector(), b = a + hard.magnitude(-3, 0) * hard.vector();
-    const HardCases::Corners one = {a, b, a + hard.magnitude(-3, 0) * hard.vector()};
-    const HardCases::Corners other = {b, a, i % 2 == 0 ? Vec3(hard.vector()) : Vec3(2 * a - one[2])};
+    const Vec3 a = cases.vector(), b = a + cases.magnitude(-3, 0) * cases.vector();
+    const CornerCases::Corners one = {a, b, a + cases.magnitude(-3, 0) * cases.vector()};
+    const CornerCases::Corners other = {b, a, i % 2 == 0 ? Vec3(cases.vector()) : Vec3(2 * a - one[2])};
     const TriangleMesh both = mesh_of({one, other});
-    const bench::Oracle oracle(both, 1);
-    const Vec3 from = hard.point_about(one);
-    const Vec3 place = bench::where_the_nearest_changes(oracle, from, from + 0.5 * hard.vector());
-    std::vector<Vec3> points = bench::with_neighbours(place, hard);
+    const bench::oracle::Oracle oracle(both, 1);
+    const Vec3 from = cases.point_near(one);
+    const Vec3 place =
+        bench::experiments::stress::where_the_nearest_changes(oracle, from, from + 0.5 * cases.vector());
+    std::vector<Vec3> points = bench::experiments::stress::with_neighbors(place, cases);
     points.push_back(from);
     for (const Vec3& point : points) {
       if (!share(one, other, point)) continue;

@@ -84,7 +84,7 @@ inline TriangleMesh crater() {
 }
 
 inline TriangleMesh slab(double thickness) {
-  const TriangleMesh cube = bench::cube();
+  const TriangleMesh cube = bench::scenes::cube();
   std::vector<Vec3> vertices;
   for (const Vec3& v : cube.vertices()) vertices.emplace_back(v.x(), v.y(), thickness * v.z());
   return {std::move(vertices), {cube.triangles().begin(), cube.triangles().end()}};
@@ -99,7 +99,7 @@ inline TriangleMesh with_flat_triangle() {
 
 /// Boundaries of solids: 1 wound round inside, 0 outside.
 inline std::vector<Named> solids() {
-  using namespace bench;
+  using namespace bench::scenes;
   const TriangleMesh ball = icosphere(1);
   std::vector<Named> all;
   all.push_back({"icosphere", icosphere(2)});
@@ -123,7 +123,7 @@ inline std::vector<Named> solids() {
 
 /// As many triangles each way on every edge, but no boundary of a solid: overlapping, doubled, touching.
 inline std::vector<Named> tangles() {
-  using namespace bench;
+  using namespace bench::scenes;
   const TriangleMesh ball = icosphere(1);
   std::vector<Named> all;
   all.push_back({"overlapping balls", together({ball, moved(ball, 1, {0.8, 0.1, 0.2})})});
@@ -138,7 +138,7 @@ inline std::vector<Named> tangles() {
 }
 
 /// Near and on vertices, edges and faces, from one rounding to a tenth of the size away; anywhere; far away.
-inline std::vector<Vec3> telling_points(const TriangleMesh& mesh, bench::Random& random, int count) {
+inline std::vector<Vec3> telling_points(const TriangleMesh& mesh, bench::support::Random& random, int count) {
   const Aabb box = mesh.bounds();
   const double size = mesh.diagonal();
   std::vector<Vec3> points;

@@ -76,10 +76,10 @@ sign::Winding winding_of(const TriangleMesh& mesh) {
 }
 
 TEST(OpenMeshes, ARayAndItsCurtainsGiveTheWindingNumberOfAllTriangles) {
-  bench::Random random(4);
+  bench::support::Random random(4);
   for (const TriangleMesh& mesh :
-       {bench::icosphere(2), cut_off(bench::icosphere(2), 0.1), bench::single_triangle(), bench::soup(50),
-        cut_off(bench::torus(12, 8), 0)}) {
+       {bench::scenes::icosphere(2), cut_off(bench::scenes::icosphere(2), 0.1),
+        bench::scenes::single_triangle(), bench::scenes::soup(50), cut_off(bench::scenes::torus(12, 8), 0)}) {
     const sign::Winding winding = winding_of(mesh);
     for (int i = 0; i < 500; ++i) {
       const Vec3 point = mesh.bounds().center() + random.unit() * mesh.diagonal() * random.direction();
@@ -92,10 +92,10 @@ TEST(OpenMeshes, ARayAndItsCurtainsGiveTheWindingNumberOfAllTriangles) {
 }
 
 TEST(OpenMeshes, ABallWithASmallHoleIsDecidedAwayFromTheHoleAndNeverWrongly) {
-  const TriangleMesh ball = bench::icosphere(3), open = cut_off(ball, -0.94);
+  const TriangleMesh ball = bench::scenes::icosphere(3), open = cut_off(ball, -0.94);
   const SignedBruteForce whole = SignedBruteForce::build(ball, {}), holed = SignedBruteForce::build(open, {});
   ASSERT_EQ(holed.sides().surface().way, Way::winding_number);
-  bench::Random random(5);
+  bench::support::Random random(5);
   int decided = 0;
   constexpr int count = 1000;
   for (int i = 0; i < count; ++i) {
@@ -109,8 +109,8 @@ TEST(OpenMeshes, ABallWithASmallHoleIsDecidedAwayFromTheHoleAndNeverWrongly) {
 }
 
 TEST(OpenMeshes, NothingIsDecidedInTheMouthOfAHemisphere) {
-  const SignedBruteForce bowl = SignedBruteForce::build(cut_off(bench::icosphere(3), 0.05), {});
-  bench::Random random(6);
+  const SignedBruteForce bowl = SignedBruteForce::build(cut_off(bench::scenes::icosphere(3), 0.05), {});
+  bench::support::Random random(6);
   for (int i = 0; i < 500; ++i) {
     const double radius = 0.95 * std::sqrt(random.unit());
     const Vec3 flat = random.direction();
@@ -123,34 +123,34 @@ TEST(OpenMeshes, NothingIsDecidedInTheMouthOfAHemisphere) {
 TEST(OpenMeshes, AMoebiusStripIsUndecidedEverywhereButOnItself) {
   const SignedBruteForce strip = SignedBruteForce::build(moebius_strip(24), {});
   ASSERT_EQ(strip.sides().surface().way, Way::none);
-  bench::Random random(7);
+  bench::support::Random random(7);
   for (int i = 0; i < 300; ++i)
     EXPECT_EQ(side_at(strip, 2 * random.direction() * random.unit()), Side::undecided);
   EXPECT_EQ(side_at(strip, {1.4, 0, 0}), Side::on_surface);  // its first vertex
 }
 
 TEST(OpenMeshes, APatchTurnedOverLeavesAllUndecided) {
-  const TriangleMesh ball = bench::icosphere(2);
+  const TriangleMesh ball = bench::scenes::icosphere(2);
   std::vector<TriangleMesh::Corners> triangles(ball.triangles().begin(), ball.triangles().end());
   for (std::size_t t = 0; t < triangles.size() / 2; ++t) std::swap(triangles[t][1], triangles[t][2]);
   const SignedBruteForce detector =
       SignedBruteForce::build({{ball.vertices().begin(), ball.vertices().end()}, triangles}, {});
   ASSERT_GT(detector.sides().surface().contrary_edges, 0u);
-  bench::Random random(8);
+  bench::support::Random random(8);
   for (int i = 0; i < 300; ++i)
     EXPECT_EQ(side_at(detector, 2 * random.unit() * random.direction()), Side::undecided);
 }
 
 TEST(OpenMeshes, NothingIsInsideASoup) {
-  const TriangleMesh soup = bench::soup(200);
+  const TriangleMesh soup = bench::scenes::soup(200);
   const SignedBruteForce detector = SignedBruteForce::build(soup, {});
-  bench::Random random(9);
+  bench::support::Random random(9);
   for (const Vec3& point : telling_points(soup, random, 60))
     EXPECT_NE(side_at(detector, point), Side::inside) << point.transpose();
 }
 
 TEST(OpenMeshes, NothingIsDecidedJustBesideASheet) {
-  const SignedBruteForce sheet = SignedBruteForce::build(bench::single_triangle(), {});
+  const SignedBruteForce sheet = SignedBruteForce::build(bench::scenes::single_triangle(), {});
   for (const double height : {1e-12, 1e-6, 0.1}) {
     EXPECT_EQ(side_at(sheet, {0, 0, height}), Side::undecided);
     EXPECT_EQ(side_at(sheet, {0, 0, -height}), Side::undecided);

@@ -26,9 +26,9 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 using SignedBruteForce = Signed<BruteForce>;
 
-std::vector<bench::Triangle> triangles_of(const TriangleMesh& mesh) {
-  std::vector<bench::Triangle> triangles;
-  for (std::uint32_t i = 0; i < mesh.size(); ++i) triangles.push_back(bench::triangle_of(mesh, i));
+std::vector<bench::oracle::Triangle> triangles_of(const TriangleMesh& mesh) {
+  std::vector<bench::oracle::Triangle> triangles;
+  for (std::uint32_t i = 0; i < mesh.size(); ++i) triangles.push_back(bench::oracle::triangle_of(mesh, i));
   return triangles;
 }
 
@@ -39,16 +39,16 @@ Side side_at(const SignedBruteForce& detector, const Vec3& center) {
 }
 
 /// By the exact winding number, for solids: behind the faces.
-Side truth(const Vec3& point, const std::vector<bench::Triangle>& triangles) {
-  const std::optional<int> winding = bench::winding_exactly(point, triangles);
+Side truth(const Vec3& point, const std::vector<bench::oracle::Triangle>& triangles) {
+  const std::optional<int> winding = bench::oracle::winding_exactly(point, triangles);
   if (!winding) return Side::on_surface;
   return *winding == 0 ? Side::outside : *winding > 0 ? Side::inside : Side::undecided;
 }
 
 void expect_true_sides(const Named& named, int count, std::uint64_t seed) {
-  bench::Random random(seed);
+  bench::support::Random random(seed);
   const SignedBruteForce detector = SignedBruteForce::build(named.mesh, {});
-  const std::vector<bench::Triangle> triangles = triangles_of(named.mesh);
+  const std::vector<bench::oracle::Triangle> triangles = triangles_of(named.mesh);
   for (const Vec3& point : telling_points(named.mesh, random, count)) {
     ASSERT_EQ(side_at(detector, point), truth(point, triangles))
         << named.name << " at " << std::hexfloat << point.transpose();
@@ -75,9 +75,9 @@ TEST(SideFinder, AgreesWithTheExactWindingNumberFarFromTheOriginTinyAndHuge) {
 }
 
 TEST(SideFinder, BehindTheFacesIsInsideThoughTheMeshBeInsideOut) {
-  const SignedBruteForce room = SignedBruteForce::build(turned_over(bench::icosphere(2)), {});
+  const SignedBruteForce room = SignedBruteForce::build(turned_over(bench::scenes::icosphere(2)), {});
   EXPECT_TRUE(room.sides().surface().inside_out);
-  bench::Random random(4);
+  bench::support::Random random(4);
   for (int i = 0; i < 200; ++i) {
     const Vec3 direction = random.direction();
     EXPECT_EQ(side_at(room, 0.9 * direction), Side::outside);
@@ -98,7 +98,7 @@ TEST(SideFinder, AVolumeBelowRoundingHasItsSignAllTheSame) {
       for (const double scale : {0x1p-40, 1.0, 0x1p40}) {
         if (thickness * scale == 0) continue;
         const TriangleMesh mesh = moved(leaf(thickness, inwards), scale, Vec3::Zero());
-        const bench::ExactSides oracle(mesh);
+        const bench::oracle::ExactSides oracle(mesh);
         const SignedBruteForce detector = SignedBruteForce::build(mesh, {});
         for (const Vec3& point : {Vec3(5, 5, 5), Vec3(0.25, 0.25, -1), Vec3(0.3, 0.3, 1e-3)}) {
           EXPECT_EQ(side_at(detector, scale * point), oracle.side(scale * point))
@@ -112,11 +112,11 @@ TEST(SideFinder, AVolumeBelowRoundingHasItsSignAllTheSame) {
 }
 
 TEST(SideFinder, AMeshThatEnclosesAsMuchEitherWayIsNotInsideOut) {
-  const TriangleMesh cube = bench::cube();
+  const TriangleMesh cube = bench::scenes::cube();
   const TriangleMesh both = together({cube, turned_over(moved(cube, 1, {4, 0, 0}))});
   const TriangleMesh flat = together({leaf(0, false), leaf(0, true)});
   for (const TriangleMesh* mesh : {&both, &flat}) {
-    const bench::ExactSides oracle(*mesh);
+    const bench::oracle::ExactSides oracle(*mesh);
     const SignedBruteForce detector = SignedBruteForce::build(*mesh, {});
     EXPECT_FALSE(detector.sides().surface().inside_out);
     for (const Vec3& point : {Vec3(0.1, 0.2, 0.3), Vec3(4.1, 0.2, 0.3), Vec3(9, 9, 9)})
@@ -125,7 +125,7 @@ TEST(SideFinder, AMeshThatEnclosesAsMuchEitherWayIsNotInsideOut) {
 }
 
 TEST(SideFinder, AShellTurnedAgainstTheRestIsUndecidedWithinAndTheRestIsNotDisturbed) {
-  const TriangleMesh ball = bench::icosphere(1);
+  const TriangleMesh ball = bench::scenes::icosphere(1);
   const SignedBruteForce detector =
       SignedBruteForce::build(together({ball, turned_over(moved(ball, 0.5, {3, 0, 0}))}), {});
   EXPECT_FALSE(detector.sides().surface().inside_out);
@@ -136,11 +136,11 @@ TEST(SideFinder, AShellTurnedAgainstTheRestIsUndecidedWithinAndTheRestIsNotDistu
 }
 
 TEST(SideFinder, DecidesByPseudonormalsWhereNothingIsDifficult) {
-  const TriangleMesh mesh = bench::noisy_sphere(2000);
+  const TriangleMesh mesh = bench::scenes::noisy_sphere(2000);
   const SignedBruteForce detector = SignedBruteForce::build(mesh, {});
   EXPECT_EQ(detector.sides().surface().way, SideFinder::Way::pseudonormals);
   SignedBruteForce::Session session;
-  bench::Random random(5);
+  bench::support::Random random(5);
   constexpr int count = 2000;
   for (int i = 0; i < count; ++i)
     detector.nearest({1.5 * random.unit() * random.direction(), 0}, infinity, session);
@@ -148,19 +148,19 @@ TEST(SideFinder, DecidesByPseudonormalsWhereNothingIsDifficult) {
 }
 
 TEST(SideFinder, PiecesOfAPolygonAreToldApart) {
-  const TriangleMesh cube = bench::cube();
+  const TriangleMesh cube = bench::scenes::cube();
   const TriangleMesh squares{{cube.vertices().begin(), cube.vertices().end()},
                              {cube.triangles().begin(), cube.triangles().end()},
                              {0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 9, 9}};
   const SignedBruteForce by_squares = SignedBruteForce::build(squares, {}),
                          by_triangles = SignedBruteForce::build(cube, {});
-  bench::Random random(6);
+  bench::support::Random random(6);
   for (const Vec3& point : telling_points(cube, random, 100))
     ASSERT_EQ(side_at(by_squares, point), side_at(by_triangles, point)) << point.transpose();
 }
 
 TEST(SideFinder, MovingTheCentreByOneRoundingThroughAFaceChangesTheSide) {
-  const SignedBruteForce cube = SignedBruteForce::build(bench::cube(), {});
+  const SignedBruteForce cube = SignedBruteForce::build(bench::scenes::cube(), {});
   EXPECT_EQ(side_at(cube, {0.5, 0.1, 0.2}), Side::on_surface);
   EXPECT_EQ(side_at(cube, {std::nextafter(0.5, 1), 0.1, 0.2}), Side::outside);
   EXPECT_EQ(side_at(cube, {std::nextafter(0.5, 0), 0.1, 0.2}), Side::inside);
@@ -182,51 +182,52 @@ class Mistaken {
 };
 
 TEST(SideFinder, DoesNotTrustTheContactOfAnApproximateDetector) {
-  const TriangleMesh ball = bench::icosphere(2);
+  const TriangleMesh ball = bench::scenes::icosphere(2);
   const auto detector = Signed<Mistaken>::build(ball, {});
-  const std::vector<bench::Triangle> triangles = triangles_of(ball);
+  const std::vector<bench::oracle::Triangle> triangles = triangles_of(ball);
   Signed<Mistaken>::Session session;
-  bench::Random random(7);
+  bench::support::Random random(7);
   for (const Vec3& point : telling_points(ball, random, 20))
     ASSERT_EQ(detector.nearest({point, 0}, infinity, session)->side, truth(point, triangles));
 }
 
 TEST(SideFinder, ASweepTellsTheSideItTouchesFrom) {
-  const SignedBruteForce cube = SignedBruteForce::build(bench::cube(), {});
+  const SignedBruteForce cube = SignedBruteForce::build(bench::scenes::cube(), {});
   SignedBruteForce::Session session;
   EXPECT_EQ(cube.first_hit({{2, 0.1, 0.2}, {-2, 0.1, 0.2}, 0.1}, session)->contact.side, Side::outside);
   EXPECT_EQ(cube.first_hit({{0.1, 0.1, 0.2}, {2, 0.1, 0.2}, 0.1}, session)->contact.side, Side::inside);
 }
 
 TEST(SideFinder, TheJudgeCatchesAWrongSideAndExcusesWhoDoesNotSay) {
-  const TriangleMesh cube = bench::cube();
-  const bench::Oracle oracle(cube, 1);
+  const TriangleMesh cube = bench::scenes::cube();
+  const bench::oracle::Oracle oracle(cube, 1);
   const std::array<Probe, 2> probes{{{{0.1, 0.2, 0.3}, 0}, {{0.7, 0.2, 0.3}, 0}}};
-  const std::vector<bench::Truth> truths = oracle.solve(std::span<const Probe>(probes));
+  const std::vector<bench::oracle::GroundTruth> truths = oracle.solve(std::span<const Probe>(probes));
   const BruteForce detector = BruteForce::build(cube);
   const auto judged = [&](Side first, Side second) {
-    std::vector<bench::Answer> answers;
+    std::vector<bench::workload::Answer> answers;
     for (const Probe& probe : probes) {
       BruteForce::Session session;
-      answers.push_back(bench::Answer::of(*detector.nearest(probe, infinity, session)));
+      answers.push_back(bench::workload::Answer::of(*detector.nearest(probe, infinity, session)));
     }
     answers[0].side = first;
     answers[1].side = second;
-    return bench::judge(oracle, truths, bench::Query::nearest, probes, infinity, answers,
-                        detector.accuracy());
+    return bench::oracle::judge(oracle, truths, bench::workload::Query::nearest, probes, infinity, answers,
+                                detector.accuracy());
   };
   EXPECT_EQ(judged(Side::inside, Side::outside).wrong_side, 0u);
   EXPECT_EQ(judged(Side::undecided, Side::unasked).wrong_side, 0u);
   EXPECT_EQ(judged(Side::inside, Side::inside).wrong_side, 1u);
   EXPECT_EQ(judged(Side::on_surface, Side::inside).wrong_side, 2u);
-  EXPECT_TRUE(bench::keeps_its_word(judged(Side::inside, Side::outside), detector.accuracy()));
-  EXPECT_FALSE(
-      bench::keeps_its_word(judged(Side::outside, Side::outside), {Guarantee::approximate, 0, 0, false}));
+  EXPECT_TRUE(bench::oracle::meets_guarantee(judged(Side::inside, Side::outside), detector.accuracy()));
+  EXPECT_FALSE(bench::oracle::meets_guarantee(judged(Side::outside, Side::outside),
+                                              {Guarantee::approximate, 0, 0, false}));
 }
 
 TEST(SideFinder, WhoDoesNotAskIsNotTold) {
   BruteForce::Session session;
-  EXPECT_EQ(BruteForce::build(bench::cube()).nearest({{1, 0, 0}, 0}, infinity, session)->side, Side::unasked);
+  EXPECT_EQ(BruteForce::build(bench::scenes::cube()).nearest({{1, 0, 0}, 0}, infinity, session)->side,
+            Side::unasked);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@
 #include "bench/experiments/papers/decimation.h"
 #include "bench/experiments/papers/geometric_error.h"
 #include "bench/experiments/papers/interleaved_timing.h"
-#include "bench/experiments/papers/paper_course.h"
+#include "bench/experiments/papers/paper_trace.h"
 #include "bench/experiments/papers/park_jang.h"
 #include "bench/experiments/papers/table.h"
 #include "bench/scenes/scenes.h"
@@ -25,13 +25,13 @@
 #include "core/brute_force/brute_force.h"
 #include "core/subdivision/mesh_measures.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 namespace {
 
 TEST(Median, IsTheMiddleOrTheMeanOfTheTwoThere) {
-  EXPECT_EQ(median({}), 0);
-  EXPECT_EQ(median({3, 1, 2}), 2);
-  EXPECT_EQ(median({4, 1, 2, 3}), 2.5);
+  EXPECT_EQ(support::median({}), 0);
+  EXPECT_EQ(support::median({3, 1, 2}), 2);
+  EXPECT_EQ(support::median({4, 1, 2, 3}), 2.5);
 }
 
 TEST(PaperTable, QuotesInCsvAndKeepsEmptyCells) {
@@ -58,7 +58,7 @@ TEST(Scores, RunFromNoughtForTheWorstToFiveForTheBest) {
 
 TEST(Decimation, LeavesAboutAsManyTrianglesAsWantedAndTheShape) {
   if (!can_decimate()) GTEST_SKIP() << "built without OpenMesh";
-  const TriangleMesh sphere = load_scene("icosphere:4");
+  const TriangleMesh sphere = scenes::load_scene("icosphere:4");
   const TriangleMesh coarse = decimate(sphere, 900);
   EXPECT_NEAR(static_cast<double>(coarse.size()), 900, 2);
   EXPECT_TRUE(edge_statistics(coarse).closed());
@@ -84,11 +84,11 @@ TEST(Claims, NameAnotherMeshWithOrWithoutAFurtherReason) {
 }
 
 TEST(InterleavedTiming, TimesEachDetectorAndSeesThatTheyAnswerAlike) {
-  const TriangleMesh mesh = load_scene("icosphere:2");
-  const std::vector<Step> course = paper_course("slide", mesh, 50, 1, 0.01);
-  InterleavedTiming timing(course, Query::nearest, 1);
-  timing.add(contestant<BruteForce>(mesh, {}));
-  timing.add(contestant<SphereCluster>(mesh, {}));
+  const TriangleMesh mesh = scenes::load_scene("icosphere:2");
+  const std::vector<workload::Step> trace = paper_trace("slide", mesh, 50, 1, 0.01);
+  InterleavedTiming timing(trace, workload::Query::nearest, 1);
+  timing.add(contestants::contestant<BruteForce>(mesh, {}));
+  timing.add(contestants::contestant<SphereCluster>(mesh, {}));
   EXPECT_EQ(timing.timed(0).ns, 0);
   EXPECT_FALSE(timing.timed(0).ns_p99);
   timing.run({3, 1e4}, [](std::size_t, std::size_t) {});
@@ -113,16 +113,17 @@ struct Instant {
 };
 
 TEST(InterleavedTiming, GivesNoTimeShorterThanTheClockCanTell) {
-  const std::vector<Step> course = paper_course("slide", load_scene("icosphere:1"), 50, 1, 0.01);
-  InterleavedTiming timing(course, Query::nearest, 1);
-  timing.add(std::make_unique<ContestantOf<Instant>>(Instant()));
+  const std::vector<workload::Step> trace =
+      paper_trace("slide", scenes::load_scene("icosphere:1"), 50, 1, 0.01);
+  InterleavedTiming timing(trace, workload::Query::nearest, 1);
+  timing.add(std::make_unique<contestants::ContestantOf<Instant>>(Instant()));
   timing.run({3, 1e4}, [](std::size_t, std::size_t) {});
   ASSERT_TRUE(timing.timed(0).ns_p99);
   EXPECT_GT(*timing.timed(0).ns_p99, 0);
 }
 
 TEST(GeometricError, IsNoughtOfTheReferenceAndTheGapOfASmallerSphere) {
-  const TriangleMesh mesh = load_scene("icosphere:4");
+  const TriangleMesh mesh = scenes::load_scene("icosphere:4");
   const ReferenceSurface reference(mesh, 0.3, 200, 1);
   EXPECT_EQ(reference.error_of(SphereCluster::build(mesh)).max, 0);
   const GeometricError error = reference.error_of(SphereCluster::build(mesh.transformed(0.9, Vec3::Zero())));
@@ -132,7 +133,7 @@ TEST(GeometricError, IsNoughtOfTheReferenceAndTheGapOfASmallerSphere) {
 }
 
 TEST(GeometricError, OfTheFastLevelLiesWithinItsBound) {
-  const TriangleMesh mesh = load_scene("icosphere:3");
+  const TriangleMesh mesh = scenes::load_scene("icosphere:3");
   const ReferenceSurface reference(mesh, 0.3, 200, 1);
   const SphereCluster fast = SphereCluster::build(mesh, {.clustering = 0.1, .precise = false});
   const GeometricError error = reference.error_of(fast);
@@ -153,7 +154,7 @@ ChoiSungSettings small_settings() {
 void ignore(const SurfaceMeasures&, const TriangleMesh&, const SphereClusters&, const SphereClusters&) {}
 
 TEST(ChoiSung, MeasuresTheSameTwice) {
-  const TriangleMesh mesh = load_scene("icosphere:1");
+  const TriangleMesh mesh = scenes::load_scene("icosphere:1");
   const ChoiSungResult a = run_choi_sung(mesh, small_settings(), ignore, [](const std::string&) {});
   const ChoiSungResult b = run_choi_sung(mesh, small_settings(), ignore, [](const std::string&) {});
   ASSERT_EQ(a.rows.size(), b.rows.size());
@@ -168,7 +169,7 @@ TEST(ChoiSung, MeasuresTheSameTwice) {
 
 TEST(ChoiSung, CreasesGoAwayWhereTheSurfaceGetsSmooth) {
   const ChoiSungResult result =
-      run_choi_sung(load_scene("icosphere:1"), small_settings(), ignore, [](const std::string&) {});
+      run_choi_sung(scenes::load_scene("icosphere:1"), small_settings(), ignore, [](const std::string&) {});
   const auto crease = [&](SubdivisionMethod method, int level) {
     return find_row(result, method, level, false)->surface.crease_deg;
   };
@@ -179,12 +180,12 @@ TEST(ChoiSung, CreasesGoAwayWhereTheSurfaceGetsSmooth) {
 }
 
 TEST(ChoiSung, KeepsFinishedRowsWhenInterrupted) {
-  watch_for_interrupts();
+  support::watch_for_interrupts();
   const ChoiSungResult result =
-      run_choi_sung(load_scene("icosphere:1"), small_settings(), ignore, [](const std::string& what) {
+      run_choi_sung(scenes::load_scene("icosphere:1"), small_settings(), ignore, [](const std::string& what) {
         if (what.starts_with("catmull-clark-linear level 1")) std::raise(SIGINT);
       });
-  watch_for_interrupts();
+  support::watch_for_interrupts();
   EXPECT_FALSE(result.finished);
   EXPECT_EQ(result.rows.size(), 2u * 3);  // the original and two levels of butterfly
   EXPECT_EQ(choi_sung_table1(result).size(), 6u);
@@ -193,14 +194,14 @@ TEST(ChoiSung, KeepsFinishedRowsWhenInterrupted) {
 }
 
 TEST(ParkJang, KeepsFinishedRowsWhenInterrupted) {
-  const std::vector<PaperMesh> meshes{{"a", load_scene("icosphere:2"), ""},
-                                      {"b", load_scene("icosphere:3"), ""}};
+  const std::vector<PaperMesh> meshes{{"a", scenes::load_scene("icosphere:2"), ""},
+                                      {"b", scenes::load_scene("icosphere:3"), ""}};
   ParkJangSettings settings{.groups = {1, 10}, .steps = 20, .radius = {0.1, true}, .effort = {1, 1e3}};
-  watch_for_interrupts();
+  support::watch_for_interrupts();
   const ParkJangResult result = run_park_jang(meshes, settings, [](const std::string& what) {
     if (what.starts_with("b:")) std::raise(SIGINT);
   });
-  watch_for_interrupts();
+  support::watch_for_interrupts();
   EXPECT_FALSE(result.finished);
   ASSERT_EQ(result.rows.size(), 1u + 2 + 2 + 1 + 1);  // of b the ungrouped form, not timed
   EXPECT_GT(result.rows[0].timed->ns, 0);
@@ -263,4 +264,4 @@ TEST(ParkJang, FindsTheBestCountAndThoseNearIt) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

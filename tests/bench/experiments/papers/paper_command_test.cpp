@@ -12,7 +12,7 @@
 #include "bench/scenes/scenes.h"
 #include "tests/bench/cli/run_touchmark.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 namespace {
 
 using Rows = std::vector<std::map<std::string, std::string>>;
@@ -222,4 +222,4 @@ TEST(Papers, ShowAnExample) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

@@ -7,7 +7,7 @@
 #include "bench/experiments/papers/tuning.h"
 #include "tests/bench/cli/run_touchmark.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::papers {
 namespace {
 
 FrontierPoint point(const char* form, double error, std::optional<double> ns) {
@@ -110,4 +110,4 @@ TEST(TuneCommand, RefusesBadInputInOneLine) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::papers

@@ -11,7 +11,7 @@
 #include "tests/bench/cli/run_touchmark.h"
 #include "tests/temporary_folder.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::scaling {
 namespace {
 
 using Fields = std::vector<std::string>;
@@ -26,7 +26,7 @@ class Scale : public testing::Test {
   }
   /// Each record's fields of these columns.
   std::vector<Fields> read(const std::string& name, const Fields& columns) const {
-    CsvReader reader(folder_.file("out/" + name));
+    support::CsvReader reader(folder_.file("out/" + name));
     Fields header, fields;
     reader.next(header);
     std::vector<Fields> records;
@@ -116,4 +116,4 @@ TEST(ScaleCommand, NamesBadInput) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::scaling

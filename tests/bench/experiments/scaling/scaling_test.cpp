@@ -9,7 +9,7 @@
 #include "bench/experiments/scaling/mesh_sizes.h"
 #include "bench/experiments/scaling/power_law.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::scaling {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -84,8 +84,8 @@ TEST(Sizes, MakeMeshesOfTheFamiliesThatHaveThem) {
   EXPECT_THROW(meshes_of_sizes({"cube"}, "", "10,20"), std::invalid_argument);
 }
 
-ResultRow row(const std::string& mesh, std::size_t triangles, double ns) {
-  ResultRow row;
+measurement::ResultRow row(const std::string& mesh, std::size_t triangles, double ns) {
+  measurement::ResultRow row;
   row.detector = "aabb-tree";
   row.mesh = mesh;
   row.triangles = triangles;
@@ -94,14 +94,14 @@ ResultRow row(const std::string& mesh, std::size_t triangles, double ns) {
   row.build_ms = static_cast<double>(triangles);
   row.bytes = 100 * triangles;
   row.throughput.emplace().undisturbed.ns = ns;
-  row.latency = LatencySummary{};
+  row.latency = measurement::LatencySummary{};
   row.latency->p50 = row.latency->p999 = ns;
   return row;
 }
 
 TEST(Growth, IsToldForEachContestantFamilyAndQuantity) {
-  std::vector<ResultRow> rows{row("soup:10", 10, 5), row("soup:1000", 1000, 50), row("torus:3x4", 24, 5),
-                              row("torus:6x4", 48, 10)};
+  std::vector<measurement::ResultRow> rows{row("soup:10", 10, 5), row("soup:1000", 1000, 50),
+                                           row("torus:3x4", 24, 5), row("torus:6x4", 48, 10)};
   rows.push_back(row("soup:100000", 100000, 1));
   rows.back().status = "timeout";
   rows[2].steps = 999;  // too few for a p99.9
@@ -110,7 +110,7 @@ TEST(Growth, IsToldForEachContestantFamilyAndQuantity) {
   EXPECT_EQ(growths[2].quantity, "ns_per_query");
   EXPECT_NEAR(growths[2].law.exponent, 0.5, 1e-12);
   EXPECT_EQ(growths[2].family, "soup");
-  EXPECT_EQ(growths[2].most_triangles, 1000U);
+  EXPECT_EQ(growths[2].max_triangles, 1000U);
   EXPECT_EQ(growths[7].family, "torus");
   EXPECT_EQ(growths[7].quantity, "ns_per_query");
   EXPECT_NEAR(growths[7].law.exponent, 1, 1e-12);
@@ -127,4 +127,4 @@ TEST(Growth, IsWrittenAsCsv) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::scaling

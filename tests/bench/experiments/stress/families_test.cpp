@@ -14,14 +14,14 @@
 #include "bench/trajectories/trajectories.h"
 #include "bench/workload/content_hash.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::stress {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::uint64_t seed = 7;
 constexpr std::size_t few = 120;
 
-std::vector<Workload> made(const std::string& family, std::size_t probes = few) {
+std::vector<workload::Workload> made(const std::string& family, std::size_t probes = few) {
   return family_named(family).make(seed, probes);
 }
 
@@ -34,16 +34,18 @@ std::vector<const Family*> all_but_the_empty_one() {
   return list;
 }
 
-std::vector<std::uint64_t> hashes(const std::vector<Workload>& workloads) {
+std::vector<std::uint64_t> hashes(const std::vector<workload::Workload>& workloads) {
   std::vector<std::uint64_t> list;
-  for (const Workload& workload : workloads) {
-    list.push_back(hash_of(workload.mesh));
-    for (const std::vector<Step>& course : workload.courses) list.push_back(hash_of(course));
+  for (const workload::Workload& workload : workloads) {
+    list.push_back(workload::hash_of(workload.mesh));
+    for (const std::vector<workload::Step>& trace : workload.traces) list.push_back(workload::hash_of(trace));
   }
   return list;
 }
 
-Truth truth_at(const Oracle& oracle, const Step& step) { return oracle.solve(step.probe.center); }
+oracle::GroundTruth truth_at(const oracle::Oracle& oracle, const workload::Step& step) {
+  return oracle.solve(step.probe.center);
+}
 
 /// Longest side over the height on it, in long double: its cancellation is far below what the families need.
 long double aspect_ratio(const TriangleMesh& mesh, std::size_t triangle) {
@@ -72,9 +74,9 @@ TEST(Families, AskAboutAsMuchAsTheyAreTold) {
   constexpr std::size_t many = 3000;
   for (const Family* family : all_but_the_empty_one()) {
     std::size_t asked = 0;
-    for (const Workload& workload : family->make(seed, many)) {
-      EXPECT_EQ(workload.courses.size(), workload.trajectories.size());
-      for (const std::vector<Step>& course : workload.courses) asked += course.size();
+    for (const workload::Workload& workload : family->make(seed, many)) {
+      EXPECT_EQ(workload.traces.size(), workload.trajectories.size());
+      for (const std::vector<workload::Step>& trace : workload.traces) asked += trace.size();
     }
     EXPECT_GT(asked, many * 2 / 5) << family->name;
     EXPECT_LT(asked, many * 5 / 4) << family->name;
@@ -85,10 +87,10 @@ TEST(Families, AdversarialOnesAskAtTheExactDistanceOrADoubleNextToIt) {
   std::size_t inside = 0, outside = 0;
   for (const Family& family : families()) {
     if (!family.adversarial) continue;
-    for (const Workload& workload : family.make(seed, few)) {
-      const Oracle oracle(workload.mesh);
-      for (const Step& step : workload.courses.front()) {
-        const Truth truth = truth_at(oracle, step);
+    for (const workload::Workload& workload : family.make(seed, few)) {
+      const oracle::Oracle oracle(workload.mesh);
+      for (const workload::Step& step : workload.traces.front()) {
+        const oracle::GroundTruth truth = truth_at(oracle, step);
         const double radius = step.probe.radius;
         EXPECT_EQ(step.reach, radius);
         const bool next_to_it = radius == truth.high || radius == std::nextafter(truth.high, 0) ||
@@ -103,15 +105,14 @@ TEST(Families, AdversarialOnesAskAtTheExactDistanceOrADoubleNextToIt) {
 }
 
 TEST(Families, ThresholdsHaveContactOnOneSideOnly) {
-  for (const Workload& workload : made("thresholds")) {
-    const Oracle oracle(workload.mesh);
-    const std::vector<Step>& course = workload.courses.front();
-    for (std::size_t i = 0; i + 2 < course.size(); ++i) {
-      const Truth truth = truth_at(oracle, course[i]);
-      if (course[i].probe.center != course[i + 2].probe.center || course[i].probe.radius >= truth.high)
-        continue;
-      EXPECT_FALSE(oracle.within(truth, course[i].probe.center, course[i].probe.radius));
-      EXPECT_TRUE(oracle.within(truth, course[i].probe.center, course[i + 2].probe.radius));
+  for (const workload::Workload& workload : made("thresholds")) {
+    const oracle::Oracle oracle(workload.mesh);
+    const std::vector<workload::Step>& trace = workload.traces.front();
+    for (std::size_t i = 0; i + 2 < trace.size(); ++i) {
+      const oracle::GroundTruth truth = truth_at(oracle, trace[i]);
+      if (trace[i].probe.center != trace[i + 2].probe.center || trace[i].probe.radius >= truth.high) continue;
+      EXPECT_FALSE(oracle.within(truth, trace[i].probe.center, trace[i].probe.radius));
+      EXPECT_TRUE(oracle.within(truth, trace[i].probe.center, trace[i + 2].probe.radius));
     }
   }
 }
@@ -145,12 +146,12 @@ TEST(Families, NeedlesHaveAShortSideAndCapsHaveNone) {
 
 TEST(Families, RadiusZeroIsExactlyOnTheSurfaceOrHardlyOffIt) {
   std::size_t on = 0, off = 0;
-  for (const Workload& workload : made("radius-zero")) {
-    const Oracle oracle(workload.mesh);
-    const std::vector<Step>& course = workload.courses.front();
-    for (std::size_t i = 0; i < course.size(); ++i) {
-      const Truth truth = truth_at(oracle, course[i]);
-      EXPECT_EQ(course[i].probe.radius, 0);
+  for (const workload::Workload& workload : made("radius-zero")) {
+    const oracle::Oracle oracle(workload.mesh);
+    const std::vector<workload::Step>& trace = workload.traces.front();
+    for (std::size_t i = 0; i < trace.size(); ++i) {
+      const oracle::GroundTruth truth = truth_at(oracle, trace[i]);
+      EXPECT_EQ(trace[i].probe.radius, 0);
       EXPECT_LT(truth.high, 1e-15);
       if (i % 2 == 0) {
         EXPECT_EQ(truth.high, 0) << "step " << i;
@@ -162,10 +163,10 @@ TEST(Families, RadiusZeroIsExactlyOnTheSurfaceOrHardlyOffIt) {
 }
 
 TEST(Families, TangentBallsTouchInDoublesExactly) {
-  for (const Workload& workload : made("tangent")) {
-    const Oracle oracle(workload.mesh);
-    for (const Step& step : workload.courses.front()) {
-      const Truth truth = truth_at(oracle, step);
+  for (const workload::Workload& workload : made("tangent")) {
+    const oracle::Oracle oracle(workload.mesh);
+    for (const workload::Step& step : workload.traces.front()) {
+      const oracle::GroundTruth truth = truth_at(oracle, step);
       EXPECT_EQ(truth.low, 0) << "the distance must be a double";
       EXPECT_EQ(oracle.within(truth, step.probe.center, step.probe.radius), step.probe.radius >= truth.high);
     }
@@ -173,14 +174,14 @@ TEST(Families, TangentBallsTouchInDoublesExactly) {
 }
 
 TEST(Families, TiesHaveTwoNearestTrianglesAtLeast) {
-  for (const Workload& workload : made("ties")) {
-    const Oracle oracle(workload.mesh);
-    for (const Step& step : workload.courses.front()) {
-      const Truth truth = truth_at(oracle, step);
+  for (const workload::Workload& workload : made("ties")) {
+    const oracle::Oracle oracle(workload.mesh);
+    for (const workload::Step& step : workload.traces.front()) {
+      const oracle::GroundTruth truth = truth_at(oracle, step);
       std::size_t tied = 0;
       for (const std::uint32_t other :
            oracle.all_within(step.probe.center, std::nextafter(truth.high, infinity))) {
-        const Truth same = oracle.solve(step.probe.center, other);
+        const oracle::GroundTruth same = oracle.solve(step.probe.center, other);
         const double known_to = 0x1p-99 * truth.high;  // of each low half 2^-100
         tied += same.high == truth.high && std::abs(same.low - truth.low) <= known_to ? 1 : 0;
       }
@@ -190,26 +191,26 @@ TEST(Families, TiesHaveTwoNearestTrianglesAtLeast) {
 }
 
 TEST(Families, BallCentreIsAboutTheMiddle) {
-  for (const Workload& workload : made("ball-centre")) {
-    EXPECT_EQ(workload.courses.front().front().probe.center, Vec3::Zero());
-    for (const Step& step : workload.courses.front()) EXPECT_LT(step.probe.center.norm(), 0.02);
+  for (const workload::Workload& workload : made("ball-centre")) {
+    EXPECT_EQ(workload.traces.front().front().probe.center, Vec3::Zero());
+    for (const workload::Step& step : workload.traces.front()) EXPECT_LT(step.probe.center.norm(), 0.02);
   }
 }
 
 TEST(Families, CellBordersLieAtFractionsOfTheBox) {
-  const Workload workload = made("cell-borders").front();
+  const workload::Workload workload = made("cell-borders").front();
   EXPECT_EQ(workload.mesh.bounds().min, Vec3::Zero());
   EXPECT_EQ(workload.mesh.bounds().max, Vec3::Ones());
   std::size_t on_halves = 0;  // of the finest grid of all counts that are powers of two
-  for (const Step& step : workload.courses.front()) {
+  for (const workload::Step& step : workload.traces.front()) {
     const Vec3 cell = 64 * step.probe.center;
     on_halves += cell == Vec3(cell.array().round()) ? 1 : 0;
   }
-  EXPECT_GT(on_halves, workload.courses.front().size() / 10);
+  EXPECT_GT(on_halves, workload.traces.front().size() / 10);
 }
 
 TEST(Families, OneCellHoldsAllTrianglesButTwo) {
-  for (const Workload& workload : made("one-cell")) {
+  for (const workload::Workload& workload : made("one-cell")) {
     const TriangleMesh& mesh = workload.mesh;
     Aabb cluster;
     for (std::size_t i = 0; i + 2 < mesh.size(); ++i)
@@ -219,7 +220,7 @@ TEST(Families, OneCellHoldsAllTrianglesButTwo) {
 }
 
 TEST(Families, TheSpanningTriangleIsAsLargeAsTheMesh) {
-  for (const Workload& workload : made("spanning-triangle")) {
+  for (const workload::Workload& workload : made("spanning-triangle")) {
     Aabb large, others;
     for (int k = 0; k < 3; ++k) large.extend(workload.mesh.corner(0, k));
     for (std::size_t i = 1; i < workload.mesh.size(); ++i)
@@ -232,16 +233,16 @@ TEST(Families, TheSpanningTriangleIsAsLargeAsTheMesh) {
 }
 
 TEST(Families, SingleTrianglesAreSingle) {
-  for (const Workload& workload : made("single-triangle")) EXPECT_EQ(workload.mesh.size(), 1U);
+  for (const workload::Workload& workload : made("single-triangle")) EXPECT_EQ(workload.mesh.size(), 1U);
 }
 
 TEST(Families, ScalesGoToTheEndsOfTheRangeOfDouble) {
   double least = infinity, most = 0;
-  for (const Workload& workload : made("scales")) {
+  for (const workload::Workload& workload : made("scales")) {
     const double extent = workload.mesh.bounds().extent().maxCoeff();
     least = std::min(least, extent);
     most = std::max(most, extent);
-    EXPECT_FALSE(workload.courses.front().empty()) << workload.mesh_name;
+    EXPECT_FALSE(workload.traces.front().empty()) << workload.mesh_name;
   }
   EXPECT_LT(least, 1e-299);
   EXPECT_GT(most, 1e299);
@@ -249,10 +250,10 @@ TEST(Families, ScalesGoToTheEndsOfTheRangeOfDouble) {
 
 TEST(Families, OffsetsGoToWhereAMeshIsAFewDoublesWide) {
   double farthest = 0;
-  for (const Workload& workload : made("offsets")) {
+  for (const workload::Workload& workload : made("offsets")) {
     const Aabb& box = workload.mesh.bounds();
     farthest = std::max(farthest, box.max.cwiseAbs().maxCoeff() / box.extent().maxCoeff());
-    EXPECT_GT(workload.courses.front().size(), 2U) << workload.mesh_name;
+    EXPECT_GT(workload.traces.front().size(), 2U) << workload.mesh_name;
   }
   EXPECT_GE(farthest, 0x1p49);
   EXPECT_LE(farthest, 0x1p51);
@@ -261,8 +262,8 @@ TEST(Families, OffsetsGoToWhereAMeshIsAFewDoublesWide) {
 TEST(Families, HugeProbesAreHuge) {
   double farthest = 0;
   std::set<double> reaches;
-  for (const Workload& workload : made("huge")) {
-    for (const Step& step : workload.courses.front()) {
+  for (const workload::Workload& workload : made("huge")) {
+    for (const workload::Step& step : workload.traces.front()) {
       farthest = std::max(farthest, step.probe.center.cwiseAbs().maxCoeff());
       reaches.insert(step.reach);
     }
@@ -272,18 +273,18 @@ TEST(Families, HugeProbesAreHuge) {
 }
 
 TEST(Families, DenormalProbesAndMeshesAreDenormal) {
-  const std::vector<Workload> workloads = made("denormal");
+  const std::vector<workload::Workload> workloads = made("denormal");
   double smallest_mesh = infinity;
-  for (const Workload& workload : workloads)
+  for (const workload::Workload& workload : workloads)
     smallest_mesh = std::min(smallest_mesh, workload.mesh.bounds().max.cwiseAbs().maxCoeff());
   EXPECT_LT(smallest_mesh, std::numeric_limits<double>::min());
   EXPECT_GT(smallest_mesh, 0);
-  for (const Step& step : workloads.back().courses.front()) EXPECT_LE(step.probe.radius, 1e-300);
+  for (const workload::Step& step : workloads.back().traces.front()) EXPECT_LE(step.probe.radius, 1e-300);
 }
 
 TEST(Families, NotANumberHasSomethingInEachProbeThatCannotTouch) {
-  for (const Workload& workload : made("not-a-number")) {
-    for (const Step& step : workload.courses.front()) {
+  for (const workload::Workload& workload : made("not-a-number")) {
+    for (const workload::Step& step : workload.traces.front()) {
       const bool negative_or_nan = !(step.probe.radius >= 0), zero = step.probe.radius == 0;
       EXPECT_TRUE(!step.probe.center.allFinite() || negative_or_nan || zero);
     }
@@ -294,19 +295,20 @@ TEST(Families, TheEmptyMeshCannotBeMade) { EXPECT_THROW(made("empty-mesh"), Mesh
 
 TEST(Families, MotionsAreAllThatThereAre) {
   std::set<std::string> names;
-  for (const TrajectoryInfo& trajectory : trajectories()) names.insert(trajectory.name);
-  for (const Workload& workload : made("motions"))
+  for (const trajectories::TrajectoryInfo& trajectory : trajectories::trajectories())
+    names.insert(trajectory.name);
+  for (const workload::Workload& workload : made("motions"))
     EXPECT_EQ(std::set<std::string>(workload.trajectories.begin(), workload.trajectories.end()), names);
 }
 
 TEST(Families, OrdinaryProbesAreBothInContactAndNot) {
-  for (const Workload& workload : made("ordinary")) {
-    const Oracle oracle(workload.mesh);
+  for (const workload::Workload& workload : made("ordinary")) {
+    const oracle::Oracle oracle(workload.mesh);
     std::size_t touching = 0;
-    for (const Step& step : workload.courses.front())
+    for (const workload::Step& step : workload.traces.front())
       touching += oracle.within(truth_at(oracle, step), step.probe.center, step.probe.radius) ? 1 : 0;
-    EXPECT_GT(touching, workload.courses.front().size() / 10) << workload.mesh_name;
-    EXPECT_LT(touching, workload.courses.front().size() * 9 / 10) << workload.mesh_name;
+    EXPECT_GT(touching, workload.traces.front().size() / 10) << workload.mesh_name;
+    EXPECT_LT(touching, workload.traces.front().size() * 9 / 10) << workload.mesh_name;
   }
 }
 
@@ -320,4 +322,4 @@ TEST(Families, AnUnknownNameIsToldTheNearest) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::stress

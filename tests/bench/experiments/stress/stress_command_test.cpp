@@ -10,7 +10,7 @@
 #include "bench/experiments/stress/stress_csv.h"
 #include "tests/bench/cli/run_touchmark.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::stress {
 namespace {
 
 Outcome hostile(std::vector<std::string> arguments) {
@@ -30,7 +30,7 @@ std::vector<std::vector<std::string>> table_in(const std::string& path) {
   return rows;
 }
 
-std::size_t place_of(const std::string& column) {
+std::size_t column_index(const std::string& column) {
   const std::vector<std::string> columns = stress_columns();
   return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), column) - columns.begin());
 }
@@ -50,13 +50,13 @@ TEST(Stress, ExactContestantsAreCleanAndItsFilesSaySo) {
   EXPECT_EQ(rows[0], stress_columns());
   for (std::size_t i = 1; i < rows.size(); ++i) {
     ASSERT_EQ(rows[i].size(), rows[0].size());
-    const bool empty = rows[i][place_of("family")] == "empty-mesh";
-    EXPECT_EQ(rows[i][place_of("detector")], i <= 4 ? "aabb-tree" : "brute-force");
-    EXPECT_EQ(rows[i][place_of("status")], empty ? "refused" : "ok");
-    EXPECT_EQ(rows[i][place_of("refusals")], empty ? "1" : "0");
-    EXPECT_EQ(rows[i][place_of("meshes")], empty ? "1" : "3");
-    EXPECT_EQ(rows[i][place_of("missed")], "0");
-    EXPECT_GT(std::stoi("0" + rows[i][place_of("probes")]), empty ? -1 : 80);
+    const bool empty = rows[i][column_index("family")] == "empty-mesh";
+    EXPECT_EQ(rows[i][column_index("detector")], i <= 4 ? "aabb-tree" : "brute-force");
+    EXPECT_EQ(rows[i][column_index("status")], empty ? "refused" : "ok");
+    EXPECT_EQ(rows[i][column_index("refusals")], empty ? "1" : "0");
+    EXPECT_EQ(rows[i][column_index("meshes")], empty ? "1" : "3");
+    EXPECT_EQ(rows[i][column_index("missed")], "0");
+    EXPECT_GT(std::stoi("0" + rows[i][column_index("probes")]), empty ? -1 : 80);
   }
   EXPECT_EQ(run_touchmark({"validate", folder.file("out")}).status, 0)
       << run_touchmark({"validate", folder.file("out")}).out;
@@ -70,7 +70,7 @@ TEST(Stress, SaysTheSameAgain) {
                    folder.file(name)});
     tables.push_back(table_in(folder.file(name) + "/stress.csv"));
     for (std::vector<std::string>& row : tables.back())
-      row[place_of("run_id")] = row[place_of("ns_per_query")] = "";
+      row[column_index("run_id")] = row[column_index("ns_per_query")] = "";
   }
   EXPECT_EQ(tables[0], tables[1]);
   EXPECT_EQ(tables[0].size(), 3U);
@@ -84,9 +84,9 @@ TEST(Stress, ALieIsCaughtWithStatusOne) {
   EXPECT_NE(outcome.out.find("BROKEN lies: thresholds"), std::string::npos) << outcome.out;
   EXPECT_EQ(outcome.out.find("BROKEN honest"), std::string::npos) << outcome.out;
   for (const auto& row : table_in(folder.file("stress.csv"))) {
-    if (row[place_of("detector")] != "lies" || row[place_of("query")] != "nearest") continue;
-    EXPECT_GT(std::stoi(row[place_of("beyond_bound")]), 0);
-    EXPECT_EQ(row[place_of("status")], "inexact");
+    if (row[column_index("detector")] != "lies" || row[column_index("query")] != "nearest") continue;
+    EXPECT_GT(std::stoi(row[column_index("beyond_bound")]), 0);
+    EXPECT_EQ(row[column_index("status")], "inexact");
   }
 }
 
@@ -97,11 +97,11 @@ TEST(Stress, ACrashAndAHangOfAnExactContestantAreStatusOneAndCounted) {
                "--probes", "30", "--timeout", "1", "--out", folder.path()});
   EXPECT_EQ(outcome.status, 1) << outcome.out << outcome.err;
   for (const auto& row : table_in(folder.file("stress.csv"))) {
-    if (row[place_of("query")] != "nearest") continue;
-    const std::string detector = row[place_of("detector")];
-    EXPECT_EQ(row[place_of("crashes")], detector == "aborts" ? "1" : "0");
-    EXPECT_EQ(row[place_of("timeouts")], detector == "hangs" ? "1" : "0");
-    EXPECT_EQ(row[place_of("refusals")], detector == "refuses" ? "1" : "0");
+    if (row[column_index("query")] != "nearest") continue;
+    const std::string detector = row[column_index("detector")];
+    EXPECT_EQ(row[column_index("crashes")], detector == "aborts" ? "1" : "0");
+    EXPECT_EQ(row[column_index("timeouts")], detector == "hangs" ? "1" : "0");
+    EXPECT_EQ(row[column_index("refusals")], detector == "refuses" ? "1" : "0");
   }
   EXPECT_EQ(run_touchmark({"validate", folder.path()}).status, 0);
 }
@@ -152,4 +152,4 @@ TEST(Stress, HelpHasAnExampleAndTheFamilies) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::stress

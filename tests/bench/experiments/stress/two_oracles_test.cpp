@@ -13,39 +13,39 @@
 #include "bench/oracle/oracle.h"
 #include "tests/bench/oracle/rational_hull.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::stress {
 namespace {
 
 constexpr std::uint64_t seed = 11;
 constexpr std::size_t probes_a_family = 24;
 constexpr std::size_t triangles_at_most = 400;
-constexpr std::size_t centers_a_course = 2;
+constexpr std::size_t centers_a_trace = 2;
 
-mpq_class least_squared_distance(const TriangleMesh& mesh, const Vec3& center) {
+mpq_class min_squared_distance(const TriangleMesh& mesh, const Vec3& center) {
   std::optional<mpq_class> least;
   for (std::uint32_t i = 0; i < mesh.size(); ++i) {
-    const mpq_class squared = squared_distance_by_multipliers(center, triangle_of(mesh, i));
+    const mpq_class squared = squared_distance_by_multipliers(center, oracle::triangle_of(mesh, i));
     if (!least || squared < *least) least = squared;
   }
   return *least;
 }
 
-void expect_agreement(const Workload& workload, std::string_view family, std::size_t& compared) {
-  const Oracle oracle(workload.mesh);
-  for (const std::vector<Step>& course : workload.courses) {
+void expect_agreement(const workload::Workload& workload, std::string_view family, std::size_t& compared) {
+  const oracle::Oracle oracle(workload.mesh);
+  for (const std::vector<workload::Step>& trace : workload.traces) {
     std::size_t centers = 0;
     std::optional<Vec3> last;
     mpq_class squared;
-    for (const Step& step : course) {
+    for (const workload::Step& step : trace) {
       const Vec3& center = step.probe.center;
-      const Truth truth = oracle.solve(center);
+      const oracle::GroundTruth truth = oracle.solve(center);
       EXPECT_EQ(truth.defined, center.allFinite());
       if (!truth.defined) continue;
       if (!last || *last != center) {
-        if (++centers > centers_a_course) break;
-        squared = least_squared_distance(workload.mesh, center);
+        if (++centers > centers_a_trace) break;
+        squared = min_squared_distance(workload.mesh, center);
         last = center;
-        EXPECT_EQ(squared_distance_by_multipliers(center, triangle_of(workload.mesh, truth.triangle)),
+        EXPECT_EQ(squared_distance_by_multipliers(center, oracle::triangle_of(workload.mesh, truth.triangle)),
                   squared)
             << family << ": its triangle is not a nearest one";
       }
@@ -63,7 +63,7 @@ TEST(TwoOracles, AgreeOnEveryFamily) {
   std::size_t compared = 0;
   for (const Family& family : families()) {
     if (family.name == "empty-mesh") continue;
-    for (const Workload& workload : family.make(seed, probes_a_family)) {
+    for (const workload::Workload& workload : family.make(seed, probes_a_family)) {
       if (workload.mesh.size() <= triangles_at_most) expect_agreement(workload, family.name, compared);
     }
   }
@@ -71,4 +71,4 @@ TEST(TwoOracles, AgreeOnEveryFamily) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::stress

@@ -11,7 +11,7 @@
 #include "tests/bench/cli/run_touchmark.h"
 #include "tests/temporary_folder.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::update {
 namespace {
 
 using Fields = std::vector<std::string>;
@@ -25,7 +25,7 @@ class Update : public testing::Test {
   }
   /// Each record's fields of these columns.
   std::vector<Fields> read(const Fields& columns) const {
-    CsvReader reader(folder_.file("out/update.csv"));
+    support::CsvReader reader(folder_.file("out/update.csv"));
     Fields header, fields;
     reader.next(header);
     std::vector<Fields> records;
@@ -73,11 +73,11 @@ TEST_F(Update, RefusesSharesThatAreNone) {
 }
 
 TEST(Deformation, MovesItsShareOfTheVerticesNotFar) {
-  const TriangleMesh mesh = load_scene("icosphere:4");
+  const TriangleMesh mesh = scenes::load_scene("icosphere:4");
   const auto vertices = static_cast<double>(mesh.vertices().size());
   for (const double share : {0.01, 0.1, 1.0}) {
-    const TriangleMesh after = deformed(mesh, {share, 3});
-    EXPECT_NEAR(static_cast<double>(moved_vertices(mesh, after)), share * vertices, 0.5);
+    const TriangleMesh after = scenes::deformed(mesh, {share, 3});
+    EXPECT_NEAR(static_cast<double>(scenes::moved_vertices(mesh, after)), share * vertices, 0.5);
     double farthest = 0;
     Aabb patch;
     for (std::size_t i = 0; i < mesh.vertices().size(); ++i) {
@@ -88,10 +88,10 @@ TEST(Deformation, MovesItsShareOfTheVerticesNotFar) {
     EXPECT_GT(farthest, 1e-3);
     // A quarter of its patch's radius at most; the wave 1 % of the diagonal.
     EXPECT_LE(farthest, share < 1 ? 0.25 * 0.5 * patch.diagonal() : 0.0100001 * mesh.diagonal());
-    EXPECT_EQ(moved_vertices(deformed(mesh, {share, 3}), after), 0U);
-    EXPECT_GT(moved_vertices(deformed(mesh, {share, 4}), after), 0U);
+    EXPECT_EQ(scenes::moved_vertices(scenes::deformed(mesh, {share, 3}), after), 0U);
+    EXPECT_GT(scenes::moved_vertices(scenes::deformed(mesh, {share, 4}), after), 0U);
   }
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::update

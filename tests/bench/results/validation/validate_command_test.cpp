@@ -13,7 +13,7 @@
 #include "bench/results/results_csv.h"
 #include "tests/bench/cli/run_touchmark.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::results::validation {
 namespace {
 
 /// One run for all tests: two contestants, one of which does not answer the query.
@@ -264,4 +264,4 @@ TEST_F(Validate, RefusesWhatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results::validation

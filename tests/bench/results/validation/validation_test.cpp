@@ -12,7 +12,7 @@
 #include "bench/results/validation/run_check.h"
 #include "tests/temporary_folder.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::results::validation {
 namespace {
 
 TEST(ColumnRules, AreThoseOfTheColumnsThatAreWritten) {
@@ -103,4 +103,4 @@ TEST(JsonSchema, SurvivesALongString) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::results::validation

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/sphere_cluster/tree/node_writer.h"
-#include "tests/bench/oracle/hard_triangles.h"
+#include "tests/bench/oracle/corner_case_triangles.h"
 
 namespace touchmark::spheres {
 namespace {
@@ -21,7 +21,7 @@ float first_of(Bounds bounds, const TriangleBlock& block, const FilterPoint& poi
 
 struct Alone {
   /// `times`: how many times its own size the mesh is that it is of.
-  explicit Alone(const HardCases::Corners& c, double times = 0) : triangle(prepare(c[0], c[1], c[2], 0)) {
+  explicit Alone(const CornerCases::Corners& c, double times = 0) : triangle(prepare(c[0], c[1], c[2], 0)) {
     Aabb box;
     for (const Vec3& corner : c) box.extend(corner);
     box.extend(box.min + times * box.extent().maxCoeff() * Vec3::Ones());
@@ -36,17 +36,17 @@ struct Alone {
   TriangleBlock block{};
 };
 
-class TriangleBounds : public testing::TestWithParam<HardFamily> {};
+class TriangleBounds : public testing::TestWithParam<CornerCaseFamily> {};
 
 TEST_P(TriangleBounds, NeverExceedTheDistance) {
-  HardCases hard(90);
+  CornerCases cases(90);
   int asked = 0;
   for (int i = 0; i < 20000; ++i) {
-    const HardCase c = placed(GetParam(), hard, i);
+    const CornerCase c = placed(GetParam(), cases, i);
     const Alone alone(c.triangle);
     // From afar what is beyond corners counts most.
     const Vec3 center =
-        i % 5 == 0 ? Vec3(c.triangle[0] + hard.magnitude(0, 4) * (c.point - c.triangle[0])) : c.point;
+        i % 5 == 0 ? Vec3(c.triangle[0] + cases.magnitude(0, 4) * (c.point - c.triangle[0])) : c.point;
     if (!alone.fits || !alone.frame.covers(center)) continue;
     ++asked;
     const FilterPoint point = alone.frame.point(center);
@@ -63,11 +63,11 @@ TEST_P(TriangleBounds, NeverExceedTheDistance) {
 }
 
 TEST_P(TriangleBounds, FromAboveNeverFallShortOfTheDistance) {
-  HardCases hard(91);
+  CornerCases cases(91);
   int near = 0;
   for (int i = 0; i < 20000; ++i) {
-    const HardCase c = placed(GetParam(), hard, i);
-    const Alone alone(c.triangle, i % 2 == 0 ? 0 : hard.magnitude(0, 9));
+    const CornerCase c = placed(GetParam(), cases, i);
+    const Alone alone(c.triangle, i % 2 == 0 ? 0 : cases.magnitude(0, 9));
     if (!alone.fits || !alone.frame.covers(c.point)) continue;
     const FilterPoint point = alone.frame.point(c.point);
     const double distance = std::sqrt(squared_distance(alone.triangle, c.point));
@@ -90,7 +90,7 @@ TEST_P(TriangleBounds, FromAboveNeverFallShortOfTheDistance) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Families, TriangleBounds, testing::ValuesIn(hard_families()),
+INSTANTIATE_TEST_SUITE_P(Families, TriangleBounds, testing::ValuesIn(corner_case_families()),
                          [](const auto& family) { return family.param.name; });
 
 TEST(CornerBounds, AreTheDistanceOffASharpCorner) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/triangle_mesh.h"
-#include "tests/bench/oracle/hard_triangles.h"
+#include "tests/bench/oracle/corner_case_triangles.h"
 
 namespace touchmark {
 
@@ -15,12 +15,12 @@ struct NamedMesh {
   TriangleMesh mesh;
 };
 
-using bench::mesh_of;
+using bench::experiments::stress::mesh_of;
 
 /// An octahedron whose faces are divided into squares of `parts` and pushed out to the unit sphere: to its
 /// centre, the triangles of eight octants are exact mirror images.
 inline TriangleMesh octasphere(int parts) {
-  std::vector<HardCases::Corners> triangles;
+  std::vector<CornerCases::Corners> triangles;
   const auto at = [&](int i, int j, const Vec3& sign) -> Vec3 {
     const Vec3 v(i, j, parts - i - j);
     return sign.cwiseProduct(v).normalized();
@@ -54,14 +54,14 @@ inline TriangleMesh plate(int size) {
   return {std::move(vertices), std::move(triangles)};
 }
 
-inline std::vector<NamedMesh> hard_meshes() {
-  HardCases hard(20);
-  std::vector<HardCases::Corners> needles, flat, soup, doubled, fan;
+inline std::vector<NamedMesh> corner_case_meshes() {
+  CornerCases cases(20);
+  std::vector<CornerCases::Corners> needles, flat, soup, doubled, fan;
   for (int i = 0; i < 60; ++i) {
-    needles.push_back(hard.below(2) == 0 ? hard.needle() : hard.cap());
-    flat.push_back(hard.below(2) == 0 ? hard.collinear() : hard.coincident());
-    soup.push_back(hard.plain());
-    const HardCases::Corners t = hard.on_lattice();
+    needles.push_back(cases.below(2) == 0 ? cases.needle() : cases.cap());
+    flat.push_back(cases.below(2) == 0 ? cases.collinear() : cases.coincident());
+    soup.push_back(cases.plain());
+    const CornerCases::Corners t = cases.on_lattice();
     doubled.push_back(t);
     doubled.push_back(t);
     const double angle = 1e-9 * i, next = 1e-9 * (i + 1);
@@ -84,16 +84,16 @@ inline std::vector<NamedMesh> hard_meshes() {
 }
 
 /// On and about features, in the middle of the box, and from far to very far.
-inline std::vector<Vec3> hard_points(const TriangleMesh& mesh, HardCases& hard, int count) {
+inline std::vector<Vec3> corner_case_points(const TriangleMesh& mesh, CornerCases& cases, int count) {
   std::vector<Vec3> points;
   const Vec3 middle = mesh.bounds().center();
   points.push_back(middle);
   for (const double distance : {1e3, 1e9, 1e16, 1e30})
-    points.push_back(middle + distance * mesh.diagonal() * hard.vector());
+    points.push_back(middle + distance * mesh.diagonal() * cases.vector());
   points.push_back(middle + 1e12 * mesh.diagonal() * Vec3::UnitZ());
   while (static_cast<int>(points.size()) < count) {
-    const std::size_t i = hard.below(mesh.size());
-    points.push_back(hard.point_about({mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)}));
+    const std::size_t i = cases.below(mesh.size());
+    points.push_back(cases.point_near({mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)}));
   }
   return points;
 }

@@ -14,12 +14,12 @@
 #include "core/probe.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::stress {
 
-class HardCases : public Random {
+class CornerCases : public support::Random {
  public:
   using Corners = std::array<Vec3, 3>;
-  using Random::Random;
+  using support::Random::Random;
 
   /// In [0, 1).
   double fraction() { return unit(); }
@@ -41,9 +41,9 @@ class HardCases : public Random {
   }
   /// As thin as coordinates can tell: the third corner within a few roundings of the line, or on it.
   Corners nearly_none() {
-    const Vec3 a = vector(), way = vector();
-    const Vec3 aside = (vector() - vector()).norm() * Vec3(-way.y(), way.x(), 0);
-    return shuffled({a, a + way, a + fraction() * way + magnitude(-17, -12) * aside});
+    const Vec3 a = vector(), direction = vector();
+    const Vec3 aside = (vector() - vector()).norm() * Vec3(-direction.y(), direction.x(), 0);
+    return shuffled({a, a + direction, a + fraction() * direction + magnitude(-17, -12) * aside});
   }
   /// Sides of very different lengths.
   Corners mixed() {
@@ -51,8 +51,8 @@ class HardCases : public Random {
     return shuffled({a, a + magnitude(-8, 0) * vector(), a + magnitude(-8, 0) * vector()});
   }
   Corners collinear() {
-    const Vec3 a = lattice(), way = lattice();
-    return shuffled({a, a + whole() * way, a + whole() * way});
+    const Vec3 a = lattice(), direction = lattice();
+    return shuffled({a, a + whole() * direction, a + whole() * direction});
   }
   Corners coincident() {
     const Vec3 a = vector();
@@ -62,7 +62,7 @@ class HardCases : public Random {
   Corners on_lattice() { return {lattice(), lattice(), lattice()}; }
 
   /// Anywhere near, on, just off, over or far away from the triangle.
-  Vec3 point_about(const Corners& t) {
+  Vec3 point_near(const Corners& t) {
     const double size = std::max({(t[1] - t[0]).norm(), (t[2] - t[1]).norm(), (t[0] - t[2]).norm(),
                                   1e-12});  // of a point: some size to place others about it
     double a = fraction(), b = fraction();
@@ -80,7 +80,7 @@ class HardCases : public Random {
         break;
     }
     const std::size_t first = below(3);
-    const Vec3 on = place_in_triangle(t[first], t[(first + 1) % 3], t[(first + 2) % 3], a, b);
+    const Vec3 on = support::point_in_triangle(t[first], t[(first + 1) % 3], t[(first + 2) % 3], a, b);
     switch (below(4)) {
       case 0:
         return on;
@@ -95,14 +95,14 @@ class HardCases : public Random {
 
   /// Over the face or its border, from a hair's breadth to ten times the size above it; anywhere near when
   /// there is no face.
-  Vec3 point_over(const Corners& t) {
+  Vec3 point_above(const Corners& t) {
     const Vec3 e = t[1] - t[0], f = t[2] - t[0];
     const Vec3 normal(e.y() * f.z() - e.z() * f.y(), e.z() * f.x() - e.x() * f.z(),
                       e.x() * f.y() - e.y() * f.x());
     const double length = normal.norm();
-    if (!(length > 0)) return point_about(t);
+    if (!(length > 0)) return point_near(t);
     const double a = fraction(), b = below(3) == 0 ? 0 : fraction();
-    return place_in_triangle(t[0], t[1], t[2], a, b) + (magnitude(-17, 1) / length) * normal;
+    return support::point_in_triangle(t[0], t[1], t[2], a, b) + (magnitude(-17, 1) / length) * normal;
   }
 
   Corners shuffled(Corners t) {
@@ -116,11 +116,11 @@ class HardCases : public Random {
 };
 
 /// These triangles with corners of their own.
-inline TriangleMesh mesh_of(const std::vector<HardCases::Corners>& triangles,
+inline TriangleMesh mesh_of(const std::vector<CornerCases::Corners>& triangles,
                             std::vector<TriangleId> ids = {}) {
   std::vector<Vec3> vertices;
   std::vector<TriangleMesh::Corners> corners;
-  for (const HardCases::Corners& t : triangles) {
+  for (const CornerCases::Corners& t : triangles) {
     const auto first = static_cast<std::uint32_t>(vertices.size());
     vertices.insert(vertices.end(), t.begin(), t.end());
     corners.push_back({first, first + 1, first + 2});
@@ -128,4 +128,4 @@ inline TriangleMesh mesh_of(const std::vector<HardCases::Corners>& triangles,
   return {std::move(vertices), std::move(corners), std::move(ids)};
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::stress

@@ -1,14 +1,14 @@
-#include "bench/experiments/stress/hard_centers.h"
+#include "bench/experiments/stress/corner_case_centers.h"
 
 #include <algorithm>
 #include <limits>
 
-#include "bench/experiments/stress/hard_cases.h"
+#include "bench/experiments/stress/corner_cases.h"
 
-namespace touchmark::bench {
+namespace touchmark::bench::experiments::stress {
 
-std::vector<Vec3> hard_centers(const TriangleMesh& mesh, std::size_t count, std::uint64_t seed) {
-  HardCases hard(seed);
+std::vector<Vec3> corner_case_centers(const TriangleMesh& mesh, std::size_t count, std::uint64_t seed) {
+  CornerCases cases(seed);
   std::vector<Vec3> centers;
   const Aabb& box = mesh.bounds();
   // The box's diagonal, also where the squares of its sides leave the range of double.
@@ -24,21 +24,21 @@ std::vector<Vec3> hard_centers(const TriangleMesh& mesh, std::size_t count, std:
     centers.push_back(box.min + weight.cwiseProduct(box.extent()));
   }
   for (const double distance : {1.0, 1e3, 1e6, 1e12})
-    centers.push_back(box.center() + distance * size * hard.vector());
+    centers.push_back(box.center() + distance * size * cases.vector());
   while (centers.size() < count) {
-    const std::size_t i = hard.below(mesh.size());
+    const std::size_t i = cases.below(mesh.size());
     const Vec3 &a = mesh.corner(i, 0), &b = mesh.corner(i, 1), &c = mesh.corner(i, 2);
-    const Vec3 eighths(static_cast<double>(hard.below(9)) / 8, static_cast<double>(hard.below(9)) / 8,
-                       static_cast<double>(hard.below(9)) / 8);
+    const Vec3 eighths(static_cast<double>(cases.below(9)) / 8, static_cast<double>(cases.below(9)) / 8,
+                       static_cast<double>(cases.below(9)) / 8);
     centers.push_back(a);
     centers.push_back(a + 0.5 * (b - a));
     centers.push_back((a + b + c) / 3);
     centers.push_back(box.min + eighths.cwiseProduct(box.extent()));
-    centers.push_back(hard.point_about({a, b, c}));
-    centers.push_back(a + 0.005 * size * hard.vector());
-    centers.push_back(box.center() + 0.6 * size * hard.vector());
+    centers.push_back(cases.point_near({a, b, c}));
+    centers.push_back(a + 0.005 * size * cases.vector());
+    centers.push_back(box.center() + 0.6 * size * cases.vector());
   }
   return centers;
 }
 
-}  // namespace touchmark::bench
+}  // namespace touchmark::bench::experiments::stress
