@@ -37,7 +37,7 @@ def draw_latency(plt, rows, source):
     clock = positive(row.clock_cost_ns for row in rows)
     ends = times + [DEADLINE_NS] + clock
     names, trajectories = detectors.in_order(row.name for row in rows), trajectories_of(rows)
-    figure, panels = canvas(plt, len(trajectories), 4.0, 0.27 * len(names), left=room_for(names))
+    figure, panels = canvas(plt, len(trajectories), 3.1, 0.27 * len(names), left=room_for(names))
     for axes, trajectory in zip(panels, trajectories):
         for row in (row for row in rows if row.trajectory == trajectory):
             draw_percentiles(axes, names.index(row.name), row)
