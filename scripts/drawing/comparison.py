@@ -1,22 +1,26 @@
-"""A against B: each row of one results file over the same row of another, and how certain the repetitions make it."""
+"""A against B: the mean and the 99.9 % of each row of one results file over those of the same row of another, and how
+certain the repetitions make the mean."""
 import math
 
 from . import detectors
-from .history import CERTAIN, relative_error
+from .history import CERTAIN, p999_ratio, relative_error
 from .layout import (canvas, label, log_axis, name_axis, name_panel, note, room_for, telling_words, times,
                      trajectories_of, what_was_asked)
-from .results import Unusable, shortened, unique
+from .results import Unusable, finite, shortened, unique
+
+P999_MARK = {"marker": "D", "markersize": 5, "markerfacecolor": "white", "markeredgewidth": 1.3, "linestyle": ""}
 
 
 class Ratio:
     """B over A of one row."""
 
     def __init__(self, a, b, below_a, below_b):
-        """below: the reference detector's rows of the same runs, or None."""
-        self.value = b.ns_per_query / a.ns_per_query
+        """below: the reference detector's rows of the same runs, or None. p999 is NaN where a row lacks it."""
+        self.value, self.p999 = b.ns_per_query / a.ns_per_query, p999_ratio(b, a)
         parts = [a, b]
         if below_a:
             self.value *= below_a.ns_per_query / below_b.ns_per_query
+            self.p999 *= p999_ratio(below_a, below_b)
             parts += [below_a, below_b]
         self.known = all(row.low > 0 or row.ns_per_query_mad >= 0 and row.repetitions > 1 for row in parts)
         error = CERTAIN * math.hypot(*map(relative_error, parts)) if self.known else 0.0
@@ -60,11 +64,13 @@ def pictures(a, b, reference):
 
 def draw_comparison(plt, a, b, rows_a, rows_b, ratios, reference):
     names, trajectories = detectors.in_order(row.name for row in rows_a + rows_b), trajectories_of(rows_a + rows_b)
-    figure, panels = canvas(plt, len(trajectories), 4.2, 0.3 * len(names), left=room_for(names))
-    ends = [end for ratio in ratios.values() for end in (ratio.low, ratio.high)]
-    most = max(1.25, max(ends) * 1.1, 1.1 / min(ends))
+    figure, panels = canvas(plt, len(trajectories), 3.2, 0.38 * len(names), left=room_for(names), bottom=1.25,
+                            gap=(0.3, 0.55), columns=min(2, len(trajectories)))
+    ends = finite(end for ratio in ratios.values() for end in (ratio.low, ratio.high, ratio.p999))
+    low, high = min(0.8, min(ends) / 1.1), max(1.25, max(ends) * 1.1)
+    for_numbers = 0.8 if any(ratio.other_answers for ratio in ratios.values()) else 0.35
     for axes, trajectory in zip(panels, trajectories):
-        log_axis(axes.xaxis, 1 / most, most ** 1.6, times)  # the room to the right is for the numbers
+        log_axis(axes.xaxis, low, high * (high / low) ** for_numbers, times)
         axes.axvline(1, color="black", linewidth=1)
         name_axis(axes, names)
         name_panel(axes, shortened(trajectory, 40))
@@ -77,7 +83,9 @@ def draw_comparison(plt, a, b, rows_a, rows_b, ratios, reference):
                 note(axes, y, why_not(rows_a, rows_b, trajectory, name))
     legend = [plt.Line2D([], [], marker="o", color="0.2", markersize=6, linewidth=1.5, label=text,
                          markerfacecolor="0.2" if filled else "white")
-              for filled, text in ((True, "differs from 1"), (False, "does not, or is not known to"))]
+              for filled, text in ((True, "mean, differs from 1"), (False, "mean, does not differ or is not known to"))]
+    legend.append(plt.Line2D([], [], color="0.2", **P999_MARK,
+                             label="what 99.9 % of the steps take at most; its spread is not known"))
     over = f"B over A{', both over ' + reference + ' in the same run' if reference else ''} (log scale)"
     spread = "bars: about 95 %, from the spread of repetitions within each run"
     if not any(ratio.known for ratio in ratios.values()):
@@ -90,12 +98,22 @@ def draw_comparison(plt, a, b, rows_a, rows_b, ratios, reference):
 
 
 def draw_ratio(axes, y, ratio, colour):
-    axes.plot([ratio.low, ratio.high], [y, y], color=colour, linewidth=1.5, solid_capstyle="butt")
+    """The mean, and below it the 99.9 %."""
+    mean, p999 = y - 0.22, y + 0.22
+    axes.plot([ratio.low, ratio.high], [mean, mean], color=colour, linewidth=1.5, solid_capstyle="butt")
     for end in (ratio.low, ratio.high) if ratio.known else ():
-        axes.plot(end, y, "|", color=colour, markersize=7)
-    axes.plot(ratio.value, y, "o", color=colour, markersize=6, markerfacecolor=colour if ratio.differs else "white")
-    text = times(ratio.value) + ("  other answers" if ratio.other_answers else "")
-    axes.annotate(text, (0.985, y), xycoords=("axes fraction", "data"), ha="right", va="center", fontsize=8)
+        axes.plot(end, mean, "|", color=colour, markersize=7)
+    axes.plot(ratio.value, mean, "o", color=colour, markersize=6, markerfacecolor=colour if ratio.differs else "white")
+    write(axes, mean, times(ratio.value) + ("  other answers" if ratio.other_answers else ""))
+    if math.isfinite(ratio.p999):
+        axes.plot(ratio.p999, p999, color=colour, **P999_MARK)
+        write(axes, p999, times(ratio.p999))
+    else:
+        write(axes, p999, "no 99.9 %", color="0.3", style="italic")
+
+
+def write(axes, y, text, **style):
+    axes.annotate(text, (0.985, y), xycoords=("axes fraction", "data"), ha="right", va="center", fontsize=8, **style)
 
 
 def why_not(rows_a, rows_b, trajectory, name):

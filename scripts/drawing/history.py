@@ -1,10 +1,10 @@
-"""A detector over recordings: its time as a ratio to a reference detector in the same run, a panel a detector."""
+"""A detector over recordings: its mean and 99.9 % as ratios to a reference detector's in the same run, two panels each."""
 import math
 
 from . import detectors
-from .layout import (canvas, label, log_axis, name_panel, telling_words, times, trajectories_of, trajectory_legend,
-                     trajectory_mark, what_was_asked)
-from .results import NothingToDraw, Unusable, shortened, unique
+from .layout import (MEAN_AND_P999, P999_MISSING, canvas, label, log_axis, name_panel, p999_remark, telling_words, times,
+                     trajectories_of, trajectory_legend, trajectory_mark, what_was_asked)
+from .results import NothingToDraw, Unusable, finite, shortened, unique
 
 CERTAIN = 1.96  # standard errors: 95 %
 # Nobody's work here changes these; the first that every recording holds.
@@ -39,6 +39,11 @@ def ratio(row, reference):
     return row.ns_per_query / below.ns_per_query, math.hypot(relative_error(row), relative_error(below))
 
 
+def p999_ratio(row, below):
+    """Over the reference's row, NaN where either lacks the 99.9 %."""
+    return row.ns_p999 / below.ns_p999 if row.ns_p999 > 0 and below.ns_p999 > 0 else math.nan
+
+
 def relative_error(row):
     """Standard error: from the interval, or of a median of n repetitions with this median deviation, were they normal; 0
     where it is not known."""
@@ -54,34 +59,52 @@ def draw_history(plt, series, rows, reference):
         raise NothingToDraw("the recordings share no detector to compare with; --reference names one")
     every = [row for some in rows for row in some]
     trajectories = trajectories_of(every)
-    points = {}  # by detector and trajectory: (recording, ratio, error)
+    points = {}  # by detector and trajectory: (recording, ratio, error, ratio of the 99.9 %)
     for k, some in enumerate(rows):
         below = {row.trajectory: row for row in some if row.name == reference and row.ns_per_query > 0}
         for row in some:
             of_reference = ratio(row, below)
             if of_reference and row.name != reference:
-                points.setdefault(row.name, {}).setdefault(row.trajectory, []).append((k, *of_reference))
+                points.setdefault(row.name, {}).setdefault(row.trajectory, []).append(
+                    (k, *of_reference, p999_ratio(row, below[row.trajectory])))
     names = [name for name in detectors.in_order(points) if any(len(line) > 1 for line in points[name].values())]
     if not names:
         raise NothingToDraw(f"no detector beside {reference} was timed in two recordings")
-    columns = min(3, len(names))
-    figure, panels = canvas(plt, len(names), 3.7, 1.75, left=1.0, bottom=1.95, gap=(0.7, 0.42), share_y=False,
-                            columns=columns)
-    for axes, name in zip(panels, names):
-        draw_panel(axes, points[name], trajectories, detectors.colour(name))
-        name_panel(axes, name)
+    columns = min(4, 2 * len(names))
+    figure, panels = canvas(plt, 2 * len(names), 1.95, 1.6, left=0.75, bottom=1.95, gap=(0.7, 0.6), share_y=False,
+                            columns=columns, top=1.5)
+    for k, name in enumerate(names):
+        draw_detector(panels[2 * k:2 * k + 2], name, points[name], trajectories)
+    for axes in panels:
         name_recordings(axes, series)
-    for axes in panels[max(0, len(names) - columns):]:
+    for axes in panels[max(0, len(panels) - columns):]:
         axes.tick_params(axis="x", labelbottom=True)
     legend = trajectory_legend(plt, trajectories, linewidth=1)
+    source = (f"{len(series)} recordings, {series[-1].machine}; bars: about 95 %, from the spread of repetitions within"
+              " each run, known for the mean only")
     label(figure, f"Time of a query over that of {reference} in the same run, by recording: down is better",
-          what_was_asked(every), f"{len(series)} recordings, {series[-1].machine}; bars: about 95 %, from the spread of"
-          " repetitions within each run", "recording, oldest first; upwards: ratio (log scale)", legend)
+          what_was_asked(every), source, "recording, oldest first; upwards: ratio of the means, and of what 99.9 % of the steps"
+          " take at most (log scale)", legend, p999_remark(every))
     return figure
 
 
+def draw_detector(pair, name, lines, trajectories):
+    means = {trajectory: [(k, value, error) for k, value, error, _ in line] for trajectory, line in lines.items()}
+    slowest = {trajectory: [(k, value, 0.0) for k, *_, value in line] for trajectory, line in lines.items()}
+    for axes, shown, (_, what) in zip(pair, (means, slowest), MEAN_AND_P999):
+        if any(math.isfinite(value) for line in shown.values() for _, value, _ in line):
+            draw_panel(axes, shown, trajectories, detectors.colour(name))
+        else:
+            axes.set_yticks([])
+            axes.text(0.5, 0.5, P999_MISSING, transform=axes.transAxes, ha="center", va="center", fontsize=8,
+                      style="italic", color="0.3")
+        axes.annotate(what, (0, 1), (0, 3), xycoords="axes fraction", textcoords="offset points", fontsize=9)
+    name_panel(pair[0], name)
+    pair[0].set_title(pair[0].get_title("left"), loc="left", pad=18, fontsize=10, fontweight="bold")
+
+
 def draw_panel(axes, lines, trajectories, colour):
-    """Bars of trajectories stand beside each other."""
+    """Bars of trajectories stand beside each other; a line breaks where a value is NaN."""
     among = [trajectory for trajectory in trajectories if trajectory in lines]
     ends = []
     for k, trajectory in enumerate(among):
@@ -90,9 +113,9 @@ def draw_panel(axes, lines, trajectories, colour):
         high = [value * math.exp(CERTAIN * error) for value, error in zip(values, errors)]
         beside = 0.4 * ((k + 0.5) / len(among) - 0.5)
         bars = [value - end for value, end in zip(values, low)], [end - value for value, end in zip(values, high)]
-        axes.errorbar([x + beside for x in at], values, bars,
+        axes.errorbar([x + beside for x in at], values, bars if any(errors) else None,
                       linewidth=1, elinewidth=0.8, capsize=1.5, **trajectory_mark(trajectory, trajectories, colour, 5))
-        ends += low + high
+        ends += finite(low + high)
     room = max(1.1, (max(ends) / min(ends)) ** 0.08)
     log_axis(axes.yaxis, min(ends) / room, max(ends) * room, times)
     axes.axhline(1, color="black", linestyle="--", linewidth=0.8, zorder=0)
@@ -100,7 +123,7 @@ def draw_panel(axes, lines, trajectories, colour):
 
 
 def name_recordings(axes, series):
-    step = -(-len(series) // 12)
+    step = -(-len(series) // 8)
     shown = [k for k in range(len(series)) if (len(series) - 1 - k) % step == 0]
     axes.set_xlim(-0.4, len(series) - 0.6)
     axes.set_xticks(shown, [shortened(series[k].name, 22) for k in shown], rotation=35, ha="right",

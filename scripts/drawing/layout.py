@@ -11,6 +11,8 @@ TRAJECTORIES = {"slide": "o", "approach": "s", "hover": "D", "jump": "^", "tap":
 FILLS = {"o": 0.0, "s": 0.5, "D": 1.0, "^": 0.0, "v": 0.5, "P": 1.0, "X": 0.0}  # how much of the colour
 OTHER_MARKERS = "*hdp<>"
 NARROWEST = 7.5  # inches: what a title and a legend need
+MEAN_AND_P999 = [("ns_per_query", "mean"), ("ns_p999", "99.9 % of the steps")]
+P999_MISSING = "none: below 1,000 steps"
 GRID = {"color": "0.85", "linewidth": 0.6}
 
 
@@ -111,6 +113,12 @@ def what_was_asked(rows):
     return ", ".join(parts)
 
 
+def p999_remark(rows):
+    """Why some of these rows have a mean and no 99.9 %, or nothing."""
+    lacking = any(row.ns_per_query > 0 and not row.ns_p999 > 0 for row in rows)
+    return "no mark at 99.9 %: fewer than 1,000 steps were clocked" if lacking else ""
+
+
 def name_axis(axes, names):
     axes.set_yticks(range(len(names)), [shortened(name) for name in names])
     axes.set_ylim(len(names) - 0.5, -0.5)
@@ -125,12 +133,11 @@ def note(axes, y, text):
 
 
 def canvas(plt, panels, panel_width, panel_height, left=0.9, right=0.25, bottom=1.05, gap=(0.15, 0.55), columns=None,
-           share_x=True, share_y=True, heights=None):
+           share_x=True, share_y=True, heights=None, top=1.25):
     """A figure with room for the title above `panels` panels and a legend below or to the right. All in inches; `heights`:
     of each line of panels, where they differ."""
     columns = columns or min(panels, 2 if panels in (2, 4) else 3)
     lines = -(-panels // columns)
-    top = 1.25
     width = left + columns * panel_width + (columns - 1) * gap[0] + right
     panel_width += max(0.0, NARROWEST - width) / columns
     width = max(width, NARROWEST)
@@ -165,12 +172,17 @@ def label(figure, title, asked, source, axis="", legend=(), more=""):
                     fontweight=weight, va="top")
     panels = figure.subplotpars
     columns = entries_per_line([handle.get_label() for handle in legend], width - 0.4)
-    lines = -(-len(legend) // columns)
-    figure.text((panels.left + panels.right) / 2, max(0.62, 0.3 + 0.2 * lines) * inch, axis, fontsize=9, ha="center",
+    figure.text((panels.left + panels.right) / 2, legend_height(legend, width) * inch, axis, fontsize=9, ha="center",
                 va="center")
     if legend:
         figure.legend(handles=legend, loc="lower center", bbox_to_anchor=(0.5, 0.0), fontsize=9, frameon=False,
                       ncols=columns)
+
+
+def legend_height(legend, width):
+    """Inches from the lower border to the axis' meaning above a legend in a figure of at least this width."""
+    lines = -(-len(legend) // entries_per_line([handle.get_label() for handle in legend], width - 0.4))
+    return max(0.62, 0.3 + 0.2 * lines)
 
 
 def entries_per_line(labels, width):

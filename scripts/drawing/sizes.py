@@ -1,14 +1,14 @@
-"""Time against the mesh's size: rows of several meshes, of one run or of several."""
+"""Time against the mesh's size, mean and 99.9 %: rows of several meshes, of one run or of several."""
 import math
 import statistics
 
 from . import detectors, groups
-from .layout import (canvas, count, detector_legend, duration, label, log_axis, name_panel, telling_words, trajectories_of,
-                     what_was_asked)
+from .layout import (MEAN_AND_P999, P999_MISSING, canvas, count, duration, label, legend_height, log_axis, name_panel,
+                     p999_remark, telling_words, trajectories_of, what_was_asked)
 from .results import NothingToDraw, positive, shortened, unique
-from .time_error import room_for_legend
 
 DEADLINE_NS = 1e6
+DEADLINE_LINE = {"linestyle": (0, (6, 3)), "linewidth": 0.9}
 
 
 def families(meshes):
@@ -71,27 +71,33 @@ def draw_mesh_size(plt, rows, source):
                                               for t in trajectories)]
     if not names:
         raise NothingToDraw("no detector was timed on meshes of several sizes")
-    lines = -(-len(trajectories) // 2)
-    height = max(4.3, 0.21 * (len(names) + 1) / lines)
-    figure, panels = canvas(plt, len(trajectories), 4.3, height, right=room_for_legend(names), left=0.95, gap=(0.2, 0.6),
-                            columns=min(2, len(trajectories)))
-    times = positive(row.ns_per_query for row in rows if row.name in names)
+    legend = [plt.Line2D([], [], label=shortened(name), **detectors.mark(name), **detectors.line(name)) for name in names]
+    legend.append(plt.Line2D([], [], color="black", label="1 ms: a 1 kHz tick is over", **DEADLINE_LINE))
+    figure, panels = canvas(plt, 2 * len(trajectories), 4.0, 3.0, left=0.85, gap=(0.5, 0.6), columns=2,
+                            bottom=0.5 + legend_height(legend, 9.3))
+    times = positive(getattr(row, column) for row in rows if row.name in names for column, _ in MEAN_AND_P999)
     spans = sizes(rows)
-    for axes, trajectory in zip(panels, trajectories):
-        for name in names:
-            mine = {}
-            for row in rows:
-                if row.name == name and row.trajectory == trajectory:
-                    mine.setdefault(row.triangles, []).append(row.ns_per_query)
-            axes.plot(sorted(mine), [statistics.median(mine[size]) for size in sorted(mine)], **detectors.mark(name),
-                      **detectors.line(name))
-        axes.axhline(DEADLINE_NS, color="black", linestyle=(0, (6, 3)), linewidth=0.9)
-        name_panel(axes, shortened(trajectory, 40))
+    for k, axes in enumerate(panels):
+        trajectory, (column, what) = trajectories[k // 2], MEAN_AND_P999[k % 2]
+        name_panel(axes, f"{shortened(trajectory, 30)}: {what}")
+        drawn = [draw_sizes(axes, name, [row for row in rows if row.name == name and row.trajectory == trajectory], column)
+                 for name in names]
+        if not any(drawn):
+            axes.text(0.5, 0.5, P999_MISSING, transform=axes.transAxes, ha="center", fontsize=9, style="italic", color="0.3")
+        axes.axhline(DEADLINE_NS, color="black", **DEADLINE_LINE)
         log_axis(axes.xaxis, spans[0] / 1.5, spans[-1] * 1.5, count)
         log_axis(axes.yaxis, min(times) / 2, max(times + [DEADLINE_NS]) * 2, duration)
-    deadline = plt.Line2D([], [], color="black", linestyle=(0, (6, 3)), linewidth=0.9, label="1 ms: a 1 kHz tick is over")
-    last = panels[min(len(panels), 2) - 1]
-    detector_legend(plt, figure, last, names, extra=[deadline])
     label(figure, "Time of a query against the mesh's size: down is better", what_was_asked(rows), source,
-          "triangles (log scale); upwards: time for one query, mean of a loop (log scale)")
+          "triangles (log scale); upwards: time for one query, its mean and what 99.9 % of the steps take at most (log scale)",
+          legend, p999_remark(rows))
     return figure
+
+
+def draw_sizes(axes, name, rows, column):
+    """A mark a size, and whether there is any. The line breaks at a size whose rows lack this time."""
+    medians = []
+    for size in sizes(rows):
+        values = positive(getattr(row, column) for row in rows if row.triangles == size)
+        medians.append(statistics.median(values) if values else math.nan)
+    axes.plot(sizes(rows), medians, **detectors.mark(name), **detectors.line(name))
+    return any(map(math.isfinite, medians))

@@ -2,6 +2,7 @@
 """scripts/plot on several made-up runs: mesh sizes, groups, history, A against B; and what the pictures share."""
 import csv
 import json
+import math
 import pathlib
 import subprocess
 import sys
@@ -71,6 +72,31 @@ class MeshSize(Folders):
         picture = self.picture("mesh_size")
         for text in ("icosphere:2, icosphere:4", "grid-group", "fcl", "1,000", "2 runs", "triangles (log scale)"):
             self.assertIn(text, picture)
+
+    def test_shows_p999_beside_the_mean(self):
+        self.plot(self.run_of("a", *(row(mesh=f"soup:{n}", triangles=n) for n in (20, 50))), "--only", "mesh_size")
+        picture = self.picture("mesh_size")
+        for text in ("<!-- slide: mean -->", "<!-- slide: 99.9 % of the steps -->", "what 99.9 % of the steps take at most"):
+            self.assertIn(text, picture)
+        self.assertNotIn("no mark at 99.9 %", picture)
+        self.assertNotIn("none: below", picture)
+
+    def test_says_why_a_detector_has_no_p999(self):
+        short = [row("fcl", mesh=f"soup:{n}", triangles=n, steps=16, ns_p999="") for n in (20, 50)]
+        self.plot(self.run_of("a", *short), "--only", "mesh_size")
+        picture = self.picture("mesh_size")
+        for text in ("no mark at 99.9 %: fewer than 1,000 steps were clocked", "<!-- none: below 1,000 steps -->"):
+            self.assertIn(text, picture)
+
+    def test_breaks_the_line_where_p999_is_absent(self):
+        figure, axes = layout.load_pyplot().subplots()
+        self.addCleanup(layout.load_pyplot().close, figure)
+        rows = [results.Row(row(triangles=n, ns_p999=p999), 2) for n, p999 in ((20, 700), (50, ""), (80, 900))]
+        self.assertTrue(sizes.draw_sizes(axes, "grid-group", rows, "ns_p999"))
+        first, absent, last = axes.lines[0].get_ydata()
+        self.assertEqual((first, last), (700, 900))
+        self.assertTrue(math.isnan(absent))
+        self.assertFalse(sizes.draw_sizes(axes, "grid-group", rows[1:2], "ns_p999"))
 
     def test_is_drawn_from_several_meshes_of_one_run_for_each_kind_of_mesh(self):
         folder = self.run_of("a", *(row(mesh=f"{kind}:{n}", triangles=n) for kind in ("soup", "torus") for n in (20, 50)))
@@ -195,6 +221,38 @@ class History(Folders):
         self.plot(self.directory / "machine")
         self.assertIn("2 recordings, z", self.picture("history"))
 
+    def test_shows_p999_beside_the_mean(self):
+        for day in (1, 2):
+            self.record(day, row(), row("embree"))
+        self.plot(self.directory / "machine")
+        picture = self.picture("history")
+        for text in ("<!-- mean -->", "<!-- 99.9 % of the steps -->", "known for the mean only"):
+            self.assertEqual(picture.count(text), 1, text)
+        self.assertNotIn("none: below", picture)
+
+    def test_says_why_a_detector_has_no_p999(self):
+        for day in (1, 2):
+            self.record(day, row(), row("brute-force", steps=16, ns_p999=""), row("embree"))
+        self.plot(self.directory / "machine")
+        picture = self.picture("history")
+        self.assertEqual(picture.count("<!-- none: below 1,000 steps -->"), 1)
+        self.assertIn("no mark at 99.9 %", picture)
+
+    def test_ratio_of_p999_is_absent_where_either_is(self):
+        mine, reference, short = (results.Row(row(ns_p999=ns), 2) for ns in (300, 200, ""))
+        self.assertEqual(history.p999_ratio(mine, reference), 1.5)
+        self.assertTrue(math.isnan(history.p999_ratio(mine, short)))
+        self.assertTrue(math.isnan(history.p999_ratio(short, reference)))
+
+    def test_breaks_the_line_where_p999_is_absent(self):
+        figure, axes = layout.load_pyplot().subplots()
+        self.addCleanup(layout.load_pyplot().close, figure)
+        history.draw_panel(axes, {"slide": [(0, 0.5, 0.0), (1, math.nan, 0.0), (2, 0.8, 0.0)]}, ["slide"], "black")
+        first, absent, last = axes.lines[0].get_ydata()
+        self.assertEqual((first, last), (0.5, 0.8))
+        self.assertTrue(math.isnan(absent))
+        self.assertGreater(axes.get_ylim()[0], 0.4)
+
     def test_ratio_is_that_of_one_run(self):
         mine, reference = (results.Row(row(ns=ns), 2) for ns in (300, 200))
         value, error = history.ratio(mine, {"slide": reference})
@@ -218,6 +276,21 @@ class Comparison(Folders):
         b = self.run_of("b", row(ns=300), row("fcl", ns=800))
         self.plot("--compare", a, b, "--reference", "fcl")
         self.assertIn("1.5×", self.picture("comparison"))
+
+    def test_shows_p999_beside_the_mean_where_both_have_it(self):
+        a = self.run_of("a", row(ns=100, ns_p999=400), row("fcl", ns_p999=500), row("embree", ns_p999=""))
+        b = self.run_of("b", row(ns=45, ns_p999=920), row("fcl", ns_p999=""), row("embree", ns_p999=600))
+        self.plot("--compare", a, b)
+        picture = self.picture("comparison")
+        self.assertEqual([picture.count(f"<!-- {text} -->") for text in ("0.45×", "2.3×", "no 99.9 %")], [1, 1, 2])
+        self.assertIn("what 99.9 % of the steps take at most; its spread is not known", picture)
+
+    def test_takes_out_of_p999_what_the_reference_shares(self):
+        def ratio(mine_a, mine_b, below_a, below_b):
+            return comparison.Ratio(*(results.Row(row(ns_p999=ns), 2) for ns in (mine_a, mine_b, below_a, below_b))).p999
+        self.assertEqual(ratio(100, 300, 400, 800), 1.5)
+        for absent in range(4):
+            self.assertTrue(math.isnan(ratio(*("" if k == absent else 100 for k in range(4)))))
 
     def test_interval_widens_with_the_spread_and_is_absent_without(self):
         def ratio(**spread):
