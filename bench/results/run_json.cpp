@@ -39,7 +39,7 @@ Json mesh_json(const workload::Workload& workload) {
 }
 
 /// A file's own times, and speeds where the unit is known.
-void add_motion(Json& json, const workload::Motion& motion, const std::optional<support::LengthUnit>& unit) {
+void add_motion(Json& json, const workload::Pace& motion, const std::optional<support::LengthUnit>& unit) {
   if (motion.recorded) {
     json["rows"] = motion.recorded->rows;
     json["duration_s"] = motion.recorded->duration_s;

@@ -43,8 +43,8 @@ void require_memory_for(const std::vector<std::string>& trajectories, const Sele
 }
 
 /// A step is a millisecond where no times say otherwise.
-Motion motion_of(const trajectories::Trajectory& trajectory) {
-  Motion motion{0, 0, trajectory.recorded};
+Pace pace_of(const trajectories::Trajectory& trajectory) {
+  Pace motion{0, 0, trajectory.recorded};
   double length = 0, duration = 0;
   for (std::size_t i = 1; i < trajectory.size(); ++i) {
     const double piece = (trajectory.positions[i] - trajectory.positions[i - 1]).stableNorm();
@@ -94,7 +94,7 @@ Workload make_workload(std::string mesh_name, TriangleMesh mesh, const Selection
         name, workload.mesh,
         {steps_of(name, selection, default_steps), selection.seed, workload.radius, selection.motion});
     say_that_rows_are_steps(trajectory);
-    workload.motions.push_back(motion_of(trajectory));
+    workload.motions.push_back(pace_of(trajectory));
     workload.trajectories.push_back(trajectory.name);
     workload.traces.push_back(trace_along(trajectory, workload.radius, workload.reach));
   }
@@ -109,7 +109,7 @@ std::string length_text(const Workload& workload, double length) {
 std::string trace_text(const Workload& workload, std::size_t trace) {
   std::string text = fmt::format("{} steps", workload.traces[trace].size());
   if (trace >= workload.motions.size()) return text;
-  const Motion& motion = workload.motions[trace];
+  const Pace& motion = workload.motions[trace];
   if (motion.recorded) {
     text += fmt::format(", {:.6g} s", motion.recorded->duration_s);
     if (const auto rate = motion.recorded->rate_hz()) text += fmt::format(" at {:.6g} Hz", *rate);

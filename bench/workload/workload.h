@@ -14,7 +14,7 @@
 namespace touchmark::bench::workload {
 
 /// How fast a trajectory is, and what its file says of time.
-struct Motion {
+struct Pace {
   double mean_speed = 0, max_speed = 0;  ///< mesh units a second
   std::optional<trajectories::RecordedTiming> recorded;
 };
@@ -26,7 +26,7 @@ struct Workload {
   std::optional<double> reach;  ///< mesh units; nothing: each probe's radius
   std::vector<std::string> trajectories;
   std::vector<std::vector<Step>> traces;                   ///< one a trajectory
-  std::vector<Motion> motions = {};                        ///< one a trajectory, or none
+  std::vector<Pace> motions = {};                        ///< one a trajectory, or none
   std::optional<support::LengthUnit> unit = std::nullopt;  ///< nothing: unknown
 };
 
