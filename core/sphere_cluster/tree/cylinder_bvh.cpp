@@ -7,6 +7,7 @@
 
 #include "core/search/certified_nearest.h"
 #include "core/sphere_cluster/tree/builder.h"
+#include "core/sphere_cluster/tree/refit.h"
 #include "core/sphere_cluster/tree/search.h"
 
 namespace touchmark {
