@@ -4,6 +4,9 @@
 #include <cstdint>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include "core/requirements.h"
 
 namespace touchmark {
 
