@@ -1,8 +1,8 @@
 cmake_minimum_required(VERSION 3.25)
 
-# touchmark_write_headers(CORE INCLUDE HEADERS...): writes the headers, named from CORE, to INCLUDE/touchmark/NAME.h, and
-# those that they include, and these in turn, to INCLUDE/touchmark/detail/ under their own paths. Includes follow. Sets
-# touchmark_written_headers to all of them, named from CORE.
+# touchmark_write_headers(CORE INCLUDE HEADERS...): writes the headers, named from CORE, to INCLUDE/touchmark/NAME.h,
+# and those that they include, directly or not, to INCLUDE/touchmark/detail/ under their own paths. Their includes are
+# rewritten. Sets touchmark_written_headers to all of them, named from CORE.
 function(touchmark_write_headers core include)
   set(headers "")
   set(names "")
@@ -31,7 +31,11 @@ function(touchmark_write_headers core include)
     list(LENGTH headers count)
   endwhile()
 
-  file(REMOVE_RECURSE ${include}/touchmark)
+  file(GLOB_RECURSE stale RELATIVE ${include} ${include}/touchmark/*)
+  list(REMOVE_ITEM stale ${names})
+  foreach(name ${stale})
+    file(REMOVE ${include}/${name})
+  endforeach()
   foreach(header name IN ZIP_LISTS headers names)
     file(READ ${core}/${header} text)
     foreach(from to IN ZIP_LISTS headers names)
@@ -43,7 +47,14 @@ function(touchmark_write_headers core include)
     if(NOT header STREQUAL "requirements.h")
       string(REPLACE "#pragma once\n" "#pragma once\n\n${check}" text "${text}")
     endif()
-    file(WRITE ${include}/${name} "${text}")
+    # What stays as it was keeps its time, so that nothing is compiled again for it.
+    set(before "")
+    if(EXISTS ${include}/${name})
+      file(READ ${include}/${name} before)
+    endif()
+    if(NOT "${text}" STREQUAL "${before}")
+      file(WRITE ${include}/${name} "${text}")
+    endif()
   endforeach()
   set(touchmark_written_headers ${headers} PARENT_SCOPE)
 endfunction()

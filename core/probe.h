@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
+#include <Eigen/Geometry>  // for the products of vectors, which a user of Vec3 expects
 
 #include "core/requirements.h"
 
