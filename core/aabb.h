@@ -1,7 +1,6 @@
 /// An axis-aligned box; empty until something is put in.
 #pragma once
 
-#include <algorithm>
 #include <limits>
 #include <span>
 
@@ -25,7 +24,7 @@ struct Aabb {
   Aabb padded(double by) const noexcept { return {min - Vec3::Constant(by), max + Vec3::Constant(by)}; }
   Vec3 extent() const noexcept { return max - min; }
   Vec3 center() const noexcept { return min + 0.5 * (max - min); }
-  double diagonal() const noexcept { return extent().norm(); }
+  double diagonal() const noexcept;
   bool contains(const Vec3& point) const noexcept {
     return (point.array() >= min.array()).all() && (point.array() <= max.array()).all();
   }
@@ -38,13 +37,10 @@ struct Aabb {
   Vec3 excess(const Vec3& point) const noexcept {
     return (min - point).cwiseMax(point - max).cwiseMax(Vec3::Zero());
   }
-  double squared_distance(const Vec3& point) const noexcept { return excess(point).squaredNorm(); }
+  double squared_distance(const Vec3& point) const noexcept;
 };
 
 /// Is one of the boxes at most this far from the point?
-inline bool any_within(std::span<const Aabb> boxes, const Vec3& point, double distance) noexcept {
-  return std::any_of(boxes.begin(), boxes.end(),
-                     [&](const Aabb& box) { return box.squared_distance(point) <= distance * distance; });
-}
+bool any_within(std::span<const Aabb> boxes, const Vec3& point, double distance) noexcept;
 
 }  // namespace touchmark

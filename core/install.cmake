@@ -1,19 +1,35 @@
-# Installs touchmark::core, and touchmark::mesh_io where it is built, for find_package and for pkg-config. Headers
-# go to include/touchmark/core/..., and are included from there as here: #include <core/probe.h>
+# Installs touchmark::core, and touchmark::mesh_io where it is built, for find_package and for pkg-config. Headers are
+# included as core/... here and as touchmark/... by users: #include <touchmark/grid_group.h>
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
+include(installed_headers.cmake)
 
 set(touchmark_package ${CMAKE_INSTALL_LIBDIR}/cmake/touchmark)
+set(touchmark_include ${CMAKE_CURRENT_BINARY_DIR}/include)
 
 # touchmark_install(NAME): the target touchmark_NAME, with an export file of its own, so that who wants the core
 # alone need not have what the rest depends on.
 function(touchmark_install name)
-  install(TARGETS touchmark_${name} EXPORT touchmark-${name}
-          FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/touchmark)
+  if(PROJECT_IS_TOP_LEVEL OR TOUCHMARK_BUILD_BENCH OR TOUCHMARK_BUILD_TESTS)
+    target_include_directories(touchmark_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+  else()
+    target_include_directories(touchmark_${name} PRIVATE ${PROJECT_SOURCE_DIR}
+                               INTERFACE $<BUILD_INTERFACE:${touchmark_include}>)
+  endif()
+  install(TARGETS touchmark_${name} EXPORT touchmark-${name} INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
   install(EXPORT touchmark-${name} NAMESPACE touchmark:: DESTINATION ${touchmark_package})
 endfunction()
 
 touchmark_install(core)
+
+if(NOT PROJECT_IS_TOP_LEVEL)
+  touchmark_write_headers(${CMAKE_CURRENT_SOURCE_DIR} ${touchmark_include} ${touchmark_public_headers})
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${touchmark_written_headers})
+endif()
+# Written when they are installed, so that they are those of the tree as it is then.
+install(CODE "include(\"${CMAKE_CURRENT_SOURCE_DIR}/installed_headers.cmake\")
+touchmark_write_headers(\"${CMAKE_CURRENT_SOURCE_DIR}\" \"${touchmark_include}\" ${touchmark_public_headers})")
+install(DIRECTORY ${touchmark_include}/touchmark DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
 configure_package_config_file(touchmark-config.cmake.in touchmark-config.cmake
                               INSTALL_DESTINATION ${touchmark_package})

@@ -4,6 +4,9 @@
 #include <cstdint>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>  // for the products of vectors, which a user of Vec3 expects
+
+#include "core/requirements.h"
 
 namespace touchmark {
 

@@ -8,6 +8,8 @@
 
 #include "core/geometry/sphere_triangle_sweep.h"
 #include "core/geometry/sweep_box.h"
+#include "core/search/certified_nearest.h"
+#include "core/search/closest_candidates.h"
 
 namespace touchmark {
 namespace {

@@ -13,9 +13,9 @@
 
 #include "core/aabb.h"
 #include "core/detector.h"
+#include "core/geometry/distance_error.h"
 #include "core/geometry/point_triangle.h"
 #include "core/mesh_update.h"
-#include "core/search/certified_nearest.h"
 #include "core/search/linear_scan.h"
 
 namespace touchmark {

@@ -10,11 +10,10 @@
 #include <compare>
 
 #include "core/exact/double_double.h"
+#include "core/exact/feature.h"
 #include "core/probe.h"
 
 namespace touchmark {
-
-using TriangleCorners = std::array<Vec3, 3>;
 
 /// Is the distance at most the radius? Exact. False when a coordinate is not finite or the radius not at
 /// least 0; the radius may be infinite.

@@ -7,6 +7,8 @@
 
 namespace touchmark {
 
+using TriangleCorners = std::array<Vec3, 3>;
+
 /// One corner, the two ends of an edge, or the three corners of a face; behind them are copies of the first.
 struct Feature {
   std::array<Vec3, 3> corner;

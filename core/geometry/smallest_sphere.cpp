@@ -86,6 +86,8 @@ Sphere around_all(const Vec3& center, std::span<const Vec3> points) noexcept {
 
 }  // namespace
 
+bool Sphere::contains(const Vec3& point) const noexcept { return (point - center).norm() <= radius; }
+
 Sphere smallest_sphere(std::span<const Vec3> points) noexcept {
   Support support;
   support.add(points[farthest_from(points[0], points)]);

@@ -11,7 +11,7 @@ struct Sphere {
   Vec3 center = Vec3::Zero();
   double radius = 0;
 
-  bool contains(const Vec3& point) const noexcept { return (point - center).norm() <= radius; }
+  bool contains(const Vec3& point) const noexcept;
 };
 
 /// Holds every point (finite, at least one) for certain: the radius is the distance to the farthest one,

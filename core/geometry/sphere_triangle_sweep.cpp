@@ -115,6 +115,10 @@ std::optional<double> FirstTouch::find(double limit) noexcept {
 
 }  // namespace
 
+Vec3 position_at(const Sweep& sweep, double fraction) noexcept {
+  return fraction < 1 ? Vec3(sweep.from + fraction * (sweep.to - sweep.from)) : sweep.to;
+}
+
 double position_error(const Sweep& sweep) noexcept {
   return 4 * epsilon * (sweep.from.cwiseAbs().maxCoeff() + sweep.to.cwiseAbs().maxCoeff());
 }

@@ -57,9 +57,7 @@ Contact contact_on_path(const PreparedTriangle& triangle, const Sweep& sweep, do
                         TriangleId id) noexcept;
 
 /// Returns where the probe stands at a fraction of the path, rounded; exact at 0 and 1.
-inline Vec3 position_at(const Sweep& sweep, double fraction) noexcept {
-  return fraction < 1 ? Vec3(sweep.from + fraction * (sweep.to - sweep.from)) : sweep.to;
-}
+Vec3 position_at(const Sweep& sweep, double fraction) noexcept;
 
 /// A candidate for the first touch: smaller fraction first, then lower index, so that detectors which look at
 /// triangles in any order agree bit for bit.

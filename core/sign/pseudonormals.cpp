@@ -7,6 +7,8 @@
 #include <Eigen/Geometry>
 
 #include "core/geometry/point_triangle.h"
+#include "core/subdivision/indexed_faces.h"
+#include "core/subdivision/oriented_surface.h"
 
 namespace touchmark::sign {
 namespace {

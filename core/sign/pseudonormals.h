@@ -11,8 +11,14 @@
 #include <optional>
 #include <vector>
 
-#include "core/subdivision/indexed_faces.h"
-#include "core/subdivision/oriented_surface.h"
+#include "core/probe.h"
+
+namespace touchmark {
+template <std::size_t N>
+struct IndexedFaces;
+template <std::size_t N>
+class OrientedSurface;
+}  // namespace touchmark
 
 namespace touchmark::sign {
 
@@ -38,7 +44,7 @@ class Pseudonormals {
 
   Pseudonormals() = default;
   /// Takes what it needs of the welded mesh and its surface.
-  Pseudonormals(const IndexedTriangles& welded, const TriangleSurface& surface);
+  Pseudonormals(const IndexedFaces<3>& welded, const OrientedSurface<3>& surface);
 
   std::size_t faces() const noexcept { return faces_.size(); }
   std::size_t vertices() const noexcept { return positions_.size(); }
@@ -57,7 +63,7 @@ class Pseudonormals {
   std::size_t bytes() const noexcept;
 
  private:
-  void sum_up_vertices(const TriangleSurface& surface);
+  void sum_up_vertices(const OrientedSurface<3>& surface);
   std::optional<Reading> on_face(std::uint32_t face, const Vec3& center, const Vec3& offset,
                                  double gap) const noexcept;
   std::optional<Reading> on_edge(std::uint32_t face, std::uint32_t s, const Vec3& offset,

@@ -15,6 +15,9 @@
 #include "core/sign/clearance.h"
 #include "core/sign/open_edges.h"
 #include "core/sign/volume.h"
+#include "core/subdivision/edge_map.h"
+#include "core/subdivision/indexed_faces.h"
+#include "core/subdivision/oriented_surface.h"
 
 namespace touchmark {
 namespace {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/aabb.h"
-#include "core/exact/distance_predicates.h"
+#include "core/exact/feature.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::sign {

@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "core/sphere_cluster/sphere_radius.h"
+#include "core/geometry/smallest_sphere.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark {

@@ -1,8 +1,10 @@
 #!/usr/bin/python3
-"""Installs the library into a temporary prefix, and builds README's example against it in both ways.
+"""Installs the library into a temporary prefix, and builds against it what users would: README's example in both ways,
+a plug-in, each header alone, and programs with flags that the library does not have.
 
 usage: install_test.py BUILD_DIRECTORY
 """
+import concurrent.futures
 import ctypes
 import os
 import pathlib
@@ -19,10 +21,10 @@ BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
 # A plug-in with the installed library inside.
 PLUGIN = """#include <exception>
 
-#include <core/brute_force/brute_force.h>
-#include <core/grid_group/grid_group.h>
-#include <core/mesh_io/mesh_io.h>
-#include <core/sphere_cluster/sphere_cluster.h>
+#include <touchmark/brute_force.h>
+#include <touchmark/grid_group.h>
+#include <touchmark/mesh_io.h>
+#include <touchmark/sphere_cluster.h>
 
 namespace {
 
@@ -52,12 +54,67 @@ extern "C" double distance_from(const char* file, double x, double y, double z, 
 }
 """
 
+# A vector product of what a query answers, with no header but the detector's.
+TORQUE = """#include <touchmark/aabb_tree.h>
+touchmark::Vec3 torque(const touchmark::Contact& contact, const touchmark::Vec3& lever) {
+  return lever.cross(contact.normal);
+}
+"""
+
+INCLUDE = re.compile(r'^#include "(touchmark/[^"]+)"', re.M)
+COMPILERS = [compiler for compiler in ("g++", "clang++") if shutil.which(compiler)]
+EIGEN = ["-isystem", "/usr/include/eigen3"]
+FUSED = ["-mfma", "-ffp-contract=fast"]  # as GCC has it with -march=native on most processors
+
+# Inline functions that a program compiles with its own flags and that may fuse a product and a sum, and why no answer
+# shows it.
+FUSED_WITHOUT_HARM = {
+    "touchmark::Aabb::center": "half of a number is exact",
+    "touchmark::grid::DirectMemory::moved_less": "it leaves 2^-40 for rounding",
+    "touchmark::SphereTree::surely_free": "so do the distances that it compares",
+}
+
 
 def run(*command, **options):
     done = subprocess.run(command, capture_output=True, text=True, check=False, **options)
     if done.returncode != 0:
         raise AssertionError(f"{command}\n{done.stdout}{done.stderr}")
     return done.stdout
+
+
+def first_error(compiler, *flags, code):
+    """The first line of what the compiler finds wrong; nothing where it is content."""
+    done = subprocess.run([compiler, *flags, *EIGEN, "-x", "c++", "-", "-o", "/dev/null"], input=code,
+                          capture_output=True, text=True, check=False)
+    errors = [line for line in done.stderr.splitlines() if "error" in line]
+    return errors[0] if done.returncode != 0 else None
+
+
+def in_parallel(function, arguments):
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        return list(pool.map(lambda argument: function(*argument), arguments))
+
+
+def has_fused_instructions():
+    cpuinfo = pathlib.Path("/proc/cpuinfo")
+    return cpuinfo.exists() and re.search(r"^flags.*\bfma\b", cpuinfo.read_text(encoding="utf-8"), re.M) is not None
+
+
+def fused_functions(object_file):
+    """The functions in which the compiler has fused a product and a sum."""
+    found = set()
+    function = ""
+    for line in run("objdump", "-dC", "--no-show-raw-insn", object_file).splitlines():
+        if line.endswith(">:"):
+            function = line.split("<", 1)[1][:-2]
+        elif re.search(r"\tvfn?m(add|sub)", line):
+            found.add(function)
+    return found
+
+
+def weak_symbols(file):
+    lines = run("nm", "-C", "--defined-only", file).splitlines()
+    return {line.split(" ", 2)[2] for line in lines if re.match(r"[0-9a-f]+ [WVu] ", line)}
 
 
 def readme_example():
@@ -76,6 +133,10 @@ class Install(unittest.TestCase):
         run("cmake", "--install", BUILD, "--prefix", first)
         cls.prefix = directory / "moved"  # a package may be unpacked anywhere
         first.rename(cls.prefix)
+        cls.include = cls.prefix / "include"
+        cache = (BUILD / "CMakeCache.txt").read_text(encoding="utf-8")
+        version = re.search(r"CMAKE_PROJECT_VERSION:STATIC=(.*)", cache)
+        cls.package = [f"-DCMAKE_PREFIX_PATH={cls.prefix}", f"-DVERSION={version[1]}"]
         cls.source = directory / "consumer"
         cls.source.mkdir()
         shutil.copy(HERE / "CMakeLists.txt", cls.source)
@@ -87,7 +148,7 @@ class Install(unittest.TestCase):
 
     def test_the_readme_example_builds_with_find_package(self):
         build = self.source / "build"
-        run("cmake", "-S", self.source, "-B", build, f"-DCMAKE_PREFIX_PATH={self.prefix}")
+        run("cmake", "-S", self.source, "-B", build, *self.package)
         run("cmake", "--build", build)
         self.assertEqual(run(build / "example").rstrip("\n"), self.promised)
 
@@ -103,11 +164,11 @@ class Install(unittest.TestCase):
         source.mkdir()
         shutil.copy(HERE / "CMakeLists.txt", source)
         (source / "example.cpp").write_text(
-            "#include <core/mesh_io/mesh_io.h>\n"
+            "#include <touchmark/mesh_io.h>\n"
             "int main(int, char** a) { return touchmark::load_mesh(a[1]).size() == 1 ? 0 : 1; }\n", encoding="utf-8")
         (source / "one.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", encoding="utf-8")
         build = source / "build"
-        run("cmake", "-S", source, "-B", build, f"-DCMAKE_PREFIX_PATH={self.prefix}", "-DLIBRARY=mesh_io")
+        run("cmake", "-S", source, "-B", build, *self.package, "-DLIBRARY=mesh_io")
         run("cmake", "--build", build)
         run(build / "example", source / "one.off")
 
@@ -118,7 +179,7 @@ class Install(unittest.TestCase):
         (source / "plugin.cpp").write_text(PLUGIN, encoding="utf-8")
         (source / "one.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", encoding="utf-8")
         build = source / "build"
-        run("cmake", "-S", source, "-B", build, f"-DCMAKE_PREFIX_PATH={self.prefix}", "-DLIBRARY=mesh_io")
+        run("cmake", "-S", source, "-B", build, *self.package, "-DLIBRARY=mesh_io")
         run("cmake", "--build", build)
         distance_from = ctypes.CDLL(str(build / "plugin.so")).distance_from
         distance_from.restype = ctypes.c_double
@@ -128,12 +189,87 @@ class Install(unittest.TestCase):
         self.assertEqual(distance_from(mesh, 0.25, 0.25, 2, 1), -1)
         self.assertEqual(distance_from(os.fsencode(source / "none.off"), 0, 0, 0, 1), -3)
 
-    def test_no_installed_header_needs_one_that_is_not(self):
-        include = self.prefix / "include" / "touchmark"
-        headers = sorted(path.relative_to(include).as_posix() for path in include.rglob("*.h"))
-        self.assertIn("core/probe.h", headers)
-        run("g++", "-std=c++20", "-fsyntax-only", "-I", include, "-isystem", "/usr/include/eigen3", "-x", "c++", "-",
-            input="".join(f"#include <{header}>\n" for header in headers))
+    def headers(self, pattern):
+        return sorted(path.relative_to(self.include).as_posix() for path in self.include.glob(pattern))
+
+    def public_headers(self):
+        return self.headers("touchmark/*.h")
+
+    def test_nothing_but_touchmark_is_in_the_include_directory(self):
+        self.assertEqual([path.name for path in self.include.iterdir()], ["touchmark"])
+        self.assertEqual(self.headers("**/*"), sorted(self.headers("**/*.h") + [
+            path.relative_to(self.include).as_posix() for path in self.include.rglob("*") if path.is_dir()]))
+        for name in ["aabb_tree", "brute_force", "detector", "grid_group", "mesh_io", "mesh_update", "probe",
+                     "signed_detector", "sphere_cluster", "subdivision", "triangle_mesh"]:
+            self.assertIn(f"touchmark/{name}.h", self.public_headers())
+
+    def test_every_installed_header_is_reached_from_a_public_one(self):
+        reached = set()
+        waiting = self.public_headers()
+        while waiting:
+            header = waiting.pop()
+            if header in reached:
+                continue
+            reached.add(header)
+            text = (self.include / header).read_text(encoding="utf-8")
+            self.assertNotIn('#include "core/', text, header)
+            waiting += INCLUDE.findall(text)
+        self.assertEqual(sorted(reached), self.headers("**/*.h"))
+
+    def test_each_installed_header_compiles_alone(self):
+        def compile_alone(compiler, header):
+            return header, first_error(compiler, "-fsyntax-only", "-std=c++20", "-Wall", "-Wextra", "-Werror", "-I",
+                                       str(self.include), code=f"#include <{header}>\n")
+        headers = [("g++", header) for header in self.headers("**/*.h")]
+        headers += [("clang++", header) for header in self.public_headers() if "clang++" in COMPILERS]
+        for header, error in in_parallel(compile_alone, headers):
+            self.assertIsNone(error, header)
+
+    def test_vectors_have_their_products(self):
+        self.assertIsNone(first_error("g++", "-fsyntax-only", "-std=c++20", "-I", str(self.include), code=TORQUE))
+
+    def test_flags_that_do_not_suit_are_refused_in_the_first_line(self):
+        def refuse(compiler, header, flags, message):
+            return header, flags, message, first_error(compiler, *flags, "-I", str(self.include),
+                                                       code=f"#include <{header}>\n")
+        fast = "touchmark needs IEEE 754 arithmetic"
+        cases = [("g++", header, ["-fsyntax-only", "-std=c++17"], "touchmark needs C++20")
+                 for header in self.public_headers()]
+        for compiler in COMPILERS:  # to preprocess is quicker and will do here
+            cases.append((compiler, "touchmark/probe.h", ["-E", "-std=c++17"], "touchmark needs C++20"))
+            cases += [(compiler, header, ["-E", "-std=c++20", "-ffast-math"], fast) for header in self.public_headers()]
+        cases += [("g++", "touchmark/probe.h", ["-E", "-std=c++20", flag], fast)
+                  for flag in ("-Ofast", "-ffinite-math-only", "-funsafe-math-optimizations")]
+        for header, flags, message, error in in_parallel(refuse, cases):
+            self.assertIn(message, error or "no error", (header, flags))
+
+    def build_answers(self, compiler, name, *flags):
+        """tests/install/answers.cpp with these flags: the object file and the program."""
+        made = self.source / f"{name}.o"
+        run(compiler, "-std=c++20", *flags, "-I", self.include, *EIGEN, "-c", HERE / "answers.cpp", "-o", made)
+        run(compiler, made, self.find("libtouchmark_core.*"), "-o", self.source / name)
+        return made, self.source / name
+
+    @unittest.skipUnless(has_fused_instructions(), "this processor does not fuse products and sums")
+    def test_answers_do_not_depend_on_the_flags_of_the_program(self):
+        builds = [("g++", "plain", "-O2", "-ffp-contract=off"), ("g++", "fused", "-O3", *FUSED),
+                  ("g++", "called", "-O1", "-fno-inline", *FUSED)]
+        builds += [("clang++", "clang", "-O2", *FUSED)] if "clang++" in COMPILERS else []
+        answers = [run(program) for _, program in in_parallel(self.build_answers, builds)]
+        self.assertGreater(len(answers[0].splitlines()), 10)
+        for other in answers[1:]:
+            self.assertEqual(other, answers[0])
+
+    @unittest.skipUnless(os.uname().machine == "x86_64", "reads x86-64 instructions")
+    def test_no_inline_function_rounds_as_the_program_was_compiled(self):
+        made, _ = self.build_answers("g++", "called_to_be_read", "-O1", "-fno-inline", *FUSED)
+        harmless = tuple(name + "(" for name in FUSED_WITHOUT_HARM)
+        fused = {function for function in fused_functions(made)
+                 if "(anonymous namespace)" not in function and not function.startswith(harmless)}
+        self.assertTrue(fused)  # those of Eigen
+        self.assertEqual({function for function in fused if "touchmark::" in function}, set())
+        # The linker may take either copy of a weak function: the library's own must not be replaced by these.
+        self.assertEqual(fused & weak_symbols(self.find("libtouchmark_core.a")), set())
 
     def test_nothing_of_the_program_or_the_rivals_is_installed(self):
         names = {path.name for path in self.prefix.rglob("*") if path.is_file()}

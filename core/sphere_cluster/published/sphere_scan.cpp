@@ -8,6 +8,7 @@
 #include "core/geometry/sphere_triangle_sweep.h"
 #include "core/geometry/sweep_box.h"
 #include "core/search/certified_nearest.h"
+#include "core/search/closest_candidates.h"
 #include "core/sphere_cluster/search_bounds.h"
 
 namespace touchmark {

@@ -11,11 +11,12 @@
 #include "core/aabb.h"
 #include "core/detector.h"
 #include "core/geometry/point_triangle.h"
-#include "core/search/closest_candidates.h"
 #include "core/search/linear_scan.h"
 #include "core/sphere_cluster/clustering.h"
 
 namespace touchmark {
+
+class NearestSoFar;
 
 class SphereScan {
  public:

@@ -6,6 +6,7 @@
 
 #include "core/search/certified_nearest.h"
 #include "core/sphere_cluster/tree/builder.h"
+#include "core/sphere_cluster/tree/refit.h"
 #include "core/sphere_cluster/tree/search.h"
 #include "core/sphere_cluster/tree/visitors.h"
 

@@ -20,9 +20,12 @@
 #include "core/sphere_cluster/clustering.h"
 #include "core/sphere_cluster/tree/leaf_cache.h"
 #include "core/sphere_cluster/tree/node.h"
-#include "core/sphere_cluster/tree/refit.h"
 
 namespace touchmark {
+
+namespace spheres {
+struct MovedTriangles;
+}
 
 class SphereTree {
  public:
