@@ -1,5 +1,5 @@
-# A planned sweep with Snakemake (Debian: snakemake). Times are measured one shard after the other, since jobs side by
-# side disturb each other; a sweep planned with --effort accuracy uses as many cores as Snakemake is given.
+# A planned sweep with Snakemake, which scripts/setup sweeps installs. Times are measured one shard after the other, since
+# jobs side by side disturb each other; a sweep planned with --effort accuracy uses as many cores as Snakemake is given.
 #
 # example: build/release/bin/touchmark plan --mesh bunny --query all --out sweep.json
 #          snakemake -s scripts/sweep.smk --cores all --config manifest=sweep.json out=sweep shards=8

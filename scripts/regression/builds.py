@@ -124,7 +124,7 @@ def plugin(source, folder, driver=False):
             try:
                 done = subprocess.run(step, stdout=output, stderr=subprocess.STDOUT, check=False, env=environment)
             except FileNotFoundError:
-                raise NoResources(f"{step[0]} is missing: run scripts/setup") from None
+                raise NoResources(f"{step[0]} is missing: run scripts/setup develop") from None
             if done.returncode != 0:
                 raise DoesNotBuild(f"{source}: the plug-in does not build; see {log}")
     return build / "plugin.so"

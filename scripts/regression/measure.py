@@ -73,7 +73,7 @@ def read_dump(path):
 def instructions(driver, plugins, agains=None):
     """One dictionary a plug-in: case to instructions of one replay."""
     if shutil.which("valgrind") is None:
-        raise NoResources("valgrind is missing, which counts instructions: run scripts/setup")
+        raise NoResources("valgrind is missing, which counts instructions: run scripts/setup develop")
     agains = agains or [0] * len(plugins)
     with tempfile.TemporaryDirectory() as folder:
         outs = [pathlib.Path(folder) / str(i) for i in range(len(plugins))]

@@ -13,7 +13,7 @@ import unittest
 
 try:
     import jsonschema
-except ImportError:  # scripts/setup installs it
+except ImportError:  # scripts/setup test installs it
     jsonschema = None
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]

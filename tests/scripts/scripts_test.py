@@ -5,6 +5,7 @@ repository.
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -21,17 +22,16 @@ def run(*command, **options):
 
 class Scripts(unittest.TestCase):
     def test_all_show_an_example(self):
-        for name in ("setup", "bench", "test", "dev", "plot", "papers",
-                     "plot-papers", "regress", "gate-trials", "record", "sweep-slurm", "check_layers",
+        for name in ("setup", "build-program", "bench", "test", "dev", "plot", "papers", "plot-papers",
+                     "regress", "gate-trials", "record", "sweep-slurm", "check_layers",
                      "check_comments"):
             done = run(SCRIPTS / name, "--help")
             self.assertEqual(done.returncode, 0, name)
             self.assertRegex(done.stdout, "example: ", name)
 
     def test_refuse_what_they_do_not_know(self):
-        for name in ("setup", "dev", "plot", "papers", "plot-papers",
-                     "regress", "gate-trials", "record", "sweep-slurm", "check_layers",
-                     "check_comments"):
+        for name in ("setup", "build-program", "dev", "plot", "papers", "plot-papers", "regress",
+                     "gate-trials", "record", "sweep-slurm", "check_layers", "check_comments"):
             self.assertEqual(run(SCRIPTS / name, "--no-such-thing", "x").returncode, 2, name)
 
     def test_bench_forwards_help_to_the_program(self):
@@ -40,27 +40,152 @@ class Scripts(unittest.TestCase):
         self.assertIn("--detector", run(SCRIPTS / "bench", "--help").stdout)
 
 
-class ClangRuntime(unittest.TestCase):
-    """scripts/setup on a machine that lacks one package, and whose apt tells of another clang than Debian 12's."""
+class Setup(unittest.TestCase):
+    """scripts/setup on a made-up machine that has none of the packages but those named, as root."""
 
-    def installed_with(self, apt_cache):
-        with tempfile.TemporaryDirectory() as directory:
-            tools = {"dpkg-query": 'case "${!#}" in libclang-rt-*) exit 1 ;; *) echo installed ;; esac',
-                     "apt-cache": apt_cache, "id": "echo 0", "apt-get": f'echo "$@" >>{directory}/asked'}
-            for name, text in tools.items():
-                tool = pathlib.Path(directory) / name
-                tool.write_text(f"#!/bin/bash\n{text}\n", encoding="utf-8")
-                tool.chmod(0o755)
-            done = run(SCRIPTS / "setup", env={**os.environ, "PATH": f"{directory}:{os.environ['PATH']}"})
-            self.assertEqual(done.returncode, 0, done.stderr)
-            return (pathlib.Path(directory) / "asked").read_text(encoding="utf-8").split()
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.directory = pathlib.Path(temporary.name)
 
-    def test_is_that_of_the_clang_there_is(self):
-        self.assertEqual(self.installed_with('[ "$1" = show ] || printf "clang\\n  Depends: clang-19\\n"')[-1],
-                         "libclang-rt-19-dev")
+    def setup_with(self, *words, installed="none", apt_get="", apt_cache="echo lists"):
+        tools = {"dpkg-query": f'[[ "${{!#}}" == {installed} ]] && echo installed', "apt-cache": apt_cache, "id": "echo 0",
+                 "apt-get": f'echo "$@" >>{self.directory}/asked\n{apt_get}'}
+        for name, text in tools.items():
+            tool = self.directory / name
+            tool.write_text(f"#!/bin/bash\n{text}\n", encoding="utf-8")
+            tool.chmod(0o755)
+        return run(SCRIPTS / "setup", *words, env={**os.environ, "PATH": f"{self.directory}:{os.environ['PATH']}",
+                                                   "TMPDIR": str(self.directory)})
 
-    def test_is_the_archives_default_where_there_are_no_package_lists(self):
-        self.assertEqual(self.installed_with("exit 1")[-1], "libclang-rt-dev")
+    def asked(self):
+        """What apt-get was told to install at last."""
+        return (self.directory / "asked").read_text(encoding="utf-8").splitlines()[-1].split(" install ")[-1].split()
+
+    def installed_by(self, *words, **machine):
+        done = self.setup_with(*words, **machine)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return self.asked()
+
+    def test_a_set_brings_those_it_includes_and_no_other(self):
+        report = self.installed_by("report")
+        self.assertIn("python3-matplotlib", report)
+        self.assertNotIn("g++", report)
+        bench = self.installed_by("bench")
+        self.assertLess(set(report), set(bench))
+        self.assertLess({"g++", "cmake", "libcgal-dev", "libembree-dev", "glmark2-data"}, set(bench))
+        for other in ("libopenmesh-dev", "libgtest-dev", "snakemake", "clang", "valgrind"):
+            self.assertNotIn(other, bench)
+        test = self.installed_by("test")
+        self.assertLess({*bench, "libopenmesh-dev", "libgtest-dev"}, set(test))
+        self.assertNotIn("snakemake", test)
+
+    def test_two_sets_name_no_package_twice(self):
+        packages = self.installed_by("papers", "sweeps")
+        self.assertLess({"libopenmesh-dev", "snakemake"}, set(packages))
+        self.assertEqual(len(packages), len(set(packages)))
+
+    def test_no_set_means_all_but_rivals(self):
+        packages = set(self.installed_by())
+        self.assertLess({"g++", "libopenmesh-dev", "libgtest-dev", "snakemake", "clang", "valgrind"}, packages)
+
+    def test_leaves_alone_what_is_there(self):
+        self.assertNotIn("python3-numpy", self.installed_by("bench", installed="python3*"))
+        (self.directory / "asked").unlink()
+        self.assertEqual(self.setup_with("report", installed="python3*").returncode, 0)
+        self.assertFalse((self.directory / "asked").exists())
+
+    def test_says_beforehand_how_much_there_is_and_then_how_far_it_is(self):
+        done = self.setup_with("report", apt_get="""
+            case "$*" in
+              *--print-uris*)
+                echo '3 upgraded, 20 newly installed, 0 to remove and 4 not upgraded.'
+                echo 'Need to get 9100 kB/12.6 MB of archives.'
+                echo 'After this operation, 1.5 GB of additional disk space will be used.' ;;
+              *)
+                echo 'dlstatus:1:60.0000:Retrieving file 1 of 2'
+                echo 'Unpacking what nobody wants to read'
+                echo 'pmstatus:libc6:51.2500:Unpacking libc6 (amd64)' ;;
+            esac""")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        lines = done.stderr.splitlines()
+        self.assertIn("23 packages: 13 MB to fetch, 1500 MB on disk", lines[0])
+        self.assertEqual(lines[1:], ["setup: fetching, 50 %", "setup: installing, 50 %"])
+        self.assertEqual(list(self.directory.glob("*.log")), [])
+
+    def test_a_failure_names_the_log_and_shows_its_end(self):
+        done = self.setup_with("report", apt_get='[[ "$*" == *update* ]] || { echo "dpkg: the disk is full"; exit 100; }')
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("dpkg: the disk is full\n", done.stderr)
+        log, = self.directory.glob("*.log")
+        self.assertIn(f"could not install: python3 python3-matplotlib python3-numpy python3-munkres; see {log}\n", done.stderr)
+        self.assertIn("dpkg: the disk is full\n", log.read_text(encoding="utf-8"))
+
+    def test_counts_what_an_empty_debian_lacks(self):
+        done = self.setup_with("--count", "report", apt_get="""
+            number=88
+            [[ "$*" != *python3-matplotlib* ]] || number=190
+            [[ "$*" == *Dir::State::status=/dev/null* ]] || number=7
+            echo "0 upgraded, $number newly installed, 0 to remove and 0 not upgraded." """)
+        self.assertEqual((done.returncode, done.stdout), (0, "102\n"), done.stderr)
+        self.assertEqual(self.setup_with("--count", "everything").returncode, 2)
+
+    def test_takes_the_runtime_of_the_clang_there_is(self):
+        self.assertIn("libclang-rt-19-dev", self.installed_by(
+            "develop", apt_cache='[ "$1" = show ] && echo lists || printf "clang\\n  Depends: clang-19\\n"'))
+
+    def test_takes_the_archives_default_runtime_where_there_are_no_package_lists(self):
+        self.assertIn("libclang-rt-dev", self.installed_by("develop", apt_cache="exit 1"))
+
+
+class BuildProgram(unittest.TestCase):
+    """scripts/build-program with a made-up cmake, in a repository of its own."""
+
+    def built_with(self, cmake):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.root = pathlib.Path(temporary.name)
+        (self.root / "scripts").mkdir()
+        for name in ("build-program", "progress.bash"):
+            shutil.copy(SCRIPTS / name, self.root / "scripts" / name)
+        tool = self.root / "bin" / "cmake"
+        tool.parent.mkdir()
+        tool.write_text(f'#!/bin/bash\necho "cmake $*"\n{cmake}\n', encoding="utf-8")
+        tool.chmod(0o755)
+        return run(self.root / "scripts" / "build-program",
+                   env={**os.environ, "PATH": f"{self.root / 'bin'}:{os.environ['PATH']}"})
+
+    def log(self):
+        return (self.root / "build" / "release" / "build.log").read_text(encoding="utf-8")
+
+    def test_tells_steps_in_a_few_lines_and_the_rest_to_a_log(self):
+        done = self.built_with("""
+            case "$*" in
+              *--build*) for i in {1..40}; do echo "${NINJA_STATUS//%f\\/%t/$i/40}Building one.o"; done ;;
+            esac""")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, r"\Abuild-program: 40 steps, about \d+ min on \d+ cores\n")
+        self.assertEqual(done.stderr.splitlines()[1:],
+                         [f"build-program: building, {percent} %" for percent in (0, 25, 50, 75, 100)])
+        self.assertIn("@40/40@ Building one.o\n", self.log())
+
+    def test_configures_without_the_tests_where_nobody_has_configured_with_them(self):
+        without = "-DTOUCHMARK_BUILD_TESTS=OFF"
+        self.built_with("")
+        self.assertIn(without, self.log())
+        (self.root / "build" / "release" / "CMakeCache.txt").touch()
+        again = run(self.root / "scripts" / "build-program",
+                    env={**os.environ, "PATH": f"{self.root / 'bin'}:{os.environ['PATH']}"})
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertNotIn(without, self.log())
+
+    def test_shows_what_failed(self):
+        done = self.built_with("""
+            [[ "$*" == *--build* ]] || exit 0
+            printf '@1/2@ Building one.o\\nFAILED: two.o\\ntwo.cpp: error: no\\n'
+            exit 1""")
+        self.assertEqual(done.returncode, 1)
+        self.assertTrue(done.stderr.endswith("build.log:\nFAILED: two.o\ntwo.cpp: error: no\n"), done.stderr)
 
 
 class Dragon(unittest.TestCase):

@@ -42,7 +42,7 @@ class Sweep(unittest.TestCase):
         return self.run_here(SNAKEMAKE, "-s", ROOT / "scripts" / "sweep.smk", "--cores", "2", "--config",
                              "manifest=sweep.json", "out=out", "shards=3", f"program={PROGRAM}", *more)
 
-    @unittest.skipIf(SNAKEMAKE is None, "snakemake is missing (scripts/setup installs it)")
+    @unittest.skipIf(SNAKEMAKE is None, "snakemake is missing (scripts/setup sweeps installs it)")
     def test_snakemake_runs_several_jobs_and_merges_them(self):
         ids = self.plan("accuracy")
         self.assertEqual(len(ids), 16)
@@ -59,7 +59,7 @@ class Sweep(unittest.TestCase):
         self.assertEqual(again.returncode, 0, again.stderr)
         self.assertIn("Nothing to be done", again.stderr + again.stdout)
 
-    @unittest.skipIf(SNAKEMAKE is None, "snakemake is missing (scripts/setup installs it)")
+    @unittest.skipIf(SNAKEMAKE is None, "snakemake is missing (scripts/setup sweeps installs it)")
     def test_snakemake_times_one_shard_after_the_other(self):
         self.plan("quick")
         done = self.snakemake("-n")
