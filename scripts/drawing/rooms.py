@@ -4,6 +4,7 @@
 An arrow that follows from others is left out. The same sources give the same bytes, so --check can tell whether the
 picture is still true."""
 import argparse
+import html
 import importlib.machinery
 import importlib.util
 import itertools
@@ -128,6 +129,30 @@ def box_width(text):
     return LETTER * len(text) + 18
 
 
+def svg(width, height, title, body):
+    """A whole file, white so that it can be read on a dark page."""
+    return "\n".join([
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:.0f} {height:.0f}" '
+        f'width="{width:.0f}" font-family="DejaVu Sans, Arial, sans-serif" font-size="13">',
+        f"<title>{title}</title>",
+        "<style>.frame{fill:#f6f6f4;stroke:#bbb}.box{fill:#fff;stroke:#444}text{text-anchor:middle;fill:#202020}"
+        ".title{font-weight:bold}.arrow{fill:none;stroke:#666;stroke-width:1.2;marker-end:url(#head)}</style>",
+        '<defs><marker id="head" viewBox="0 0 8 8" refX="7" refY="4" markerWidth="7" markerHeight="7" orient="auto">'
+        '<path d="M0 0L8 4L0 8z" fill="#666"/></marker></defs>',
+        '<rect width="100%" height="100%" fill="#fff"/>', *body, "</svg>", ""])
+
+
+def box(x, y, wide, text):
+    """Around its middle."""
+    return [f'<rect x="{x - wide / 2:.1f}" y="{y - BOX / 2:.1f}" width="{wide:.1f}" height="{BOX}" rx="5" class="box"/>',
+            f'<text x="{x:.1f}" y="{y + 4.5:.1f}">{html.escape(text)}</text>']
+
+
+def framed(title, x, y, width, height, lines):
+    return [f'<rect x="{x:.1f}" y="{y:.1f}" width="{width:.1f}" height="{height:.1f}" rx="8" class="frame"/>',
+            f'<text x="{x + width / 2:.1f}" y="{y + 26:.1f}" class="title">{html.escape(title)}</text>', *lines]
+
+
 def line(points):
     path = "L".join(f"{x:.1f} {y:.1f}" for x, y in points)
     return f'<path d="M{path}" class="arrow"/>'
@@ -157,15 +182,8 @@ def drawn_layer(layer, rules):
         side = 1 if to_x > x else -1
         lines.append(line([(x + side * box_width(label(room)) / 2, y), (to_x - side * (box_width(label(other)) / 2 + 2), y)]))
     for room in rooms:
-        (x, y), wide = middles[room], box_width(label(room))
-        lines.append(f'<rect x="{x - wide / 2:.1f}" y="{y - BOX / 2:.1f}" width="{wide:.1f}" height="{BOX}" rx="5" class="box"/>')
-        lines.append(f'<text x="{x:.1f}" y="{y + 4.5:.1f}">{label(room)}</text>')
+        lines += box(*middles[room], box_width(label(room)), label(room))
     return lines, width, (len(rows) - 1) * ROW + BOX
-
-
-def framed(layer, lines, x, y, width, height):
-    return [f'<rect x="{x:.1f}" y="{y:.1f}" width="{width:.1f}" height="{height:.1f}" rx="8" class="frame"/>',
-            f'<text x="{x + GAP:.1f}" y="{y + 24:.1f}" class="title">{layer}/: {TITLES[layer]}</text>', *lines]
 
 
 def picture():
@@ -184,22 +202,14 @@ def picture():
     for layer, (x, y, width, height) in frames.items():
         lines, inner, tall = drawn[layer]
         moved = f'<g transform="translate({x + (width - inner) / 2:.1f}, {y + height - pad - tall:.1f})">'
-        body += framed(layer, [moved, *lines, "</g>"], x, y, width, height)
+        body += framed(f"{layer}/: {TITLES[layer]}", x, y, width, height, [moved, *lines, "</g>"])
     for layer in ("baselines", "core"):
         y = frames[layer][1] + heights[layer] / 2
         body.append(line([(MARGIN + left_width, y), (right_x - 2, y)]))
     x = right_x + right_width / 2
     body.append(line([(x, MARGIN + heights["baselines"]), (x, frames["core"][1] - 2)]))
     width = right_x + right_width + MARGIN
-    return "\n".join([
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:.0f} {total + 2 * MARGIN:.0f}" '
-        f'width="{width:.0f}" font-family="DejaVu Sans, Arial, sans-serif" font-size="13">',
-        "<title>Which folder includes which; arrows that follow from others are left out</title>",
-        "<style>.frame{fill:#f6f6f4;stroke:#bbb}.box{fill:#fff;stroke:#444}text{text-anchor:middle;fill:#202020}"
-        ".title{text-anchor:start;font-weight:bold}.arrow{fill:none;stroke:#666;stroke-width:1.2;marker-end:url(#head)}</style>",
-        '<defs><marker id="head" viewBox="0 0 8 8" refX="7" refY="4" markerWidth="7" markerHeight="7" orient="auto">'
-        '<path d="M0 0L8 4L0 8z" fill="#666"/></marker></defs>',
-        '<rect width="100%" height="100%" fill="#fff"/>', *body, "</svg>", ""])
+    return svg(width, total + 2 * MARGIN, "Which folder includes which; arrows that follow from others are left out", body)
 
 
 def main():
