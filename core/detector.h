@@ -21,7 +21,7 @@ enum class Guarantee { exact, conservative, approximate };
 /// relative * M + absolute, with M the largest coordinate difference between the probe's centre and the
 /// nearest triangle's vertices. Approximate detectors state what they know: infinity where they know nothing.
 /// Whether there is a contact may be off by as much, unless `decides_exactly`: then `touches` and `nearest`
-/// compare the true distance with the radius and the reach, and `first_hit` the least one along the way; its
+/// compare the true distance with the radius and the reach, and `first_hit` the least one along the path; its
 /// fraction is 0 where and only where the probe touches at the start, never late, and early by no more than
 /// core/geometry/sphere_triangle_sweep.h says. `names_exactly`: the triangle that `nearest` names is an
 /// exactly nearest one, and of several the one of the lowest id; else it is one within the bound.
@@ -97,7 +97,7 @@ concept AnswersNearest = Detector<D> &&
   noexcept->std::same_as<std::optional<Contact>>;
 };
 
-/// The first touch of a probe that moves along a straight line, or nothing: where no point of the way from
+/// The first touch of a probe that moves along a straight line, or nothing: where no point of the path from
 /// `from` to `to`, both ends included, is within the radius of the mesh.
 template <class D>
 concept AnswersSweep = Detector<D> &&
@@ -106,19 +106,19 @@ concept AnswersSweep = Detector<D> &&
   noexcept->std::same_as<std::optional<Impact>>;
 };
 
-/// Can use the idle rest of a servo tick: `prepare` does ahead what the next query would else have to do
-/// first. It never changes an answer, does a bounded amount of work, and may be called or not after any
-/// query.
+/// Uses the idle rest of a servo tick: `prepare` does ahead what the next query would else have to do first.
+/// It never changes an answer, does a bounded amount of work, and may be called or not after any query.
 template <class D>
 concept Prepares = Detector<D> && requires(const D& detector, typename D::Session& session) {
   { detector.prepare(session) }
   noexcept->std::same_as<void>;
 };
 
-/// May leave parts of itself to the first queries that want them, which then cost more and answer the same.
+/// Supports lazy construction: the first queries build what they need. Those cost more; answers do not
+/// change.
 template <class D>
-concept MakesLater = Detector<D> && requires(const D& detector) {
-  { detector.makes_later() }
+concept BuildsLazily = Detector<D> && requires(const D& detector) {
+  { detector.builds_lazily() }
   noexcept->std::same_as<bool>;
 };
 

@@ -11,8 +11,8 @@
 
 namespace touchmark {
 
-/// The same triangles with some vertices elsewhere. Afterwards every answer is that of a detector built of
-/// this mesh with the same options (of an exact one the same bits), from sessions begun before as from new
+/// Takes the same triangles with some vertices elsewhere. Afterwards every answer is that of a detector built
+/// of this mesh with the same options (of an exact one the same bits), from sessions begun before as from new
 /// ones. Throws std::invalid_argument when vertices, corners or ids are not those of the mesh it was built
 /// of, and is as it was then; after any other exception it may only be destroyed or assigned to. No query may
 /// run meanwhile.

@@ -19,7 +19,7 @@ struct Probe {
   double radius = 0;
 };
 
-/// The probe's straight way during one servo tick.
+/// The probe's straight path during one servo tick.
 struct Sweep {
   Vec3 from = Vec3::Zero();
   Vec3 to = Vec3::Zero();
@@ -30,16 +30,17 @@ struct Sweep {
 /// seen from outside: core/sign/side_finder.h. `undecided` where the mesh does not say, never a guess.
 enum class Side : std::uint8_t { unasked, outside, inside, on_surface, undecided };
 
-/// Where the mesh is nearest to a probe's centre.
+/// The point of the mesh nearest to a probe's centre.
 struct Contact {
   Vec3 point = Vec3::Zero();   ///< on the mesh, nearest to the centre
   Vec3 normal = Vec3::Zero();  ///< unit, from `point` towards the centre; the face normal where they coincide
   double distance = 0;         ///< |center - point|, >= 0
-  TriangleId triangle = 0;    ///< one of the nearest triangles; of several at the same distance the lowest id
-  Side side = Side::unasked;  ///< of the centre; detectors leave it, core/sign/signed_detector.h fills it in
+  TriangleId triangle = 0;  ///< one of the nearest triangles; of several at the same distance the lowest id
+  Side side =
+      Side::unasked;  ///< side of the centre; detectors leave it, core/sign/signed_detector.h fills it in
 };
 
-/// The first touch along a sweep: `fraction` in [0, 1] of the way, 0 where and only where the probe touches
+/// The first touch along a sweep: `fraction` in [0, 1] of the path, 0 where and only where the probe touches
 /// at the start; rounded down, so that no touch is earlier. `contact` is the contact of the probe standing
 /// there.
 struct Impact {

@@ -32,8 +32,9 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> vertices, std::vector<Corners> tria
     throw MeshError("the mesh has " + std::to_string(vertices_.size()) + " vertices, more than " +
                     std::to_string(most));
   }
-  if (!ids_.empty() && ids_.size() != triangles_.size()) {
-    throw MeshError(std::to_string(ids_.size()) + " ids for " + std::to_string(triangles_.size()) +
+  const std::span<const TriangleId> stored = ids_.stored();
+  if (!stored.empty() && stored.size() != triangles_.size()) {
+    throw MeshError(std::to_string(stored.size()) + " ids for " + std::to_string(triangles_.size()) +
                     " triangles");
   }
   for (std::size_t i = 0; i < vertices_.size(); ++i) {
@@ -50,10 +51,10 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> vertices, std::vector<Corners> tria
       bounds_.extend(vertices_[vertex]);
     }
   }
-  for (std::size_t i = 1; i < ids_.size(); ++i) {
-    if (ids_[i] < ids_[i - 1]) {
-      throw MeshError("triangle " + std::to_string(i) + " has id " + std::to_string(ids_[i]) + " after id " +
-                      std::to_string(ids_[i - 1]) + ": ids must not decrease");
+  for (std::size_t i = 1; i < stored.size(); ++i) {
+    if (stored[i] < stored[i - 1]) {
+      throw MeshError("triangle " + std::to_string(i) + " has id " + std::to_string(stored[i]) + " after id " +
+                      std::to_string(stored[i - 1]) + ": ids must not decrease");
     }
   }
 }
@@ -62,7 +63,7 @@ TriangleMesh TriangleMesh::transformed(double scale, const Vec3& shift) const {
   std::vector<Vec3> vertices;
   vertices.reserve(vertices_.size());
   for (const Vec3& v : vertices_) vertices.push_back(scale * (v + shift));
-  return {std::move(vertices), triangles_, ids_};
+  return {std::move(vertices), triangles_, {ids().begin(), ids().end()}};
 }
 
 TriangleMesh TriangleMesh::normalized() const {

@@ -11,6 +11,7 @@
 
 #include "core/aabb.h"
 #include "core/probe.h"
+#include "core/triangle_ids.h"
 
 namespace touchmark {
 
@@ -33,15 +34,14 @@ class TriangleMesh {
   std::span<const Vec3> vertices() const noexcept { return vertices_; }
   std::span<const Corners> triangles() const noexcept { return triangles_; }
   std::size_t size() const noexcept { return triangles_.size(); }
-  TriangleId id(std::size_t triangle) const noexcept {
-    return ids_.empty() ? static_cast<TriangleId>(triangle) : ids_[triangle];
-  }
+  TriangleId id(std::size_t triangle) const noexcept { return ids_[triangle]; }
   /// Empty when triangle i has id i.
-  std::span<const TriangleId> ids() const noexcept { return ids_; }
+  std::span<const TriangleId> ids() const noexcept { return ids_.stored(); }
+  const TriangleIds& triangle_ids() const noexcept { return ids_; }
   const Vec3& corner(std::size_t triangle, int which) const noexcept {
     return vertices_[triangles_[triangle][static_cast<std::size_t>(which)]];
   }
-  /// Of the vertices that triangles use.
+  /// Returns the box of the vertices that triangles use.
   const Aabb& bounds() const noexcept { return bounds_; }
   double diagonal() const noexcept { return bounds_.diagonal(); }
 
@@ -54,7 +54,7 @@ class TriangleMesh {
  private:
   std::vector<Vec3> vertices_;
   std::vector<Corners> triangles_;
-  std::vector<TriangleId> ids_;
+  TriangleIds ids_;
   Aabb bounds_;
 };
 

@@ -366,8 +366,9 @@ TEST_P(ExactFormsOnHardWays, HitExactlyWhereTheyHit) {
       bench::ContestantOf<D> contestant(std::move(detector));
       EXPECT_EQ(first_difference(ask(contestant, Query::sweep, steps), expected), steps.size()) << name;
     };
-    expect_same("grid-group, lazy", GridGroup::build(mesh, {.making = GridGroup::Making::lazy}));
-    expect_same("sphere-cluster, lazy", SphereCluster::build(mesh, {.making = SphereCluster::Making::lazy}));
+    expect_same("grid-group, lazy", GridGroup::build(mesh, {.construction = GridGroup::Construction::lazy}));
+    expect_same("sphere-cluster, lazy",
+                SphereCluster::build(mesh, {.construction = SphereCluster::Construction::lazy}));
     const TriangleMesh elsewhere = whole.transformed(1.01, offset);
     const auto follow = [&]<class D>(const char* name, D detector) {
       detector.update(mesh);

@@ -12,6 +12,9 @@
 
 #include <gtest/gtest.h>
 
+#include "bench/experiments/stress/shared_features.h"
+#include "bench/oracle/oracle.h"
+#include "core/grid_group/grid_group.h"
 #include "tests/bench/oracle/hard_meshes.h"
 #include "tests/exact_forms.h"
 
@@ -139,6 +142,29 @@ TEST(WorstCaseWork, IsAtMostTwiceBruteForceAndALittle) {
   for (const auto& [form, found] : worst_of_all()) {
     if (found.beyond > 0) std::printf("%-48s %6ld  %s\n", form.c_str(), found.beyond, found.where.c_str());
     EXPECT_LE(found.beyond, little) << form << ": " << found.where;
+  }
+}
+
+// Brute force ends at the first triangle that touches. A search may look at some boxes and blocks before, and
+// at no more of the triangles that are all as near but for rounding than it keeps open at once.
+TEST(WorstCaseWork, OfATouchAmongTangentTrianglesEndsAtTheFirstThatTouches) {
+  constexpr std::uint64_t few_looks = 256, few_decisions = 16;
+  for (const bench::SharedFeature& shared : bench::shared_feature_meshes(6630)) {
+    if (!shared.name.starts_with("tangent") && !shared.name.starts_with("spikes")) continue;
+    const bench::Oracle oracle(shared.mesh);
+    const Vec3& center = shared.centers.front();
+    // What is not farther than the nearest but for rounding touches.
+    const Probe probe{center, oracle.solve(center).high * (1 + 0x1p-50)};
+    for (const bool lazy : {false, true}) {
+      const GridGroup grid = GridGroup::build(
+          shared.mesh,
+          {.construction = lazy ? GridGroup::Construction::lazy : GridGroup::Construction::whole});
+      GridGroup::Session session;
+      EXPECT_TRUE(grid.touches(probe, session)) << shared.name;
+      EXPECT_LE(session.work.exact_decisions, few_decisions) << shared.name;
+      if (lazy) continue;  // what it makes counts as well
+      EXPECT_LE(session.work.total(), few_looks) << shared.name;
+    }
   }
 }
 

@@ -349,8 +349,8 @@ struct BulletDetector::Queries {
       constexpr double any_reach = std::numeric_limits<double>::infinity();
       if (const std::optional<Contact> contact = nearest(sweep.from, any_reach)) return Impact{0, *contact};
     }
-    return Impact{first.fraction,
-                  contact_on_way(model.triangles[first.index], sweep, first.fraction, model.id(first.index))};
+    return Impact{first.fraction, contact_on_path(model.triangles[first.index], sweep, first.fraction,
+                                                  model.id(first.index))};
   }
 };
 

@@ -30,8 +30,8 @@ class Contestant {
   virtual bool answers(Query query) const noexcept = 0;
   virtual Accuracy accuracy() const noexcept = 0;
   virtual std::size_t bytes() const noexcept = 0;
-  /// See the concept MakesLater.
-  virtual bool makes_later() const noexcept = 0;
+  /// See the concept BuildsLazily.
+  virtual bool builds_lazily() const noexcept = 0;
   /// A fresh session, its work counters at zero.
   virtual void forget() = 0;
   virtual Work work() const noexcept = 0;
@@ -87,8 +87,8 @@ requires(idle == Idle::wasted || Prepares<D>) class ContestantOf final : public 
   }
   Accuracy accuracy() const noexcept override { return detector_.accuracy(); }
   std::size_t bytes() const noexcept override { return detector_.bytes(); }
-  bool makes_later() const noexcept override {
-    if constexpr (MakesLater<D>) return detector_.makes_later();
+  bool builds_lazily() const noexcept override {
+    if constexpr (BuildsLazily<D>) return detector_.builds_lazily();
     return false;
   }
   void forget() override { session_.emplace(); }

@@ -114,8 +114,8 @@ std::string remark_on(const GridGroup& detector, const GridGroup::Options& optio
 ContestantInfo grid_group() {
   static const Names<GridGroup::Lookup> lookups{{"direct", GridGroup::Lookup::direct},
                                                 {"scan", GridGroup::Lookup::scan}};
-  static const Names<GridGroup::Making> makings{{"whole", GridGroup::Making::whole},
-                                                {"lazy", GridGroup::Making::lazy}};
+  static const Names<GridGroup::Construction> makings{{"whole", GridGroup::Construction::whole},
+                                                      {"lazy", GridGroup::Construction::lazy}};
   static const Names<GridGroup::Shape> shapes{{"cube", GridGroup::Shape::cube},
                                               {"sphere", GridGroup::Shape::sphere}};
   ContestantInfo info;
@@ -145,7 +145,7 @@ ContestantInfo grid_group() {
     options.groups = values.count("groups");
     options.bytes_per_triangle = values.number("bytes_per_triangle");
     options.certified = chosen(values, "certified", yes_or_no);
-    options.making = chosen(values, "build", makings);
+    options.construction = chosen(values, "build", makings);
     return contestant<GridGroup>(mesh, options, values, [&](const GridGroup& detector) {
       return remark_on(detector, options, mesh.size());
     });
@@ -161,8 +161,8 @@ ContestantInfo sphere_cluster() {
                                                     {"scan", SphereCluster::Lookup::scan}};
   static const Names<Simd> widths{
       {"avx512", Simd::avx512}, {"avx2", Simd::avx2}, {"portable", Simd::portable}};
-  static const Names<SphereCluster::Making> makings{{"whole", SphereCluster::Making::whole},
-                                                    {"lazy", SphereCluster::Making::lazy}};
+  static const Names<SphereCluster::Construction> makings{{"whole", SphereCluster::Construction::whole},
+                                                          {"lazy", SphereCluster::Construction::lazy}};
   ContestantInfo info;
   info.name = "sphere-cluster";
   info.summary = "triangles in clustered bounding spheres, after Choi & Sung 2017";
@@ -191,7 +191,7 @@ ContestantInfo sphere_cluster() {
     options.precise = chosen(values, "precise", yes_or_no);
     options.certified = chosen(values, "certified", yes_or_no);
     options.widest = chosen(values, "simd", widths);
-    options.making = chosen(values, "build", makings);
+    options.construction = chosen(values, "build", makings);
     return chosen(values, "prepare", no_or_yes) ? contestant<SphereCluster, Idle::used>(mesh, options, values)
                                                 : contestant<SphereCluster>(mesh, options, values);
   };

@@ -296,7 +296,7 @@ double Judge::sweep_gap(const Sweep& sweep, TriangleId id) const {
   for (std::size_t i = begin; i < end; ++i)
     for (const Vec3& v : triangle_of(oracle_.mesh(), static_cast<std::uint32_t>(i)))
       largest = std::max(largest, (sweep.from - v).cwiseAbs().maxCoeff());
-  return most_early_gap(largest, (sweep.to - sweep.from).cwiseAbs().maxCoeff());
+  return max_early_gap(largest, (sweep.to - sweep.from).cwiseAbs().maxCoeff());
 }
 
 /// Nothing is excused.
@@ -408,8 +408,8 @@ Tally judge(const Oracle& oracle, std::span<const SweepTruth> truths, std::span<
             std::span<const Answer> answers, const Accuracy& accuracy, const Reported& reported,
             Charges* charges) {
   Accuracy of_sweeps = accuracy;
-  // most_early_gap, where the way's start is within M of the triangle and the way's coordinates within 2 M.
-  const double least = accuracy.guarantee == Guarantee::exact ? most_early_gap(1, 2) : kernel_relative_error;
+  // max_early_gap, where the way's start is within M of the triangle and the way's coordinates within 2 M.
+  const double least = accuracy.guarantee == Guarantee::exact ? max_early_gap(1, 2) : kernel_relative_error;
   of_sweeps.relative = std::max(accuracy.relative, least);
   const Judge judge(oracle, of_sweeps, reported);
   return total(std::min({truths.size(), sweeps.size(), answers.size()}), oracle.threads(), charges,

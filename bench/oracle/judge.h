@@ -109,14 +109,14 @@ Tally judge(const Oracle& oracle, std::span<const Truth> truths, Query query, st
 
 /// Judges `sweep`. Of a contestant that decides exactly whether it hits is judged without tolerance: the way
 /// comes within the radius or it does not; at fraction 0 it has to touch at the start, at another one it may
-/// not touch before (missed, being late), and there it may be off the radius by no more than most_early_gap
+/// not touch before (missed, being late), and there it may be off the radius by no more than max_early_gap
 /// (core/geometry/sphere_triangle_sweep.h) of the triangle named. All of these are decided in whole numbers,
 /// on the way itself and not on positions rounded to points.
 ///
 /// Of others a hit is right when the sweep hits, the centre at the reported fraction is the radius away
 /// from the mesh (at fraction 0: at most that), and was not nearer before; all within the accuracy plus the
 /// rounding of a position on the way. Of all the contact is judged as `nearest` there. The accuracy's
-/// relative part is kernel_relative_error at least, and most_early_gap of those who claim exactness: no sweep
+/// relative part is kernel_relative_error at least, and max_early_gap of those who claim exactness: no sweep
 /// claims better.
 Tally judge(const Oracle& oracle, std::span<const SweepTruth> truths, std::span<const Sweep> sweeps,
             std::span<const Answer> answers, const Accuracy& accuracy, const Reported& reported = {},

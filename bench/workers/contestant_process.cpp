@@ -96,7 +96,7 @@ const Built& ContestantProcess::build() {
 
 void ContestantProcess::unmake() {
   start();
-  if (!built_->makes_later || !asked_) return;
+  if (!built_->builds_lazily || !asked_) return;
   const Built again = order_build().get<Built>();
   if (!again.refused.empty()) throw WorkerFailure("refused: " + again.refused);
 }

@@ -170,7 +170,7 @@ nlohmann::json Worker::build(const std::string& spec_text) {
     if (contestant_->answers(query)) built.queries.push_back(query);
   }
   built.prepares = contestant_->prepares();
-  built.makes_later = contestant_->makes_later();
+  built.builds_lazily = contestant_->builds_lazily();
   return built;
 }
 

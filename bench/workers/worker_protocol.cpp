@@ -77,7 +77,7 @@ void to_json(nlohmann::json& json, const Built& built) {
           {"names_exactly", built.accuracy.names_exactly},
           {"queries", queries},
           {"prepares", built.prepares},
-          {"makes_later", built.makes_later}};
+          {"makes_later", built.builds_lazily}};
 }
 
 void from_json(const nlohmann::json& json, Built& built) {
@@ -93,7 +93,7 @@ void from_json(const nlohmann::json& json, Built& built) {
     built.queries.push_back(static_cast<Query>(query.get<std::uint32_t>()));
   }
   json.at("prepares").get_to(built.prepares);
-  json.at("makes_later").get_to(built.makes_later);
+  json.at("makes_later").get_to(built.builds_lazily);
 }
 
 void to_json(nlohmann::json& json, const Answered& answered) {

@@ -48,7 +48,7 @@ struct Built {
   Accuracy accuracy;
   std::vector<Query> queries;
   bool prepares = false;
-  bool makes_later = false;  ///< parts of itself, by the first queries
+  bool builds_lazily = false;  ///< parts of itself, by the first queries
 };
 
 /// Reply to "answer": answers and work lie in the output room, from a fresh session.

@@ -21,7 +21,7 @@ double half_area(const Aabb& box) noexcept {
 }
 
 /// A box or subtree that waits, with the bound it was left for.
-struct Waiting {
+struct StackEntry {
   double bound;
   std::uint32_t node;
 };
@@ -154,12 +154,13 @@ AabbTree AabbTree::build(const TriangleMesh& mesh, const Options& options) {
   tree.connectivity_ = Connectivity(mesh);
   tree.certified_ = options.certified;
   tree.triangles_ = prepare(mesh);
-  tree.ids_.assign(mesh.ids().begin(), mesh.ids().end());
+  tree.ids_ = mesh.triangle_ids();
   Builder(tree, options.leaf_size).build();
   return tree;
 }
 
-/// Of a query, as the surface area heuristic has it: how often a node is looked into times what is in it.
+/// Returns the cost of a query by the surface area heuristic: how often a node is looked into times what is
+/// in it.
 double AabbTree::expected_cost() const noexcept {
   double cost = 0;
   for (const Node& node : nodes_) cost += half_area(node.box) * std::max(node.count, 2U);
@@ -184,20 +185,20 @@ void AabbTree::update(const TriangleMesh& mesh) {
     }
     node.box = box;
   }
-  if (!(expected_cost() <= most_growth * cost_as_built_)) *this = build(mesh, options_);
+  if (!(expected_cost() <= max_growth * cost_as_built_)) *this = build(mesh, options_);
 }
 
-double AabbTree::lower_bound(const Aabb& box, const Vec3& center, double slack) noexcept {
-  return std::sqrt(box.squared_distance(center)) - slack;
+double AabbTree::lower_bound(const Aabb& box, const Vec3& center, double pad) noexcept {
+  return std::sqrt(box.squared_distance(center)) - pad;
 }
 
 bool AabbTree::touches(const Probe& probe, Session& session) const noexcept {
   if (!(probe.radius >= 0)) return false;
   const double difference = largest_difference(bounds(), probe.center);
-  const double error = certified_ ? distance_error(difference) : 0, slack = culling_slack(difference);
+  const double error = certified_ ? distance_error(difference) : 0, pad = culling_pad(difference);
   Work& work = session.work;
-  if (std::isinf(error)) return all().touches(probe, work);
-  const std::uint64_t most = most_work(work);
+  if (std::isinf(error)) return fallback().touches(probe, work);
+  const std::uint64_t budget = work_limit(work);
   WithinRadius is_within(probe.center, probe.radius, error);
   const auto touching = [&](std::uint32_t i) {
     ++work.triangles;
@@ -206,12 +207,12 @@ bool AabbTree::touches(const Probe& probe, Session& session) const noexcept {
   };
   if (session.last < triangles_.size() && touching(session.last)) return true;
   session.last = no_triangle;
-  std::array<Waiting, most_levels> waiting;
+  std::array<StackEntry, max_levels> stack;
   std::size_t count = 0;
-  waiting[count++] = {lower_bound(nodes_[0].box, probe.center, slack), 0};
+  stack[count++] = {lower_bound(nodes_[0].box, probe.center, pad), 0};
   while (count > 0) {
-    if (work.boxes + work.triangles > most) return all().touches(probe, work);
-    const Waiting next = waiting[--count];
+    if (work.boxes + work.triangles > budget) return fallback().touches(probe, work);
+    const StackEntry next = stack[--count];
     if (!(next.bound <= probe.radius + error)) continue;
     const Node& node = nodes_[next.node];
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
@@ -221,11 +222,11 @@ bool AabbTree::touches(const Probe& probe, Session& session) const noexcept {
     }
     if (node.count > 0) continue;
     work.boxes += 2;
-    Waiting near{lower_bound(nodes_[node.first].box, probe.center, slack), node.first};
-    Waiting far{lower_bound(nodes_[node.first + 1].box, probe.center, slack), node.first + 1};
+    StackEntry near{lower_bound(nodes_[node.first].box, probe.center, pad), node.first};
+    StackEntry far{lower_bound(nodes_[node.first + 1].box, probe.center, pad), node.first + 1};
     if (far.bound < near.bound) std::swap(near, far);
-    waiting[count++] = far;
-    waiting[count++] = near;
+    stack[count++] = far;
+    stack[count++] = near;
   }
   return false;
 }
@@ -234,68 +235,64 @@ std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Sessi
   const Vec3& center = probe.center;
   if (!(reach >= 0)) return std::nullopt;
   const double difference = largest_difference(bounds(), center);
-  const double error = certified_ ? distance_error(difference) : 0, slack = culling_slack(difference);
+  const double error = certified_ ? distance_error(difference) : 0, pad = culling_pad(difference);
   Work& work = session.work;
-  if (std::isinf(error)) return all().nearest(center, reach, work);
-  const std::uint64_t most = most_work(work);
-  NearestSoFar so_far(triangles_.data(), center, error);
+  if (std::isinf(error)) return fallback().nearest(center, reach, work);
+  const std::uint64_t budget = work_limit(work);
+  ClosestCandidates candidates(triangles_.data(), center, error);
   const auto consider = [&](std::uint32_t i) {
     ++work.triangles;
-    so_far.take({squared_distance(triangles_[i], center), triangles_[i].index}, i);
+    candidates.update({squared_distance(triangles_[i], center), triangles_[i].index}, i);
   };
   if (session.last < triangles_.size()) consider(session.last);
   session.last = no_triangle;
-  double limit = std::min(reach, std::sqrt(so_far.best().squared_distance)) + error;
-  std::array<Waiting, most_levels> waiting;
+  double limit = std::min(reach, std::sqrt(candidates.best().squared_distance)) + error;
+  std::array<StackEntry, max_levels> stack;
   std::size_t count = 0;
-  waiting[count++] = {lower_bound(nodes_[0].box, center, slack), 0};
+  stack[count++] = {lower_bound(nodes_[0].box, center, pad), 0};
   while (count > 0) {
-    if (work.boxes + work.triangles > most) return all().nearest(center, reach, work);
-    const Waiting next = waiting[--count];
+    if (work.boxes + work.triangles > budget) return fallback().nearest(center, reach, work);
+    const StackEntry next = stack[--count];
     if (!(next.bound <= limit)) continue;
     const Node& node = nodes_[next.node];
     if (node.count > 0) {
       for (std::uint32_t i = node.first; i < node.first + node.count; ++i) consider(i);
-      limit = std::min(limit, std::sqrt(so_far.best().squared_distance) + error);
+      limit = std::min(limit, std::sqrt(candidates.best().squared_distance) + error);
       continue;
     }
     work.boxes += 2;
-    Waiting near{lower_bound(nodes_[node.first].box, center, slack), node.first};
-    Waiting far{lower_bound(nodes_[node.first + 1].box, center, slack), node.first + 1};
+    StackEntry near{lower_bound(nodes_[node.first].box, center, pad), node.first};
+    StackEntry far{lower_bound(nodes_[node.first + 1].box, center, pad), node.first + 1};
     if (far.bound < near.bound) std::swap(near, far);
-    waiting[count++] = far;
-    waiting[count++] = near;
+    stack[count++] = far;
+    stack[count++] = near;
   }
-  if (!so_far.found()) return std::nullopt;
-  const double distance = std::sqrt(so_far.best().squared_distance);
-  if (distance <= reach) session.last = so_far.at();
-  if (certified_ && !is_certain_first(so_far, triangles_, distance, center, reach, error))
-    return nearest_of_ties(so_far, center, reach, error, ids_, work.exact_decisions);
-  if (distance > reach) return std::nullopt;
-  return contact_on(triangles_[so_far.at()], center, id(so_far.best().index));
+  if (candidates.found() && std::sqrt(candidates.best().squared_distance) <= reach)
+    session.last = candidates.at();
+  return contact_of(candidates, triangles_, center, reach, error, ids_, work, certified_);
 }
 
 std::optional<Impact> AabbTree::first_hit(const Sweep& sweep, Session& session) const noexcept {
   if (!(sweep.radius >= 0)) return std::nullopt;
   Work& work = session.work;
-  const std::uint64_t most = most_work(work);
+  const std::uint64_t budget = work_limit(work);
   const double difference = largest_difference(bounds(), sweep);
-  if (!fourth_powers_fit(difference)) return all().first_hit(sweep, work);
-  const double widening = sweep_widening(sweep, difference);
+  if (!fourth_powers_fit(difference)) return fallback().first_hit(sweep, work);
+  const double padded_radius = padded_sweep_radius(sweep, difference);
   HitCandidate first;
   std::uint32_t kept_at = 0;
-  std::array<std::uint32_t, most_levels> waiting;
+  std::array<std::uint32_t, max_levels> stack;
   std::size_t count = 0;
-  waiting[count++] = 0;
+  stack[count++] = 0;
   while (count > 0) {
-    if (work.boxes + work.triangles > most) return all().first_hit(sweep, work);
-    const Node& node = nodes_[waiting[--count]];
+    if (work.boxes + work.triangles > budget) return fallback().first_hit(sweep, work);
+    const Node& node = nodes_[stack[--count]];
     ++work.boxes;
     const double limit = std::min(first.fraction, 1.0);
-    if (!(enters(node.box, sweep, widening, limit) <= limit)) continue;
+    if (!(enters(node.box, sweep, padded_radius, limit) <= limit)) continue;
     if (node.count == 0) {
-      waiting[count++] = node.first + 1;
-      waiting[count++] = node.first;
+      stack[count++] = node.first + 1;
+      stack[count++] = node.first;
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       ++work.triangles;
@@ -308,17 +305,14 @@ std::optional<Impact> AabbTree::first_hit(const Sweep& sweep, Session& session) 
     }
   }
   if (first.index >= triangles_.size()) return std::nullopt;
-  // Of all the triangles that are touched at the start the nearest one counts.
-  if (first.fraction == 0) {
-    const double reach = certified_ ? sweep.radius : any_reach;
-    if (const auto start = nearest({sweep.from, sweep.radius}, reach, session)) return Impact{0, *start};
-  }
-  return Impact{first.fraction, contact_on_way(triangles_[kept_at], sweep, first.fraction, id(first.index))};
+  return impact_on(triangles_[kept_at], sweep, first.fraction, ids_[first.index], certified_,
+                   [&](double reach) {
+                     return nearest({sweep.from, sweep.radius}, reach, session);
+                   });
 }
 
 std::size_t AabbTree::bytes() const noexcept {
-  return nodes_.capacity() * sizeof(Node) + triangles_.capacity() * sizeof(PreparedTriangle) +
-         ids_.capacity() * sizeof(TriangleId);
+  return nodes_.capacity() * sizeof(Node) + triangles_.capacity() * sizeof(PreparedTriangle) + ids_.bytes();
 }
 
 }  // namespace touchmark

@@ -28,8 +28,8 @@ class AabbTree {
   };
   struct Session {
     Work work;
-    /// Where the triangle of the last contact is kept, if there was one: `touches` asks it first, and its
-    /// distance bounds `nearest`.
+    /// Slot of the triangle of the last contact, if there was one: `touches` asks it first, and its distance
+    /// bounds `nearest`.
     std::uint32_t last = no_triangle;
   };
   static constexpr std::uint32_t no_triangle = std::numeric_limits<std::uint32_t>::max();
@@ -38,7 +38,7 @@ class AabbTree {
   static AabbTree build(const TriangleMesh& mesh, const Options& options);
   static AabbTree build(const TriangleMesh& mesh) { return build(mesh, Options()); }
   /// See the concept Updates. The boxes follow their triangles; where they would make queries dearer by more
-  /// than `most_growth`, the tree is built anew.
+  /// than `max_growth`, the tree is built anew.
   void update(const TriangleMesh& mesh);
 
   bool touches(const Probe& probe, Session& session) const noexcept;
@@ -53,17 +53,17 @@ class AabbTree {
   /// visit that returns bool ends it by returning true.
   template <class Visit>
   void for_each_near(const Vec3& center, double reach, Work& work, const Visit& visit) const noexcept {
-    const double slack = culling_slack(largest_difference(bounds(), center));
-    std::array<std::uint32_t, most_levels> waiting;
+    const double pad = culling_pad(largest_difference(bounds(), center));
+    std::array<std::uint32_t, max_levels> stack;
     std::size_t count = 0;
-    waiting[count++] = 0;
+    stack[count++] = 0;
     while (count > 0) {
-      const Node& node = nodes_[waiting[--count]];
+      const Node& node = nodes_[stack[--count]];
       ++work.boxes;
-      if (lower_bound(node.box, center, slack) > reach) continue;
+      if (lower_bound(node.box, center, pad) > reach) continue;
       if (node.count == 0) {
-        waiting[count++] = node.first + 1;
-        waiting[count++] = node.first;
+        stack[count++] = node.first + 1;
+        stack[count++] = node.first;
         continue;
       }
       work.triangles += node.count;
@@ -86,20 +86,19 @@ class AabbTree {
     std::uint32_t count = 0;  ///< a leaf's triangles; 0 in an inner node
   };
   /// Splits halve from `halving_level` on, so 32 more levels reach a single triangle of 2^32.
-  static constexpr std::size_t halving_level = 48, most_levels = halving_level + 34;
-  static constexpr double most_growth = 2;  ///< of expected_cost
+  static constexpr std::size_t halving_level = 48, max_levels = halving_level + 34;
+  static constexpr double max_growth = 2;  ///< factor of expected_cost
 
   class Builder;
 
   /// What the distance of a triangle in the box cannot fall below, as the kernel computes it.
-  static double lower_bound(const Aabb& box, const Vec3& center, double slack) noexcept;
+  static double lower_bound(const Aabb& box, const Vec3& center, double pad) noexcept;
   const Aabb& bounds() const noexcept { return nodes_.front().box; }
   double expected_cost() const noexcept;
-  EveryTriangle all() const noexcept { return {triangles_, bounds(), ids_, certified_}; }
-  std::uint64_t most_work(const Work& work) const noexcept {
-    return work.boxes + work.triangles + most_work_before_all(triangles_.size());
+  LinearScan fallback() const noexcept { return {triangles_, bounds(), ids_, certified_}; }
+  std::uint64_t work_limit(const Work& work) const noexcept {
+    return work.boxes + work.triangles + work_budget(triangles_.size());
   }
-  TriangleId id(std::uint32_t index) const noexcept { return ids_.empty() ? index : ids_[index]; }
 
   Options options_;
   Connectivity connectivity_;
@@ -107,7 +106,7 @@ class AabbTree {
   bool certified_ = true;
   std::vector<Node> nodes_;
   std::vector<PreparedTriangle> triangles_;  ///< in the order of the leaves
-  std::vector<TriangleId> ids_;              ///< by mesh index; empty when they are the same
+  TriangleIds ids_;
 };
 
 }  // namespace touchmark

@@ -28,7 +28,7 @@ FloatTree FloatTree::build(const TriangleMesh& mesh, const Options& options) {
   FloatTree tree;
   tree.frame_ = FloatFrame::around(mesh.bounds());
   tree.extent_ = 2 * largest_difference(mesh.bounds(), tree.frame_.origin);
-  tree.ids_.assign(mesh.ids().begin(), mesh.ids().end());
+  tree.ids_ = mesh.triangle_ids();
   std::vector<Vec3> stored;
   for (const Vec3& vertex : mesh.vertices()) stored.push_back(tree.frame_.into(vertex).cast<double>());
   // Boxes of floats are floats.
@@ -49,13 +49,13 @@ FloatTree FloatTree::build(const TriangleMesh& mesh, const Options& options) {
 
 bool FloatTree::surely_over_face(const Triangle& t, const std::array<Point, 3>& to,
                                  const std::array<float, 3>& squared) noexcept {
-  constexpr float roundings = 8 * unit_roundoff;
+  constexpr float relative_error = 8 * unit_roundoff;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = i == 2 ? 0 : i + 1;
     const Point edge = t.corner[j] - t.corner[i];
     const std::size_t near = squared[i] < squared[j] ? i : j;
     const float inside = edge.cross(to[near]).dot(t.normal);
-    if (!(inside > roundings * std::sqrt(squared[near]) * edge.norm())) return false;
+    if (!(inside > relative_error * std::sqrt(squared[near]) * edge.norm())) return false;
   }
   return true;
 }
@@ -64,8 +64,8 @@ FloatTree::Offset FloatTree::offset_from(const Triangle& t, const Point& point) 
   return kernel::offset_from(t, point, surely_over_face);
 }
 
-/// As culling_slack.
-float FloatTree::slack(const Point& center) const noexcept {
+/// As culling_pad.
+float FloatTree::culling_pad(const Point& center) const noexcept {
   const Node& all = nodes_.front();
   return 128 * unit_roundoff *
          (center - all.min).cwiseAbs().cwiseMax((center - all.max).cwiseAbs()).maxCoeff();
@@ -74,20 +74,20 @@ float FloatTree::slack(const Point& center) const noexcept {
 template <class Limit, class Consider>
 void FloatTree::search(const Point& center, Work& work, const Limit& limit,
                        const Consider& consider) const noexcept {
-  const float rounding = slack(center);
+  const float pad = culling_pad(center);
   const auto below = [&](std::uint32_t node) {
     const Node& n = nodes_[node];
-    return (n.min - center).cwiseMax(center - n.max).cwiseMax(0).norm() - rounding;
+    return (n.min - center).cwiseMax(center - n.max).cwiseMax(0).norm() - pad;
   };
-  struct Waiting {
+  struct StackEntry {
     float bound;
     std::uint32_t node;
   };
-  std::array<Waiting, AabbTree::most_levels> waiting;
+  std::array<StackEntry, AabbTree::max_levels> stack;
   std::size_t count = 0;
-  waiting[count++] = {below(0), 0};
+  stack[count++] = {below(0), 0};
   while (count > 0) {
-    const Waiting next = waiting[--count];
+    const StackEntry next = stack[--count];
     if (!(next.bound <= limit())) continue;
     const Node& node = nodes_[next.node];
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
@@ -96,10 +96,10 @@ void FloatTree::search(const Point& center, Work& work, const Limit& limit,
     }
     if (node.count > 0) continue;
     work.boxes += 2;
-    Waiting near{below(node.first), node.first}, far{below(node.first + 1), node.first + 1};
+    StackEntry near{below(node.first), node.first}, far{below(node.first + 1), node.first + 1};
     if (far.bound < near.bound) std::swap(near, far);
-    waiting[count++] = far;
-    waiting[count++] = near;
+    stack[count++] = far;
+    stack[count++] = near;
   }
 }
 
@@ -152,12 +152,11 @@ Contact FloatTree::contact(const Triangle& t, const Vec3& center, const Offset& 
                           ? from_mesh.normalized()
                           : face_normal({{corner(0), corner(1), corner(2)}, t.normal.cast<double>(), 0});
   return {center - from_mesh / frame_.scale, normal, static_cast<double>(distance) / frame_.scale,
-          ids_.empty() ? t.index : ids_[t.index]};
+          ids_[t.index]};
 }
 
 std::size_t FloatTree::bytes() const noexcept {
-  return nodes_.capacity() * sizeof(Node) + triangles_.capacity() * sizeof(Triangle) +
-         ids_.capacity() * sizeof(TriangleId);
+  return nodes_.capacity() * sizeof(Node) + triangles_.capacity() * sizeof(Triangle) + ids_.bytes();
 }
 
 Accuracy FloatTree::accuracy() const noexcept {

@@ -36,7 +36,7 @@ class FloatTree {
   };
   struct Session {
     Work work;
-    std::uint32_t last = 0;  ///< where the last nearest triangle is kept: its distance bounds the next search
+    std::uint32_t last = 0;  ///< slot of the last nearest triangle: its distance bounds the next search
   };
 
   /// Throws as AabbTree::build does.
@@ -66,7 +66,7 @@ class FloatTree {
   static bool surely_over_face(const Triangle& t, const std::array<Point, 3>& to,
                                const std::array<float, 3>& squared) noexcept;
   static Offset offset_from(const Triangle& t, const Point& point) noexcept;
-  float slack(const Point& center) const noexcept;
+  float culling_pad(const Point& center) const noexcept;
   /// Calls consider(place) for the triangles of every leaf whose box is within limit(), nearest boxes first,
   /// until it returns true.
   template <class Limit, class Consider>
@@ -77,7 +77,7 @@ class FloatTree {
   double extent_ = 0;  ///< the largest, mesh units
   std::vector<Node> nodes_;
   std::vector<Triangle> triangles_;  ///< in the order of the leaves
-  std::vector<TriangleId> ids_;      ///< by mesh index; empty when they are the same
+  TriangleIds ids_;
 };
 
 }  // namespace touchmark

@@ -7,7 +7,7 @@ BruteForce BruteForce::build(const TriangleMesh& mesh, const Options&) {
   detector.connectivity_ = Connectivity(mesh);
   detector.bounds_ = mesh.bounds();
   detector.triangles_ = prepare(mesh);
-  detector.ids_.assign(mesh.ids().begin(), mesh.ids().end());
+  detector.ids_ = mesh.triangle_ids();
   return detector;
 }
 
@@ -19,20 +19,20 @@ void BruteForce::update(const TriangleMesh& mesh) {
 }
 
 bool BruteForce::touches(const Probe& probe, Session& session) const noexcept {
-  return all().touches(probe, session.work);
+  return scan().touches(probe, session.work);
 }
 
 std::optional<Contact> BruteForce::nearest(const Probe& probe, double reach,
                                            Session& session) const noexcept {
-  return all().nearest(probe.center, reach, session.work);
+  return scan().nearest(probe.center, reach, session.work);
 }
 
 std::optional<Impact> BruteForce::first_hit(const Sweep& sweep, Session& session) const noexcept {
-  return all().first_hit(sweep, session.work);
+  return scan().first_hit(sweep, session.work);
 }
 
 std::size_t BruteForce::bytes() const noexcept {
-  return triangles_.capacity() * sizeof(PreparedTriangle) + ids_.capacity() * sizeof(TriangleId);
+  return triangles_.capacity() * sizeof(PreparedTriangle) + ids_.bytes();
 }
 
 }  // namespace touchmark

@@ -33,12 +33,12 @@ class BruteForce {
   Accuracy accuracy() const noexcept { return certified; }
 
  private:
-  EveryTriangle all() const noexcept { return {triangles_, bounds_, ids_}; }
+  LinearScan scan() const noexcept { return {triangles_, bounds_, ids_}; }
 
   Connectivity connectivity_;
   Aabb bounds_;
   std::vector<PreparedTriangle> triangles_;
-  std::vector<TriangleId> ids_;
+  TriangleIds ids_;
 };
 
 }  // namespace touchmark

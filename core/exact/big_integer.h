@@ -48,7 +48,7 @@ inline std::size_t add(Limbs a, Limbs b, Limb* sum) noexcept {
   return a.size() + 1;
 }
 
-/// The same for a - b, a >= b.
+/// Returns how many limbs the difference a - b has. a >= b.
 inline std::size_t subtract(Limbs a, Limbs b, Limb* difference) noexcept {
   Limb borrow = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -59,7 +59,7 @@ inline std::size_t subtract(Limbs a, Limbs b, Limb* difference) noexcept {
   return trimmed(difference, a.size());
 }
 
-/// The same for a * b.
+/// Returns how many limbs the product has.
 inline std::size_t multiply(Limbs a, Limbs b, Limb* product) noexcept {
   std::fill_n(product, a.size() + b.size(), 0);
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -90,25 +90,25 @@ inline Scaled operator/(const Scaled& a, const Scaled& b) noexcept {
 
 /// A polynomial of this degree in coordinates on a grid.
 template <int degree>
-class Integer {
+class BigInteger {
  public:
   static constexpr std::size_t capacity = std::size_t{34} * degree;  // of 64 bits
 
-  Integer() noexcept = default;
-  Integer(const Integer& other) noexcept { assign(other.limbs(), other.negative_); }
-  Integer& operator=(const Integer& other) noexcept {
+  BigInteger() noexcept = default;
+  BigInteger(const BigInteger& other) noexcept { assign(other.limbs(), other.negative_); }
+  BigInteger& operator=(const BigInteger& other) noexcept {
     assign(other.limbs(), other.negative_);
     return *this;
   }
   template <int lower>
-  requires(lower < degree) Integer(const Integer<lower>& other)
+  requires(lower < degree) BigInteger(const BigInteger<lower>& other)
   noexcept { assign(other.limbs(), other.sign() < 0); }
-  ~Integer() = default;
+  ~BigInteger() = default;
 
-  static Integer one() noexcept { return of(1, 0, false); }
+  static BigInteger one() noexcept { return of(1, 0, false); }
   /// mantissa * 2^shift, or minus that.
-  static Integer of(Limb mantissa, unsigned shift, bool negative) noexcept {
-    Integer result;
+  static BigInteger of(Limb mantissa, unsigned shift, bool negative) noexcept {
+    BigInteger result;
     const std::size_t whole = shift / 64;
     const unsigned rest = shift % 64;
     std::fill_n(result.limbs_.begin(), whole, 0);
@@ -122,29 +122,29 @@ class Integer {
 
   int sign() const noexcept { return size_ == 0 ? 0 : negative_ ? -1 : 1; }
   Limbs limbs() const noexcept { return {limbs_.data(), size_}; }
-  Integer operator-() const noexcept {
-    Integer result = *this;
+  BigInteger operator-() const noexcept {
+    BigInteger result = *this;
     result.negative_ = !negative_;
     return result;
   }
 
-  friend Integer operator+(const Integer& a, const Integer& b) noexcept {
+  friend BigInteger operator+(const BigInteger& a, const BigInteger& b) noexcept {
     return combined(a, b, b.negative_);
   }
-  friend Integer operator-(const Integer& a, const Integer& b) noexcept {
+  friend BigInteger operator-(const BigInteger& a, const BigInteger& b) noexcept {
     return combined(a, b, !b.negative_);
   }
   template <int other>
-  Integer<degree + other> operator*(const Integer<other>& b) const noexcept {
-    Integer<degree + other> product;
-    product.set(multiply(limbs(), b.limbs(), product.room()), (sign() < 0) != (b.sign() < 0));
+  BigInteger<degree + other> operator*(const BigInteger<other>& b) const noexcept {
+    BigInteger<degree + other> product;
+    product.set(multiply(limbs(), b.limbs(), product.storage()), (sign() < 0) != (b.sign() < 0));
     return product;
   }
-  friend std::strong_ordering operator<=>(const Integer& a, const Integer& b) noexcept {
+  friend std::strong_ordering operator<=>(const BigInteger& a, const BigInteger& b) noexcept {
     if (a.sign() != b.sign()) return a.sign() <=> b.sign();
     return a.sign() < 0 ? compare(b.limbs(), a.limbs()) : compare(a.limbs(), b.limbs());
   }
-  friend bool operator==(const Integer& a, const Integer& b) noexcept { return (a <=> b) == 0; }
+  friend bool operator==(const BigInteger& a, const BigInteger& b) noexcept { return (a <=> b) == 0; }
 
   /// To within 2^-104 of it; the fraction is in [1/2, 1], or zero.
   Scaled scaled() const noexcept {
@@ -164,15 +164,15 @@ class Integer {
   }
 
   /// Times a plain number, which is not counted as a degree.
-  Integer times(Limb factor) const noexcept {
-    Integer product;
+  BigInteger times(Limb factor) const noexcept {
+    BigInteger product;
     const Limb one_limb[] = {factor};
-    product.set(multiply(limbs(), Limbs(one_limb, trimmed(one_limb, 1)), product.room()), negative_);
+    product.set(multiply(limbs(), Limbs(one_limb, trimmed(one_limb, 1)), product.storage()), negative_);
     return product;
   }
 
   /// For the arithmetic of other degrees: where a result goes, and what it became.
-  Limb* room() noexcept { return limbs_.data(); }
+  Limb* storage() noexcept { return limbs_.data(); }
   void set(std::size_t size, bool negative) noexcept {
     size_ = size;
     negative_ = negative;
@@ -184,13 +184,13 @@ class Integer {
     set(limbs.size(), negative);
   }
   /// a plus the magnitude of b under the sign given.
-  static Integer combined(const Integer& a, const Integer& b, bool b_negative) noexcept {
-    Integer result;
+  static BigInteger combined(const BigInteger& a, const BigInteger& b, bool b_negative) noexcept {
+    BigInteger result;
     const bool a_greater = compare(a.limbs(), b.limbs()) >= 0;
     const Limbs greater = a_greater ? a.limbs() : b.limbs(), lesser = a_greater ? b.limbs() : a.limbs();
     const bool negative = a_greater ? a.negative_ : b_negative;
-    result.set(a.negative_ == b_negative ? add(greater, lesser, result.room())
-                                         : subtract(greater, lesser, result.room()),
+    result.set(a.negative_ == b_negative ? add(greater, lesser, result.storage())
+                                         : subtract(greater, lesser, result.storage()),
                negative);
     return result;
   }
@@ -201,14 +201,14 @@ class Integer {
 };
 
 template <int degree>
-using Vector = std::array<Integer<degree>, 3>;
+using Vector = std::array<BigInteger<degree>, 3>;
 
 template <int degree>
 Vector<degree> operator-(const Vector<degree>& a, const Vector<degree>& b) noexcept {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 template <int a_degree, int b_degree>
-Integer<a_degree + b_degree> dot(const Vector<a_degree>& a, const Vector<b_degree>& b) noexcept {
+BigInteger<a_degree + b_degree> dot(const Vector<a_degree>& a, const Vector<b_degree>& b) noexcept {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 template <int a_degree, int b_degree>

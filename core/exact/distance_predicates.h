@@ -1,6 +1,6 @@
 /// Point-triangle distances of the numbers as they are stored: nothing rounds until the result is known.
 ///
-/// Every decision is a comparison of whole numbers (exact_integer.h), so any finite doubles will do, denormal
+/// Every decision is a comparison of whole numbers (big_integer.h), so any finite doubles will do, denormal
 /// and huge ones alike, and needles, caps and triangles without area. No memory is taken. A call takes
 /// hundreds of times as long as the kernel of point_triangle.h, more where the numbers span the whole range
 /// of double: it is for what the kernel leaves open.
@@ -20,30 +20,30 @@ using TriangleCorners = std::array<Vec3, 3>;
 /// least 0; the radius may be infinite.
 bool within_exactly(const TriangleCorners& triangle, const Vec3& point, double radius) noexcept;
 
-/// Does the part of the way from `from` to `to` up to and with `fraction` come within the radius of the
+/// Does the part of the path from `from` to `to` up to and with `fraction` come within the radius of the
 /// triangle? Exact, for a fraction in [0, 1] that is a multiple of 2^-53; false when a coordinate is not
 /// finite or the radius not at least 0.
-bool way_within_exactly(const TriangleCorners& triangle, const Vec3& from, const Vec3& to, double fraction,
-                        double radius) noexcept;
+bool path_within_exactly(const TriangleCorners& triangle, const Vec3& from, const Vec3& to, double fraction,
+                         double radius) noexcept;
 
 /// How the distances to two triangles compare. Exact, for finite coordinates.
 std::strong_ordering compare_exactly(const TriangleCorners& a, const TriangleCorners& b,
                                      const Vec3& point) noexcept;
 
 /// The nearest point of a triangle to a point.
-struct Foot {
+struct ClosestPoint {
   DoubleDouble distance;          ///< infinite beyond all doubles
   double error = 0;               ///< bound of the distance's; infinite where none is known
   Vec3 offset = Vec3::Zero();     ///< from the foot to the point
-  Vec3 direction = Vec3::Zero();  ///< the same, unit; zero where the distance is 0
+  Vec3 direction = Vec3::Zero();  ///< unit vector along the offset; zero where the distance is 0
 };
 
 /// How the distances compare; unordered where their errors do not tell.
-std::partial_ordering compare(const Foot& a, const Foot& b) noexcept;
+std::partial_ordering compare(const ClosestPoint& a, const ClosestPoint& b) noexcept;
 
 /// Rounded at the end: the distance within 2^-98 of it where both halves of it are normal, each coordinate of
 /// the offset within one ulp, the direction zero only where the distance is exactly 0. Finite coordinates.
-Foot foot_exactly(const TriangleCorners& triangle, const Vec3& point) noexcept;
+ClosestPoint closest_point_exactly(const TriangleCorners& triangle, const Vec3& point) noexcept;
 
 /// The unit normal, counter-clockwise, each coordinate within a few ulp; zero when the corners are exactly
 /// collinear. Finite coordinates.

@@ -12,17 +12,18 @@ namespace touchmark::exact {
 
 /// A square in units of 4^exponent of a grid.
 struct Square {
-  Integer<6> numerator;
-  Integer<4> denominator;
+  BigInteger<6> numerator;
+  BigInteger<4> denominator;
 };
 
 inline std::strong_ordering compare(const Square& a, const Square& b) noexcept {
   return a.numerator * b.denominator <=> b.numerator * a.denominator;
 }
 
-/// Of the point from the corner, the line or the plane of the feature, on a grid that holds all of them.
-Square square(const Grid& grid, const Feature& feature, const Vec3& point) noexcept;
-/// Of the point from the triangle.
-Square square(const Grid& grid, const TriangleCorners& triangle, const Vec3& point) noexcept;
+/// Returns the squared distance of the point from the corner, the line or the plane of the feature, on a
+/// lattice that holds all of them.
+Square square(const Lattice& lattice, const Feature& feature, const Vec3& point) noexcept;
+/// Returns the squared distance of the point from the triangle, on a lattice that holds both.
+Square square(const Lattice& lattice, const TriangleCorners& triangle, const Vec3& point) noexcept;
 
 }  // namespace touchmark::exact

@@ -28,10 +28,10 @@ struct Parts {
 };
 
 /// The coarsest power of two of which every number put in is a multiple.
-class Grid {
+class Lattice {
  public:
-  Grid() noexcept = default;
-  Grid(const TriangleCorners& triangle, const Vec3& point) noexcept {
+  Lattice() noexcept = default;
+  Lattice(const TriangleCorners& triangle, const Vec3& point) noexcept {
     add(triangle);
     add(point);
   }
@@ -47,10 +47,10 @@ class Grid {
 
   /// 0 where only zeros were put in.
   int exponent() const noexcept { return exponent_ == INT_MAX ? 0 : exponent_; }
-  Integer<1> operator()(double x) const noexcept {
+  BigInteger<1> operator()(double x) const noexcept {
     if (x == 0) return {};
     const Parts parts(x);
-    return Integer<1>::of(parts.mantissa, static_cast<unsigned>(parts.exponent - exponent()), x < 0);
+    return BigInteger<1>::of(parts.mantissa, static_cast<unsigned>(parts.exponent - exponent()), x < 0);
   }
   Vector<1> operator()(const Vec3& v) const noexcept {
     return {(*this)(v.x()), (*this)(v.y()), (*this)(v.z())};

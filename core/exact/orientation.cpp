@@ -10,32 +10,33 @@ namespace {
 
 constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 // Outside, products may have lost bits or all there is.
-constexpr double least_safe = 0x1p-900, most_safe = 0x1p1000;
+constexpr double min_safe = 0x1p-900, max_safe = 0x1p1000;
 
 int sign(double x) noexcept { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 
 /// The sign of the rounded value, or 0 where its rounding, a multiple of the terms' magnitudes, hides it.
 int sure_sign(double value, double magnitude, double roundings) noexcept {
-  if (!(magnitude > least_safe && magnitude < most_safe)) return 0;
+  if (!(magnitude > min_safe && magnitude < max_safe)) return 0;
   return std::abs(value) > roundings * unit_roundoff * magnitude ? sign(value) : 0;
 }
 
 [[gnu::noinline, gnu::cold]] int side_of_plane_exactly(const Vec3& a, const Vec3& b, const Vec3& c,
                                                        const Vec3& p) noexcept {
-  const exact::Grid grid({a, b, c}, p);
-  const exact::Vector<1> origin = grid(p);
-  const exact::Vector<1> to_a = grid(a) - origin, to_b = grid(b) - origin, to_c = grid(c) - origin;
+  const exact::Lattice lattice({a, b, c}, p);
+  const exact::Vector<1> origin = lattice(p);
+  const exact::Vector<1> to_a = lattice(a) - origin, to_b = lattice(b) - origin, to_c = lattice(c) - origin;
   return -exact::dot(exact::cross(to_b, to_c), to_a).sign();
 }
 
 [[gnu::noinline, gnu::cold]] int side_of_line_exactly(const Vec3& a, const Vec3& b, const Vec3& p) noexcept {
-  exact::Grid grid;
+  exact::Lattice lattice;
   for (const Vec3* v : {&a, &b, &p}) {
-    grid.add(v->x());
-    grid.add(v->y());
+    lattice.add(v->x());
+    lattice.add(v->y());
   }
-  const exact::Integer<1> x = grid(p.x()), y = grid(p.y());
-  const auto along = (grid(a.x()) - x) * (grid(b.y()) - y), against = (grid(a.y()) - y) * (grid(b.x()) - x);
+  const exact::BigInteger<1> x = lattice(p.x()), y = lattice(p.y());
+  const auto along = (lattice(a.x()) - x) * (lattice(b.y()) - y),
+             against = (lattice(a.y()) - y) * (lattice(b.x()) - x);
   return (along - against).sign();
 }
 

@@ -24,7 +24,7 @@ using Corners = std::array<Vector, 3>;
 template <std::size_t count>
 std::optional<int> sign_of_sum(
     const std::array<std::pair<DoubleDouble, DoubleDouble>, count>& products) noexcept {
-  constexpr double least = 0x1p-400;
+  constexpr double smallest = 0x1p-400;
   std::array<double, 8 * count> sum;  // least first
   std::size_t terms = 0;
   const auto add = [&](double term) {
@@ -37,7 +37,7 @@ std::optional<int> sign_of_sum(
   };
   for (const auto& [x, y] : products) {
     for (const double half : {x.high, x.low, y.high, y.low})
-      if (half != 0 && std::abs(half) < least) return std::nullopt;
+      if (half != 0 && std::abs(half) < smallest) return std::nullopt;
     for (const double x_half : {x.high, x.low}) {
       for (const double y_half : {y.high, y.low}) {
         const DoubleDouble product = two_product(x_half, y_half);
@@ -51,7 +51,7 @@ std::optional<int> sign_of_sum(
   return sum[terms - 1] > 0 ? 1 : -1;
 }
 
-/// Of a d - b c.
+/// Returns the sign of a d - b c, or nothing where a product might underflow.
 std::optional<int> sign_of_determinant(DoubleDouble a, DoubleDouble b, DoubleDouble c,
                                        DoubleDouble d) noexcept {
   return sign_of_sum<2>({{{a, d}, {-b, c}}});
@@ -61,27 +61,30 @@ std::optional<int> sign_of_dot(const Vector& a, const Vector& b) noexcept {
   return sign_of_sum<3>({{{a[0], b[0]}, {a[1], b[1]}, {a[2], b[2]}}});
 }
 
-CloseFoot at(const Vector& way, DoubleDouble distance, double error) noexcept {
-  CloseFoot close;
-  close.foot.distance = distance;
-  close.foot.error = error;
+PreciseClosestPoint at(const Vector& direction, DoubleDouble distance, double error) noexcept {
+  PreciseClosestPoint close;
+  close.closest.distance = distance;
+  close.closest.error = error;
   // A difference, so that no zero comes out negative.
-  close.foot.offset = Vec3::Zero() - Vec3(way[0].rounded(), way[1].rounded(), way[2].rounded());
-  if (close.foot.distance.high > 0) close.foot.direction = close.foot.offset.normalized();
+  close.closest.offset =
+      Vec3::Zero() - Vec3(direction[0].rounded(), direction[1].rounded(), direction[2].rounded());
+  if (close.closest.distance.high > 0) close.closest.direction = close.closest.offset.normalized();
   return close;
 }
 
-CloseFoot at(const Vector& way, double error) noexcept { return at(way, square_root(dot(way, way)), error); }
+PreciseClosestPoint at(const Vector& direction, double error) noexcept {
+  return at(direction, square_root(dot(direction, direction)), error);
+}
 
-CloseFoot at_corner(const Vector& w, const Vec3& corner, double m) noexcept {
-  CloseFoot close = at(w, 0x1p-98 * m);
+PreciseClosestPoint at_corner(const Vector& w, const Vec3& corner, double m) noexcept {
+  PreciseClosestPoint close = at(w, 0x1p-98 * m);
   close.feature = {corner, corner};
   return close;
 }
 
 /// From corner p at w to corner q.
-std::optional<CloseFoot> on_segment(const Vec3& p, const Vec3& q, const Vector& w, const Vector& to_q,
-                                    double m) noexcept {
+std::optional<PreciseClosestPoint> on_segment(const Vec3& p, const Vec3& q, const Vector& w,
+                                              const Vector& to_q, double m) noexcept {
   const Vector edge = difference(q, p);
   const DoubleDouble squared = dot(edge, edge), along = -dot(w, edge);
   // 16 m^2 v of error in the one, 32 m^2 v in the other.
@@ -96,23 +99,23 @@ std::optional<CloseFoot> on_segment(const Vec3& p, const Vec3& q, const Vector& 
   if (!before_q) return std::nullopt;
   if (*before_q <= 0) return at_corner(to_q, q, m);
   const DoubleDouble part = along / squared;  // off by less than 2^-96 m^2 / |edge|^2
-  Vector way;
-  for (std::size_t k = 0; k < 3; ++k) way[k] = w[k] + edge[k] * part;
-  CloseFoot close = at(way, 0x1p-94 * m * (m / std::sqrt(squared.high)));
+  Vector direction;
+  for (std::size_t k = 0; k < 3; ++k) direction[k] = w[k] + edge[k] * part;
+  PreciseClosestPoint close = at(direction, 0x1p-94 * m * (m / std::sqrt(squared.high)));
   close.feature = {p, q};
   return close;
 }
 
-CloseFoot on_face(const Vector& w, const Vector& normal, double m) noexcept {
+PreciseClosestPoint on_face(const Vector& w, const Vector& normal, double m) noexcept {
   const DoubleDouble squared = dot(normal, normal);
   const DoubleDouble part = dot(w, normal) / squared;
-  Vector way;
-  for (std::size_t k = 0; k < 3; ++k) way[k] = normal[k] * part;
-  CloseFoot close = at(way, 0);
+  Vector direction;
+  for (std::size_t k = 0; k < 3; ++k) direction[k] = normal[k] * part;
+  PreciseClosestPoint close = at(direction, 0);
   // With N = |normal| each coordinate of the way is off by 112 v m^3 / N for the height's error, and by
   // 1472 v d (m^2 / N)^2 + 2^-101 d for the other factors' and the quotient's. N <= 12 m^2.
   const double ratio = m * m / std::sqrt(squared.high);
-  close.foot.error = ratio * (0x1p-94 * m + 0x1p-90 * close.foot.distance.high * ratio);
+  close.closest.error = ratio * (0x1p-94 * m + 0x1p-90 * close.closest.distance.high * ratio);
   return close;
 }
 
@@ -138,28 +141,28 @@ std::optional<Level> level_of(const TriangleCorners& triangle) noexcept {
 }
 
 /// The height over it is a coordinate, and exact, however small.
-CloseFoot on_level_face(const Vector& w, std::size_t axis) noexcept {
-  Vector way{};
-  way[axis] = w[axis];
+PreciseClosestPoint on_level_face(const Vector& w, std::size_t axis) noexcept {
+  Vector direction{};
+  direction[axis] = w[axis];
   const bool above = w[axis].high < 0;
-  CloseFoot close = at(way, above ? -w[axis] : w[axis], 0);
+  PreciseClosestPoint close = at(direction, above ? -w[axis] : w[axis], 0);
   if (w[axis].high != 0)
-    close.foot.direction = (above ? 1 : -1) * Vec3::Unit(static_cast<Eigen::Index>(axis));
+    close.closest.direction = (above ? 1 : -1) * Vec3::Unit(static_cast<Eigen::Index>(axis));
   return close;
 }
 
-/// Of a side's value in over_face: 320 m^4 v.
+/// Bounds the error of a side's value in over_face: 320 m^4 v.
 double side_error(double m) noexcept { return 0x1p-93 * (m * m) * (m * m); }
 
-bool has_corner(const TriangleCorners& triangle, const Vec3& place) noexcept {
-  return std::find(triangle.begin(), triangle.end(), place) != triangle.end();
+bool has_corner(const TriangleCorners& triangle, const Vec3& position) noexcept {
+  return std::find(triangle.begin(), triangle.end(), position) != triangle.end();
 }
 
 struct Interval {
   double middle, error;
 };
 
-/// Of any coordinate of the corners from the point's.
+/// Returns the largest coordinate difference between the corners and the point.
 double largest_difference(const TriangleCorners& triangle, const Vec3& point) noexcept {
   double largest = 0;
   for (const Vec3& corner : triangle) largest = std::max(largest, (corner - point).cwiseAbs().maxCoeff());
@@ -196,17 +199,18 @@ OverFace over_face(const Corners& w, const Vector& normal, const std::optional<L
   return inside ? OverFace::inside : OverFace::on_border;
 }
 
-std::optional<CloseFoot> on_border(const TriangleCorners& triangle, const Corners& w, double m) noexcept {
-  std::optional<CloseFoot> best;
+std::optional<PreciseClosestPoint> on_border(const TriangleCorners& triangle, const Corners& w,
+                                             double m) noexcept {
+  std::optional<PreciseClosestPoint> best;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;
-    const std::optional<CloseFoot> other = on_segment(triangle[i], triangle[j], w[i], w[j], m);
+    const std::optional<PreciseClosestPoint> other = on_segment(triangle[i], triangle[j], w[i], w[j], m);
     if (!other) return std::nullopt;
     if (!best) {
       best = other;
       continue;
     }
-    const std::partial_ordering order = compare(other->foot, best->foot);
+    const std::partial_ordering order = compare(other->closest, best->closest);
     if (order == std::partial_ordering::unordered && !on_same_feature(*other, *best)) return std::nullopt;
     if (order < 0) best = other;
   }
@@ -215,7 +219,8 @@ std::optional<CloseFoot> on_border(const TriangleCorners& triangle, const Corner
 
 }  // namespace
 
-std::optional<CloseFoot> close_foot(const TriangleCorners& triangle, const Vec3& point) noexcept {
+std::optional<PreciseClosestPoint> precise_closest_point(const TriangleCorners& triangle,
+                                                         const Vec3& point) noexcept {
   const double m = largest_difference(triangle, point);
   // Otherwise fourth powers leave the range in which double-doubles keep both halves.
   if (!(m >= 0x1p-132 && m <= 0x1p232)) return std::nullopt;
@@ -225,14 +230,14 @@ std::optional<CloseFoot> close_foot(const TriangleCorners& triangle, const Vec3&
   const std::optional<Level> level = level_of(triangle);
   const OverFace over = over_face(w, normal, level, m);
   if (over == OverFace::unknown) return std::nullopt;
-  std::optional<CloseFoot> close;
+  std::optional<PreciseClosestPoint> close;
   if (over == OverFace::no) {
     close = on_border(triangle, w, m);
   } else {
     close = level ? on_level_face(w[0], level->axis) : on_face(w[0], normal, m);
     close->inside = over == OverFace::inside;
   }
-  if (close && !(close->foot.error <= 0x1p-60 * m)) return std::nullopt;
+  if (close && !(close->closest.error <= 0x1p-60 * m)) return std::nullopt;
   return close;
 }
 
@@ -262,12 +267,13 @@ std::partial_ordering compare_inside(const TriangleCorners& a, const TriangleCor
   return farther_in > 0 ? std::partial_ordering::less : std::partial_ordering::greater;
 }
 
-bool is_nearer_inside(const CloseFoot& a, const TriangleCorners& triangle_of_a, const CloseFoot& b) noexcept {
+bool is_nearer_inside(const PreciseClosestPoint& a, const TriangleCorners& triangle_of_a,
+                      const PreciseClosestPoint& b) noexcept {
   if (!a.inside || !b.feature) return false;
   return has_corner(triangle_of_a, b.feature->front()) && has_corner(triangle_of_a, b.feature->back());
 }
 
-bool on_same_feature(const CloseFoot& a, const CloseFoot& b) noexcept {
+bool on_same_feature(const PreciseClosestPoint& a, const PreciseClosestPoint& b) noexcept {
   if (!a.feature || !b.feature) return false;
   const auto& [a_first, a_second] = *a.feature;
   const auto& [b_first, b_second] = *b.feature;

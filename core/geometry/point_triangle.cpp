@@ -19,14 +19,15 @@ bool surely_over_face(const PreparedTriangle& t, const std::array<Vec3, 3>& to,
                       const std::array<double, 3>& squared) noexcept {
   // (edge x to) . normal is the distance to the edge's line times |edge|. Its rounding: one unit for each of
   // the three inputs, two for the cross product, three for the dot product.
-  constexpr double roundings = 8 * unit_roundoff;
+  constexpr double relative_error = 8 * unit_roundoff;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = i == 2 ? 0 : i + 1;
     const Vec3 edge = t.corner[j] - t.corner[i];
     const bool from_i = squared[i] < squared[j];
     const double inside = edge.cross(from_i ? to[i] : to[j]).dot(t.normal);
     const double from_squared = from_i ? squared[i] : squared[j];
-    if (!(inside > 0) || !(inside * inside > roundings * roundings * from_squared * edge.squaredNorm()))
+    if (!(inside > 0) ||
+        !(inside * inside > relative_error * relative_error * from_squared * edge.squaredNorm()))
       return false;
   }
   return true;
@@ -37,13 +38,14 @@ DoubleDouble minor(DoubleDouble a, DoubleDouble b, DoubleDouble c, DoubleDouble 
   return a * d - b * c;
 }
 
-/// The same triangle, but for a power of two, where squares of its sides would leave the range of double.
+/// Returns the triangle scaled by a power of two where squares of its sides would leave the range of double.
 std::array<Vec3, 3> in_range(const std::array<Vec3, 3>& v) noexcept {
-  constexpr int largest = 400, most = 1000;
+  constexpr int largest = 400, max_exponent = 1000;
   const double extent = std::max({(v[1] - v[0]).cwiseAbs().maxCoeff(), (v[2] - v[1]).cwiseAbs().maxCoeff(),
                                   (v[0] - v[2]).cwiseAbs().maxCoeff()});
   if (extent == 0 || (extent > std::ldexp(1.0, -largest) && extent < std::ldexp(1.0, largest))) return v;
-  const int exponent = std::isinf(extent) ? most : std::clamp(std::ilogb(extent), -most, most);
+  const int exponent =
+      std::isinf(extent) ? max_exponent : std::clamp(std::ilogb(extent), -max_exponent, max_exponent);
   const double scale = std::ldexp(1.0, -exponent);
   return {scale * v[0], scale * v[1], scale * v[2]};
 }

@@ -53,7 +53,7 @@ struct NearestAsComputed {
 NearestAsComputed nearest_as_computed(std::span<const PreparedTriangle> triangles,
                                       const Vec3& point) noexcept;
 
-/// The same triangle in another unit. `scale` is a power of two, so that nothing rounds.
+/// Returns the triangle in another unit. `scale` is a power of two, so that nothing rounds.
 PreparedTriangle scaled(const PreparedTriangle& triangle, double scale) noexcept;
 
 /// The vector from a triangle's nearest point to the query point, and its squared length.
@@ -69,7 +69,7 @@ Offset offset_from(const PreparedTriangle& triangle, const Vec3& point) noexcept
 
 /// The contact on this triangle: `distance` is the square root of squared_distance(triangle, point).
 Contact contact_on(const PreparedTriangle& triangle, const Vec3& point, TriangleId id) noexcept;
-/// The same where offset_from(triangle, point) is known.
+/// The contact on this triangle where offset_from(triangle, point) is known.
 Contact contact_at(const PreparedTriangle& triangle, const Vec3& point, const Offset& offset,
                    TriangleId id) noexcept;
 
@@ -80,7 +80,7 @@ Vec3 face_normal(const PreparedTriangle& triangle) noexcept;
 /// distance exceed its true one, anywhere in a query whose coordinates differ by at most
 /// `largest_difference`: a volume may be skipped only if its distance minus this exceeds the best distance so
 /// far. Twice kernel_relative_error and more: a sweep's touch is decided within that error on top.
-inline double culling_slack(double largest_difference) noexcept {
+inline double culling_pad(double largest_difference) noexcept {
   return 128 * (std::numeric_limits<double>::epsilon() / 2) * largest_difference;
 }
 

@@ -57,7 +57,7 @@ inline QuadVec select(const QuadVec& a, const QuadVec& b, Quad mask) noexcept {
 inline Quad all(double a) noexcept { return _mm256_set1_pd(a); }
 
 /// The lowest of lanes 0 to 2 that holds the least value. None is NaN.
-inline std::size_t least_of_three(Quad a) noexcept {
+inline std::size_t index_of_least(Quad a) noexcept {
   const Quad following = next(a);
   const Quad least = _mm256_min_pd(_mm256_min_pd(a, following), next(following));
   const int holders = _mm256_movemask_pd(_mm256_cmp_pd(a, least, _CMP_EQ_OQ));
@@ -76,7 +76,7 @@ inline QuadVec corners(const PreparedTriangle& triangle) noexcept {
 
 /// offset_from(triangle, point), bit for bit.
 inline Offset offset_from(const PreparedTriangle& triangle, const Vec3& point) noexcept {
-  constexpr double roundings = 8 * (std::numeric_limits<double>::epsilon() / 2);
+  constexpr double relative_error = 8 * (std::numeric_limits<double>::epsilon() / 2);
   const QuadVec corner = corners(triangle);
   const QuadVec to = minus({all(point.x()), all(point.y()), all(point.z())}, corner);
   const Quad squared = dot(to, to);
@@ -91,13 +91,14 @@ inline Offset offset_from(const PreparedTriangle& triangle, const Vec3& point) n
 
   const QuadVec normal = {all(triangle.normal.x()), all(triangle.normal.y()), all(triangle.normal.z())};
   const Quad inside = dot(cross(edge, near), normal);
-  const Quad rounding = _mm256_mul_pd(_mm256_mul_pd(all(roundings * roundings), near_squared), edge_squared);
-  const Quad over = _mm256_and_pd(_mm256_cmp_pd(inside, _mm256_setzero_pd(), _CMP_GT_OQ),
-                                  _mm256_cmp_pd(_mm256_mul_pd(inside, inside), rounding, _CMP_GT_OQ));
-  if ((_mm256_movemask_pd(over) & 7) == 7) {
+  const Quad error =
+      _mm256_mul_pd(_mm256_mul_pd(all(relative_error * relative_error), near_squared), edge_squared);
+  const Quad over_face = _mm256_and_pd(_mm256_cmp_pd(inside, _mm256_setzero_pd(), _CMP_GT_OQ),
+                                       _mm256_cmp_pd(_mm256_mul_pd(inside, inside), error, _CMP_GT_OQ));
+  if ((_mm256_movemask_pd(over_face) & 7) == 7) {
     alignas(32) std::array<double, 4> heights;
     _mm256_store_pd(heights.data(), dot(to, normal));
-    const double height = heights[least_of_three(squared)];
+    const double height = heights[index_of_least(squared)];
     return {height * triangle.normal, height * height};
   }
 
@@ -108,11 +109,11 @@ inline Offset offset_from(const PreparedTriangle& triangle, const Vec3& point) n
   const QuadVec across =
       minus(near, {_mm256_mul_pd(part, edge.x), _mm256_mul_pd(part, edge.y), _mm256_mul_pd(part, edge.z)});
   const Quad across_squared = dot(across, across);
-  const Quad beside = _mm256_and_pd(_mm256_cmp_pd(along, _mm256_setzero_pd(), _CMP_GT_OQ),
-                                    _mm256_cmp_pd(across_squared, near_squared, _CMP_LT_OQ));
-  const QuadVec offset = select(near, across, beside);
-  const Quad least = select(near_squared, across_squared, beside);
-  const std::size_t best = least_of_three(least);
+  const Quad on_edge = _mm256_and_pd(_mm256_cmp_pd(along, _mm256_setzero_pd(), _CMP_GT_OQ),
+                                     _mm256_cmp_pd(across_squared, near_squared, _CMP_LT_OQ));
+  const QuadVec offset = select(near, across, on_edge);
+  const Quad least = select(near_squared, across_squared, on_edge);
+  const std::size_t best = index_of_least(least);
   alignas(32) std::array<double, 4> s, x, y, z;
   _mm256_store_pd(s.data(), least);
   _mm256_store_pd(x.data(), offset.x);

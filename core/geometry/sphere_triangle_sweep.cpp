@@ -34,7 +34,7 @@ class FirstTouch {
     return within_exactly(triangle_.corner, sweep_.from, sweep_.radius);
   }
   bool comes_within(double fraction) const noexcept {
-    return way_within_exactly(triangle_.corner, sweep_.from, sweep_.to, fraction, sweep_.radius);
+    return path_within_exactly(triangle_.corner, sweep_.from, sweep_.to, fraction, sweep_.radius);
   }
   /// Surely nothing touches from there on? No more than `above` is asked for, up to `end`.
   bool stays_above(double above, const Reached& reached, double end) const noexcept {
@@ -67,7 +67,7 @@ Reached FirstTouch::advance(const Reached& reached) const noexcept {
 /// Nothing touches before there, and it is near enough: is it a hit?
 std::optional<double> FirstTouch::settle(const Reached& reached) noexcept {
   const double left = 1 - reached.fraction;
-  const double more = (reached.here.gap + 2 * gap_.most_error()) / -reached.here.slope;
+  const double more = (reached.here.gap + 2 * gap_.max_error()) / -reached.here.slope;
   const bool hits = more >= 0 && gap_.surely_touches(reached.fraction, reached.here, std::min(more, left));
   if (!hits) {
     ++exact_decisions_;
@@ -76,8 +76,8 @@ std::optional<double> FirstTouch::settle(const Reached& reached) noexcept {
   return std::max(reached.fraction, smallest);
 }
 
-/// Where steps lead nowhere, since the way grazes: by halving, exactly where the slope drowns in rounding. At
-/// `high` or before it the gap is at most twice the error.
+/// Halves the rest of the path where steps lead nowhere, since the path grazes; decides exactly where the
+/// slope drowns in rounding. At `high` or before it the gap is at most twice the error.
 std::optional<double> FirstTouch::halve(const Reached& reached) noexcept {
   constexpr double grid = 0x1p53, narrow = 0x1p-52;
   ++exact_decisions_;
@@ -96,15 +96,15 @@ std::optional<double> FirstTouch::halve(const Reached& reached) noexcept {
 
 std::optional<double> FirstTouch::find(double limit) noexcept {
   // Grazing makes Newton's steps halve instead of square the error: this many exhaust a double's digits.
-  constexpr int most_steps = 64;
+  constexpr int max_steps = 64;
   if (!gap_.is_defined()) return std::nullopt;
   Reached reached{0, gap_.at(0)};
   if (reached.here.gap <= reached.here.error && touches_at_start(reached.here)) return 0;
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < max_steps; ++step) {
     if (reached.here.surely_rises() || stays_above(0, reached, 1)) return std::nullopt;
     if (reached.fraction >= 1 && reached.here.gap > reached.here.error) return std::nullopt;
     // Up to the limit the gap is more than at any fraction told: 2 errors as computed, so 3.
-    if (stays_above(3 * gap_.most_error(), reached, limit)) return std::nullopt;
+    if (stays_above(3 * gap_.max_error(), reached, limit)) return std::nullopt;
     if (reached.here.gap <= 2 * reached.here.error) return settle(reached);
     const Reached next = advance(reached);
     if (!(next.fraction > reached.fraction)) break;
@@ -126,8 +126,8 @@ std::optional<double> sweep_hit(const PreparedTriangle& triangle, const Sweep& s
   return hit && *hit <= limit ? hit : std::nullopt;
 }
 
-Contact contact_on_way(const PreparedTriangle& triangle, const Sweep& sweep, double fraction,
-                       TriangleId id) noexcept {
+Contact contact_on_path(const PreparedTriangle& triangle, const Sweep& sweep, double fraction,
+                        TriangleId id) noexcept {
   return WayGap(triangle, sweep).contact(fraction, id);
 }
 

@@ -1,7 +1,7 @@
 /// When a moving ball first touches a triangle.
 ///
 /// Whether it does is decided exactly. The fraction is 0 where, and only where, the probe touches at the
-/// start; it is never late, and early by no more than most_early_gap tells. Newton's method on the distance,
+/// start; it is never late, and early by no more than max_early_gap tells. Newton's method on the distance,
 /// which is convex along the way, with checked steps. Proof: docs/exactness.md, E16.
 #pragma once
 
@@ -14,16 +14,16 @@
 
 namespace touchmark {
 
-/// By how much a position on the way that is rounded to a point (position_at) can be off.
+/// By how much a position on the path that is rounded to a point (position_at) can be off.
 double position_error(const Sweep& sweep) noexcept;
 
 /// By how much the distance at a reported fraction may exceed the radius: 384 u S, S the largest coordinate
-/// difference from the way's start to the triangle's corners plus the way's largest coordinate. See above.
-inline double most_early_gap(double start_difference, double largest_way) noexcept {
-  return 384 * (std::numeric_limits<double>::epsilon() / 2) * (start_difference + largest_way);
+/// difference from the path's start to the triangle's corners plus the path's largest coordinate. See above.
+inline double max_early_gap(double start_difference, double largest_path) noexcept {
+  return 384 * (std::numeric_limits<double>::epsilon() / 2) * (start_difference + largest_path);
 }
 
-/// The fraction in [0, limit] of the way at which the triangle is first touched, or nothing; see above. The
+/// The fraction in [0, limit] of the path at which the triangle is first touched, or nothing; see above. The
 /// limit only ends the search and does not change the fraction, so that detectors may look at triangles in
 /// any order. A sweep that does not move hits when it touches at once. Nothing where a number is not finite
 /// (the radius may be infinite) or the radius is below 0. Counts 1 where doubles did not decide.
@@ -35,12 +35,12 @@ inline std::optional<double> sweep_hit(const PreparedTriangle& triangle, const S
   return sweep_hit(triangle, sweep, limit, uncounted);
 }
 
-/// The contact of the ball at this fraction of the way with this triangle. The position is not rounded to a
+/// The contact of the ball at this fraction of the path with this triangle. The position is not rounded to a
 /// point first: only its differences to the triangle are.
-Contact contact_on_way(const PreparedTriangle& triangle, const Sweep& sweep, double fraction,
-                       TriangleId id) noexcept;
+Contact contact_on_path(const PreparedTriangle& triangle, const Sweep& sweep, double fraction,
+                        TriangleId id) noexcept;
 
-/// Where the probe stands at a fraction of the way, rounded; exact at 0 and 1.
+/// Returns where the probe stands at a fraction of the path, rounded; exact at 0 and 1.
 inline Vec3 position_at(const Sweep& sweep, double fraction) noexcept {
   return fraction < 1 ? Vec3(sweep.from + fraction * (sweep.to - sweep.from)) : sweep.to;
 }

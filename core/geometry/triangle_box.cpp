@@ -9,11 +9,11 @@ namespace touchmark {
 namespace {
 
 /// Do the projections on this axis lie apart by more than rounding? Apart on any axis is apart, so the axis
-/// itself may be rounded; `rounding` bounds the error of the coordinates of `v` and `half` and of three-term
+/// itself may be rounded; `error` bounds the error of the coordinates of `v` and `half` and of three-term
 /// sums of them.
-bool separates(const Vec3& axis, const std::array<Vec3, 3>& v, const Vec3& half, double rounding) noexcept {
+bool separates(const Vec3& axis, const std::array<Vec3, 3>& v, const Vec3& half, double error) noexcept {
   const double a = axis.dot(v[0]), b = axis.dot(v[1]), c = axis.dot(v[2]);
-  const double reach = axis.cwiseAbs().dot(half) + axis.cwiseAbs().sum() * rounding;
+  const double reach = axis.cwiseAbs().dot(half) + axis.cwiseAbs().sum() * error;
   return std::min({a, b, c}) > reach || std::max({a, b, c}) < -reach;
 }
 
@@ -26,15 +26,15 @@ bool overlaps(const std::array<Vec3, 3>& corner, const Aabb& box) noexcept {
   for (const Vec3& w : v) largest = std::max(largest, w.cwiseAbs().maxCoeff());
   // The differences and the products round in proportion to `largest`, the centre to the coordinates
   // themselves.
-  const double rounding =
+  const double error =
       std::numeric_limits<double>::epsilon() * (8 * largest + 2 * center.cwiseAbs().maxCoeff());
   for (int k = 0; k < 3; ++k)
-    if (separates(Vec3::Unit(k), v, half, rounding)) return false;
+    if (separates(Vec3::Unit(k), v, half, error)) return false;
   const std::array<Vec3, 3> edge = {v[1] - v[0], v[2] - v[1], v[0] - v[2]};
-  if (separates(edge[0].cross(edge[1]), v, half, rounding)) return false;
+  if (separates(edge[0].cross(edge[1]), v, half, error)) return false;
   for (const Vec3& e : edge) {
     for (int k = 0; k < 3; ++k)
-      if (separates(Vec3::Unit(k).cross(e), v, half, rounding)) return false;
+      if (separates(Vec3::Unit(k).cross(e), v, half, error)) return false;
   }
   return true;
 }

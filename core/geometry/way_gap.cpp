@@ -52,10 +52,10 @@ void WayGap::measure(const PreparedTriangle& triangle, const Sweep& sweep) noexc
     edge_[i] = triangle.corner[i == 2 ? 0 : i + 1] - triangle.corner[i];
     largest = std::max(largest, start_[i].cwiseAbs().maxCoeff());
   }
-  way_ = sweep.to - sweep.from;
+  path_ = sweep.to - sweep.from;
   radius_ = sweep.radius;
-  size_ = largest + way_.cwiseAbs().maxCoeff();
-  length_ = way_.norm();
+  size_ = largest + path_.cwiseAbs().maxCoeff();
+  length_ = path_.norm();
 }
 
 void WayGap::measure_in_unit(const PreparedTriangle& triangle, const Sweep& sweep) noexcept {
@@ -65,14 +65,14 @@ void WayGap::measure_in_unit(const PreparedTriangle& triangle, const Sweep& swee
   if (unit_ > 1) {  // differences of small numbers are exact
     for (Vec3& start : start_) start *= unit_;
     for (Vec3& edge : edge_) edge *= unit_;
-    way_ *= unit_;
+    path_ *= unit_;
     radius_ *= unit_;
   } else {  // what becomes too small for all its digits is far below the rounding of the largest
     measure(scaled(triangle, unit_), {unit_ * sweep.from, unit_ * sweep.to, unit_ * sweep.radius});
     return;
   }
   size_ *= unit_;
-  length_ = way_.norm();
+  length_ = path_.norm();
 }
 
 void WayGap::finish() noexcept {
@@ -85,8 +85,8 @@ void WayGap::finish() noexcept {
 }
 
 WayGap::Sample WayGap::at(double fraction) const noexcept {
-  constexpr double slope_roundings = 16 * unit_roundoff;
-  const Vec3 moved = fraction * way_;
+  constexpr double slope_relative_error = 16 * unit_roundoff;
+  const Vec3 moved = fraction * path_;
   const std::array<Vec3, 3> to = {start_[0] + moved, start_[1] + moved, start_[2] + moved};
   const double squared_margin = face_error_ * face_error_;
   bool over_face = true;
@@ -96,11 +96,11 @@ WayGap::Sample WayGap::at(double fraction) const noexcept {
   }
   if (over_face) {
     const double height = to[0].dot(triangle_.normal), distance = std::abs(height);
-    const double rise = way_.dot(triangle_.normal);
+    const double rise = path_.dot(triangle_.normal);
     return {distance - radius_,
             face_error_,
             height < 0 ? -rise : rise,
-            distance > face_error_ ? slope_roundings * length_ : infinity,
+            distance > face_error_ ? slope_relative_error * length_ : infinity,
             height * triangle_.normal,
             true,
             height};
@@ -120,8 +120,8 @@ WayGap::Sample WayGap::at(double fraction) const noexcept {
   if (!(distance > 0)) return {-radius_, error_, 0, infinity, Vec3::Zero(), false, 0};
   return {distance - radius_,
           error_,
-          offset.dot(way_) / distance,
-          length_ * (direction_error(distance, error_) + slope_roundings),
+          offset.dot(path_) / distance,
+          length_ * (direction_error(distance, error_) + slope_relative_error),
           offset,
           false,
           0};
@@ -130,10 +130,10 @@ WayGap::Sample WayGap::at(double fraction) const noexcept {
 bool WayGap::surely_touches(double fraction, const Sample& there, double more) const noexcept {
   const double within = radius_ - error_;
   // The foot found there is a point of the triangle.
-  if (within > 0 && (there.offset + more * way_).squaredNorm() < within * within) return true;
+  if (within > 0 && (there.offset + more * path_).squaredNorm() < within * within) return true;
   const Sample then = at(fraction + more);
   if (then.gap < -then.error) return true;
-  // Over the face all the way between the two, and through it.
+  // Over the face all the path between the two, and through it.
   return there.over_face && then.over_face && there.height * then.height < 0 &&
          std::abs(there.height) > face_error_ && std::abs(then.height) > face_error_;
 }
@@ -142,9 +142,9 @@ Contact WayGap::contact(double fraction, TriangleId id) const noexcept {
   const Sample there = at(fraction);
   const double distance = there.offset.norm();
   std::size_t near = 0;
-  Vec3 to = start_[0] + fraction * way_;
+  Vec3 to = start_[0] + fraction * path_;
   for (std::size_t i = 1; i < 3; ++i) {
-    const Vec3 other = start_[i] + fraction * way_;
+    const Vec3 other = start_[i] + fraction * path_;
     if (!(other.squaredNorm() < to.squaredNorm())) continue;
     near = i;
     to = other;

@@ -18,7 +18,7 @@ class WayGap {
   /// Finite coordinates, a radius of at least 0.
   WayGap(const PreparedTriangle& triangle, const Sweep& sweep) noexcept;
 
-  /// What is known at a fraction of the way. Lengths are in `unit`.
+  /// What is known at a fraction of the path. Lengths are in `unit`.
   struct Sample {
     double gap;  ///< within `error`
     double error;
@@ -33,7 +33,7 @@ class WayGap {
   };
   Sample at(double fraction) const noexcept;
 
-  /// How steeply the gap falls at most, from there on: it is convex, and no steeper than the way is long.
+  /// How steeply the gap falls at most, from there on: it is convex, and no steeper than the path is long.
   double steepest_fall(const Sample& there) const noexcept {
     const double fall = there.slope_error - there.slope;
     return fall < length_ ? fall : length_;
@@ -42,7 +42,7 @@ class WayGap {
   /// `fraction`? May say no where they do.
   bool surely_touches(double fraction, const Sample& there, double more) const noexcept;
 
-  double most_error() const noexcept { return error_; }
+  double max_error() const noexcept { return error_; }
   /// A bound on all lengths: finite, and their fourth powers are in range.
   bool is_defined() const noexcept { return defined_; }
   double unit() const noexcept { return unit_; }
@@ -57,11 +57,11 @@ class WayGap {
   void finish() noexcept;
 
   const PreparedTriangle& triangle_;
-  std::array<Vec3, 3> start_;  ///< from each corner to the way's start
+  std::array<Vec3, 3> start_;  ///< from each corner to the path's start
   std::array<Vec3, 3> edge_;   ///< from each corner to the next
   std::array<Vec3, 3> side_;   ///< normal to the face and the edge, inward, as long as the edge
   std::array<double, 3> squared_edge_;
-  Vec3 way_;
+  Vec3 path_;
   double radius_;
   double size_;  ///< S
   double length_;

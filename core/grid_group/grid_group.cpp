@@ -6,26 +6,26 @@
 namespace touchmark {
 namespace {
 
-constexpr double least_bytes_per_triangle = 200;
+constexpr double min_bytes_per_triangle = 200;
 
 void check(const GridGroup::Options& options) {
   if (!(options.cell >= 0)) {
     throw std::invalid_argument("grid-group: cell is " + std::to_string(options.cell) + ", not 0 or more");
   }
-  if (!(options.bytes_per_triangle >= least_bytes_per_triangle)) {
+  if (!(options.bytes_per_triangle >= min_bytes_per_triangle)) {
     throw std::invalid_argument("grid-group: bytes_per_triangle is " +
                                 std::to_string(options.bytes_per_triangle) + ", less than " +
-                                std::to_string(least_bytes_per_triangle));
+                                std::to_string(min_bytes_per_triangle));
   }
   if (!options.certified && options.lookup == GridGroup::Lookup::scan) {
     throw std::invalid_argument("grid-group: certified=false is for lookup=direct, not for scan");
   }
-  if (options.making == GridGroup::Making::lazy && options.lookup == GridGroup::Lookup::scan) {
+  if (options.construction == GridGroup::Construction::lazy && options.lookup == GridGroup::Lookup::scan) {
     throw std::invalid_argument("grid-group: build=lazy is for lookup=direct, not for scan");
   }
 }
 
-/// Where all corners coincide every triangle is the same point, so the first stands for all.
+/// Returns a mesh of the first triangle alone, which stands for all where all corners coincide.
 TriangleMesh first_triangle(const TriangleMesh& mesh) {
   const std::vector<Vec3> corners = {mesh.corner(0, 0), mesh.corner(0, 1), mesh.corner(0, 2)};
   return {corners, {{0, 1, 2}}, {mesh.id(0)}};
@@ -45,8 +45,9 @@ GridGroup GridGroup::build(const TriangleMesh& mesh, const Options& options) {
   } else if (options.lookup == Lookup::scan) {
     detector.form_ = grid::ScanGrid::build(mesh, {options.shape, options.cell, options.groups});
   } else {
-    detector.form_ = grid::DirectGrid::build(
-        mesh, {options.cell, options.bytes_per_triangle, options.certified, options.making == Making::lazy});
+    detector.form_ =
+        grid::DirectGrid::build(mesh, {options.cell, options.bytes_per_triangle, options.certified,
+                                       options.construction == Construction::lazy});
   }
   return detector;
 }
@@ -58,6 +59,7 @@ void GridGroup::update(const TriangleMesh& mesh) {
 }
 
 bool GridGroup::look_for_touch(const Probe& probe, Session& session) const noexcept {
+  if (!(probe.radius >= 0)) return false;
   if (const auto* direct = std::get_if<grid::DirectGrid>(&form_))
     return direct->touches(probe, session.memory, session.work);
   if (const auto* scan = std::get_if<grid::ScanGrid>(&form_)) return scan->touches(probe, session.work);
@@ -69,6 +71,7 @@ bool GridGroup::look_for_touch(const Probe& probe, Session& session) const noexc
 
 std::optional<Contact> GridGroup::look_for_nearest(const Probe& probe, double reach,
                                                    Session& session) const noexcept {
+  if (!(reach >= 0)) return std::nullopt;
   if (const auto* direct = std::get_if<grid::DirectGrid>(&form_))
     return direct->nearest(probe.center, reach, session.memory, session.work);
   if (const auto* scan = std::get_if<grid::ScanGrid>(&form_))
@@ -80,6 +83,7 @@ std::optional<Contact> GridGroup::look_for_nearest(const Probe& probe, double re
 }
 
 std::optional<Impact> GridGroup::first_hit(const Sweep& sweep, Session& session) const noexcept {
+  if (!(sweep.radius >= 0)) return std::nullopt;
   if (const auto* direct = std::get_if<grid::DirectGrid>(&form_))
     return direct->first_hit(sweep, session.memory, session.work);
   if (const auto* scan = std::get_if<grid::ScanGrid>(&form_)) return scan->first_hit(sweep, session.work);

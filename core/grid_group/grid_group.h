@@ -27,20 +27,20 @@ class GridGroup {
  public:
   using Shape = grid::Shape;
   enum class Lookup { scan, direct };
-  /// Of the groups, direct only. Answers are the same.
-  enum class Making {
+  /// When the groups are built, direct only. Answers are the same.
+  enum class Construction {
     whole,  ///< all in build()
     lazy    ///< each by the first query that misses it, one a query at most, which takes a few microseconds
   };
   struct Options {
-    Shape shape = Shape::cube;  ///< of the groups; scan only
+    Shape shape = Shape::cube;  ///< shape of the groups; scan only
     Lookup lookup = Lookup::direct;
     double cell = 0;         ///< edge of a cell, direct: of the smallest; mesh units; 0: choose
     std::size_t groups = 0;  ///< scan with cell = 0: aim at about so many groups; 0: choose
     double bytes_per_triangle =
         400;                ///< direct: what the structure may take, mesh copy included (200 at least)
     bool certified = true;  ///< false, direct only: as doubles have it, to measure what certainty costs
-    Making making = Making::whole;
+    Construction construction = Construction::whole;
   };
   struct Session {
     Work work;
@@ -55,19 +55,19 @@ class GridGroup {
   /// become of another size or place; the scan is built anew.
   void update(const TriangleMesh& mesh);
 
-  // Inline as far as free space: there a query is a few comparisons, less than a call.
+  // Inline as far as clear space: there a query is a few comparisons, less than a call.
   bool touches(const Probe& probe, Session& session) const noexcept {
-    return !surely_free(probe.center, probe.radius, session) && look_for_touch(probe, session);
+    return !is_clear(probe.center, probe.radius, session) && look_for_touch(probe, session);
   }
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept {
-    if (surely_free(probe.center, reach, session)) return std::nullopt;
+    if (is_clear(probe.center, reach, session)) return std::nullopt;
     return look_for_nearest(probe, reach, session);
   }
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept;
 
   std::size_t bytes() const noexcept;
   Accuracy accuracy() const noexcept;
-  bool makes_later() const noexcept { return options_.making == Making::lazy; }
+  bool builds_lazily() const noexcept { return options_.construction == Construction::lazy; }
 
   /// Scan: groups tested by every query. Direct: triangles that have one.
   std::size_t groups() const noexcept;
@@ -77,9 +77,9 @@ class GridGroup {
   bool coarsened() const noexcept;
 
  private:
-  bool surely_free(const Vec3& center, double reach, const Session& session) const noexcept {
+  bool is_clear(const Vec3& center, double reach, const Session& session) const noexcept {
     const auto* direct = std::get_if<grid::DirectGrid>(&form_);
-    return direct != nullptr && direct->surely_free(center, reach, session.memory);
+    return direct != nullptr && direct->is_clear(center, reach, session.memory);
   }
   bool look_for_touch(const Probe& probe, Session& session) const noexcept;
   std::optional<Contact> look_for_nearest(const Probe& probe, double reach, Session& session) const noexcept;

@@ -18,7 +18,7 @@ bool is_blank(char c) noexcept { return c == ' ' || c == '\t' || c == '\v' || c 
 bool is_line_end(char c) noexcept { return c == '\n' || c == '\r'; }
 
 /// A pipe tells no size that could be held against the machine's memory.
-constexpr std::size_t most_piped = std::size_t{1} << 30;
+constexpr std::size_t max_piped = std::size_t{1} << 30;
 
 std::string read_whole(const std::filesystem::path& path) {
   InputFile file(path);
@@ -31,8 +31,8 @@ std::string read_whole(const std::filesystem::path& path) {
     const std::size_t more = file.read(bytes.data() + filled, bytes.size() - filled);
     if (more == 0) break;
     filled += more;
-    if (file.is_pipe() && filled > most_piped)
-      throw MeshError("is a pipe that brings more than " + std::to_string(most_piped) + " bytes");
+    if (file.is_pipe() && filled > max_piped)
+      throw MeshError("is a pipe that brings more than " + std::to_string(max_piped) + " bytes");
   }
   if (filled == 0) throw MeshError("is empty");
   bytes.resize(filled);

@@ -24,7 +24,7 @@ std::string_view without_byte_order_mark(std::string_view bytes);
 /// with.
 bool is_padding(std::string_view bytes) noexcept;
 
-/// Where a reader stands in a text: whitespace-separated words, counted by line. Handles LF, CR LF and CR.
+/// The position of a reader in a text: whitespace-separated words, counted by line. Handles LF, CR LF and CR.
 class TextCursor {
  public:
   /// `comment` starts a comment that runs to the end of its line; 0 for none.
@@ -70,8 +70,8 @@ std::int64_t parse_integer(std::string_view word, std::string_view what, const T
 /// stands: its fail(message) throws MeshError with the line or the byte.
 class MeshBuilder {
  public:
-  /// Of a polygon whose ears are clipped, which takes the cube of it at worst.
-  static constexpr std::size_t most_clipped_corners = 1024;
+  /// The most corners of a polygon whose ears are clipped, which takes the cube of their number at worst.
+  static constexpr std::size_t max_clipped_corners = 1024;
 
   void reserve(std::size_t vertices, std::size_t faces);
   void add_vertex(const Vec3& position) { vertices_.push_back(position); }
@@ -96,11 +96,10 @@ class MeshBuilder {
     };
     if (corners.size() < 3) fail("; a face has at least 3");
     if (corners.size() == 3) return add_triangle(corners[0], corners[1], corners[2]);
-    if (corners.size() <= most_clipped_corners) return add_polygon(corners, clipped_ears(vertices_, corners));
+    if (corners.size() <= max_clipped_corners) return add_polygon(corners, clipped_ears(vertices_, corners));
     const std::vector<PolygonTriangle> triangles = fan(vertices_, corners);
     if (triangles.empty()) {
-      fail(" and is not convex; " + std::to_string(most_clipped_corners) +
-           " are the most of one that is not");
+      fail(" and is not convex; " + std::to_string(max_clipped_corners) + " are the most of one that is not");
     }
     add_polygon(corners, triangles);
   }

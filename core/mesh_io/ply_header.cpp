@@ -51,7 +51,7 @@ Property parse_property(TextCursor& cursor) {
 }
 
 /// The least bytes that one of these takes, so that a count can be held against the file's size.
-std::size_t least_bytes(const Element& element, Format format) {
+std::size_t min_bytes(const Element& element, Format format) {
   std::size_t bytes = 0;
   for (const Property& property : element.properties) {
     bytes += format == Format::ascii ? 2 : bytes_of(property.length.value_or(property.value));
@@ -124,7 +124,7 @@ Header parse(std::string_view bytes) {
 /// Refuses what the body could not hold or mean, before memory is taken for it.
 void check(const Header& header, std::size_t file_size) {
   for (const Element& element : header.elements) {
-    const std::size_t least = least_bytes(element, header.format);
+    const std::size_t least = min_bytes(element, header.format);
     if (element.count > file_size / least) {
       throw MeshError("the header declares " + std::to_string(element.count) + " of element " +
                       mesh_io::quoted(element.name) + ", of at least " + std::to_string(least) +

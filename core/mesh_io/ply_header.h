@@ -21,13 +21,13 @@ inline bool is_integer(Scalar scalar) noexcept {
 struct Property {
   std::string name;
   Scalar value = Scalar::float32;
-  std::optional<Scalar> length;  ///< of a list
+  std::optional<Scalar> length;  ///< type of a list's length
 };
 
 struct Element {
   std::string name;
   std::size_t count = 0;
-  std::size_t line = 0;  ///< where it is declared
+  std::size_t line = 0;  ///< line of its declaration
   std::vector<Property> properties;
 
   /// Its place; properties.size() where there is none.

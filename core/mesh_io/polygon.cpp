@@ -83,11 +83,11 @@ std::vector<PolygonTriangle> fan(const std::vector<Vec3>& vertices,
   double extent = 0;
   for (const Point2& p : points) extent = std::max(extent, p.lpNorm<Eigen::Infinity>());
   // Twice what rounding to single precision moves a corner, seen from another that it moves as well.
-  const double rounding = 2.0 * std::numeric_limits<float>::epsilon() * extent;
+  const double error = 2.0 * std::numeric_limits<float>::epsilon() * extent;
   std::vector<PolygonTriangle> triangles;
   triangles.reserve(corners.size() - 2);
   for (std::size_t i = 1; i + 1 < points.size(); ++i) {
-    if (!(turn(points[0], points[i], points[i + 1]) >= -rounding * points[i].norm())) return {};
+    if (!(turn(points[0], points[i], points[i + 1]) >= -error * points[i].norm())) return {};
     triangles.push_back({0, i, i + 1});
   }
   return triangles;

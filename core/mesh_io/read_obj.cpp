@@ -41,7 +41,7 @@ std::string with_joined_lines(std::string_view bytes) {
   return text;
 }
 
-/// Where a face is: what its corners may name.
+/// What the corners of a face may name, at the face's line.
 struct VerticesThere {
   std::size_t so_far, in_all;
 };

@@ -13,7 +13,7 @@
 namespace touchmark::mesh_io {
 namespace {
 
-/// Where the reader stands, for errors: assimp tells no lines.
+/// The part that the reader is in, for errors: assimp tells no lines.
 struct Part {
   std::size_t number;
   [[noreturn]] void fail(const std::string& message) const {

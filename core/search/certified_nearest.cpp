@@ -10,7 +10,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// By kernel distances of a copy scaled by a power of two.
 std::optional<Contact> nearest_at_any_scale(std::span<const PreparedTriangle> triangles, const Aabb& bounds,
-                                            const Vec3& center, double reach, std::span<const TriangleId> ids,
+                                            const Vec3& center, double reach, const TriangleIds& ids,
                                             Work& work) noexcept {
   work.triangles += 2 * triangles.size();
   const double scale = unit_for(largest_difference(bounds, center));
@@ -32,24 +32,24 @@ std::optional<Contact> nearest_at_any_scale(std::span<const PreparedTriangle> tr
 }  // namespace
 
 double unit_for(double largest_difference) noexcept {
-  constexpr int most = 1000;
+  constexpr int max_exponent = 1000;
   if (!(largest_difference > 0)) return 1;
-  const int exponent = std::isinf(largest_difference) ? most : std::ilogb(largest_difference);
-  return std::ldexp(1.0, std::clamp(-exponent, -most, most));
+  const int exponent = std::isinf(largest_difference) ? max_exponent : std::ilogb(largest_difference);
+  return std::ldexp(1.0, std::clamp(-exponent, -max_exponent, max_exponent));
 }
 
-std::optional<Contact> nearest_of_ties(const NearestSoFar& so_far, const Vec3& center, double reach,
-                                       double error, std::span<const TriangleId> ids,
+std::optional<Contact> nearest_of_ties(const ClosestCandidates& candidates, const Vec3& center, double reach,
+                                       double error, const TriangleIds& ids,
                                        std::uint64_t& exact_decisions) noexcept {
   NearestOfTies ties(center);
-  so_far.show(ties);
+  candidates.pass_to(ties);
   const std::optional<Contact> contact = ties.contact(reach, error, ids);
-  exact_decisions += so_far.exact_decisions() + ties.exact_decisions();
+  exact_decisions += candidates.exact_decisions() + ties.exact_decisions();
   return contact;
 }
 
 std::optional<Contact> nearest_of_all(std::span<const PreparedTriangle> triangles, const Aabb& bounds,
-                                      const Vec3& center, double reach, std::span<const TriangleId> ids,
+                                      const Vec3& center, double reach, const TriangleIds& ids,
                                       Work& work) noexcept {
   if (!center.allFinite() || !(reach >= 0)) return std::nullopt;
   const double error = distance_error(bounds, center);
@@ -57,15 +57,11 @@ std::optional<Contact> nearest_of_all(std::span<const PreparedTriangle> triangle
     return nearest_at_any_scale(triangles, bounds, center, reach, ids, work);
   }
   work.triangles += triangles.size();
-  NearestSoFar so_far(triangles.data(), center, error);
+  ClosestCandidates candidates(triangles.data(), center, error);
   for (std::size_t i = 0; i < triangles.size(); ++i)
-    so_far.take({squared_distance(triangles[i], center), triangles[i].index}, static_cast<std::uint32_t>(i));
-  const PreparedTriangle& nearest = triangles[so_far.at()];
-  const double distance = std::sqrt(so_far.best().squared_distance);
-  if (!is_certain_first(so_far, triangles, distance, center, reach, error))
-    return nearest_of_ties(so_far, center, reach, error, ids, work.exact_decisions);
-  if (distance > reach) return std::nullopt;
-  return contact_on(nearest, center, ids.empty() ? nearest.index : ids[nearest.index]);
+    candidates.update({squared_distance(triangles[i], center), triangles[i].index},
+                      static_cast<std::uint32_t>(i));
+  return contact_of(candidates, triangles, center, reach, error, ids, work);
 }
 
 }  // namespace touchmark

@@ -30,40 +30,56 @@ inline bool is_certain(double distance, double reach, double error) noexcept {
   return distance > error && std::abs(distance - reach) > error;
 }
 
-/// The same with regard to the triangle of that distance: on it but for rounding, below 8 u M, the distance
-/// is good as it is. The true one is not negative, and that of this triangle not above 15 u M.
+/// Does the least computed distance decide, with regard to the triangle of that distance? On it but for
+/// rounding, below 8 u M, the distance is good as it is. The true one is not negative, and that of this
+/// triangle not above 15 u M.
 inline bool is_certain_on(const PreparedTriangle& triangle, double distance, const Vec3& center, double reach,
                           double error) noexcept {
   if (!(std::abs(distance - reach) > error)) return false;
   double largest = 0;
   for (const Vec3& corner : triangle.corner)
     largest = std::max(largest, (center - corner).cwiseAbs().maxCoeff());
-  constexpr double roundings = 8 * (std::numeric_limits<double>::epsilon() / 2);
-  return distance > error || distance <= roundings * largest;
+  constexpr double relative_error = 8 * (std::numeric_limits<double>::epsilon() / 2);
+  return distance > error || distance <= relative_error * largest;
 }
 
-/// And is the triangle of the least computed distance the one to name?
-inline bool is_certain_first(const NearestSoFar& so_far, std::span<const PreparedTriangle> triangles,
+/// Does the least computed distance decide, and is its triangle the one to name?
+inline bool is_certain_first(const ClosestCandidates& candidates, std::span<const PreparedTriangle> triangles,
                              double distance, const Vec3& center, double reach, double error) noexcept {
   return (is_certain(distance, reach, error) ||
-          is_certain_on(triangles[so_far.at()], distance, center, reach, error)) &&
-         so_far.is_surely_first(error);
+          is_certain_on(triangles[candidates.at()], distance, center, reach, error)) &&
+         candidates.is_surely_first(error);
 }
 
 /// What `nearest` answers where is_certain says no, or the nearest as computed is not surely the first of the
 /// nearest: of those that the search has taken, which was shown all whose computed distance is at most the
 /// least one, or the reach, and the error.
-[[gnu::noinline, gnu::cold]] std::optional<Contact> nearest_of_ties(const NearestSoFar& so_far,
+[[gnu::noinline, gnu::cold]] std::optional<Contact> nearest_of_ties(const ClosestCandidates& candidates,
                                                                     const Vec3& center, double reach,
-                                                                    double error,
-                                                                    std::span<const TriangleId> ids,
+                                                                    double error, const TriangleIds& ids,
                                                                     std::uint64_t& exact_decisions) noexcept;
 
-/// The same answer by a look at every triangle, for any finite numbers: where distance_error is infinite they
-/// are measured as scaled by a power of two. `bounds` are the triangles'; nothing for a centre that is not
-/// finite. Every look at a triangle is counted: two, where they are measured so.
+/// Ends a search for `nearest`: returns the contact of the nearest candidate, or of the exactly nearest where
+/// doubles leave open which that is, or nothing beyond the reach. The search has shown `candidates` what
+/// nearest_of_ties asks for. `certified` is false where contact is as doubles have it.
+inline std::optional<Contact> contact_of(const ClosestCandidates& candidates,
+                                         std::span<const PreparedTriangle> triangles, const Vec3& center,
+                                         double reach, double error, const TriangleIds& ids, Work& work,
+                                         bool certified = true) noexcept {
+  if (!candidates.found()) return std::nullopt;
+  const double distance = std::sqrt(candidates.best().squared_distance);
+  if (certified && !is_certain_first(candidates, triangles, distance, center, reach, error))
+    return nearest_of_ties(candidates, center, reach, error, ids, work.exact_decisions);
+  if (distance > reach) return std::nullopt;
+  const PreparedTriangle& nearest = triangles[candidates.at()];
+  return contact_on(nearest, center, ids[nearest.index]);
+}
+
+/// Returns the answer of `nearest` by a look at every triangle, for any finite numbers: where distance_error
+/// is infinite they are measured as scaled by a power of two. `bounds` are the triangles'; nothing for a
+/// centre that is not finite. Every look at a triangle is counted: two, where they are measured so.
 std::optional<Contact> nearest_of_all(std::span<const PreparedTriangle> triangles, const Aabb& bounds,
-                                      const Vec3& center, double reach, std::span<const TriangleId> ids,
+                                      const Vec3& center, double reach, const TriangleIds& ids,
                                       Work& work) noexcept;
 
 }  // namespace touchmark

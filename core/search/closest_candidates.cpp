@@ -9,35 +9,35 @@
 
 namespace touchmark {
 
-/// Of more than there is room for only the exactly nearest is remembered, the first where several are.
-void NearestSoFar::make_room() noexcept {
+/// Keeps only the exactly nearest where there are more than fit, the first where several are.
+void ClosestCandidates::compact() noexcept {
   if (closeness_ == 0) {
-    rival_count_ = 0;
+    tie_count_ = 0;
     return;
   }
   NearestOfTies ties(*center_);
-  show(ties);
+  pass_to(ties);
   exact_decisions_ += static_cast<std::uint32_t>(ties.exact_decisions());
-  const auto is_nearest = [&](const Rival& rival) { return &triangles_[rival.at] == ties.nearest(); };
-  const auto nearest = std::find_if(rivals_.begin(), rivals_.end(), is_nearest);
-  rival_count_ = nearest == rivals_.end() ? 0 : 1;
-  if (rival_count_ == 1) rivals_[0] = *nearest;
+  const auto is_nearest = [&](const Tie& tie) { return &triangles_[tie.at] == ties.nearest(); };
+  const auto nearest = std::find_if(ties_.begin(), ties_.end(), is_nearest);
+  tie_count_ = nearest == ties_.end() ? 0 : 1;
+  if (tie_count_ == 1) ties_[0] = *nearest;
 }
 
-/// The rival first that was the nearest when there was no more room.
-void NearestSoFar::show(NearestOfTies& ties) const noexcept {
-  for (const Rival& rival : std::span(rivals_).first(rival_count_)) ties.consider(triangles_[rival.at]);
+/// First the tie that was the nearest when there was no more room.
+void ClosestCandidates::pass_to(NearestOfTies& ties) const noexcept {
+  for (const Tie& tie : std::span(ties_).first(tie_count_)) ties.consider(triangles_[tie.at]);
   if (found()) ties.consider(triangles_[at_]);
 }
 
-bool NearestSoFar::beats_rivals(double error) const noexcept {
+bool ClosestCandidates::beats_ties(double error) const noexcept {
   const PreparedTriangle& first = triangles_[at_];
   const double limit = std::sqrt(best_.squared_distance) + error;
-  for (const Rival& rival : std::span(rivals_).first(rival_count_)) {
-    if (rival.squared_distance == best_.squared_distance) {
+  for (const Tie& tie : std::span(ties_).first(tie_count_)) {
+    if (tie.squared_distance == best_.squared_distance) {
       // The first of the two was kept: that is right if their distances are equal.
-      if (!surely_share_nearest(first, triangles_[rival.at], *center_)) return false;
-    } else if (std::sqrt(rival.squared_distance) <= limit) {
+      if (!surely_share_nearest(first, triangles_[tie.at], *center_)) return false;
+    } else if (std::sqrt(tie.squared_distance) <= limit) {
       return false;
     }
   }

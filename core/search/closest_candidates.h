@@ -14,33 +14,36 @@ namespace touchmark {
 
 class NearestOfTies;
 
-class NearestSoFar {
+class ClosestCandidates {
  public:
   /// `error` is at least the distance_error of the query, M 2^-45 or more: what is not farther than the
   /// nearest by more than that is to be remembered. 0: nothing is.
   /// `triangles` is where they are kept; both they and the centre must outlive this.
-  NearestSoFar(const PreparedTriangle* triangles, const Vec3& center, double error) noexcept
+  ClosestCandidates(const PreparedTriangle* triangles, const Vec3& center, double error) noexcept
       : closeness_(0x1p47 * error * error), triangles_(triangles), center_(&center) {}
-  NearestSoFar(const PreparedTriangle*, const Vec3&&, double) = delete;
+  ClosestCandidates(const PreparedTriangle*, const Vec3&&, double) = delete;
+
+  /// From now on only the nearest as computed is remembered. Before anything is taken.
+  void keep_no_ties() noexcept { closeness_ = 0; }
 
   bool found() const noexcept { return at_ != nowhere; }
   const Candidate& best() const noexcept { return best_; }
-  std::uint32_t at() const noexcept { return at_; }  ///< where it is kept
+  std::uint32_t at() const noexcept { return at_; }  ///< slot of the best
 
   /// Triangles may come in any order, and more than once. Is it the nearest now, and was not before?
-  bool take(const Candidate& candidate, std::uint32_t at) noexcept {
+  bool update(const Candidate& candidate, std::uint32_t at) noexcept {
     const double squared = candidate.squared_distance;
     if (squared > limit_) return false;
     if (squared + closeness_ < best_.squared_distance) {
-      rival_count_ = 0;
+      tie_count_ = 0;
     } else {
       if (at == at_) return false;
-      if (rival_count_ == most_rivals) make_room();
+      if (tie_count_ == max_ties) compact();
       if (!(candidate < best_)) {
-        rivals_[rival_count_++] = {squared, at};
+        ties_[tie_count_++] = {squared, at};
         return false;
       }
-      rivals_[rival_count_++] = {best_.squared_distance, at_};
+      ties_[tie_count_++] = {best_.squared_distance, at_};
     }
     best_ = candidate;
     at_ = at;
@@ -48,37 +51,37 @@ class NearestSoFar {
     return true;
   }
 
-  /// Of those taken, is it surely a nearest one and, of those that are exactly as near, the first? `error` as
-  /// above.
-  bool is_surely_first(double error) const noexcept { return rival_count_ == 0 || beats_rivals(error); }
+  /// Returns true if the best is surely a nearest one of those taken and, of those that are exactly as near,
+  /// the first. `error` is as above.
+  bool is_surely_first(double error) const noexcept { return tie_count_ == 0 || beats_ties(error); }
   /// The exactly nearest of those taken is among these: shows `ties` the best and what rounding may have put
   /// behind it.
-  void show(NearestOfTies& ties) const noexcept;
+  void pass_to(NearestOfTies& ties) const noexcept;
   /// How often whole numbers decided what is remembered.
   std::uint64_t exact_decisions() const noexcept { return exact_decisions_; }
 
  private:
-  struct Rival {
+  struct Tie {
     double squared_distance;
     std::uint32_t at;
   };
   static constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
-  static constexpr std::uint32_t most_rivals = 64;  ///< about a corner there are some more than six triangles
+  static constexpr std::uint32_t max_ties = 64;  ///< about a corner there are some more than six triangles
 
-  [[gnu::cold, gnu::noinline]] void make_room() noexcept;
-  bool beats_rivals(double error) const noexcept;
+  [[gnu::cold, gnu::noinline]] void compact() noexcept;
+  bool beats_ties(double error) const noexcept;
 
-  /// Of the squares of distances d that are apart by at most the error E: (d + E)^2 - d^2 = E (2 d + E), and
-  /// d <= sqrt(3) M.
+  /// Bounds how far apart squares of distances d are that differ by at most the error E: (d + E)^2 - d^2 = E
+  /// (2 d + E), and d <= sqrt(3) M.
   double closeness_;
   double limit_ = std::numeric_limits<double>::infinity();  ///< farther than the best by that
   Candidate best_;
   std::uint32_t at_ = nowhere;
-  std::uint32_t rival_count_ = 0;
+  std::uint32_t tie_count_ = 0;
   std::uint32_t exact_decisions_ = 0;
   const PreparedTriangle* triangles_;
   const Vec3* center_;
-  std::array<Rival, most_rivals> rivals_;
+  std::array<Tie, max_ties> ties_;
 };
 
 }  // namespace touchmark

@@ -2,7 +2,8 @@
 
 namespace touchmark {
 
-SampleLattice::SampleLattice(const Eigen::Vector3f& min, const Eigen::Vector3f& max, std::uint32_t most) {
+SampleLattice::SampleLattice(const Eigen::Vector3f& min, const Eigen::Vector3f& max,
+                             std::uint32_t max_samples) {
   const Eigen::Vector3f extent = max - min;
   // The box and its surroundings in cubes, of which there are at most so many.
   const auto counts = [&](float edge) {
@@ -11,13 +12,13 @@ SampleLattice::SampleLattice(const Eigen::Vector3f& min, const Eigen::Vector3f& 
       count[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(1.2F * extent[k] / edge) + 1;
     return count;
   };
-  edge_ = 1.2F * extent.maxCoeff() / std::cbrt(static_cast<float>(most));
+  edge_ = 1.2F * extent.maxCoeff() / std::cbrt(static_cast<float>(max_samples));
   // A flat box needs fewer cubes than it may have, so they may be smaller, but not without end.
   constexpr float finer = 0.9F;
   const float finest = extent.maxCoeff() / 128;
   const auto fits = [&](float edge) {
     const std::array<std::uint32_t, 3> count = counts(edge);
-    return std::uint64_t{count[0]} * count[1] * count[2] <= most;
+    return std::uint64_t{count[0]} * count[1] * count[2] <= max_samples;
   };
   while (!fits(edge_)) edge_ /= finer;
   while (edge_ > finest && fits(edge_ * finer)) edge_ *= finer;
@@ -44,17 +45,18 @@ SampleLattice SampleLattice::halved() const noexcept {
   return half;
 }
 
-DistanceGrid::DistanceGrid(const Eigen::Vector3f& min, const Eigen::Vector3f& max, std::size_t triangles) {
+DistanceField::DistanceField(const Eigen::Vector3f& min, const Eigen::Vector3f& max, std::size_t triangles) {
   // As many as pay: a quarter of a megabyte stays in the second cache, and no more than four bytes a
   // triangle.
-  constexpr std::size_t fewest = 8, most = std::size_t{1} << 15;
-  coarse_ = SampleLattice(min, max, static_cast<std::uint32_t>(std::clamp(triangles / 2, fewest, most)));
+  constexpr std::size_t fewest = 8, max_samples = std::size_t{1} << 15;
+  coarse_ =
+      SampleLattice(min, max, static_cast<std::uint32_t>(std::clamp(triangles / 2, fewest, max_samples)));
   fine_ = coarse_.halved();
   constexpr float steps_an_edge = 8;
   step_ = std::ldexp(1.0F, std::ilogb(fine_.edge() / steps_an_edge));
 }
 
-DistanceGrid DistanceGrid::around(const FilterFrame& frame, const Aabb& bounds, std::size_t triangles) {
+DistanceField DistanceField::around(const FilterFrame& frame, const Aabb& bounds, std::size_t triangles) {
   // The samples lie within a tenth and a cube of the mesh's box, whose coordinates are below 2. Their places
   // are rounded when they are taken, and half of the 2^-23 that a sample may be off by is left for the rest.
   constexpr double largest = 4;
@@ -64,10 +66,10 @@ DistanceGrid DistanceGrid::around(const FilterFrame& frame, const Aabb& bounds, 
 }
 
 // Away from the surface, one of the eight is nearly behind the point.
-float DistanceGrid::at_least_by_eight(const FilterPoint& p) const noexcept {
+float DistanceField::tight_lower_bound(const FilterPoint& p) const noexcept {
   if (fine_steps_.empty()) return 0;
   const Lanes point = lanes_of(p), nearest = fine_.clamped(point);
-  const LaneBits first = fine_.first_about(nearest);
+  const LaneBits first = fine_.first_around(nearest);
   const Lanes to_first = nearest - fine_.middle(first), to_second = nearest - fine_.middle(first + 1);
   const Lanes first_squared = to_first * to_first, second_squared = to_second * to_second;
   // A lane for each of four cubes in a plane.
@@ -79,13 +81,12 @@ float DistanceGrid::at_least_by_eight(const FilterPoint& p) const noexcept {
                  static_cast<float>(fine_steps_[at + row]), static_cast<float>(fine_steps_[at + row + 1])};
   };
   const std::uint32_t at = fine_.index(first);
-  const Lanes within = greater_of(steps(at) * step_ - square_root(across + first_squared[2]),
-                                  steps(at + plane) * step_ - square_root(across + second_squared[2]));
-  return beyond_box(p, point - nearest,
-                    std::max(std::max(within[0], within[1]), std::max(within[2], within[3])));
+  const Lanes within = simd::max(steps(at) * step_ - simd::sqrt(across + first_squared[2]),
+                                 steps(at + plane) * step_ - simd::sqrt(across + second_squared[2]));
+  return beyond_box(p, point - nearest, simd::reduce_max(within));
 }
 
-bool DistanceGrid::holds(const FilterFrame& frame, const Aabb& bounds) const noexcept {
+bool DistanceField::holds(const FilterFrame& frame, const Aabb& bounds) const noexcept {
   const Aabb box = frame.to_frame(bounds);
   const Eigen::Vector3f min = box.min.cast<float>(), max = box.max.cast<float>();
   for (int k = 0; k < 3; ++k)

@@ -21,6 +21,7 @@
 #include "core/probe.h"
 #include "core/search/plane_filter.h"
 #include "core/search/shared_bytes.h"
+#include "core/simd/lanes.h"
 
 namespace touchmark {
 
@@ -29,7 +30,7 @@ class SampleLattice {
  public:
   SampleLattice() = default;
   /// Holds the box and a tenth of its extent around it, in at most so many cubes.
-  SampleLattice(const Eigen::Vector3f& min, const Eigen::Vector3f& max, std::uint32_t most);
+  SampleLattice(const Eigen::Vector3f& min, const Eigen::Vector3f& max, std::uint32_t max_samples);
   /// Each cube cut in eight.
   SampleLattice halved() const noexcept;
 
@@ -47,12 +48,12 @@ class SampleLattice {
     return min(axis) + (static_cast<float>(i) + 0.5F) * edge_;
   }
   /// The nearest point of the box. Of lanes x, y and z; here and below, the last one means nothing.
-  Lanes clamped(Lanes point) const noexcept { return lesser_of(greater_of(point, min_), max_); }
+  Lanes clamped(Lanes point) const noexcept { return simd::min(simd::max(point, min_), max_); }
   /// The cube that a point of the box is in; the nearest one to a point beyond.
   LaneBits cube_of(Lanes point) const noexcept { return whole((point - min_) * per_edge_, last_); }
-  /// Of the eight cubes whose middles are about a point of the box, the first in each direction. Where there
-  /// are two in each.
-  LaneBits first_about(Lanes point) const noexcept {
+  /// Returns the first in each direction of the eight cubes whose middles are around a point of the box.
+  /// There must be two in each direction.
+  LaneBits first_around(Lanes point) const noexcept {
     return whole((point - min_) * per_edge_ - 0.5F, last_ - 1);
   }
   std::uint32_t index(LaneBits cube) const noexcept {
@@ -65,7 +66,7 @@ class SampleLattice {
 
  private:
   static LaneBits whole(Lanes at, Lanes last) noexcept {
-    return __builtin_convertvector(lesser_of(greater_of(at, Lanes{}), last), LaneBits);
+    return __builtin_convertvector(simd::min(simd::max(at, Lanes{}), last), LaneBits);
   }
   void set_count(const std::array<std::uint32_t, 3>& count) noexcept;
 
@@ -75,36 +76,37 @@ class SampleLattice {
   std::array<std::uint32_t, 3> count_{};
 };
 
-class DistanceGrid {
+class DistanceField {
  public:
   struct Interval {
-    double least, most;
+    double lower, upper;
   };
 
-  DistanceGrid() = default;
+  DistanceField() = default;
   /// A lattice to be filled for so many triangles whose box this is, in the frame.
-  DistanceGrid(const Eigen::Vector3f& min, const Eigen::Vector3f& max, std::size_t triangles);
-  /// The same for a mesh whose box this is. One that stays empty, and of which nothing is known, where the
-  /// mesh is so far from 0 that rounding a sample's place would count.
-  static DistanceGrid around(const FilterFrame& frame, const Aabb& bounds, std::size_t triangles);
+  DistanceField(const Eigen::Vector3f& min, const Eigen::Vector3f& max, std::size_t triangles);
+  /// Returns a lattice to be filled for a mesh whose box this is. It stays empty, and nothing is known of it,
+  /// where the mesh is so far from 0 that rounding a sample's position would count.
+  static DistanceField around(const FilterFrame& frame, const Aabb& bounds, std::size_t triangles);
   /// What it takes when it is filled at once, at most.
-  static std::size_t most_bytes(std::size_t triangles) noexcept {
+  static std::size_t max_bytes(std::size_t triangles) noexcept {
     return std::max<std::size_t>(5 * triangles, 128);
   }
   /// What sampling may look at, in all: where a hierarchy is a poor fit, samples may cost no more than it
   /// did.
-  static std::uint64_t most_work(std::size_t triangles) noexcept { return 1024 * std::uint64_t{triangles}; }
+  static std::uint64_t max_work(std::size_t triangles) noexcept { return 1024 * std::uint64_t{triangles}; }
 
-  /// distance_at(place, most) bounds the distance at a point of the frame, which is at most `most`, each
+  /// distance_at(place, most) bounds the distance at a point of the frame, which is at most `upper`, each
   /// bound within 2^-23. Where it gives up, by a negative one, so does the rest of the grid: nothing is known
   /// there.
   template <class DistanceAt>
   void fill(const DistanceAt& distance_at);
   /// Leaves all of that to sample_near.
-  void fill_later();
-  bool is_filled_later() const noexcept { return !wanted_.empty(); }
-  /// Where that was left to be done: takes a sample that says more of the point, by one call of distance_at.
-  /// False where there is none, or nothing was left. Any thread may, at any time; what it finds is the same.
+  void fill_lazily();
+  bool is_lazy() const noexcept { return !unsampled_.empty(); }
+  /// Takes a sample that says more of the point, by one call of distance_at, where fill_lazily left that to
+  /// be done. Returns false where there is none, or nothing was left. Any thread may, at any time; what it
+  /// finds is the same.
   template <class DistanceAt>
   bool sample_near(const FilterPoint& point, const DistanceAt& distance_at) const;
   /// After a part of the mesh has moved, within the lattice's box: fills anew, or leaves it to sample_near as
@@ -117,24 +119,26 @@ class DistanceGrid {
   /// Is a mesh of this box within the lattice's?
   bool holds(const FilterFrame& frame, const Aabb& bounds) const noexcept;
 
-  /// No part of the mesh is nearer than this. May be negative.
-  float at_least(const FilterPoint& point) const noexcept;
-  /// Nor than this, which takes longer and, as a rule, is more.
-  float at_least_by_eight(const FilterPoint& point) const noexcept;
-  /// Some part of the mesh is this near, or infinity.
-  float at_most(const FilterPoint& point) const noexcept;
-  std::size_t bytes() const noexcept { return fine_steps_.bytes() + coarse_steps_.bytes() + wanted_.bytes(); }
+  /// Returns a lower bound of the distance: no part of the mesh is nearer. May be negative.
+  float lower_bound(const FilterPoint& point) const noexcept;
+  /// Returns a tighter lower bound from the 8 surrounding samples, at about twice the cost.
+  float tight_lower_bound(const FilterPoint& point) const noexcept;
+  /// Returns an upper bound of the distance, or infinity: some part of the mesh is at most this far.
+  float upper_bound(const FilterPoint& point) const noexcept;
+  std::size_t bytes() const noexcept {
+    return fine_steps_.bytes() + coarse_steps_.bytes() + unsampled_.bytes();
+  }
 
  private:
   using Step = std::uint8_t;
-  static constexpr Step most_steps = 255;
+  static constexpr Step max_steps = 255;
   static constexpr std::uint8_t all_eighths = 255;
 
   /// More than all roundings between two points of the lattice's box: the frame's coordinates are below 2,
-  /// and tau is at least 4 u of them (plane_filter.h), u = 2^-24. The point and its coordinates are rounded
-  /// once each; differences, squares, sums and the root relatively: below 8 u of the box in all. What is left
-  /// holds the rounding of the double kernel as well, 2^-24 tau.
-  static constexpr float roundings_in_tau = 4;
+  /// and plane_error is at least 4 u of them (plane_filter.h), u = 2^-24. The point and its coordinates are
+  /// rounded once each; differences, squares, sums and the root relatively: below 8 u of the box in all. What
+  /// is left holds the rounding of the double kernel as well, 2^-24 plane_error.
+  static constexpr float plane_errors_of_pad = 4;
 
   static Lanes lanes_of(const FilterPoint& p) noexcept { return Lanes{p.x, p.y, p.z, 0}; }
   static float squared(Lanes v) noexcept {
@@ -142,26 +146,26 @@ class DistanceGrid {
     return squares[0] + squares[1] + squares[2];
   }
   /// By one instruction: std::sqrt has errno to think of.
-  static float root(float x) noexcept { return square_root(broadcast(x))[0]; }
+  static float root(float x) noexcept { return simd::sqrt(broadcast(x))[0]; }
   /// At least the distance at a point this far from the lattice's box, in whose nearest point it is at least
   /// `within`.
   static float beyond_box(const FilterPoint& point, Lanes to_box, float within) noexcept;
   /// Room for the roundings of two samples' places.
-  static constexpr double rounding = 0x1p-20;
+  static constexpr double sample_pad = 0x1p-20;
   /// Away from the surface the eight samples of a coarse cube are what its own leaves of them: then even a
   /// point at the corner of a fine cube is known to be half a cube away.
   bool is_far(double distance) const noexcept { return distance > 2.5 * fine_.edge(); }
   /// From the middle of a coarse cube to that of an eighth of it.
-  double to_eighth() const noexcept { return 0.5 * std::sqrt(3.0) * fine_.edge() + rounding; }
+  double to_eighth() const noexcept { return 0.5 * std::sqrt(3.0) * fine_.edge() + sample_pad; }
   static Vec3 middle(const SampleLattice& lattice, std::uint32_t x, std::uint32_t y,
                      std::uint32_t z) noexcept {
     return {lattice.middle(0, x), lattice.middle(1, y), lattice.middle(2, z)};
   }
   /// Bounds the distance in the middle of a coarse cube from above, by what is known.
-  double most_at(std::uint32_t cube) const noexcept {
+  double upper_bound_at(std::uint32_t cube) const noexcept {
     const Step steps = coarse_steps_[cube];
-    return steps == most_steps ? std::numeric_limits<double>::infinity()
-                               : static_cast<double>(steps) * static_cast<double>(step_);
+    return steps == max_steps ? std::numeric_limits<double>::infinity()
+                              : static_cast<double>(steps) * static_cast<double>(step_);
   }
   template <class DistanceAt, class IsWanted>
   void fill_cubes(const DistanceAt& distance_at, const IsWanted& is_wanted);
@@ -178,27 +182,27 @@ class DistanceGrid {
   }
 
   Step steps_in(double distance) const noexcept {
-    return static_cast<Step>(std::clamp(distance / static_cast<double>(step_), 0.0, double{most_steps}));
+    return static_cast<Step>(std::clamp(distance / static_cast<double>(step_), 0.0, double{max_steps}));
   }
 
   SampleLattice coarse_, fine_;
   float step_ = 1;            ///< a power of two: multiples are exact
   SharedBytes fine_steps_;    ///< the distance is at least so many steps
-  SharedBytes coarse_steps_;  ///< and at most so many; the last: nothing is known
-  /// Of a coarse cube whose samples are taken later: bits of the eighths of which nothing is known yet.
-  SharedBytes wanted_;
+  SharedBytes coarse_steps_;  ///< the distance is at most so many steps; the last value: nothing is known
+  /// By coarse cube, with lazy construction: bits of the eighths of which nothing is known yet.
+  SharedBytes unsampled_;
 };
 
 // Beyond the lattice's box, which is convex and holds the mesh, its nearest point q sees p and every point m
 // of the mesh at an angle of at least 90 degrees: |p - m|^2 >= |p - q|^2 + |q - m|^2.
-inline float DistanceGrid::beyond_box(const FilterPoint& p, Lanes to_box, float within) noexcept {
+inline float DistanceField::beyond_box(const FilterPoint& p, Lanes to_box, float within) noexcept {
   const float beyond = squared(to_box);
-  if (beyond == 0) return within - roundings_in_tau * p.tau;
+  if (beyond == 0) return within - plane_errors_of_pad * p.plane_error;
   const float inside = std::max(within, 0.0F);
-  return root(beyond + inside * inside) - roundings_in_tau * p.tau;
+  return root(beyond + inside * inside) - plane_errors_of_pad * p.plane_error;
 }
 
-inline float DistanceGrid::at_least(const FilterPoint& p) const noexcept {
+inline float DistanceField::lower_bound(const FilterPoint& p) const noexcept {
   if (fine_steps_.empty()) return 0;
   const Lanes point = lanes_of(p), nearest = fine_.clamped(point);
   const LaneBits cube = fine_.cube_of(nearest);
@@ -207,50 +211,51 @@ inline float DistanceGrid::at_least(const FilterPoint& p) const noexcept {
   return beyond_box(p, point - nearest, within);
 }
 
-inline float DistanceGrid::at_most(const FilterPoint& p) const noexcept {
+inline float DistanceField::upper_bound(const FilterPoint& p) const noexcept {
   if (coarse_steps_.empty()) return std::numeric_limits<float>::infinity();
   const Lanes point = lanes_of(p);
   const LaneBits cube = coarse_.cube_of(point);
   const Step steps = coarse_steps_[coarse_.index(cube)];
-  if (steps == most_steps) return std::numeric_limits<float>::infinity();
+  if (steps == max_steps) return std::numeric_limits<float>::infinity();
   return static_cast<float>(steps) * step_ + root(squared(point - coarse_.middle(cube))) +
-         roundings_in_tau * p.tau;
+         plane_errors_of_pad * p.plane_error;
 }
 
-inline void DistanceGrid::keep(std::uint32_t x, std::uint32_t y, std::uint32_t z,
-                               const Interval& distance) const noexcept {
-  coarse_steps_.set(coarse_.index(x, y, z), steps_in(distance.most + step_));
-  if (!is_far(distance.least)) return;
-  const Step least = steps_in(distance.least - to_eighth());
-  for (std::uint32_t eighth = 0; eighth < 8; ++eighth) keep_fine(eighth_of(x, y, z, eighth), least);
+inline void DistanceField::keep(std::uint32_t x, std::uint32_t y, std::uint32_t z,
+                                const Interval& distance) const noexcept {
+  coarse_steps_.set(coarse_.index(x, y, z), steps_in(distance.upper + step_));
+  if (!is_far(distance.lower)) return;
+  const Step lower = steps_in(distance.lower - to_eighth());
+  for (std::uint32_t eighth = 0; eighth < 8; ++eighth) keep_fine(eighth_of(x, y, z, eighth), lower);
 }
 
 template <class DistanceAt, class IsWanted>
-void DistanceGrid::fill_cubes(const DistanceAt& distance_at, const IsWanted& is_wanted) {
-  const double to_next = coarse_.edge() + rounding;
+void DistanceField::fill_cubes(const DistanceAt& distance_at, const IsWanted& is_wanted) {
+  const double to_next = coarse_.edge() + sample_pad;
   double before = std::numeric_limits<double>::infinity();
   // To and fro, so that each cube is next to the one before.
   bool back = false;
   for (std::uint32_t z = 0; z < coarse_.count(2); ++z) {
     for (std::uint32_t row = 0; row < coarse_.count(1); ++row, back = !back) {
       const std::uint32_t y = z % 2 == 0 ? row : coarse_.count(1) - 1 - row;
-      for (std::uint32_t place = 0; place < coarse_.count(0); ++place) {
-        const std::uint32_t x = back ? coarse_.count(0) - 1 - place : place;
+      for (std::uint32_t position = 0; position < coarse_.count(0); ++position) {
+        const std::uint32_t x = back ? coarse_.count(0) - 1 - position : position;
         const std::uint32_t cube = coarse_.index(x, y, z);
         if (!is_wanted(cube)) {
-          before = most_at(cube);
+          before = upper_bound_at(cube);
           continue;
         }
         const Interval distance = distance_at(middle(coarse_, x, y, z), before + to_next);
-        if (distance.least < 0) return;
-        before = distance.most;
+        if (distance.lower < 0) return;
+        before = distance.upper;
         keep(x, y, z, distance);
-        if (is_far(distance.least)) continue;
+        if (is_far(distance.lower)) continue;
         for (std::uint32_t eighth = 0; eighth < 8; ++eighth) {
           const Cube cube_of_eighth = eighth_of(x, y, z, eighth);
-          const Vec3 place_of_eighth = middle(fine_, cube_of_eighth[0], cube_of_eighth[1], cube_of_eighth[2]);
-          const double least = distance_at(place_of_eighth, distance.most + to_eighth()).least;
-          keep_fine(cube_of_eighth, steps_in(least));
+          const Vec3 middle_of_eighth =
+              middle(fine_, cube_of_eighth[0], cube_of_eighth[1], cube_of_eighth[2]);
+          const double lower = distance_at(middle_of_eighth, distance.upper + to_eighth()).lower;
+          keep_fine(cube_of_eighth, steps_in(lower));
         }
       }
     }
@@ -258,61 +263,61 @@ void DistanceGrid::fill_cubes(const DistanceAt& distance_at, const IsWanted& is_
 }
 
 template <class DistanceAt>
-void DistanceGrid::fill(const DistanceAt& distance_at) {
-  coarse_steps_ = SharedBytes(coarse_.size(), most_steps);
+void DistanceField::fill(const DistanceAt& distance_at) {
+  coarse_steps_ = SharedBytes(coarse_.size(), max_steps);
   fine_steps_ = SharedBytes(fine_.size(), 0);
   fill_cubes(distance_at, [](std::uint32_t) { return true; });
 }
 
-inline void DistanceGrid::fill_later() {
-  coarse_steps_ = SharedBytes(coarse_.size(), most_steps);
+inline void DistanceField::fill_lazily() {
+  coarse_steps_ = SharedBytes(coarse_.size(), max_steps);
   fine_steps_ = SharedBytes(fine_.size(), 0);
-  wanted_ = SharedBytes(coarse_.size(), all_eighths);
+  unsampled_ = SharedBytes(coarse_.size(), all_eighths);
 }
 
-/// Of a coarse cube first the middle, then, where that is near, the middle of the eighth.
+/// Samples the middle of a coarse cube first, then, where that is near, the middle of the eighth.
 template <class DistanceAt>
-bool DistanceGrid::sample_near(const FilterPoint& p, const DistanceAt& distance_at) const {
-  if (wanted_.empty()) return false;
+bool DistanceField::sample_near(const FilterPoint& p, const DistanceAt& distance_at) const {
+  if (unsampled_.empty()) return false;
   const LaneBits fine_cube = fine_.cube_of(lanes_of(p));
   const auto i = static_cast<std::uint32_t>(fine_cube[0]), j = static_cast<std::uint32_t>(fine_cube[1]),
              k = static_cast<std::uint32_t>(fine_cube[2]);
   const std::uint32_t x = i / 2, y = j / 2, z = k / 2, cube = coarse_.index(x, y, z);
-  const std::uint8_t wanted = wanted_[cube];
+  const std::uint8_t unsampled = unsampled_[cube];
   const auto bit = static_cast<std::uint8_t>(1U << ((i & 1) | (j & 1) << 1 | (k & 1) << 2));
-  if ((wanted & bit) == 0) return false;
-  if (wanted == all_eighths && coarse_steps_[cube] == most_steps) {
+  if ((unsampled & bit) == 0) return false;
+  if (unsampled == all_eighths && coarse_steps_[cube] == max_steps) {
     const Interval distance = distance_at(middle(coarse_, x, y, z), std::numeric_limits<double>::infinity());
-    if (distance.least >= 0) keep(x, y, z, distance);
+    if (distance.lower >= 0) keep(x, y, z, distance);
     // Where nothing was found out nothing more is asked for.
-    if (distance.least < 0 || is_far(distance.least)) wanted_.clear(cube, all_eighths);
-    return distance.least >= 0;
+    if (distance.lower < 0 || is_far(distance.lower)) unsampled_.clear(cube, all_eighths);
+    return distance.lower >= 0;
   }
-  const double least = distance_at(middle(fine_, i, j, k), most_at(cube) + to_eighth()).least;
-  wanted_.clear(cube, bit);
-  if (least < 0) return false;
-  keep_fine({i, j, k}, steps_in(least));
+  const double lower = distance_at(middle(fine_, i, j, k), upper_bound_at(cube) + to_eighth()).lower;
+  unsampled_.clear(cube, bit);
+  if (lower < 0) return false;
+  keep_fine({i, j, k}, steps_in(lower));
   return true;
 }
 
-/// Where all that moved was and is farther than the mesh was, bounds from below and from above stay true: of
-/// the middle, and with room for the way there and back of its eighths.
+/// Bounds from below and from above stay true where all that moved was and is farther than the mesh was: of
+/// the middle, and padded for the path there and back of its eighths.
 template <class DistanceAt>
-void DistanceGrid::refill(const DistanceAt& distance_at, std::span<const Aabb> moved) {
+void DistanceField::refill(const DistanceAt& distance_at, std::span<const Aabb> moved) {
   std::vector<bool> changed(coarse_.size(), false);
   for (std::uint32_t z = 0; z < coarse_.count(2); ++z) {
     for (std::uint32_t y = 0; y < coarse_.count(1); ++y) {
       for (std::uint32_t x = 0; x < coarse_.count(0); ++x) {
         const std::uint32_t cube = coarse_.index(x, y, z);
-        if (!any_within(moved, middle(coarse_, x, y, z), most_at(cube) + 2 * to_eighth())) continue;
+        if (!any_within(moved, middle(coarse_, x, y, z), upper_bound_at(cube) + 2 * to_eighth())) continue;
         changed[cube] = true;
-        coarse_steps_.set(cube, most_steps);
+        coarse_steps_.set(cube, max_steps);
         for (std::uint32_t eighth = 0; eighth < 8; ++eighth) keep_fine(eighth_of(x, y, z, eighth), 0);
-        if (is_filled_later()) wanted_.set(cube, all_eighths);
+        if (is_lazy()) unsampled_.set(cube, all_eighths);
       }
     }
   }
-  if (!is_filled_later()) fill_cubes(distance_at, [&](std::uint32_t cube) { return changed[cube]; });
+  if (!is_lazy()) fill_cubes(distance_at, [&](std::uint32_t cube) { return changed[cube]; });
 }
 
 }  // namespace touchmark

@@ -7,7 +7,7 @@
 #include "core/search/certified_nearest.h"
 
 namespace touchmark {
-bool EveryTriangle::touches(const Probe& probe, Work& work) const noexcept {
+bool LinearScan::touches(const Probe& probe, Work& work) const noexcept {
   if (!(probe.radius >= 0) || !probe.center.allFinite()) return false;
   const double error = certified ? distance_error(bounds, probe.center) : 0;
   if (std::isinf(error)) return nearest(probe.center, probe.radius, work).has_value();
@@ -24,12 +24,12 @@ bool EveryTriangle::touches(const Probe& probe, Work& work) const noexcept {
   return touching;
 }
 
-std::optional<Contact> EveryTriangle::nearest(const Vec3& center, double reach, Work& work) const noexcept {
+std::optional<Contact> LinearScan::nearest(const Vec3& center, double reach, Work& work) const noexcept {
   return certified ? nearest_of_all(triangles, bounds, center, reach, ids, work)
                    : nearest_as_computed(center, reach, work);
 }
 
-std::optional<Impact> EveryTriangle::first_hit(const Sweep& sweep, Work& work) const noexcept {
+std::optional<Impact> LinearScan::first_hit(const Sweep& sweep, Work& work) const noexcept {
   if (!(sweep.radius >= 0)) return std::nullopt;
   HitCandidate first;
   const PreparedTriangle* hit = nullptr;
@@ -42,20 +42,16 @@ std::optional<Impact> EveryTriangle::first_hit(const Sweep& sweep, Work& work) c
   }
   work.triangles += triangles.size();
   if (hit == nullptr) return std::nullopt;
-  // Of all the triangles that are touched at the start the nearest one counts.
-  if (first.fraction == 0) {
-    const double reach = certified ? sweep.radius : any_reach;
-    if (const auto start = nearest(sweep.from, reach, work)) return Impact{0, *start};
-  }
-  return Impact{first.fraction, contact_on_way(*hit, sweep, first.fraction, id(first.index))};
+  return impact_on(*hit, sweep, first.fraction, ids[first.index], certified,
+                   [&](double reach) { return nearest(sweep.from, reach, work); });
 }
 
-std::optional<Contact> EveryTriangle::nearest_as_computed(const Vec3& center, double reach,
-                                                          Work& work) const noexcept {
+std::optional<Contact> LinearScan::nearest_as_computed(const Vec3& center, double reach,
+                                                       Work& work) const noexcept {
   const auto [triangle, candidate] = touchmark::nearest_as_computed(triangles, center);
   work.triangles += triangles.size();
   if (triangle == nullptr || std::sqrt(candidate.squared_distance) > reach) return std::nullopt;
-  return contact_on(*triangle, center, id(candidate.index));
+  return contact_on(*triangle, center, ids[candidate.index]);
 }
 
 }  // namespace touchmark

@@ -14,6 +14,7 @@
 #include "core/aabb.h"
 #include "core/detector.h"
 #include "core/geometry/point_triangle.h"
+#include "core/geometry/sphere_triangle_sweep.h"
 #include "core/probe.h"
 #include "core/triangle_mesh.h"
 
@@ -21,7 +22,7 @@ namespace touchmark {
 
 /// What a query may look at before it ends with a look at every triangle. The little is a few nodes of eight
 /// and their blocks, so that small meshes are searched like any other.
-inline std::uint64_t most_work_before_all(std::size_t triangles) noexcept {
+inline std::uint64_t work_budget(std::size_t triangles) noexcept {
   constexpr std::uint64_t little = 64;
   return triangles + little;
 }
@@ -32,18 +33,30 @@ inline constexpr std::uint64_t any_work = std::numeric_limits<std::uint64_t>::ma
 /// doubles: these may find it beyond the radius.
 inline constexpr double any_reach = std::numeric_limits<double>::infinity();
 
-/// What is left of it after `spent`.
-inline std::uint64_t left_of(std::uint64_t most, std::uint64_t spent) noexcept {
-  return most > spent ? most - spent : 0;
+/// Returns the impact of a sweep that first hits this triangle at this fraction. Of all the triangles that
+/// are touched at the start the nearest one counts: nearest(reach) looks for it.
+template <class Nearest>
+std::optional<Impact> impact_on(const PreparedTriangle& triangle, const Sweep& sweep, double fraction,
+                                TriangleId id, bool certified, const Nearest& nearest) noexcept {
+  if (fraction == 0) {
+    const std::optional<Contact> start = nearest(certified ? sweep.radius : any_reach);
+    if (start) return Impact{0, *start};
+  }
+  return Impact{fraction, contact_on_path(triangle, sweep, fraction, id)};
 }
 
-/// The triangles in any order, `bounds` theirs, `ids` by the mesh's order and empty where they are the same.
-/// For any finite numbers, and nothing for others, in a unit of its own where their fourth powers would leave
-/// the range of double; they are counted once, and in such a unit twice.
-struct EveryTriangle {
+/// What is left of it after `spent`.
+inline std::uint64_t remaining(std::uint64_t budget, std::uint64_t spent) noexcept {
+  return budget > spent ? budget - spent : 0;
+}
+
+/// The triangles in any order, `bounds` theirs. For any finite numbers, and nothing for others, in a unit of
+/// its own where their fourth powers would leave the range of double; they are counted once, and in such a
+/// unit twice.
+struct LinearScan {
   std::span<const PreparedTriangle> triangles;
   const Aabb& bounds;
-  std::span<const TriangleId> ids;
+  const TriangleIds& ids;
   bool certified = true;  ///< false: contact as doubles have it
 
   bool touches(const Probe& probe, Work& work) const noexcept;
@@ -52,7 +65,6 @@ struct EveryTriangle {
 
  private:
   std::optional<Contact> nearest_as_computed(const Vec3& center, double reach, Work& work) const noexcept;
-  TriangleId id(std::uint32_t index) const noexcept { return ids.empty() ? index : ids[index]; }
 };
 
 }  // namespace touchmark

@@ -30,9 +30,9 @@ double FilterFrame::radius_of(const Aabb& bounds) const noexcept {
 
 bool FilterFrame::widen(const Aabb& bounds) noexcept {
   // A frame around a box has an extent of 1 to 2, and so a radius of 0.5 to 1.8.
-  constexpr double largest_radius = 2, least_extent = 0.5;
+  constexpr double largest_radius = 2, min_extent = 0.5;
   const double radius = radius_of(bounds);
-  if (!(radius <= largest_radius) || !(scale_ * bounds.extent().maxCoeff() >= least_extent)) return false;
+  if (!(radius <= largest_radius) || !(scale_ * bounds.extent().maxCoeff() >= min_extent)) return false;
   radius_ = std::max(radius_, radius);
   return true;
 }
@@ -48,7 +48,7 @@ constexpr double shortest_side = 0x1p-26;
 TrianglePlanes planes_of(const PreparedTriangle& triangle, const FilterFrame& frame) noexcept {
   TrianglePlanes planes{};
   if (triangle.normal.isZero(0)) return planes;
-  const auto place = [&](int lane, const Vec3& normal, double offset) {
+  const auto set_plane = [&](int lane, const Vec3& normal, double offset) {
     planes.x[lane] = static_cast<float>(normal.x());
     planes.y[lane] = static_cast<float>(normal.y());
     planes.z[lane] = static_cast<float>(normal.z());
@@ -56,19 +56,19 @@ TrianglePlanes planes_of(const PreparedTriangle& triangle, const FilterFrame& fr
   };
   std::array<Vec3, 3> v;
   for (std::size_t i = 0; i < 3; ++i) v[i] = frame.scale() * (triangle.corner[i] - frame.origin());
-  place(0, triangle.normal, -triangle.normal.dot(v[0]));
+  set_plane(0, triangle.normal, -triangle.normal.dot(v[0]));
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3 side = v[(i + 1) % 3] - v[i];
     const double length = side.norm();
     // A side too short for a direction bounds nothing: the other sides and the face still do.
     if (!(length > shortest_side)) {
-      place(static_cast<int>(i) + 1, Vec3::Zero(), 0);
+      set_plane(static_cast<int>(i) + 1, Vec3::Zero(), 0);
       continue;
     }
     const Vec3 outward = side.cross(triangle.normal) / length;
     // The farthest corner, not the side's own: rounding must not leave one outside.
     const double farthest = std::max({outward.dot(v[0]), outward.dot(v[1]), outward.dot(v[2])});
-    place(static_cast<int>(i) + 1, outward, -farthest);
+    set_plane(static_cast<int>(i) + 1, outward, -farthest);
   }
   return planes;
 }

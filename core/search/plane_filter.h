@@ -2,8 +2,8 @@
 /// than the best distance known need not meet the exact kernel.
 ///
 /// A triangle is four planes: its face, and through each side the plane perpendicular to the face. Height and
-/// excess beyond a side, less the pad `tau` for rounding, bound the distance from below: docs/exactness.md,
-/// E10, and from above E11.
+/// excess beyond a side, less the pad `plane_error` for rounding, bound the distance from below:
+/// docs/exactness.md, E10, and from above E11.
 ///
 /// How to use it:
 ///   const FilterFrame frame = FilterFrame::around(mesh.bounds());
@@ -22,19 +22,12 @@
 #include <cstddef>
 #include <limits>
 
-#ifdef __SSE2__
-#include <emmintrin.h>
-#endif
-
 #include "core/aabb.h"
 #include "core/geometry/point_triangle.h"
 #include "core/probe.h"
+#include "core/simd/lanes.h"
 
 namespace touchmark {
-
-/// Four floats that the compiler keeps in one register, on every machine (GCC and clang vector extension).
-using Lanes [[gnu::vector_size(16)]] = float;
-using LaneBits [[gnu::vector_size(16)]] = int;
 
 /// Lane 0 is the face, lanes 1 to 3 the sides, outwards; in the filter's frame. One cache line.
 struct alignas(64) TrianglePlanes {
@@ -45,7 +38,7 @@ static_assert(sizeof(TrianglePlanes) == 64);
 /// The query point in the filter's frame, and what rounding may do to a plane's value there.
 struct FilterPoint {
   float x, y, z;
-  float tau;
+  float plane_error;
 };
 
 /// Puts the middle of the mesh at 0 and its extent near 1, by a power of two, so that nothing overflows and
@@ -70,11 +63,11 @@ class FilterFrame {
   }
   /// A quicker test on the point in this frame. It says no to some that are covered.
   static bool covers(const FilterPoint& point) noexcept {
-    return point.tau < static_cast<float>(0x1p20 * tau_per_unit);
+    return point.plane_error < static_cast<float>(0x1p20 * plane_error_per_unit);
   }
   FilterPoint point(const Vec3& center) const noexcept {
     const Vec3 p = to_frame(center);
-    return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), tau(p)};
+    return {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), plane_error(p)};
   }
   Vec3 to_frame(const Vec3& point) const noexcept { return scale_ * (point - origin_); }
   Aabb to_frame(const Aabb& box) const noexcept { return {to_frame(box.min), to_frame(box.max)}; }
@@ -90,25 +83,27 @@ class FilterFrame {
     return 1.25 * u * (origin_.lpNorm<1>() * scale_ + 3 * largest);
   }
   /// What rounding may do to a plane's value at this point of the frame.
-  float tau(const Vec3& in_frame) const noexcept {
+  float plane_error(const Vec3& in_frame) const noexcept {
     const double reach = std::abs(in_frame.x()) + std::abs(in_frame.y()) + std::abs(in_frame.z()) + radius_;
-    return static_cast<float>(reach * tau_per_unit);
+    return static_cast<float>(reach * plane_error_per_unit);
   }
-  /// At least the distance_error of certified_nearest.h, in mesh units, at the point whose tau this is, and
-  /// quicker to have: tau is 2^-21 of a length that exceeds every coordinate difference, and this is twice
-  /// that error of it.
-  double kernel_error(float tau) const noexcept { return static_cast<double>(tau) * 0x1p-23 * unit_; }
+  /// At least the distance_error of certified_nearest.h, in mesh units, at the point whose plane_error this
+  /// is, and quicker to have: plane_error is 2^-21 of a length that exceeds every coordinate difference, and
+  /// this is twice that error of it.
+  double kernel_error(float plane_error) const noexcept {
+    return static_cast<double>(plane_error) * 0x1p-23 * unit_;
+  }
   /// A squared distance of the mesh's frame as a limit on lower bounds, rounded up.
   float limit(double squared_distance) const noexcept {
     const double limit = squared_distance * squared_scale_ * (1 + 0x1p-20) + 0x1p-120;
     return limit < most ? static_cast<float>(limit) : most;
   }
   /// A distance of the mesh's frame in this one, rounded down.
-  float at_most(double distance) const noexcept {
+  float to_frame_rounded_down(double distance) const noexcept {
     return static_cast<float>(std::min(distance * scale_ * (1 - 0x1p-20), double{most}));
   }
   /// A distance of this frame in the mesh's, rounded up.
-  double at_least(float distance) const noexcept {
+  double from_frame_rounded_up(float distance) const noexcept {
     return static_cast<double>(distance) * (1 + 0x1p-20) * unit_;
   }
   /// A lower bound as a squared distance of the mesh's frame, rounded down.
@@ -117,14 +112,14 @@ class FilterFrame {
   }
   const Vec3& origin() const noexcept { return origin_; }
   double scale() const noexcept { return scale_; }
-  /// Of this frame, in the mesh's: a power of two, as the scale is.
+  /// Returns this frame's unit of length in the mesh's: a power of two, as the scale is.
   double unit() const noexcept { return unit_; }
-  /// Of a ball about the frame's middle that holds the mesh, in the frame.
+  /// Returns the radius of a ball around the frame's middle that holds the mesh, in the frame.
   double radius() const noexcept { return radius_; }
 
   /// u = 2^-24. The point, the normal and the offset are rounded once each, the three products once, the
   /// three sums once: at most 6u(|x||n| + |offset|). Two more u, the kernel's own slack (2^-46) included.
-  static constexpr double tau_per_unit = 8 * 0x1p-24;
+  static constexpr double plane_error_per_unit = 8 * 0x1p-24;
 
  private:
   static constexpr float most = std::numeric_limits<float>::max();
@@ -143,24 +138,12 @@ class FilterFrame {
 /// kernel.
 TrianglePlanes planes_of(const PreparedTriangle& triangle, const FilterFrame& frame) noexcept;
 
-inline Lanes broadcast(float x) noexcept { return Lanes{x, x, x, x}; }
-inline Lanes greater_of(Lanes a, Lanes b) noexcept { return a > b ? a : b; }
-inline Lanes lesser_of(Lanes a, Lanes b) noexcept { return a < b ? a : b; }
-
-inline Lanes square_root(Lanes a) noexcept {
-#ifdef __SSE2__
-  return reinterpret_cast<Lanes>(_mm_sqrt_ps(reinterpret_cast<__m128>(a)));
-#else
-  return Lanes{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])};
-#endif
-}
-
 /// A point in every lane, for loops over many triangles.
 struct PointLanes {
-  Lanes x, y, z, tau;
+  Lanes x, y, z, plane_error;
 
   explicit PointLanes(const FilterPoint& p) noexcept
-      : x(broadcast(p.x)), y(broadcast(p.y)), z(broadcast(p.z)), tau(broadcast(p.tau)) {}
+      : x(broadcast(p.x)), y(broadcast(p.y)), z(broadcast(p.z)), plane_error(broadcast(p.plane_error)) {}
 };
 
 /// Values of one triangle's planes.
@@ -172,29 +155,31 @@ inline Lanes plane_values(const TrianglePlanes& planes, const FilterPoint& p) no
 }
 
 /// How far the point is beyond the side that it is farthest beyond; negative inside the prism over the face.
-inline float most_beside(Lanes values) noexcept {
+inline float max_side_excess(Lanes values) noexcept {
   return std::max(values[1], std::max(values[2], values[3]));
 }
 
 /// A lower bound of the squared distance to the triangle of these values, in the frame.
-inline float least_squared(Lanes values, const FilterPoint& p) noexcept {
-  const float beside = most_beside(values);
-  const float height = std::max(std::abs(values[0]) - p.tau, 0.0F), excess = std::max(beside - p.tau, 0.0F);
+inline float squared_lower_bound(Lanes values, const FilterPoint& p) noexcept {
+  const float side_excess = max_side_excess(values);
+  const float height = std::max(std::abs(values[0]) - p.plane_error, 0.0F),
+              excess = std::max(side_excess - p.plane_error, 0.0F);
   return height * height + excess * excess;
 }
 
 /// Bounds from above use the corners where two sides meet. Off these by s beyond the side with the outward
 /// normal n and by t beyond the one with m, either of which may be negative, the point is, in the face's
 /// plane, sqrt((s^2 + t^2 - 2 st c) / (1 - c^2)) away, with c = n.m: off an acute corner, where c is below 0.
-/// As long as 1 - |c| is 1/64, s and t that are off by tau change that by 8 sqrt(2) tau, with the height's
-/// tau 11.4 tau in all. Its square comes out within a relative 2^-12: c is off by 10 u at most, so what is
-/// above by 24 u (s^2 + t^2), of which 1/64 is left at least, and what is below by 22 u.
+/// As long as 1 - |c| is 1/64, s and t that are off by plane_error change that by 8 sqrt(2) plane_error, with
+/// the height's plane_error 11.4 plane_error in all. Its square comes out within a relative 2^-12: c is off
+/// by 10 u at most, so what is above by 24 u (s^2 + t^2), of which 1/64 is left at least, and what is below
+/// by 22 u.
 inline constexpr float sharpest_cosine = -63.0F / 64;
-inline constexpr float corner_tau = 16, corner_excess = 1 + 0x1p-12F;
+inline constexpr float corner_pad = 16, corner_excess = 1 + 0x1p-12F;
 
 /// At least the distance to the triangle, in the frame, where it is known: the values are those of its
 /// planes, and the point is surely over its face, or it has a corner that is not too sharp. Else infinity.
-inline float most_distance(const TrianglePlanes& planes, Lanes values, const FilterPoint& p) noexcept {
+inline float distance_upper_bound(const TrianglePlanes& planes, Lanes values, const FilterPoint& p) noexcept {
   constexpr float unknown = std::numeric_limits<float>::infinity();
   const auto next = [](Lanes of) { return __builtin_shufflevector(of, of, 0, 2, 3, 1); };
   const Lanes cosine = planes.x * next(planes.x) + planes.y * next(planes.y) + planes.z * next(planes.z);
@@ -203,17 +188,18 @@ inline float most_distance(const TrianglePlanes& planes, Lanes values, const Fil
       ((values * values + t * t) - (cosine + cosine) * (values * t)) / (1 - cosine * cosine);
   const LaneBits is_known = (cosine < 0) & (cosine > sharpest_cosine);
   const Lanes to_corner = is_known ? squared : broadcast(unknown);
-  const float beside = most_beside(values);
+  const float side_excess = max_side_excess(values);
   const float across = std::min(to_corner[1], std::min(to_corner[2], to_corner[3])) * corner_excess;
   const float height = std::abs(values[0]);
-  if (beside <= -p.tau) return height + 2 * p.tau;
-  return std::sqrt(height * height + across) + corner_tau * p.tau;
+  if (side_excess <= -p.plane_error) return height + 2 * p.plane_error;
+  return std::sqrt(height * height + across) + corner_pad * p.plane_error;
 }
 
-/// Where a point is to four triangles, a lane each: its distance to the face's plane, and how far it is
-/// beyond the side it is farthest beyond; negative inside the prism over the face. Both within tau.
+/// The position of a point relative to four triangles, a lane each: its distance to the face's plane, and how
+/// far it is beyond the side it is farthest beyond; negative inside the prism over the face. Both are within
+/// plane_error.
 struct PlaneLanes {
-  Lanes height, beside;
+  Lanes height, side_excess;
 };
 
 inline PlaneLanes plane_lanes(const TrianglePlanes& a, const TrianglePlanes& b, const TrianglePlanes& c,
@@ -229,14 +215,14 @@ inline PlaneLanes plane_lanes(const TrianglePlanes& a, const TrianglePlanes& b, 
   const Lanes side1 = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
   const Lanes side2 = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
   const Lanes side3 = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
-  return {greater_of(face, -face), greater_of(side1, greater_of(side2, side3))};
+  return {simd::max(face, -face), simd::max(side1, simd::max(side2, side3))};
 }
 
 /// Lower bounds of the squared distances, in the frame.
 inline Lanes lower_bounds(const PlaneLanes& values, const PointLanes& p) noexcept {
   const Lanes zero = {0, 0, 0, 0};
-  const Lanes height = greater_of(values.height - p.tau, zero),
-              excess = greater_of(values.beside - p.tau, zero);
+  const Lanes height = simd::max(values.height - p.plane_error, zero),
+              excess = simd::max(values.side_excess - p.plane_error, zero);
   return height * height + excess * excess;
 }
 inline Lanes lower_bounds(const TrianglePlanes& a, const TrianglePlanes& b, const TrianglePlanes& c,
@@ -246,26 +232,6 @@ inline Lanes lower_bounds(const TrianglePlanes& a, const TrianglePlanes& b, cons
 inline Lanes lower_bounds(const TrianglePlanes& a, const TrianglePlanes& b, const TrianglePlanes& c,
                           const TrianglePlanes& d, const FilterPoint& p) noexcept {
   return lower_bounds(a, b, c, d, PointLanes(p));
-}
-
-/// Is each lane greater than its counterpart?
-inline bool all_exceed(Lanes values, Lanes limits) noexcept {
-  const LaneBits beyond = values > limits;
-#ifdef __SSE2__
-  return _mm_movemask_ps(reinterpret_cast<__m128>(beyond)) == 0xf;
-#else
-  return (beyond[0] & beyond[1] & beyond[2] & beyond[3]) != 0;
-#endif
-}
-
-/// Bit i is set when lane i is at most the limit.
-inline unsigned at_most(Lanes values, float limit) noexcept {
-  const LaneBits below = values <= limit;
-#ifdef __SSE2__
-  return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(below)));
-#else
-  return static_cast<unsigned>((below[0] & 1) | (below[1] & 2) | (below[2] & 4) | (below[3] & 8));
-#endif
 }
 
 }  // namespace touchmark

@@ -13,15 +13,15 @@ constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 
 constexpr std::size_t nowhere = 3;
 
-std::size_t place_of(const Vec3& corner, const std::array<Vec3, 3>& corners) noexcept {
+std::size_t position_of(const Vec3& corner, const std::array<Vec3, 3>& corners) noexcept {
   return static_cast<std::size_t>(std::find(corners.begin(), corners.end(), corner) - corners.begin());
 }
 
 /// 1 where corner j comes after i counter-clockwise, -1 where it comes before.
 double sense(std::size_t i, std::size_t j) noexcept { return j == (i + 1) % 3 ? 1 : -1; }
 
-bool surely_exceeds(double value, double squared_rounding) noexcept {
-  return value > 0 && value * value > squared_rounding;
+bool surely_exceeds(double value, double squared_error) noexcept {
+  return value > 0 && value * value > squared_error;
 }
 
 /// Corners i and j of a are k and l of b. Is the foot surely on the edge between them, off both triangles?
@@ -32,26 +32,25 @@ bool surely_beside_edge(const PreparedTriangle& a, std::size_t i, std::size_t j,
   const double edge_squared = edge.squaredNorm(), to_squared = to.squaredNorm();
   // Along the edge: one unit for each of the two differences and three for the products and sums, of
   // |to| |edge| and again of |edge|^2 seen from the other end: 8 u |edge| (|to| + |edge|), squared, is less.
-  constexpr double along_roundings = 8 * unit_roundoff;
-  const double along_rounding =
-      2 * along_roundings * along_roundings * edge_squared * (to_squared + edge_squared);
+  constexpr double along_relative_error = 8 * unit_roundoff;
+  const double along_error =
+      2 * along_relative_error * along_relative_error * edge_squared * (to_squared + edge_squared);
   const double along = to.dot(edge);
-  if (!surely_exceeds(along, along_rounding) || !surely_exceeds(edge_squared - along, along_rounding))
-    return false;
+  if (!surely_exceeds(along, along_error) || !surely_exceeds(edge_squared - along, along_error)) return false;
   // Across it: one unit for each of the two differences, two for the cross product, whose terms' magnitudes
   // come to 1.2 |to| |edge|, three for the normal's components, three for the products and sums.
-  constexpr double across_roundings = 16 * unit_roundoff;
-  const double across_rounding = across_roundings * across_roundings * edge_squared * to_squared;
+  constexpr double across_relative_error = 16 * unit_roundoff;
+  const double across_error = across_relative_error * across_relative_error * edge_squared * to_squared;
   const Vec3 across = to.cross(edge);
-  return surely_exceeds(sense(i, j) * across.dot(a.normal), across_rounding) &&
-         surely_exceeds(sense(k, l) * across.dot(b.normal), across_rounding);
+  return surely_exceeds(sense(i, j) * across.dot(a.normal), across_error) &&
+         surely_exceeds(sense(k, l) * across.dot(b.normal), across_error);
 }
 
 /// Is the point surely behind both edges that begin at the corner? Then no point of the triangle is nearer.
 bool surely_off_corner(const PreparedTriangle& t, std::size_t corner, const Vec3& to) noexcept {
   // One unit for each of the two differences, three for the products and sums.
-  constexpr double roundings = 8 * unit_roundoff;
-  const double to_squared = roundings * roundings * to.squaredNorm();
+  constexpr double relative_error = 8 * unit_roundoff;
+  const double to_squared = relative_error * relative_error * to.squaredNorm();
   for (const std::size_t other : {(corner + 1) % 3, (corner + 2) % 3}) {
     const Vec3 edge = t.corner[other] - t.corner[corner];
     if (!surely_exceeds(-to.dot(edge), to_squared * edge.squaredNorm())) return false;
@@ -71,10 +70,10 @@ bool surely_share_nearest(const PreparedTriangle& a, const PreparedTriangle& b, 
   std::array<std::size_t, 3> shared, in_b;  // corner shared[n] of a is in_b[n] of b
   std::size_t count = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t place = place_of(a.corner[i], b.corner);
-    if (place == nowhere) continue;
+    const std::size_t position = position_of(a.corner[i], b.corner);
+    if (position == nowhere) continue;
     shared[count] = i;
-    in_b[count++] = place;
+    in_b[count++] = position;
   }
   if (count == 3) return have_same_corners(a.corner, b.corner);
   if (count == 2 && surely_beside_edge(a, shared[0], shared[1], b, in_b[0], in_b[1], point)) return true;
@@ -86,7 +85,7 @@ bool surely_share_nearest(const PreparedTriangle& a, const PreparedTriangle& b, 
 bool have_same_corners(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b) noexcept {
   const auto all_of_in = [](const std::array<Vec3, 3>& some, const std::array<Vec3, 3>& others) {
     return std::all_of(some.begin(), some.end(),
-                       [&](const Vec3& corner) { return place_of(corner, others) != nowhere; });
+                       [&](const Vec3& corner) { return position_of(corner, others) != nowhere; });
   };
   return all_of_in(a, b) && all_of_in(b, a);
 }

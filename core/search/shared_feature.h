@@ -11,12 +11,12 @@
 
 namespace touchmark {
 
-/// The same corner or edge is surely the nearest feature of both, or they are the same triangle in any order.
-/// False over the face and beside the borders between two features. Fourth powers of the differences of
-/// coordinates must fit the range of double.
+/// Returns true if the same corner or edge is surely the nearest feature of both, or they are the same
+/// triangle in any order. Returns false over the face and next to the borders between two features. Fourth
+/// powers of the differences of coordinates must fit the range of double.
 bool surely_share_nearest(const PreparedTriangle& a, const PreparedTriangle& b, const Vec3& point) noexcept;
 
-/// The same corners, in any order: they are as far from everywhere.
+/// Returns true if both have the same corners, in any order: they are as far from everywhere.
 bool have_same_corners(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b) noexcept;
 
 }  // namespace touchmark

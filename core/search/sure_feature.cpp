@@ -18,17 +18,17 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 
 /// Lengths below this may have lost bits when they were multiplied, and what is made of them.
-constexpr double least_length = 0x1p-300;
+constexpr double min_length = 0x1p-300;
 /// What underflow may have done to a squared distance, by far, where edges and normals are as long as below.
 constexpr double underflow = 0x1p-520;
-constexpr double least_squared_edge = 0x1p-260, least_squared_normal = 0x1p-520;
+constexpr double min_squared_edge = 0x1p-260, min_squared_normal = 0x1p-520;
 
 Feature corner_at(const Vec3& a) noexcept { return {{a, a, a}, 1}; }
 Feature edge_between(const Vec3& a, const Vec3& b) noexcept { return {{a, b, a}, 2}; }
 
 /// 1 or -1 where the value's sign is certain, else 0.
-int sure_sign(double value, double squared_rounding) noexcept {
-  if (!(value * value > squared_rounding)) return 0;
+int sure_sign(double value, double squared_error) noexcept {
+  if (!(value * value > squared_error)) return 0;
   return value > 0 ? 1 : -1;
 }
 
@@ -39,9 +39,9 @@ bool is_exactly_across(const Vec3& to, const Vec3& from, const Vec3& end) noexce
     const DoubleDouble a = two_sum(to[k], -from[k]);
     if (a.high == 0) continue;
     const DoubleDouble b = two_sum(end[k], -from[k]);
-    if (a.low != 0 || b.low != 0) return false;
     if (b.high == 0) continue;
-    if (std::abs(a.high) < least_length || std::abs(b.high) < least_length) return false;
+    if (a.low != 0 || b.low != 0) return false;
+    if (std::abs(a.high) < min_length || std::abs(b.high) < min_length) return false;
     const DoubleDouble product = two_product(a.high, b.high), total = two_sum(sum, product.high);
     if (product.low != 0 || total.low != 0) return false;
     sum = total.high;
@@ -53,7 +53,7 @@ bool is_exactly_across(const Vec3& to, const Vec3& from, const Vec3& end) noexce
 bool is_exactly_on_line(const Vec3& point, const Vec3& a, const Vec3& b) noexcept {
   const Vector w = difference(point, a), e = difference(b, a);
   const auto is_short = [](const DoubleDouble& x) {
-    return x.low != 0 || (x.high != 0 && std::abs(x.high) < least_length);
+    return x.low != 0 || (x.high != 0 && std::abs(x.high) < min_length);
   };
   if (std::any_of(w.begin(), w.end(), is_short) || std::any_of(e.begin(), e.end(), is_short)) return false;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -68,36 +68,37 @@ bool is_exactly_on_line(const Vec3& point, const Vec3& a, const Vec3& b) noexcep
 bool is_surely_behind_corner(const Vec3& point, const Vec3& to, double to_squared, const Vec3& corner,
                              const Vec3& end) noexcept {
   // One unit for each of the two differences, three for the products and sums.
-  constexpr double roundings = 8 * unit_roundoff;
+  constexpr double relative_error = 8 * unit_roundoff;
   const Vec3 edge = end - corner;
   const double along = to.dot(edge);
-  const int sign = sure_sign(along, roundings * roundings * to_squared * edge.squaredNorm());
+  const int sign = sure_sign(along, relative_error * relative_error * to_squared * edge.squaredNorm());
   return sign < 0 || (sign == 0 && is_exactly_across(point, corner, end));
 }
 
-/// Where the point is to the edge from corner i to the next, `to` being from corner `near` of them.
-struct Beside {
+/// The position of a point relative to the edge from corner i to the next, `to` being from corner `near` of
+/// them.
+struct EdgeSide {
   int side = 0;  ///< 1: surely off the triangle or on its edge, -1: surely over it
   bool between_ends = false;
 };
 
-Beside beside_edge(const PreparedTriangle& t, std::size_t i, std::size_t near, const Vec3& point,
-                   const Vec3& to, double to_squared) noexcept {
+EdgeSide side_of_edge(const PreparedTriangle& t, std::size_t i, std::size_t near, const Vec3& point,
+                      const Vec3& to, double to_squared) noexcept {
   const std::size_t j = i == 2 ? 0 : i + 1, far = near == i ? j : i;
   const Vec3 edge = t.corner[far] - t.corner[near];
   const double edge_squared = edge.squaredNorm();
   // As in shared_feature.cpp.
-  constexpr double along_roundings = 8 * unit_roundoff, across_roundings = 16 * unit_roundoff;
-  const double along_rounding =
-      2 * along_roundings * along_roundings * edge_squared * (to_squared + edge_squared);
+  constexpr double along_relative_error = 8 * unit_roundoff, across_relative_error = 16 * unit_roundoff;
+  const double along_error =
+      2 * along_relative_error * along_relative_error * edge_squared * (to_squared + edge_squared);
   const double along = to.dot(edge);
-  const double across_rounding = across_roundings * across_roundings * edge_squared * to_squared;
+  const double across_error = across_relative_error * across_relative_error * edge_squared * to_squared;
   const double across = (near == i ? 1 : -1) * to.cross(edge).dot(t.normal);
-  Beside beside{sure_sign(across, across_rounding),
-                sure_sign(along, along_rounding) > 0 && sure_sign(edge_squared - along, along_rounding) > 0};
-  if (beside.side == 0 && beside.between_ends && is_exactly_on_line(point, t.corner[i], t.corner[j]))
-    beside.side = 1;
-  return beside;
+  EdgeSide edge_side{sure_sign(across, across_error),
+                     sure_sign(along, along_error) > 0 && sure_sign(edge_squared - along, along_error) > 0};
+  if (edge_side.side == 0 && edge_side.between_ends && is_exactly_on_line(point, t.corner[i], t.corner[j]))
+    edge_side.side = 1;
+  return edge_side;
 }
 
 bool has(const PreparedTriangle& triangle, const Vec3& corner) noexcept {
@@ -114,7 +115,7 @@ bool are_level(const Feature& feature, Eigen::Index axis) noexcept {
 SquaredDistance squared_height(const Vec3& corner, const Vec3& point, Eigen::Index axis) noexcept {
   const DoubleDouble height = two_sum(point[axis], -corner[axis]);
   if (height.high == 0) return {};
-  if (std::abs(height.high) < least_length) return {{}, infinity};
+  if (std::abs(height.high) < min_length) return {{}, infinity};
   const DoubleDouble square = height * height;
   return {square, height.low == 0 ? 0 : 0x1p-100 * square.high};
 }
@@ -127,23 +128,23 @@ SquaredDistance squared_off_corner(const Vec3& corner, const Vec3& point) noexce
   for (const DoubleDouble& x : w) {
     const DoubleDouble own = two_product(x.high, x.high), total = two_sum(sum, own.high);
     exact = exact && x.low == 0 && own.low == 0 && total.low == 0 &&
-            (x.high == 0 || std::abs(x.high) >= least_length);
+            (x.high == 0 || std::abs(x.high) >= min_length);
     sum = total.high;
   }
   if (exact) return {{sum, 0}, 0};
   return {square, 0x1p-100 * square.high + underflow};  // 5 u^2 for each square and 3 u^2 for each sum
 }
 
-/// With w to the nearer end and v = 2^-103 for each operation (close_foot.cpp), each coordinate of w x e is
-/// off by 8 v |w| |e|, so their vector by 14 v |w| |e|, the square of the distance d by 28 v d |w| and, for
-/// what that leaves out, v^2 |w|^2 times 600, and by 12 v d^2 for the rest.
+/// With w to the nearer end and v = 2^-103 for each operation (precise_closest_point.cpp), each coordinate of
+/// w x e is off by 8 v |w| |e|, so their vector by 14 v |w| |e|, the square of the distance d by 28 v d |w|
+/// and, for what that leaves out, v^2 |w|^2 times 600, and by 12 v d^2 for the rest.
 SquaredDistance squared_off_edge(const Feature& edge, const Vec3& point) noexcept {
   const Vec3 &p = edge.corner[0], &q = edge.corner[1];
   const double pp = (point - p).squaredNorm(), qq = (point - q).squaredNorm();
   const Vector w = difference(point, pp < qq ? p : q), e = difference(q, p);
   const Vector moment = cross(w, e);
   const DoubleDouble length = dot(e, e);
-  if (!(length.high >= least_squared_edge)) return {{}, infinity};
+  if (!(length.high >= min_squared_edge)) return {{}, infinity};
   const DoubleDouble square = dot(moment, moment) / length;
   const double d = std::sqrt(std::abs(square.high)), nearer = std::sqrt(std::min(pp, qq));
   return {square, 0x1p-97 * d * nearer + 0x1p-194 * nearer * nearer + 0x1p-98 * d * d + underflow};
@@ -165,7 +166,7 @@ SquaredDistance squared_over_face(const Feature& face, const Vec3& point) noexce
   const Vec3 &b = face.corner[(near + 1) % 3], &c = face.corner[(near + 2) % 3];
   const Vector normal = cross(difference(b, a), difference(c, a));
   const DoubleDouble length = dot(normal, normal), along = dot(difference(point, a), normal);
-  if (!(length.high >= least_squared_normal)) return {{}, infinity};
+  if (!(length.high >= min_squared_normal)) return {{}, infinity};
   const double stretch = std::sqrt((b - a).squaredNorm() * ((c - a).squaredNorm() / length.high));
   if (!(stretch < 0x1p40)) return {{}, infinity};
   const DoubleDouble square = along * along / length;
@@ -192,18 +193,18 @@ std::optional<Feature> sure_feature(const PreparedTriangle& t, const Vec3& point
   bool is_over = true;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = i == 2 ? 0 : i + 1, from = squared[j] < squared[i] ? j : i;
-    const Beside beside = beside_edge(t, i, from, point, to[from], squared[from]);
-    if (beside.side >= 0 && beside.between_ends) {
+    const EdgeSide edge_side = side_of_edge(t, i, from, point, to[from], squared[from]);
+    if (edge_side.side >= 0 && edge_side.between_ends) {
       const Feature edge = edge_between(t.corner[i], t.corner[j]);
-      if (beside.side > 0 || SharedPlace(edge, point).is_nearest_of(t)) return edge;
+      if (edge_side.side > 0 || SharedFeature(edge, point).is_nearest_of(t)) return edge;
     }
-    is_over = is_over && beside.side < 0;
+    is_over = is_over && edge_side.side < 0;
   }
   if (is_over) return Feature{t.corner, 3};
   return std::nullopt;
 }
 
-bool is_same_place(const Feature& a, const Feature& b) noexcept {
+bool is_same_location(const Feature& a, const Feature& b) noexcept {
   if (a.corners != b.corners) return false;
   const auto& [a0, a1, a2] = a.corner;
   const auto& [b0, b1, b2] = b.corner;
@@ -229,7 +230,7 @@ SquaredDistance squared_distance(const Feature& feature, const Vec3& point) noex
 
 SquaredDistance squared(double radius) noexcept {
   if (radius == 0) return {};
-  if (!(radius >= least_length && radius <= 0x1p150)) return {{}, infinity};
+  if (!(radius >= min_length && radius <= 0x1p150)) return {{}, infinity};
   return {two_product(radius, radius), 0};
 }
 
@@ -245,7 +246,7 @@ std::partial_ordering compare(const SquaredDistance& a, const SquaredDistance& b
   return std::abs(difference) > 2 * error ? difference <=> 0 : std::partial_ordering::unordered;
 }
 
-SharedPlace::SharedPlace(const Feature& feature, const Vec3& point) noexcept : feature_(feature) {
+SharedFeature::SharedFeature(const Feature& feature, const Vec3& point) noexcept : feature_(feature) {
   const Vec3& from = feature.corner[0];
   if (feature.corners == 1) {
     offset_ = point - from;
@@ -260,7 +261,7 @@ SharedPlace::SharedPlace(const Feature& feature, const Vec3& point) noexcept : f
   const Vector w = difference(point, first ? from : end),
                e = difference(first ? end : from, first ? from : end);
   const DoubleDouble length = dot(e, e);
-  is_known_ = length.high >= least_squared_edge;
+  is_known_ = length.high >= min_squared_edge;
   if (!is_known_) return;
   const DoubleDouble part = dot(w, e) / length;
   for (std::size_t k = 0; k < 3; ++k) offset_[static_cast<Eigen::Index>(k)] = (w[k] - e[k] * part).rounded();
@@ -275,9 +276,11 @@ SharedPlace::SharedPlace(const Feature& feature, const Vec3& point) noexcept : f
     is_exact_ = true;
     return;
   }
-  // Off by 2^-96 |w| at most: below a rounding of its length, then.
+  // Off by 2^-96 |w| at most in each coordinate, so by 2^-94 of the largest one of w.
   const double nearer = std::max({std::abs(w[0].high), std::abs(w[1].high), std::abs(w[2].high)});
-  is_known_ = offset_.cwiseAbs().maxCoeff() > 0x1p-42 * nearer;
+  const double largest = offset_.cwiseAbs().maxCoeff();
+  is_known_ = largest > 0x1p-80 * nearer;
+  if (is_known_) relative_error_ += 0x1p-94 * nearer / largest;
   if (is_known_ || !is_exactly_on_line(point, from, end)) return;
   // It is on the edge: so it is on whatever has that.
   is_known_ = is_exact_ = true;
@@ -285,29 +288,27 @@ SharedPlace::SharedPlace(const Feature& feature, const Vec3& point) noexcept : f
 }
 
 /// Behind the plane through the nearest point across the way to the point is nothing nearer.
-bool SharedPlace::is_surely_behind(const Vec3& corner) const noexcept {
-  // Two units for the offset, one for the difference, three for the products and sums; an edge's offset is
-  // across it but for those two, so that either end will do: the nearer one to the corner.
-  constexpr double roundings = 16 * unit_roundoff;
+bool SharedFeature::is_surely_behind(const Vec3& corner) const noexcept {
+  // An edge's true offset is across it, so that either end will do: the nearer one to the corner.
   if (is_exact_ && offset_.isZero(0)) return true;
-  Vec3 way = corner - feature_.corner[0];
-  double squared = way.squaredNorm();
+  Vec3 to_corner = corner - feature_.corner[0];
+  double squared = to_corner.squaredNorm();
   if (feature_.corners == 2) {
     const Vec3 other = corner - feature_.corner[1];
     if (other.squaredNorm() < squared) {
-      way = other;
+      to_corner = other;
       squared = other.squaredNorm();
     }
   }
-  const double along = way.dot(offset_);
-  const int sign = sure_sign(along, roundings * roundings * squared * offset_.squaredNorm());
+  const double along = to_corner.dot(offset_);
+  const int sign = sure_sign(along, relative_error_ * relative_error_ * squared * offset_.squaredNorm());
   if (sign != 0 || !is_exact_) return sign < 0;
   const Vec3& from = feature_.corner[0];
   const Vec3 point = from + offset_;
   return point - from == offset_ && is_exactly_across(point, from, corner);
 }
 
-bool SharedPlace::is_nearest_of(const PreparedTriangle& triangle) const noexcept {
+bool SharedFeature::is_nearest_of(const PreparedTriangle& triangle) const noexcept {
   for (int i = 0; i < feature_.corners; ++i)
     if (!has(triangle, feature_.corner[static_cast<std::size_t>(i)])) return false;
   if (feature_.corners == 3) {

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <compare>
+#include <limits>
 #include <optional>
 
 #include "core/exact/double_double.h"
@@ -28,7 +29,7 @@ inline bool features_fit(double largest_difference) noexcept {
 
 /// Is it the same corner, edge or face, or on the same line or plane across coordinate axes? The nearest
 /// points that are on both then are the same point.
-bool is_same_place(const Feature& a, const Feature& b) noexcept;
+bool is_same_location(const Feature& a, const Feature& b) noexcept;
 
 /// The square of a distance, and what it may be off by: infinity where that is not known.
 struct SquaredDistance {
@@ -36,9 +37,9 @@ struct SquaredDistance {
   double error = 0;
 };
 
-/// Of the point from the corner itself, the line or the plane of the feature: a few times as long as the
-/// kernel takes. The error is 0 where nothing was rounded: off corners of few digits, and over faces across a
-/// coordinate axis.
+/// Returns the squared distance of the point from the corner itself, the line or the plane of the feature:
+/// takes a few times as long as the kernel. The error is 0 where nothing was rounded: off corners of few
+/// digits, and over faces across a coordinate axis.
 SquaredDistance squared_distance(const Feature& feature, const Vec3& point) noexcept;
 /// The square of a radius, at least 0.
 SquaredDistance squared(double radius) noexcept;
@@ -47,10 +48,10 @@ SquaredDistance squared(double radius) noexcept;
 std::partial_ordering compare(const SquaredDistance& a, const SquaredDistance& b) noexcept;
 
 /// What many triangles may share: a corner or an edge, and how the point lies about it.
-class SharedPlace {
+class SharedFeature {
  public:
-  /// Of a feature that is surely nearest to the point.
-  SharedPlace(const Feature& feature, const Vec3& point) noexcept;
+  /// Takes a feature that is surely nearest to the point.
+  SharedFeature(const Feature& feature, const Vec3& point) noexcept;
 
   /// Has the triangle the same corner or edge, and is that surely nearest, or the same corners where it is a
   /// face? Then it is exactly as far. False says nothing.
@@ -60,9 +61,12 @@ class SharedPlace {
   bool is_surely_behind(const Vec3& corner) const noexcept;
 
   Feature feature_;
-  Vec3 offset_ = Vec3::Zero();  ///< from the nearest point to the point, to within two roundings
-  bool is_known_ = true;        ///< that offset is
-  bool is_exact_ = false;       ///< to the last bit
+  Vec3 offset_ = Vec3::Zero();  ///< from the nearest point to the point, rounded
+  /// What products with the offset may be off by, of the lengths: two units for it, one for a difference,
+  /// three for products and sums, and what more the offset is off by.
+  double relative_error_ = 8 * std::numeric_limits<double>::epsilon();
+  bool is_known_ = true;   ///< that offset is
+  bool is_exact_ = false;  ///< to the last bit
 };
 
 }  // namespace touchmark

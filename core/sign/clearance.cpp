@@ -37,13 +37,13 @@ bool parts(const Vec3& axis, const Corners& a, const Corners& b, double gap) noe
   const Vec3& origin = a[0];
   const double b0 = axis.dot(b[0] - origin), b1 = axis.dot(b[1] - origin), b2 = axis.dot(b[2] - origin);
   const double a1 = axis.dot(a[1] - origin), a2 = axis.dot(a[2] - origin);
-  const double apart = std::max(std::min({b0, b1, b2}) - std::max({0.0, a1, a2}),
-                                std::min({0.0, a1, a2}) - std::max({b0, b1, b2}));
-  return apart > gap * length;
+  const double gap_between = std::max(std::min({b0, b1, b2}) - std::max({0.0, a1, a2}),
+                                      std::min({0.0, a1, a2}) - std::max({b0, b1, b2}));
+  return gap_between > gap * length;
 }
 
 /// Separating axes: the normals, across each pair of edges, and in each plane across its edges.
-bool are_apart(const Corners& a, const Corners& b, double gap) noexcept {
+bool are_disjoint(const Corners& a, const Corners& b, double gap) noexcept {
   const std::array<Vec3, 3> along_a = {a[1] - a[0], a[2] - a[1], a[0] - a[2]};
   const std::array<Vec3, 3> along_b = {b[1] - b[0], b[2] - b[1], b[0] - b[2]};
   const Vec3 normal_a = along_a[0].cross(along_a[1]), normal_b = along_b[0].cross(along_b[1]);
@@ -123,7 +123,7 @@ bool keep_clear(const Pseudonormals& normals, std::uint32_t f, std::uint32_t g, 
   const auto sector = [](const Corners& t, std::size_t s) {
     return Sector(t[(s + 1) % 3] - t[s], t[(s + 2) % 3] - t[s]);
   };
-  if (shared == 0) return are_apart(at_a, at_b, gap);
+  if (shared == 0) return are_disjoint(at_a, at_b, gap);
   if (shared == 1) return part_at_vertex(sector(at_a, in_a[0]), sector(at_b, in_b[0]));
   if (shared == 3) return false;
   return part_at_edge(at_a[in_a[0]], at_a[in_a[1]], at_a[3 - in_a[0] - in_a[1]], at_b[3 - in_b[0] - in_b[1]]);

@@ -1,4 +1,5 @@
-/// Where a mesh's surface ends, and where its triangles contradict each other about what is outside.
+/// Finds the edges at which a mesh's surface ends, and those at which its triangles contradict each other
+/// about what is outside.
 #pragma once
 
 #include <array>

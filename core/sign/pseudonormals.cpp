@@ -12,7 +12,7 @@ namespace touchmark::sign {
 namespace {
 
 /// Fewer roundings than the margin of a decision allows for: core/sign/side_finder.cpp.
-constexpr std::size_t most_in_fan = 64;
+constexpr std::size_t max_in_fan = 64;
 
 /// Between the edges from corner s; 0 to pi.
 double angle_at(const std::array<Vec3, 3>& corner, std::size_t s) noexcept {
@@ -21,14 +21,14 @@ double angle_at(const std::array<Vec3, 3>& corner, std::size_t s) noexcept {
 }
 
 /// The nearest point of a triangle: on which feature, and how far from the others.
-struct Foot {
+struct ClosestPoint {
   Pseudonormals::Feature feature;
   std::uint32_t side;
   Vec3 offset;
-  double room;
+  double gap;
 };
 
-Foot foot_on_edge(const std::array<Vec3, 3>& corner, const Vec3& center, std::uint32_t s) noexcept {
+ClosestPoint foot_on_edge(const std::array<Vec3, 3>& corner, const Vec3& center, std::uint32_t s) noexcept {
   const Vec3 edge = corner[(s + 1) % 3] - corner[s], to = center - corner[s];
   const double length = edge.norm();
   const double along = std::clamp(to.dot(edge) / (length * length), 0.0, 1.0);
@@ -37,7 +37,7 @@ Foot foot_on_edge(const std::array<Vec3, 3>& corner, const Vec3& center, std::ui
 
 /// By the regions of Ericson, "Real-Time Collision Detection" (2005), 5.1.5. Where rounding picks a
 /// neighbouring feature that point is hardly farther; who relies on it compares distances.
-Foot foot_of(const std::array<Vec3, 3>& corner, const Vec3& center) noexcept {
+ClosestPoint foot_of(const std::array<Vec3, 3>& corner, const Vec3& center) noexcept {
   using Feature = Pseudonormals::Feature;
   const Vec3 ab = corner[1] - corner[0], ac = corner[2] - corner[0];
   const Vec3 to_a = center - corner[0], to_b = center - corner[1], to_c = center - corner[2];
@@ -57,9 +57,9 @@ Foot foot_of(const std::array<Vec3, 3>& corner, const Vec3& center) noexcept {
   const double share_b = over_b * scale, share_c = over_c * scale;
   // Barycentric coordinates times heights are distances to the sides.
   const double twice_area = ab.cross(ac).norm();
-  const double room =
+  const double gap =
       twice_area * std::min({over_a * scale / (ac - ab).norm(), share_b / ac.norm(), share_c / ab.norm()});
-  return {Feature::face, 0, to_a - share_b * ab - share_c * ac, room};
+  return {Feature::face, 0, to_a - share_b * ab - share_c * ac, gap};
 }
 
 }  // namespace
@@ -92,7 +92,7 @@ void Pseudonormals::sum_up_vertices(const TriangleSurface& surface) {
       vertex_normals_[v] += angle_at(at, s) * normals_[f];
       shortest_edge_[v] =
           std::min({shortest_edge_[v], (at[(s + 1) % 3] - at[s]).norm(), (at[(s + 2) % 3] - at[s]).norm()});
-      if (++in_fan[v] > most_in_fan || normals_[f].isZero(0)) flat[v] = true;
+      if (++in_fan[v] > max_in_fan || normals_[f].isZero(0)) flat[v] = true;
     }
   }
   for (std::uint32_t v = 0; v < positions_.size(); ++v)
@@ -100,20 +100,20 @@ void Pseudonormals::sum_up_vertices(const TriangleSurface& surface) {
 }
 
 std::optional<Pseudonormals::Reading> Pseudonormals::on_face(std::uint32_t face, const Vec3& center,
-                                                             const Vec3& offset, double room) const noexcept {
+                                                             const Vec3& offset, double gap) const noexcept {
   const double distance = offset.norm();
   const double height = normals_[face].dot(center - positions_[faces_[face][0]]);
-  return Reading{face, Feature::face, 0, offset, distance, room, 2 * std::numbers::pi * height / distance};
+  return Reading{face, Feature::face, 0, offset, distance, gap, 2 * std::numbers::pi * height / distance};
 }
 
 std::optional<Pseudonormals::Reading> Pseudonormals::on_edge(std::uint32_t face, std::uint32_t s,
-                                                             const Vec3& offset, double room) const noexcept {
+                                                             const Vec3& offset, double gap) const noexcept {
   const std::uint32_t other = across(face, s);
   if (other == no_face || normals_[other].isZero(0)) return std::nullopt;
   const double distance = offset.norm();
   const Vec3 sum = normals_[face] + normals_[other];
   return Reading{
-      face, Feature::edge, s, offset, distance, room, std::numbers::pi * sum.dot(offset) / distance};
+      face, Feature::edge, s, offset, distance, gap, std::numbers::pi * sum.dot(offset) / distance};
 }
 
 std::optional<Pseudonormals::Reading> Pseudonormals::on_vertex(std::uint32_t face, std::uint32_t s,
@@ -134,12 +134,12 @@ std::optional<Pseudonormals::Reading> Pseudonormals::at_nearest(std::uint32_t fa
                                                                 const Vec3& center) const noexcept {
   if (normals_[face].isZero(0)) return std::nullopt;
   const auto [a, b, c] = faces_[face];
-  const Foot foot = foot_of({positions_[a], positions_[b], positions_[c]}, center);
+  const ClosestPoint foot = foot_of({positions_[a], positions_[b], positions_[c]}, center);
   switch (foot.feature) {
     case Feature::face:
-      return on_face(face, center, foot.offset, foot.room);
+      return on_face(face, center, foot.offset, foot.gap);
     case Feature::edge:
-      return on_edge(face, foot.side, foot.offset, foot.room);
+      return on_edge(face, foot.side, foot.offset, foot.gap);
     case Feature::vertex:
       break;
   }

@@ -29,7 +29,7 @@ class Pseudonormals {
     double distance = 0;         ///< its length
     /// From that point to the features of the face that it does not lie on, before their angles count; on a
     /// vertex the shortest edge there.
-    double room = 0;
+    double gap = 0;
     /// The pseudonormal's share of the offset's direction: above 0 outside. The normal is scaled such that
     /// minus this is twice the integral of the offset's direction over the solid's directions as that point
     /// sees them: 2 pi in front of a plane, and never more.
@@ -45,7 +45,7 @@ class Pseudonormals {
   const std::array<std::uint32_t, 3>& corners(std::uint32_t face) const noexcept { return faces_[face]; }
   const Vec3& position(std::uint32_t vertex) const noexcept { return positions_[vertex]; }
   const Vec3& normal(std::uint32_t face) const noexcept { return normals_[face]; }
-  /// Of the face on the other side of side s; no_face on borders and seams.
+  /// Returns the face on the other side of side s; no_face on borders and seams.
   std::uint32_t across(std::uint32_t face, std::size_t s) const noexcept { return across_[3 * face + s]; }
   static constexpr std::uint32_t no_face = std::numeric_limits<std::uint32_t>::max();
   /// Does the vertex have a pseudonormal?
@@ -59,15 +59,15 @@ class Pseudonormals {
  private:
   void sum_up_vertices(const TriangleSurface& surface);
   std::optional<Reading> on_face(std::uint32_t face, const Vec3& center, const Vec3& offset,
-                                 double room) const noexcept;
+                                 double gap) const noexcept;
   std::optional<Reading> on_edge(std::uint32_t face, std::uint32_t s, const Vec3& offset,
-                                 double room) const noexcept;
+                                 double gap) const noexcept;
   std::optional<Reading> on_vertex(std::uint32_t face, std::uint32_t s, const Vec3& offset) const noexcept;
 
   std::vector<Vec3> positions_;
   std::vector<std::array<std::uint32_t, 3>> faces_;
   std::vector<std::uint32_t> across_;
-  std::vector<Vec3> normals_;          ///< of faces, unit; zero without area
+  std::vector<Vec3> normals_;          ///< by face, unit; zero without area
   std::vector<Vec3> vertex_normals_;   ///< sum of angle * normal
   std::vector<double> shortest_edge_;  ///< at a vertex; 0 where it has no pseudonormal
 };

@@ -69,7 +69,9 @@ SideFinder SideFinder::build(const TriangleMesh& mesh) {
   surface.contrary_edges = open.contrary;
   surface.closed = open.edges.empty() && open.contrary == 0;
   surface.inside_out = surface.closed && sign::volume_sign(mesh) < 0;
-  surface.way = open.contrary > 0 ? Way::none : surface.closed ? Way::crossings : Way::winding_number;
+  surface.method = open.contrary > 0 ? Method::none
+                   : surface.closed  ? Method::crossings
+                                     : Method::winding_number;
   if (surface.closed) {
     finder.find_simple_faces(
         sign::clear_faces(finder.normals_, finder.winding_.tree(), finder.face_of_, finder.bounds_));
@@ -104,7 +106,7 @@ void SideFinder::find_simple_faces(const std::vector<bool>& clear) {
   }
   if (surface_.simple_triangles == 0) return;
 
-  surface_.way = Way::pseudonormals;
+  surface_.method = Method::pseudonormals;
   clearance_ = sign::clearance * bounds_.extent().maxCoeff();
   simple_vertex_.assign(normals_.vertices(), true);
   for (std::uint32_t face = 0; face < normals_.faces(); ++face)
@@ -118,17 +120,19 @@ bool SideFinder::is_solid_behind(std::uint32_t face) const {
   const auto [i, j, k] = normals_.corners(face);
   const Vec3 &a = normals_.position(i), &b = normals_.position(j), &c = normals_.position(k);
   const Vec3 middle = a + ((b - a) + (c - a)) / 3;
-  double free = std::numeric_limits<double>::infinity();
-  const auto is_nearer = [&](const Aabb& box) { return box.squared_distance(middle) < free * free; };
+  double free_radius = std::numeric_limits<double>::infinity();
+  const auto is_nearer = [&](const Aabb& box) {
+    return box.squared_distance(middle) < free_radius * free_radius;
+  };
   winding_.tree().visit(is_nearer, [&](const sign::TriangleTree::Item& item) {
     if (face_of_[item.index] == face) return;
     const PreparedTriangle triangle = prepare(item.corner[0], item.corner[1], item.corner[2], item.index);
-    free = std::min(free, std::sqrt(squared_distance(triangle, middle)));
+    free_radius = std::min(free_radius, std::sqrt(squared_distance(triangle, middle)));
   });
-  const Vec3 point = middle + free / 8 * normals_.normal(face);
+  const Vec3 point = middle + free_radius / 8 * normals_.normal(face);
   const std::optional<Reading> reading = normals_.at_nearest(face, point);
   // The way from the point to the face stays within the half of what is free.
-  if (!reading || !((point - middle).norm() + reading->distance < free / 2)) return false;
+  if (!reading || !((point - middle).norm() + reading->distance < free_radius / 2)) return false;
   if (side_of_plane(a, b, c, point) <= 0) return false;
   const std::optional<int> in_front = winding_.count(point);
   return in_front && *in_front == (surface_.inside_out ? -1 : 0);
@@ -190,11 +194,10 @@ std::optional<Side> SideFinder::by_pseudonormal(const Vec3& center, const Contac
   // The detector's distance is within a quarter of the error of the least one, this one within as much of its
   // own.
   if (!(near->distance <= nearest.distance + error / 2)) return std::nullopt;
-  const double reach =
-      near->feature == Pseudonormals::Feature::face ? near->room : sign::sharpest * near->room;
+  const double reach = near->feature == Pseudonormals::Feature::face ? near->gap : sign::sharpest * near->gap;
   if (!(sign::sharpest * reach > error && reach * reach > 4 * error * near->distance)) return std::nullopt;
-  constexpr double rounding = 64 * 4 * 20 * unit_roundoff;
-  const double uncertain = 32 * error / near->distance + rounding;
+  constexpr double relative_error = 64 * 4 * 20 * unit_roundoff;
+  const double uncertain = 32 * error / near->distance + relative_error;
   if (near->in_front > uncertain) return Side::outside;
   if (near->in_front < -uncertain) return Side::inside;
   return std::nullopt;
@@ -208,7 +211,7 @@ Side SideFinder::side_of_closed(const Vec3& center) const noexcept {
 Side SideFinder::side_of_open(const Vec3& center, TriangleId nearest) const noexcept {
   const std::optional<int> count = winding_.count(center);
   if (!count) return Side::on_surface;
-  if (surface_.way == Way::none) return Side::undecided;
+  if (surface_.method == Method::none) return Side::undecided;
   const sign::Winding::Share curtains = winding_.of_curtains(center);
   const double winding = *count - curtains.value, whole = std::round(winding);
   if (!(std::abs(winding - whole) + curtains.error <= clear_share) || whole < 0) return Side::undecided;
@@ -224,7 +227,7 @@ Side SideFinder::side_of_open(const Vec3& center, TriangleId nearest) const noex
 Side SideFinder::side(const Vec3& center, const Contact& nearest, const Accuracy& accuracy,
                       std::uint64_t& counted) const noexcept {
   if (!center.allFinite()) return Side::undecided;
-  if (surface_.way == Way::pseudonormals && is_exact(accuracy)) {
+  if (surface_.method == Method::pseudonormals && is_exact(accuracy)) {
     const std::optional<Side> side = by_pseudonormal(center, nearest);
     if (side) return *side;
   }

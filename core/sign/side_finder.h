@@ -31,7 +31,7 @@ namespace touchmark {
 
 class SideFinder {
  public:
-  enum class Way : std::uint8_t {
+  enum class Method : std::uint8_t {
     pseudonormals,   ///< closed; most points by the pseudonormal, the rest by the exact winding number
     crossings,       ///< closed, but nowhere simple: all points by the exact winding number
     winding_number,  ///< open: by the generalised winding number where that is clear
@@ -40,7 +40,7 @@ class SideFinder {
 
   /// What `build` found.
   struct Surface {
-    Way way = Way::none;
+    Method method = Method::none;
     bool closed = false;
     bool inside_out = false;           ///< closed with a negative volume
     std::size_t open_edges = 0;        ///< with one triangle more one way than the other

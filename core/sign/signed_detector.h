@@ -61,7 +61,7 @@ class Signed {
 
   std::size_t bytes() const noexcept { return detector_.bytes() + sides_.bytes(); }
   Accuracy accuracy() const noexcept { return detector_.accuracy(); }
-  bool makes_later() const noexcept requires MakesLater<D> { return detector_.makes_later(); }
+  bool builds_lazily() const noexcept requires BuildsLazily<D> { return detector_.builds_lazily(); }
   const D& detector() const noexcept { return detector_; }
   const SideFinder& sides() const noexcept { return sides_; }
 

@@ -35,11 +35,11 @@ class TriangleTree {
   struct Node {
     Aabb box;
     std::uint32_t first = 0;  ///< a leaf's first item; else the second child, the first one is the next node
-    std::uint32_t count = 0;  ///< of a leaf's items; 0: not a leaf
+    std::uint32_t count = 0;  ///< number of a leaf's items; 0: not a leaf
   };
   class Builder;
   // Halving 2^32 triangles goes 32 deep, and each step leaves one sibling behind.
-  static constexpr std::size_t most_waiting = 34;
+  static constexpr std::size_t max_stack = 34;
 
   std::vector<Node> nodes_;
   std::vector<Item> items_;
@@ -47,16 +47,16 @@ class TriangleTree {
 
 template <class Test, class Visit>
 void TriangleTree::visit(const Test& passes, const Visit& visit) const {
-  std::array<std::uint32_t, most_waiting> waiting;
+  std::array<std::uint32_t, max_stack> stack;
   std::size_t count = 0;
-  waiting[count++] = 0;
+  stack[count++] = 0;
   while (count > 0) {
-    const std::uint32_t index = waiting[--count];
+    const std::uint32_t index = stack[--count];
     const Node& node = nodes_[index];
     if (!passes(node.box)) continue;
     if (node.count == 0) {
-      waiting[count++] = node.first;
-      waiting[count++] = index + 1;
+      stack[count++] = node.first;
+      stack[count++] = index + 1;
       continue;
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) visit(items_[i]);

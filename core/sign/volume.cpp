@@ -32,13 +32,13 @@ int sign_by_doubles(const TriangleMesh& mesh) noexcept {
 /// About the frame's origin: six products of coordinates a triangle. Those of 2^32 triangles come to 35 bits
 /// more than a product has, for which an integer of three coordinates has room.
 int sign_exactly(const TriangleMesh& mesh) noexcept {
-  exact::Grid grid;
+  exact::Lattice lattice;
   for (std::uint32_t t = 0; t < mesh.size(); ++t)
-    for (int k = 0; k < 3; ++k) grid.add(mesh.corner(t, k));
-  exact::Integer<3> six_volumes;
+    for (int k = 0; k < 3; ++k) lattice.add(mesh.corner(t, k));
+  exact::BigInteger<3> six_volumes;
   for (std::uint32_t t = 0; t < mesh.size(); ++t) {
-    const exact::Vector<1> a = grid(mesh.corner(t, 0)), b = grid(mesh.corner(t, 1)),
-                           c = grid(mesh.corner(t, 2));
+    const exact::Vector<1> a = lattice(mesh.corner(t, 0)), b = lattice(mesh.corner(t, 1)),
+                           c = lattice(mesh.corner(t, 2));
     six_volumes = six_volumes + exact::dot(a, exact::cross(b, c));
   }
   return six_volumes.sign();

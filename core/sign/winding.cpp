@@ -83,9 +83,9 @@ Winding::Share Winding::of_curtains(const Vec3& p) const noexcept {
     sum.value -= side_aside(from, to, p) * angle / whole;
     // Each of the two is off by at most this, the angle by that over the distance from the origin, and not by
     // more than all.
-    const double rounding = 24 * unit_roundoff * length_a * length_b;
+    const double term_error = 24 * unit_roundoff * length_a * length_b;
     const double size = std::hypot(across, along);
-    sum.error += size > 2 * rounding ? 4 * rounding / size / whole + 4 * unit_roundoff : 1;
+    sum.error += size > 2 * term_error ? 4 * term_error / size / whole + 4 * unit_roundoff : 1;
   }
   return sum;
 }

@@ -14,7 +14,7 @@ SphereCluster SphereCluster::build(const TriangleMesh& mesh, const Options& opti
   const bool has_tree = options.lookup == Lookup::tree && options.precise;
   if (!has_tree && !options.certified)
     throw std::invalid_argument("sphere-cluster: certified=false is for lookup=tree with precise=true");
-  if (!has_tree && options.making == Making::lazy)
+  if (!has_tree && options.construction == Construction::lazy)
     throw std::invalid_argument("sphere-cluster: build=lazy is for lookup=tree with precise=true");
   SphereCluster detector;
   detector.options_ = options;
@@ -26,8 +26,9 @@ SphereCluster SphereCluster::build(const TriangleMesh& mesh, const Options& opti
   } else if (options.lookup == Lookup::scan) {
     detector.scan_ = SphereScan(mesh, detector.clusters_);
   } else {
-    detector.tree_ = SphereTree(mesh, detector.clusters_,
-                                {options.widest, options.certified, options.making == Making::lazy});
+    detector.tree_ =
+        SphereTree(mesh, detector.clusters_,
+                   {options.widest, options.certified, options.construction == Construction::lazy});
   }
   return detector;
 }
@@ -39,6 +40,7 @@ void SphereCluster::update(const TriangleMesh& mesh) {
 }
 
 bool SphereCluster::look_for_touch(const Probe& probe, Session& session) const noexcept {
+  if (!(probe.radius >= 0)) return false;
   if (!options_.precise) return fast_.touches(probe, session.work);
   if (options_.lookup == Lookup::scan) return scan_.touches(probe, session.work);
   return tree_.touches(probe, session.memory, session.work);
@@ -46,12 +48,14 @@ bool SphereCluster::look_for_touch(const Probe& probe, Session& session) const n
 
 std::optional<Contact> SphereCluster::look_for_nearest(const Probe& probe, double reach,
                                                        Session& session) const noexcept {
+  if (!(reach >= 0)) return std::nullopt;
   if (!options_.precise) return fast_.nearest(probe.center, reach, session.work);
   if (options_.lookup == Lookup::scan) return scan_.nearest(probe.center, reach, session.work);
   return tree_.nearest(probe.center, reach, session.memory, session.work);
 }
 
 std::optional<Impact> SphereCluster::first_hit(const Sweep& sweep, Session& session) const noexcept {
+  if (!(sweep.radius >= 0)) return std::nullopt;
   if (!options_.precise) return fast_.first_hit(sweep, session.work);
   if (options_.lookup == Lookup::scan) return scan_.first_hit(sweep, session.work);
   return tree_.first_hit(sweep, session.memory, session.work);

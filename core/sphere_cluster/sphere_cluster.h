@@ -21,10 +21,10 @@ class SphereCluster {
     scan,  ///< as published: every sphere, then the triangles of those that the probe meets
     tree   ///< a hierarchy over them, nearest first
   };
-  /// Of what a tree knows of distances from places all around, tree only. Answers are the same.
-  enum class Making {
+  /// When distances around the mesh are sampled, tree only. Answers are the same.
+  enum class Construction {
     whole,  ///< all in build()
-    lazy    ///< of a place by the first query there that wants it, by two rough searches at most
+    lazy    ///< around a point by the first query there that needs it, by two rough searches at most
   };
   struct Options {
     double clustering = 0;  ///< distance between centroids that share a sphere, mesh units; 0: a sphere each
@@ -33,7 +33,7 @@ class SphereCluster {
     VisitOrder order = VisitOrder::breadth_first;  ///< in which triangles are clustered
     bool certified = true;       ///< false, tree only: as doubles have it, to measure what certainty costs
     Simd widest = Simd::avx512;  ///< tree: forgo wider instructions than these; the same bits
-    Making making = Making::whole;
+    Construction construction = Construction::whole;
   };
   struct Session {
     Work work;
@@ -49,12 +49,12 @@ class SphereCluster {
   /// become of another size or place; the scan and the fast level always are.
   void update(const TriangleMesh& mesh);
 
-  // Inline as far as free space: there a query is a few comparisons, less than a call.
+  // Inline as far as clear space: there a query is a few comparisons, less than a call.
   bool touches(const Probe& probe, Session& session) const noexcept {
-    return !tree_.surely_free(probe.center, probe.radius, session.memory) && look_for_touch(probe, session);
+    return !tree_.is_clear(probe.center, probe.radius, session.memory) && look_for_touch(probe, session);
   }
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept {
-    if (tree_.surely_free(probe.center, reach, session.memory)) return std::nullopt;
+    if (tree_.is_clear(probe.center, reach, session.memory)) return std::nullopt;
     return look_for_nearest(probe, reach, session);
   }
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept;
@@ -67,7 +67,7 @@ class SphereCluster {
   }
 
   std::size_t bytes() const noexcept;
-  bool makes_later() const noexcept { return options_.making == Making::lazy; }
+  bool builds_lazily() const noexcept { return options_.construction == Construction::lazy; }
   /// precise: exact. Else conservative: contacts come early, by at most `absolute`.
   Accuracy accuracy() const noexcept;
 

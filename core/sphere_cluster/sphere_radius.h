@@ -16,8 +16,8 @@ inline double safe_norm(const Vec3& v) noexcept {
 
 /// The distance between two points, rounded up: a sphere about one with this radius holds the other.
 inline double radius_to(const Vec3& center, const Vec3& point) noexcept {
-  constexpr double roundings = 16 * (std::numeric_limits<double>::epsilon() / 2);
-  return safe_norm(point - center) * (1 + roundings);
+  constexpr double relative_error = 16 * (std::numeric_limits<double>::epsilon() / 2);
+  return safe_norm(point - center) * (1 + relative_error);
 }
 
 }  // namespace touchmark

@@ -57,7 +57,7 @@ Points smooth_edge_points(const OrientedSurface<N>& surface, const Points& middl
 /// What the rules of a vertex sum up.
 struct Around {
   Vec3 faces = Vec3::Zero();     ///< the faces' points
-  Vec3 middles = Vec3::Zero();   ///< of all edges
+  Vec3 middles = Vec3::Zero();   ///< sum over all edges
   Vec3 boundary = Vec3::Zero();  ///< the middles of the boundary's edges
   std::uint32_t edges = 0;
 };

@@ -26,7 +26,7 @@ void loop_edge_mask(const TriangleSurface& surface, std::uint32_t edge, std::vec
 
 Vec3 weighted_mean(std::span<const Weight> mask, std::span<const Vec3> positions);
 
-/// Where all vertices go, then the new ones on `edges`.
+/// Returns the new positions of all vertices, then the new ones on `edges`.
 std::vector<Vec3> loop_points(const TriangleSurface& surface, std::span<const Vec3> positions,
                               std::span<const std::uint32_t> edges);
 

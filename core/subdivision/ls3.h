@@ -21,8 +21,8 @@ std::vector<Vec3> angle_weighted_normals(const IndexedTriangles& mesh);
 /// Divided by their lengths; zero stays zero.
 void normalize(std::vector<Vec3>& normals);
 
-/// Where all vertices go, then the new ones on `edges`, with the spheres' normals there.
-/// Corners and seams as in Loop's scheme, without a sphere.
+/// Returns the new positions of all vertices, then the new ones on `edges`, with the spheres' normals there.
+/// Corners and seams are as in Loop's scheme, without a sphere.
 PointsAndNormals ls3_points(const TriangleSurface& surface, std::span<const Vec3> positions,
                             std::span<const Vec3> normals, std::span<const std::uint32_t> edges);
 

@@ -15,7 +15,8 @@
 namespace touchmark {
 namespace {
 
-/// Of the tetrahedron from `apex` to the triangle; positive where the triangle turns its front away.
+/// Returns the volume of the tetrahedron from `apex` to the triangle; positive where the triangle turns its
+/// front away.
 double tetrahedron(const TriangleMesh& mesh, std::size_t triangle, const Vec3& apex) {
   const Vec3 a = mesh.corner(triangle, 0) - apex;
   const Vec3 b = mesh.corner(triangle, 1) - apex;

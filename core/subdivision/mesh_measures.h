@@ -23,13 +23,14 @@ double signed_volume(const TriangleMesh& mesh);
 /// More than the volume of a mesh that is not star-shaped about the centre.
 double absolute_volume(const TriangleMesh& mesh, const Vec3& center);
 
-/// Of the mesh as subdivision sees it: vertices at equal coordinates are one, triangles with two corners in
-/// one place are left out.
+/// Counts the edges of the mesh as subdivision sees it: vertices at equal coordinates are one, triangles with
+/// two corners at one position are left out.
 struct EdgeStatistics {
   std::size_t edges = 0;
   std::size_t boundary = 0;  ///< edges of one triangle
-  std::size_t seams = 0;     ///< of more than two, or of two that run along it in the same direction
-  double shortest = 0;       ///< mesh units; 0 where there is no edge
+  std::size_t seams =
+      0;  ///< edges of more than two triangles, or of two that run along it in the same direction
+  double shortest = 0;  ///< mesh units; 0 where there is no edge
   double mean = 0;
   double longest = 0;
   /// Every edge has two triangles, of one orientation.

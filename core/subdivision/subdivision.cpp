@@ -39,7 +39,7 @@ void check(const SubdivisionOptions& options) {
 }
 
 /// Sides of faces and edges are counted in 32 bits.
-constexpr std::size_t most_triangles = 1'000'000'000;
+constexpr std::size_t triangle_limit = 1'000'000'000;
 
 bool splits_faces(SubdivisionMethod method) noexcept {
   return method == SubdivisionMethod::catmull_clark || method == SubdivisionMethod::catmull_clark_linear;
@@ -47,14 +47,15 @@ bool splits_faces(SubdivisionMethod method) noexcept {
 
 /// Throws MeshError when the level's triangles are too many.
 void require_room(std::size_t triangles, int level, const SubdivisionOptions& options) {
-  const std::size_t limit = std::min(options.max_triangles, most_triangles);
+  const std::size_t limit = std::min(options.max_triangles, triangle_limit);
   if (triangles <= limit) return;
   throw MeshError("level " + std::to_string(level) + " of " + std::string(name_of(options.method)) +
                   " would have " + std::to_string(triangles) + " triangles, more than " +
                   std::to_string(limit));
 }
 
-/// Where all splits, the counts of all levels are known before the first.
+/// Throws where the triangles would be too many. If every triangle splits, the counts of all levels are known
+/// before the first.
 void require_room(std::size_t triangles, const SubdivisionOptions& options) {
   require_room(triangles, 0, options);
   if (!splits_faces(options.method) && options.threshold > 0) return;
@@ -130,8 +131,8 @@ class EdgeSplitting {
     return std::move(refined.points);
   }
 
-  /// Where the vertices are when a trapezoid's diagonals are compared: in the tool the old ones have not
-  /// moved yet.
+  /// Returns the positions by which a trapezoid's diagonals are compared: in the tool the old vertices have
+  /// not moved yet.
   std::vector<Vec3> judged_by(const std::vector<Vec3>& refined) const {
     std::vector<Vec3> positions = refined;
     if (options_.form == SubdivisionForm::meshlab)

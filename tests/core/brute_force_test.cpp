@@ -86,8 +86,8 @@ TEST(BruteForce, ASweepStopsAtTheFirstOfTwoLayers) {
   ASSERT_TRUE(impact);
   EXPECT_EQ(impact->contact.triangle, 1u);
   EXPECT_LE(impact->fraction, 3.5 / 8);
-  EXPECT_GE(impact->fraction, 3.5 / 8 - most_early_gap(5, 8) / 8);
-  EXPECT_NEAR(impact->contact.distance, 0.5, 2 * most_early_gap(5, 8));
+  EXPECT_GE(impact->fraction, 3.5 / 8 - max_early_gap(5, 8) / 8);
+  EXPECT_NEAR(impact->contact.distance, 0.5, 2 * max_early_gap(5, 8));
 }
 
 TEST(BruteForce, ASweepThatStartsTouchingGivesTheNearestTriangleThere) {

@@ -35,7 +35,7 @@ double error_in_roundings(const HardCase& c) {
   for (const Vec3& corner : c.triangle) bounds.extend(corner);
   Work work;
   const std::optional<Contact> contact =
-      EveryTriangle{{&triangle, 1}, bounds, {}}.nearest(c.point, infinity, work);
+      LinearScan{{&triangle, 1}, bounds, {}}.nearest(c.point, infinity, work);
   const bench::ExactNearest exact = bench::nearest_exactly(c.point, {&c.triangle, 1});
   const double unit = unit_roundoff * c.largest_difference();
   if (!contact || !(unit > 0)) return 0;

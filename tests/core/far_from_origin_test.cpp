@@ -63,7 +63,7 @@ TEST(FilterFrameFarAway, HoldsTheMeshWhereItsMiddleIsRoundedToItsBorder) {
     EXPECT_LE(frame.to_frame(corner).norm(), frame.radius());
     // tau is 8 u of the point's coordinates and of the farthest corner's distance.
     const double largest = frame.to_frame(corner).norm();
-    EXPECT_GE(static_cast<double>(frame.tau(Vec3::Zero())), 8 * 0x1p-24 * largest * (1 - 0x1p-20));
+    EXPECT_GE(static_cast<double>(frame.plane_error(Vec3::Zero())), 8 * 0x1p-24 * largest * (1 - 0x1p-20));
   }
 }
 
@@ -193,15 +193,15 @@ class FarFromOrigin : public testing::TestWithParam<int> {};
 
 TEST_P(FarFromOrigin, EveryFormAnswersAsBruteForce) {
   const TriangleMesh mesh = ball_at(GetParam(), 10);
-  constexpr auto lazy_groups = GridGroup::Making::lazy;
-  constexpr auto lazy_samples = SphereCluster::Making::lazy;
+  constexpr auto lazy_groups = GridGroup::Construction::lazy;
+  constexpr auto lazy_samples = SphereCluster::Construction::lazy;
   expect_of_built_and_updated<GridGroup>(mesh, {}, "grid-group");
-  expect_of_built_and_updated<GridGroup>(mesh, {.making = lazy_groups}, "grid-group, lazy");
-  expect_of_built_and_updated<GridGroup>(mesh, {.bytes_per_triangle = 1e5, .making = lazy_groups},
+  expect_of_built_and_updated<GridGroup>(mesh, {.construction = lazy_groups}, "grid-group, lazy");
+  expect_of_built_and_updated<GridGroup>(mesh, {.bytes_per_triangle = 1e5, .construction = lazy_groups},
                                          "grid-group, lazy, much memory");
   expect_of_built_and_updated<GridGroup>(mesh, {.cell = 0.02}, "grid-group, small cells");
   expect_of_built_and_updated<SphereCluster>(mesh, {}, "sphere-cluster");
-  expect_of_built_and_updated<SphereCluster>(mesh, {.making = lazy_samples}, "sphere-cluster, lazy");
+  expect_of_built_and_updated<SphereCluster>(mesh, {.construction = lazy_samples}, "sphere-cluster, lazy");
   expect_of_built_and_updated<AabbTree>(mesh, {}, "aabb-tree");
   expect_of_built_and_updated<GridGroup>(mesh, {.lookup = GridGroup::Lookup::scan}, "cubes as published");
   expect_of_built_and_updated<GridGroup>(

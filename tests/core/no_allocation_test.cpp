@@ -114,12 +114,12 @@ TEST(NoAllocation, GridGroup) {
       expect_no_allocation<GridGroup>(options);
     }
   }
-  expect_no_allocation<GridGroup>({.making = GridGroup::Making::lazy});
+  expect_no_allocation<GridGroup>({.construction = GridGroup::Construction::lazy});
 }
 
 TEST(NoAllocation, SphereCluster) {
   using Lookup = SphereCluster::Lookup;
-  expect_no_allocation<SphereCluster>({.making = SphereCluster::Making::lazy});
+  expect_no_allocation<SphereCluster>({.construction = SphereCluster::Construction::lazy});
   for (const double clustering : {0.0, 0.1}) {
     expect_no_allocation<SphereCluster>({clustering, Lookup::scan, true});
     expect_no_allocation<SphereCluster>({clustering, Lookup::scan, false});

@@ -152,10 +152,11 @@ TEST(Update, GivesTheBitsOfBruteForceOnTheMeshAsItIsNow) {
     expect_bits_of_brute_force<AabbTree>(film, {}, "aabb-tree, " + scene.name);
     expect_bits_of_brute_force<SphereCluster>(film, {}, "sphere-cluster, " + scene.name);
     expect_bits_of_brute_force<SphereCluster>(film, {.widest = Simd::portable}, "portable, " + scene.name);
-    expect_bits_of_brute_force<SphereCluster>(film, {.making = SphereCluster::Making::lazy},
+    expect_bits_of_brute_force<SphereCluster>(film, {.construction = SphereCluster::Construction::lazy},
                                               "sphere-cluster, lazy, " + scene.name);
     expect_bits_of_brute_force<GridGroup>(film, {}, "grid-group, " + scene.name);
-    expect_bits_of_brute_force<GridGroup>(film, {.making = GridGroup::Making::lazy}, "lazy, " + scene.name);
+    expect_bits_of_brute_force<GridGroup>(film, {.construction = GridGroup::Construction::lazy},
+                                          "lazy, " + scene.name);
   }
 }
 

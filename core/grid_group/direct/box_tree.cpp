@@ -28,7 +28,7 @@ struct FloatBox {
   }
 };
 
-/// Of corners rounded to the nearest float.
+/// Returns the box of the corners, each rounded to the nearest float.
 FloatBox box_of(const PreparedTriangle& triangle, const FilterFrame& frame) noexcept {
   FloatBox box;
   for (const Vec3& corner : triangle.corner) {

@@ -1,5 +1,5 @@
 /// A hierarchy of boxes over the blocks of a TriangleStore: eight children a node, no pointers. It serves the
-/// probes that no cell serves.
+/// probes that no cell covers.
 #pragma once
 
 #include <array>
@@ -10,6 +10,7 @@
 
 #include "core/grid_group/direct/triangle_store.h"
 #include "core/search/plane_filter.h"
+#include "core/simd/lanes.h"
 
 namespace touchmark::grid {
 
@@ -36,7 +37,7 @@ class BoxTree {
 
  private:
   std::vector<EightBoxes> nodes_;
-  std::vector<std::size_t> first_;  ///< of a level's nodes
+  std::vector<std::size_t> first_;  ///< index of each level's first node
 };
 
 /// Lower bounds of the squared distances to eight boxes, in the frame, as safe as the plane filter's.
@@ -46,8 +47,8 @@ inline std::array<Lanes, 2> lower_bounds(const EightBoxes& boxes, const FilterPo
   std::array<Lanes, 2> squared = {zero, zero};
   for (std::size_t half = 0; half < 2; ++half) {
     for (std::size_t k = 0; k < 3; ++k) {
-      const Lanes outside = greater_of(boxes.min[k][half] - point[k], point[k] - boxes.max[k][half]);
-      const Lanes excess = greater_of(outside - p.tau, zero);
+      const Lanes outside = simd::max(boxes.min[k][half] - point[k], point[k] - boxes.max[k][half]);
+      const Lanes excess = simd::max(outside - p.plane_error, zero);
       squared[half] += excess * excess;
     }
   }

@@ -10,49 +10,49 @@
 namespace touchmark::grid {
 
 CellTree::Leaf CellTree::nearest_to(const TriangleStore& store, const BoxTree& tree, const Vec3& middle,
-                                    std::uint32_t hint, std::uint64_t most, Work& work) const noexcept {
+                                    std::uint32_t hint, std::uint64_t budget, Work& work) const noexcept {
   const Vec3 center = store.frame.from_frame(middle);
   NearestSearch search(store, center, std::numeric_limits<double>::infinity());
   search.consider(hint);
-  const bool found = search.consider_tree(tree, most);
+  const bool found = search.consider_tree(tree, budget);
   work.triangles += search.triangles();
   work.boxes += search.boxes();
-  if (!found) return {search.place(), 0};
+  if (!found) return {search.slot(), 0};
   const double distance = store.frame.scale() * std::sqrt(search.offset().squared);
-  return {search.place(), std::max(rounded_down(distance - middle_error_), 0.0F)};
+  return {search.slot(), std::max(rounded_down(distance - middle_error_), 0.0F)};
 }
 
 CellTree::Leaves::Leaves(const Leaves& other) {
-  for (std::uint32_t i = 0; i < other.size(); ++i) add(other.at(i), other.is_rough(i));
+  for (std::uint32_t i = 0; i < other.size(); ++i) add(other.at(i), other.is_inherited(i));
   shrink_to_fit();
 }
 
-void CellTree::Leaves::add(const Leaf& leaf, bool rough) {
-  if (rough && rough_.empty()) rough_.resize(leaves_.size(), 0);
+void CellTree::Leaves::add(const Leaf& leaf, bool inherited) {
+  if (inherited && inherited_.empty()) inherited_.resize(leaves_.size(), 0);
   leaves_.push_back(leaf);
-  if (rough || !rough_.empty()) rough_.push_back(rough ? 1 : 0);
+  if (inherited || !inherited_.empty()) inherited_.push_back(inherited ? 1 : 0);
 }
 
 void CellTree::Leaves::shrink_to_fit() {
   leaves_.shrink_to_fit();
-  rough_.shrink_to_fit();
+  inherited_.shrink_to_fit();
 }
 
-void CellTree::Leaves::set(std::uint32_t i, const Leaf& leaf, bool rough) const noexcept {
-  std::atomic_ref(leaves_[i].place).store(leaf.place, std::memory_order_relaxed);
+void CellTree::Leaves::set(std::uint32_t i, const Leaf& leaf, bool inherited) const noexcept {
+  std::atomic_ref(leaves_[i].slot).store(leaf.slot, std::memory_order_relaxed);
   std::atomic_ref(leaves_[i].distance).store(leaf.distance, std::memory_order_relaxed);
-  if (!rough_.empty()) std::atomic_ref(rough_[i]).store(rough ? 1 : 0, std::memory_order_relaxed);
+  if (!inherited_.empty()) std::atomic_ref(inherited_[i]).store(inherited ? 1 : 0, std::memory_order_relaxed);
 }
 
-bool CellTree::settle(const Vec3& in_frame, const TriangleStore& store, const BoxTree& tree,
-                      std::uint64_t most, Work& work) const noexcept {
+bool CellTree::build_lazily(const Vec3& in_frame, const TriangleStore& store, const BoxTree& tree,
+                            std::uint64_t budget, Work& work) const noexcept {
   const Units units_at = units(in_frame);
   const Found at = find(units_at);
-  if (!leaves_.is_rough(at.leaf)) return false;
-  const Leaf rough = leaves_.at(at.leaf);
+  if (!leaves_.is_inherited(at.leaf)) return false;
+  const Leaf inherited = leaves_.at(at.leaf);
   // A tick's work is bounded: where that is not enough, what is known will do.
-  Leaf leaf = nearest_to(store, tree, middle(units_at, at.shift), rough.place, most, work);
-  leaf.distance = std::max(leaf.distance, rough.distance);
+  Leaf leaf = nearest_to(store, tree, middle(units_at, at.shift), inherited.slot, budget, work);
+  leaf.distance = std::max(leaf.distance, inherited.distance);
   leaves_.set(at.leaf, leaf, false);
   return true;
 }
@@ -65,7 +65,7 @@ class CellTreeBuilder {
 
   CellTree build() {
     set_up_cube();
-    cells_.rough_ = options_.rough;
+    cells_.inherited_ = options_.lazy;
     const auto root = cells_.root_ = static_cast<std::uint32_t>(cells_.links_.size());
     cells_.links_.push_back(0);
     std::vector<Open> level = {{Vec3::Zero(), root, {0, 0}}};
@@ -81,30 +81,30 @@ class CellTreeBuilder {
   struct Open {
     Vec3 middle;
     std::uint32_t link;
-    CellTree::Leaf rough;  ///< a triangle that is probably near, and how far the mesh is at least
+    CellTree::Leaf inherited;  ///< a triangle that is probably near, and how far the mesh is at least
   };
 
   void set_up_cube() {
     // The mesh's box reaches to 1 at most; a little room for probes that touch it from outside.
-    constexpr double room = 1.04;
-    cells_.half_ = room;
+    constexpr double half_edge = 1.04;
+    cells_.half_ = half_edge;
     if (options_.smallest > 0) {
       cells_.half_ = options_.smallest / 2;
-      while (cells_.half_ < room) cells_.half_ *= 2;
+      while (cells_.half_ < half_edge) cells_.half_ *= 2;
     }
     cells_.middle_error_ =
-        store_.frame.from_frame_error(cells_.half_) + CellTree::middle_roundings * cells_.half_;
-    cells_.unit_ = std::ldexp(2 * cells_.half_, -static_cast<int>(CellTree::most_levels));
+        store_.frame.from_frame_error(cells_.half_) + CellTree::middle_relative_error * cells_.half_;
+    cells_.unit_ = std::ldexp(2 * cells_.half_, -static_cast<int>(CellTree::max_levels));
     // A little less, so that a sum rounded up to the cube's edge still counts as inside.
     cells_.units_per_length_ = (1 - 0x1p-50) / cells_.unit_;
     // One cell at the top to 32 triangles or so, and no more of them than a cache likes.
     while (cells_.top_levels_ < 5 && std::size_t{32} << (3 * cells_.top_levels_) < store_.size())
       ++cells_.top_levels_;
     cells_.links_.assign(std::size_t{1} << (3 * cells_.top_levels_), 0);
-    least_edge_ = options_.smallest > 0 ? options_.smallest : 0.25 * mean_size();
+    min_edge_ = options_.smallest > 0 ? options_.smallest : 0.25 * mean_size();
     const double finest = cells_.unit_ * 4;
-    cells_.coarsened_ = least_edge_ < finest;
-    least_edge_ = std::max(least_edge_, finest);
+    cells_.coarsened_ = min_edge_ < finest;
+    min_edge_ = std::max(min_edge_, finest);
   }
 
   double size_of(const PreparedTriangle& t) const {
@@ -123,24 +123,26 @@ class CellTreeBuilder {
     cells_.smallest_edge_ = edge;
     std::vector<Open> next;
     for (const Open& cell : open) {
-      // Where leaves are settled later, what the parent knows says which cells those are.
-      const bool rough = options_.rough && level >= cells_.top_levels_ && !wants_children(cell.rough, edge);
-      const CellTree::Leaf leaf = rough ? cell.rough : nearest_to(cell);
+      // Where leaves are built lazily, what the parent knows says which cells those are.
+      const bool inherited =
+          options_.lazy && level >= cells_.top_levels_ && !needs_children(cell.inherited, edge);
+      const CellTree::Leaf leaf = inherited ? cell.inherited : nearest_to(cell);
       if (level < cells_.top_levels_ ||
-          (!rough && wants_children(leaf, edge) && fits_children(next.size()))) {
+          (!inherited && needs_children(leaf, edge) && has_bytes_for_children(next.size()))) {
         const auto node = static_cast<std::uint32_t>(cells_.links_.size());
         cells_.links_[cell.link] = node;
         cells_.links_.resize(cells_.links_.size() + 8);
         // The distance changes by no more than the way to a child's middle.
-        const double way = 0.25 * std::sqrt(3.0) * edge;
-        const float least = std::max(CellTree::rounded_down(static_cast<double>(leaf.distance) - way), 0.0F);
+        const double to_child = 0.25 * std::sqrt(3.0) * edge;
+        const float least =
+            std::max(CellTree::rounded_down(static_cast<double>(leaf.distance) - to_child), 0.0F);
         for (std::uint32_t i = 0; i < 8; ++i) {
           const Vec3 side(i & 1u ? 1 : -1, i & 2u ? 1 : -1, i & 4u ? 1 : -1);
-          next.push_back({cell.middle + 0.25 * edge * side, node + i, {leaf.place, least}});
+          next.push_back({cell.middle + 0.25 * edge * side, node + i, {leaf.slot, least}});
         }
       } else {
         cells_.links_[cell.link] = CellTree::is_leaf | static_cast<std::uint32_t>(cells_.leaves_.size());
-        cells_.leaves_.add(leaf, rough);
+        cells_.leaves_.add(leaf, inherited);
       }
     }
     return next;
@@ -148,19 +150,19 @@ class CellTreeBuilder {
 
   CellTree::Leaf nearest_to(const Open& cell) const {
     Work unreported;
-    return cells_.nearest_to(store_, tree_, cell.middle, cell.rough.place, any_work, unreported);
+    return cells_.nearest_to(store_, tree_, cell.middle, cell.inherited.slot, any_work, unreported);
   }
 
   /// Near the surface, down to the size of the triangles there.
-  bool wants_children(const CellTree::Leaf& leaf, double edge) const {
-    if (edge < 1.5 * least_edge_ || static_cast<double>(leaf.distance) > edge) return false;
-    return options_.smallest > 0 || edge > 3 * size_of(store_.exact[leaf.place]);
+  bool needs_children(const CellTree::Leaf& leaf, double edge) const {
+    if (edge < 1.5 * min_edge_ || static_cast<double>(leaf.distance) > edge) return false;
+    return options_.smallest > 0 || edge > 3 * size_of(store_.exact[leaf.slot]);
   }
 
-  bool fits_children(std::size_t waiting) {
+  bool has_bytes_for_children(std::size_t open_cells) {
     constexpr std::size_t bytes_a_cell = sizeof(CellTree::Leaf) + sizeof(std::uint32_t);
-    const std::size_t cells = cells_.leaves_.size() + cells_.links_.size() / 8 + waiting + 8;
-    const bool fits = cells * bytes_a_cell <= options_.most_bytes;
+    const std::size_t cells = cells_.leaves_.size() + cells_.links_.size() / 8 + open_cells + 8;
+    const bool fits = cells * bytes_a_cell <= options_.max_bytes;
     cells_.coarsened_ |= !fits;
     return fits;
   }
@@ -183,7 +185,7 @@ class CellTreeBuilder {
   const TriangleStore& store_;
   const BoxTree& tree_;
   CellOptions options_;
-  double least_edge_ = 0;
+  double min_edge_ = 0;
   CellTree cells_;
 };
 
@@ -191,7 +193,7 @@ void CellTree::update(const TriangleStore& store, const BoxTree& tree, const std
   struct Open {
     Vec3 middle;
     std::uint32_t link;
-    double quarter;  ///< of its edge
+    double quarter;  ///< a quarter of the cell's edge
   };
   std::vector<Open> open = {{Vec3::Zero(), links_[root_], 0.5 * half_}};
   while (!open.empty()) {
@@ -206,11 +208,11 @@ void CellTree::update(const TriangleStore& store, const BoxTree& tree, const std
     }
     const std::uint32_t number = cell.link & ~is_leaf;
     const Leaf leaf = leaves_.at(number);
-    if (!any_within(moved, cell.middle, at_most(static_cast<double>(leaf.distance)))) continue;
+    if (!any_within(moved, cell.middle, upper_bound(static_cast<double>(leaf.distance)))) continue;
     Work unreported;
-    const Leaf known =
-        rough_ ? Leaf{leaf.place, 0} : nearest_to(store, tree, cell.middle, leaf.place, any_work, unreported);
-    leaves_.set(number, known, rough_);
+    const Leaf known = inherited_ ? Leaf{leaf.slot, 0}
+                                  : nearest_to(store, tree, cell.middle, leaf.slot, any_work, unreported);
+    leaves_.set(number, known, inherited_);
   }
 }
 

@@ -20,15 +20,15 @@ namespace touchmark::grid {
 
 struct CellOptions {
   double smallest = 0;  ///< edge, in the frame; 0: as the triangles are
-  std::size_t most_bytes = 0;
-  bool rough = false;  ///< leaves hold what their parents know, until settled
+  std::size_t max_bytes = 0;
+  bool lazy = false;  ///< leaves hold what their parents know, until built
 };
 
 /// The triangle nearest to a cell's middle, and how far it is: what a query starts from.
 struct Cell {
   Vec3 middle;      ///< in the frame
   double distance;  ///< from there to the mesh, in the frame, at least
-  std::uint32_t place;
+  std::uint32_t slot;
 };
 
 class CellTree {
@@ -42,25 +42,25 @@ class CellTree {
   bool holds(const Vec3& in_frame) const noexcept {
     return std::abs(in_frame.x()) < half_ && std::abs(in_frame.y()) < half_ && std::abs(in_frame.z()) < half_;
   }
-  /// Of the cell that a point of the cube lies in.
+  /// Returns the cell that a point of the cube lies in.
   Cell at(const Vec3& in_frame) const noexcept {
     const Units at = units(in_frame);
     const Found found = find(at);
     const Leaf leaf = leaves_.at(found.leaf);
-    return {middle(at, found.shift), static_cast<double>(leaf.distance), leaf.place};
+    return {middle(at, found.shift), static_cast<double>(leaf.distance), leaf.slot};
   }
   /// The mesh is no farther from the middle of a cell of this distance, where a search for what is nearest to
   /// it came to its end.
-  double at_most(double distance) const noexcept {
+  double upper_bound(double distance) const noexcept {
     return (distance + 2 * rounded_down_to) * (1 + 2 * rounded_down_by) + 2 * middle_error_;
   }
   /// In the frame: how far a cell's middle may be from where it is looked at in the mesh's own coordinates,
   /// in which it is rounded.
   double middle_error() const noexcept { return middle_error_; }
   /// Finds what is nearest to the middle of that cell, where that is not known yet; else false. Any thread
-  /// may meanwhile read or settle the same.
-  bool settle(const Vec3& in_frame, const TriangleStore& store, const BoxTree& tree, std::uint64_t most,
-              Work& work) const noexcept;
+  /// may meanwhile read or build the same.
+  bool build_lazily(const Vec3& in_frame, const TriangleStore& store, const BoxTree& tree,
+                    std::uint64_t budget, Work& work) const noexcept;
 
   std::size_t cells() const noexcept { return leaves_.size(); }
   double smallest_edge() const noexcept { return smallest_edge_; }
@@ -69,11 +69,11 @@ class CellTree {
 
  private:
   friend class CellTreeBuilder;
-  static constexpr unsigned most_levels = 24;
+  static constexpr unsigned max_levels = 24;
   static constexpr std::uint32_t is_leaf = 1u << 31;
 
   struct Leaf {
-    std::uint32_t place;
+    std::uint32_t slot;
     float distance;
   };
   /// What is known of each, which any thread may read and set at any time: of one whose place is the new one
@@ -88,34 +88,34 @@ class CellTree {
     ~Leaves() = default;
 
     /// Rough: what its parent knows.
-    void add(const Leaf& leaf, bool rough);
+    void add(const Leaf& leaf, bool inherited);
     void shrink_to_fit();
     Leaf at(std::uint32_t i) const noexcept {
-      return {std::atomic_ref(leaves_[i].place).load(std::memory_order_relaxed),
+      return {std::atomic_ref(leaves_[i].slot).load(std::memory_order_relaxed),
               std::atomic_ref(leaves_[i].distance).load(std::memory_order_relaxed)};
     }
-    bool is_rough(std::uint32_t i) const noexcept {
-      return !rough_.empty() && std::atomic_ref(rough_[i]).load(std::memory_order_relaxed) != 0;
+    bool is_inherited(std::uint32_t i) const noexcept {
+      return !inherited_.empty() && std::atomic_ref(inherited_[i]).load(std::memory_order_relaxed) != 0;
     }
-    void set(std::uint32_t i, const Leaf& leaf, bool rough) const noexcept;
+    void set(std::uint32_t i, const Leaf& leaf, bool inherited) const noexcept;
     std::size_t size() const noexcept { return leaves_.size(); }
-    std::size_t bytes() const noexcept { return leaves_.capacity() * sizeof(Leaf) + rough_.capacity(); }
+    std::size_t bytes() const noexcept { return leaves_.capacity() * sizeof(Leaf) + inherited_.capacity(); }
 
    private:
     mutable std::vector<Leaf> leaves_;
-    mutable std::vector<std::uint8_t> rough_;  ///< empty where none ever was
+    mutable std::vector<std::uint8_t> inherited_;  ///< empty where none ever was
   };
 
   using Units = std::array<std::uint32_t, 3>;  ///< numbers of a cell of the last possible level
   struct Found {
     std::uint32_t leaf;
-    unsigned shift;  ///< of its level
+    unsigned shift;  ///< the level's distance from the finest one, in levels
   };
   Units units(const Vec3& in_frame) const noexcept {
     return {unit(in_frame.x()), unit(in_frame.y()), unit(in_frame.z())};
   }
   Found find(const Units& at) const noexcept {
-    unsigned shift = most_levels - top_levels_;
+    unsigned shift = max_levels - top_levels_;
     std::uint32_t link =
         links_[((at[2] >> shift << top_levels_ | at[1] >> shift) << top_levels_) | at[0] >> shift];
     while (!(link & is_leaf)) {
@@ -130,10 +130,11 @@ class CellTree {
     return {middle(at[0]), middle(at[1]), middle(at[2])};
   }
 
-  /// Of the middle of a cell, besides from_frame's rounding: it is a sum over the levels when the cells are
-  /// made, and a product and a sum in middle(), each rounded by u = 2^-53 of half the cube's edge or its
-  /// whole; 32 of them in each of three coordinates, and as much again for the difference between the two.
-  static constexpr double middle_roundings = 2 * 3 * 32 * 0x1p-53;
+  /// Bounds the error of a cell's middle besides from_frame's rounding, as a share of half the cube's edge.
+  /// The middle is a sum over the levels when the cells are made, and a product and a sum in middle(), each
+  /// rounded by u = 2^-53 of half the cube's edge or its whole; 32 of them in each of three coordinates, and
+  /// as much again for the difference between the two.
+  static constexpr double middle_relative_error = 2 * 3 * 32 * 0x1p-53;
   /// So much a distance is rounded down, relatively and besides: to single precision, and for the kernel's
   /// error.
   static constexpr double rounded_down_by = 0x1p-20, rounded_down_to = 0x1p-30;
@@ -141,22 +142,22 @@ class CellTree {
   static float rounded_down(double distance) noexcept {
     return static_cast<float>(distance * (1 - rounded_down_by) - rounded_down_to);
   }
-  /// `hint` is tried first. Where testing `most` triangles and boxes is not enough, the nearest of those and
-  /// no distance. The search is from where the middle is when rounded, the distance holds of the middle.
+  /// `hint` is tried first. Where testing `budget` triangles and boxes is not enough, the nearest of those
+  /// and no distance. The search is from where the middle is when rounded, the distance holds of the middle.
   Leaf nearest_to(const TriangleStore& store, const BoxTree& tree, const Vec3& middle, std::uint32_t hint,
-                  std::uint64_t most, Work& work) const noexcept;
+                  std::uint64_t budget, Work& work) const noexcept;
   std::uint32_t unit(double along) const noexcept {
     return static_cast<std::uint32_t>(static_cast<std::int32_t>((along + half_) * units_per_length_));
   }
 
-  double half_ = 0;  ///< of the cube's edge; its middle is the frame's origin
+  double half_ = 0;  ///< half of the cube's edge; the cube's middle is the frame's origin
   double unit_ = 0;  ///< edge of a cell of the last possible level
   double units_per_length_ = 0;
   double middle_error_ = 0;
   unsigned top_levels_ = 0;
   std::vector<std::uint32_t> links_;  ///< the top table, then eight a node: the first of a node, or a leaf
   Leaves leaves_;
-  bool rough_ = false;
+  bool inherited_ = false;
   std::uint32_t root_ = 0;  ///< link of the whole cube
   double smallest_edge_ = 0;
   bool coarsened_ = false;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 
@@ -10,52 +9,47 @@
 namespace touchmark::grid {
 namespace {
 
-std::uint64_t next_serial() {
-  static std::atomic<std::uint64_t> last = 0;
-  return ++last;
-}
-
 std::size_t bytes_for(const TriangleMesh& mesh, double bytes_per_triangle) {
   const double bytes = bytes_per_triangle * static_cast<double>(mesh.size());
-  constexpr double most = 0x1p62;
-  return static_cast<std::size_t>(std::min(bytes, most));
+  constexpr double budget = 0x1p62;
+  return static_cast<std::size_t>(std::min(bytes, budget));
 }
 
 /// By how much a triangle must lose to be left out of a group, in the frame: the kernel's error twice, and
-/// for sweeps the rounding of the position on the way, which goes with the coordinates. Sixteen times that.
-double lead_for(const TriangleMesh& mesh, const FilterFrame& frame) {
+/// for sweeps the rounding of the position on the path, which goes with the coordinates. Sixteen times that.
+double exclusion_margin_for(const TriangleMesh& mesh, const FilterFrame& frame) {
   const Aabb& box = mesh.bounds();
   const double coordinates = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  return 16 * (culling_slack(4) + 4 * epsilon * frame.scale() * coordinates);
+  return 16 * (culling_pad(4) + 4 * epsilon * frame.scale() * coordinates);
 }
 
 }  // namespace
 
 DirectGrid DirectGrid::build(const TriangleMesh& mesh, const DirectOptions& options) {
   DirectGrid grid;
-  grid.serial_ = next_serial();
+  grid.epoch_ = Epoch::next();
   grid.certified_ = options.certified;
   grid.bounds_ = mesh.bounds();
   grid.store_ = TriangleStore::build(mesh);
   grid.tree_ = BoxTree(grid.store_);
   const FilterFrame& frame = grid.store_.frame;
-  grid.most_bytes_ = bytes_for(mesh, options.bytes_per_triangle);
-  const auto left = [&] { return grid.most_bytes_ - std::min(grid.most_bytes_, grid.bytes()); };
+  grid.max_bytes_ = bytes_for(mesh, options.bytes_per_triangle);
+  const auto left = [&] { return grid.max_bytes_ - std::min(grid.max_bytes_, grid.bytes()); };
 
   grid.cells_ =
-      CellTree::build(grid.store_, grid.tree_, {options.cell * frame.scale(), left() / 4, options.grows});
-  if (!options.grows && left() >= DistanceGrid::most_bytes(mesh.size())) grid.fill_distances();
-  grid.lead_ = lead_for(mesh, frame);
-  GroupBuilder builder(grid.store_, grid.tree_, grid.lead_, left());
-  grid.groups_ = options.grows ? builder.unmade() : builder.build();
+      CellTree::build(grid.store_, grid.tree_, {options.cell * frame.scale(), left() / 4, options.lazy});
+  if (!options.lazy && left() >= DistanceField::max_bytes(mesh.size())) grid.fill_distances();
+  grid.exclusion_margin_ = exclusion_margin_for(mesh, frame);
+  GroupBuilder builder(grid.store_, grid.tree_, grid.exclusion_margin_, left());
+  grid.groups_ = options.lazy ? builder.unbuilt() : builder.build();
   grid.coarsened_ = grid.cells_.coarsened() || builder.ran_out();
   return grid;
 }
 
 bool DirectGrid::update(const TriangleMesh& mesh) {
   if (!FilterFrame::fits(mesh.bounds()) || !store_.frame.widen(mesh.bounds())) return false;
-  serial_ = next_serial();
+  epoch_ = Epoch::next();
   bounds_ = mesh.bounds();
   const std::vector<Aabb> moved = store_.move(mesh);
   if (moved.empty()) return true;
@@ -64,8 +58,8 @@ bool DirectGrid::update(const TriangleMesh& mesh) {
   refill_distances(moved);
   // The old groups make room for the new ones.
   const std::size_t taken = bytes() - groups_.bytes();
-  lead_ = lead_for(mesh, store_.frame);
-  GroupBuilder builder(store_, tree_, lead_, most_bytes_ - std::min(most_bytes_, taken));
+  exclusion_margin_ = exclusion_margin_for(mesh, store_.frame);
+  GroupBuilder builder(store_, tree_, exclusion_margin_, max_bytes_ - std::min(max_bytes_, taken));
   groups_ = builder.rebuild(groups_, moved);
   coarsened_ = coarsened_ || builder.ran_out();
   return true;
@@ -73,61 +67,62 @@ bool DirectGrid::update(const TriangleMesh& mesh) {
 
 /// What the cell knows, where that is good enough; else by a search for what is nearer, of which `left`
 /// bounds the work of all.
-DistanceGrid::Interval DirectGrid::sample(const Vec3& in_frame, double most,
-                                          std::uint64_t& left) const noexcept {
+DistanceField::Interval DirectGrid::sample(const Vec3& in_frame, double budget,
+                                           std::uint64_t& left) const noexcept {
   constexpr double enough = 0.35;  // of the distance
   if (cells_.holds(in_frame)) {
     const Cell cell = cells_.at(in_frame);
-    const double way = (in_frame - cell.middle).norm();
-    most = std::min(most, cells_.at_most(cell.distance) + way);
-    if (way <= std::max(enough * cell.distance, cells_.smallest_edge()))
-      return {std::max(cell.distance - way, 0.0), most};
+    const double to_middle = (in_frame - cell.middle).norm();
+    budget = std::min(budget, cells_.upper_bound(cell.distance) + to_middle);
+    if (to_middle <= std::max(enough * cell.distance, cells_.smallest_edge()))
+      return {std::max(cell.distance - to_middle, 0.0), budget};
   }
-  const double scale = store_.frame.scale(), reach = (1 - enough) * most;
+  const double scale = store_.frame.scale(), reach = (1 - enough) * budget;
   const Vec3 center = store_.frame.from_frame(in_frame);
   NearestSearch search(store_, center, reach / scale);
-  const bool gave_up = !search.consider_tree(tree_, left);
+  const bool exhausted = !search.consider_tree(tree_, left);
   left -= std::min(left, search.triangles() + search.boxes());
-  if (gave_up || left == 0) return {-1, -1};
-  if (!search.found()) return {reach, most};
+  if (exhausted || left == 0) return {-1, -1};
+  if (!search.found()) return {reach, budget};
   const double distance = scale * std::sqrt(search.offset().squared);
   // One that the filter let through may be beyond the reach, and another between them.
-  return {std::min(distance, reach), std::min(distance, most)};
+  return {std::min(distance, reach), std::min(distance, budget)};
 }
 
 void DirectGrid::fill_distances() {
-  distances_ = DistanceGrid::around(store_.frame, bounds_, store_.size());
-  std::uint64_t left = DistanceGrid::most_work(store_.size());
-  distances_.fill([&](const Vec3& place, double most) { return sample(place, most, left); });
+  distances_ = DistanceField::around(store_.frame, bounds_, store_.size());
+  std::uint64_t left = DistanceField::max_work(store_.size());
+  distances_.fill([&](const Vec3& slot, double budget) { return sample(slot, budget, left); });
 }
 
 void DirectGrid::refill_distances(const std::vector<Aabb>& moved) {
   if (distances_.empty()) return;
   if (!distances_.holds(store_.frame, bounds_)) return fill_distances();
-  std::uint64_t left = DistanceGrid::most_work(store_.size());
-  distances_.refill([&](const Vec3& place, double most) { return sample(place, most, left); }, moved);
+  std::uint64_t left = DistanceField::max_work(store_.size());
+  distances_.refill([&](const Vec3& slot, double budget) { return sample(slot, budget, left); }, moved);
 }
 
 void DirectGrid::grow_one(std::uint32_t near, std::uint32_t start, const Vec3& center, std::uint64_t spent,
                           Work& work) const noexcept {
   // With what answered the query it is to be no more than two looks at every triangle. What has taken more
   // than one is no place to grow at.
-  const std::uint64_t most = left_of(2 * std::uint64_t{store_.size()}, spent);
-  if (most < store_.size()) return;
-  if (groups_.waits(near)) return make_group(near, most, work);
-  if (groups_.waits(start)) return make_group(start, most, work);
+  const std::uint64_t budget = remaining(2 * std::uint64_t{store_.size()}, spent);
+  if (budget < store_.size()) return;
+  if (groups_.is_unbuilt(near)) return make_group(near, budget, work);
+  if (groups_.is_unbuilt(start)) return make_group(start, budget, work);
   const Vec3 in_frame = store_.frame.to_frame(center);
-  if (cells_.holds(in_frame)) cells_.settle(in_frame, store_, tree_, std::min(most, most_growth_looks), work);
+  if (cells_.holds(in_frame))
+    cells_.build_lazily(in_frame, store_, tree_, std::min(budget, max_lazy_looks), work);
 }
 
-void DirectGrid::make_group(std::uint32_t place, std::uint64_t most, Work& work) const noexcept {
+void DirectGrid::make_group(std::uint32_t slot, std::uint64_t budget, Work& work) const noexcept {
   // What lies among so many boxes or triangles has no group.
-  if (!groups_.claim(place)) return;
-  const std::uint64_t share = most / (1 + GroupFinder::most_looks);
-  GroupFinder finder(store_, tree_, lead_,
-                     {.sharing = 0, .most_boxes = std::min(share, most_growth_looks), .most_near = share});
-  const GroupFinder::Found found = finder.find(place);
-  groups_.put(place, found.members, found.height, found.margin);
+  if (!groups_.claim(slot)) return;
+  const std::uint64_t share = budget / (1 + GroupFinder::max_looks);
+  GroupFinder finder(store_, tree_, exclusion_margin_,
+                     {.sharing = 0, .max_boxes = std::min(share, max_lazy_looks), .max_near = share});
+  const GroupFinder::Found found = finder.find(slot);
+  groups_.put(slot, found.members, found.height, found.margin);
   work += finder.take_work();
 }
 

@@ -13,6 +13,8 @@
 #include "core/grid_group/direct/groups.h"
 #include "core/grid_group/direct/triangle_store.h"
 #include "core/search/distance_field.h"
+#include "core/search/epoch.h"
+#include "core/search/last_distance.h"
 #include "core/search/linear_scan.h"
 
 namespace touchmark::grid {
@@ -21,22 +23,14 @@ struct DirectOptions {
   double cell = 0;                  ///< edge of the smallest cell, mesh units; 0: choose
   double bytes_per_triangle = 400;  ///< the whole structure
   bool certified = true;            ///< false: as doubles have it
-  bool grows = false;               ///< groups are made by the first queries that miss them, one a query
+  bool lazy = false;                ///< groups are made by the first queries that miss them, one a query
 };
 
-/// What one haptic point remembers between ticks. Forgetting it changes no answer.
-struct DirectMemory {
-  std::uint64_t owner = 0;  ///< the grid that it is about; 0: nothing is remembered
-  std::uint32_t place = 0;  ///< of a triangle that was near
-  Vec3 center = Vec3::Zero();
-  /// Of the distance at that centre, with room for the kernel's error wherever the bounds are put to use. The
-  /// distance changes by the displacement at most.
-  double lower = 0, upper = std::numeric_limits<double>::infinity();
-
-  /// Was a triangle near?
-  bool is_near() const noexcept { return upper < std::numeric_limits<double>::infinity(); }
-  /// Is this place certainly less than that far from the centre? With room for the rounding of a displacement
-  /// and of what is compared with it.
+/// What one haptic point remembers between ticks. The bounds are padded by the kernel's error wherever they
+/// are put to use.
+struct DirectMemory : LastDistance {
+  /// Returns true if this point is certainly less than that far from the centre, padded for the rounding of a
+  /// displacement and of what is compared with it.
   bool moved_less(const Vec3& to, double by) const noexcept {
     constexpr double shy = 1 - 0x1p-40;
     return by > 0 && (to - center).squaredNorm() < by * by * shy;
@@ -54,19 +48,19 @@ class DirectGrid {
   bool update(const TriangleMesh& mesh);
 
   /// Is it known, without looking, that no triangle is within reach?
-  bool surely_free(const Vec3& center, double reach, const DirectMemory& memory) const noexcept {
-    return memory.owner == serial_ && memory.moved_less(center, memory.lower - reach);
+  bool is_clear(const Vec3& center, double reach, const DirectMemory& memory) const noexcept {
+    return memory.epoch == epoch_ && memory.moved_less(center, memory.lower - reach);
   }
-  // Both look, even where it is surely free.
+  // All look, even where it is known to be clear. A radius or reach must be at least 0.
   bool touches(const Probe& probe, DirectMemory& memory, Work& work) const noexcept;
   std::optional<Contact> nearest(const Vec3& center, double reach, DirectMemory& memory,
                                  Work& work) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, DirectMemory& memory, Work& work) const noexcept;
 
-  /// Where groups grow, a query looks at no more boxes and triangles than this besides those that answer it,
-  /// and with those at no more than twice as many as there are triangles, and a little; a sweep at twice as
-  /// many, for it may ask what is nearest to its start.
-  static constexpr std::uint64_t most_growth_in_a_query = 10'000;
+  /// Bounds what lazy construction adds to a query: no more boxes and triangles than this besides those that
+  /// answer it, and with those no more than twice as many as there are triangles, and a little; a sweep at
+  /// twice as many, for it may ask what is nearest to its start.
+  static constexpr std::uint64_t max_lazy_work = 10'000;
 
   std::size_t bytes() const noexcept;
   std::size_t groups() const noexcept { return groups_.count(); }
@@ -77,89 +71,91 @@ class DirectGrid {
  private:
   /// A tick's work is bounded: no more boxes are looked at for a group, and no more of them and of triangles
   /// for a cell.
-  static constexpr std::uint64_t most_growth_looks = 4096;
-  /// Where to look first, where it is not surely free.
+  static constexpr std::uint64_t max_lazy_looks = 4096;
+  /// The slot to look at first, where the point is not known to be clear.
   struct Start {
     bool beyond = false;  ///< nothing is within reach
-    std::uint32_t place = 0;
-    const Group* group = nullptr;  ///< of that place, if it serves the point
+    std::uint32_t slot = 0;
+    const Group* group = nullptr;  ///< group of that slot, if it covers the point
   };
   void claim(DirectMemory& memory) const noexcept {
-    if (memory.owner == serial_) return;
+    if (memory.epoch == epoch_) return;
     memory = DirectMemory();
-    memory.owner = serial_;
+    memory.epoch = epoch_;
   }
   /// Is nothing within reach, by what was sampled? Few bytes, which stay in the cache: what is far needs no
   /// cell. Closely after a jump: a point that comes near slowly meets a group, which tells more.
-  bool is_far(const Vec3& center, const FilterPoint& point, double reach,
-              DirectMemory& memory) const noexcept {
-    double least = static_cast<double>(distances_.at_least(point)) * store_.frame.unit();
+  bool rejects_by_distance_field(const Vec3& center, const FilterPoint& point, double reach,
+                                 DirectMemory& memory) const noexcept {
+    double least = static_cast<double>(distances_.lower_bound(point)) * store_.frame.unit();
     if (!(least > reach) && !memory.moved_less(center, std::max(memory.lower - reach, 0.0) + cell()))
-      least = static_cast<double>(distances_.at_least_by_eight(point)) * store_.frame.unit();
+      least = static_cast<double>(distances_.tight_lower_bound(point)) * store_.frame.unit();
     if (!(least > reach)) return false;
-    remember(center, point.tau, least, std::numeric_limits<double>::infinity(), memory);
+    remember(center, point.plane_error, least, std::numeric_limits<double>::infinity(), memory);
     return true;
   }
   /// Makes the memory this grid's. Is nothing within reach, by what was sampled, where nothing was near? What
   /// was near is asked about before the samples are, in start_at.
-  bool begins_far(const Vec3& center, const FilterPoint& point, double reach,
-                  DirectMemory& memory) const noexcept {
+  bool claims_and_rejects(const Vec3& center, const FilterPoint& point, double reach,
+                          DirectMemory& memory) const noexcept {
     claim(memory);
-    return !memory.is_near() && is_far(center, point, reach, memory);
+    return !memory.is_near() && rejects_by_distance_field(center, point, reach, memory);
   }
-  /// After begins_far.
+  /// After claims_and_rejects.
   Start start_at(const Vec3& center, const FilterPoint& point, double reach, DirectMemory& memory,
                  Work& work) const noexcept;
-  /// The group of the triangle in this place if it serves the point.
+  /// The group of the triangle in this place if it covers the point.
   /// Always inline: the compiler takes the atomic reads of a group for more than the loads that they are.
-  [[gnu::always_inline]] const Group* serving(std::uint32_t place, const FilterPoint& point,
-                                              Work& work) const noexcept {
+  [[gnu::always_inline]] const Group* group_covering(std::uint32_t slot, const FilterPoint& point,
+                                                     Work& work) const noexcept {
     ++work.cells;
-    const Group& group = groups_.of(place);
-    return group.serves(plane_values(store_.planes[place], point), point.tau) ? &group : nullptr;
+    const Group& group = groups_.of(slot);
+    return group.covers(plane_values(store_.planes[slot], point), point.plane_error) ? &group : nullptr;
   }
   /// At least the distance to the triangle in this place, or infinity.
-  double most_to(std::uint32_t place, const FilterPoint& point, Work& work) const noexcept {
+  double upper_bound_to(std::uint32_t slot, const FilterPoint& point, Work& work) const noexcept {
     ++work.triangles;
-    const TrianglePlanes& planes = store_.planes[place];
-    return store_.frame.at_least(most_distance(planes, plane_values(planes, point), point));
+    const TrianglePlanes& planes = store_.planes[slot];
+    return store_.frame.from_frame_rounded_up(
+        distance_upper_bound(planes, plane_values(planes, point), point));
   }
   /// The nearest triangle, or none when nothing is within reach. One that is found may still be beyond it, by
   /// a rounding of the filter; then `squared_lower` bounds the squared distance to all. To `touch`, any
-  /// triangle surely within the reach is as good: then `within` bounds its distance, and no more is told.
+  /// triangle within the reach is as good: then `within` bounds its distance and no more is told, and else
+  /// nothing touches.
   struct Located {
     const PreparedTriangle* triangle = nullptr;
-    /// The exactly nearest one; null where `triangle` surely is that, or to touch it does not matter.
+    /// The exactly nearest one; null where `triangle` surely is that, or to touch.
     const PreparedTriangle* exactly = nullptr;
     Offset offset{Vec3::Zero(), 0};
     double squared_lower = 0;
-    float tau = 0;         ///< the filter's, at the centre
-    double error = 0;      ///< of a computed distance there
-    bool gave_up = false;  ///< after as much work as all triangles would have been
+    float plane_error = 0;   ///< the filter's, at the centre
+    double error = 0;        ///< bounds the error of a computed distance there
+    bool exhausted = false;  ///< after as much work as all triangles would have been
     double within = std::numeric_limits<double>::infinity();
   };
   enum class Sought { touch, contact };
   template <Sought sought>
   Located locate(const Vec3& center, const FilterPoint& point, double reach, DirectMemory& memory,
                  Work& work) const noexcept;
-  /// After a query that no group served: where groups grow, makes that of one of the places or looks closer
-  /// at the cell of this centre, what is still to be done.
-  /// `spent`: on the query, in boxes and triangles.
+  /// After a query that no group covered: where construction is lazy, makes that of one of the places or
+  /// looks closer at the cell of this centre, what is still to be done. `spent`: on the query, in boxes and
+  /// triangles.
   void grow(std::uint32_t near, std::uint32_t start, const Vec3& center, std::uint64_t spent,
             Work& work) const noexcept {
-    if (groups_.grows()) grow_one(near, start, center, spent, work);
+    if (groups_.is_lazy()) grow_one(near, start, center, spent, work);
   }
   void grow_one(std::uint32_t near, std::uint32_t start, const Vec3& center, std::uint64_t spent,
                 Work& work) const noexcept;
-  void make_group(std::uint32_t place, std::uint64_t most, Work& work) const noexcept;
-  void remember(const Vec3& center, float tau, double lower, double upper,
+  void make_group(std::uint32_t slot, std::uint64_t budget, Work& work) const noexcept;
+  void remember(const Vec3& center, float plane_error, double lower, double upper,
                 DirectMemory& memory) const noexcept {
-    // Twice culling_slack, for the kernel's error here: tau is 2^-21 of a length above the largest
+    // Twice culling_pad, for the kernel's error here: plane_error is 2^-21 of a length above the largest
     // difference. What the error grows by elsewhere goes with the displacement and is in moved_less.
-    const double slack = static_cast<double>(tau) * (0x1p-24 * (1 + 0x1p-20)) * store_.frame.unit();
+    const double pad = static_cast<double>(plane_error) * (0x1p-24 * (1 + 0x1p-20)) * store_.frame.unit();
     memory.center = center;
-    memory.lower = lower - slack;
-    memory.upper = upper + slack;
+    memory.lower = lower - pad;
+    memory.upper = upper + pad;
   }
 
   /// For probes so far away that single precision tells the triangles no longer apart.
@@ -167,26 +163,27 @@ class DirectGrid {
   std::optional<Impact> far_first_hit(const Sweep& sweep, Work& work) const noexcept;
   std::optional<Impact> first_hit_of_all(const Sweep& sweep, DirectMemory& memory, Work& work) const noexcept;
   /// The impact of a sweep whose first hit is known.
-  std::optional<Impact> impact_on(const Sweep& sweep, double fraction, std::uint32_t place,
+  std::optional<Impact> impact_on(const Sweep& sweep, double fraction, std::uint32_t slot,
                                   DirectMemory& memory, Work& work) const noexcept;
-  /// Of the exactly nearest triangle, where rounding could tell; nothing where it is beyond the reach.
+  /// Returns the contact with the exactly nearest triangle, where rounding could tell; nothing where it is
+  /// beyond the reach.
   std::optional<Contact> contact_of(const PreparedTriangle& nearest, const Vec3& center, double reach,
                                     double error, Work& work) const noexcept;
   /// Samples distances, or those that the boxes of what moved may have changed.
   void fill_distances();
   void refill_distances(const std::vector<Aabb>& moved);
-  DistanceGrid::Interval sample(const Vec3& in_frame, double most, std::uint64_t& left) const noexcept;
-  EveryTriangle all() const noexcept { return {store_.exact, bounds_, store_.ids, certified_}; }
+  DistanceField::Interval sample(const Vec3& in_frame, double budget, std::uint64_t& left) const noexcept;
+  LinearScan fallback() const noexcept { return {store_.exact, bounds_, store_.ids, certified_}; }
 
-  std::uint64_t serial_ = 0;  ///< tells this grid from all others
+  Epoch epoch_;
   Aabb bounds_;
   TriangleStore store_;
   BoxTree tree_;
   Groups groups_;
   CellTree cells_;
-  DistanceGrid distances_;  ///< empty where there is no room for it, or groups grow
-  double lead_ = 0;         ///< see GroupFinder
-  std::size_t most_bytes_ = 0;
+  DistanceField distances_;      ///< empty where there is no room for it, or construction is lazy
+  double exclusion_margin_ = 0;  ///< see GroupFinder
+  std::size_t max_bytes_ = 0;
   bool coarsened_ = false;
   bool certified_ = true;
 };

@@ -1,4 +1,4 @@
-/// Nearest and touching: what the session knows, else the group that serves the point, else the hierarchy.
+/// Nearest and touching: what the session knows, else the group that covers the point, else the hierarchy.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -16,126 +16,132 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 DirectGrid::Start DirectGrid::start_at(const Vec3& center, const FilterPoint& point, double reach,
                                        DirectMemory& memory, Work& work) const noexcept {
-  if (const Group* group = serving(memory.place, point, work)) return {false, memory.place, group};
-  if (memory.is_near() && is_far(center, point, reach, memory)) return {true, memory.place, nullptr};
+  if (const Group* group = group_covering(memory.slot, point, work)) return {false, memory.slot, group};
+  if (memory.is_near() && rejects_by_distance_field(center, point, reach, memory))
+    return {true, memory.slot, nullptr};
   const Vec3 in_frame = store_.frame.to_frame(center);
   if (!cells_.holds(in_frame)) {
-    remember(center, point.tau, std::sqrt(bounds_.squared_distance(center)), infinity, memory);
-    return {memory.lower > reach, memory.place, nullptr};
+    remember(center, point.plane_error, std::sqrt(bounds_.squared_distance(center)), infinity, memory);
+    return {memory.lower > reach, memory.slot, nullptr};
   }
   ++work.cells;
   const Cell cell = cells_.at(in_frame);
   // The memory keeps the middle as it is when rounded.
-  const double free = (cell.distance - cells_.middle_error()) * store_.frame.unit();
-  remember(store_.frame.from_frame(cell.middle), store_.frame.tau(cell.middle), free, infinity, memory);
-  if (surely_free(center, reach, memory)) return {true, cell.place, nullptr};
-  return {false, cell.place, serving(cell.place, point, work)};
+  const double clearance = (cell.distance - cells_.middle_error()) * store_.frame.unit();
+  remember(store_.frame.from_frame(cell.middle), store_.frame.plane_error(cell.middle), clearance, infinity,
+           memory);
+  if (is_clear(center, reach, memory)) return {true, cell.slot, nullptr};
+  return {false, cell.slot, group_covering(cell.slot, point, work)};
 }
 
 template <DirectGrid::Sought sought>
 DirectGrid::Located DirectGrid::locate(const Vec3& center, const FilterPoint& point, double reach,
                                        DirectMemory& memory, Work& work) const noexcept {
   constexpr bool to_touch = sought == Sought::touch;
-  const double enough = to_touch ? reach - store_.frame.kernel_error(point.tau) : -1;
-  Located located{.tau = point.tau};
+  const double enough = to_touch ? reach - store_.frame.kernel_error(point.plane_error) : -1;
+  Located located{.plane_error = point.plane_error};
   // To touch, a look at one triangle may do.
-  const auto does = [&](std::uint32_t place) {
+  const auto does = [&](std::uint32_t slot) {
     if (!to_touch) return false;
-    located.within = most_to(place, point, work);
-    return located.within < enough;
+    const double within = upper_bound_to(slot, point, work);
+    if (!(within < enough)) return false;
+    located.within = within;
+    return true;
   };
-  if (memory.is_near() && does(memory.place)) return located;
+  if (memory.is_near() && does(memory.slot)) return located;
   const Vec3 before = memory.center;
   Start start = start_at(center, point, reach, memory, work);
   if (start.beyond) return {};
-  if (start.place != memory.place && does(start.place)) {
-    memory.place = start.place;
+  if (start.slot != memory.slot && does(start.slot)) {
+    memory.slot = start.slot;
     return located;
   }
   NearestSearch search(store_, center, point, reach);
-  if (to_touch) search.be_content_with(enough);
+  if (to_touch) search.seek_touch(reach, certified_);
   // A cell's triangle may be a neighbour of the one that is needed. Where it is beyond the reach most often
   // all are, and after a jump its neighbours are not worth a look each.
-  const bool near = start.group != nullptr || search.may_be_near(start.place) ||
+  const bool near = start.group != nullptr || search.may_be_near(start.slot) ||
                     (center - before).squaredNorm() < cell() * cell();
-  for (int hop = 0; hop < 2 && near && start.group == nullptr && groups_.of(start.place).count() > 0; ++hop) {
-    const std::uint32_t next = search.closest_of(groups_.members(groups_.of(start.place)));
-    if (next == start.place) break;
-    start = {false, next, serving(next, search.point(), work)};
+  for (int hop = 0; hop < 2 && near && start.group == nullptr && groups_.of(start.slot).count() > 0; ++hop) {
+    const std::uint32_t next = search.closest_of(groups_.members(groups_.of(start.slot)));
+    if (next == start.slot) break;
+    start = {false, next, group_covering(next, search.point(), work)};
   }
   double squared_lower = reach * reach;
-  bool gave_up = false;
+  bool exhausted = false;
   if (start.group != nullptr) {
     squared_lower = store_.frame.squared(search.consider_group(groups_.members(*start.group)));
   } else {
-    if (near) search.consider(start.place);
-    gave_up = !search.consider_tree(tree_, most_work_before_all(store_.size()));
-    if (!gave_up)
-      grow(search.found() ? search.place() : start.place, start.place, center,
+    if (near) search.consider(start.slot);
+    exhausted = !search.consider_tree(tree_, work_budget(store_.size()));
+    if (!exhausted)
+      grow(search.found() ? search.slot() : start.slot, start.slot, center,
            search.triangles() + search.boxes(), work);
   }
   work.triangles += search.triangles();
   work.boxes += search.boxes();
-  if (to_touch && search.within() < enough) {
-    memory.place = search.place();
-    return {.tau = point.tau, .within = search.within()};
+  if (exhausted && !search.touches()) {
+    work.exact_decisions += search.exact_decisions();
+    return {.exhausted = true};
   }
-  if (gave_up) return {.gave_up = true};
   if (!search.found()) {
-    remember(center, search.point().tau, std::sqrt(squared_lower), infinity, memory);
+    remember(center, search.point().plane_error, std::sqrt(squared_lower), infinity, memory);
     return {};
   }
-  memory.place = search.place();
-  const Offset offset = search.offset();
-  // To touch, what is exactly nearest matters only where doubles leave open whether it is within the reach.
-  const bool is_sure =
-      to_touch ? std::abs(std::sqrt(offset.squared) - reach) > search.error() : search.is_surely_first();
-  const PreparedTriangle* found = &store_.exact[search.place()];
+  const bool is_content = to_touch && search.touches();
+  const Offset offset = is_content ? Offset{} : search.offset();
+  if (to_touch) {
+    const bool touching = is_content || search.touches_at_last(offset.squared);
+    work.exact_decisions += search.exact_decisions();
+    if (touching) {
+      memory.slot = search.slot();
+      return {.plane_error = point.plane_error, .within = search.within()};
+    }
+  }
+  memory.slot = search.slot();
+  const PreparedTriangle* found = &store_.exact[search.slot()];
+  const bool is_first = to_touch || !certified_ || search.is_surely_first();
   return {found,
-          is_sure || !certified_ ? nullptr : &search.exactly_nearest(work.exact_decisions),
+          is_first ? nullptr : &search.exactly_nearest(work.exact_decisions),
           offset,
           squared_lower,
-          search.point().tau,
+          search.point().plane_error,
           search.error()};
 }
 
 bool DirectGrid::touches(const Probe& probe, DirectMemory& memory, Work& work) const noexcept {
-  if (!(probe.radius >= 0)) return false;
   const FilterPoint point = store_.frame.point(probe.center);
   if (!FilterFrame::covers(point)) return far_nearest(probe.center, probe.radius, work).has_value();
-  if (begins_far(probe.center, point, probe.radius, memory)) return false;
+  if (claims_and_rejects(probe.center, point, probe.radius, memory)) return false;
   if (memory.moved_less(probe.center, probe.radius - memory.upper)) return true;
   const Located located = locate<Sought::touch>(probe.center, point, probe.radius, memory, work);
-  if (located.gave_up) return all().touches(probe, work);
-  if (located.within < probe.radius) {
-    remember(probe.center, located.tau, 0, located.within, memory);
+  if (located.exhausted) return fallback().touches(probe, work);
+  if (located.within < infinity) {
+    remember(probe.center, located.plane_error, 0, located.within, memory);
     return true;
   }
   if (located.triangle == nullptr) return false;
   const double distance = std::sqrt(located.offset.squared);
-  const bool touching =
-      located.exactly == nullptr
-          ? distance <= probe.radius
-          : contact_of(*located.exactly, probe.center, probe.radius, located.error, work).has_value();
+  // What doubles left open does not touch: else it would be within.
+  const bool touching = distance <= probe.radius && !(certified_ && probe.radius - distance <= located.error);
   const double lower = touching ? distance : std::min(std::sqrt(located.squared_lower), distance);
-  remember(probe.center, located.tau, lower, distance, memory);
+  remember(probe.center, located.plane_error, lower, distance, memory);
   return touching;
 }
 
 std::optional<Contact> DirectGrid::nearest(const Vec3& center, double reach, DirectMemory& memory,
                                            Work& work) const noexcept {
-  if (!(reach >= 0)) return std::nullopt;
   const FilterPoint point = store_.frame.point(center);
   if (!FilterFrame::covers(point)) return far_nearest(center, reach, work);
-  if (begins_far(center, point, reach, memory)) return std::nullopt;
+  if (claims_and_rejects(center, point, reach, memory)) return std::nullopt;
   const Located located = locate<Sought::contact>(center, point, reach, memory, work);
-  if (located.gave_up) return all().nearest(center, reach, work);
+  if (located.exhausted) return fallback().nearest(center, reach, work);
   if (located.triangle == nullptr) return std::nullopt;
-  const Contact contact = contact_at(*located.triangle, center, located.offset, store_.id(memory.place));
+  const Contact contact = contact_at(*located.triangle, center, located.offset, store_.id(memory.slot));
   const bool within = contact.distance <= reach;
   const double lower =
       within ? contact.distance : std::min(std::sqrt(located.squared_lower), contact.distance);
-  remember(center, located.tau, lower, contact.distance, memory);
+  remember(center, located.plane_error, lower, contact.distance, memory);
   if (certified_ && !(located.exactly == nullptr && is_certain(contact.distance, reach, located.error))) {
     const double error = distance_error(bounds_, center);
     const bool is_first = located.exactly == nullptr;

@@ -1,4 +1,4 @@
-/// The first touch along a straight way, through the hierarchy of boxes.
+/// The first touch along a straight path, through the hierarchy of boxes.
 #include <algorithm>
 #include <bit>
 #include <cstddef>
@@ -9,6 +9,7 @@
 #include "core/geometry/sweep_box.h"
 #include "core/grid_group/direct/direct_grid.h"
 #include "core/search/certified_nearest.h"
+#include "core/simd/lanes.h"
 
 namespace touchmark::grid {
 namespace {
@@ -17,38 +18,38 @@ namespace {
 class SweepSearch {
  public:
   /// The store's frame covers both ends.
-  SweepSearch(const TriangleStore& store, const Sweep& sweep, double widening) noexcept
+  SweepSearch(const TriangleStore& store, const Sweep& sweep, double padded_radius) noexcept
       : store_(store),
         sweep_(sweep),
         in_frame_{store.frame.scale() * (sweep.from - store.frame.origin()),
                   store.frame.scale() * (sweep.to - store.frame.origin()), 0},
         start_(store.frame.point(sweep.from)),
         length_((sweep.to - sweep.from).norm()),
-        widening_(widening) {}
+        padded_radius_(padded_radius) {}
 
   bool found() const noexcept { return first_.fraction <= 1; }
   double fraction() const noexcept { return first_.fraction; }
-  std::uint32_t place() const noexcept { return place_; }  ///< of the first
+  std::uint32_t slot() const noexcept { return slot_; }  ///< slot of the triangle first hit
 
-  /// Those of a group that serves the whole way.
+  /// Those of a group that covers the whole path.
   void consider_group(std::span<const std::uint32_t> members, Work& work) noexcept {
     work.triangles += members.size();
-    const std::uint32_t* const place = members.data();  // readable up to a multiple of four
+    const std::uint32_t* const slot = members.data();  // readable up to a multiple of four
     for (std::size_t at = 0; at < members.size(); at += 4) {
-      const Lanes bounds = lower_bounds(store_.planes[place[at]], store_.planes[place[at + 1]],
-                                        store_.planes[place[at + 2]], store_.planes[place[at + 3]], start_);
+      const Lanes bounds = lower_bounds(store_.planes[slot[at]], store_.planes[slot[at + 1]],
+                                        store_.planes[slot[at + 2]], store_.planes[slot[at + 3]], start_);
       for (unsigned left = at_most(bounds, within()); left != 0; left &= left - 1)
-        consider(place[at + static_cast<std::size_t>(std::countr_zero(left))], work);
+        consider(slot[at + static_cast<std::size_t>(std::countr_zero(left))], work);
     }
   }
 
-  /// False when it has tested more than `most` triangles and boxes before the end.
-  bool consider_tree(const BoxTree& tree, std::uint64_t most, Work& work) noexcept {
+  /// False when it has tested more than `budget` triangles and boxes before the end.
+  bool consider_tree(const BoxTree& tree, std::uint64_t budget, Work& work) noexcept {
     const std::uint64_t before = work.boxes + work.triangles;
     BoxStack stack;
     visit(tree, static_cast<std::uint32_t>(tree.levels()) - 1, 0, stack, work);
     while (!stack.empty()) {
-      if (work.boxes + work.triangles - before > most) return false;
+      if (work.boxes + work.triangles - before > budget) return false;
       const BoxStack::Entry next = stack.pop();
       // The bound may have been rounded up to single precision, where that is denormal by 2^-149.
       if (static_cast<double>(next.bound) > limit() * (1 + 0x1p-22) + 0x1p-149) continue;
@@ -64,11 +65,11 @@ class SweepSearch {
  private:
   double limit() const noexcept { return std::min(first_.fraction, 1.0); }
 
-  /// Pushes the children that the way meets, the first met on top.
+  /// Pushes the children that the path meets, the first met on top.
   void visit(const BoxTree& tree, std::uint32_t level, std::uint32_t index, BoxStack& stack,
              Work& work) const noexcept {
     const EightBoxes& node = tree.node(level, index);
-    const double widening = store_.frame.scale() * widening_;
+    const double padded_radius = store_.frame.scale() * padded_radius_;
     const std::size_t base = stack.size();
     work.boxes += BoxTree::arity;
     for (std::uint32_t child = 0; child < BoxTree::arity; ++child) {
@@ -77,15 +78,15 @@ class SweepSearch {
         box.min[static_cast<int>(k)] = static_cast<double>(node.min[k][child / 4][child % 4]);
         box.max[static_cast<int>(k)] = static_cast<double>(node.max[k][child / 4][child % 4]);
       }
-      const double enter = enters(box, in_frame_, widening, limit());
+      const double enter = enters(box, in_frame_, padded_radius, limit());
       if (enter <= limit())
         stack.insert(base, {static_cast<float>(enter), index * BoxTree::arity + child, level});
     }
   }
 
-  /// What is farther from the way's start than its length can't be met.
+  /// What is farther from the path's start than its length can't be met.
   float within() const noexcept {
-    const double farthest = length_ * limit() * (1 + 0x1p-40) + widening_;
+    const double farthest = length_ * limit() * (1 + 0x1p-40) + padded_radius_;
     return store_.frame.limit(farthest * farthest);
   }
 
@@ -100,12 +101,12 @@ class SweepSearch {
     }
   }
 
-  void consider(std::uint32_t place, Work& work) noexcept {
-    const PreparedTriangle& triangle = store_.exact[place];
+  void consider(std::uint32_t slot, Work& work) noexcept {
+    const PreparedTriangle& triangle = store_.exact[slot];
     const std::optional<double> hit = sweep_hit(triangle, sweep_, limit(), work.exact_decisions);
     if (!hit || !(HitCandidate{*hit, triangle.index} < first_)) return;
     first_ = {*hit, triangle.index};
-    place_ = place;
+    slot_ = slot;
   }
 
   const TriangleStore& store_;
@@ -113,44 +114,43 @@ class SweepSearch {
   Sweep in_frame_;
   FilterPoint start_;
   double length_;
-  double widening_;
+  double padded_radius_;
   HitCandidate first_;
-  std::uint32_t place_ = 0;
+  std::uint32_t slot_ = 0;
 };
 
 }  // namespace
 
 std::optional<Impact> DirectGrid::first_hit(const Sweep& sweep, DirectMemory& memory,
                                             Work& work) const noexcept {
-  if (!(sweep.radius >= 0)) return std::nullopt;
   const double difference = largest_difference(bounds_, sweep);
-  if (!fourth_powers_fit(difference)) return all().first_hit(sweep, work);
+  if (!fourth_powers_fit(difference)) return fallback().first_hit(sweep, work);
   if (!(store_.frame.covers(sweep.from) && store_.frame.covers(sweep.to))) return far_first_hit(sweep, work);
-  const double widening = sweep_widening(sweep, difference);
-  const double farthest = (sweep.to - sweep.from).norm() * (1 + 0x1p-40) + widening;
-  if (surely_free(sweep.from, farthest, memory)) return std::nullopt;
+  const double padded_radius = padded_sweep_radius(sweep, difference);
+  const double farthest = (sweep.to - sweep.from).norm() * (1 + 0x1p-40) + padded_radius;
+  if (is_clear(sweep.from, farthest, memory)) return std::nullopt;
   const FilterPoint from = store_.frame.point(sweep.from);
-  if (begins_far(sweep.from, from, farthest, memory)) return std::nullopt;
+  if (claims_and_rejects(sweep.from, from, farthest, memory)) return std::nullopt;
   const Start start = start_at(sweep.from, from, farthest, memory, work);
   if (start.beyond) return std::nullopt;
   const std::uint64_t before = work.total();
-  SweepSearch search(store_, sweep, widening);
-  // Where a group is valid is convex: it serves the way between two points that it serves.
-  if (start.group != nullptr && serving(start.place, store_.frame.point(sweep.to), work) != nullptr) {
+  SweepSearch search(store_, sweep, padded_radius);
+  // Where a group is valid is convex: it covers the path between two points that it covers.
+  if (start.group != nullptr && group_covering(start.slot, store_.frame.point(sweep.to), work) != nullptr) {
     search.consider_group(groups_.members(*start.group), work);
-  } else if (!search.consider_tree(tree_, most_work_before_all(store_.size()), work)) {
+  } else if (!search.consider_tree(tree_, work_budget(store_.size()), work)) {
     return first_hit_of_all(sweep, memory, work);
   } else {
-    grow(search.found() ? search.place() : start.place, start.place, sweep.from, work.total() - before, work);
+    grow(search.found() ? search.slot() : start.slot, start.slot, sweep.from, work.total() - before, work);
   }
   if (!search.found()) return std::nullopt;
-  memory.place = search.place();
-  return impact_on(sweep, search.fraction(), search.place(), memory, work);
+  memory.slot = search.slot();
+  return impact_on(sweep, search.fraction(), search.slot(), memory, work);
 }
 
 std::optional<Impact> DirectGrid::far_first_hit(const Sweep& sweep, Work& work) const noexcept {
   ++work.boxes;
-  if (enters(bounds_, sweep, sweep_widening(sweep, largest_difference(bounds_, sweep)), 1) > 1)
+  if (enters(bounds_, sweep, padded_sweep_radius(sweep, largest_difference(bounds_, sweep)), 1) > 1)
     return std::nullopt;
   DirectMemory memory;
   return first_hit_of_all(sweep, memory, work);
@@ -159,28 +159,24 @@ std::optional<Impact> DirectGrid::far_first_hit(const Sweep& sweep, Work& work) 
 std::optional<Impact> DirectGrid::first_hit_of_all(const Sweep& sweep, DirectMemory& memory,
                                                    Work& work) const noexcept {
   HitCandidate first;
-  std::uint32_t first_place = 0;
-  for (std::uint32_t place = 0; place < store_.size(); ++place) {
-    const PreparedTriangle& triangle = store_.exact[place];
+  std::uint32_t first_slot = 0;
+  for (std::uint32_t slot = 0; slot < store_.size(); ++slot) {
+    const PreparedTriangle& triangle = store_.exact[slot];
     const std::optional<double> hit =
         sweep_hit(triangle, sweep, std::min(first.fraction, 1.0), work.exact_decisions);
     if (!hit || !(HitCandidate{*hit, triangle.index} < first)) continue;
     first = {*hit, triangle.index};
-    first_place = place;
+    first_slot = slot;
   }
   work.triangles += store_.size();
   if (!(first.fraction <= 1)) return std::nullopt;
-  return impact_on(sweep, first.fraction, first_place, memory, work);
+  return impact_on(sweep, first.fraction, first_slot, memory, work);
 }
 
-std::optional<Impact> DirectGrid::impact_on(const Sweep& sweep, double fraction, std::uint32_t place,
+std::optional<Impact> DirectGrid::impact_on(const Sweep& sweep, double fraction, std::uint32_t slot,
                                             DirectMemory& memory, Work& work) const noexcept {
-  // Of all the triangles that are touched at the start the nearest one counts.
-  if (fraction == 0) {
-    const double reach = certified_ ? sweep.radius : any_reach;
-    if (const auto start = nearest(sweep.from, reach, memory, work)) return Impact{0, *start};
-  }
-  return Impact{fraction, contact_on_way(store_.exact[place], sweep, fraction, store_.id(place))};
+  return touchmark::impact_on(store_.exact[slot], sweep, fraction, store_.id(slot), certified_,
+                              [&](double reach) { return nearest(sweep.from, reach, memory, work); });
 }
 
 }  // namespace touchmark::grid

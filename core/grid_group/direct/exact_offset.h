@@ -11,9 +11,10 @@ namespace touchmark::grid {
 /// offset_from(triangle, center).
 Offset exact_offset(const PreparedTriangle& triangle, const Vec3& center) noexcept;
 
-/// The same for a centre that the plane filter puts inside the prism over the face: it is inside by 2 units
-/// in the last place of single precision at least, far more than the rounding of the kernel's own three
-/// tests, so they all hold. Fourth powers of the mesh's extent must stay within the range of double.
+/// Returns the same offset for a centre that the plane filter puts inside the prism over the face: it is
+/// inside by 2 units in the last place of single precision at least, far more than the rounding of the
+/// kernel's own three tests, so they all hold. Fourth powers of the mesh's extent must stay within the range
+/// of double.
 inline Offset offset_over_face(const PreparedTriangle& triangle, const Vec3& center) noexcept {
   const std::array<Vec3, 3> to = {center - triangle.corner[0], center - triangle.corner[1],
                                   center - triangle.corner[2]};

@@ -13,28 +13,32 @@ namespace touchmark::grid {
 
 class GroupBuilder {
  public:
-  /// `lead`: see GroupFinder. No more than `most_bytes` are taken; triangles that come too late get no
-  /// members.
-  GroupBuilder(const TriangleStore& store, const BoxTree& tree, double lead, std::size_t most_bytes)
-      : store_(store), lead_(lead), most_bytes_(most_bytes), finder_(store, tree, lead, {.sharing = 0.2}) {}
+  /// `exclusion_margin`: see GroupFinder. No more than `max_bytes` are taken; triangles that come too late
+  /// get no members.
+  GroupBuilder(const TriangleStore& store, const BoxTree& tree, double exclusion_margin,
+               std::size_t max_bytes)
+      : store_(store),
+        exclusion_margin_(exclusion_margin),
+        max_bytes_(max_bytes),
+        finder_(store, tree, exclusion_margin, {.sharing = 0.2}) {}
 
   Groups build();
   /// None yet, and room for them.
-  Groups unmade() const;
-  /// Of the triangles of these groups, after some moved within these boxes of the frame. Where groups grow,
-  /// those that changed are unmade again.
+  Groups unbuilt() const;
+  /// Returns the groups of the same triangles after some moved within these boxes of the frame. With lazy
+  /// construction those that changed are unbuilt again.
   Groups rebuild(const Groups& groups, const std::vector<Aabb>& moved);
   /// Did the bytes run out?
   bool ran_out() const noexcept { return ran_out_; }
 
  private:
   void start();
-  void add(std::uint32_t place, const GroupFinder::Found& found);
-  bool changes(std::uint32_t place, const std::vector<Aabb>& moved) const noexcept;
+  void add(std::uint32_t slot, const GroupFinder::Found& found);
+  bool changes(std::uint32_t slot, const std::vector<Aabb>& moved) const noexcept;
 
   const TriangleStore& store_;
-  double lead_;
-  std::size_t most_bytes_;
+  double exclusion_margin_;
+  std::size_t max_bytes_;
   GroupFinder finder_;
   Groups groups_;
   bool ran_out_ = false;

@@ -17,27 +17,23 @@ constexpr float far = std::numeric_limits<float>::max();
 struct Leaders {
   Lanes least = {far, far, far, far};
   Lanes height = {far, far, far, far};
-  LaneBits under = {0, 0, 0, 0};  ///< number of the first member of that height
+  LaneBits member = {0, 0, 0, 0};  ///< number of the first member of that height
 };
 
-float least_of(Lanes lanes) noexcept {
-  return std::min(std::min(lanes[0], lanes[1]), std::min(lanes[2], lanes[3]));
-}
-
-void conclude(const Leaders& leaders, const std::uint32_t* places, GroupBounds& bounds) noexcept {
-  bounds.least = least_of(leaders.least);
-  bounds.height = least_of(leaders.height);
-  bounds.over_one = bounds.height < far;
-  if (!bounds.over_one) {
+void conclude(const Leaders& leaders, const std::uint32_t* slots, GroupBounds& bounds) noexcept {
+  bounds.least = simd::reduce_min(leaders.least);
+  bounds.height = simd::reduce_min(leaders.height);
+  bounds.over_face = bounds.height < far;
+  if (!bounds.over_face) {
     std::size_t i = 0;
     while (bounds.squared[i / 4][i % 4] > bounds.least) ++i;
-    bounds.guess = places[i];
+    bounds.guess = slots[i];
     return;
   }
   int first = std::numeric_limits<int>::max();
   for (unsigned lanes = at_most(leaders.height, bounds.height); lanes != 0; lanes &= lanes - 1)
-    first = std::min(first, leaders.under[std::countr_zero(lanes)]);
-  bounds.guess = places[first];
+    first = std::min(first, leaders.member[std::countr_zero(lanes)]);
+  bounds.guess = slots[first];
 }
 
 #ifdef __x86_64__
@@ -45,19 +41,20 @@ void conclude(const Leaders& leaders, const std::uint32_t* places, GroupBounds& 
 const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
 
 /// Eight members at a time: two of them share a register, row by row, until the transposition.
-[[gnu::target("avx2")]] Leaders pass_avx2(const TrianglePlanes* planes, const std::uint32_t* places,
+[[gnu::target("avx2")]] Leaders pass_avx2(const TrianglePlanes* planes, const std::uint32_t* slots,
                                           std::size_t count, const FilterPoint& point,
                                           GroupBounds& bounds) noexcept {
   const __m256 x = _mm256_set1_ps(point.x), y = _mm256_set1_ps(point.y), z = _mm256_set1_ps(point.z);
-  const __m256 tau = _mm256_set1_ps(point.tau), minus_tau = _mm256_set1_ps(-point.tau);
+  const __m256 plane_error = _mm256_set1_ps(point.plane_error),
+               minus_error = _mm256_set1_ps(-point.plane_error);
   const __m256 sign = _mm256_set1_ps(-0.0f), zero = _mm256_setzero_ps();
   __m256 least = _mm256_set1_ps(far), height = least;
-  __m256i under = _mm256_setzero_si256(), now = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+  __m256i member = _mm256_setzero_si256(), now = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
   for (std::size_t at = 0; at < count; at += 8) {
     __m256 values[4];
     for (std::size_t k = 0; k < 4; ++k) {
-      const TrianglePlanes& low = planes[places[at + k]];
-      const TrianglePlanes& high = planes[places[at + k + 4]];
+      const TrianglePlanes& low = planes[slots[at + k]];
+      const TrianglePlanes& high = planes[slots[at + k + 4]];
       const __m256 nx = _mm256_set_m128(high.x, low.x), ny = _mm256_set_m128(high.y, low.y);
       const __m256 nz = _mm256_set_m128(high.z, low.z), offset = _mm256_set_m128(high.offset, low.offset);
       const __m256 across = _mm256_add_ps(_mm256_mul_ps(nx, x), _mm256_mul_ps(ny, y));
@@ -72,48 +69,48 @@ const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
     const __m256 side1 = _mm256_shuffle_ps(ab_low, cd_low, 0xee);
     const __m256 side2 = _mm256_shuffle_ps(ab_high, cd_high, 0x44);
     const __m256 side3 = _mm256_shuffle_ps(ab_high, cd_high, 0xee);
-    const __m256 beside = _mm256_max_ps(side1, _mm256_max_ps(side2, side3));
+    const __m256 side_excess = _mm256_max_ps(side1, _mm256_max_ps(side2, side3));
 
-    const __m256 h = _mm256_max_ps(_mm256_sub_ps(face, tau), zero);
-    const __m256 e = _mm256_max_ps(_mm256_sub_ps(beside, tau), zero);
+    const __m256 h = _mm256_max_ps(_mm256_sub_ps(face, plane_error), zero);
+    const __m256 e = _mm256_max_ps(_mm256_sub_ps(side_excess, plane_error), zero);
     const __m256 squared = _mm256_add_ps(_mm256_mul_ps(h, h), _mm256_mul_ps(e, e));
     bounds.squared[at / 4] = _mm256_castps256_ps128(squared);
     bounds.squared[at / 4 + 1] = _mm256_extractf128_ps(squared, 1);
     least = _mm256_min_ps(squared, least);
-    const __m256 lower =
-        _mm256_and_ps(_mm256_cmp_ps(beside, minus_tau, _CMP_LT_OQ), _mm256_cmp_ps(face, height, _CMP_LT_OQ));
+    const __m256 lower = _mm256_and_ps(_mm256_cmp_ps(side_excess, minus_error, _CMP_LT_OQ),
+                                       _mm256_cmp_ps(face, height, _CMP_LT_OQ));
     height = _mm256_blendv_ps(height, face, lower);
-    under = _mm256_blendv_epi8(under, now, _mm256_castps_si256(lower));
+    member = _mm256_blendv_epi8(member, now, _mm256_castps_si256(lower));
     now = _mm256_add_epi32(now, _mm256_set1_epi32(8));
   }
   // Fold the upper lanes into the lower; of equal heights the first member's counts.
   Leaders leaders;
   leaders.least = _mm_min_ps(_mm256_castps256_ps128(least), _mm256_extractf128_ps(least, 1));
   const Lanes low = _mm256_castps256_ps128(height), high = _mm256_extractf128_ps(height, 1);
-  const auto under_low = reinterpret_cast<LaneBits>(_mm256_castsi256_si128(under));
-  const auto under_high = reinterpret_cast<LaneBits>(_mm256_extracti128_si256(under, 1));
-  const LaneBits take_high = (high < low) | ((high == low) & (under_high < under_low));
+  const auto member_low = reinterpret_cast<LaneBits>(_mm256_castsi256_si128(member));
+  const auto member_high = reinterpret_cast<LaneBits>(_mm256_extracti128_si256(member, 1));
+  const LaneBits take_high = (high < low) | ((high == low) & (member_high < member_low));
   leaders.height = take_high ? high : low;
-  leaders.under = take_high ? under_high : under_low;
+  leaders.member = take_high ? member_high : member_low;
   return leaders;
 }
 
 #endif
 
-Leaders pass(const TrianglePlanes* planes, const std::uint32_t* places, std::size_t count,
+Leaders pass(const TrianglePlanes* planes, const std::uint32_t* slots, std::size_t count,
              const FilterPoint& point, GroupBounds& bounds) noexcept {
   const PointLanes p(point);
   Leaders leaders;
   LaneBits now = {0, 1, 2, 3};
   for (std::size_t at = 0; at < count; at += 4) {
-    const PlaneLanes values = plane_lanes(planes[places[at]], planes[places[at + 1]], planes[places[at + 2]],
-                                          planes[places[at + 3]], p);
+    const PlaneLanes values = plane_lanes(planes[slots[at]], planes[slots[at + 1]], planes[slots[at + 2]],
+                                          planes[slots[at + 3]], p);
     const Lanes squared = lower_bounds(values, p);
     bounds.squared[at / 4] = squared;
     leaders.least = squared < leaders.least ? squared : leaders.least;
-    const LaneBits lower = (values.beside < -p.tau) & (values.height < leaders.height);
+    const LaneBits lower = (values.side_excess < -p.plane_error) & (values.height < leaders.height);
     leaders.height = lower ? values.height : leaders.height;
-    leaders.under = lower ? now : leaders.under;
+    leaders.member = lower ? now : leaders.member;
     now += 4;
   }
   return leaders;
@@ -121,22 +118,22 @@ Leaders pass(const TrianglePlanes* planes, const std::uint32_t* places, std::siz
 
 }  // namespace
 
-GroupBounds filter_group(const TrianglePlanes* planes, const std::uint32_t* places, std::size_t count,
+GroupBounds filter_group(const TrianglePlanes* planes, const std::uint32_t* slots, std::size_t count,
                          const FilterPoint& point) noexcept {
 #ifdef __x86_64__
   if (has_avx2) {
     GroupBounds bounds;
-    conclude(pass_avx2(planes, places, count, point, bounds), places, bounds);
+    conclude(pass_avx2(planes, slots, count, point, bounds), slots, bounds);
     return bounds;
   }
 #endif
-  return filter_group_portably(planes, places, count, point);
+  return filter_group_portably(planes, slots, count, point);
 }
 
-GroupBounds filter_group_portably(const TrianglePlanes* planes, const std::uint32_t* places,
-                                  std::size_t count, const FilterPoint& point) noexcept {
+GroupBounds filter_group_portably(const TrianglePlanes* planes, const std::uint32_t* slots, std::size_t count,
+                                  const FilterPoint& point) noexcept {
   GroupBounds bounds;
-  conclude(pass(planes, places, count, point, bounds), places, bounds);
+  conclude(pass(planes, slots, count, point, bounds), slots, bounds);
   return bounds;
 }
 

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <utility>
 
+#include "core/simd/lanes.h"
+
 namespace touchmark::grid {
 namespace {
 
@@ -13,11 +15,11 @@ namespace {
 constexpr double growth = 0.3;
 /// Over and under the triangle by this part of its size at first, and by less where the groups would be too
 /// large.
-constexpr double first_height = 1.0, least_height = 0.2, shrinking = 0.6;
-static_assert(first_height * shrinking * shrinking * shrinking * shrinking < least_height &&
-              GroupFinder::most_looks >= 4);
+constexpr double first_height = 1.0, min_height = 0.2, shrinking = 0.6;
+static_assert(first_height * shrinking * shrinking * shrinking * shrinking < min_height &&
+              GroupFinder::max_looks >= 4);
 
-// Of a ball about the triangle the footprint grown is within 1.6 radii, its size below 1.65, so the highest
+// Of a ball about the triangle the grown triangle is within 1.6 radii, its size below 1.65, so the highest
 // prism within 3.25; and no point of that is farther than 2.25 from the triangle. What is nearest there comes
 // into 5.5.
 static_assert(growth <= 0.3 && first_height <= 1 && GroupFinder::reach_in_radii >= 6);
@@ -28,7 +30,7 @@ Lanes load(const float* from) noexcept {
   return lanes;
 }
 
-bool apart(const EightBoxes& boxes, std::size_t child, const Aabb& box) noexcept {
+bool are_disjoint(const EightBoxes& boxes, std::size_t child, const Aabb& box) noexcept {
   for (std::size_t k = 0; k < 3; ++k) {
     const int axis = static_cast<int>(k);
     if (static_cast<double>(boxes.min[k][child / 4][child % 4]) > box.max[axis] ||
@@ -46,46 +48,46 @@ bool reaches(const TriangleBall& ball, const Aabb& box) noexcept {
 
 }  // namespace
 
-GroupFinder::Found GroupFinder::find(std::uint32_t place) noexcept {
-  const Footprint footprint(store_.exact[place], store_.frame);
-  // A margin that single precision does not see would serve no point.
+GroupFinder::Found GroupFinder::find(std::uint32_t slot) noexcept {
+  const FaceFrame face_frame(store_.exact[slot], store_.frame);
+  // A margin that single precision does not see would cover no point.
   const bool visible =
-      growth * footprint.inradius > static_cast<double>(store_.frame.tau(footprint.incenter));
-  if (footprint.normal.isZero(0) || !visible) return {};
-  const double height = find_members(footprint);
-  if (member_count_ == 0 || member_count_ > Groups::most_members) return {};
+      growth * face_frame.inradius > static_cast<double>(store_.frame.plane_error(face_frame.incenter));
+  if (face_frame.normal.isZero(0) || !visible) return {};
+  const double height = find_members(face_frame);
+  if (member_count_ == 0 || member_count_ > Groups::max_members) return {};
   for (std::size_t i = member_count_; i < Groups::rounded_up(member_count_); ++i)
     members_[i] = members_[member_count_ - 1];
-  // Rounded down, so that single precision serves no point outside.
+  // Rounded down, so that single precision covers no point outside.
   constexpr double down = 1 - 0x1p-22;
   return {{members_.data(), member_count_},
           static_cast<float>(height * down),
-          static_cast<float>(growth * footprint.inradius * down)};
+          static_cast<float>(growth * face_frame.inradius * down)};
 }
 
 Work GroupFinder::take_work() noexcept { return std::exchange(work_, Work{}); }
 
 /// Leaves the members of the highest prism with no more than many, or of the lowest; none when the mesh is
 /// too dense there. Returns the prism's height.
-double GroupFinder::find_members(const Footprint& footprint) noexcept {
-  double height = first_height * footprint.size;
-  const Prism highest(footprint, growth, height, lead_, store_.frame);
+double GroupFinder::find_members(const FaceFrame& face_frame) noexcept {
+  double height = first_height * face_frame.size;
+  const Prism highest(face_frame, growth, height, exclusion_margin_, store_.frame);
   Aabb box;
-  for (const Vec3& corner : footprint.grown(growth)) {
-    box.extend(corner + height * footprint.normal);
-    box.extend(corner - height * footprint.normal);
+  for (const Vec3& corner : face_frame.grown(growth)) {
+    box.extend(corner + height * face_frame.normal);
+    box.extend(corner - height * face_frame.normal);
   }
   member_count_ = 0;
-  if (!gather(box.padded(highest.farthest() + lead_))) return 0;
+  if (!gather(box.padded(highest.farthest() + exclusion_margin_))) return 0;
   select_members(highest);
-  while (member_count_ > Groups::many_members && shrinking * height >= least_height * footprint.size) {
+  while (member_count_ > Groups::many_members && shrinking * height >= min_height * face_frame.size) {
     height *= shrinking;
-    const Prism lower(footprint, growth, height, lead_, store_.frame);
+    const Prism lower(face_frame, growth, height, exclusion_margin_, store_.frame);
     // What a higher prism can do without, a lower one can.
     work_.triangles += member_count_;
     const auto end = members_.begin() + static_cast<std::ptrdiff_t>(member_count_);
-    const auto kept = std::remove_if(members_.begin(), end, [&](std::uint32_t place) {
-      return lower.excludes(store_.planes[place], store_.balls[place]);
+    const auto kept = std::remove_if(members_.begin(), end, [&](std::uint32_t slot) {
+      return lower.excludes(store_.planes[slot], store_.balls[slot]);
     });
     member_count_ = static_cast<std::size_t>(kept - members_.begin());
   }
@@ -100,8 +102,8 @@ void GroupFinder::select_members(const Prism& prism) noexcept {
     for (; left != 0; left &= left - 1) {
       const std::size_t i = at + static_cast<std::size_t>(std::countr_zero(left));
       if (i >= near_count_) break;  // behind the last are its copies
-      const std::uint32_t place = near_[i];
-      if (!prism.excludes(store_.planes[place], store_.balls[place])) members_[member_count_++] = place;
+      const std::uint32_t slot = near_[i];
+      if (!prism.excludes(store_.planes[slot], store_.balls[slot])) members_[member_count_++] = slot;
     }
   }
 }
@@ -131,28 +133,28 @@ bool GroupFinder::gather_blocks(const Aabb& box) noexcept {
   };
   near_count_ = 0;
   // As in BoxStack: seven siblings a level, and the last level's eight.
-  std::array<Node, 8 * 11> waiting;
+  std::array<Node, 8 * 11> stack;
   std::size_t count = 1;
-  waiting[0] = {static_cast<std::uint32_t>(tree_.levels()) - 1, 0};
+  stack[0] = {static_cast<std::uint32_t>(tree_.levels()) - 1, 0};
   std::uint64_t boxes_seen = 0;
   while (count > 0) {
-    const Node node = waiting[--count];
+    const Node node = stack[--count];
     const EightBoxes& boxes = tree_.node(node.level, node.index);
     boxes_seen += BoxTree::arity;
     work_.boxes += BoxTree::arity;
-    if (boxes_seen > effort_.most_boxes) return false;
+    if (boxes_seen > effort_.max_boxes) return false;
     for (std::uint32_t i = 0; i < BoxTree::arity; ++i) {
-      if (apart(boxes, i, box)) continue;
+      if (are_disjoint(boxes, i, box)) continue;
       const std::uint32_t child = node.index * BoxTree::arity + i;
       if (node.level > 0) {
-        waiting[count++] = {node.level - 1, child};
+        stack[count++] = {node.level - 1, child};
         continue;
       }
       const std::uint32_t first = child * TriangleStore::block_size;
-      for (std::uint32_t place = first; place < std::min(first + TriangleStore::block_size, store_.size());
-           ++place)
-        if (reaches(store_.balls[place], box)) near_[near_count_++] = place;
-      if (near_count_ > std::min<std::uint64_t>(most_near, effort_.most_near)) return false;
+      for (std::uint32_t slot = first; slot < std::min(first + TriangleStore::block_size, store_.size());
+           ++slot)
+        if (reaches(store_.balls[slot], box)) near_[near_count_++] = slot;
+      if (near_count_ > std::min<std::uint64_t>(max_near, effort_.max_near)) return false;
     }
   }
   return true;

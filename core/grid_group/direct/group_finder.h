@@ -21,22 +21,23 @@ class GroupFinder {
     /// Neighbours in the order are neighbours in space: so much farther than for a group, in extents of its
     /// surroundings, triangles are gathered, to serve the next groups too.
     double sharing = 0;
-    std::uint64_t most_boxes = ~std::uint64_t{0};  ///< are looked at to gather; past that there is no group
-    std::uint64_t most_near = ~std::uint64_t{0};   ///< are gathered, likewise
+    std::uint64_t max_boxes = ~std::uint64_t{0};  ///< are looked at to gather; past that there is no group
+    std::uint64_t max_near = ~std::uint64_t{0};   ///< are gathered, likewise
   };
   /// Each triangle gathered is looked at no more often than this.
-  static constexpr std::uint64_t most_looks = 4;
+  static constexpr std::uint64_t max_looks = 4;
 
-  /// `lead`: by how much, in the frame, a triangle must lose to be left out.
-  GroupFinder(const TriangleStore& store, const BoxTree& tree, double lead, const Effort& effort) noexcept
-      : store_(store), tree_(tree), lead_(lead), effort_(effort) {}
+  /// `exclusion_margin`: by how much, in the frame, a triangle must lose to be left out.
+  GroupFinder(const TriangleStore& store, const BoxTree& tree, double exclusion_margin,
+              const Effort& effort) noexcept
+      : store_(store), tree_(tree), exclusion_margin_(exclusion_margin), effort_(effort) {}
 
   struct Found {
     std::span<const std::uint32_t> members;  ///< valid until the next call; behind them copies of the last
     float height = -1, margin = -1;
   };
-  /// No members where no group can serve, or would be too large.
-  Found find(std::uint32_t place) noexcept;
+  /// No members where no group can cover a point, or would be too large.
+  Found find(std::uint32_t slot) noexcept;
   /// Boxes and triangles looked at since the last call.
   Work take_work() noexcept;
 
@@ -47,24 +48,24 @@ class GroupFinder {
  private:
   /// More than this around one triangle: it is out of proportion to its neighbours, and the hierarchy serves
   /// it.
-  static constexpr std::size_t most_near = 1024;
-  static constexpr std::size_t room = most_near + TriangleStore::block_size;
+  static constexpr std::size_t max_near = 1024;
+  static constexpr std::size_t near_capacity = max_near + TriangleStore::block_size;
 
-  double find_members(const Footprint& footprint) noexcept;
+  double find_members(const FaceFrame& face_frame) noexcept;
   bool gather(const Aabb& box) noexcept;
   bool gather_blocks(const Aabb& box) noexcept;
   void select_members(const Prism& prism) noexcept;
 
   const TriangleStore& store_;
   const BoxTree& tree_;
-  double lead_;
+  double exclusion_margin_;
   Effort effort_;
   Work work_;
 
   Aabb gathered_;  ///< near_ holds every triangle that reaches into this
   std::size_t near_count_ = 0, member_count_ = 0;
-  std::array<std::uint32_t, room> near_, members_;
-  alignas(16) std::array<float, room> near_x_, near_y_, near_z_, near_radius_;  ///< their balls
+  std::array<std::uint32_t, near_capacity> near_, members_;
+  alignas(16) std::array<float, near_capacity> near_x_, near_y_, near_z_, near_radius_;  ///< their balls
 };
 
 }  // namespace touchmark::grid

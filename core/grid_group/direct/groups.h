@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/search/plane_filter.h"
+#include "core/simd/lanes.h"
 
 namespace touchmark::grid {
 
@@ -21,16 +22,16 @@ class Group {
   Group(std::uint32_t first, std::size_t count, float height, float margin) noexcept
       : first_(first), count_(static_cast<std::uint16_t>(count)), height_(height), margin_(margin) {}
 
-  std::size_t count() const noexcept {  ///< of members
+  std::size_t count() const noexcept {  ///< number of members
     return std::atomic_ref(count_).load(std::memory_order_acquire);
   }
   float height() const noexcept { return std::atomic_ref(height_).load(std::memory_order_acquire); }
-  float margin() const noexcept { return margin_; }  ///< where there are members
+  float margin() const noexcept { return margin_; }  ///< valid only if there are members
 
   /// Is the point with these values of the triangle's planes surely where the group is valid?
-  bool serves(Lanes values, float tau) const noexcept {
-    const float beside = most_beside(values);
-    return std::abs(values[0]) + tau <= height() && beside + tau <= margin_;
+  bool covers(Lanes values, float plane_error) const noexcept {
+    const float side_excess = max_side_excess(values);
+    return std::abs(values[0]) + plane_error <= height() && side_excess + plane_error <= margin_;
   }
 
  private:
@@ -48,11 +49,11 @@ class Group {
 class Groups {
  public:
   /// More than many only where a lower prism would not help.
-  static constexpr std::size_t many_members = 32, most_members = 64;
+  static constexpr std::size_t many_members = 32, max_members = 64;
 
   Groups() = default;
   /// None is made, and there is room for so many members.
-  Groups(std::size_t places, std::size_t members);
+  Groups(std::size_t slots, std::size_t members);
   /// Copies what is made; what is being made meanwhile is not.
   Groups(const Groups& other);
   Groups& operator=(const Groups& other) { return *this = Groups(other); }
@@ -61,7 +62,7 @@ class Groups {
   ~Groups() = default;
 
   /// One without members where it is not made yet.
-  const Group& of(std::uint32_t place) const noexcept { return groups_[place]; }
+  const Group& of(std::uint32_t slot) const noexcept { return groups_[slot]; }
   std::span<const std::uint32_t> members(const Group& group) const noexcept {
     const std::size_t count = group.count();
     return {members_.data() + group.first_, count};
@@ -69,21 +70,22 @@ class Groups {
   /// Behind the members lie copies of the last, up to a multiple of eight.
   static constexpr std::size_t rounded_up(std::size_t members) { return (members + 7) / 8 * 8; }
 
-  bool waits(std::uint32_t place) const noexcept {
-    return std::atomic_ref(groups_[place].state_).load(std::memory_order_relaxed) == unmade;
+  bool is_unbuilt(std::uint32_t slot) const noexcept {
+    return std::atomic_ref(groups_[slot].state_).load(std::memory_order_relaxed) == unbuilt;
   }
   /// Is it the caller who has to put it?
-  bool claim(std::uint32_t place) const noexcept {
-    std::uint16_t expected = unmade;
-    return waits(place) && std::atomic_ref(groups_[place].state_)
-                               .compare_exchange_strong(expected, in_making, std::memory_order_relaxed);
+  bool claim(std::uint32_t slot) const noexcept {
+    std::uint16_t expected = unbuilt;
+    return is_unbuilt(slot) &&
+           std::atomic_ref(groups_[slot].state_)
+               .compare_exchange_strong(expected, in_construction, std::memory_order_relaxed);
   }
   /// Members with their copies behind them. Without any where there is no room for them.
-  void put(std::uint32_t place, std::span<const std::uint32_t> members, float height,
+  void put(std::uint32_t slot, std::span<const std::uint32_t> members, float height,
            float margin) const noexcept;
 
-  bool grows() const noexcept { return grows_; }
-  /// Of the groups that have members.
+  bool is_lazy() const noexcept { return lazy_; }
+  /// Returns how many groups have members.
   std::size_t count() const noexcept { return std::atomic_ref(count_).load(std::memory_order_relaxed); }
   std::size_t bytes() const noexcept {
     return groups_.capacity() * sizeof(Group) + members_.capacity() * sizeof(std::uint32_t);
@@ -91,13 +93,13 @@ class Groups {
 
  private:
   friend class GroupBuilder;
-  static constexpr std::uint16_t made = 0, unmade = 1, in_making = 2;  ///< states of a group
+  static constexpr std::uint16_t built = 0, unbuilt = 1, in_construction = 2;  ///< states of a group
 
-  bool grows_ = false;
+  bool lazy_ = false;
   // What is not made belongs to nobody but who has claimed it.
   mutable std::vector<Group> groups_;
   mutable std::vector<std::uint32_t> members_;
-  mutable std::size_t taken_ = 0;  ///< of members_, where it grows
+  mutable std::size_t taken_ = 0;  ///< how many of members_ are in use, with lazy construction
   mutable std::size_t count_ = 0;
 };
 

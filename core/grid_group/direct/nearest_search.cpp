@@ -4,8 +4,6 @@
 #include <bit>
 #include <cassert>
 
-#include "core/search/nearest_of_ties.h"
-
 namespace touchmark::grid {
 namespace {
 
@@ -21,12 +19,12 @@ float NearestSearch::consider_group(std::span<const std::uint32_t> members) noex
   triangles_ += members.size();
   const GroupBounds bounds = filter(members);
   if (bounds.least > limit_) return bounds.least;
-  if (bounds.over_one) {
-    // There the distance is the height, to within two tau: one of the filter and one for the kernel.
-    const float high = bounds.height + 2 * point_.tau;
+  if (bounds.over_face) {
+    // There the distance is the height, to within two plane errors: one of the filter and one for the kernel.
+    const float high = bounds.height + 2 * point_.plane_error;
     if (high < enough_high_) {
-      within_ = store_.frame.at_least(high);
-      place_ = bounds.guess;
+      within_ = store_.frame.from_frame_rounded_up(high);
+      slot_ = bounds.guess;
       found_ = true;
       return bounds.least;
     }
@@ -38,16 +36,16 @@ float NearestSearch::consider_group(std::span<const std::uint32_t> members) noex
   if (several(left)) left = without_far_balls(left, members);
   // A limit from outside, below every height, may leave members whose planes fall short but balls do not.
   if (left == 0) return bounds.least;
-  if (bounds.over_one && !several(left)) {
-    place_ = members[static_cast<std::size_t>(std::countr_zero(left))];
+  if (bounds.over_face && !several(left)) {
+    slot_ = members[static_cast<std::size_t>(std::countr_zero(left))];
     found_ = true;
-    over_face_ = place_ == bounds.guess && store_.fourth_powers_fit;
+    over_face_ = slot_ == bounds.guess && store_.fourth_powers_fit;
     return bounds.least;
   }
-  if (bounds.over_one) decide(bounds.guess);
+  if (bounds.over_face) decide(bounds.guess);
   for (; left != 0; left &= left - 1) {
-    const std::uint32_t place = members[static_cast<std::size_t>(std::countr_zero(left))];
-    if (place != bounds.guess) decide(place);
+    const std::uint32_t slot = members[static_cast<std::size_t>(std::countr_zero(left))];
+    if (slot != bounds.guess) decide(slot);
   }
   return bounds.least;
 }
@@ -62,18 +60,47 @@ std::uint64_t NearestSearch::within_limit(const GroupBounds& bounds, std::size_t
 
 std::uint64_t NearestSearch::without_far_balls(std::uint64_t left,
                                                std::span<const std::uint32_t> members) const noexcept {
-  for (std::uint64_t rest = left; rest != 0; rest &= rest - 1)
-    if (ball_excludes(members[static_cast<std::size_t>(std::countr_zero(rest))])) left &= ~(rest & -rest);
+  for (std::uint64_t others = left; others != 0; others &= others - 1)
+    if (ball_excludes(members[static_cast<std::size_t>(std::countr_zero(others))]))
+      left &= ~(others & -others);
   return left;
 }
 
-/// Where what was found was never taken, the others were all farther for certain.
+/// Triangles that were not compared in double were all farther for certain.
 const PreparedTriangle& NearestSearch::exactly_nearest(std::uint64_t& exact_decisions) const noexcept {
-  if (!known_) return store_.exact[place_];
+  if (!known_) return store_.exact[slot_];
   NearestOfTies ties(center_);
-  so_far_.show(ties);
-  exact_decisions += so_far_.exact_decisions() + ties.exact_decisions();
+  candidates_.pass_to(ties);
+  exact_decisions += candidates_.exact_decisions() + ties.exact_decisions();
   return *ties.nearest();
+}
+
+bool NearestSearch::decide_last(double squared) noexcept {
+  if (!known_) leave_open(slot_, squared);
+  decide_open();
+  return touches();
+}
+
+/// Decides before there is no more room: a point on the border of very many then ends at the first that
+/// touches.
+void NearestSearch::leave_open(std::uint32_t slot, double squared) noexcept {
+  if (touches() || !(std::abs(std::sqrt(squared) - radius_) <= error_)) return;
+  open_[open_count_++] = slot;
+  if (open_count_ == open_.size()) decide_open();
+}
+
+/// Ends the search at the first that is within the radius, if there is one.
+void NearestSearch::decide_open() noexcept {
+  if (!is_within_) is_within_.emplace(center_, radius_, error_);
+  for (const std::uint32_t slot : std::span(open_).first(open_count_)) {
+    const double distance = std::sqrt(exact_offset(store_.exact[slot], center_).squared);
+    if (!(*is_within_)(store_.exact[slot], distance, exact_decisions_)) continue;
+    slot_ = slot;
+    within_ = distance;
+    enough_ = std::numeric_limits<double>::infinity();
+    break;
+  }
+  open_count_ = 0;
 }
 
 std::uint32_t NearestSearch::closest_of(std::span<const std::uint32_t> members) noexcept {
@@ -81,15 +108,15 @@ std::uint32_t NearestSearch::closest_of(std::span<const std::uint32_t> members) 
   return filter(members).guess;
 }
 
-bool NearestSearch::ball_excludes(std::uint32_t place) const noexcept {
-  const TrianglePlanes& t = store_.planes[place];
+bool NearestSearch::ball_excludes(std::uint32_t slot) const noexcept {
+  const TrianglePlanes& t = store_.planes[slot];
   const Lanes zero = {0, 0, 0, 0};
   const Lanes face = zero + (((t.x[0] * point_.x + t.y[0] * point_.y) + t.z[0] * point_.z) + t.offset[0]);
-  const Lanes distance = greater_of(face, -face);
-  const Lanes height = greater_of(distance - point_.tau, zero);
-  const Lanes excess = greater_of(beyond_ball(store_.balls[place], zero + point_.x, zero + point_.y,
-                                              zero + point_.z, distance, point_.tau),
-                                  zero);
+  const Lanes distance = simd::max(face, -face);
+  const Lanes height = simd::max(distance - point_.plane_error, zero);
+  const Lanes excess = simd::max(beyond_ball(store_.balls[slot], zero + point_.x, zero + point_.y,
+                                             zero + point_.z, distance, point_.plane_error),
+                                 zero);
   return (height * height + excess * excess)[0] > limit_;
 }
 

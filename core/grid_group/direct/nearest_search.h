@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "core/grid_group/direct/box_tree.h"
@@ -16,6 +17,7 @@
 #include "core/grid_group/direct/triangle_store.h"
 #include "core/search/closest_candidates.h"
 #include "core/search/linear_scan.h"
+#include "core/search/nearest_of_ties.h"
 #include "core/simd/prefetch.h"
 
 namespace touchmark::grid {
@@ -33,43 +35,58 @@ class NearestSearch {
       : store_(store),
         center_(center),
         point_(point),
-        error_(store.frame.kernel_error(point_.tau)),
+        error_(store.frame.kernel_error(point_.plane_error)),
         limit_(store.frame.limit((reach + error_) * (reach + error_))),
-        so_far_(store.exact.data(), center, error_) {}
+        candidates_(store.exact.data(), center, error_) {}
 
   bool found() const noexcept { return found_; }
-  std::uint32_t place() const noexcept { return place_; }  ///< of the nearest
-  /// Of the nearest, as the exact kernel gives it; when there is one.
+  std::uint32_t slot() const noexcept { return slot_; }  ///< slot of the nearest triangle
+  /// Returns the offset from the nearest triangle as the exact kernel gives it. Something must have been
+  /// found.
   Offset offset() const noexcept {
-    const PreparedTriangle& triangle = store_.exact[place_];
+    const PreparedTriangle& triangle = store_.exact[slot_];
     if (known_) return offset_;
     return over_face_ ? offset_over_face(triangle, center_) : exact_offset(triangle, center_);
   }
-  /// Of the nearest ones, is it surely the first? When there is one.
-  bool is_surely_first() const noexcept { return so_far_.is_surely_first(error_); }
+  /// Returns true if the nearest is surely the first of those exactly as near. Something must have been
+  /// found.
+  bool is_surely_first() const noexcept { return candidates_.is_surely_first(error_); }
   /// The exactly nearest, the first where several are, when there is one; counts where whole numbers decide.
   const PreparedTriangle& exactly_nearest(std::uint64_t& exact_decisions) const noexcept;
-  /// From now on any triangle surely within the distance ends the search: then `within` bounds the distance
-  /// of the one found, and else it is infinite.
-  void be_content_with(double distance) noexcept {
-    enough_ = distance;
-    enough_high_ = store_.frame.at_most(distance);
+  /// From now on any triangle within the radius ends the search, and no ties are kept. Those that doubles
+  /// leave open are decided exactly, if `certified`. Before anything is considered.
+  void seek_touch(double radius, bool certified) noexcept {
+    candidates_.keep_no_ties();
+    radius_ = radius;
+    enough_ = radius - error_;
+    enough_high_ = store_.frame.to_frame_rounded_down(enough_);
+    if (!certified) return;
+    // With room for the roundings of these, and of the root and the difference in leave_open: below 8 units.
+    constexpr double error = 0x1p-48;
+    const double from = std::max(enough_, 0.0), to = radius + error_;
+    open_from_ = from * from * (1 - error);
+    open_to_ = to * to * (1 + error);
   }
+  /// Was a triangle found within the radius? Then `within` bounds its distance, and `slot` is its.
+  bool touches() const noexcept { return within_ < enough_; }
   double within() const noexcept { return within_; }
+  /// Decides at the end of the search what is still open, for the squared distance of the nearest.
+  bool touches_at_last(double squared) noexcept { return is_open(squared) && decide_last(squared); }
+  std::uint64_t exact_decisions() const noexcept { return exact_decisions_; }
   const FilterPoint& point() const noexcept { return point_; }
-  double error() const noexcept { return error_; }                 ///< of a computed distance
+  double error() const noexcept { return error_; }  ///< bounds the error of a computed distance
   std::uint64_t triangles() const noexcept { return triangles_; }  ///< tested
   std::uint64_t boxes() const noexcept { return boxes_; }          ///< tested
 
   /// Can the triangle be within the limit, as far as its planes tell?
-  bool may_be_near(std::uint32_t place) noexcept {
+  bool may_be_near(std::uint32_t slot) noexcept {
     ++triangles_;
-    return least_squared(plane_values(store_.planes[place], point_), point_) <= limit_;
+    return squared_lower_bound(plane_values(store_.planes[slot], point_), point_) <= limit_;
   }
 
-  void consider(std::uint32_t place) noexcept {
+  void consider(std::uint32_t slot) noexcept {
     ++triangles_;
-    decide(place);
+    decide(slot);
   }
 
   /// All there is to consider, and the first. Afterwards something is found unless nothing is within the
@@ -79,27 +96,26 @@ class NearestSearch {
   /// A guess at the nearest member, by the filter alone.
   std::uint32_t closest_of(std::span<const std::uint32_t> members) noexcept;
 
-  /// Visits the tree nearest first. False when it has tested more than `most` triangles and boxes before the
-  /// end.
-  bool consider_tree(const BoxTree& tree, std::uint64_t most = any_work) noexcept {
+  /// Visits the tree nearest first. False when it has tested more than `budget` triangles and boxes before
+  /// the end.
+  bool consider_tree(const BoxTree& tree, std::uint64_t budget = any_work) noexcept {
     BoxStack stack;
     visit(tree, static_cast<std::uint32_t>(tree.levels()) - 1, 0, stack);
     while (!stack.empty()) {
-      if (triangles_ + boxes_ > most) return false;
+      if (triangles_ + boxes_ > budget) return false;
       const BoxStack::Entry next = stack.pop();
       if (next.bound > limit_) continue;
       if (next.level > 0) {
         visit(tree, next.level - 1, next.index, stack);
       } else {
         consider_block(next.index);
-        if (is_content()) break;
+        if (touches()) break;
       }
     }
     return true;
   }
 
  private:
-  bool is_content() const noexcept { return within_ < enough_; }
   GroupBounds filter(std::span<const std::uint32_t> members) const noexcept;
   /// Bit i is set for member i.
   std::uint64_t within_limit(const GroupBounds& bounds, std::size_t members) const noexcept;
@@ -124,22 +140,28 @@ class NearestSearch {
       const Lanes bounds = lower_bounds(planes[0], planes[1], planes[2], planes[3], point_);
       for (unsigned left = at_most(bounds, limit_); left != 0; left &= left - 1)
         decide(at + static_cast<std::uint32_t>(std::countr_zero(left)));
-      if (is_content()) return;
+      if (touches()) return;
     }
   }
-  void decide(std::uint32_t place) noexcept {
-    const PreparedTriangle& triangle = store_.exact[place];
+  void decide(std::uint32_t slot) noexcept {
+    const PreparedTriangle& triangle = store_.exact[slot];
     const Offset offset = exact_offset(triangle, center_);
-    if (!so_far_.take({offset.squared, triangle.index}, place)) return;
+    if (is_open(offset.squared)) leave_open(slot, offset.squared);
+    if (!candidates_.update({offset.squared, triangle.index}, slot)) return;
     offset_ = offset;
-    place_ = place;
+    slot_ = slot;
     found_ = known_ = true;
     limit_ = std::min(limit_, store_.frame.limit(offset.squared));
     if (enough_ > 0) within_ = std::min(within_, std::sqrt(offset.squared));
   }
+  /// Do doubles leave open whether this is within the radius, or nearly so?
+  bool is_open(double squared) const noexcept { return squared >= open_from_ && squared <= open_to_; }
+  [[gnu::cold, gnu::noinline]] bool decide_last(double squared) noexcept;
+  [[gnu::cold, gnu::noinline]] void leave_open(std::uint32_t slot, double squared) noexcept;
+  void decide_open() noexcept;
   std::uint64_t without_far_balls(std::uint64_t left, std::span<const std::uint32_t> members) const noexcept;
   /// Is it, by its ball, farther than the limit?
-  bool ball_excludes(std::uint32_t place) const noexcept;
+  bool ball_excludes(std::uint32_t slot) const noexcept;
 
   const TriangleStore& store_;
   const Vec3& center_;
@@ -147,16 +169,23 @@ class NearestSearch {
   double error_;
   float limit_;
   bool found_ = false;
-  bool known_ = false;  ///< offset_, and so_far_ with it
+  bool known_ = false;  ///< offset_, and candidates_ with it
   double enough_ = -1;
-  float enough_high_ = -1;  ///< the same in the frame
+  float enough_high_ = -1;  ///< `enough_` in the frame
   double within_ = std::numeric_limits<double>::infinity();
+  double radius_ = 0;  ///< what touches is within it
+  /// Squares of distances about the radius; from infinity where nothing is left open.
+  double open_from_ = std::numeric_limits<double>::infinity(), open_to_ = -1;
   bool over_face_ = false;  ///< is the point surely over the face of the triangle found?
-  std::uint32_t place_ = 0;
-  NearestSoFar so_far_;
+  std::uint32_t slot_ = 0;
+  ClosestCandidates candidates_;
   Offset offset_{Vec3::Zero(), 0};
   std::uint64_t triangles_ = 0;
   std::uint64_t boxes_ = 0;
+  std::uint64_t exact_decisions_ = 0;
+  std::uint32_t open_count_ = 0;
+  std::optional<WithinRadius> is_within_;  ///< what deciding these has told of the others
+  std::array<std::uint32_t, 16> open_;     ///< places that doubles leave open, not decided yet
 };
 
 }  // namespace touchmark::grid

@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 namespace touchmark::grid {
-Footprint::Footprint(const PreparedTriangle& triangle, const FilterFrame& frame) noexcept
+FaceFrame::FaceFrame(const PreparedTriangle& triangle, const FilterFrame& frame) noexcept
     : normal(triangle.normal) {
   for (std::size_t i = 0; i < 3; ++i) corner[i] = frame.to_frame(triangle.corner[i]);
   const Vec3 to1 = corner[1] - corner[0], to2 = corner[2] - corner[0];
@@ -19,22 +19,22 @@ Footprint::Footprint(const PreparedTriangle& triangle, const FilterFrame& frame)
   size = std::sqrt(twice_area);
 }
 
-std::array<Vec3, 3> Footprint::grown(double growth) const noexcept {
+std::array<Vec3, 3> FaceFrame::grown(double growth) const noexcept {
   std::array<Vec3, 3> out;
   for (std::size_t i = 0; i < 3; ++i) out[i] = incenter + (1 + growth) * (corner[i] - incenter);
   return out;
 }
 
-Prism::Prism(const Footprint& footprint, double growth, double height, double lead,
+Prism::Prism(const FaceFrame& face_frame, double growth, double height, double exclusion_margin,
              const FilterFrame& frame) noexcept {
-  place_points(footprint, growth, height, frame);
-  set_limits(footprint, growth, height, lead);
-  set_ball_limits(footprint, height, lead);
+  set_points(face_frame, growth, height, frame);
+  set_limits(face_frame, growth, height, exclusion_margin);
+  set_ball_limits(face_frame, height, exclusion_margin);
 }
 
-void Prism::place_points(const Footprint& footprint, double growth, double height,
-                         const FilterFrame& frame) noexcept {
-  const std::array<Vec3, 3> corner = footprint.grown(growth);
+void Prism::set_points(const FaceFrame& face_frame, double growth, double height,
+                       const FilterFrame& frame) noexcept {
+  const std::array<Vec3, 3> corner = face_frame.grown(growth);
   for (int i = 0; i <= cuts; ++i) {
     for (int j = 0; i + j <= cuts; ++j)
       base_[number(i, j)] = corner[0] + (i * (corner[1] - corner[0]) + j * (corner[2] - corner[0])) / cuts;
@@ -42,16 +42,17 @@ void Prism::place_points(const Footprint& footprint, double growth, double heigh
   for (std::size_t k = 0; k < 4 * vectors; ++k) {
     const std::size_t point = std::min(k, points - 1);  // the last stands for what is left over
     const Vec3 p =
-        base_[point % points_an_end] + (point < points_an_end ? -height : height) * footprint.normal;
+        base_[point % points_an_end] + (point < points_an_end ? -height : height) * face_frame.normal;
     x_[k / 4][k % 4] = static_cast<float>(p.x());
     y_[k / 4][k % 4] = static_cast<float>(p.y());
     z_[k / 4][k % 4] = static_cast<float>(p.z());
-    tau_ = std::max(tau_, frame.tau(p));
+    plane_error_ = std::max(plane_error_, frame.plane_error(p));
   }
 }
 
-void Prism::set_limits(const Footprint& footprint, double growth, double height, double lead) noexcept {
-  // A part's witness is the point of the footprint near its middle. The greatest limit of the parts that meet
+void Prism::set_limits(const FaceFrame& face_frame, double growth, double height,
+                       double exclusion_margin) noexcept {
+  // A part's witness is the point of the triangle near its middle. The greatest limit of the parts that meet
   // in a point decides there, the same at both ends.
   std::array<double, points_an_end> across{};
   const auto part = [&](std::array<std::array<int, 2>, 3> corners) {
@@ -62,15 +63,15 @@ void Prism::set_limits(const Footprint& footprint, double growth, double height,
     }
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-      weights[k] = std::max((1 + growth) * weights[k] - growth * footprint.incenter_weights[k], 0.0);
+      weights[k] = std::max((1 + growth) * weights[k] - growth * face_frame.incenter_weights[k], 0.0);
       sum += weights[k];
     }
-    const Vec3 witness = (weights[0] * footprint.corner[0] + weights[1] * footprint.corner[1] +
-                          weights[2] * footprint.corner[2]) /
+    const Vec3 witness = (weights[0] * face_frame.corner[0] + weights[1] * face_frame.corner[1] +
+                          weights[2] * face_frame.corner[2]) /
                          sum;
     for (const auto& [i, j] : corners) {
-      double& most = across[number(i, j)];
-      most = std::max(most, (base_[number(i, j)] - witness).squaredNorm());
+      double& farthest = across[number(i, j)];
+      farthest = std::max(farthest, (base_[number(i, j)] - witness).squaredNorm());
     }
   };
   for (int i = 0; i < cuts; ++i) {
@@ -81,25 +82,27 @@ void Prism::set_limits(const Footprint& footprint, double growth, double height,
   }
   for (std::size_t k = 0; k < 4 * vectors; ++k) {
     const double squared = across[std::min(k, points - 1) % points_an_end] + height * height;
-    const double distance = std::sqrt(squared) + 4 * static_cast<double>(tau_);
+    const double distance = std::sqrt(squared) + 4 * static_cast<double>(plane_error_);
     farthest_ = std::max(farthest_, distance);
     limit_[k / 4][k % 4] = static_cast<float>(distance * distance);
   }
-  // To lose by `lead` at distance x, the square must lose by lead (2x + lead), wherever x is in the prism.
-  const auto room = static_cast<float>(lead * (2 * farthest_ + lead));
-  for (Lanes& limit : limit_) limit = (limit + room) * (1 + 0x1p-20f);
+  // To lose by `exclusion_margin` at distance x, the square must lose by margin (2x + margin), wherever x is
+  // in the prism.
+  const auto pad = static_cast<float>(exclusion_margin * (2 * farthest_ + exclusion_margin));
+  for (Lanes& limit : limit_) limit = (limit + pad) * (1 + 0x1p-20f);
 }
 
-void Prism::set_ball_limits(const Footprint& footprint, double height, double lead) noexcept {
+void Prism::set_ball_limits(const FaceFrame& face_frame, double height, double exclusion_margin) noexcept {
   // The whole prism as one part, its witness the incenter.
   const std::array<Vec3, 3> corner = {base_[number(0, 0)], base_[number(cuts, 0)], base_[number(0, cuts)]};
   double farthest = 0;
-  for (const Vec3& c : corner) farthest = std::max(farthest, (c - footprint.incenter).norm() + height);
+  for (const Vec3& c : corner) farthest = std::max(farthest, (c - face_frame.incenter).norm() + height);
   for (std::size_t i = 0; i < 6; ++i) {
-    const Vec3 p = corner[i % 3] + (i < 3 ? -height : height) * footprint.normal;
-    const double distance = std::sqrt((p - footprint.incenter).squaredNorm() + lead * (2 * farthest + lead));
+    const Vec3 p = corner[i % 3] + (i < 3 ? -height : height) * face_frame.normal;
+    const double distance = std::sqrt((p - face_frame.incenter).squaredNorm() +
+                                      exclusion_margin * (2 * farthest + exclusion_margin));
     corner_limits_[i] = {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()),
-                         static_cast<float>(distance + 4 * static_cast<double>(tau_))};
+                         static_cast<float>(distance + 4 * static_cast<double>(plane_error_))};
   }
 }
 
@@ -109,7 +112,7 @@ unsigned Prism::balls_left(Lanes x, Lanes y, Lanes z, Lanes radius) const noexce
     return (dx * dx + dy * dy + dz * dz) * (1 - 0x1p-20f) - beyond * beyond;
   };
   Lanes least = ahead(corner_limits_[0]);
-  for (std::size_t i = 1; i < 6; ++i) least = lesser_of(least, ahead(corner_limits_[i]));
+  for (std::size_t i = 1; i < 6; ++i) least = simd::min(least, ahead(corner_limits_[i]));
   return at_most(least, 0);
 }
 
@@ -119,12 +122,12 @@ bool Prism::excludes(const TrianglePlanes& t, const TriangleBall& ball) const no
     const auto value = [&](int plane) {
       return ((x_[i] * t.x[plane] + y_[i] * t.y[plane]) + z_[i] * t.z[plane]) + t.offset[plane];
     };
-    const Lanes face = value(0), distance = greater_of(face, -face);
-    const Lanes height = greater_of(distance - tau_, zero);
-    const Lanes beside = greater_of(value(1), greater_of(value(2), value(3))) - tau_;
-    const Lanes excess = greater_of(beside, zero);
+    const Lanes face = value(0), distance = simd::max(face, -face);
+    const Lanes height = simd::max(distance - plane_error_, zero);
+    const Lanes side_excess = simd::max(value(1), simd::max(value(2), value(3))) - plane_error_;
+    const Lanes excess = simd::max(side_excess, zero);
     if (all_exceed(height * height + excess * excess, limit_[i])) continue;
-    const Lanes round = greater_of(excess, beyond_ball(ball, x_[i], y_[i], z_[i], distance, tau_));
+    const Lanes round = simd::max(excess, beyond_ball(ball, x_[i], y_[i], z_[i], distance, plane_error_));
     if (!all_exceed(height * height + round * round, limit_[i])) return false;
   }
   return true;

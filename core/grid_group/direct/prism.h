@@ -12,11 +12,12 @@
 #include "core/geometry/point_triangle.h"
 #include "core/grid_group/direct/triangle_store.h"
 #include "core/search/plane_filter.h"
+#include "core/simd/lanes.h"
 
 namespace touchmark::grid {
 
 /// A triangle in the filter's frame.
-struct Footprint {
+struct FaceFrame {
   std::array<Vec3, 3> corner;
   Vec3 normal;  ///< unit, or zero: then there is no prism
   Vec3 incenter;
@@ -24,42 +25,43 @@ struct Footprint {
   double inradius = 0;
   double size = 0;  ///< square root of twice the area
 
-  Footprint(const PreparedTriangle& triangle, const FilterFrame& frame) noexcept;
+  FaceFrame(const PreparedTriangle& triangle, const FilterFrame& frame) noexcept;
   /// The triangle whose sides lie `growth` inradii outside this one's.
   std::array<Vec3, 3> grown(double growth) const noexcept;
 };
 
 class Prism {
  public:
-  /// From `height` under the grown footprint to `height` over it. A triangle that is left out is farther than
-  /// the footprint by `lead` at least, everywhere in the prism. Lengths in the frame.
-  Prism(const Footprint& footprint, double growth, double height, double lead,
+  /// From `height` under the grown triangle to `height` over it. A triangle that is left out is farther than
+  /// the triangle by `exclusion_margin` at least, everywhere in the prism. Lengths in the frame.
+  Prism(const FaceFrame& face_frame, double growth, double height, double exclusion_margin,
         const FilterFrame& frame) noexcept;
 
   /// Is the triangle surely not nearest anywhere in the prism?
   bool excludes(const TrianglePlanes& triangle, const TriangleBall& ball) const noexcept;
   /// A quick look at four balls first: bit i is set unless the same holds for whatever is in ball i.
   unsigned balls_left(Lanes x, Lanes y, Lanes z, Lanes radius) const noexcept;
-  /// No point of the prism is farther than this from its footprint.
+  /// No point of the prism is farther than this from its triangle.
   double farthest() const noexcept { return farthest_; }
 
  private:
-  /// The footprint's sides are cut in so many.
+  /// The triangle's sides are cut in so many.
   static constexpr int cuts = 2;
   static constexpr std::size_t points_an_end = (cuts + 1) * (cuts + 2) / 2;
   static constexpr std::size_t points = 2 * points_an_end;
   static constexpr std::size_t vectors = (points + 3) / 4;
   using AtPoints = std::array<Lanes, vectors>;
 
-  /// Of the lattice point that is i cuts from corner 0 towards 1 and j towards 2.
+  /// Returns the number of the lattice point that is i cuts from corner 0 towards 1 and j towards 2.
   static constexpr std::size_t number(int i, int j) {
     const int before = i * (2 * cuts + 3 - i) / 2;  // in the rows of smaller i
     return static_cast<std::size_t>(before + j);
   }
-  void place_points(const Footprint& footprint, double growth, double height,
-                    const FilterFrame& frame) noexcept;
-  void set_limits(const Footprint& footprint, double growth, double height, double lead) noexcept;
-  void set_ball_limits(const Footprint& footprint, double height, double lead) noexcept;
+  void set_points(const FaceFrame& face_frame, double growth, double height,
+                  const FilterFrame& frame) noexcept;
+  void set_limits(const FaceFrame& face_frame, double growth, double height,
+                  double exclusion_margin) noexcept;
+  void set_ball_limits(const FaceFrame& face_frame, double height, double exclusion_margin) noexcept;
 
   std::array<Vec3, points_an_end> base_;
   AtPoints x_, y_, z_;
@@ -69,7 +71,7 @@ class Prism {
     float x, y, z, limit;
   };
   std::array<BallLimit, 6> corner_limits_;
-  float tau_ = 0;
+  float plane_error_ = 0;
   double farthest_ = 0;
 };
 

@@ -31,13 +31,13 @@ std::vector<Middle> middles_of(const TriangleMesh& mesh, const FilterFrame& fram
 }
 
 int longest_side(std::span<const Middle> middles) {
-  Eigen::Array3f least = middles.front().at, most = least;
+  Eigen::Array3f lower = middles.front().at, upper = lower;
   for (const Middle& middle : middles) {
-    least = least.min(middle.at.array());
-    most = most.max(middle.at.array());
+    lower = lower.min(middle.at.array());
+    upper = upper.max(middle.at.array());
   }
   int side = 0;
-  (most - least).maxCoeff(&side);
+  (upper - lower).maxCoeff(&side);
   return side;
 }
 
@@ -104,7 +104,7 @@ TriangleStore TriangleStore::build(const TriangleMesh& mesh) {
     store.balls.push_back(ball_around(store.exact.back(), store.frame));
   }
   store.planes.resize(whole, infinitely_far());
-  store.ids.assign(mesh.ids().begin(), mesh.ids().end());
+  store.ids = mesh.triangle_ids();
   return store;
 }
 
@@ -114,13 +114,13 @@ std::vector<Aabb> TriangleStore::move(const TriangleMesh& mesh) {
   std::vector<Aabb> boxes;
   for (std::uint32_t first = 0; first < size(); first += triangles_a_box) {
     Aabb box;
-    for (std::uint32_t place = first; place < std::min(first + triangles_a_box, size()); ++place) {
-      if (!has_moved(exact[place], mesh)) continue;
-      for (const Vec3& corner : exact[place].corner) box.extend(frame.to_frame(corner));
-      exact[place] = prepare(mesh, exact[place].index);
-      for (const Vec3& corner : exact[place].corner) box.extend(frame.to_frame(corner));
-      planes[place] = planes_of(exact[place], frame);
-      balls[place] = ball_around(exact[place], frame);
+    for (std::uint32_t slot = first; slot < std::min(first + triangles_a_box, size()); ++slot) {
+      if (!has_moved(exact[slot], mesh)) continue;
+      for (const Vec3& corner : exact[slot].corner) box.extend(frame.to_frame(corner));
+      exact[slot] = prepare(mesh, exact[slot].index);
+      for (const Vec3& corner : exact[slot].corner) box.extend(frame.to_frame(corner));
+      planes[slot] = planes_of(exact[slot], frame);
+      balls[slot] = ball_around(exact[slot], frame);
     }
     if (!box.empty()) boxes.push_back(box);
   }
@@ -129,7 +129,7 @@ std::vector<Aabb> TriangleStore::move(const TriangleMesh& mesh) {
 
 std::size_t TriangleStore::bytes() const noexcept {
   return exact.capacity() * sizeof(PreparedTriangle) + planes.capacity() * sizeof(TrianglePlanes) +
-         balls.capacity() * sizeof(TriangleBall) + ids.capacity() * sizeof(TriangleId);
+         balls.capacity() * sizeof(TriangleBall) + ids.bytes();
 }
 
 }  // namespace touchmark::grid

@@ -8,6 +8,7 @@
 #include "core/aabb.h"
 #include "core/geometry/point_triangle.h"
 #include "core/search/plane_filter.h"
+#include "core/simd/lanes.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::grid {
@@ -21,14 +22,16 @@ struct TriangleBall {
 /// How far beyond a triangle's ball the foot of four points in its plane surely lies; `height` is the
 /// distance to that plane. 0 or less where it may lie in the ball.
 inline Lanes beyond_ball(const TriangleBall& ball, Lanes x, Lanes y, Lanes z, Lanes height,
-                         float tau) noexcept {
-  const auto magnitude = [](Lanes v) { return greater_of(v, -v); };
+                         float plane_error) noexcept {
+  const auto magnitude = [](Lanes v) { return simd::max(v, -v); };
   const Lanes dx = x - ball.x, dy = y - ball.y, dz = z - ball.z;
   // |p - c|^2 is off by 2 |p - c| times the rounding of p and c and by five roundings of its own, the height
-  // by tau: all together less than twice tau |p - c|, tau being eight roundings of |p| + |c|.
-  const Lanes rounding = 2 * tau * (magnitude(dx) + magnitude(dy) + magnitude(dz));
-  const Lanes along = ((dx * dx + dy * dy) + dz * dz) - rounding - (height + tau) * (height + tau);
-  return square_root(greater_of(along, Lanes{0, 0, 0, 0})) - (ball.radius + 4 * tau);
+  // by plane_error: all together less than twice plane_error |p - c|, plane_error being eight roundings of
+  // |p| + |c|.
+  const Lanes error = 2 * plane_error * (magnitude(dx) + magnitude(dy) + magnitude(dz));
+  const Lanes along =
+      ((dx * dx + dy * dy) + dz * dz) - error - (height + plane_error) * (height + plane_error);
+  return simd::sqrt(simd::max(along, Lanes{0, 0, 0, 0})) - (ball.radius + 4 * plane_error);
 }
 
 /// Places are positions in an order that halves the mesh again and again across its longest side;
@@ -41,8 +44,8 @@ struct TriangleStore {
   std::vector<PreparedTriangle> exact;
   std::vector<TrianglePlanes> planes;
   std::vector<TriangleBall> balls;
-  bool fourth_powers_fit = false;  ///< of the mesh's extent, into the range of double
-  std::vector<TriangleId> ids;     ///< by position in the mesh; empty when they are the positions
+  bool fourth_powers_fit = false;  ///< do fourth powers of the mesh's extent fit the range of double?
+  TriangleIds ids;
 
   /// The mesh's box must fit (FilterFrame::fits).
   static TriangleStore build(const TriangleMesh& mesh);
@@ -51,10 +54,7 @@ struct TriangleStore {
   std::vector<Aabb> move(const TriangleMesh& mesh);
 
   std::uint32_t size() const noexcept { return static_cast<std::uint32_t>(exact.size()); }
-  TriangleId id(std::uint32_t place) const noexcept {
-    const std::uint32_t index = exact[place].index;
-    return ids.empty() ? index : ids[index];
-  }
+  TriangleId id(std::uint32_t slot) const noexcept { return ids[exact[slot].index]; }
   std::size_t bytes() const noexcept;
 };
 

@@ -8,14 +8,14 @@ namespace touchmark::grid {
 namespace {
 
 /// As many memberships as memory should see: a triangle that lies in more than a few cells lies in many.
-std::uint64_t most_memberships(std::size_t triangles) {
+std::uint64_t max_memberships(std::size_t triangles) {
   return std::max<std::uint64_t>(16 * static_cast<std::uint64_t>(triangles), 1u << 18);
 }
 
-/// A bound on the memberships, counted before any memory is taken; stops counting past `most`.
-std::uint64_t covered_cells(const TriangleMesh& mesh, const UniformCells& cells, std::uint64_t most) {
+/// A bound on the memberships, counted before any memory is taken; stops counting past `limit`.
+std::uint64_t covered_cells(const TriangleMesh& mesh, const UniformCells& cells, std::uint64_t limit) {
   std::uint64_t covered = 0;
-  for (std::uint32_t i = 0; i < mesh.size() && covered <= most; ++i) {
+  for (std::uint32_t i = 0; i < mesh.size() && covered <= limit; ++i) {
     covered += cells.covered_by_box_of(mesh, i);
   }
   return covered;
@@ -36,10 +36,10 @@ struct Grouping {
 
 /// Cells of this edge, or larger ones if they would be too many.
 Grouping grouping_of(const TriangleMesh& mesh, double edge) {
-  const std::uint64_t most = most_memberships(mesh.size());
+  const std::uint64_t limit = max_memberships(mesh.size());
   UniformCells cells(mesh.bounds(), edge);
   bool coarsened = cells.edge() > edge;
-  while (covered_cells(mesh, cells, most) > most) {
+  while (covered_cells(mesh, cells, limit) > limit) {
     cells = UniformCells(mesh.bounds(), 1.25 * cells.edge());
     coarsened = true;
   }
@@ -84,7 +84,7 @@ ScanGrid ScanGrid::build(const TriangleMesh& mesh, const ScanOptions& options) {
   grid.coarsened_ = grouping.coarsened;
   grid.bounds_ = mesh.bounds();
   grid.triangles_ = prepare(mesh);
-  grid.ids_.assign(mesh.ids().begin(), mesh.ids().end());
+  grid.ids_ = mesh.triangle_ids();
   grid.first_member_.reserve(grouping.groups() + 1);
   grid.members_.reserve(grouping.memberships.size());
   const std::vector<Membership>& memberships = grouping.memberships;
@@ -117,7 +117,7 @@ void ScanGrid::enclose(const TriangleMesh& mesh, Shape shape) {
 std::size_t ScanGrid::bytes() const noexcept {
   return boxes_.capacity() * sizeof(Aabb) + spheres_.capacity() * sizeof(Sphere) +
          first_member_.capacity() * sizeof(std::size_t) + members_.capacity() * sizeof(std::uint32_t) +
-         triangles_.capacity() * sizeof(PreparedTriangle) + ids_.capacity() * sizeof(TriangleId);
+         triangles_.capacity() * sizeof(PreparedTriangle) + ids_.bytes();
 }
 
 }  // namespace touchmark::grid

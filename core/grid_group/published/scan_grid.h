@@ -32,6 +32,7 @@ class ScanGrid {
   /// The mesh's box must fit the filter's frame (FilterFrame::fits).
   static ScanGrid build(const TriangleMesh& mesh, const ScanOptions& options);
 
+  // A radius or reach must be at least 0.
   bool touches(const Probe& probe, Work& work) const noexcept;
   std::optional<Contact> nearest(const Vec3& center, double reach, Work& work) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, Work& work) const noexcept;
@@ -41,7 +42,8 @@ class ScanGrid {
   double cell() const noexcept { return cell_; }
   bool coarsened() const noexcept { return coarsened_; }
 
-  /// Of a group: the mesh's triangles, and the shape around them (whichever was built; the other is empty).
+  /// Returns the mesh's triangles in a group. boxes() or spheres(), whichever was built, hold the shapes
+  /// around them; the other is empty.
   std::span<const std::uint32_t> members(std::size_t group) const noexcept {
     return std::span(members_).subspan(first_member_[group], first_member_[group + 1] - first_member_[group]);
   }
@@ -55,17 +57,16 @@ class ScanGrid {
   template <class Visit>
   void search(const Vec3& center, double reach, Work& work, const Visit& visit) const noexcept;
   /// For numbers whose squares or fourth powers leave the range of double.
-  EveryTriangle all() const noexcept { return {triangles_, bounds_, ids_}; }
+  LinearScan fallback() const noexcept { return {triangles_, bounds_, ids_}; }
   template <class Visit>
   bool search_members(std::size_t group, Work& work, const Visit& visit) const noexcept;
-  TriangleId id(std::uint32_t triangle) const noexcept { return ids_.empty() ? triangle : ids_[triangle]; }
 
   std::vector<Aabb> boxes_;
   std::vector<Sphere> spheres_;
   std::vector<std::size_t> first_member_;  ///< one more than groups
   std::vector<std::uint32_t> members_;
   std::vector<PreparedTriangle> triangles_;  ///< in the mesh's order
-  std::vector<TriangleId> ids_;
+  TriangleIds ids_;
   Aabb bounds_;
   double cell_ = 0;
   bool coarsened_ = false;

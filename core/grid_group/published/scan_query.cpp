@@ -31,11 +31,11 @@ bool passes(const Aabb& box, const Sweep& sweep, double by) noexcept {
 }
 
 bool passes(const Sphere& sphere, const Sweep& sweep, double by) noexcept {
-  const Vec3 way = sweep.to - sweep.from, to_center = sphere.center - sweep.from;
-  const double squared = way.squaredNorm();
-  const double nearest = squared > 0 ? std::clamp(to_center.dot(way) / squared, 0.0, 1.0) : 0;
+  const Vec3 path = sweep.to - sweep.from, to_center = sphere.center - sweep.from;
+  const double squared = path.squaredNorm();
+  const double nearest = squared > 0 ? std::clamp(to_center.dot(path) / squared, 0.0, 1.0) : 0;
   const double radius = sphere.radius + by;
-  return !((to_center - nearest * way).squaredNorm() > radius * radius);
+  return !((to_center - nearest * path).squaredNorm() > radius * radius);
 }
 
 }  // namespace
@@ -56,7 +56,7 @@ bool ScanGrid::search_members(std::size_t group, Work& work, const Visit& visit)
 template <class Visit>
 void ScanGrid::search(const Vec3& center, double reach, Work& work, const Visit& visit) const noexcept {
   // The kernel may call near what is this much farther.
-  const double by = reach + culling_slack(largest_difference(bounds_, center));
+  const double by = reach + culling_pad(largest_difference(bounds_, center));
   const auto scan = [&](const auto& shapes) {
     for (std::size_t group = 0; group < shapes.size(); ++group) {
       ++work.cells;
@@ -68,9 +68,8 @@ void ScanGrid::search(const Vec3& center, double reach, Work& work, const Visit&
 
 bool ScanGrid::touches(const Probe& probe, Work& work) const noexcept {
   const Vec3& center = probe.center;
-  if (!(probe.radius >= 0)) return false;
   const double error = distance_error(bounds_, center);
-  if (std::isinf(error)) return all().touches(probe, work);
+  if (std::isinf(error)) return fallback().touches(probe, work);
   bool touching = false;
   WithinRadius is_within(center, probe.radius, error);
   const auto visit = [&](const PreparedTriangle& triangle) {
@@ -82,28 +81,21 @@ bool ScanGrid::touches(const Probe& probe, Work& work) const noexcept {
 }
 
 std::optional<Contact> ScanGrid::nearest(const Vec3& center, double reach, Work& work) const noexcept {
-  if (!(reach >= 0)) return std::nullopt;
   const double error = distance_error(bounds_, center);
-  if (std::isinf(error)) return all().nearest(center, reach, work);
-  NearestSoFar so_far(triangles_.data(), center, error);
+  if (std::isinf(error)) return fallback().nearest(center, reach, work);
+  ClosestCandidates candidates(triangles_.data(), center, error);
   const auto consider = [&](const PreparedTriangle& triangle) {
-    so_far.take({squared_distance(triangle, center), triangle.index}, triangle.index);
+    candidates.update({squared_distance(triangle, center), triangle.index}, triangle.index);
     return false;
   };
   search(center, reach + error, work, consider);
-  if (!so_far.found()) return std::nullopt;
-  const double distance = std::sqrt(so_far.best().squared_distance);
-  if (!is_certain_first(so_far, triangles_, distance, center, reach, error))
-    return nearest_of_ties(so_far, center, reach, error, ids_, work.exact_decisions);
-  if (distance > reach) return std::nullopt;
-  return contact_on(triangles_[so_far.at()], center, id(so_far.at()));
+  return contact_of(candidates, triangles_, center, reach, error, ids_, work);
 }
 
 std::optional<Impact> ScanGrid::first_hit(const Sweep& sweep, Work& work) const noexcept {
-  if (!(sweep.radius >= 0)) return std::nullopt;
   const double difference = largest_difference(bounds_, sweep);
-  if (!fourth_powers_fit(difference)) return all().first_hit(sweep, work);
-  const double by = sweep_widening(sweep, difference);
+  if (!fourth_powers_fit(difference)) return fallback().first_hit(sweep, work);
+  const double by = padded_sweep_radius(sweep, difference);
   HitCandidate first;
   const auto scan = [&](const auto& shapes) {
     for (std::size_t group = 0; group < shapes.size(); ++group) {
@@ -119,11 +111,8 @@ std::optional<Impact> ScanGrid::first_hit(const Sweep& sweep, Work& work) const 
   };
   boxes_.empty() ? scan(spheres_) : scan(boxes_);
   if (first.index >= triangles_.size()) return std::nullopt;
-  // Of all the triangles that are touched at the start the nearest one counts.
-  if (first.fraction == 0)
-    if (const auto start = nearest(sweep.from, sweep.radius, work)) return Impact{0, *start};
-  return Impact{first.fraction,
-                contact_on_way(triangles_[first.index], sweep, first.fraction, id(first.index))};
+  return impact_on(triangles_[first.index], sweep, first.fraction, ids_[first.index], true,
+                   [&](double reach) { return nearest(sweep.from, reach, work); });
 }
 
 }  // namespace touchmark::grid

@@ -8,16 +8,16 @@
 namespace touchmark::grid {
 namespace {
 
-constexpr std::uint32_t most_along_axis = 1u << 20;  // three of them number a cell within 64 bits
+constexpr std::uint32_t max_along_axis = 1u << 20;  // three of them number a cell within 64 bits
 
 }  // namespace
 
 UniformCells::UniformCells(const Aabb& box, double edge) noexcept
-    : origin_(box.min), edge_(std::max(edge, box.extent().maxCoeff() / (most_along_axis - 1))) {
+    : origin_(box.min), edge_(std::max(edge, box.extent().maxCoeff() / (max_along_axis - 1))) {
   for (int k = 0; k < 3; ++k) {
     const double cells = std::floor(box.extent()[k] / edge_) + 1;
     count_[static_cast<std::size_t>(k)] =
-        static_cast<std::uint32_t>(std::min(cells, static_cast<double>(most_along_axis)));
+        static_cast<std::uint32_t>(std::min(cells, static_cast<double>(max_along_axis)));
   }
 }
 

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// When a point on the way first comes within `radius` of `center`; infinity when it does not. For a way that
-/// starts outside.
+/// When a point on the path first comes within `radius` of `center`; infinity when it does not. For a path
+/// that starts outside.
 double first_within(const Sweep& sweep, const Vec3& center, double radius) noexcept {
   const Vec3 way = sweep.to - sweep.from, to = center - sweep.from;
   const double along = to.dot(way);
@@ -52,7 +52,7 @@ Contact FastLevel::contact_with(std::size_t sphere, const Vec3& center) const no
 bool FastLevel::touches(const Probe& probe, Work& work) const noexcept {
   std::size_t tested = 0;
   while (tested < spheres_.size())
-    if (gap(tested++, probe.center) <= probe.radius && probe.radius >= 0) {
+    if (gap(tested++, probe.center) <= probe.radius) {
       work.spheres += tested;
       return true;
     }
@@ -76,7 +76,7 @@ std::optional<Contact> FastLevel::nearest(const Vec3& center, double reach, Work
 
 std::optional<Impact> FastLevel::first_hit(const Sweep& sweep, Work& work) const noexcept {
   if (const auto start = nearest(sweep.from, sweep.radius, work)) return Impact{0, *start};
-  const double reach = sweep.radius + sweep_slack(sweep);
+  const double reach = sweep.radius + sweep_pad(sweep);
   double first = infinity;
   std::size_t hit = spheres_.size();
   for (std::size_t i = 0; i < spheres_.size(); ++i) {

@@ -20,6 +20,7 @@ class FastLevel {
   FastLevel() = default;
   FastLevel(const TriangleMesh& mesh, const SphereClusters& clusters);
 
+  // A radius or reach must be at least 0.
   bool touches(const Probe& probe, Work& work) const noexcept;
   std::optional<Contact> nearest(const Vec3& center, double reach, Work& work) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, Work& work) const noexcept;

@@ -36,7 +36,7 @@ bool for_each_held(std::size_t count, const Outside& outside, const Found& found
 }  // namespace
 
 SphereScan::SphereScan(const TriangleMesh& mesh, const SphereClusters& clusters)
-    : bounds_(mesh.bounds()), first_(clusters.first), ids_(mesh.ids().begin(), mesh.ids().end()) {
+    : bounds_(mesh.bounds()), first_(clusters.first), ids_(mesh.triangle_ids()) {
   for (const Sphere& sphere : clusters.spheres) {
     x_.push_back(sphere.center.x());
     y_.push_back(sphere.center.y());
@@ -47,10 +47,10 @@ SphereScan::SphereScan(const TriangleMesh& mesh, const SphereClusters& clusters)
   for (const std::uint32_t triangle : clusters.members) triangles_.push_back(prepare(mesh, triangle));
 }
 
-void SphereScan::search(std::size_t sphere, const Vec3& center, NearestSoFar& so_far,
+void SphereScan::search(std::size_t sphere, const Vec3& center, ClosestCandidates& candidates,
                         Work& work) const noexcept {
   for (std::uint32_t i = first_[sphere]; i < first_[sphere + 1]; ++i)
-    so_far.take({squared_distance(triangles_[i], center), triangles_[i].index}, i);
+    candidates.update({squared_distance(triangles_[i], center), triangles_[i].index}, i);
   work.triangles += first_[sphere + 1] - first_[sphere];
 }
 
@@ -67,9 +67,8 @@ bool SphereScan::for_each_met(const Vec3& center, double reach, const Found& fou
 
 bool SphereScan::touches(const Probe& probe, Work& work) const noexcept {
   const Vec3& center = probe.center;
-  if (!(probe.radius >= 0)) return false;
   const double error = distance_error(bounds_, center);
-  if (std::isinf(error)) return all().touches(probe, work);
+  if (std::isinf(error)) return fallback().touches(probe, work);
   std::size_t tested = 0;
   WithinRadius is_within(center, probe.radius, error);
   const bool touching = for_each_met(center, probe.radius + error, [&](std::size_t sphere) noexcept {
@@ -86,38 +85,31 @@ bool SphereScan::touches(const Probe& probe, Work& work) const noexcept {
 }
 
 std::optional<Contact> SphereScan::nearest(const Vec3& center, double reach, Work& work) const noexcept {
-  if (!(reach >= 0)) return std::nullopt;
   const double error = distance_error(bounds_, center);
-  if (std::isinf(error)) return all().nearest(center, reach, work);
-  NearestSoFar so_far(triangles_.data(), center, error);
+  if (std::isinf(error)) return fallback().nearest(center, reach, work);
+  ClosestCandidates candidates(triangles_.data(), center, error);
   for_each_met(center, reach + error, [&](std::size_t sphere) noexcept {
-    search(sphere, center, so_far, work);
+    search(sphere, center, candidates, work);
     return false;
   });
   work.spheres += x_.size();
-  if (!so_far.found()) return std::nullopt;
-  const double distance = std::sqrt(so_far.best().squared_distance);
-  if (!is_certain_first(so_far, triangles_, distance, center, reach, error))
-    return nearest_of_ties(so_far, center, reach, error, ids_, work.exact_decisions);
-  if (distance > reach) return std::nullopt;
-  return contact_on(triangles_[so_far.at()], center, id(so_far.best().index));
+  return contact_of(candidates, triangles_, center, reach, error, ids_, work);
 }
 
-/// The spheres that the way meets hold the triangles near its start, too: one look at the spheres is enough.
+/// The spheres that the path meets hold the triangles near its start, too: one look at the spheres is enough.
 std::optional<Impact> SphereScan::first_hit(const Sweep& sweep, Work& work) const noexcept {
-  if (!(sweep.radius >= 0)) return std::nullopt;
   const double error = distance_error(bounds_, sweep.from);
   const double difference = largest_difference(bounds_, sweep);
-  if (std::isinf(error) || !fourth_powers_fit(difference)) return all().first_hit(sweep, work);
-  const double reach = std::max(sweep_widening(sweep, difference), sweep.radius + error);
+  if (std::isinf(error) || !fourth_powers_fit(difference)) return fallback().first_hit(sweep, work);
+  const double reach = std::max(padded_sweep_radius(sweep, difference), sweep.radius + error);
   const auto outside = [&](std::size_t i) noexcept {
     const double grown = grown_radius(radius_[i], reach);
-    const double squared = squared_distance_to_way(sweep, 1, {x_[i], y_[i], z_[i]});
+    const double squared = squared_distance_to_path(sweep, 1, {x_[i], y_[i], z_[i]});
     return static_cast<std::uint8_t>(squared > grown * grown);
   };
   HitCandidate first;
   std::size_t kept_at = 0;
-  NearestSoFar at_start(triangles_.data(), sweep.from, error);
+  ClosestCandidates at_start(triangles_.data(), sweep.from, error);
   for_each_held(x_.size(), outside, [&](std::size_t sphere) noexcept {
     search(sphere, sweep.from, at_start, work);
     for (std::size_t i = first_[sphere]; i < first_[sphere + 1]; ++i) {
@@ -131,19 +123,18 @@ std::optional<Impact> SphereScan::first_hit(const Sweep& sweep, Work& work) cons
   });
   work.spheres += x_.size();
   if (first.index >= triangles_.size()) return std::nullopt;
-  const double distance = std::sqrt(at_start.best().squared_distance);
-  if (first.fraction > 0)
-    return Impact{first.fraction,
-                  contact_on_way(triangles_[kept_at], sweep, first.fraction, id(first.index))};
-  // Of all the triangles that are touched at the start the nearest one counts.
-  if (is_certain_first(at_start, triangles_, distance, sweep.from, sweep.radius, error))
-    return Impact{0, contact_on(triangles_[at_start.at()], sweep.from, id(at_start.best().index))};
-  return Impact{0, *nearest(sweep.from, sweep.radius, work)};
+  // What is known of the start mostly is enough to say what is nearest there.
+  return impact_on(triangles_[kept_at], sweep, first.fraction, ids_[first.index], true, [&](double reach) {
+    const double distance = std::sqrt(at_start.best().squared_distance);
+    return is_certain_first(at_start, triangles_, distance, sweep.from, reach, error)
+               ? contact_on(triangles_[at_start.at()], sweep.from, ids_[at_start.best().index])
+               : nearest(sweep.from, reach, work);
+  });
 }
 
 std::size_t SphereScan::bytes() const noexcept {
   return 4 * x_.capacity() * sizeof(double) + first_.capacity() * sizeof(std::uint32_t) +
-         triangles_.capacity() * sizeof(PreparedTriangle) + ids_.capacity() * sizeof(TriangleId);
+         triangles_.capacity() * sizeof(PreparedTriangle) + ids_.bytes();
 }
 
 }  // namespace touchmark

@@ -22,15 +22,16 @@ class SphereScan {
   SphereScan() = default;
   SphereScan(const TriangleMesh& mesh, const SphereClusters& clusters);
 
+  // A radius or reach must be at least 0.
   bool touches(const Probe& probe, Work& work) const noexcept;
   std::optional<Contact> nearest(const Vec3& center, double reach, Work& work) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, Work& work) const noexcept;
   std::size_t bytes() const noexcept;
 
  private:
-  EveryTriangle all() const noexcept { return {triangles_, bounds_, ids_}; }
-  TriangleId id(std::uint32_t index) const noexcept { return ids_.empty() ? index : ids_[index]; }
-  void search(std::size_t sphere, const Vec3& center, NearestSoFar& so_far, Work& work) const noexcept;
+  LinearScan fallback() const noexcept { return {triangles_, bounds_, ids_}; }
+  void search(std::size_t sphere, const Vec3& center, ClosestCandidates& candidates,
+              Work& work) const noexcept;
 
   /// Calls found(i) for every sphere i that reaches within `reach` of the centre, until it returns true.
   template <class Found>
@@ -41,7 +42,7 @@ class SphereScan {
   std::vector<double> x_, y_, z_, radius_;
   std::vector<std::uint32_t> first_;         // sphere i holds triangles_[first_[i]] .. before first_[i + 1]
   std::vector<PreparedTriangle> triangles_;  // in the order of their spheres
-  std::vector<TriangleId> ids_;              // by mesh index; empty when they are the same
+  TriangleIds ids_;
 };
 
 }  // namespace touchmark

@@ -14,9 +14,9 @@ namespace {
 constexpr std::size_t bins_an_axis = 16;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// Of a box; in any order of the axes.
+/// Returns half of the area of a box; in any order of the axes.
 float half_area(Lanes min, Lanes max) noexcept {
-  const Lanes d = greater_of(max - min, Lanes{});
+  const Lanes d = simd::max(max - min, Lanes{});
   const Lanes faces = d * __builtin_shufflevector(d, d, 1, 2, 0, 3);
   return faces[0] + faces[1] + faces[2];
 }
@@ -24,7 +24,7 @@ float half_area(Lanes min, Lanes max) noexcept {
 /// Which bins the numbers are in; what rounding puts beyond the last is in the last.
 LaneBits bins_of(Lanes key, Lanes origin, Lanes scale) noexcept {
   constexpr float within_the_last = static_cast<float>(bins_an_axis) - 0.5F;
-  return __builtin_convertvector(lesser_of((key - origin) * scale, broadcast(within_the_last)), LaneBits);
+  return __builtin_convertvector(simd::min((key - origin) * scale, broadcast(within_the_last)), LaneBits);
 }
 
 /// The triangles of a bin, or of several.
@@ -33,8 +33,8 @@ struct Bin {
   std::uint32_t count = 0;
 
   void add(const Bin& other) noexcept {
-    min = lesser_of(min, other.min);
-    max = greater_of(max, other.max);
+    min = simd::min(min, other.min);
+    max = simd::max(max, other.max);
     count += other.count;
   }
   /// Blocks times the chance that a search meets them.
@@ -69,7 +69,7 @@ TriangleSplitter::TriangleSplitter(const TriangleMesh& mesh, const SphereCluster
       items_.push_back(item);
     }
   }
-  aside_.resize(items_.size());
+  scratch_.resize(items_.size());
 }
 
 TriangleSplitter::Box TriangleSplitter::box_of(const Item& item) noexcept {
@@ -98,17 +98,17 @@ float TriangleSplitter::area(const TriangleRange& range) const noexcept {
   Box all = box_of(items_[range.begin]);
   for (std::uint32_t i = range.begin + 1; i < range.end; ++i) {
     const Box box = box_of(items_[i]);
-    all = {lesser_of(all.min, box.min), greater_of(all.max, box.max)};
+    all = {simd::min(all.min, box.min), simd::max(all.max, box.max)};
   }
   return half_area(all.min, all.max);
 }
 
-/// Of the keys.
-TriangleSplitter::Box TriangleSplitter::spread(const TriangleRange& range, Key key) const noexcept {
+/// Returns the box of the keys.
+TriangleSplitter::Box TriangleSplitter::key_bounds(const TriangleRange& range, Key key) const noexcept {
   Box all{key_of(items_[range.begin], key), key_of(items_[range.begin], key)};
   for (std::uint32_t i = range.begin + 1; i < range.end; ++i) {
     const Lanes at = key_of(items_[i], key);
-    all = {lesser_of(all.min, at), greater_of(all.max, at)};
+    all = {simd::min(all.min, at), simd::max(all.max, at)};
   }
   return all;
 }
@@ -145,12 +145,12 @@ std::optional<TriangleSplitter::Cut> TriangleSplitter::cheapest_cut(const Triang
 
 /// Left of the place whatever is less along the axis: by its bin, and then the few that are one too many on a
 /// side.
-void TriangleSplitter::part_at(const TriangleRange& range, std::uint32_t place, Key key, const Bins& bins,
-                               const Cut& cut) {
+void TriangleSplitter::partition_at(const TriangleRange& range, std::uint32_t position, Key key,
+                                    const Bins& bins, const Cut& cut) {
   const float origin = bins.origin[cut.axis], scale = bins.scale[cut.axis];
   // As bins_of has it: what is in the last bin is beyond every cut, so nothing needs to be put there.
   const auto first_bin_right = static_cast<float>(cut.bin);
-  Item *left = items_.data() + range.begin, *right = aside_.data();
+  Item *left = items_.data() + range.begin, *right = scratch_.data();
   // Each to both sides, and kept on one: which one it is, no branch predictor knows.
   for (std::uint32_t i = range.begin; i < range.end; ++i) {
     const Item item = items_[i];
@@ -160,23 +160,23 @@ void TriangleSplitter::part_at(const TriangleRange& range, std::uint32_t place, 
     left += is_left;
     right += !is_left;
   }
-  std::copy(aside_.data(), right, left);
+  std::copy(scratch_.data(), right, left);
   const auto found = static_cast<std::uint32_t>(left - items_.data());
   const auto less = [&](const Item& a, const Item& b) {
     const float x = key_of(a, key, cut.axis), y = key_of(b, key, cut.axis);
     return x != y ? x < y : a.triangle < b.triangle;
   };
-  if (found > place)
-    std::partial_sort(std::make_reverse_iterator(left), std::make_reverse_iterator(items_.data() + place),
+  if (found > position)
+    std::partial_sort(std::make_reverse_iterator(left), std::make_reverse_iterator(items_.data() + position),
                       std::make_reverse_iterator(items_.data() + range.begin),
                       [&](const Item& a, const Item& b) { return less(b, a); });
   else
-    std::partial_sort(left, items_.data() + place, items_.data() + range.end, less);
+    std::partial_sort(left, items_.data() + position, items_.data() + range.end, less);
 }
 
-/// The same for any place.
-void TriangleSplitter::halve(const TriangleRange& range, std::uint32_t place, Key key, int axis) {
-  std::nth_element(items_.begin() + range.begin, items_.begin() + place, items_.begin() + range.end,
+/// Partitions at any position along the axis.
+void TriangleSplitter::halve(const TriangleRange& range, std::uint32_t position, Key key, int axis) {
+  std::nth_element(items_.begin() + range.begin, items_.begin() + position, items_.begin() + range.end,
                    [&](const Item& a, const Item& b) {
                      const float x = key_of(a, key, axis), y = key_of(b, key, axis);
                      return x != y ? x < y : a.triangle < b.triangle;
@@ -184,36 +184,36 @@ void TriangleSplitter::halve(const TriangleRange& range, std::uint32_t place, Ke
 }
 
 std::pair<TriangleRange, TriangleRange> TriangleSplitter::split(const TriangleRange& range) {
-  const auto is_spread = [](const Box& box) {
+  const auto has_extent = [](const Box& box) {
     const Lanes extent = box.max - box.min;
     return extent[0] > 0 || extent[1] > 0 || extent[2] > 0;
   };
   Key key = cluster_keys_.empty() ? Key::triangle : Key::cluster;
-  Box box = spread(range, key);
-  if (key == Key::cluster && !is_spread(box)) {
+  Box box = key_bounds(range, key);
+  if (key == Key::cluster && !has_extent(box)) {
     key = Key::triangle;
-    box = spread(range, key);
+    box = key_bounds(range, key);
   }
   const Lanes extent = box.max - box.min;
   // A little less than whole bins, so that the last number is in the last bin.
   const Lanes per_extent = broadcast(static_cast<float>(bins_an_axis) * (1 - 0x1p-20F)) / extent;
   const Bins bins{box.min, extent > Lanes{} ? per_extent : Lanes{}};
   // Whole blocks on the left.
-  const auto place_of = [&](std::uint32_t left) {
+  const auto position_of = [&](std::uint32_t left) {
     const std::uint32_t blocks = (left + tree_width / 2) / tree_width;
-    const std::uint32_t most = (range.size() - 1) / tree_width;
-    return range.begin + tree_width * std::clamp(blocks, 1U, most);
+    const std::uint32_t max_blocks = (range.size() - 1) / tree_width;
+    return range.begin + tree_width * std::clamp(blocks, 1U, max_blocks);
   };
   std::optional<Cut> cut;
-  if (range.depth < most_uneven_splits) cut = cheapest_cut(range, key, bins);
-  const std::uint32_t place = place_of(cut ? cut->left : range.size() / 2);
+  if (range.depth < max_uneven_splits) cut = cheapest_cut(range, key, bins);
+  const std::uint32_t position = position_of(cut ? cut->left : range.size() / 2);
   if (cut) {
-    part_at(range, place, key, bins, *cut);
+    partition_at(range, position, key, bins, *cut);
   } else {
     const int longer = extent[1] > extent[0] ? 1 : 0;
-    halve(range, place, key, extent[2] > extent[longer] ? 2 : longer);
+    halve(range, position, key, extent[2] > extent[longer] ? 2 : longer);
   }
-  return {{range.begin, place, range.depth + 1}, {place, range.end, range.depth + 1}};
+  return {{range.begin, position, range.depth + 1}, {position, range.end, range.depth + 1}};
 }
 
 }  // namespace touchmark::spheres

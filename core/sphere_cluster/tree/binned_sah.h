@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/search/plane_filter.h"
+#include "core/simd/lanes.h"
 #include "core/sphere_cluster/clustering.h"
 #include "core/triangle_mesh.h"
 
@@ -24,15 +25,15 @@ struct TriangleRange {
 class TriangleSplitter {
  public:
   /// Past this many splits ranges are halved.
-  static constexpr std::uint32_t most_uneven_splits = 40;
+  static constexpr std::uint32_t max_uneven_splits = 40;
   /// So no range of 2^32 triangles is deeper.
-  static constexpr std::uint32_t deepest = most_uneven_splits + 32;
+  static constexpr std::uint32_t deepest = max_uneven_splits + 32;
 
   TriangleSplitter(const TriangleMesh& mesh, const SphereClusters& clusters, const FilterFrame& frame);
 
   /// The mesh's triangle at a place in the order.
-  std::uint32_t triangle(std::uint32_t place) const noexcept { return items_[place].triangle; }
-  /// Of the range's box, as a measure of how often a search looks into it.
+  std::uint32_t triangle(std::uint32_t position) const noexcept { return items_[position].triangle; }
+  /// Returns half of the area of the range's box, a measure of how often a search looks into it.
   float area(const TriangleRange& range) const noexcept;
   /// The left part holds whole blocks. The range must hold more than one block.
   std::pair<TriangleRange, TriangleRange> split(const TriangleRange& range);
@@ -65,13 +66,14 @@ class TriangleSplitter {
   static Box box_of(const Item& item) noexcept;
   Lanes key_of(const Item& item, Key key) const noexcept;
   float key_of(const Item& item, Key key, int axis) const noexcept;
-  Box spread(const TriangleRange& range, Key key) const noexcept;
+  Box key_bounds(const TriangleRange& range, Key key) const noexcept;
   std::optional<Cut> cheapest_cut(const TriangleRange& range, Key key, const Bins& bins) const noexcept;
-  void part_at(const TriangleRange& range, std::uint32_t place, Key key, const Bins& bins, const Cut& cut);
-  void halve(const TriangleRange& range, std::uint32_t place, Key key, int axis);
+  void partition_at(const TriangleRange& range, std::uint32_t position, Key key, const Bins& bins,
+                    const Cut& cut);
+  void halve(const TriangleRange& range, std::uint32_t position, Key key, int axis);
 
   std::vector<Item> items_;
-  std::vector<Item> aside_;          ///< room for as many
+  std::vector<Item> scratch_;        ///< room for as many
   std::vector<Lanes> cluster_keys_;  ///< empty when every triangle is its own cluster
 };
 

@@ -8,12 +8,13 @@
 
 #include "core/probe.h"
 #include "core/search/plane_filter.h"
+#include "core/simd/lanes.h"
 
 namespace touchmark::spheres {
 
 /// In the tree's frame, in single precision: the points within `radius` of the axis through `center` along
 /// `normal`, and within `half` of the centre along it.
-struct SlabbedSphere {
+struct BoundingCylinder {
   Eigen::Vector3f center;
   float radius;
   Eigen::Vector3f normal;  ///< unit, but for its rounding
@@ -55,6 +56,6 @@ class PointList {
 /// Holds every point as it was before it was rounded, for certain. The slab lies across `mean_normal` (of any
 /// length; where it is zero any slab is as good). The sphere is within a few per cent of the smallest. At
 /// least one point; coordinates below 2.
-SlabbedSphere bound_points(const PointList& points, const Vec3& mean_normal) noexcept;
+BoundingCylinder bound_points(const PointList& points, const Vec3& mean_normal) noexcept;
 
 }  // namespace touchmark::spheres

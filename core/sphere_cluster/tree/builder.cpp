@@ -71,7 +71,7 @@ class Builder {
     return count;
   }
 
-  SlabbedSphere bound(const TriangleRange& range) {
+  BoundingCylinder bound(const TriangleRange& range) {
     for (std::uint32_t i = range.begin; i < range.end; ++i) bound_.add(splitter_.triangle(i));
     return bound_.bound();
   }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 
 #include "core/search/certified_nearest.h"
@@ -18,10 +17,10 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A point that moves by more of the mean block's radius a tick starts anew: it has left a list of blocks
 /// before that is used.
-constexpr double farthest_in_grains = 4;
+constexpr double max_move_in_leaf_radii = 4;
 
 /// See TreeParts::far.
-constexpr double far_in_grains = 1;
+constexpr double far_in_leaf_radii = 1;
 
 /// The next tick may be this much longer than the last one without a list being made in it.
 constexpr float ticks_prepared = 2;
@@ -34,7 +33,7 @@ struct NearestVisitor {
   const FilterFrame& frame;
   const Vec3& center;
   float limit;
-  NearestSoFar so_far;
+  ClosestCandidates candidates;
   Work work;
   Vec3 offset;  ///< to the nearest so far
 
@@ -45,11 +44,11 @@ struct NearestVisitor {
         frame(tree_frame),
         center(point),
         limit(first_limit),
-        so_far(parts.triangles.data(), point, error) {}
+        candidates(parts.triangles.data(), point, error) {}
 
-  bool wants(std::uint32_t at) const noexcept { return at != so_far.at(); }
-  void take(std::uint32_t at, const Offset& found) noexcept {
-    if (!so_far.take({found.squared, tree.triangles[at].index}, at)) return;
+  bool accepts(std::uint32_t at) const noexcept { return at != candidates.at(); }
+  void update(std::uint32_t at, const Offset& found) noexcept {
+    if (!candidates.update({found.squared, tree.triangles[at].index}, at)) return;
     offset = found.vector;
     limit = std::min(limit, frame.limit(found.squared));
   }
@@ -79,15 +78,15 @@ struct TouchVisitor {
   std::uint32_t open_count = 0;
   std::array<std::uint32_t, 16> open;  ///< the first of those that are left open
 
-  bool wants(std::uint32_t) const noexcept { return kept_at == nowhere; }
-  void take(std::uint32_t at, const Offset& found) noexcept {
+  bool accepts(std::uint32_t) const noexcept { return kept_at == nowhere; }
+  void update(std::uint32_t at, const Offset& found) noexcept {
     const double distance = std::sqrt(found.squared);
     least = std::min(least, distance);
     const double excess = distance - radius;
     if (excess < within) return keep(at, distance);
     if (excess <= open_up_to) leave_open(at);
   }
-  void take_within(std::uint32_t at) noexcept { keep(at, radius); }
+  void update_within(std::uint32_t at) noexcept { keep(at, radius); }
   bool leaves_too_many_open() const noexcept { return kept_at == nowhere && open_count > open.size(); }
   void keep(std::uint32_t at, double distance) noexcept {
     kept_at = at;
@@ -119,26 +118,20 @@ struct FetchVisitor {
   float limit;
   Work work{};
 
-  bool wants(std::uint32_t) const noexcept { return false; }
-  void take(std::uint32_t, const Offset&) const noexcept {}
+  bool accepts(std::uint32_t) const noexcept { return false; }
+  void update(std::uint32_t, const Offset&) const noexcept {}
 };
-
-/// Tells the memories of different trees apart, also where one took another's place in memory. From 1.
-std::uint64_t next_number() noexcept {
-  static std::atomic<std::uint64_t> last = 0;
-  return ++last;
-}
 
 }  // namespace
 
 SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters, const Options& options)
-    : number_(next_number()),
+    : epoch_(Epoch::next()),
       simd_(std::min(options.widest, widest_simd())),
       searchable_(FilterFrame::fits(mesh.bounds())),
       bounds_(mesh.bounds()),
       certified_(options.certified),
-      samples_later_(options.samples_later),
-      ids_(mesh.ids().begin(), mesh.ids().end()) {
+      lazy_(options.lazy),
+      ids_(mesh.triangle_ids()) {
   if (!searchable_) {
     parts_.triangles = prepare(mesh);
     return;
@@ -146,235 +139,232 @@ SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters,
   frame_ = FilterFrame::around(mesh.bounds());
   radius_ = frame_.radius() * frame_.unit();
   parts_ = spheres::build_tree(mesh, clusters, frame_);
-  measure_grain();
+  measure_leaves();
   fill_distances();
 }
 
-void SphereTree::measure_grain() noexcept {
+void SphereTree::measure_leaves() noexcept {
   double sum = 0;
   for (const spheres::TreeNode& node : parts_.nodes)
     for (std::size_t i = 0; i < spheres::tree_width; ++i)
       if (node.child[i].is_block()) sum += node.radius[i];
   const double mean = sum / static_cast<double>(parts_.blocks.size());
-  grain_ = mean / frame_.scale();
-  parts_.far = static_cast<float>(far_in_grains * far_in_grains * mean * mean);
+  mean_leaf_radius_ = mean / frame_.scale();
+  parts_.far = static_cast<float>(far_in_leaf_radii * far_in_leaf_radii * mean * mean);
 }
-
-void SphereTree::renew() noexcept { number_ = next_number(); }
 
 void SphereTree::start_anew(Memory& memory) const noexcept {
   memory = {};
-  memory.tree = number_;
+  memory.epoch = epoch_;
 }
 
-/// What the kernel's rounding may do, here and wherever `free` is going to be used: it grows with the way
-/// there, which is at most `free` itself, so a relative 2^-40 of that does for the rest.
-double SphereTree::slack_at(const FilterPoint& point) const noexcept {
-  return 0.5 * frame_.kernel_error(point.tau);
+/// What the kernel's rounding may do, here and wherever `clearance` is going to be used: it grows with the
+/// way there, which is at most `clearance` itself, so a relative 2^-40 of that does for the rest.
+double SphereTree::clearance_pad(const FilterPoint& point) const noexcept {
+  return 0.5 * frame_.kernel_error(point.plane_error);
 }
 
 /// No triangle is nearer than this: neither those shown, the nearest of which is at `shown`, nor those
 /// unseen.
-double SphereTree::free_within(float unseen, double shown, double slack) const noexcept {
-  return std::min(std::sqrt(frame_.squared(unseen)), shown * (1 - 0x1p-40)) - slack;
+double SphereTree::clearance_from(float unseen, double shown, double pad) const noexcept {
+  return std::min(std::sqrt(frame_.squared(unseen)), shown * (1 - 0x1p-40)) - pad;
 }
 
-/// The same by what was sampled, which then is what is known of the place: closely where nothing was near,
-/// for else something still is, as a rule.
-[[gnu::always_inline]] inline bool SphereTree::is_far(const FilterPoint& point, const Vec3& center,
-                                                      double reach, Memory& memory) const noexcept {
-  double free = static_cast<double>(distances_.at_least(point)) * frame_.unit();
-  if (!(free > reach) && !(memory.nearest < infinity))
-    free = static_cast<double>(distances_.at_least_by_eight(point)) * frame_.unit();
-  if (!(free > reach)) return false;
+/// Is nothing within reach, by what was sampled? Then that is what is remembered of the point. It asks the
+/// tight bound where nothing was near, for else something still is, as a rule.
+[[gnu::always_inline]] inline bool SphereTree::rejects_by_distance_field(const FilterPoint& point,
+                                                                         const Vec3& center, double reach,
+                                                                         Memory& memory) const noexcept {
+  double clearance = static_cast<double>(distances_.lower_bound(point)) * frame_.unit();
+  if (!(clearance > reach) && !memory.is_near())
+    clearance = static_cast<double>(distances_.tight_lower_bound(point)) * frame_.unit();
+  if (!(clearance > reach)) return false;
   memory.center = center;
-  memory.free = free;
-  memory.nearest = std::numeric_limits<double>::infinity();
+  memory.lower = clearance;
+  memory.upper = infinity;
   return true;
 }
 
-/// And when the place has its samples, two at most, which take no more than half of the work that a query may
-/// take before it looks at every triangle. `most` is what is left of that.
-bool SphereTree::is_far_once_sampled(const FilterPoint& point, const Vec3& center, double reach,
-                                     Memory& memory, std::uint64_t& most, Work& work) const noexcept {
+/// Rejects once the point has its samples, two at most, which take no more than half of the work that a query
+/// may take before it looks at every triangle. `budget` is what is left of that.
+bool SphereTree::rejects_once_sampled(const FilterPoint& point, const Vec3& center, double reach,
+                                      Memory& memory, std::uint64_t& budget, Work& work) const noexcept {
   // With a reach as long as the mesh no sample helps.
   if (!(reach < radius_)) return false;
-  Sampling sampling{most / 2, memory.last};
+  Sampling sampling{budget / 2, memory.slot};
   bool is_known_far = false;
-  while (!is_known_far && distances_.sample_near(point, [&](const Vec3& place, double farthest) {
-    return sample(place, farthest, sampling);
+  while (!is_known_far && distances_.sample_near(point, [&](const Vec3& position, double farthest) {
+    return sample(position, farthest, sampling);
   }))
-    is_known_far = is_far(point, center, reach, memory);
+    is_known_far = rejects_by_distance_field(point, center, reach, memory);
   work += sampling.work;
-  most = left_of(most, sampling.work.total());
+  budget = remaining(budget, sampling.work.total());
   return is_known_far;
 }
 
 /// For as many ticks ahead as there is room for blocks, about a place ahead: a point that goes on as it moved
 /// comes to it and then leaves it.
-bool SphereTree::list_blocks(const Vec3& center, const Vec3& move, float distance, Memory& memory,
-                             std::uint64_t most, Work& work) const noexcept {
+bool SphereTree::refill(const Vec3& center, const Vec3& move, float distance, Memory& memory,
+                        std::uint64_t budget, Work& work) const noexcept {
   // With fewer ticks the listing costs more, with more the longer list does.
-  constexpr float fewest_ticks = 2, most_ticks = 16;
+  constexpr float min_ticks = 2, max_ticks = 16;
   constexpr double ahead = 0.5;  // of the ticks
-  constexpr std::uint32_t longest_pause = 255;
-  spheres::NearBlocks& blocks = memory.blocks;
-  if (blocks.pause > 0) {
-    --blocks.pause;
+  constexpr std::uint32_t max_cooldown = 255;
+  spheres::LeafCache& cache = memory.cache;
+  if (cache.cooldown > 0) {
+    --cache.cooldown;
     return false;
   }
   const auto step = static_cast<float>(frame_.scale() * move.norm());
   for (;;) {
-    Vec3 anchor = center + ahead * double{blocks.ticks} * move;
-    if (!can_search(anchor)) anchor = center;
-    const FilterPoint point = frame_.point(anchor);
-    blocks.start(anchor, distance + blocks.ticks * step + 8 * point.tau);
-    if (simd_ == Simd::portable ? spheres::portable::list_blocks(parts_, point, most, blocks, work)
-                                : spheres::avx2::list_blocks(parts_, point, most, blocks, work))
+    Vec3 cache_center = center + ahead * double{cache.horizon_ticks} * move;
+    if (!can_search(cache_center)) cache_center = center;
+    const FilterPoint point = frame_.point(cache_center);
+    cache.start(cache_center, distance + cache.horizon_ticks * step + 8 * point.plane_error);
+    if (simd_ == Simd::portable ? spheres::portable::refill(parts_, point, budget, cache, work)
+                                : spheres::avx2::refill(parts_, point, budget, cache, work))
       break;
-    if (blocks.ticks <= fewest_ticks) {
+    if (cache.horizon_ticks <= min_ticks) {
       // What was left out may be anywhere.
-      blocks.forget();
-      blocks.last_pause = std::min(longest_pause, 2 * blocks.last_pause + 1);
-      blocks.pause = blocks.last_pause;
+      cache.forget();
+      cache.last_cooldown = std::min(max_cooldown, 2 * cache.last_cooldown + 1);
+      cache.cooldown = cache.last_cooldown;
       return false;
     }
-    blocks.ticks = std::max(0.5F * blocks.ticks, fewest_ticks);
+    cache.horizon_ticks = std::max(0.5F * cache.horizon_ticks, min_ticks);
   }
-  blocks.last_pause = 0;
-  if (blocks.count <= spheres::NearBlocks::few) blocks.ticks = std::min(1.25F * blocks.ticks, most_ticks);
+  cache.last_cooldown = 0;
+  if (cache.count <= spheres::LeafCache::few)
+    cache.horizon_ticks = std::min(1.25F * cache.horizon_ticks, max_ticks);
   return true;
 }
 
 bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const noexcept {
   const Vec3& center = probe.center;
   const double radius = probe.radius;
-  if (!(radius >= 0)) return false;
   claim(memory);
   const FilterPoint point = frame_.point(center);
   if (!can_search(point)) return nearest_without(center, radius, work).has_value();
-  if (memory.nearest < infinity) {
+  if (memory.is_near()) {
     const double moved = (center - memory.center).norm();
-    if ((memory.nearest + moved) * (1 + 0x1p-40) + slack_at(point) <= radius) return true;
+    if ((memory.upper + moved) * (1 + 0x1p-40) + clearance_pad(point) <= radius) return true;
     // It is still near what it touched, unless it came from elsewhere.
-    if (std::abs(memory.nearest - moved) <= radius) {
-      TouchVisitor visitor(parts_, center, radius, frame_.kernel_error(point.tau), certified_);
-      show(memory.last, visitor);
-      if (visitor.open_count > 0) decide_open(visitor, frame_.kernel_error(point.tau), work);
+    if (std::abs(memory.upper - moved) <= radius) {
+      TouchVisitor visitor(parts_, center, radius, frame_.kernel_error(point.plane_error), certified_);
+      visit(memory.slot, visitor);
+      if (visitor.open_count > 0) decide_open(visitor, frame_.kernel_error(point.plane_error), work);
       work += visitor.work;
       if (visitor.kept_at != nowhere) {
-        remember_touch(center, -1, visitor.least, memory);
+        remember_touch(center, 0, visitor.least, memory);
         return true;
       }
     }
   }
-  std::uint64_t most = most_work();
-  if (is_far(point, center, radius, memory) ||
-      (samples_later_ && is_far_once_sampled(point, center, radius, memory, most, work)))
+  std::uint64_t budget = work_limit();
+  if (rejects_by_distance_field(point, center, radius, memory) ||
+      (lazy_ && rejects_once_sampled(point, center, radius, memory, budget, work)))
     return false;
-  const double error = frame_.kernel_error(point.tau);
+  const double error = frame_.kernel_error(point.plane_error);
   TouchVisitor visitor(parts_, center, radius, error, certified_);
   visitor.limit = frame_.limit((radius + error) * (radius + error));
-  visitor.enough = frame_.at_most(radius - error);
-  const float unseen = descend(point, visitor, most);
+  visitor.enough = frame_.to_frame_rounded_down(radius - error);
+  const float unseen = traverse(point, visitor, budget);
   work += visitor.work;
   if (visitor.kept_at == nowhere && visitor.open_count > 0) decide_open(visitor, error, work);
-  if (unseen == spheres::gave_up || visitor.leaves_too_many_open()) {
-    memory.free = -1;
-    memory.nearest = infinity;
-    return all().touches(probe, work);
+  if (unseen == spheres::exhausted || visitor.leaves_too_many_open()) {
+    memory.forget_distance();
+    return fallback().touches(probe, work);
   }
   if (visitor.kept_at == nowhere) {
-    remember_touch(center, free_within(unseen, visitor.least, slack_at(point)), infinity, memory);
+    remember_touch(center, clearance_from(unseen, visitor.least, clearance_pad(point)), infinity, memory);
     return false;
   }
-  remember_touch(center, -1, visitor.least, memory);
-  memory.last = visitor.kept_at;
+  remember_touch(center, 0, visitor.least, memory);
+  memory.slot = visitor.kept_at;
   return true;
 }
 
-/// Of `touches`, whatever it found.
-void SphereTree::remember_touch(const Vec3& center, double free, double nearest, Memory& memory) noexcept {
+/// Remembers what `touches` found.
+void SphereTree::remember_touch(const Vec3& center, double lower, double upper, Memory& memory) noexcept {
   memory.move = Vec3::Constant(infinity);
   memory.center = center;
-  memory.free = free;
-  memory.nearest = nearest;
+  memory.lower = lower;
+  memory.upper = upper;
 }
 
 std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Memory& memory, Work& work,
-                                           bool* gives_up) const noexcept {
-  if (!(reach >= 0)) return std::nullopt;
+                                           bool* exhausted) const noexcept {
   claim(memory);
   const FilterPoint point = frame_.point(center);
   if (!can_search(point)) return nearest_without(center, reach, work);
   bool near = false;
-  if (memory.nearest < infinity) {
+  if (memory.is_near()) {
     const double moved = (center - memory.center).norm();
-    near = moved <= farthest_in_grains * grain_ && memory.nearest + moved <= reach;
+    near = moved <= max_move_in_leaf_radii * mean_leaf_radius_ && memory.upper + moved <= reach;
   }
-  std::uint64_t most = most_work();
-  if (!near && (is_far(point, center, reach, memory) ||
-                (samples_later_ && is_far_once_sampled(point, center, reach, memory, most, work))))
+  std::uint64_t budget = work_limit();
+  if (!near && (rejects_by_distance_field(point, center, reach, memory) ||
+                (lazy_ && rejects_once_sampled(point, center, reach, memory, budget, work))))
     return std::nullopt;
-  const double error = frame_.kernel_error(point.tau);
+  const double error = frame_.kernel_error(point.plane_error);
   NearestVisitor visitor(parts_, frame_, center, frame_.limit((reach + error) * (reach + error)), error);
   float unseen = 0;
   if (near) {
-    show(memory.last, visitor);
-    unseen = search_near(point, visitor, memory, most);
+    visit(memory.slot, visitor);
+    unseen = search_near(point, visitor, memory, budget);
   } else {
-    const double farthest = distances_.at_most(point) * frame_.unit();
+    const double farthest = distances_.upper_bound(point) * frame_.unit();
     if (farthest < reach) visitor.limit = frame_.limit((farthest + error) * (farthest + error));
-    unseen = descend(point, visitor, most);
+    unseen = traverse(point, visitor, budget);
   }
-  if (unseen == spheres::gave_up) {
+  if (unseen == spheres::exhausted) {
     work += visitor.work;
-    memory.free = -1;
-    memory.nearest = infinity;
-    if (gives_up == nullptr) return all().nearest(center, reach, work);
-    *gives_up = true;
+    memory.forget_distance();
+    if (exhausted == nullptr) return fallback().nearest(center, reach, work);
+    *exhausted = true;
     return std::nullopt;
   }
-  const NearestSoFar& so_far = visitor.so_far;
-  const double distance = std::sqrt(so_far.best().squared_distance);
+  const ClosestCandidates& candidates = visitor.candidates;
+  const double distance = std::sqrt(candidates.best().squared_distance);
   memory.move = center - memory.center;
   memory.center = center;
-  memory.nearest = distance;
-  memory.last = so_far.at();
-  memory.free = free_within(unseen, distance, slack_at(point));
+  memory.upper = distance;
+  memory.slot = candidates.at();
+  memory.lower = clearance_from(unseen, distance, clearance_pad(point));
   work += visitor.work;
-  if (!so_far.found()) return std::nullopt;
-  if (certified_ && !(is_certain(distance, reach, error) && so_far.is_surely_first(error))) {
-    const double least_error = distance_error(bounds_, center);
-    if (!is_certain_first(so_far, parts_.triangles, distance, center, reach, least_error))
-      return nearest_of_ties(so_far, center, reach, least_error, ids_, work.exact_decisions);
+  if (!candidates.found()) return std::nullopt;
+  if (certified_ && !(is_certain(distance, reach, error) && candidates.is_surely_first(error))) {
+    const double tight_error = distance_error(bounds_, center);
+    if (!is_certain_first(candidates, parts_.triangles, distance, center, reach, tight_error))
+      return nearest_of_ties(candidates, center, reach, tight_error, ids_, work.exact_decisions);
   }
   if (distance > reach) return std::nullopt;
-  return contact_at(parts_.triangles[so_far.at()], center, {visitor.offset, so_far.best().squared_distance},
-                    id(so_far.best().index));
+  return contact_at(parts_.triangles[candidates.at()], center,
+                    {visitor.offset, candidates.best().squared_distance}, ids_[candidates.best().index]);
 }
 
 void SphereTree::look_ahead(Memory& memory, Work& work) const noexcept {
   const double moved = memory.move.norm();
-  if (!(moved <= farthest_in_grains * grain_) || memory.blocks.pause > 0) return;
+  if (!(moved <= max_move_in_leaf_radii * mean_leaf_radius_) || memory.cache.cooldown > 0) return;
   const FilterPoint point = frame_.point(memory.center);
-  const float distance = static_cast<float>(frame_.scale() * memory.nearest) + 2 * point.tau;
-  // A tick's move counts twice: so much farther may the nearest be, and so much farther is the list's anchor.
+  const float distance = static_cast<float>(frame_.scale() * memory.upper) + 2 * point.plane_error;
+  // A tick's move counts twice: so much farther may the nearest be, and so much farther is the cache's
+  // center.
   const float two_moves = static_cast<float>(2 * frame_.scale() * moved);
-  const float away = way(memory.blocks.anchor, memory.center, point);
+  const float away = displacement(memory.cache.center, memory.center, point);
   Work spent;
-  if (distance + away + ticks_prepared * two_moves < memory.blocks.rest ||
-      list_blocks(memory.center, memory.move, distance, memory, most_work(), spent)) {
+  if (distance + away + ticks_prepared * two_moves < memory.cache.covered_radius ||
+      refill(memory.center, memory.move, distance, memory, work_limit(), spent)) {
     const Vec3 next = memory.center + memory.move;
-    const double farthest = memory.nearest + moved;
+    const double farthest = memory.upper + moved;
     FetchVisitor visitor{next, frame_.limit(farthest * farthest)};
-    if (can_search(next)) search_listed(frame_.point(next), visitor, memory.blocks, 0, most_work());
+    if (can_search(next)) search_cached(frame_.point(next), visitor, memory.cache, 0, work_limit());
     spent += visitor.work;
   }
   work += spent;
 }
 
-/// Where the hierarchy does not serve.
+/// Looks at every triangle, where the hierarchy cannot be searched.
 std::optional<Contact> SphereTree::nearest_without(const Vec3& center, double reach,
                                                    Work& work) const noexcept {
   return nearest_of_all(parts_.triangles, bounds_, center, reach, ids_, work);
@@ -383,8 +373,7 @@ std::optional<Contact> SphereTree::nearest_without(const Vec3& center, double re
 std::size_t SphereTree::bytes() const noexcept {
   return parts_.nodes.capacity() * sizeof(spheres::TreeNode) +
          parts_.blocks.capacity() * sizeof(spheres::TriangleBlock) +
-         parts_.triangles.capacity() * sizeof(PreparedTriangle) + distances_.bytes() +
-         ids_.capacity() * sizeof(TriangleId);
+         parts_.triangles.capacity() * sizeof(PreparedTriangle) + distances_.bytes() + ids_.bytes();
 }
 
 }  // namespace touchmark

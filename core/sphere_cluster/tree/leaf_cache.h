@@ -11,34 +11,36 @@
 namespace touchmark::spheres {
 
 /// The blocks are kept with the bounds that they have in the tree, as the children of one wide node. A block
-/// that is not listed was at least `rest` from `anchor`.
-struct NearBlocks {
+/// that is not listed was at least `covered_radius` from `center`.
+struct LeafCache {
   static constexpr std::uint32_t capacity = 96;
   /// A list of no more may have more: the next one is for more ticks.
   static constexpr std::uint32_t few = 40;
   /// A node's worth may be written where one block is to be added.
-  static constexpr std::uint32_t room = capacity + tree_width;
+  static constexpr std::uint32_t padded_capacity = capacity + tree_width;
 
   /// No more nodes are looked into for a list.
-  static constexpr std::size_t most_nodes = 512;
+  static constexpr std::size_t max_nodes = 512;
 
-  Vec3 anchor = Vec3::Zero();  ///< in the mesh's frame
-  float rest = -1;             ///< in the tree's; nothing is known
+  Vec3 center = Vec3::Zero();  ///< in the mesh's frame
+  float covered_radius = -1;   ///< in the tree's; nothing is known
   std::uint32_t count = 0;
-  float ticks = 16;                         ///< for so many ticks ahead the next list is going to be
-  std::uint32_t pause = 0, last_pause = 0;  ///< ticks until a list is made again, after there were too many
-  alignas(64) float x[room], y[room], z[room], radius[room];
-  alignas(64) float normal_x[room], normal_y[room], normal_z[room], half[room];
-  alignas(64) TreeRef child[room];
+  float horizon_ticks = 16;  ///< for so many ticks ahead the next list is going to be
+  std::uint32_t cooldown = 0,
+                last_cooldown = 0;  ///< ticks until a list is made again, after there were too many
+  alignas(64) float x[padded_capacity], y[padded_capacity], z[padded_capacity], radius[padded_capacity];
+  alignas(64) float normal_x[padded_capacity], normal_y[padded_capacity], normal_z[padded_capacity],
+      half[padded_capacity];
+  alignas(64) TreeRef child[padded_capacity];
 
   /// Everything nearer than `limit` is going to be added.
   void start(const Vec3& at, float limit) noexcept {
-    anchor = at;
-    rest = limit;
+    center = at;
+    covered_radius = limit;
     count = 0;
   }
   /// What was listed is not all there is.
-  void forget() noexcept { rest = -1; }
+  void forget() noexcept { covered_radius = -1; }
   /// Puts what is infinitely far into the places that fill up the last eight.
   void finish() noexcept {
     for (std::uint32_t i = count; i % tree_width != 0; ++i) {

@@ -31,8 +31,8 @@ class BoundOfTriangles {
     }
     normal_ += (v[1] - v[0]).cross(v[2] - v[0]);
   }
-  SlabbedSphere bound() {
-    const SlabbedSphere found = bound_points(points_, normal_);
+  BoundingCylinder bound() {
+    const BoundingCylinder found = bound_points(points_, normal_);
     points_.clear();
     normal_ = Vec3::Zero();
     ++bounds_;
@@ -49,7 +49,7 @@ class BoundOfTriangles {
   Vec3 normal_ = Vec3::Zero();
 };
 
-inline void set_child(TreeNode& node, std::size_t i, const SlabbedSphere& bound) noexcept {
+inline void set_child(TreeNode& node, std::size_t i, const BoundingCylinder& bound) noexcept {
   node.x[i] = bound.center.x();
   node.y[i] = bound.center.y();
   node.z[i] = bound.center.z();

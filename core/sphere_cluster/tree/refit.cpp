@@ -73,7 +73,7 @@ class Refit {
     return {block * tree_width, std::min((block + 1) * tree_width, count), block_moved_[block]};
   }
 
-  SlabbedSphere bound_of(const Below& range) {
+  BoundingCylinder bound_of(const Below& range) {
     for (std::uint32_t i = range.begin; i < range.end; ++i) bound_.add(parts_.triangles[i].index);
     return bound_.bound();
   }

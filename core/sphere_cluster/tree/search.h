@@ -16,58 +16,59 @@
 namespace touchmark {
 
 template <class Visitor>
-void SphereTree::show(std::uint32_t at, Visitor& visitor) const noexcept {
+void SphereTree::visit(std::uint32_t at, Visitor& visitor) const noexcept {
   ++visitor.work.triangles;
-  simd_ == Simd::portable ? spheres::portable::show(parts_, at, visitor)
-                          : spheres::avx2::show(parts_, at, visitor);
+  simd_ == Simd::portable ? spheres::portable::visit(parts_, at, visitor)
+                          : spheres::avx2::visit(parts_, at, visitor);
 }
 
 template <class Visitor>
-void SphereTree::show_all(Visitor& visitor) const noexcept {
-  for (std::uint32_t i = 0; i < parts_.triangles.size(); ++i) show(i, visitor);
+void SphereTree::visit_all(Visitor& visitor) const noexcept {
+  for (std::uint32_t i = 0; i < parts_.triangles.size(); ++i) visit(i, visitor);
 }
 
 template <class Visitor>
-float SphereTree::descend(const FilterPoint& point, Visitor& visitor, std::uint64_t most) const noexcept {
+float SphereTree::traverse(const FilterPoint& point, Visitor& visitor, std::uint64_t budget) const noexcept {
   switch (simd_) {
     case Simd::avx512:
-      return spheres::avx512::descend(parts_, point, most, visitor);
+      return spheres::avx512::traverse(parts_, point, budget, visitor);
     case Simd::avx2:
-      return spheres::avx2::descend(parts_, point, most, visitor);
+      return spheres::avx2::traverse(parts_, point, budget, visitor);
     default:
-      return spheres::portable::descend(parts_, point, most, visitor);
+      return spheres::portable::traverse(parts_, point, budget, visitor);
   }
 }
 
-inline float SphereTree::way(const Vec3& from, const Vec3& to, const FilterPoint& at) const noexcept {
-  return static_cast<float>(frame_.scale() * (to - from).norm()) + 2 * at.tau;
+inline float SphereTree::displacement(const Vec3& from, const Vec3& to,
+                                      const FilterPoint& at) const noexcept {
+  return static_cast<float>(frame_.scale() * (to - from).norm()) + 2 * at.plane_error;
 }
 
 /// From the blocks listed, when they are all that can be within the limit; lists them anew when they are not.
 template <class Visitor>
 float SphereTree::search_near(const FilterPoint& point, Visitor& visitor, Memory& memory,
-                              std::uint64_t most) const noexcept {
-  const float distance = std::sqrt(visitor.limit) + point.tau;
-  float away = way(memory.blocks.anchor, visitor.center, point);
-  if (!(distance + away < memory.blocks.rest)) {
-    if (!list_blocks(visitor.center, visitor.center - memory.center, distance, memory, most, visitor.work))
-      return descend(point, visitor, most);
-    away = way(memory.blocks.anchor, visitor.center, point);
-    if (!(distance + away < memory.blocks.rest)) return descend(point, visitor, most);
+                              std::uint64_t budget) const noexcept {
+  const float distance = std::sqrt(visitor.limit) + point.plane_error;
+  float away = displacement(memory.cache.center, visitor.center, point);
+  if (!(distance + away < memory.cache.covered_radius)) {
+    if (!refill(visitor.center, visitor.center - memory.center, distance, memory, budget, visitor.work))
+      return traverse(point, visitor, budget);
+    away = displacement(memory.cache.center, visitor.center, point);
+    if (!(distance + away < memory.cache.covered_radius)) return traverse(point, visitor, budget);
   }
-  return search_listed(point, visitor, memory.blocks, away, most);
+  return search_cached(point, visitor, memory.cache, away, budget);
 }
 
 template <class Visitor>
-float SphereTree::search_listed(const FilterPoint& point, Visitor& visitor, const spheres::NearBlocks& blocks,
-                                float away, std::uint64_t most) const noexcept {
+float SphereTree::search_cached(const FilterPoint& point, Visitor& visitor, const spheres::LeafCache& cache,
+                                float away, std::uint64_t budget) const noexcept {
   switch (simd_) {
     case Simd::avx512:
-      return spheres::avx512::search_listed(parts_, point, blocks, away, most, visitor);
+      return spheres::avx512::search_cached(parts_, point, cache, away, budget, visitor);
     case Simd::avx2:
-      return spheres::avx2::search_listed(parts_, point, blocks, away, most, visitor);
+      return spheres::avx2::search_cached(parts_, point, cache, away, budget, visitor);
     default:
-      return spheres::portable::search_listed(parts_, point, blocks, away, most, visitor);
+      return spheres::portable::search_cached(parts_, point, cache, away, budget, visitor);
   }
 }
 

@@ -22,7 +22,7 @@ struct SweepVisitor {
   std::uint32_t kept_at = 0;
 
   /// Never: how far the triangle is from the centre does not matter.
-  bool wants(std::uint32_t at) noexcept {
+  bool accepts(std::uint32_t at) noexcept {
     const auto fraction =
         sweep_hit(tree.triangles[at], sweep, std::min(first.fraction, 1.0), work.exact_decisions);
     if (fraction && HitCandidate{*fraction, tree.triangles[at].index} < first) {
@@ -31,46 +31,44 @@ struct SweepVisitor {
     }
     return false;
   }
-  void take(std::uint32_t, const Offset&) noexcept {}
+  void update(std::uint32_t, const Offset&) noexcept {}
 };
 
 }  // namespace
 
-// The way is cut into parts, each in a ball about its middle. What can touch the probe on a part is within
+// The path is cut into parts, each in a ball about its middle. What can touch the probe on a part is within
 // the part's half length and the radius of that middle.
 std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, Work& work) const noexcept {
-  if (!(sweep.radius >= 0)) return std::nullopt;
-  if (!can_search(sweep.from) || !can_search(sweep.to)) return all().first_hit(sweep, work);
+  if (!can_search(sweep.from) || !can_search(sweep.to)) return fallback().first_hit(sweep, work);
   const std::uint64_t before = work.total();
-  if (!surely_free(sweep.from, sweep.radius, memory)) {
-    bool gave_up = false;
-    const std::optional<Contact> start = nearest(sweep.from, sweep.radius, memory, work, &gave_up);
-    if (gave_up) return all().first_hit(sweep, work);
+  if (!is_clear(sweep.from, sweep.radius, memory)) {
+    bool exhausted = false;
+    const std::optional<Contact> start = nearest(sweep.from, sweep.radius, memory, work, &exhausted);
+    if (exhausted) return fallback().first_hit(sweep, work);
     if (start) return Impact{0, *start};
   }
   const double length = (sweep.to - sweep.from).norm();
-  const double reach = sweep_widening(sweep, largest_difference(bounds_, sweep));
-  if (surely_free(sweep.from, reach + length, memory)) return std::nullopt;
-  const std::uint64_t most = left_of(most_work(), work.total() - before);
+  const double reach = padded_sweep_radius(sweep, largest_difference(bounds_, sweep));
+  if (is_clear(sweep.from, reach + length, memory)) return std::nullopt;
+  const std::uint64_t budget = remaining(work_limit(), work.total() - before);
   SweepVisitor visitor{parts_, sweep, sweep.from, 0};
-  constexpr double most_parts = 256;
-  const double parts = std::clamp(std::ceil(length / (2 * std::max(sweep.radius, grain_))), 1.0, most_parts);
+  constexpr double max_parts = 256;
+  const double parts =
+      std::clamp(std::ceil(length / (2 * std::max(sweep.radius, mean_leaf_radius_))), 1.0, max_parts);
   // The middle of a part is rounded to a point.
   const double ball = reach + position_error(sweep) + 0.5 * length / parts * (1 + 0x1p-40);
   for (double part = 0; part < parts && !(visitor.first.fraction < part / parts); ++part) {
     visitor.center = position_at(sweep, (part + 0.5) / parts);
     visitor.limit = frame_.limit(ball * ball);
-    if (descend(frame_.point(visitor.center), visitor, most) != spheres::gave_up) continue;
-    show_all(visitor);
+    if (traverse(frame_.point(visitor.center), visitor, budget) != spheres::exhausted) continue;
+    visit_all(visitor);
     break;
   }
   work += visitor.work;
   if (visitor.first.index >= parts_.triangles.size()) return std::nullopt;
-  if (visitor.first.fraction == 0) {
-    if (const auto start = nearest(sweep.from, any_reach, memory, work)) return Impact{0, *start};
-  }
-  return Impact{visitor.first.fraction, contact_on_way(parts_.triangles[visitor.kept_at], sweep,
-                                                       visitor.first.fraction, id(visitor.first.index))};
+  const HitCandidate& first = visitor.first;
+  return impact_on(parts_.triangles[visitor.kept_at], sweep, first.fraction, ids_[first.index], certified_,
+                   [&](double reach_at_start) { return nearest(sweep.from, reach_at_start, memory, work); });
 }
 
 }  // namespace touchmark

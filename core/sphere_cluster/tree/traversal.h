@@ -27,26 +27,26 @@
 
 namespace touchmark::spheres {
 
-struct Waiting {
+struct StackEntry {
   float bound;
   TreeRef ref;
 };
 /// Seven siblings wait at each level.
-inline constexpr std::size_t most_waiting = TriangleSplitter::deepest * tree_width;
+inline constexpr std::size_t max_stack = TriangleSplitter::deepest * tree_width;
 
 /// What a search returns that gave up, in place of a bound.
-inline constexpr float gave_up = -1;
+inline constexpr float exhausted = -1;
 
 /// More than any bound of what is there.
 inline constexpr float farthest = std::numeric_limits<float>::max();
 
 /// |v|^2 - (n.v)^2 may come out too large by 16 roundings of |v|^2: three for v and its square, two sums, the
 /// same for n.v, twice, and n's own length.
-inline constexpr float difference_rounding = 1 - 16 * 0x1p-24F;
+inline constexpr float difference_pad = 1 - 16 * 0x1p-24F;
 
-/// Of a corner's bound, of which no term is negative: the cosine is off by 8 u at most, two for each of the
-/// normals and three of its own, so its square by 16 u and what it is a factor of by 8; ten roundings.
-inline constexpr float sine_rounding = 0x1p-18F, corner_rounding = 1 - 32 * 0x1p-24F;
+/// Rounding of a corner's bound, of which no term is negative: the cosine is off by 8 u at most, two for each
+/// of the normals and three of its own, so its square by 16 u and what it is a factor of by 8; ten roundings.
+inline constexpr float sine_error = 0x1p-18F, corner_factor = 1 - 32 * 0x1p-24F;
 
 namespace portable {
 
@@ -60,20 +60,20 @@ using WideBits [[gnu::vector_size(16)]] = int;
 
 #if defined(__SSE2__)
 inline Wide square_root(Wide x) noexcept { return _mm_sqrt_ps(x); }
-inline unsigned bits_of(WideBits mask) noexcept {
+inline unsigned to_bits(WideBits mask) noexcept {
   return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(mask)));
 }
 #else
 inline Wide square_root(Wide x) noexcept {
   return Wide{std::sqrt(x[0]), std::sqrt(x[1]), std::sqrt(x[2]), std::sqrt(x[3])};
 }
-inline unsigned bits_of(WideBits mask) noexcept {
+inline unsigned to_bits(WideBits mask) noexcept {
   return static_cast<unsigned>((mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8));
 }
 #endif
 /// Those of eight words whose bits are set, one after the other. Eight may be written.
 template <class Word>
-inline void pack(Word* to, const Word* from, unsigned chosen) noexcept {
+inline void compress(Word* to, const Word* from, unsigned chosen) noexcept {
   for (; chosen != 0; chosen &= chosen - 1) *to++ = from[std::countr_zero(chosen)];
 }
 #include "core/sphere_cluster/tree/traversal.inl"
@@ -82,11 +82,11 @@ inline void pack(Word* to, const Word* from, unsigned chosen) noexcept {
 
 #if TOUCHMARK_HAS_AVX2
 /// The places of the set bits of every byte, lowest first, a byte each.
-constexpr std::array<std::uint64_t, 256> places_of_bits() noexcept {
+constexpr std::array<std::uint64_t, 256> positions_of_bits() noexcept {
   std::array<std::uint64_t, 256> all{};
   for (std::size_t bits = 0; bits < 256; ++bits)
-    for (std::uint64_t place = 0, to = 0; place < 8; ++place)
-      if ((bits >> place & 1) != 0) all[bits] |= place << (8 * to++);
+    for (std::uint64_t position = 0, to = 0; position < 8; ++position)
+      if ((bits >> position & 1) != 0) all[bits] |= position << (8 * to++);
   return all;
 }
 
@@ -103,15 +103,15 @@ using Wide [[gnu::vector_size(32)]] = float;
 using WideBits [[gnu::vector_size(32)]] = int;
 
 inline Wide square_root(Wide x) noexcept { return _mm256_sqrt_ps(x); }
-inline unsigned bits_of(WideBits mask) noexcept {
+inline unsigned to_bits(WideBits mask) noexcept {
   return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask)));
 }
 template <class Word>
-inline void pack(Word* to, const Word* from, unsigned chosen) noexcept {
+inline void compress(Word* to, const Word* from, unsigned chosen) noexcept {
   static_assert(sizeof(Word) == 4);
-  static constexpr std::array<std::uint64_t, 256> places = places_of_bits();
+  static constexpr std::array<std::uint64_t, 256> slots = positions_of_bits();
   const __m256i order =
-      _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(&places[chosen])));
+      _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(&slots[chosen])));
   const __m256i words = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_permutevar8x32_epi32(words, order));
 }
@@ -126,17 +126,17 @@ namespace avx512 {
 
 using avx2::kernel, avx2::lanes, avx2::square_root, avx2::Wide, avx2::WideBits;
 
-inline unsigned bits_of(WideBits mask) noexcept {
+inline unsigned to_bits(WideBits mask) noexcept {
   return _mm256_movepi32_mask(reinterpret_cast<__m256i>(mask));
 }
 template <class Word>
-inline void pack(Word* to, const Word* from, unsigned chosen) noexcept {
+inline void compress(Word* to, const Word* from, unsigned chosen) noexcept {
   static_assert(sizeof(Word) == 4);
   const __m256i words = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
                       _mm256_maskz_compress_epi32(static_cast<__mmask8>(chosen), words));
 }
-/// As tree_search.inl has it, by instructions of its own.
+/// As traversal.inl has it, by instructions of its own.
 inline unsigned split(Wide bounds, float limit, Wide& unseen) noexcept {
   const __mmask8 is_near = _mm256_cmp_ps_mask(bounds, _mm256_set1_ps(limit), _CMP_LE_OQ);
   unseen = _mm256_mask_min_ps(unseen, static_cast<__mmask8>(~is_near), unseen, bounds);

@@ -1,5 +1,5 @@
-// The search itself, written once and included once an instruction set (tree_search.h), in a namespace that
-// defines Wide, a vector of `lanes` floats, and its square_root, bits_of and pack, and may define split. The
+// The search itself, written once and included once an instruction set (traversal.h), in a namespace that
+// defines Wide, a vector of `lanes` floats, and its square_root, to_bits and pack, and may define split. The
 // same operations in the same order, so that all visit the same nodes and give the same bits.
 
 inline Wide load(const float* from) noexcept {
@@ -8,24 +8,24 @@ inline Wide load(const float* from) noexcept {
   return values;
 }
 inline void store(float* to, Wide values) noexcept { std::memcpy(to, &values, sizeof values); }
-inline Wide larger(Wide a, Wide b) noexcept { return a > b ? a : b; }
-inline Wide smaller(Wide a, Wide b) noexcept { return a < b ? a : b; }
+inline Wide max(Wide a, Wide b) noexcept { return a > b ? a : b; }
+inline Wide min(Wide a, Wide b) noexcept { return a < b ? a : b; }
 
 struct Point {
-  Wide x, y, z, tau;
+  Wide x, y, z, plane_error;
 };
 
-/// Lower bounds of the squared distances to the children's slabbed spheres. The height over the slab and the
-/// excess beyond the radius are orthogonal, so their squares add up.
+/// Lower bounds of the squared distances to the children's bounding cylinders. The height over the slab and
+/// the excess beyond the radius are orthogonal, so their squares add up.
 template <class Children>
 inline Wide child_bounds(const Children& node, std::size_t at, const Point& p) noexcept {
   const Wide x = p.x - load(node.x + at), y = p.y - load(node.y + at), z = p.z - load(node.z + at);
   const Wide along =
       x * load(node.normal_x + at) + y * load(node.normal_y + at) + z * load(node.normal_z + at);
   const Wide squared = x * x + y * y + z * z;
-  const Wide across = square_root(larger(squared * difference_rounding - along * along, Wide{}));
-  const Wide height = larger(larger(along, -along) - load(node.half + at) - p.tau, Wide{});
-  const Wide excess = larger(across - load(node.radius + at) - p.tau, Wide{});
+  const Wide across = square_root(max(squared * difference_pad - along * along, Wide{}));
+  const Wide height = max(max(along, -along) - load(node.half + at) - p.plane_error, Wide{});
+  const Wide excess = max(across - load(node.radius + at) - p.plane_error, Wide{});
   return height * height + excess * excess;
 }
 
@@ -53,16 +53,17 @@ inline Wide off_corner(Wide s, Wide t, Wide cosine) noexcept {
 /// on plain arrays.
 inline Wide triangle_bounds(const TriangleBlock& block, std::size_t at, const Point& p) noexcept {
   const Wide face = planes_at(block, 0, at, p).value;
-  const Wide side = larger(planes_at(block, 1, at, p).value,
-                           larger(planes_at(block, 2, at, p).value, planes_at(block, 3, at, p).value));
-  const Wide height = larger(larger(face, -face) - p.tau, Wide{});
-  const Wide excess = larger(side - p.tau, Wide{});
+  const Wide side = max(planes_at(block, 1, at, p).value,
+                        max(planes_at(block, 2, at, p).value, planes_at(block, 3, at, p).value));
+  const Wide height = max(max(face, -face) - p.plane_error, Wide{});
+  const Wide excess = max(side - p.plane_error, Wide{});
   return height * height + excess * excess;
 }
 
-/// The same, with what is known beyond corners below 90 degrees, for twice as many instructions. Whatever is
-/// s > 0 beyond a side with the outward normal n and t > 0 beyond the next with m, in the face's plane, is as
-/// far from where these meet as (s^2 + t^2 - 2 st c) / (1 - c^2), squared, at least, with c = n.m below 0.
+/// Returns lower bounds that use what is known beyond corners below 90 degrees, for twice as many
+/// instructions. Whatever is s > 0 beyond a side with the outward normal n and t > 0 beyond the next with m,
+/// in the face's plane, is as far from where these meet as (s^2 + t^2 - 2 st c) / (1 - c^2), squared, at
+/// least, with c = n.m below 0.
 inline Wide corner_bounds(const TriangleBlock& block, std::size_t at, const Point& p) noexcept {
   const Wide face = planes_at(block, 0, at, p).value;
   std::array<Planes, 3> side;
@@ -70,48 +71,48 @@ inline Wide corner_bounds(const TriangleBlock& block, std::size_t at, const Poin
   Wide across{};
   for (std::size_t i = 0; i < 3; ++i) {
     side[i] = planes_at(block, i + 1, at, p);
-    excess[i] = larger(side[i].value - p.tau, Wide{});
-    across = larger(across, excess[i] * excess[i]);
+    excess[i] = max(side[i].value - p.plane_error, Wide{});
+    across = max(across, excess[i] * excess[i]);
   }
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = i == 2 ? 0 : i + 1;
     const Wide s = excess[i], t = excess[j];
     const Wide cosine = cosine_between(side[i], side[j]);
-    const Wide squared = off_corner(s, t, cosine) / ((1 + sine_rounding) - cosine * cosine);
-    const Wide product = smaller(smaller(s, t), -cosine);
-    across = product > 0 ? larger(across, squared) : across;
+    const Wide squared = off_corner(s, t, cosine) / ((1 + sine_error) - cosine * cosine);
+    const Wide product = min(min(s, t), -cosine);
+    across = product > 0 ? max(across, squared) : across;
   }
-  const Wide height = larger(larger(face, -face) - p.tau, Wide{});
-  return height * height + across * corner_rounding;
+  const Wide height = max(max(face, -face) - p.plane_error, Wide{});
+  return height * height + across * corner_factor;
 }
 
-/// Those of a block's triangles that are surely within a distance, as most_distance of
+/// Those of a block's triangles that are surely within a distance, as distance_upper_bound of
 /// core/search/plane_filter.h tells.
 inline unsigned surely_within(const TriangleBlock& block, float distance, const Point& p) noexcept {
   unsigned near = 0;
   for (std::size_t at = 0; at < tree_width; at += lanes) {
     const Wide face = planes_at(block, 0, at, p).value;
-    const Wide height = larger(face, -face);
+    const Wide height = max(face, -face);
     std::array<Planes, 3> side;
     for (std::size_t i = 0; i < 3; ++i) side[i] = planes_at(block, i + 1, at, p);
-    const Wide beside = larger(side[0].value, larger(side[1].value, side[2].value));
-    WideBits found = (height <= distance - 2 * p.tau) & (beside <= -p.tau);
-    const Wide room = distance - corner_tau * p.tau;
-    const Wide most = room > 0 ? room * room - height * height : Wide{} - 1;
+    const Wide side_excess = max(side[0].value, max(side[1].value, side[2].value));
+    WideBits found = (height <= distance - 2 * p.plane_error) & (side_excess <= -p.plane_error);
+    const Wide remaining = distance - corner_pad * p.plane_error;
+    const Wide across_limit = remaining > 0 ? remaining * remaining - height * height : Wide{} - 1;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = i == 2 ? 0 : i + 1;
       const Wide cosine = cosine_between(side[i], side[j]);
       const Wide squared = off_corner(side[i].value, side[j].value, cosine);
-      found |= (squared * corner_excess <= most * (1 - cosine * cosine)) & (cosine < 0) &
+      found |= (squared * corner_excess <= across_limit * (1 - cosine * cosine)) & (cosine < 0) &
                (cosine > sharpest_cosine);
     }
-    near |= bits_of(found) << at;
+    near |= to_bits(found) << at;
   }
   return near;
 }
 
-inline Point spread(const FilterPoint& p) noexcept {
-  return {Wide{} + p.x, Wide{} + p.y, Wide{} + p.z, Wide{} + p.tau};
+inline Point broadcast(const FilterPoint& p) noexcept {
+  return {Wide{} + p.x, Wide{} + p.y, Wide{} + p.z, Wide{} + p.plane_error};
 }
 
 /// Those that are at most the limit, as bits; `unseen` falls to the least of the others. A template, so that
@@ -121,7 +122,7 @@ inline unsigned split(Wide bounds, Float limit, Wide& unseen) noexcept {
   const WideBits is_near = bounds <= limit;
   const Wide kept = is_near ? unseen : bounds;
   unseen = unseen < kept ? unseen : kept;
-  return bits_of(is_near);
+  return to_bits(is_near);
 }
 
 /// Those of eight bounds that are at most the limit, as bits; `unseen` falls to the least of the others.
@@ -132,7 +133,7 @@ inline unsigned within(const Bounds& bounds_at, float limit, Wide& unseen) noexc
   return near;
 }
 
-inline float least_lane(Wide values) noexcept {
+inline float reduce_min(Wide values) noexcept {
   float least = values[0];
   for (std::size_t i = 1; i < lanes; ++i) least = values[i] < least ? values[i] : least;
   return least;
@@ -150,42 +151,43 @@ inline void prefetch(const PreparedTriangle& triangle) noexcept {
 }
 
 /// Takes the lowest bit off.
-inline std::uint32_t take(unsigned& bits) noexcept {
+inline std::uint32_t pop_lowest(unsigned& bits) noexcept {
   const auto lowest = static_cast<std::uint32_t>(std::countr_zero(bits));
   bits &= bits - 1;
   return lowest;
 }
 
-/// Where a block's triangles are kept.
-inline std::array<std::uint32_t, tree_width> places_in(TreeRef block) noexcept {
-  std::array<std::uint32_t, tree_width> places;
-  for (std::uint32_t k = 0; k < tree_width; ++k) places[k] = block.index() * tree_width + k;
-  return places;
+/// Returns the slots of a block's triangles.
+inline std::array<std::uint32_t, tree_width> slots_in(TreeRef block) noexcept {
+  std::array<std::uint32_t, tree_width> slots;
+  for (std::uint32_t k = 0; k < tree_width; ++k) slots[k] = block.index() * tree_width + k;
+  return slots;
 }
 
 template <class Visitor>
-inline void show(const TreeParts& tree, std::uint32_t at, Visitor& visitor) noexcept {
-  if (visitor.wants(at)) visitor.take(at, kernel(tree.triangles[at], visitor.center));
+inline void visit(const TreeParts& tree, std::uint32_t at, Visitor& visitor) noexcept {
+  if (visitor.accepts(at)) visitor.update(at, kernel(tree.triangles[at], visitor.center));
 }
 
 /// Shows the visitor every triangle that may be within its limit, nearest volumes first. Returns a lower
 /// bound of the squared distance to what it was not shown, or gave_up when the visitor's work has come to
-/// more than `most` before the end. Never inlined: whoever mostly answers without it would pay for its frame.
+/// more than `budget` before the end. Never inlined: whoever mostly answers without it would pay for its
+/// frame.
 template <class Visitor>
-[[gnu::noinline]] float descend(const TreeParts& tree, const FilterPoint& point, std::uint64_t most,
-                                Visitor& visitor) noexcept {
-  const Point p = spread(point);
+[[gnu::noinline]] float traverse(const TreeParts& tree, const FilterPoint& point, std::uint64_t budget,
+                                 Visitor& visitor) noexcept {
+  const Point p = broadcast(point);
   Wide unseen = Wide{} + farthest;
-  std::array<Waiting, most_waiting> waiting;
+  std::array<StackEntry, max_stack> stack;
   std::size_t count = 1;
-  waiting[0] = {0, TreeRef{0}};
+  stack[0] = {0, TreeRef{0}};
   while (count > 0) {
-    const Waiting next = waiting[--count];
+    const StackEntry next = stack[--count];
     if (next.bound > visitor.limit) {
-      unseen = smaller(unseen, Wide{} + next.bound);
+      unseen = min(unseen, Wide{} + next.bound);
       continue;
     }
-    if (visitor.work.spheres + visitor.work.triangles > most) return gave_up;
+    if (visitor.work.spheres + visitor.work.triangles > budget) return exhausted;
     const std::uint32_t index = next.ref.index();
     if (next.ref.is_block()) {
       const TriangleBlock& block = tree.blocks[index];
@@ -200,24 +202,24 @@ template <class Visitor>
           visitor.limit, unseen);
       visitor.work.triangles += tree_width;
       if (near == 0) continue;
-      if constexpr (requires { visitor.take_within(index); }) {
+      if constexpr (requires { visitor.update_within(index); }) {
         if (unsigned sure = surely_within(block, visitor.enough, p); sure != 0) {
-          visitor.take_within(index * tree_width + take(sure));
+          visitor.update_within(index * tree_width + pop_lowest(sure));
           break;
         }
       }
-      for (unsigned left = near; left != 0;) prefetch(tree.triangles[index * tree_width + take(left)]);
+      for (unsigned left = near; left != 0;) prefetch(tree.triangles[index * tree_width + pop_lowest(left)]);
       // The most promising one first: it may be nearer than others can be.
       unsigned left = near;
-      std::uint32_t first = take(left);
+      std::uint32_t first = pop_lowest(left);
       while (left != 0) {
-        const std::uint32_t other = take(left);
+        const std::uint32_t other = pop_lowest(left);
         first = bound[other] < bound[first] ? other : first;
       }
-      show(tree, index * tree_width + first, visitor);
+      visit(tree, index * tree_width + first, visitor);
       near &= ~(1U << first);
       near &= within([&](std::size_t at) { return load(bound.data() + at); }, visitor.limit, unseen);
-      while (near != 0) show(tree, index * tree_width + take(near), visitor);
+      while (near != 0) visit(tree, index * tree_width + pop_lowest(near), visitor);
       continue;
     }
     const TreeNode& node = tree.nodes[index];
@@ -232,14 +234,14 @@ template <class Visitor>
     visitor.work.spheres += tree_width;
     const std::size_t base = count;
     while (near != 0) {
-      const std::uint32_t child = take(near);
+      const std::uint32_t child = pop_lowest(near);
       prefetch(tree, node.child[child]);
       std::size_t at = count++;
-      for (; at > base && waiting[at - 1].bound < bound[child]; --at) waiting[at] = waiting[at - 1];
-      waiting[at] = {bound[child], node.child[child]};
+      for (; at > base && stack[at - 1].bound < bound[child]; --at) stack[at] = stack[at - 1];
+      stack[at] = {bound[child], node.child[child]};
     }
   }
-  return least_lane(unseen);
+  return reduce_min(unseen);
 }
 
 /// Which children are blocks, as bits.
@@ -248,49 +250,49 @@ inline unsigned blocks_of(const TreeNode& node) noexcept {
   for (std::size_t at = 0; at < tree_width; at += lanes) {
     WideBits child;
     std::memcpy(&child, node.child + at, sizeof child);
-    blocks |= bits_of(child < 0) << at;
+    blocks |= to_bits(child < 0) << at;
   }
   return blocks;
 }
 
-/// Lists the blocks within the list's rest. False when there are too many, or too many nodes, or after `most`
-/// spheres.
-inline bool list_blocks(const TreeParts& tree, const FilterPoint& point, std::uint64_t most, NearBlocks& list,
-                        Work& work) noexcept {
-  const Point p = spread(point);
-  const float limit = list.rest * list.rest * (1 + 0x1p-20F);
+/// Lists the blocks within the list's rest. False when there are too many, or too many nodes, or after
+/// `budget` spheres.
+inline bool refill(const TreeParts& tree, const FilterPoint& point, std::uint64_t budget, LeafCache& cache,
+                   Work& work) noexcept {
+  const Point p = broadcast(point);
+  const float limit = cache.covered_radius * cache.covered_radius * (1 + 0x1p-20F);
   Wide unseen = Wide{} + farthest;
   // First come, first served: what is fetched ahead has time to arrive.
-  std::array<std::uint32_t, NearBlocks::most_nodes> waiting;
+  std::array<std::uint32_t, LeafCache::max_nodes> stack;
   std::size_t count = 1;
-  waiting[0] = 0;
+  stack[0] = 0;
   for (std::size_t next = 0; next < count; ++next) {
-    if (work.spheres > most || count + tree_width > waiting.size()) return false;
-    const TreeNode& node = tree.nodes[waiting[next]];
+    if (work.spheres > budget || count + tree_width > stack.size()) return false;
+    const TreeNode& node = tree.nodes[stack[next]];
     const unsigned near = within([&](std::size_t at) { return child_bounds(node, at, p); }, limit, unseen);
     work.spheres += tree_width;
     const unsigned blocks = near & blocks_of(node);
     for (unsigned deeper = near & ~blocks; deeper != 0;) {
-      const TreeRef child = node.child[take(deeper)];
+      const TreeRef child = node.child[pop_lowest(deeper)];
       prefetch(tree, child);
-      waiting[count++] = child.index();
+      stack[count++] = child.index();
     }
     if (blocks == 0) continue;
     const auto more = static_cast<std::uint32_t>(std::popcount(blocks));
-    if (list.count + more > NearBlocks::capacity) return false;
-    const std::uint32_t to = list.count;
-    pack(list.x + to, node.x, blocks);
-    pack(list.y + to, node.y, blocks);
-    pack(list.z + to, node.z, blocks);
-    pack(list.radius + to, node.radius, blocks);
-    pack(list.normal_x + to, node.normal_x, blocks);
-    pack(list.normal_y + to, node.normal_y, blocks);
-    pack(list.normal_z + to, node.normal_z, blocks);
-    pack(list.half + to, node.half, blocks);
-    pack(list.child + to, node.child, blocks);
-    list.count += more;
+    if (cache.count + more > LeafCache::capacity) return false;
+    const std::uint32_t to = cache.count;
+    compress(cache.x + to, node.x, blocks);
+    compress(cache.y + to, node.y, blocks);
+    compress(cache.z + to, node.z, blocks);
+    compress(cache.radius + to, node.radius, blocks);
+    compress(cache.normal_x + to, node.normal_x, blocks);
+    compress(cache.normal_y + to, node.normal_y, blocks);
+    compress(cache.normal_z + to, node.normal_z, blocks);
+    compress(cache.half + to, node.half, blocks);
+    compress(cache.child + to, node.child, blocks);
+    cache.count += more;
   }
-  list.finish();
+  cache.finish();
   return true;
 }
 
@@ -302,7 +304,7 @@ inline std::size_t filter(const TreeParts& tree, std::span<const TreeRef> blocks
     const TriangleBlock& block = tree.blocks[ref.index()];
     const unsigned near =
         within([&](std::size_t at) { return triangle_bounds(block, at, p); }, limit, unseen);
-    pack(left + count, places_in(ref).data(), near);
+    compress(left + count, slots_in(ref).data(), near);
     count += static_cast<std::size_t>(std::popcount(near));
   }
   return count;
@@ -312,10 +314,10 @@ inline std::size_t filter(const TreeParts& tree, std::span<const TreeRef> blocks
 /// promising one first: it is often nearer than the others can be. Apart from the loop for what is near,
 /// which has no register to spare.
 template <class Visitor>
-[[gnu::noinline]] void show_far(const TreeParts& tree, std::span<const TreeRef> blocks, const Point& p,
-                                Wide& unseen, Visitor& visitor) noexcept {
-  std::array<std::uint32_t, NearBlocks::room * tree_width> left;
-  std::array<float, NearBlocks::room * tree_width> bound;
+[[gnu::noinline]] void visit_far(const TreeParts& tree, std::span<const TreeRef> blocks, const Point& p,
+                                 Wide& unseen, Visitor& visitor) noexcept {
+  std::array<std::uint32_t, LeafCache::padded_capacity * tree_width> left;
+  std::array<float, LeafCache::padded_capacity * tree_width> bound;
   std::size_t count = 0;
   for (const TreeRef ref : blocks) {
     const TriangleBlock& block = tree.blocks[ref.index()];
@@ -327,56 +329,56 @@ template <class Visitor>
           return some;
         },
         visitor.limit, unseen);
-    pack(left.data() + count, places_in(ref).data(), near);
-    pack(bound.data() + count, bounds.data(), near);
+    compress(left.data() + count, slots_in(ref).data(), near);
+    compress(bound.data() + count, bounds.data(), near);
     count += static_cast<std::size_t>(std::popcount(near));
   }
   if (count == 0) return;
   for (std::size_t k = 0; k < count; ++k) prefetch(tree.triangles[left[k]]);
   std::size_t first = 0;
   for (std::size_t k = 1; k < count; ++k) first = bound[k] < bound[first] ? k : first;
-  show(tree, left[first], visitor);
+  visit(tree, left[first], visitor);
   float skipped = farthest;
   for (std::size_t k = 0; k < count; ++k) {
     if (k == first) continue;
     if (bound[k] > visitor.limit)
       skipped = std::min(skipped, bound[k]);
     else
-      show(tree, left[k], visitor);
+      visit(tree, left[k], visitor);
   }
-  unseen = smaller(unseen, Wide{} + skipped);
+  unseen = min(unseen, Wide{} + skipped);
 }
 
 /// As descend, when every triangle within the visitor's limit is in a listed block. `moved`: from the list's
 /// anchor. In passes, so that no call and no branch on what was found interrupts the wide arithmetic.
 template <class Visitor>
-float search_listed(const TreeParts& tree, const FilterPoint& point, const NearBlocks& list, float moved,
-                    std::uint64_t most, Visitor& visitor) noexcept {
-  const Point p = spread(point);
+float search_cached(const TreeParts& tree, const FilterPoint& point, const LeafCache& cache, float moved,
+                    std::uint64_t budget, Visitor& visitor) noexcept {
+  const Point p = broadcast(point);
   const float limit = visitor.limit;
   Wide unseen = Wide{} + farthest;
   // What the filters let through is packed, not looped over: how much that is no branch predictor knows.
-  std::array<TreeRef, NearBlocks::room> blocks;
+  std::array<TreeRef, LeafCache::padded_capacity> blocks;
   std::size_t block_count = 0;
-  for (std::uint32_t first = 0; first < list.count; first += tree_width) {
+  for (std::uint32_t first = 0; first < cache.count; first += tree_width) {
     const unsigned near =
-        within([&](std::size_t at) { return child_bounds(list, first + at, p); }, limit, unseen);
-    pack(blocks.data() + block_count, list.child + first, near);
+        within([&](std::size_t at) { return child_bounds(cache, first + at, p); }, limit, unseen);
+    compress(blocks.data() + block_count, cache.child + first, near);
     block_count += static_cast<std::size_t>(std::popcount(near));
     visitor.work.spheres += tree_width;
   }
   visitor.work.triangles += block_count * tree_width;
-  if (visitor.work.spheres + visitor.work.triangles > most) return gave_up;
+  if (visitor.work.spheres + visitor.work.triangles > budget) return exhausted;
   for (std::size_t i = 0; i < block_count; ++i) prefetch(tree, blocks[i]);
   const std::span<const TreeRef> near_blocks(blocks.data(), block_count);
   if (limit > tree.far) {
-    show_far(tree, near_blocks, p, unseen, visitor);
+    visit_far(tree, near_blocks, p, unseen, visitor);
   } else {
-    std::array<std::uint32_t, NearBlocks::room * tree_width> left;
+    std::array<std::uint32_t, LeafCache::padded_capacity * tree_width> left;
     const std::size_t left_count = filter(tree, near_blocks, p, limit, unseen, left.data());
     for (std::size_t k = 0; k < left_count; ++k) prefetch(tree.triangles[left[k]]);
-    for (std::size_t k = 0; k < left_count; ++k) show(tree, left[k], visitor);
+    for (std::size_t k = 0; k < left_count; ++k) visit(tree, left[k], visitor);
   }
-  const float rest = std::max(list.rest - moved, 0.0F);
-  return std::min(rest * rest, least_lane(unseen));
+  const float covered_radius = std::max(cache.covered_radius - moved, 0.0F);
+  return std::min(covered_radius * covered_radius, reduce_min(unseen));
 }

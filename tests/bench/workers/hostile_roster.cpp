@@ -158,11 +158,11 @@ ContestantInfo contestant(std::string name) {
   return info;
 }
 
-ContestantInfo makes_later() {
+ContestantInfo builds_lazily() {
   ContestantInfo info = contestant<GridGroup>("makes-later");
   info.build = [](const TriangleMesh& mesh, const OptionValues&) -> std::unique_ptr<Contestant> {
     return std::make_unique<ContestantOf<GridGroup>>(
-        GridGroup::build(mesh, {.making = GridGroup::Making::lazy}));
+        GridGroup::build(mesh, {.construction = GridGroup::Construction::lazy}));
   };
   return info;
 }
@@ -180,7 +180,7 @@ const Roster& hostile_roster() {
        contestant<Misbehaving<HangsAtBuild>>("hangs-at-build"), contestant<Misbehaving<Refuses>>("refuses"),
        contestant<Misbehaving<Lies>>("lies"), contestant<Misbehaving<Fickle>>("fickle"),
        contestant<TouchesOnly>("touches-only"), contestant<Misbehaving<Paced>>("paced"),
-       contestant<Misbehaving<Moody>>("moody"), contestant<Misbehaving<Stalls>>("stalls"), makes_later()},
+       contestant<Misbehaving<Moody>>("moody"), contestant<Misbehaving<Stalls>>("stalls"), builds_lazily()},
       {"honest"});
   return all;
 }

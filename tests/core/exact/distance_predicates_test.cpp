@@ -35,17 +35,17 @@ void expect_oracle_agrees(const HardCase& c) {
   const bench::ExactNearest truth = bench::nearest_exactly(c.point, {&c.triangle, 1});
   for (const double radius : radii(std::min(truth.high, largest)))
     ASSERT_EQ(within_exactly(c.triangle, c.point, radius), within_by_oracle(c, radius)) << radius;
-  const Foot foot = foot_exactly(c.triangle, c.point);
-  ASSERT_EQ(foot.distance.high, truth.high);
+  const ClosestPoint closest = closest_point_exactly(c.triangle, c.point);
+  ASSERT_EQ(closest.distance.high, truth.high);
   if (std::isinf(truth.high)) return;
   if (truth.high > 1e-250) {
-    ASSERT_NEAR(foot.distance.low, truth.low, 0x1p-96 * truth.high);
+    ASSERT_NEAR(closest.distance.low, truth.low, 0x1p-96 * truth.high);
   }
-  ASSERT_NEAR((foot.direction - truth.direction).norm(), 0, 1e-15);
+  ASSERT_NEAR((closest.direction - truth.direction).norm(), 0, 1e-15);
   // The offset is the direction times the distance, as far as doubles can tell.
   const double scale = std::clamp(truth.high, 0x1p-1000, 0x1p1000);
   if (scale == truth.high) {
-    ASSERT_NEAR((foot.offset / scale - truth.direction).norm(), 0, 1e-15);
+    ASSERT_NEAR((closest.offset / scale - truth.direction).norm(), 0, 1e-15);
   }
 }
 
@@ -63,7 +63,7 @@ TEST_P(ExactDecision, OfPartsOfAWayIsTheOracles) {
     const double distance = bench::nearest_exactly(c.point, {&c.triangle, 1}).high;
     for (const double radius : radii(std::min(distance, largest))) {
       const bool expected = bench::compare_part_distance(from, c.point, fraction, c.triangle, radius) <= 0;
-      ASSERT_EQ(way_within_exactly(c.triangle, from, c.point, fraction, radius), expected)
+      ASSERT_EQ(path_within_exactly(c.triangle, from, c.point, fraction, radius), expected)
           << "case " << i << ", radius " << radius << ", fraction " << fraction;
       ++(expected ? within : beyond);
       if (fraction == 1) {
@@ -125,8 +125,8 @@ TEST(ExactDecisions, OnTheTriangleTheDistanceIsZeroAndHasNoDirection) {
   const Corners triangle = {Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
   for (const Vec3& point : {Vec3(1, 1, 0), Vec3(2, 0, 0), Vec3(0, 4, 0)}) {
     EXPECT_TRUE(within_exactly(triangle, point, 0));
-    EXPECT_EQ(foot_exactly(triangle, point).distance.high, 0);
-    EXPECT_EQ(foot_exactly(triangle, point).direction, Vec3::Zero());
+    EXPECT_EQ(closest_point_exactly(triangle, point).distance.high, 0);
+    EXPECT_EQ(closest_point_exactly(triangle, point).direction, Vec3::Zero());
   }
   EXPECT_FALSE(within_exactly(triangle, {1, 1, smallest}, 0));
   EXPECT_TRUE(within_exactly(triangle, {1, 1, smallest}, smallest));

@@ -20,16 +20,16 @@ TEST_P(CloseFeet, KeepTheErrorTheyState) {
   HardCases hard(80);
   for (int i = 0; i < 8000; ++i) {
     const HardCase c = placed(GetParam(), hard, i);
-    const std::optional<CloseFoot> close = close_foot(c.triangle, c.point);
+    const std::optional<CloseFoot> close = precise_closest_point(c.triangle, c.point);
     if (!close) continue;
-    const Foot& foot = close->foot;
-    ASSERT_LE(foot.error, 0x1p-60 * c.largest_difference()) << i;
+    const ClosestPoint& closest = close->closest;
+    ASSERT_LE(closest.error, 0x1p-60 * c.largest_difference()) << i;
     const bench::ExactNearest truth = bench::nearest_exactly(c.point, {&c.triangle, 1});
-    const double off = (foot.distance.high - truth.high) + (foot.distance.low - truth.low);
-    ASSERT_LE(std::abs(off), foot.error + 0x1p-98 * truth.high) << i;  // what the oracle rounds, too
+    const double off = (closest.distance.high - truth.high) + (closest.distance.low - truth.low);
+    ASSERT_LE(std::abs(off), closest.error + 0x1p-98 * truth.high) << i;  // what the oracle rounds, too
     // The nearest point is one, so the offset is the oracle's, as far as doubles can tell.
     const Vec3 offset = truth.high * truth.direction;
-    ASSERT_LE((foot.offset - offset).norm(), 2 * foot.error + 0x1p-50 * truth.high) << i;
+    ASSERT_LE((closest.offset - offset).norm(), 2 * closest.error + 0x1p-50 * truth.high) << i;
   }
 }
 
@@ -40,7 +40,8 @@ TEST_P(CloseFeet, OfTheSameFeatureAreTies) {
     const Corners a = GetParam().triangle(hard);
     const Corners b = {a[1], a[0], hard.vector()};
     const Vec3 point = hard.point_about(a);
-    const std::optional<CloseFoot> first = close_foot(a, point), second = close_foot(b, point);
+    const std::optional<CloseFoot> first = precise_closest_point(a, point),
+                                   second = precise_closest_point(b, point);
     if (!first || !second || !on_same_feature(*first, *second)) continue;
     ++ties;
     ASSERT_TRUE(compare_exactly(a, b, point) == 0) << i;
@@ -61,13 +62,13 @@ TEST_P(CloseFeet, OverLevelFacesAreExact) {
     // Over the middle of a side, or beside it by a rounding; anywhere else.
     Vec3 point = i % 2 == 0 ? Vec3(0.5 * (t[0] + t[1])) : hard.point_about(t);
     point[axis] = hard.point_about(t)[axis];
-    const std::optional<CloseFoot> close = close_foot(t, point);
+    const std::optional<CloseFoot> close = precise_closest_point(t, point);
     if (!close || close->feature) continue;
     const bench::ExactNearest truth = bench::nearest_exactly(point, {&t, 1});
     if (i % 2 == 0) ++on_border;
-    ASSERT_EQ(close->foot.error, 0) << i;
-    ASSERT_EQ(close->foot.distance.high, truth.high) << i;
-    ASSERT_EQ(close->foot.distance.low, truth.low) << i;
+    ASSERT_EQ(close->closest.error, 0) << i;
+    ASSERT_EQ(close->closest.distance.high, truth.high) << i;
+    ASSERT_EQ(close->closest.distance.low, truth.low) << i;
     ASSERT_EQ(compare_exactly(t, {t[2], t[0], t[1]}, point), std::strong_ordering::equal);
   }
   if (GetParam().name == "plain") {
@@ -85,22 +86,22 @@ TEST(CloseFoot, TellsNearlyAlwaysWhatIsNearestToAPlainTriangle) {
     const Corners t = hard.plain();
     const double part = hard.fraction();
     const Vec3 on_edge = (1 - part) * t[0] + part * t[1];
-    if (!close_foot(t, on_edge + hard.magnitude(-17, 0) * hard.vector())) ++unknown;
+    if (!precise_closest_point(t, on_edge + hard.magnitude(-17, 0) * hard.vector())) ++unknown;
   }
   EXPECT_LE(unknown, 2);
 }
 
 TEST(CloseFoot, DoesNotTellOverABorderOrWithoutAnArea) {
   const Corners triangle = {Vec3(0, 0, 0), Vec3(4, 0, 4), Vec3(0, 4, 0)};
-  EXPECT_FALSE(close_foot(triangle, {1, 0, 3}));  // over an edge: face or edge?
-  EXPECT_FALSE(close_foot({Vec3(0, 0, 0), Vec3(1, 1, 1), Vec3(2, 2, 2)}, {1, 0, 0}));
-  EXPECT_TRUE(close_foot(triangle, {1, 1, 1}));
+  EXPECT_FALSE(precise_closest_point(triangle, {1, 0, 3}));  // over an edge: face or edge?
+  EXPECT_FALSE(precise_closest_point({Vec3(0, 0, 0), Vec3(1, 1, 1), Vec3(2, 2, 2)}, {1, 0, 0}));
+  EXPECT_TRUE(precise_closest_point(triangle, {1, 1, 1}));
 }
 
 TEST(CloseFoot, IsACornerWhereItsEdgeBegins) {
   const Corners triangle = {Vec3(0.1, 0.1, 0.3), Vec3(4.1, 0.1, 4.3), Vec3(0.1, 4.1, 0.3)};
   for (const Vec3& beside : {Vec3(0.1, -0.3, 0.3), Vec3(0.6, -0.2, -0.2)}) {
-    const std::optional<CloseFoot> close = close_foot(triangle, beside);
+    const std::optional<CloseFoot> close = precise_closest_point(triangle, beside);
     ASSERT_TRUE(close && close->feature) << beside.transpose();
     EXPECT_EQ(close->feature->front(), triangle[0]);
     EXPECT_EQ(close->feature->back(), triangle[0]);
@@ -129,7 +130,8 @@ TEST(CloseFoot, TellsWhichOfTwoFacesThatShareAnEdgeIsNearer) {
   int inside = 0, told_inside = 0, told_by_edge = 0;
   for (int i = 0; i < 6000; ++i) {
     const Hinge hinge(hard, i);
-    const std::optional<CloseFoot> a = close_foot(hinge.a, hinge.point), b = close_foot(hinge.b, hinge.point);
+    const std::optional<CloseFoot> a = precise_closest_point(hinge.a, hinge.point),
+                                   b = precise_closest_point(hinge.b, hinge.point);
     if (!a || !b) continue;
     const std::strong_ordering truth = compare_exactly(hinge.a, hinge.b, hinge.point);
     if (is_nearer_inside(*a, hinge.a, *b)) {
@@ -163,34 +165,36 @@ TEST(CloseFoot, TellsOverTheBorderOfALevelFaceWhateverItRoundsTo) {
   const Corners lower = {Vec3(0.1, 0.1, 0.7), Vec3(3.3, 0.1, 0.7), Vec3(3.3, 3.3, 0.7)};
   const Corners upper = {Vec3(0.1, 0.1, 0.7), Vec3(3.3, 3.3, 0.7), Vec3(0.1, 3.3, 0.7)};
   for (const double x : {0.3, 1.0 / 3, 2.2, 3.1}) {
-    const std::optional<CloseFoot> a = close_foot(lower, {x, x, 0.3}), b = close_foot(upper, {x, x, 0.3});
+    const std::optional<CloseFoot> a = precise_closest_point(lower, {x, x, 0.3}),
+                                   b = precise_closest_point(upper, {x, x, 0.3});
     ASSERT_TRUE(a && b) << x;
-    EXPECT_TRUE(compare(a->foot, b->foot) == 0) << x;
-    EXPECT_EQ(a->foot.distance.high, 0.7 - 0.3) << x;
+    EXPECT_TRUE(compare(a->closest, b->closest) == 0) << x;
+    EXPECT_EQ(a->closest.distance.high, 0.7 - 0.3) << x;
     // A rounding beside the border one of them is nearer, by less than 106 bits: nothing is known.
     const double beyond = std::nextafter(x, 4);
-    const std::optional<CloseFoot> over = close_foot(lower, {beyond, x, 0.3});
-    const std::optional<CloseFoot> beside = close_foot(upper, {beyond, x, 0.3});
+    const std::optional<CloseFoot> over = precise_closest_point(lower, {beyond, x, 0.3});
+    const std::optional<CloseFoot> beside = precise_closest_point(upper, {beyond, x, 0.3});
     ASSERT_TRUE(over && beside) << x;
     EXPECT_FALSE(over->feature) << x;
     EXPECT_TRUE(beside->feature) << x;
     EXPECT_TRUE(compare_exactly(lower, upper, {beyond, x, 0.3}) < 0) << x;
-    EXPECT_FALSE(compare(over->foot, beside->foot) > 0) << x;
+    EXPECT_FALSE(compare(over->closest, beside->closest) > 0) << x;
   }
 }
 
 TEST(CloseFoot, HasNoLevelFaceWithoutAnArea) {
   const Corners collinear = {Vec3(0, 0, 1), Vec3(1, 1, 1), Vec3(3, 3, 1)};
-  EXPECT_FALSE(close_foot(collinear, {2, 0, 1}));
-  EXPECT_FALSE(close_foot(collinear, {1, 1, 3}));
+  EXPECT_FALSE(precise_closest_point(collinear, {2, 0, 1}));
+  EXPECT_FALSE(precise_closest_point(collinear, {1, 1, 3}));
 }
 
 TEST(CloseFoot, DoesNotTellWhereDoubleDoublesLoseTheirLowerHalves) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const Corners triangle = {Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(0, 4, 0)};
-  EXPECT_FALSE(close_foot(triangle, {nan, 0, 0}));
-  EXPECT_FALSE(close_foot(triangle, {1e100, 0, 0}));
-  EXPECT_FALSE(close_foot({Vec3(0, 0, 0), Vec3(1e-100, 0, 0), Vec3(0, 1e-100, 0)}, {0, 0, 1e-100}));
+  EXPECT_FALSE(precise_closest_point(triangle, {nan, 0, 0}));
+  EXPECT_FALSE(precise_closest_point(triangle, {1e100, 0, 0}));
+  EXPECT_FALSE(
+      precise_closest_point({Vec3(0, 0, 0), Vec3(1e-100, 0, 0), Vec3(0, 1e-100, 0)}, {0, 0, 1e-100}));
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ void expect_touch_at(double fraction, const PreparedTriangle& t, const Sweep& sw
     largest = std::max(largest, (sweep.from - corner).cwiseAbs().maxCoeff());
   const Vec3 way = sweep.to - sweep.from;
   EXPECT_LE(*hit, fraction);
-  EXPECT_GE(*hit, fraction - most_early_gap(largest, way.cwiseAbs().maxCoeff()) / way.norm() / 0.6);
+  EXPECT_GE(*hit, fraction - max_early_gap(largest, way.cwiseAbs().maxCoeff()) / way.norm() / 0.6);
 }
 
 TEST(SphereTriangleSweep, HitsTheFaceOneRadiusAboveIt) {
@@ -113,7 +113,7 @@ TEST(SphereTriangleSweep, AlongANeedleTheTouchIsNotToldTooLate) {
   const auto hit = sweep_hit(needle, sweep, 1);
   ASSERT_TRUE(hit);
   const double distance = contact_on(needle, position_at(sweep, *hit), 0).distance;
-  const double tolerance = most_early_gap(0x1p+54, 0x1p+53) + position_error(sweep);
+  const double tolerance = max_early_gap(0x1p+54, 0x1p+53) + position_error(sweep);
   EXPECT_GE(distance, sweep.radius - tolerance);
   EXPECT_LE(distance, sweep.radius + tolerance);
 }

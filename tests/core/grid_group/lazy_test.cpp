@@ -11,7 +11,7 @@
 namespace touchmark {
 namespace {
 
-const GridGroup::Options lazy{.making = GridGroup::Making::lazy};
+const GridGroup::Options lazy{.construction = GridGroup::Construction::lazy};
 
 class LazyGroups : public test::LazyMaking<GridGroup> {};
 
@@ -40,7 +40,7 @@ TEST_F(LazyGroups, AreMadeWithBoundedWorkInAQuery) {
                         of_whole = session_of_whole.work.total() - before_of_whole;
     most = std::max(most, work - std::min(work, of_whole));
   }
-  EXPECT_LE(most, grid::DirectGrid::most_growth_in_a_query);
+  EXPECT_LE(most, grid::DirectGrid::max_lazy_work);
 }
 
 // But for cells of another size: what their parents know decides how fine they are.

@@ -65,7 +65,7 @@ TEST(DistanceGrid, BoundsTheDistanceInsideAndFarOutside) {
       const double distance = known.distance(p);
       for (const Grid* grid : {&known, &roughly}) {
         EXPECT_LE(static_cast<double>(grid->grid.at_least(grid->point(p))), distance) << p.transpose();
-        EXPECT_LE(static_cast<double>(grid->grid.at_least_by_eight(grid->point(p))), distance)
+        EXPECT_LE(static_cast<double>(grid->grid.tight_lower_bound(grid->point(p))), distance)
             << p.transpose();
         EXPECT_GE(static_cast<double>(grid->grid.at_most(grid->point(p))), distance) << p.transpose();
       }
@@ -97,7 +97,7 @@ TEST(DistanceGrid, KnowsMoreByEight) {
     const Vec3 p = random.vector(0.6);  // within the samples' box
     const double distance = known.distance(p);
     missing_by_one += distance - static_cast<double>(known.grid.at_least(known.point(p)));
-    missing_by_eight += distance - static_cast<double>(known.grid.at_least_by_eight(known.point(p)));
+    missing_by_eight += distance - static_cast<double>(known.grid.tight_lower_bound(known.point(p)));
   }
   EXPECT_LT(missing_by_eight, 0.6 * missing_by_one);
 }
@@ -111,7 +111,7 @@ TEST(DistanceGrid, WhereSamplingEndsNothingIsClaimed) {
       for (int i = 0; i < 500; ++i) {
         const Vec3 p = random.vector(1.5);
         EXPECT_LE(static_cast<double>(cut.grid.at_least(cut.point(p))), cut.distance(p));
-        EXPECT_LE(static_cast<double>(cut.grid.at_least_by_eight(cut.point(p))), cut.distance(p));
+        EXPECT_LE(static_cast<double>(cut.grid.tight_lower_bound(cut.point(p))), cut.distance(p));
         EXPECT_GE(static_cast<double>(cut.grid.at_most(cut.point(p))), cut.distance(p));
       }
     }
@@ -121,7 +121,7 @@ TEST(DistanceGrid, WhereSamplingEndsNothingIsClaimed) {
 TEST(DistanceGrid, ClaimsNothingBeforeItIsFilled) {
   const FilterPoint point{0.1F, 0.2F, 0.3F, 1e-6F};
   EXPECT_LE(DistanceGrid().at_least(point), 0);
-  EXPECT_LE(DistanceGrid().at_least_by_eight(point), 0);
+  EXPECT_LE(DistanceGrid().tight_lower_bound(point), 0);
   EXPECT_EQ(DistanceGrid().at_most(point), std::numeric_limits<float>::infinity());
 }
 

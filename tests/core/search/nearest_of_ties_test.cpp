@@ -3,12 +3,14 @@
 #include "core/search/nearest_of_ties.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "bench/experiments/stress/shared_features.h"
@@ -108,7 +110,7 @@ TEST_P(SureFeatures, ThatAreSharedAreTies) {
     const std::optional<Feature> feature = sure_feature(prepare(a[0], a[1], a[2], 0), point);
     if (!feature) continue;
     const PreparedTriangle other = prepare(b[0], b[1], b[2], 1);
-    if (!SharedPlace(*feature, point).is_nearest_of(other)) continue;
+    if (!SharedFeature(*feature, point).is_nearest_of(other)) continue;
     ++ties;
     ASSERT_TRUE(compare_exactly(a, b, point) == 0) << i;
   }
@@ -131,6 +133,65 @@ TEST_P(SureFeatures, OfTwoTrianglesCompareAsWholeNumbersDo) {
     ties.consider(first);
     const bool second_is_nearer = compare_exactly(b, a, center) < 0;
     ASSERT_EQ(ties.nearest()->index, second_is_nearer ? 1U : 0U) << i;
+  }
+}
+
+/// Pairs of triangles with one corner or edge, and points about it from on it to far away, some exactly over
+/// the corner of a face across an axis.
+template <class Check>
+void for_each_pair_at_a_corner(const HardFamily& family, HardCases& hard, const Check& check) {
+  for (int i = 0; i < 4000; ++i) {
+    HardCases::Corners a = family.triangle(hard);
+    HardCases::Corners b = {a[0], i % 2 == 0 ? a[1] : hard.vector(), hard.vector()};
+    Vec3 point = a[0] + std::ldexp(1.0, -static_cast<int>(hard.below(70))) * hard.vector();
+    if (i % 3 == 0) {
+      // An oblique plane, but for rounding, and a point over the corner.
+      const Vec3 x = hard.vector().normalized(), y = x.unitOrthogonal();
+      const auto in_plane = [&] { return Vec3(a[0] + hard.vector().x() * x + hard.vector().y() * y); };
+      a = {a[0], in_plane(), in_plane()};
+      b = {a[0], i % 2 == 0 ? a[1] : in_plane(), in_plane()};
+      point = a[0] + hard.vector().x() * x.cross(y);
+    } else if (i % 3 == 1 && i % 5 == 0) {
+      for (Vec3* v : {&a[1], &a[2], &b[1], &b[2]}) v->z() = a[0].z();
+      point = a[0] + Vec3(0, 0, hard.vector().z());
+    }
+    check(a, b, point, i);
+  }
+}
+
+TEST_P(SureFeatures, AtACornerComparesAsTheOracleDoes) {
+  HardCases hard(93);
+  int told = 0;
+  for_each_pair_at_a_corner(GetParam(), hard, [&](const auto& a, const auto& b, const Vec3& point, int i) {
+    const std::partial_ordering order = BesideCorner(a, point).compare(b);
+    if (order == std::partial_ordering::unordered) return;
+    ++told;
+    const std::array<bench::Triangle, 2> b_first = {b, a}, a_first = {a, b};
+    const bool b_is_no_farther = bench::nearest_exactly(point, b_first).which == 0;
+    const bool a_is_no_farther = bench::nearest_exactly(point, a_first).which == 0;
+    ASSERT_EQ(order <= 0, b_is_no_farther) << i;
+    ASSERT_EQ(order >= 0, a_is_no_farther) << i;
+  });
+  EXPECT_GT(told, 1000);
+}
+
+/// A point about the plane of the triangle, over it or not, and a radius about its height there.
+TEST_P(SureFeatures, AreNoNearerThanTheirPlane) {
+  HardCases hard(94);
+  int told = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const HardCase c = placed(GetParam(), hard, i);
+    if (!features_fit(c.largest_difference())) continue;
+    const SquaredDistance plane = squared_distance(Feature{c.triangle, 3}, c.point);
+    const double height = std::sqrt(plane.value.high);
+    for (const double radius : {height, std::nextafter(height, 0.0)}) {
+      if (!(compare(plane, squared(radius)) > 0)) continue;
+      ++told;
+      ASSERT_TRUE(bench::compare_distance(c.point, c.triangle, radius) > 0) << i;
+    }
+  }
+  if (GetParam().name == "plain") {
+    EXPECT_GT(told, 3000);
   }
 }
 

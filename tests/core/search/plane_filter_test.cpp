@@ -80,11 +80,11 @@ TEST(PlaneFilter, BoundsTheDistanceFromAboveWhateverTheTriangleAndTheScale) {
         const FilterPoint point = thin.frame.point(center);
         const TrianglePlanes planes = planes_of(thin.triangle, thin.frame);
         const Lanes values = plane_values(planes, point);
-        const double most = thin.frame.at_least(most_distance(planes, values, point));
+        const double most = thin.frame.from_frame_rounded_up(distance_upper_bound(planes, values, point));
         const double distance = std::sqrt(squared_distance(thin.triangle, center));
         if (most < 1.01 * distance) ++close;
         ASSERT_GE(most, distance) << scale << ' ' << thickness << ' ' << round;
-        ASSERT_LE(thin.frame.squared(least_squared(values, point)), distance * distance);
+        ASSERT_LE(thin.frame.squared(squared_lower_bound(values, point)), distance * distance);
       }
     }
   }
@@ -97,7 +97,7 @@ TEST(PlaneFilter, BoundsFromAboveByTheHeightOrAnAcuteCorner) {
   const TrianglePlanes planes = planes_of(triangle, frame);
   const auto most = [&](const Vec3& center) {
     const FilterPoint point = frame.point(center);
-    return frame.at_least(most_distance(planes, plane_values(planes, point), point));
+    return frame.from_frame_rounded_up(distance_upper_bound(planes, plane_values(planes, point), point));
   };
   EXPECT_NEAR(most({1, 1, 3}), 3, 1e-3);
   EXPECT_NEAR(most({1, 1, -3}), 3, 1e-3);
@@ -113,7 +113,7 @@ TEST(PlaneFilter, BoundsNothingFromAboveWithoutANormal) {
   const FilterFrame frame = FilterFrame::around(box_of(needle));
   const FilterPoint point = frame.point({5, 6, 7});
   const TrianglePlanes planes = planes_of(needle, frame);
-  EXPECT_TRUE(std::isinf(most_distance(planes, plane_values(planes, point), point)));
+  EXPECT_TRUE(std::isinf(distance_upper_bound(planes, plane_values(planes, point), point)));
 }
 
 TEST(PlaneFilter, IsTheDistanceOverTheFaceAndBesideASide) {

@@ -10,7 +10,7 @@
 namespace touchmark {
 namespace {
 
-const SphereCluster::Options lazy{.making = SphereCluster::Making::lazy};
+const SphereCluster::Options lazy{.construction = SphereCluster::Construction::lazy};
 
 class LazyDistances : public test::LazyMaking<SphereCluster> {};
 

@@ -20,7 +20,7 @@ struct RandomGroup {
 };
 
 RandomGroup some_group(const TriangleStore& store, Random& random) {
-  RandomGroup group{{}, 1 + random.below(Groups::most_members)};
+  RandomGroup group{{}, 1 + random.below(Groups::max_members)};
   while (group.places.size() < group.count) group.places.push_back(random.below(store.size()));
   group.places.resize(Groups::rounded_up(group.count), group.places.back());
   return group;

@@ -72,14 +72,16 @@ TEST_P(TriangleBounds, FromAboveNeverFallShortOfTheDistance) {
     const FilterPoint point = alone.frame.point(c.point);
     const double distance = std::sqrt(squared_distance(alone.triangle, c.point));
     const auto is_within = [&](double radius) {
-      return (portable::surely_within(alone.block, alone.frame.at_most(radius), portable::spread(point)) &
+      return (portable::surely_within(alone.block, alone.frame.to_frame_rounded_down(radius),
+                                      portable::spread(point)) &
               1) != 0;
     };
-    const double error = alone.frame.kernel_error(point.tau);
+    const double error = alone.frame.kernel_error(point.plane_error);
     ASSERT_FALSE(is_within(distance - error)) << i;
     const TrianglePlanes planes = planes_of(alone.triangle, alone.frame);
-    ASSERT_GE(alone.frame.at_least(most_distance(planes, plane_values(planes, point), point)),
-              distance - error)
+    ASSERT_GE(
+        alone.frame.from_frame_rounded_up(distance_upper_bound(planes, plane_values(planes, point), point)),
+        distance - error)
         << i;
     if (is_within(1.01 * distance)) ++near;
   }
