@@ -1,12 +1,17 @@
-/// Uniform cells, and in each the triangles that matter there.
+/// Triangles grouped by where they are, so that a query looks at few of them: two exact detectors in one.
 ///
-/// After J.-S. Park and T.-J. Jang (Journal of Digital Contents Society 19(1), 2018, pp. 199-204, in Korean),
-/// in two forms:
-/// - scan, as published: a triangle belongs to every cell it touches, a group is the smallest cuboid or
-///   sphere around the triangles of a cell, and a query tests the HIP against every group, then all triangles
-///   of the groups that hold it. A probe of radius r enlarges the groups by r.
-/// - direct, fast: a group is all triangles that can be nearest somewhere close to one triangle. The
-///   HIP's own cell, or the tick before, names a triangle, and its group is all that is looked at.
+/// - scan, as published: J.-S. Park and T.-J. Jang, Journal of Digital Contents Society 19(1), 2018, pages
+///   199-204, in Korean. Space is cut into uniform cells, and a triangle belongs to every cell it touches.
+///   A group is the smallest cuboid or sphere around the triangles of a cell. A query tests the HIP against
+///   every group, then all triangles of the groups that hold it. A probe of radius r enlarges the groups by
+///   r.
+/// - direct, the fast form, shares with the paper that the HIP's position names the triangles to look at:
+///   1. A sampled distance field rejects what is far (core/search/distance_field.h).
+///   2. The triangle of the tick before, or else an octree of cells each of which names a triangle near its
+///      middle, gives the triangle to start from (cell_tree.h).
+///   3. That triangle's group is looked at if it covers the point: the list of all triangles that can be
+///      nearest in a prism over the triangle, found when the grid is built (prism.h, groups.h).
+///   4. Elsewhere a tree of eight-wide boxes over all triangles is searched, nearest first (box_tree.h).
 /// Both are exact at any radius and reach.
 #pragma once
 

@@ -1,13 +1,14 @@
 #include "core/grid_group/direct/exact_offset.h"
 
 #include "core/geometry/point_triangle_avx2.h"
+#include "core/simd/dispatch.h"
 
 namespace touchmark::grid {
 
 #if TOUCHMARK_HAS_AVX2
 namespace {
 
-const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
+const bool use_avx2 = has_avx2();
 
 [[gnu::target("avx2")]] Offset with_avx2(const PreparedTriangle& triangle, const Vec3& center) noexcept {
   return avx2::offset_from(triangle, center);
@@ -18,7 +19,7 @@ const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
 
 Offset exact_offset(const PreparedTriangle& triangle, const Vec3& center) noexcept {
 #if TOUCHMARK_HAS_AVX2
-  if (has_avx2) return with_avx2(triangle, center);
+  if (use_avx2) return with_avx2(triangle, center);
 #endif
   return offset_from(triangle, center);
 }

@@ -8,6 +8,8 @@
 #include <immintrin.h>
 #endif
 
+#include "core/simd/dispatch.h"
+
 namespace touchmark::grid {
 namespace {
 
@@ -38,7 +40,7 @@ void conclude(const Leaders& leaders, const std::uint32_t* slots, GroupBounds& b
 
 #ifdef __x86_64__
 
-const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
+const bool use_avx2 = has_avx2();
 
 /// Eight members at a time: two of them share a register, row by row, until the transposition.
 [[gnu::target("avx2")]] Leaders pass_avx2(const TrianglePlanes* planes, const std::uint32_t* slots,
@@ -121,7 +123,7 @@ Leaders pass(const TrianglePlanes* planes, const std::uint32_t* slots, std::size
 GroupBounds filter_group(const TrianglePlanes* planes, const std::uint32_t* slots, std::size_t count,
                          const FilterPoint& point) noexcept {
 #ifdef __x86_64__
-  if (has_avx2) {
+  if (use_avx2) {
     GroupBounds bounds;
     conclude(pass_avx2(planes, slots, count, point, bounds), slots, bounds);
     return bounds;
