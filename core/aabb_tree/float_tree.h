@@ -2,14 +2,8 @@
 /// program gets that has no doubles, to set its error beside its time.
 ///
 /// Coordinates are kept as scale * (p - origin), the mesh's box about the origin and its extent near 1, so
-/// that neither an offset nor a scale costs digits. With u = 2^-24, E the box's largest extent and M the
-/// largest coordinate difference between the centre and the nearest triangle, in each coordinate
-/// - a corner is stored within u E / 2, and the centre, whose coordinate is at most M + E / 2, within
-///   u (M + E / 2): the distance changes by the root of three times as much, u (1.74 M + 1.74 E);
-/// - the kernel is that of core/geometry/point_triangle.h, with its 48 u M;
-/// - radius and reach are rounded, each by u times itself; near the distance, which is below 1.74 (M + E u),
-///   this is less than 1.74 u M; and so is what a reported distance is rounded by.
-/// Together less than 54 u M + 2 u E; where squares vanish, differences below 2^-63 E, the 2 has it.
+/// that neither an offset nor a scale costs digits. Distances are within 54 u M + 2 u E, u = 2^-24, E the
+/// box's largest extent: docs/exactness.md, E23.
 #pragma once
 
 #include <array>

@@ -1,10 +1,7 @@
 /// Whole numbers of bounded size, without allocation: what polynomials in doubles are when nothing rounds.
 ///
-/// Every finite double is a whole multiple of 2^-1074 below 2^1024. On the coarsest grid that holds all the
-/// doubles of a question a coordinate is thus below 2^2098 and a difference below 2^2099. Of the sums of
-/// products used here those of degree k stay below 2^(2100 k): two more bits for the three terms of a dot
-/// product. A part of a way is measured on a grid 2^53 times finer: 2^(2154 k). Numbers of one magnitude need
-/// far less, and only the limbs in use are touched.
+/// A polynomial of degree k in coordinates stays below 2^(2154 k), however they lie in the range of double
+/// (docs/exactness.md, E8). Numbers of one magnitude need far less, and only the limbs in use are touched.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-/// What any computed distance of a query may be off by, and the unit in which it can be computed. The derivation
-/// is in search/certified_nearest.h.
+/// What any computed distance of a query may be off by, and the unit in which it can be computed:
+/// docs/exactness.md, E2 and E9.
 #pragma once
 
 #include <algorithm>

@@ -1,22 +1,9 @@
 /// The distance from a point to a triangle, without failure on slivers, caps, far offsets or zero area.
 ///
-/// Three choices make it so (max error 48 u M, u = 2^-53, M the largest coordinate difference to the
-/// vertices; the worst ever found, by hill climbing, is 16.5 u M):
-/// - Only differences of coordinates enter, so a far offset costs nothing.
-/// - The unit face normal is computed once, in double-double, so no query divides by a vanishing area.
-/// - The face is used only where the point is inside by more than the rounding of that test. A point that is
-///   inside by less is within that rounding of an edge, and the edge's distance is as good; a point outside
-///   is never given the (too small) distance to the plane.
-///
-/// Where the 48 come from, m <= sqrt(3) M being the distance to the nearer end:
-/// - On an edge, the foot slides along it by 11 u m (dot product 5 u m, squared length 5, quotient 1), and
-/// the
-///   vector to it is off by 3 u m besides; at distance zero all of that is distance.
-/// - Inside a face but not surely so, the edge taken instead is at most 19 u m away: the margin of 8 u m and
-///   the test's own rounding of 11 u m.
-/// - The two are perpendicular to each other: sqrt(11^2 + 19^2) + 3 + 2.5 for the rest < 27.5 u m < 48 u M.
-/// It falls short by 8 u m at most: over the face by the height's rounding, while sliding along an edge only
-/// lengthens. Differences below 1e-150 or above 1e150 leave the range of squares, and the bound with it.
+/// It is at most 48 u M too long and 15 u M too short, u = 2^-53, M the largest coordinate difference to the
+/// vertices: docs/exactness.md, E1. Only differences of coordinates enter, the unit normal is computed once
+/// in double-double, and the face is used only where the point is inside by more than the rounding of that
+/// test. The bound holds for 2^-132 <= M <= 2^232 (E9).
 #pragma once
 
 #include <array>

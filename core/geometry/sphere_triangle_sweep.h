@@ -1,23 +1,8 @@
 /// When a moving ball first touches a triangle.
 ///
-/// The distance from a point to a convex set, along a straight line, is a convex function of the way. So
-/// Newton's method from the start approaches the first touch from before: no case distinction into faces,
-/// edges and corners. Each step is checked: where the gap is surely above zero and surely falling there was
-/// no touch before. Where that is not sure, the step is the largest that the gap's steepest fall allows.
-///
-/// - Whether the sweep hits is decided exactly, for the doubles as they are stored: the closed way comes
-///   within the radius of the closed triangle or it does not. Doubles decide where the gap's bound
-///   (way_gap.h) allows, whole numbers elsewhere.
-/// - The fraction is 0 where, and only where, the probe touches at the start.
-/// - It is never late: nothing touches before it. (Where the touch is between 0 and the smallest double
-///   above it, that is told.)
-/// - It is early by a little: there the distance exceeds the radius by at most `most_early_gap`, 384 u S, and
-/// by a
-///   quarter of that where it is a face that is touched. As
-///   a part of the way that is at most most_early_gap / (length * the rate of approach per length, its mean
-///   between the fraction and the touch): a few roundings where the ball comes straight on. Where it grazes
-///   that rate goes to zero, and the part to the root of 2 * most_early_gap * (radius + most_early_gap) over
-///   the length off a corner or an edge, and to the whole way along a face or an edge.
+/// Whether it does is decided exactly. The fraction is 0 where, and only where, the probe touches at the
+/// start; it is never late, and early by no more than max_early_gap tells. Newton's method on the distance,
+/// which is convex along the way, with checked steps. Proof: docs/exactness.md, E16.
 #pragma once
 
 #include <cstdint>

@@ -1,27 +1,9 @@
 /// How far a moving ball and a triangle are apart along the way: a convex function, in double with a bound of
 /// what it is off by.
 ///
-/// Only differences of coordinates enter, from the way's start to the corners, so a far offset costs nothing
-/// and no position on the way is ever rounded to the coordinates' own spacing. With u = 2^-53 and S the
-/// largest coordinate difference from the start to the corners plus the way's largest coordinate (no point of
-/// the way is farther than S from a corner in any coordinate, and |edge| <= 2 sqrt(3) S):
-/// - The vector from a corner to a point of the way is off by 3 u S a coordinate, 5.2 u S in all: one
-/// rounding
-///   of the difference, two of the way's part, one of the sum.
-/// - Beside an edge the foot is that of a point of the edge but for 5.2 u S and the roundings of the edge,
-/// its
-///   part and their difference, 8.7 u S; the norm adds 4.4 u S: the distance falls short by 19 u S at most.
-///   The foot slides along the edge by 33 u S (the dot product 12.1, the quotient 21): too long by 51.3 u S.
-/// - The three tests of the face are off by 26 u S |edge| (the corner's vector 5.2; twelve roundings of the
-///   normal, the product and the sum, of 1.73 u S each). What passes them by 32 u S |edge| is over the face,
-///   and its height is off by 19.1 u S. What is over the face and does not pass is within 58 u S of an edge.
-/// So the gap is 20 u S too small at most and 111.1 u S too large, the radius' subtraction included; surely
-/// over the face it is off by 20.9 u S. What is made of gaps and fractions adds less than 7 u S each time.
-/// `error` has room for that: 32 u S over the face, 128 u S (most_error) elsewhere.
-///
-/// The slope is the way times the direction from the foot: over the face the normal's, to a few roundings;
-/// else off by direction_error. Squares stay in range: where fourth powers of S do not, all is measured in
-/// another unit, a power of two.
+/// Only differences of coordinates enter, so a far offset costs nothing. With S the largest coordinate
+/// difference from the start to the corners plus the way's largest coordinate, the gap is within 32 u S
+/// surely over the face and within 128 u S elsewhere: docs/exactness.md, E17.
 #pragma once
 
 #include <array>

@@ -1,46 +1,10 @@
-/// How a search that compares distances in double still decides exactly, at the price of two comparisons.
+/// How a search that compares distances in double still decides exactly: a floating-point filter before an
+/// exact predicate.
 ///
-/// distance_error bounds what any computed distance of a query may be off by, either way: 256 u M, M the
-/// largest coordinate difference between the centre and the mesh's box; five times what the kernel's analysis
-/// gives. It is a function of mesh and centre alone, so that all detectors draw the same line. Then:
-///
-/// - Whoever looks for triangles within `reach` looks within reach + error. A triangle whose true distance is
-///   at most the reach has a computed one of at most that, so no exact answer is lost to culling.
-/// - `touches` decides triangle by triangle: where the computed distance is farther than the error from the
-///   radius it decides, else whole numbers do. Some triangle touches exactly if one of those says so.
-/// - `nearest` keeps the triangle of the least computed distance, d. Every true distance is at least
-///   d - error / 2 and this one's at most d + error / 2; so where d and the reach are farther apart than the
-///   error, d decides whether any triangle is within reach. Where they are not, or where d is within the
-///   error of zero but not negligible, a true nearest one is among those whose computed distance is at most
-///   d + error. Of these the exactly nearest is found, the first of the mesh where several are, and it alone
-///   is compared with the reach.
-///
-/// Which triangle is named is exact, too. With D the true distances, a nearest one j has D_j <= D_best, and
-/// the kernel's is at most 48 u M above the true distance and 14 u M below (point_triangle.h, m <= sqrt(3)
-/// M):
-///   d_j <= D_j + 48 u M <= D_best + 48 u M <= d + 62 u M < d + error.
-/// So every search looks at all triangles of computed distances up to d + error, and remembers those that it
-/// was shown (nearest_so_far.h): where there is none besides the best, that is the one to name. It is, too,
-/// where all of them have its very d and share the corner or edge, surely nearest to the centre, that it is
-/// the distance of: they are exactly as far, and of equal candidates the first is kept (shared_feature.h).
-/// Else the exactly nearest of them is found as above. The contact then is the kernel's on the triangle to be
-/// named where that is certain, so that it does not matter how many a search has remembered in vain.
-///
-/// What is to be shown is within the padding of every search: boxes are asked for d + error; single precision
-/// (plane_filter.h, spheres and boxes alike) leaves room for 2^-23 of M and more; scans look at all within
-/// the reach and the error; and a group leaves out what loses by 8192 u in its frame, whose M is below 4.
-///
-/// So the reported distance is within 16 u M, M now of the nearest triangle: there is a step from the edge to
-/// the face and a slide along an edge, each across the offset, in the kernel's error of 48 u M. Where the
-/// distance d is above 200 u M these matter by half their square over d only, less than 5 u M. What is left
-/// is
-/// - over the face: the difference to the nearer corner, the normal's components (rounded, then divided by
-///   their norm) and their products come to |w_k n_k| (5 - 2 n_k^2) u each, the first sum to |x + y| u, the
-///   norm and the second sum to 3.5 |h| u; at w_k = M this is greatest along the diagonal: 14.8 u M. (The
-///   square root of a square is exact.)
-/// - beside an edge: (1 + 2 cos + 3.5 sin) u |w| <= 5.1 sqrt(3) u M, and those 5;
-/// - off a corner: 3.5 sqrt(3) u M.
-/// The worst found by climbing, over 5 million triangles and centres, is 8.0 u M (certified_bound_test).
+/// distance_error bounds any computed distance of a query. Where a distance is farther from the radius or the
+/// reach than that, and its triangle surely the first of the nearest, it decides; elsewhere nearest_of_ties.h
+/// does. The reported distance is within 16 u M. Proofs: docs/exactness.md, E3 (contact), E4 (which triangle
+/// is named), E5 (the distance).
 #pragma once
 
 #include <algorithm>

@@ -1,18 +1,13 @@
 /// The exactly nearest of triangles that are as near as rounding lets doubles tell, or which of them are
 /// within a radius.
 ///
-/// Each is compared with the nearest so far, by what is cheapest and sure:
-/// 1. It has the same corner or edge, and that is nearest to the centre for both, or the same three corners:
-///    they are as far. Some comparisons of coordinates and two dot products.
-/// 2. Doubles are sure which corner, edge or face is nearest: it is the same place, or 106 bits tell the
-///    squares of the distances apart.
-/// 3. Bounds of a few products in 106 bits tell: by the corner that both have, or the plane (tie_bounds.h).
-/// 4. 106 bits find the nearest point (close_foot.h) and tell the distances apart.
-/// 5. Whole numbers compare the squares. Those of the nearest so far are kept.
-/// Before the last two, the places and triangles that they last found not to be nearer are known again.
-/// So many triangles about one corner or edge, or in one place, cost about as much again as their kernel
-/// distances; N different places as far but for rounding 3 to 35 times that; and whole numbers for each, 20
-/// to 100 times, are needed only by N different edges or faces whose distances agree to 2^-97.
+/// Each is compared with the nearest so far by the cheapest comparison that is sure: a shared corner or edge,
+/// sure features in 106 bits, bounds by a shared corner or the plane (tie_bounds.h), nearest points in 106
+/// bits, whole numbers (docs/exactness.md, E6). Before the last two, the places and triangles that they last
+/// found not to be nearer are known again. So many triangles about one corner or edge, or in one place, cost
+/// about as much again as their kernel distances; N different places as far but for rounding 4 to 14 times
+/// that; and whole numbers for each, 20 to 100 times, are needed only by N different edges or faces whose
+/// distances agree to 2^-97.
 #pragma once
 
 #include <array>

@@ -1,10 +1,9 @@
 /// A single-precision lower bound of the distance to a triangle, four triangles at a time: what is farther
 /// than the best distance known need not meet the exact kernel.
 ///
-/// A triangle is four planes: its face, and through each side the plane perpendicular to the face. The height
-/// over the face and the greatest excess beyond a side are orthogonal, so the sum of their squares is at most
-/// the squared distance; it is equal over the face and beside a side, and falls short only beyond a corner.
-/// The pad `tau` taken off both makes that true of what single precision computes.
+/// A triangle is four planes: its face, and through each side the plane perpendicular to the face. Height and
+/// excess beyond a side, less the pad `plane_error` for rounding, bound the distance from below:
+/// docs/exactness.md, E10, and from above E11.
 ///
 /// How to use it:
 ///   const FilterFrame frame = FilterFrame::around(mesh.bounds());

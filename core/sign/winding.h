@@ -1,18 +1,12 @@
-/// How often a mesh winds round a point: exactly where it is closed, within a known error where it is not.
+/// How often a mesh winds round a point: exactly where it is closed (docs/exactness.md, E20), within a known
+/// error where it is not (E22).
 ///
 /// A ray goes down from the point. Through a closed surface it passes as often outwards as the surface winds
-/// round the point, less the times it passes inwards. Which triangles it meets and which of them are below
-/// the point are signs of determinants, and a ray that meets an edge is moved aside by an amount too small
-/// for any number (Edelsbrunner & Muecke, "Simulation of simplicity", 1990), so the count is exact for any
-/// point off the surface, for slivers, doubled and intersecting triangles.
-///
-/// What is open is closed first by curtains that hang upwards from its open edges to infinity. The ray meets
-/// none of them, so the count is that of the mesh and its curtains together; the winding number of the mesh
-/// alone (Jacobson, Kavan & Sorkine-Hornung, "Robust inside-outside segmentation using generalized winding
-/// numbers", 2013: the share of all directions that its triangles cover, with sign) is the count less what
-/// the curtains cover (van Oosterom & Strackee, "The solid angle of a plane triangle", 1983). One ray and a
-/// term for each open edge instead of a term for each triangle. Barill et al. (2018) approximate the latter;
-/// here nothing is approximated, and only a soup of triangles pays for it: three terms a triangle.
+/// round the point, less the times it passes inwards. What is open is closed first by curtains that hang
+/// upwards from its open edges to infinity, which the ray never meets; the winding number of the mesh alone
+/// is the count less what the curtains cover (van Oosterom & Strackee, "The solid angle of a plane triangle",
+/// 1983). That is one ray and a term for each open edge instead of a term for each triangle (Jacobson, Kavan
+/// & Sorkine-Hornung, "Robust inside-outside segmentation using generalized winding numbers", 2013).
 #pragma once
 
 #include <array>

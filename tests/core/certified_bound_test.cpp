@@ -1,7 +1,6 @@
 // The distance that `nearest` reports is within 16 u M of the true one (u = 2^-53, M the largest coordinate
 // difference between the centre and the triangle's corners): over the worst triangles there are, and by
-// climbing from each towards greater error. The analysis is in core/search/certified_nearest.h; it allows
-// 14.8.
+// climbing from each towards greater error. The analysis is in docs/exactness.md, E5; it allows 14.8.
 #include <algorithm>
 #include <cmath>
 #include <limits>

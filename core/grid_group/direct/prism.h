@@ -1,11 +1,9 @@
 /// The space over, under and a little beside a triangle, and the test that decides which triangles matter in
 /// it.
 ///
-/// Let w be any point of the mesh and f(p) = d(p, T)^2 - |p - w|^2 - margin. As a minimum over q in T of
-/// functions linear in p, f is concave, so over a convex body it is least at a corner: if f > 0 at all
-/// corners, T is farther than w from every point of the body and can be left out. A prism is cut into slim
-/// ones, each with a witness w of its own on the triangle it stands on; T is left out when every part can do
-/// without it.
+/// A prism is cut into slim ones, each with a witness of its own on the triangle it stands on. What is
+/// farther than the witness from all corners of a part is farther everywhere in it; a triangle is left out
+/// when every part can do without it: docs/exactness.md, E15.
 #pragma once
 
 #include <array>

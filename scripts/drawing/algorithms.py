@@ -1,0 +1,311 @@
+#!/usr/bin/python3
+"""Draws the pictures of docs/algorithms/ from what the program answers.
+
+From scripts/:  python3 -m drawing.algorithms --program ../build/release/bin/touchmark --coarse bunny-902.ply \\
+                    --results ../results/MACHINE/RUN/results.csv --out ../docs/pictures
+"""
+import argparse
+import csv
+import pathlib
+import subprocess
+import tempfile
+
+import numpy
+
+from . import detectors, layout
+
+INK, PALE = "#202020", "0.8"
+METHODS = {"butterfly": "#b0508c", "catmull-clark-linear": "#555555", "mid-point": "#3f97d0", "loop": "#c04a00",
+           "ls3": "#008060"}
+
+
+class Program:
+    """The touchmark program, with a folder for what goes in and out."""
+
+    def __init__(self, path, folder):
+        self.path, self.folder = pathlib.Path(path).resolve(), folder
+
+    def run(self, *arguments):
+        subprocess.run([self.path, *map(str, arguments)], cwd=self.folder, check=True, stdout=subprocess.PIPE,
+                       stderr=subprocess.PIPE)
+
+    def query(self, mesh, *, points=None, trajectory=None, detector="sphere-cluster", steps=None):
+        """A row for each point of a motion, or for each step of a named trajectory."""
+        if points is not None:
+            trajectory = self.folder / "points.csv"
+            numpy.savetxt(trajectory, points, delimiter=",", header="x,y,z", comments="")
+        answers = self.folder / "answers.csv"
+        count = ["--steps", steps] if steps else ["--steps", len(points)]
+        self.run("query", "--mesh", mesh, "--trajectory", trajectory, "--detector", detector, "--reach", "inf", *count,
+                 "--csv", answers)
+        with open(answers, encoding="utf-8", newline="") as file:
+            return list(csv.DictReader(file))
+
+    def mesh(self, mesh, method="mid-point", levels=0):
+        """Triangles (n, 3, 3) of a mesh after `levels` subdivisions."""
+        self.run("mesh", "subdivide", "--mesh", mesh, "--method", method, "--levels", levels, "--output", "out.off")
+        return read_off(self.folder / "out.off")
+
+
+def read_off(path):
+    words = path.read_text(encoding="utf-8").split()
+    vertices, faces = int(words[1]), int(words[2])
+    positions = numpy.array(words[4:4 + 3 * vertices], float).reshape(-1, 3)
+    corners = numpy.array(words[4 + 3 * vertices:4 + 3 * vertices + 4 * faces], int).reshape(-1, 4)[:, 1:]
+    return positions[corners]
+
+
+def write_off(path, triangles):
+    positions, corners = numpy.unique(triangles.reshape(-1, 3), axis=0, return_inverse=True)
+    lines = [f"OFF\n{len(positions)} {len(triangles)} 0"]
+    lines += [" ".join(map(repr, map(float, p))) for p in positions]
+    lines += ["3 " + " ".join(map(str, t)) for t in corners.reshape(-1, 3)]
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def section(triangles, axis, at):
+    """The segments in which the plane through `at` across the axis cuts the triangles, in the other two axes."""
+    rest = [k for k in range(3) if k != axis]
+    segments = []
+    over = triangles[:, :, axis] - at
+    for t, h in zip(triangles[(over.min(axis=1) < 0) & (over.max(axis=1) > 0)],
+                    over[(over.min(axis=1) < 0) & (over.max(axis=1) > 0)]):
+        ends = [t[i] + (t[j] - t[i]) * h[i] / (h[i] - h[j]) for i, j in ((0, 1), (1, 2), (2, 0)) if h[i] * h[j] < 0]
+        if len(ends) == 2:
+            segments.append([ends[0][rest], ends[1][rest]])
+    return segments
+
+
+def hull_section(points, edges, axis, at):
+    """The convex polygon in which the plane cuts a convex body given by its points and edges."""
+    rest = [k for k in range(3) if k != axis]
+    cut = []
+    for i, j in edges:
+        a, b = points[i][axis] - at, points[j][axis] - at
+        if a * b < 0:
+            cut.append((points[i] + (points[j] - points[i]) * a / (a - b))[rest])
+    if len(cut) < 3:
+        return None
+    cut = numpy.array(cut)
+    around = cut - cut.mean(axis=0)
+    return cut[numpy.argsort(numpy.arctan2(around[:, 1], around[:, 0]))]
+
+
+def draw_lines(axes, segments, **look):
+    from matplotlib import collections
+    axes.add_collection(collections.LineCollection(segments, **{"colors": INK, "linewidths": 1, **look}))
+
+
+def plain_axes(axes, title, low, high):
+    axes.set_title(title, fontsize=10)
+    axes.set_xlim(low[0], high[0])
+    axes.set_ylim(low[1], high[1])
+    axes.set_aspect("equal")
+    axes.set_xticks([])
+    axes.set_yticks([])
+
+
+def plane_points(low, high, pixels, axis, at):
+    """A square lattice of points in the plane, row by row from below."""
+    x, y = numpy.meshgrid(numpy.linspace(low[0], high[0], pixels), numpy.linspace(low[1], high[1], pixels))
+    return numpy.insert(numpy.stack([x.ravel(), y.ravel()], axis=1), axis, at, axis=1)
+
+
+PRISM_EDGES = [(0, 1), (1, 2), (2, 0), (3, 4), (4, 5), (5, 3), (0, 3), (1, 4), (2, 5)]
+GROWTH, FIRST_HEIGHT = 0.3, 1.0  # core/grid_group/direct/group_finder.cpp
+
+
+def unit_normal(triangle):
+    normal = numpy.cross(triangle[1] - triangle[0], triangle[2] - triangle[0])
+    return normal / numpy.linalg.norm(normal)
+
+
+def prism(triangle):
+    """The six corners of the highest prism that is tried for the group of a triangle."""
+    a, b, c = triangle
+    twice_area = numpy.linalg.norm(numpy.cross(b - a, c - a))
+    lengths = numpy.array([numpy.linalg.norm(c - b), numpy.linalg.norm(a - c), numpy.linalg.norm(b - a)])
+    incenter = lengths @ triangle / lengths.sum()
+    grown = incenter + (1 + GROWTH) * (triangle - incenter)
+    up = FIRST_HEIGHT * numpy.sqrt(twice_area) * unit_normal(triangle)
+    return numpy.concatenate([grown - up, grown + up])
+
+
+def draw_grid_group(plt, program, mesh):
+    program.run("paper", "park-jang-2018", "--mesh", mesh, "--quick", "--out", "groups")
+    read = lambda name: numpy.loadtxt(program.folder / "groups/pictures" / name, delimiter=",", skiprows=1, ndmin=2)
+    boxes, hip, triangles = read("cube-groups.csv"), read("hip.csv")[0], read("original-mesh.csv").reshape(-1, 3, 3)
+    outline = section(triangles, 2, hip[2])
+    figure, (left, right) = plt.subplots(1, 2, figsize=(11, 5.2))
+    for box in boxes[(boxes[:, 2] <= hip[2]) & (boxes[:, 5] >= hip[2])]:
+        left.add_patch(plt.Rectangle(box[:2], *(box[3:5] - box[:2]), facecolor="#c04a0020", edgecolor="#c04a00", linewidth=0.8))
+    draw_lines(left, outline)
+    left.plot(*hip[:2], "o", color="#0060a8")
+    ends = numpy.array(outline).reshape(-1, 2)
+    room = 0.05
+    plain_axes(left, f"As published: the cuboids that this plane cuts, of {len(boxes)} groups.\nEvery query tests the HIP (dot) against all.",
+               ends.min(axis=0) - room, ends.max(axis=0) + room)
+
+    side, pixels = 0.09, 260
+    closer = (numpy.ptp(ends[:, 0]) + 2 * room) / side
+    middle = ends[numpy.argmin(numpy.linalg.norm(ends - hip[:2], axis=1))]
+    low, high = middle - side / 2, middle + side / 2
+    answers = program.query(mesh, points=plane_points(low, high, pixels, 2, hip[2]), detector="grid-group")
+    nearest = numpy.array([int(answer["triangle"]) for answer in answers]).reshape(pixels, pixels)
+    names, numbers = numpy.unique(nearest, return_inverse=True)
+    tones = plt.get_cmap("Pastel1")(numpy.random.default_rng(3).permutation(len(names)) % 9)
+    right.imshow(tones[numbers.reshape(nearest.shape)], origin="lower", extent=(low[0], high[0], low[1], high[1]))
+    draw_lines(right, outline, linewidths=1.5)
+    cut = [(segment, t) for t in triangles[names] for segment in section(t[None], 2, hip[2])]
+    shown = [t for segment, t in cut if numpy.all(numpy.abs(numpy.mean(segment, axis=0) - middle) < 0.3 * side)]
+    chosen = min(shown, key=lambda t: abs(unit_normal(t)[2]))  # the plane cuts its prism straight
+    outlined = hull_section(prism(chosen), PRISM_EDGES, 2, hip[2])
+    right.add_patch(plt.Polygon(outlined, fill=False, edgecolor="#0060a8", linewidth=2))
+    draw_lines(right, section(chosen[None], 2, hip[2]), colors="#0060a8", linewidths=4)
+    plain_axes(right, f"Ours, {closer:.0f} times closer: a colour for each nearest triangle,\nand the prism over and under one of them. "
+               "Its group is\nevery triangle that can be nearest somewhere in it.", low, high)
+    return figure
+
+
+def draw_sphere_cluster(plt, program, coarse):
+    program.run("paper", "choi-sung-2017", "--mesh", coarse, "--quick", "--out", "spheres")
+    folder = program.folder / "spheres/pictures"
+    turned = [2, 1, 0]  # seen from the side
+    spheres = numpy.loadtxt(folder / "original-0-clustered.csv", delimiter=",", skiprows=1)[:, [*turned, 3]]
+    triangles = numpy.loadtxt(folder / "original-0-mesh.csv", delimiter=",", skiprows=1).reshape(-1, 3, 3)[:, :, turned]
+    corners = triangles.reshape(-1, 3)
+    at = float(numpy.median(corners[:, 2])) + 0.02
+    figure, (left, right) = plt.subplots(1, 2, figsize=(11, 5.2))
+    outline = section(triangles, 2, at)
+    ends = numpy.array(outline).reshape(-1, 2)
+    for x, y, z, radius in spheres[numpy.abs(spheres[:, 2] - at) < spheres[:, 3]]:
+        left.add_patch(plt.Circle((x, y), numpy.sqrt(radius**2 - (z - at)**2), facecolor="#0060a818", edgecolor="#0060a8",
+                                  linewidth=0.6))
+    draw_lines(left, outline)
+    room = 0.12
+    low, high = ends.min(axis=0) - (room, 2.5 * room), ends.max(axis=0) + room
+    plain_axes(left, f"As published: the spheres that this\nplane cuts, of {len(spheres)}. Every query tests all.", low, high)
+
+    radius = 0.005 * numpy.linalg.norm(numpy.ptp(corners, axis=0))
+    start, end = numpy.array([ends[:, 0].min() - 0.9, ends[:, 1].max() * 0.75]), ends[numpy.argmax(ends[:, 1])]
+    steps = numpy.linspace(0, 1, 400)[:, None]
+    path = (1 - steps) * start + steps * end + numpy.stack([numpy.zeros(400), 0.25 * numpy.sin(3 * numpy.pi * steps[:, 0])], axis=1)
+    answers = program.query(coarse, points=numpy.insert(path, 2, at, axis=1)[:, turned])
+    distance = numpy.array([float(answer["distance"]) for answer in answers])
+    touching = numpy.array([answer["touching"] == "1" for answer in answers])
+    known, searches = 0, []
+    for step, place in enumerate(path):
+        if searches and numpy.linalg.norm(place - path[known]) < distance[known] - radius:
+            continue
+        known = step
+        searches.append(step)
+    for step in searches:
+        if distance[step] > radius:
+            right.add_patch(plt.Circle(path[step], distance[step] - radius, facecolor="#00806012", edgecolor="#008060", linewidth=0.8))
+    draw_lines(right, outline)
+    right.plot(*path.T, color="#c04a00", linewidth=1)
+    right.plot(*path[searches].T, ".", color="#c04a00", markersize=5)
+    free = int((~touching).sum())
+    plain_axes(right, f"Ours: a probe comes near in {len(path)} ticks. Within a circle nothing\ncan be touched: "
+               f"of {free} ticks in free space {sum(not touching[s] for s in searches)} (dots) search.",
+               numpy.minimum(path.min(axis=0), ends.min(axis=0)) - room, numpy.maximum(path.max(axis=0), ends.max(axis=0)) + room)
+    return figure
+
+
+def draw_work(plt, results):
+    """What a query looks at, as recorded: boxes, spheres, groups and triangles."""
+    shown = {("aabb-tree", ""): "aabb-tree", ("grid-group", ""): "grid-group", ("sphere-cluster", ""): "sphere-cluster",
+             ("grid-group", "lookup=scan"): "grid-group as published",
+             ("sphere-cluster", "lookup=scan"): "sphere-cluster as published", ("brute-force", ""): "brute-force"}
+    with open(results, encoding="utf-8", newline="") as file:
+        rows = [row for row in csv.DictReader(file) if row["query"] == "nearest" and (row["detector"], row["options"]) in shown]
+    trajectories = list(dict.fromkeys(row["trajectory"] for row in rows))
+    figure, axes = plt.subplots(figsize=(9, 4.2))
+    width = 0.8 / len(shown)
+    for number, ((detector, options), name) in enumerate(shown.items()):
+        found = {row["trajectory"]: max(float(row["work_mean"]), 0.01) for row in rows
+                 if (row["detector"], row["options"]) == (detector, options)}
+        colour = detectors.KINDS.get(name, detectors.KINDS[detector])[0]
+        places = [place + (number - len(shown) / 2 + 0.5) * width for place, t in enumerate(trajectories) if t in found]
+        axes.bar(places, [found[t] for t in trajectories if t in found], width, label=name, color=colour, edgecolor=colour,
+                 fill="published" not in name, hatch="//" if "published" in name else None)
+    axes.set_yscale("log")
+    axes.set_ylim(0.01, 3e6)
+    powers = range(-2, 7)
+    axes.set_yticks([10.0**power for power in powers], [layout.plain(10.0**power) for power in powers])
+    axes.set_xticks(range(len(trajectories)), trajectories)
+    axes.set_ylabel("boxes, spheres, groups and triangles\na query looks at (mean)")
+    axes.set_title(f"{rows[0]['mesh']}, {int(rows[0]['triangles']):,} triangles, nearest within 0.5 %: on hover ours hardly "
+                   "look at all", fontsize=10)
+    axes.legend(ncols=3, fontsize=8, loc="upper center")
+    axes.grid(axis="y", color="0.9", linewidth=0.6)
+    axes.set_axisbelow(True)
+    return figure
+
+
+def draw_sign(plt, program):
+    ball = program.mesh("icosphere:4")
+    holed = ball[ball.mean(axis=1)[:, 1] < 0.8]
+    write_off(program.folder / "holed.off", holed)
+    colours = {"outside": (1, 1, 1), "inside": (0.75, 0.85, 0.95), "undecided": (0.98, 0.85, 0.72), "on_surface": (0.2, 0.2, 0.2)}
+    figure, panels = plt.subplots(1, 2, figsize=(10, 5.2))
+    pixels, low, high = 220, numpy.array([-1.5, -1.5]), numpy.array([1.5, 1.5])
+    for axes, mesh, triangles, title in ((panels[0], "icosphere:4", ball, "A closed mesh: decided everywhere"),
+                                         (panels[1], "holed.off", holed, "The same with a hole: undecided (orange) where\nthe hole is nearest, or the winding number is unclear")):
+        answers = program.query(mesh, points=plane_points(low, high, pixels, 2, 0.01), detector="sphere-cluster:side=on")
+        image = numpy.array([colours[answer["side"]] for answer in answers]).reshape(pixels, pixels, 3)
+        axes.imshow(image, origin="lower", extent=(low[0], high[0], low[1], high[1]), interpolation="nearest")
+        draw_lines(axes, section(triangles, 2, 0.01), linewidths=1.5)
+        plain_axes(axes, title, low, high)
+    return figure
+
+
+def draw_subdivision(plt, program):
+    figure, (left, right) = plt.subplots(1, 2, figsize=(11, 5.2))
+    coarse = program.mesh("icosphere:0")
+    for axes in (left, right):
+        draw_lines(axes, section(coarse, 2, 0.01), colors="0.6", linewidths=4, label="the icosahedron")
+    for method, colour in METHODS.items():
+        fine = program.mesh("icosphere:0", method, 4)
+        dashed = "--" if method == "mid-point" else "-"
+        for axes in (left, right):
+            draw_lines(axes, section(fine, 2, 0.01), colors=colour, linewidths=1.4, linestyles=dashed,
+                       label=f"{method}, {len(fine):,} triangles")
+    angle = numpy.linspace(0, 2 * numpy.pi, 400)
+    for axes in (left, right):
+        axes.plot(numpy.cos(angle), numpy.sin(angle), ":", color=INK, linewidth=1, label="the sphere through its corners")
+    plain_axes(left, "An icosahedron and its fourth level, cut by a plane", (-1.1, -1.1), (1.1, 1.1))
+    left.legend(fontsize=8, loc="center")
+    plain_axes(right, "Part of it, closer", (0.55, 0.25), (1.05, 0.75))
+    return figure
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--program", required=True, type=pathlib.Path)
+    parser.add_argument("--mesh", default="bunny", help="the mesh whose groups are shown")
+    parser.add_argument("--coarse", required=True, type=pathlib.Path, help="a coarse mesh file, whose spheres can be told apart")
+    parser.add_argument("--results", required=True, type=pathlib.Path, help="the results.csv of a recorded comparison")
+    parser.add_argument("--out", required=True, type=pathlib.Path)
+    parser.add_argument("--only", nargs="*", help="names of pictures")
+    arguments = parser.parse_args()
+    plt = layout.load_pyplot()
+    with tempfile.TemporaryDirectory() as folder:
+        program = Program(arguments.program, pathlib.Path(folder))
+        pictures = {"grid_group": lambda: draw_grid_group(plt, program, arguments.mesh),
+                    "sphere_cluster": lambda: draw_sphere_cluster(plt, program, arguments.coarse.resolve()),
+                    "work": lambda: draw_work(plt, arguments.results),
+                    "sign": lambda: draw_sign(plt, program),
+                    "subdivision": lambda: draw_subdivision(plt, program)}
+        arguments.out.mkdir(parents=True, exist_ok=True)
+        for name, picture in pictures.items():
+            if arguments.only and name not in arguments.only:
+                continue
+            figure = picture()
+            figure.tight_layout()
+            figure.savefig(arguments.out / f"{name}.png", dpi=110, bbox_inches="tight")
+            plt.close(figure)
+
+
+if __name__ == "__main__":
+    main()
