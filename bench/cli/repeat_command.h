@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "bench/cli/selectors.h"
+#include "bench/contestants/selectors.h"
 #include "bench/measurement/result_row.h"
 #include "bench/workload/workload.h"
 

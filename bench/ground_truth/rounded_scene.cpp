@@ -16,13 +16,6 @@ TriangleMesh stored(const TriangleMesh& mesh, const Storing& storing) {
 
 }  // namespace
 
-Storing stored_in_single_precision(double scale, const Vec3& origin) {
-  return {[=](const Vec3& point) -> Vec3 {
-            return (scale * (point - origin)).cast<float>().cast<double>() / scale + origin;
-          },
-          [=](double length) { return static_cast<double>(static_cast<float>(scale * length)) / scale; }};
-}
-
 StoredScene::StoredScene(const TriangleMesh& mesh, Storing storing)
     : storing_(std::move(storing)), mesh_(stored(mesh, storing_)), oracle_(mesh_) {}
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "bench/oracle/judge.h"
+#include "bench/workload/query_name.h"
 
 namespace touchmark::bench {
 namespace {

@@ -14,7 +14,7 @@
 #include "bench/cli/benchmark_flags.h"
 #include "bench/cli/program.h"
 #include "bench/cli/repeat_command.h"
-#include "bench/cli/selectors.h"
+#include "bench/cli/selector_options.h"
 #include "bench/cli/worker_options.h"
 #include "bench/measurement/comparison.h"
 #include "bench/results/report_table.h"

@@ -10,7 +10,7 @@
 
 #include "bench/cli/commands/mesh_commands.h"
 #include "bench/cli/program.h"
-#include "bench/cli/selectors.h"
+#include "bench/cli/selector_options.h"
 #include "bench/scenes/mesh_report.h"
 #include "bench/scenes/scenes.h"
 #include "bench/support/available_memory.h"

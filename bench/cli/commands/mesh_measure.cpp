@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/cli/commands/mesh_commands.h"
-#include "bench/cli/selectors.h"
+#include "bench/contestants/selectors.h"
 #include "bench/scenes/scenes.h"
 #include "bench/support/numbers.h"
 #include "bench/support/standard_output.h"

@@ -15,7 +15,7 @@
 #include <fmt/format.h>
 
 #include "bench/cli/commands/mesh_commands.h"
-#include "bench/cli/selectors.h"
+#include "bench/contestants/selectors.h"
 #include "bench/scenes/mesh_writer.h"
 #include "bench/support/available_memory.h"
 #include "bench/support/numbers.h"

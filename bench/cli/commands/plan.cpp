@@ -11,7 +11,7 @@
 
 #include "bench/batch/manifest.h"
 #include "bench/cli/program.h"
-#include "bench/cli/selectors.h"
+#include "bench/cli/selector_options.h"
 #include "bench/results/build_info.h"
 #include "bench/scenes/scenes.h"
 #include "bench/support/atomic_file.h"

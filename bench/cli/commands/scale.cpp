@@ -16,7 +16,7 @@
 #include <fmt/format.h>
 
 #include "bench/cli/program.h"
-#include "bench/cli/selectors.h"
+#include "bench/cli/selector_options.h"
 #include "bench/cli/worker_options.h"
 #include "bench/experiments/scaling/growth.h"
 #include "bench/experiments/scaling/mesh_sizes.h"

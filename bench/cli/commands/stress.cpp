@@ -12,9 +12,9 @@
 #include <fmt/format.h>
 
 #include "bench/cli/program.h"
-#include "bench/cli/selectors.h"
 #include "bench/cli/single_step.h"
 #include "bench/cli/worker_options.h"
+#include "bench/contestants/selectors.h"
 #include "bench/experiments/stress/stress_csv.h"
 #include "bench/experiments/stress/stress_report.h"
 #include "bench/experiments/stress/stress_run.h"

@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "bench/cli/program.h"
-#include "bench/cli/selectors.h"
+#include "bench/cli/selector_options.h"
 #include "bench/cli/worker_options.h"
 #include "bench/experiments/update/update_row.h"
 #include "bench/experiments/update/update_run.h"

@@ -1,4 +1,5 @@
-/// The options that say what is asked of whom: shared by every command that replays trajectories.
+/// What is asked of whom, as texts and as checked values: the same for every command that replays
+/// trajectories.
 #pragma once
 
 #include <cstddef>
@@ -12,10 +13,6 @@
 #include "bench/workload/selection.h"
 #include "core/triangle_mesh.h"
 
-namespace CLI {
-class App;
-}
-
 namespace touchmark::bench {
 
 /// How motion files are read, as the command line says it; empty: as motion_options.h says.
@@ -23,10 +20,6 @@ struct MotionSelectors {
   std::string columns, scale, rate;
 };
 
-void add_motion_selectors(CLI::App& command, MotionSelectors& motion);
-
-/// --unit, for commands whose reports speak of lengths or speeds.
-void add_unit(CLI::App& command, std::string& unit);
 /// Nothing for an empty text. Throws std::invalid_argument.
 std::optional<LengthUnit> checked_unit(const std::string& text);
 
@@ -48,8 +41,6 @@ struct Selectors {
 
 /// one: of --mesh and --query. many: --mesh is repeatable and --query may be "all".
 enum class Variety { one, many };
-
-void add_selectors(CLI::App& command, Selectors& selectors, Variety variety = Variety::one);
 
 /// The checked values, and who is asked.
 struct CheckedSelectors : Selection {

@@ -1,4 +1,4 @@
-#include "bench/cli/selectors.h"
+#include "bench/contestants/selectors.h"
 
 #include <limits>
 #include <stdexcept>

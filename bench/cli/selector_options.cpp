@@ -1,0 +1,72 @@
+#include "bench/cli/selector_options.h"
+
+#include <CLI/CLI.hpp>
+
+namespace touchmark::bench {
+
+void add_motion_selectors(CLI::App& command, MotionSelectors& motion) {
+  command
+      .add_option("--columns", motion.columns,
+                  "of motion files, by name or number: x=COL,y=COL,z=COL[,time=COL][,radius=COL]")
+      ->type_name("COLUMNS");
+  command
+      .add_option(
+          "--motion-scale", motion.scale,
+          "factor on the coordinates and radii of motion files, to mesh units: 1000 for metres on a mesh "
+          "in millimetres")
+      ->type_name("S");
+  command
+      .add_option(
+          "--rate", motion.rate,
+          "resample motion files by their times to this servo rate, linearly; default: a row is a step")
+      ->type_name("HZ");
+}
+
+void add_unit(CLI::App& command, std::string& unit) {
+  command
+      .add_option("--unit", unit, "what a mesh unit is, um, mm, cm, m or in: reports then speak of metres")
+      ->type_name("UNIT");
+}
+
+void add_selectors(CLI::App& command, Selectors& selectors, Variety variety) {
+  CLI::Option* mesh = command.add_option("--mesh", selectors.meshes,
+                                         "a scene (touchmark list) or a mesh file; modifiers may follow: "
+                                         "bunny@scale=1e-3@offset=1e6");
+  mesh->type_name("MESH")->expected(1);
+  if (variety == Variety::one) {
+    mesh->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+  } else {
+    mesh->take_all();
+  }
+  command.add_flag("--normalize", selectors.normalize, "scale to box diagonal 1 about the origin");
+  command
+      .add_option("--trajectory", selectors.trajectories,
+                  "a name (touchmark list) or a motion file, CSV with columns x,y,z; repeatable")
+      ->type_name("T")
+      ->expected(1)
+      ->take_all();
+  command
+      .add_option("--detector", selectors.detectors,
+                  "a contestant (touchmark list) as NAME[:key=value,...]; repeatable")
+      ->type_name("D")
+      ->expected(1)
+      ->take_all();
+  command
+      .add_option("--query", selectors.query,
+                  variety == Variety::one ? "touches, nearest or sweep" : "touches, nearest, sweep or all")
+      ->type_name("QUERY")
+      ->capture_default_str();
+  command.add_option("--radius", selectors.radius, "the probe's, in mesh units or % of the box diagonal")
+      ->type_name("LENGTH")
+      ->capture_default_str();
+  command
+      .add_option("--reach", selectors.reach, "how far nearest looks; inf is allowed; default: the radius")
+      ->type_name("LENGTH");
+  add_motion_selectors(command, selectors.motion);
+  command.add_option("--steps", selectors.steps, "steps a trajectory")->type_name("N");
+  command.add_option("--seed", selectors.seed, "of trajectories and of the order of measuring")
+      ->type_name("N")
+      ->capture_default_str();
+}
+
+}  // namespace touchmark::bench

@@ -1,0 +1,22 @@
+/// The options of the command line that fill the selectors.
+#pragma once
+
+#include <string>
+
+#include "bench/contestants/selectors.h"
+
+namespace CLI {
+class App;
+}
+
+namespace touchmark::bench {
+
+void add_selectors(CLI::App& command, Selectors& selectors, Variety variety = Variety::one);
+
+/// Adds the options that say how motion files are read.
+void add_motion_selectors(CLI::App& command, MotionSelectors& motion);
+
+/// Adds --unit, for commands whose reports speak of lengths or speeds.
+void add_unit(CLI::App& command, std::string& unit);
+
+}  // namespace touchmark::bench
