@@ -23,6 +23,7 @@
 
 namespace touchmark {
 
+/// The grid-group detector; satisfies Detector, Updates, MakesLater and every query.
 class GridGroup {
  public:
   using Shape = grid::Shape;
@@ -32,6 +33,7 @@ class GridGroup {
     whole,  ///< all in build()
     lazy    ///< each by the first query that misses it, one a query at most, which takes a few microseconds
   };
+  /// What `build` may be told; the defaults are the fast exact form.
   struct Options {
     Shape shape = Shape::cube;  ///< of the groups; scan only
     Lookup lookup = Lookup::direct;
@@ -42,6 +44,7 @@ class GridGroup {
     bool certified = true;  ///< false, direct only: as doubles have it, to measure what certainty costs
     Making making = Making::whole;
   };
+  /// What one haptic point remembers between ticks.
   struct Session {
     Work work;
     grid::DirectMemory memory;
