@@ -23,7 +23,7 @@
 
 namespace touchmark {
 
-/// The grid-group detector; satisfies Detector, Updates, MakesLater and every query.
+/// The grid-group detector; satisfies Detector, Updates and every query. May be built lazily.
 class GridGroup {
  public:
   using Shape = grid::Shape;

@@ -15,7 +15,7 @@
 
 namespace touchmark {
 
-/// The sphere-cluster detector; satisfies Detector, Updates, Prepares, MakesLater and every query.
+/// The sphere-cluster detector; satisfies Detector, Updates, Prepares and every query. May be built lazily.
 class SphereCluster {
  public:
   enum class Lookup {
