@@ -35,11 +35,14 @@ struct FloatFrame {
   Eigen::Vector3f into(const Vec3& point) const noexcept { return (scale * (point - origin)).cast<float>(); }
 };
 
+/// A tree of boxes in single precision; satisfies AnswersTouches and AnswersNearest.
 class FloatTree {
  public:
+  /// What `build` may be told.
   struct Options {
     std::size_t leaf_size = 4;  ///< as in AabbTree
   };
+  /// What one haptic point remembers between ticks.
   struct Session {
     Work work;
     std::uint32_t last = 0;  ///< where the last nearest triangle is kept: its distance bounds the next search

@@ -56,6 +56,14 @@ class Documents(unittest.TestCase):
             "library.md", "reference/results-csv.md", "reference/run-json.md"))], capture_output=True, text=True, check=False)
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
 
+    def test_every_public_header_is_described(self):
+        cmake = (ROOT / "core" / "CMakeLists.txt").read_text(encoding="utf-8")
+        listed = re.search(r"set\(touchmark_public_headers([^)]*)\)", cmake)[1].split() + ["mesh_io/mesh_io.h"]
+        doxyfile = (ROOT / "docs" / "Doxyfile").read_text(encoding="utf-8")
+        self.assertEqual(sorted(re.findall(r"core/([\w/]+\.h)", doxyfile)), sorted(listed))
+        described = re.findall(r"^\| `<touchmark/(\w+\.h)>`", (ROOT / "docs" / "library.md").read_text(encoding="utf-8"), re.M)
+        self.assertEqual(sorted(described), sorted(pathlib.PurePath(header).name for header in listed))
+
     def test_the_readme_is_short(self):
         self.assertLessEqual(len((ROOT / "README.md").read_text(encoding="utf-8").splitlines()), 120)
 
