@@ -8,6 +8,7 @@
 
 namespace touchmark {
 
+/// An axis-aligned box, given by two of its corners.
 struct Aabb {
   Vec3 min = Vec3::Constant(std::numeric_limits<double>::infinity());
   Vec3 max = Vec3::Constant(-std::numeric_limits<double>::infinity());

@@ -20,12 +20,15 @@
 
 namespace touchmark {
 
+/// A binary tree of axis-aligned boxes over the triangles; satisfies Detector, Updates and every query.
 class AabbTree {
  public:
+  /// What `build` may be told.
   struct Options {
     std::size_t leaf_size = 4;  ///< triangles a leaf holds at most, 1 to 255
     bool certified = true;      ///< false: as doubles have it, to measure what certainty costs
   };
+  /// What one haptic point remembers between ticks.
   struct Session {
     Work work;
     /// Slot of the triangle of the last contact, if there was one: `touches` asks it first, and its distance

@@ -29,11 +29,14 @@ struct FloatFrame {
   Eigen::Vector3f into(const Vec3& point) const noexcept { return (scale * (point - origin)).cast<float>(); }
 };
 
+/// A tree of boxes in single precision; satisfies AnswersTouches and AnswersNearest.
 class FloatTree {
  public:
+  /// What `build` may be told.
   struct Options {
     std::size_t leaf_size = 4;  ///< as in AabbTree
   };
+  /// What one haptic point remembers between ticks.
   struct Session {
     Work work;
     std::uint32_t last = 0;  ///< slot of the last nearest triangle: its distance bounds the next search

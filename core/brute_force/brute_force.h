@@ -14,9 +14,12 @@
 
 namespace touchmark {
 
+/// Every triangle at every query; satisfies Detector, Updates and every query.
 class BruteForce {
  public:
+  /// There is nothing to choose.
   struct Options {};
+  /// The work counters; nothing else is remembered.
   struct Session {
     Work work;
   };

@@ -28,6 +28,7 @@
 
 namespace touchmark {
 
+/// The grid-group detector; satisfies Detector, Updates and every query. May be built lazily.
 class GridGroup {
  public:
   using Shape = grid::Shape;
@@ -37,6 +38,7 @@ class GridGroup {
     whole,  ///< all in build()
     lazy    ///< each by the first query that misses it, one a query at most, which takes a few microseconds
   };
+  /// What `build` may be told; the defaults are the fast exact form.
   struct Options {
     Shape shape = Shape::cube;  ///< shape of the groups; scan only
     Lookup lookup = Lookup::direct;
@@ -47,6 +49,7 @@ class GridGroup {
     bool certified = true;  ///< false, direct only: as doubles have it, to measure what certainty costs
     Construction construction = Construction::whole;
   };
+  /// What one haptic point remembers between ticks.
   struct Session {
     Work work;
     grid::DirectMemory memory;

@@ -29,6 +29,7 @@
 
 namespace touchmark {
 
+/// Finds the side of points from their nearest contacts, for one mesh.
 class SideFinder {
  public:
   enum class Method : std::uint8_t {

@@ -14,10 +14,12 @@
 
 namespace touchmark {
 
+/// A detector D that fills in Contact::side; it answers what D answers.
 template <Detector D>
 class Signed {
  public:
   using Options = typename D::Options;
+  /// The detector's own session, with one counter more.
   struct Session : D::Session {
     std::uint64_t counted = 0;  ///< sides that pseudonormals did not decide
   };

@@ -15,6 +15,7 @@
 
 namespace touchmark {
 
+/// The sphere-cluster detector; satisfies Detector, Updates, Prepares and every query. May be built lazily.
 class SphereCluster {
  public:
   enum class Lookup {
@@ -26,6 +27,7 @@ class SphereCluster {
     whole,  ///< all in build()
     lazy    ///< around a point by the first query there that needs it, by two rough searches at most
   };
+  /// What `build` may be told; the defaults are the fast exact form.
   struct Options {
     double clustering = 0;  ///< distance between centroids that share a sphere, mesh units; 0: a sphere each
     Lookup lookup = Lookup::tree;
@@ -35,6 +37,7 @@ class SphereCluster {
     Simd widest = Simd::avx512;  ///< tree: forgo wider instructions than these; the same bits
     Construction construction = Construction::whole;
   };
+  /// What one haptic point remembers between ticks.
   struct Session {
     Work work;
     SphereTree::Memory memory;

@@ -10,6 +10,7 @@
 
 namespace touchmark {
 
+/// The schemes; SubdivisionForm says what each of them does.
 enum class SubdivisionMethod { butterfly, catmull_clark, catmull_clark_linear, mid_point, loop, ls3 };
 
 /// published: the scheme of its paper, in double.
@@ -27,6 +28,7 @@ enum class SubdivisionMethod { butterfly, catmull_clark, catmull_clark_linear, m
 ///   ls3                   vertex normals anew at each level: sums of unit face normals times angle
 enum class SubdivisionForm { published, meshlab };
 
+/// How `subdivide` refines a mesh.
 struct SubdivisionOptions {
   SubdivisionMethod method = SubdivisionMethod::loop;
   int levels = 1;  ///< 0: the mesh as welded below

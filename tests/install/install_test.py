@@ -159,6 +159,17 @@ class Install(unittest.TestCase):
         run("g++", "-std=c++20", self.source / "example.cpp", *flags, "-o", program)
         self.assertEqual(run(program).rstrip("\n"), self.promised)
 
+    def test_the_examples_print_what_the_page_on_the_library_says(self):
+        docs = HERE.parents[1] / "docs"
+        page = (docs / "library.md").read_text(encoding="utf-8")
+        promised = dict(re.findall(r"`(\w+)` prints:\n\n```text\n(.*?)```", page, re.S))
+        self.assertEqual(sorted(promised), sorted(path.stem for path in (docs / "examples").glob("*.cpp")))
+        build = self.source / "examples"
+        run("cmake", "-S", docs / "examples", "-B", build, f"-DCMAKE_PREFIX_PATH={self.prefix}")
+        run("cmake", "--build", build)
+        for name, output in promised.items():
+            self.assertEqual(run(build / name), output, name)
+
     def test_a_program_that_reads_files_asks_for_mesh_io(self):
         source = self.source / "reader"
         source.mkdir()

@@ -44,7 +44,7 @@ class ReportTable(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "results.csv"
             with open(path, "w", newline="", encoding="utf-8") as file:
-                writer = csv.DictWriter(file, ROW)
+                writer = csv.DictWriter(file, rows[0])
                 writer.writeheader()
                 writer.writerows(rows)
             return subprocess.run([SCRIPTS / "report-table", path, *more], capture_output=True, text=True, check=False)
@@ -65,6 +65,14 @@ class ReportTable(unittest.TestCase):
         self.assertEqual(lines[4], ["`c`", "90 (79.7 to 99.2)", "0 of 500"])
         self.assertEqual(lines[5][:2], ["`d`", "timeout"])
         self.assertIn("100 (98 to 103); 400", self.table([ROW], "--absolute").stdout)
+
+    def test_counts_distances_that_are_off_where_the_file_has_them(self):
+        rows = [{**ROW, "trajectory": t, "beyond_tolerance": n, "rounding": 1000 * n} for t, n in (("slide", 2), ("jump", 3))]
+        lines = [cells(line) for line in self.table(rows + [
+            {**row, "detector": "b", "ns_undisturbed": 200, "beyond_tolerance": 0, "rounding": 0} for row in rows]).stdout.splitlines()]
+        self.assertEqual(lines[0], ["detector", "slide", "jump", "wrong contacts", "off", "rounding"])
+        self.assertEqual(lines[2][-2:], ["5", "5,000"])
+        self.assertEqual(lines[3][-2:], ["none", "none"])
 
     def test_refuses_what_it_cannot_put_in_relation(self):
         for rows, more, text in (([ROW, ROW], [], "twice"), ([{**ROW, "missed": 1}], [], "no exact contestant"),
