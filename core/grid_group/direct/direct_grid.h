@@ -104,7 +104,7 @@ class DirectGrid {
   /// Finds where to look first, after rejects_at_start.
   Start start_at(const Vec3& center, const FilterPoint& point, double reach, DirectMemory& memory,
                  Work& work) const noexcept;
-  /// The group of the triangle in this place if it covers the point.
+  /// Returns the group of the triangle in this slot if it covers the point.
   /// Always inline: the compiler takes the atomic reads of a group for more than the loads that they are.
   [[gnu::always_inline]] const Group* group_covering(std::uint32_t slot, const FilterPoint& point,
                                                      Work& work) const noexcept {
@@ -171,7 +171,8 @@ class DirectGrid {
   /// Samples distances, or those that the boxes of what moved may have changed.
   void fill_distances();
   void refill_distances(const std::vector<Aabb>& moved);
-  DistanceField::Interval sample(const Vec3& in_frame, double budget, std::uint64_t& left) const noexcept;
+  DistanceField::Interval sample(const Vec3& in_frame, double max_distance,
+                                 std::uint64_t& left) const noexcept;
   LinearScan fallback() const noexcept { return {store_.exact, bounds_, store_.ids, certified_}; }
 
   Epoch epoch_;
