@@ -105,8 +105,8 @@ void DirectGrid::refill_distances(const std::vector<Aabb>& moved) {
       [&](const Vec3& position, double max_distance) { return sample(position, max_distance, left); }, moved);
 }
 
-void DirectGrid::grow_one(std::uint32_t near, std::uint32_t start, const Vec3& center, std::uint64_t spent,
-                          Work& work) const noexcept {
+void DirectGrid::build_missing(std::uint32_t near, std::uint32_t start, const Vec3& center,
+                               std::uint64_t spent, Work& work) const noexcept {
   // With what answered the query it is to be no more than two looks at every triangle. What has taken more
   // than one is no place to grow at.
   const std::uint64_t budget = remaining(2 * std::uint64_t{store_.size()}, spent);

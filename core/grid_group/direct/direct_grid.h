@@ -140,12 +140,12 @@ class DirectGrid {
                  Work& work) const noexcept;
   /// Builds lazily after a query that no group covered: the group of one of the slots, or the cell of this
   /// centre, whichever is still to be done. `spent` counts the boxes and triangles of the query.
-  void grow(std::uint32_t near, std::uint32_t start, const Vec3& center, std::uint64_t spent,
-            Work& work) const noexcept {
-    if (groups_.is_lazy()) grow_one(near, start, center, spent, work);
+  void build_lazily(std::uint32_t near, std::uint32_t start, const Vec3& center, std::uint64_t spent,
+                    Work& work) const noexcept {
+    if (groups_.is_lazy()) build_missing(near, start, center, spent, work);
   }
-  void grow_one(std::uint32_t near, std::uint32_t start, const Vec3& center, std::uint64_t spent,
-                Work& work) const noexcept;
+  void build_missing(std::uint32_t near, std::uint32_t start, const Vec3& center, std::uint64_t spent,
+                     Work& work) const noexcept;
   void make_group(std::uint32_t slot, std::uint64_t budget, Work& work) const noexcept;
   void remember(const Vec3& center, float plane_error, double lower, double upper,
                 DirectMemory& memory) const noexcept {

@@ -34,7 +34,7 @@ inline Lanes beyond_ball(const TriangleBall& ball, Lanes x, Lanes y, Lanes z, La
   return simd::sqrt(simd::max(along, Lanes{0, 0, 0, 0})) - (ball.radius + 4 * plane_error);
 }
 
-/// Places are positions in an order that halves the mesh again and again across its longest side;
+/// Slots are positions in an order that halves the mesh again and again across its longest side;
 /// `exact[slot].index` is the position in the mesh. `planes` is filled up to whole blocks with triangles
 /// infinitely far away, which have no `exact`.
 struct TriangleStore {
