@@ -37,9 +37,9 @@ inline constexpr double any_reach = std::numeric_limits<double>::infinity();
 /// are touched at the start the nearest one counts: nearest(reach) looks for it.
 template <class Nearest>
 std::optional<Impact> impact_on(const PreparedTriangle& triangle, const Sweep& sweep, double fraction,
-                                TriangleId id, bool is_certified, const Nearest& nearest) noexcept {
+                                TriangleId id, bool decides_exactly, const Nearest& nearest) noexcept {
   if (fraction == 0) {
-    const std::optional<Contact> start = nearest(is_certified ? sweep.radius : any_reach);
+    const std::optional<Contact> start = nearest(decides_exactly ? sweep.radius : any_reach);
     if (start) return Impact{0, *start};
   }
   return Impact{fraction, contact_on_path(triangle, sweep, fraction, id)};
