@@ -46,9 +46,9 @@ class DistanceField {
   /// did.
   static std::uint64_t max_work(std::size_t triangles) noexcept { return 1024 * std::uint64_t{triangles}; }
 
-  /// distance_at(place, most) bounds the distance at a point of the frame, which is at most `upper`, each
-  /// bound within 2^-23. Where it gives up, by a negative one, so does the rest of the grid: nothing is known
-  /// there.
+  /// distance_at(position, max_distance) bounds the distance at a point of the frame, which is at most the
+  /// second, each bound within 2^-23. Where it gives up, by a negative one, so does the rest of the grid:
+  /// nothing is known there.
   template <class DistanceAt>
   void fill(const DistanceAt& distance_at);
   /// Leaves all of that to sample_near.
@@ -100,7 +100,7 @@ class DistanceField {
   /// Returns at least the distance at a point this far from the lattice's box, in whose nearest point it is
   /// at least `within`.
   static float beyond_box(const FilterPoint& point, Lanes to_box, float within) noexcept;
-  /// Room for the roundings of two samples' places.
+  /// Room for the roundings of two samples' positions.
   static constexpr double sample_pad = 0x1p-20;
   /// Returns true away from the surface, where the eight samples of a coarse cube are what its own leaves of
   /// them: then even a point at the corner of a fine cube is known to be half a cube away.

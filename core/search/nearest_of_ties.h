@@ -105,7 +105,7 @@ class NearestOfTies {
   const Vec3& center_;
   const PreparedTriangle* first_ = nullptr;  ///< first of those as far as the nearest
   std::optional<TiedTriangle> nearest_;      ///< one of them
-  std::optional<SharedFeature> location_;    ///< its place
+  std::optional<SharedFeature> location_;    ///< its feature
   std::optional<BesideCorner> corner_;       ///< its corner
   std::optional<SquaredDistance> squared_;   ///< its squared distance, where that was asked for
   std::optional<exact::Lattice> lattice_;    ///< lattice of its square, where that is known

@@ -76,7 +76,7 @@ class CellTree {
     std::uint32_t slot;
     float distance;
   };
-  /// What is known of each, which any thread may read and set at any time: of one whose place is the new one
+  /// What is known of each, which any thread may read and set at any time: of one whose slot is the new one
   /// and whose distance is the old one both are true.
   class Leaves {
    public:

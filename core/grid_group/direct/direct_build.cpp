@@ -11,8 +11,8 @@ namespace {
 
 std::size_t bytes_for(const TriangleMesh& mesh, double bytes_per_triangle) {
   const double bytes = bytes_per_triangle * static_cast<double>(mesh.size());
-  constexpr double budget = 0x1p62;
-  return static_cast<std::size_t>(std::min(bytes, budget));
+  constexpr double limit = 0x1p62;
+  return static_cast<std::size_t>(std::min(bytes, limit));
 }
 
 /// Returns by how much a triangle must lose to be left out of a group, in the frame: the kernel's error
@@ -68,43 +68,45 @@ bool DirectGrid::update(const TriangleMesh& mesh) {
 
 /// What the cell knows, where that is good enough; else by a search for what is nearer, of which `left`
 /// bounds the work of all.
-DistanceField::Interval DirectGrid::sample(const Vec3& in_frame, double budget,
+DistanceField::Interval DirectGrid::sample(const Vec3& in_frame, double max_distance,
                                            std::uint64_t& left) const noexcept {
   constexpr double enough = 0.35;  // of the distance
   if (cells_.holds(in_frame)) {
     const Cell cell = cells_.at(in_frame);
     const double to_middle = (in_frame - cell.middle).norm();
-    budget = std::min(budget, cells_.upper_bound(cell.distance) + to_middle);
+    max_distance = std::min(max_distance, cells_.upper_bound(cell.distance) + to_middle);
     if (to_middle <= std::max(enough * cell.distance, cells_.smallest_edge()))
-      return {std::max(cell.distance - to_middle, 0.0), budget};
+      return {std::max(cell.distance - to_middle, 0.0), max_distance};
   }
-  const double scale = store_.frame.scale(), reach = (1 - enough) * budget;
+  const double scale = store_.frame.scale(), reach = (1 - enough) * max_distance;
   const Vec3 center = store_.frame.from_frame(in_frame);
   NearestSearch search(store_, center, reach / scale);
   const bool exhausted = !search.consider_tree(tree_, left);
   left -= std::min(left, search.triangles() + search.boxes());
   if (exhausted || left == 0) return {-1, -1};
-  if (!search.found()) return {reach, budget};
+  if (!search.found()) return {reach, max_distance};
   const double distance = scale * std::sqrt(search.offset().squared);
   // One that the filter let through may be beyond the reach, and another between them.
-  return {std::min(distance, reach), std::min(distance, budget)};
+  return {std::min(distance, reach), std::min(distance, max_distance)};
 }
 
 void DirectGrid::fill_distances() {
   distances_ = DistanceField::around(store_.frame, bounds_, store_.size());
   std::uint64_t left = DistanceField::max_work(store_.size());
-  distances_.fill([&](const Vec3& slot, double budget) { return sample(slot, budget, left); });
+  distances_.fill(
+      [&](const Vec3& position, double max_distance) { return sample(position, max_distance, left); });
 }
 
 void DirectGrid::refill_distances(const std::vector<Aabb>& moved) {
   if (distances_.empty()) return;
   if (!distances_.holds(store_.frame, bounds_)) return fill_distances();
   std::uint64_t left = DistanceField::max_work(store_.size());
-  distances_.refill([&](const Vec3& slot, double budget) { return sample(slot, budget, left); }, moved);
+  distances_.refill(
+      [&](const Vec3& position, double max_distance) { return sample(position, max_distance, left); }, moved);
 }
 
-void DirectGrid::grow_one(std::uint32_t near, std::uint32_t start, const Vec3& center, std::uint64_t spent,
-                          Work& work) const noexcept {
+void DirectGrid::build_missing(std::uint32_t near, std::uint32_t start, const Vec3& center,
+                               std::uint64_t spent, Work& work) const noexcept {
   // With what answered the query it is to be no more than two looks at every triangle. What has taken more
   // than one is no place to grow at.
   const std::uint64_t budget = remaining(2 * std::uint64_t{store_.size()}, spent);

@@ -104,7 +104,7 @@ class DirectGrid {
   /// Finds where to look first, after rejects_at_start.
   Start start_at(const Vec3& center, const FilterPoint& point, double reach, DirectMemory& memory,
                  Work& work) const noexcept;
-  /// The group of the triangle in this place if it covers the point.
+  /// Returns the group of the triangle in this slot if it covers the point.
   /// Always inline: the compiler takes the atomic reads of a group for more than the loads that they are.
   [[gnu::always_inline]] const Group* group_covering(std::uint32_t slot, const FilterPoint& point,
                                                      Work& work) const noexcept {
@@ -140,12 +140,12 @@ class DirectGrid {
                  Work& work) const noexcept;
   /// Builds lazily after a query that no group covered: the group of one of the slots, or the cell of this
   /// centre, whichever is still to be done. `spent` counts the boxes and triangles of the query.
-  void grow(std::uint32_t near, std::uint32_t start, const Vec3& center, std::uint64_t spent,
-            Work& work) const noexcept {
-    if (groups_.is_lazy()) grow_one(near, start, center, spent, work);
+  void build_lazily(std::uint32_t near, std::uint32_t start, const Vec3& center, std::uint64_t spent,
+                    Work& work) const noexcept {
+    if (groups_.is_lazy()) build_missing(near, start, center, spent, work);
   }
-  void grow_one(std::uint32_t near, std::uint32_t start, const Vec3& center, std::uint64_t spent,
-                Work& work) const noexcept;
+  void build_missing(std::uint32_t near, std::uint32_t start, const Vec3& center, std::uint64_t spent,
+                     Work& work) const noexcept;
   void make_group(std::uint32_t slot, std::uint64_t budget, Work& work) const noexcept;
   void remember(const Vec3& center, float plane_error, double lower, double upper,
                 DirectMemory& memory) const noexcept {
@@ -171,7 +171,8 @@ class DirectGrid {
   /// Samples distances, or those that the boxes of what moved may have changed.
   void fill_distances();
   void refill_distances(const std::vector<Aabb>& moved);
-  DistanceField::Interval sample(const Vec3& in_frame, double budget, std::uint64_t& left) const noexcept;
+  DistanceField::Interval sample(const Vec3& in_frame, double max_distance,
+                                 std::uint64_t& left) const noexcept;
   LinearScan fallback() const noexcept { return {store_.exact, bounds_, store_.ids, certified_}; }
 
   Epoch epoch_;

@@ -75,8 +75,8 @@ DirectGrid::Located DirectGrid::locate(const Vec3& center, const FilterPoint& po
     if (near) search.consider(start.slot);
     exhausted = !search.consider_tree(tree_, work_budget(store_.size()));
     if (!exhausted)
-      grow(search.found() ? search.slot() : start.slot, start.slot, center,
-           search.triangles() + search.boxes(), work);
+      build_lazily(search.found() ? search.slot() : start.slot, start.slot, center,
+                   search.triangles() + search.boxes(), work);
   }
   work.triangles += search.triangles();
   work.boxes += search.boxes();

@@ -142,7 +142,8 @@ std::optional<Impact> DirectGrid::first_hit(const Sweep& sweep, DirectMemory& me
   } else if (!search.consider_tree(tree_, work_budget(store_.size()), work)) {
     return first_hit_of_all(sweep, memory, work);
   } else {
-    grow(search.found() ? search.slot() : start.slot, start.slot, sweep.from, work.total() - before, work);
+    build_lazily(search.found() ? search.slot() : start.slot, start.slot, sweep.from, work.total() - before,
+                 work);
   }
   if (!search.found()) return std::nullopt;
   memory.slot = search.slot();

@@ -185,7 +185,7 @@ class NearestSearch {
   std::uint64_t exact_decisions_ = 0;
   std::uint32_t open_count_ = 0;
   std::optional<WithinRadius> is_within_;  ///< what deciding these has told of the others
-  std::array<std::uint32_t, 16> open_;     ///< places that doubles leave open, not decided yet
+  std::array<std::uint32_t, 16> open_;     ///< slots that doubles leave open, not decided yet
 };
 
 }  // namespace touchmark::grid

@@ -34,8 +34,8 @@ inline Lanes beyond_ball(const TriangleBall& ball, Lanes x, Lanes y, Lanes z, La
   return simd::sqrt(simd::max(along, Lanes{0, 0, 0, 0})) - (ball.radius + 4 * plane_error);
 }
 
-/// Places are positions in an order that halves the mesh again and again across its longest side;
-/// `exact[place].index` is the position in the mesh. `planes` is filled up to whole blocks with triangles
+/// Slots are positions in an order that halves the mesh again and again across its longest side;
+/// `exact[slot].index` is the position in the mesh. `planes` is filled up to whole blocks with triangles
 /// infinitely far away, which have no `exact`.
 struct TriangleStore {
   static constexpr std::uint32_t block_size = 8;
@@ -49,7 +49,7 @@ struct TriangleStore {
 
   /// The mesh's box must fit (FilterFrame::fits).
   static TriangleStore build(const TriangleMesh& mesh);
-  /// The mesh's same triangles where they are now, in the frame as it is; places stay. Returns boxes, in the
+  /// The mesh's same triangles where they are now, in the frame as it is; slots stay. Returns boxes, in the
   /// frame, each of which holds some triangles that moved, as they were and as they are.
   std::vector<Aabb> move(const TriangleMesh& mesh);
 

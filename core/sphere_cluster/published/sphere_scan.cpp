@@ -125,11 +125,11 @@ std::optional<Impact> SphereScan::first_hit(const Sweep& sweep, Work& work) cons
   work.spheres += x_.size();
   if (first.index >= triangles_.size()) return std::nullopt;
   // What is known of the start mostly is enough to say what is nearest there.
-  return impact_on(triangles_[kept_at], sweep, first.fraction, ids_[first.index], true, [&](double reach) {
+  return impact_on(triangles_[kept_at], sweep, first.fraction, ids_[first.index], true, [&](double within) {
     const double distance = std::sqrt(at_start.best().squared_distance);
-    return is_certain_first(at_start, triangles_, distance, sweep.from, reach, error)
+    return is_certain_first(at_start, triangles_, distance, sweep.from, within, error)
                ? contact_on(triangles_[at_start.at()], sweep.from, ids_[at_start.best().index])
-               : nearest(sweep.from, reach, work);
+               : nearest(sweep.from, within, work);
   });
 }
 

@@ -113,7 +113,7 @@ TriangleSplitter::Box TriangleSplitter::key_bounds(const TriangleRange& range, K
   return all;
 }
 
-/// The cheapest of the places between two bins; nothing when all of the range is in one bin.
+/// The cheapest of the positions between two bins; nothing when all of the range is in one bin.
 std::optional<TriangleSplitter::Cut> TriangleSplitter::cheapest_cut(const TriangleRange& range, Key key,
                                                                     const Bins& bins) const noexcept {
   std::array<std::array<Bin, bins_an_axis>, 3> bin;
@@ -143,8 +143,8 @@ std::optional<TriangleSplitter::Cut> TriangleSplitter::cheapest_cut(const Triang
   return cheapest;
 }
 
-/// Left of the place whatever is less along the axis: by its bin, and then the few that are one too many on a
-/// side.
+/// Left of the position whatever is less along the axis: by its bin, and then the few that are one too many
+/// on a side.
 void TriangleSplitter::partition_at(const TriangleRange& range, std::uint32_t position, Key key,
                                     const Bins& bins, const Cut& cut) {
   const float origin = bins.origin[cut.axis], scale = bins.scale[cut.axis];

@@ -31,7 +31,7 @@ class TriangleSplitter {
 
   TriangleSplitter(const TriangleMesh& mesh, const SphereClusters& clusters, const FilterFrame& frame);
 
-  /// The mesh's triangle at a place in the order.
+  /// The mesh's triangle at a position in the order.
   std::uint32_t triangle(std::uint32_t position) const noexcept { return items_[position].triangle; }
   /// Returns half of the area of the range's box, a measure of how often a search looks into it.
   float area(const TriangleRange& range) const noexcept;

@@ -17,14 +17,14 @@ using spheres::FetchVisitor, spheres::NearestVisitor, spheres::TouchVisitor;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// A point that moves by more of the mean block's radius a tick starts anew: it has left a list of blocks
-/// before that is used.
+/// A point that moves by more of the mean leaf's radius a tick starts anew: it has left the cached leaves
+/// before they are used.
 constexpr double max_move_in_leaf_radii = 4;
 
 /// See TreeParts::far.
 constexpr double far_in_leaf_radii = 1;
 
-/// The next tick may be this much longer than the last one without a list being made in it.
+/// The next tick may be this much longer than the last one and still need no refill.
 constexpr float ticks_prepared = 2;
 
 }  // namespace
@@ -63,8 +63,8 @@ void SphereTree::start_anew(Memory& memory) const noexcept {
   memory.epoch = epoch_;
 }
 
-/// What the kernel's rounding may do, here and wherever `clearance` is going to be used: it grows with the
-/// way there, which is at most `clearance` itself, so a relative 2^-40 of that does for the rest.
+/// Bounds what the kernel's rounding may do, here and wherever the clearance is going to be used: it grows
+/// with the path there, which is at most the clearance itself, so a relative 2^-40 of that does for the rest.
 double SphereTree::clearance_pad(const FilterPoint& point) const noexcept {
   return 0.5 * frame_.kernel_error(point.plane_error);
 }
@@ -111,7 +111,7 @@ bool SphereTree::rejects_once_sampled(const FilterPoint& point, const Vec3& cent
 /// that goes on as it moved comes to it and then leaves it.
 bool SphereTree::refill(const Vec3& center, const Vec3& move, float distance, Memory& memory,
                         std::uint64_t budget, Work& work) const noexcept {
-  // With fewer ticks the listing costs more, with more the longer list does.
+  // With fewer ticks refills cost more, with more the fuller cache does.
   constexpr float min_ticks = 2, max_ticks = 16;
   constexpr double ahead = 0.5;  // of the ticks
   constexpr std::uint32_t max_cooldown = 255;

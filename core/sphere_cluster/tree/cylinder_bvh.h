@@ -100,12 +100,13 @@ class SphereTree {
   void refill_distances(const spheres::MovedTriangles& moved);
   struct Sampling {
     std::uint64_t budget;    ///< work, of all samples together
-    std::uint32_t near = 0;  ///< a triangle near the last place, and so perhaps the next
+    std::uint32_t near = 0;  ///< a triangle near the last point, and so perhaps the next
     Work work{};
   };
-  /// Bounds the distance at a place of the frame, which is at most `budget`, to about a fifth; negative when
-  /// that is too much work.
-  DistanceField::Interval sample(const Vec3& position, double budget, Sampling& sampling) const noexcept;
+  /// Bounds the distance at a point of the frame, which is at most `max_distance`, to about a fifth; negative
+  /// when that is too much work.
+  DistanceField::Interval sample(const Vec3& position, double max_distance,
+                                 Sampling& sampling) const noexcept;
 
   // Visitors: see search.h.
   template <class Visitor>

@@ -27,7 +27,7 @@ struct LeafCache {
   std::uint32_t count = 0;
   float horizon_ticks = 16;  ///< how many ticks ahead the next refill is to cover
   std::uint32_t cooldown = 0,
-                last_cooldown = 0;  ///< ticks until a list is made again, after there were too many
+                last_cooldown = 0;  ///< ticks until the next refill, after there were too many leaves
   alignas(64) float x[padded_capacity], y[padded_capacity], z[padded_capacity], radius[padded_capacity];
   alignas(64) float normal_x[padded_capacity], normal_y[padded_capacity], normal_z[padded_capacity],
       half[padded_capacity];
