@@ -16,7 +16,7 @@
 #include "bench/support/numbers.h"
 #include "core/mesh_io/mesh_io.h"
 
-namespace touchmark:: ::scenes {
+namespace touchmark::bench::scenes {
 namespace {
 
 namespace fs = std::filesystem;

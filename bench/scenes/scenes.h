@@ -6,7 +6,7 @@
 
 #include "core/triangle_mesh.h"
 
-namespace touchmark:: ::scenes {
+namespace touchmark::bench::scenes {
 
 struct SceneInfo {
   std::string name;         ///< as written on the command line, with its parameters' form: "icosphere:N"

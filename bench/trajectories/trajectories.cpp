@@ -9,7 +9,7 @@
 #include "bench/trajectories/trajectory_csv.h"
 #include "bench/trajectories/trajectory_shapes.h"
 
-namespace touchmark:: ::trajectories {
+namespace touchmark::bench::trajectories {
 namespace {
 
 constexpr std::size_t default_steps = 20'000;

@@ -10,7 +10,7 @@
 #include "bench/trajectories/trajectory.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark:: ::trajectories {
+namespace touchmark::bench::trajectories {
 
 struct TrajectoryInfo {
   std::string name;
