@@ -316,4 +316,4 @@ TriangleMesh load_mesh(const std::string& name, bool normalize) {
   return normalize ? mesh.normalized() : mesh;
 }
 
-}  // namespace touchmark::::scenes
+}  // namespace touchmark::bench::scenes

@@ -31,4 +31,4 @@ TriangleMesh load_scene(const std::string& name);
 /// Returns the mesh of that name or file, normalised if asked to. Throws std::invalid_argument or MeshError.
 TriangleMesh load_mesh(const std::string& name, bool normalize);
 
-}  // namespace touchmark::::scenes
+}  // namespace touchmark::bench::scenes

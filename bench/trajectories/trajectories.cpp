@@ -85,4 +85,4 @@ Trajectory make_trajectory(const std::string& what, const TriangleMesh& mesh,
           {}};
 }
 
-}  // namespace touchmark::::trajectories
+}  // namespace touchmark::bench::trajectories

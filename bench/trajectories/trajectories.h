@@ -38,4 +38,4 @@ bool is_generated(const std::string& name);
 Trajectory make_trajectory(const std::string& what, const TriangleMesh& mesh,
                            const TrajectoryOptions& options = {});
 
-}  // namespace touchmark::::trajectories
+}  // namespace touchmark::bench::trajectories

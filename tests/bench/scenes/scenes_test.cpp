@@ -74,4 +74,4 @@ TEST(Scenes, ABadNameOrParameterIsNamedInOneLine) {
 }
 
 }  // namespace
-}  // namespace touchmark::::scenes
+}  // namespace touchmark::bench::scenes

@@ -431,4 +431,4 @@ TEST(Trajectories, JumpOnlyWhereTheyMustTakeOff) {
 }
 
 }  // namespace
-}  // namespace touchmark::::trajectories
+}  // namespace touchmark::bench::trajectories

@@ -377,4 +377,4 @@ TEST_F(TrajectoryCsv, IsATrajectoryLikeAnyOther) {
 }
 
 }  // namespace
-}  // namespace touchmark::::trajectories
+}  // namespace touchmark::bench::trajectories
