@@ -69,7 +69,8 @@ FUSED = ["-mfma", "-ffp-contract=fast"]  # as GCC has it with -march=native on m
 # Inline functions that a program compiles with its own flags and in which a product and a sum may be fused. Half of a
 # number is exact. The queries only compare a displacement with what their detector knows to be free, which leaves
 # 2^-40 and more of it for rounding.
-FUSED_WITHOUT_HARM = re.compile(r"touchmark::(Aabb::center|grid::DirectMemory::moved_less|SphereTree::surely_free|"
+FUSED_WITHOUT_HARM = re.compile(r"touchmark::(Aabb::center|grid::DirectMemory::moved_less|"
+                                r"(SphereTree|grid::DirectGrid)::surely_free|"
                                 r"(GridGroup|SphereCluster|Signed<.*>)::(touches|nearest|surely_free))\(")
 
 
