@@ -54,8 +54,8 @@ class Subdirectory(unittest.TestCase):
     def test_the_library_exports_no_inline_function_of_its_own(self):
         symbols = run("nm", "-DC", "--defined-only", self.library)
         self.assertIn(" T touchmark::GridGroup::build(", symbols)
-        self.assertEqual([name for name in re.findall(r" W (.*\btouchmark::.*)", symbols)
-                          if not re.match(r"touchmark::(EdgeMap|OrientedSurface)<", name)], [])
+        # A weak function is an inline one, or made from a template.
+        self.assertEqual(re.findall(r" W (touchmark::[\w:~]+\(.*)", symbols), [])
 
     def test_the_library_calls_its_own_functions_whatever_a_program_defines(self):
         calls = [line for line in run("objdump", "-RC", self.library).splitlines() if "JUMP_SLOT" in line]
