@@ -61,14 +61,14 @@ inline bool is_certain_first(const ClosestCandidates& candidates, std::span<cons
 
 /// Ends a search for `nearest`: returns the contact of the nearest candidate, or of the exactly nearest where
 /// doubles leave open which that is, or nothing beyond the reach. The search has shown `candidates` what
-/// nearest_of_ties asks for. `certified` is false where contact is as doubles have it.
+/// nearest_of_ties asks for. `decides_exactly` is false where contact is as doubles have it.
 inline std::optional<Contact> contact_of(const ClosestCandidates& candidates,
                                          std::span<const PreparedTriangle> triangles, const Vec3& center,
                                          double reach, double error, const TriangleIds& ids, Work& work,
-                                         bool certified = true) noexcept {
+                                         bool decides_exactly = true) noexcept {
   if (!candidates.found()) return std::nullopt;
   const double distance = std::sqrt(candidates.best().squared_distance);
-  if (certified && !is_certain_first(candidates, triangles, distance, center, reach, error))
+  if (decides_exactly && !is_certain_first(candidates, triangles, distance, center, reach, error))
     return nearest_of_ties(candidates, center, reach, error, ids, work.exact_decisions);
   if (distance > reach) return std::nullopt;
   const PreparedTriangle& nearest = triangles[candidates.at()];

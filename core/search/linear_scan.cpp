@@ -9,7 +9,7 @@
 namespace touchmark {
 bool LinearScan::touches(const Probe& probe, Work& work) const noexcept {
   if (!(probe.radius >= 0) || !probe.center.allFinite()) return false;
-  const double error = certified ? distance_error(bounds, probe.center) : 0;
+  const double error = is_certified ? distance_error(bounds, probe.center) : 0;
   if (std::isinf(error)) return nearest(probe.center, probe.radius, work).has_value();
   std::uint64_t tested = 0;
   WithinRadius is_within(probe.center, probe.radius, error);
@@ -17,7 +17,7 @@ bool LinearScan::touches(const Probe& probe, Work& work) const noexcept {
       std::any_of(triangles.begin(), triangles.end(), [&](const PreparedTriangle& triangle) {
         ++tested;
         const double distance = std::sqrt(squared_distance(triangle, probe.center));
-        if (!certified) return distance <= probe.radius;
+        if (!is_certified) return distance <= probe.radius;
         return is_within(triangle, distance, work.exact_decisions);
       });
   work.triangles += tested;
@@ -25,7 +25,7 @@ bool LinearScan::touches(const Probe& probe, Work& work) const noexcept {
 }
 
 std::optional<Contact> LinearScan::nearest(const Vec3& center, double reach, Work& work) const noexcept {
-  return certified ? nearest_of_all(triangles, bounds, center, reach, ids, work)
+  return is_certified ? nearest_of_all(triangles, bounds, center, reach, ids, work)
                    : nearest_as_computed(center, reach, work);
 }
 
@@ -42,7 +42,7 @@ std::optional<Impact> LinearScan::first_hit(const Sweep& sweep, Work& work) cons
   }
   work.triangles += triangles.size();
   if (hit == nullptr) return std::nullopt;
-  return impact_on(*hit, sweep, first.fraction, ids[first.index], certified,
+  return impact_on(*hit, sweep, first.fraction, ids[first.index], is_certified,
                    [&](double reach) { return nearest(sweep.from, reach, work); });
 }
 

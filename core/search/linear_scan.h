@@ -37,9 +37,9 @@ inline constexpr double any_reach = std::numeric_limits<double>::infinity();
 /// are touched at the start the nearest one counts: nearest(reach) looks for it.
 template <class Nearest>
 std::optional<Impact> impact_on(const PreparedTriangle& triangle, const Sweep& sweep, double fraction,
-                                TriangleId id, bool certified, const Nearest& nearest) noexcept {
+                                TriangleId id, bool decides_exactly, const Nearest& nearest) noexcept {
   if (fraction == 0) {
-    const std::optional<Contact> start = nearest(certified ? sweep.radius : any_reach);
+    const std::optional<Contact> start = nearest(decides_exactly ? sweep.radius : any_reach);
     if (start) return Impact{0, *start};
   }
   return Impact{fraction, contact_on_path(triangle, sweep, fraction, id)};
@@ -57,7 +57,7 @@ struct LinearScan {
   std::span<const PreparedTriangle> triangles;
   const Aabb& bounds;
   const TriangleIds& ids;
-  bool certified = true;  ///< false: contact as doubles have it
+  bool is_certified = true;  ///< false: contact as doubles have it
 
   bool touches(const Probe& probe, Work& work) const noexcept;
   std::optional<Contact> nearest(const Vec3& center, double reach, Work& work) const noexcept;

@@ -16,7 +16,7 @@
 
 namespace touchmark {
 
-class NearestSoFar;
+class ClosestCandidates;
 
 class SphereScan {
  public:
