@@ -88,7 +88,7 @@ void expect_true_distances(const grid::CellTree& cells, const TriangleMesh& mesh
     const double distance = exact.nearest({cell.middle, 0}, infinity, session)->distance;
     EXPECT_LE(cell.distance, distance * (1 + 0x1p-40));
     if (also_at_most) {
-      EXPECT_GE(cells.at_most(cell.distance), distance);
+      EXPECT_GE(cells.upper_bound(cell.distance), distance);
     }
   }
 }
@@ -108,7 +108,7 @@ TEST(CellTreeFarAway, KnowsTheDistanceFromTheMiddleOfEachCell) {
         Random random(7);
         for (int i = 0; rough && i < 100; ++i) {
           const Vec3 place = somewhere(random, 1.03);
-          if (cells.holds(place)) cells.settle(place, store, tree, any_work, work);
+          if (cells.holds(place)) cells.build_lazily(place, store, tree, any_work, work);
         }
         expect_true_distances(cells, mesh, store.frame, !rough);
       }
