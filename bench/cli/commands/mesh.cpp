@@ -33,8 +33,8 @@ const char* yes_or_no(bool value) { return value ? "yes" : "no"; }
 
 std::string coordinates(const Vec3& v) { return fmt::format("{} {} {}", v.x(), v.y(), v.z()); }
 
-const char* name_of(SideFinder::Method way) {
-  switch (way) {
+const char* name_of(SideFinder::Method method) {
+  switch (method) {
     case SideFinder::Method::pseudonormals:
       return "pseudonormals";
     case SideFinder::Method::crossings:
