@@ -46,9 +46,9 @@ inline std::vector<ExactForm> exact_forms(const TriangleMesh& mesh) {
   };
   const TriangleMesh before = bench::scenes::displaced(mesh, 1);
   add("grid-group, direct, updated", updated(Grid::build(before)));
-  add("grid-group, direct, lazy", Grid::build(mesh, {.making = Grid::Construction::lazy}));
+  add("grid-group, direct, lazy", Grid::build(mesh, {.construction = Grid::Construction::lazy}));
   add("grid-group, direct, lazy, updated",
-      updated(Grid::build(before, {.making = Grid::Construction::lazy})));
+      updated(Grid::build(before, {.construction = Grid::Construction::lazy})));
   using Cluster = SphereCluster;
   add("sphere-cluster, scan", Cluster::build(mesh, {.lookup = Cluster::Lookup::scan}));
   add("sphere-cluster, scan, clustered",
@@ -58,9 +58,9 @@ inline std::vector<ExactForm> exact_forms(const TriangleMesh& mesh) {
   add("sphere-cluster, tree, avx2", Cluster::build(mesh, {.widest = Simd::avx2}));
   add("sphere-cluster, tree, clustered", Cluster::build(mesh, {.clustering = some}));
   add("sphere-cluster, tree, updated", updated(Cluster::build(before)));
-  add("sphere-cluster, tree, lazy", Cluster::build(mesh, {.making = Cluster::Construction::lazy}));
+  add("sphere-cluster, tree, lazy", Cluster::build(mesh, {.construction = Cluster::Construction::lazy}));
   add("sphere-cluster, tree, lazy, updated",
-      updated(Cluster::build(before, {.making = Cluster::Construction::lazy})));
+      updated(Cluster::build(before, {.construction = Cluster::Construction::lazy})));
   return forms;
 }
 

@@ -88,7 +88,7 @@ void expect_true_distances(const grid::CellTree& cells, const TriangleMesh& mesh
     const double distance = exact.nearest({cell.middle, 0}, infinity, session)->distance;
     EXPECT_LE(cell.distance, distance * (1 + 0x1p-40));
     if (also_at_most) {
-      EXPECT_GE(cells.at_most(cell.distance), distance);
+      EXPECT_GE(cells.upper_bound(cell.distance), distance);
     }
   }
 }
@@ -99,18 +99,18 @@ TEST(CellTreeFarAway, KnowsTheDistanceFromTheMiddleOfEachCell) {
     const TriangleMesh mesh = ball_at(exponent);
     const grid::TriangleStore store = grid::TriangleStore::build(mesh);
     const grid::BoxTree tree(store);
-    for (const bool rough : {false, true}) {
+    for (const bool lazy : {false, true}) {
       for (const double smallest : {0.0, 0.01}) {
         const grid::CellTree cells =
-            grid::CellTree::build(store, tree, {smallest, std::size_t{1} << 20, rough});
-        expect_true_distances(cells, mesh, store.frame, !rough);
+            grid::CellTree::build(store, tree, {smallest, std::size_t{1} << 20, lazy});
+        expect_true_distances(cells, mesh, store.frame, !lazy);
         Work work;
         Random random(7);
-        for (int i = 0; rough && i < 100; ++i) {
+        for (int i = 0; lazy && i < 100; ++i) {
           const Vec3 place = somewhere(random, 1.03);
-          if (cells.holds(place)) cells.settle(place, store, tree, any_work, work);
+          if (cells.holds(place)) cells.build_lazily(place, store, tree, any_work, work);
         }
-        expect_true_distances(cells, mesh, store.frame, !rough);
+        expect_true_distances(cells, mesh, store.frame, !lazy);
       }
     }
   }
@@ -123,14 +123,14 @@ TEST(CellTreeFarAway, KnowsItAfterAnUpdate) {
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
       grid::TriangleStore store = grid::TriangleStore::build(bench::scenes::displaced(mesh, seed));
       const grid::BoxTree before(store);
-      for (const bool rough : {false, true}) {
+      for (const bool lazy : {false, true}) {
         grid::TriangleStore moving = store;
-        grid::CellTree cells = grid::CellTree::build(moving, before, {0.02, std::size_t{1} << 20, rough});
+        grid::CellTree cells = grid::CellTree::build(moving, before, {0.02, std::size_t{1} << 20, lazy});
         ASSERT_TRUE(moving.frame.widen(mesh.bounds()));
         const std::vector<Aabb> moved = moving.move(mesh);
         const grid::BoxTree after(moving);
         cells.update(moving, after, moved);
-        expect_true_distances(cells, mesh, moving.frame, !rough);
+        expect_true_distances(cells, mesh, moving.frame, !lazy);
       }
     }
   }

@@ -33,15 +33,15 @@ const char* yes_or_no(bool value) { return value ? "yes" : "no"; }
 
 std::string coordinates(const Vec3& v) { return fmt::format("{} {} {}", v.x(), v.y(), v.z()); }
 
-const char* name_of(SideFinder::Way way) {
-  switch (way) {
-    case SideFinder::Way::pseudonormals:
+const char* name_of(SideFinder::Method method) {
+  switch (method) {
+    case SideFinder::Method::pseudonormals:
       return "pseudonormals";
-    case SideFinder::Way::crossings:
+    case SideFinder::Method::crossings:
       return "crossings";
-    case SideFinder::Way::winding_number:
+    case SideFinder::Method::winding_number:
       return "winding_number";
-    case SideFinder::Way::none:
+    case SideFinder::Method::none:
       return "none";
   }
   return "";
@@ -93,7 +93,7 @@ std::string as_text(const scenes::MeshReport& report, const std::optional<suppor
   line("mean_edge", report.mean_edge);
   line("longest_edge", report.longest_edge);
   line("worst_aspect_ratio", report.worst_aspect_ratio);
-  line("sides_by", name_of(report.sides.way));
+  line("sides_by", name_of(report.sides.method));
   line("simple_triangles", report.sides.simple_triangles);
   line("open_edges", report.sides.open_edges);
   line("contrary_edges", report.sides.contrary_edges);
@@ -130,7 +130,7 @@ std::string as_json(const std::string& mesh, const scenes::MeshReport& report,
   json["mean_edge"] = report.mean_edge;
   json["longest_edge"] = report.longest_edge;
   json["worst_aspect_ratio"] = report.worst_aspect_ratio;
-  json["sides_by"] = name_of(report.sides.way);
+  json["sides_by"] = name_of(report.sides.method);
   json["simple_triangles"] = report.sides.simple_triangles;
   json["open_edges"] = report.sides.open_edges;
   json["contrary_edges"] = report.sides.contrary_edges;

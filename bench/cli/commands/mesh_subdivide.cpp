@@ -17,6 +17,7 @@
 #include "bench/cli/commands/mesh_commands.h"
 #include "bench/contestants/selectors.h"
 #include "bench/scenes/mesh_writer.h"
+#include "bench/scenes/scenes.h"
 #include "bench/support/available_memory.h"
 #include "bench/support/numbers.h"
 #include "bench/support/standard_output.h"
@@ -117,7 +118,7 @@ void keep_within_memory(SubdivisionOptions& options, std::size_t triangles) {
 
 void subdivide_into_file(const SubdivideOptions& options) {
   Request request = check(options);
-  const TriangleMesh coarse = load_mesh(options.mesh, options.normalize);
+  const TriangleMesh coarse = scenes::load_mesh(options.mesh, options.normalize);
   request.subdivision.threshold = request.threshold.in_mesh_units(coarse);
   keep_within_memory(request.subdivision, coarse.size());
   warn_of_seams(options, coarse);

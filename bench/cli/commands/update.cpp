@@ -91,7 +91,7 @@ std::string checked_trajectory(const std::vector<std::string>& names) {
   return names.empty() ? "slide" : names.front();
 }
 
-int update(const ProgramContext& context, const UpdateOptions& options) {
+int run_update(const ProgramContext& context, const UpdateOptions& options) {
   const contestants::CheckedSelectors selection = checked(options.selectors, context.roster);
   const std::vector<double> shares = checked_shares(options.shares);
   const std::string trajectory = checked_trajectory(options.selectors.trajectories);
@@ -166,7 +166,7 @@ void add_update(CLI::App& program, ProgramContext& context) {
       "exactness is wrong or crashes. A contestant without an update of its own is \"unsupported\".\n"
       "Example: touchmark update --mesh bunny --detector sphere-cluster --detector embree --out "
       "out/update\n");
-  command->final_callback([options, &context] { context.status = update(context, *options); });
+  command->final_callback([options, &context] { context.status = run_update(context, *options); });
 }
 
 }  // namespace touchmark::bench::cli

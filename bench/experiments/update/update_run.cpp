@@ -70,9 +70,9 @@ UpdateRun::UpdateRun(const contestants::Roster& roster,
         }
         return all;
       }()},
-      stage_(workload_, workers) {
+      arena_(workload_, workers) {
   for (const contestants::ContestantSpec& spec : contestants)
-    processes_.emplace_back(stage_, spec, roster.find(spec.name).worker_program(spec.values));
+    processes_.emplace_back(arena_, spec, roster.find(spec.name).worker_program(spec.values));
   for (std::size_t trace = 0; trace < workload_.traces.size(); ++trace) {
     Scene& scene = *scenes_[trace / traces_a_scene];
     scene.truths.emplace_back(scene.oracle, workload_.traces[trace]);
@@ -106,7 +106,7 @@ void UpdateRun::measure(workers::ContestantProcess& process, std::size_t index, 
     const workers::Task task = task_for(traces_a_scene * index + k);
     process.answer(task);
     counts += scene.truths[k].judge(query_, workload::sample_steps(task.steps, task.steps),
-                                    stage_.room().answers(task.steps), *row.accuracy);
+                                    arena_.buffers().answers(task.steps), *row.accuracy);
   }
   row.counts = counts;
   const workers::Task along = task_for(traces_a_scene * index);

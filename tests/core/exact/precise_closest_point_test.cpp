@@ -20,7 +20,7 @@ TEST_P(CloseFeet, KeepTheErrorTheyState) {
   CornerCases cases(80);
   for (int i = 0; i < 8000; ++i) {
     const CornerCase c = placed(GetParam(), cases, i);
-    const std::optional<CloseFoot> close = precise_closest_point(c.triangle, c.point);
+    const std::optional<PreciseClosestPoint> close = precise_closest_point(c.triangle, c.point);
     if (!close) continue;
     const ClosestPoint& closest = close->closest;
     ASSERT_LE(closest.error, 0x1p-60 * c.largest_difference()) << i;
@@ -40,8 +40,8 @@ TEST_P(CloseFeet, OfTheSameFeatureAreTies) {
     const Corners a = GetParam().triangle(cases);
     const Corners b = {a[1], a[0], cases.vector()};
     const Vec3 point = cases.point_near(a);
-    const std::optional<CloseFoot> first = precise_closest_point(a, point),
-                                   second = precise_closest_point(b, point);
+    const std::optional<PreciseClosestPoint> first = precise_closest_point(a, point),
+                                             second = precise_closest_point(b, point);
     if (!first || !second || !on_same_feature(*first, *second)) continue;
     ++ties;
     ASSERT_TRUE(compare_exactly(a, b, point) == 0) << i;
@@ -62,7 +62,7 @@ TEST_P(CloseFeet, OverLevelFacesAreExact) {
     // Over the middle of a side, or beside it by a rounding; anywhere else.
     Vec3 point = i % 2 == 0 ? Vec3(0.5 * (t[0] + t[1])) : cases.point_near(t);
     point[axis] = cases.point_near(t)[axis];
-    const std::optional<CloseFoot> close = precise_closest_point(t, point);
+    const std::optional<PreciseClosestPoint> close = precise_closest_point(t, point);
     if (!close || close->feature) continue;
     const bench::oracle::ExactNearest truth = bench::oracle::nearest_exactly(point, {&t, 1});
     if (i % 2 == 0) ++on_border;
@@ -101,7 +101,7 @@ TEST(CloseFoot, DoesNotTellOverABorderOrWithoutAnArea) {
 TEST(CloseFoot, IsACornerWhereItsEdgeBegins) {
   const Corners triangle = {Vec3(0.1, 0.1, 0.3), Vec3(4.1, 0.1, 4.3), Vec3(0.1, 4.1, 0.3)};
   for (const Vec3& beside : {Vec3(0.1, -0.3, 0.3), Vec3(0.6, -0.2, -0.2)}) {
-    const std::optional<CloseFoot> close = precise_closest_point(triangle, beside);
+    const std::optional<PreciseClosestPoint> close = precise_closest_point(triangle, beside);
     ASSERT_TRUE(close && close->feature) << beside.transpose();
     EXPECT_EQ(close->feature->front(), triangle[0]);
     EXPECT_EQ(close->feature->back(), triangle[0]);
@@ -130,8 +130,8 @@ TEST(CloseFoot, TellsWhichOfTwoFacesThatShareAnEdgeIsNearer) {
   int inside = 0, told_inside = 0, told_by_edge = 0;
   for (int i = 0; i < 6000; ++i) {
     const Hinge hinge(cases, i);
-    const std::optional<CloseFoot> a = precise_closest_point(hinge.a, hinge.point),
-                                   b = precise_closest_point(hinge.b, hinge.point);
+    const std::optional<PreciseClosestPoint> a = precise_closest_point(hinge.a, hinge.point),
+                                             b = precise_closest_point(hinge.b, hinge.point);
     if (!a || !b) continue;
     const std::strong_ordering truth = compare_exactly(hinge.a, hinge.b, hinge.point);
     if (is_nearer_inside(*a, hinge.a, *b)) {
@@ -165,15 +165,15 @@ TEST(CloseFoot, TellsOverTheBorderOfALevelFaceWhateverItRoundsTo) {
   const Corners lower = {Vec3(0.1, 0.1, 0.7), Vec3(3.3, 0.1, 0.7), Vec3(3.3, 3.3, 0.7)};
   const Corners upper = {Vec3(0.1, 0.1, 0.7), Vec3(3.3, 3.3, 0.7), Vec3(0.1, 3.3, 0.7)};
   for (const double x : {0.3, 1.0 / 3, 2.2, 3.1}) {
-    const std::optional<CloseFoot> a = precise_closest_point(lower, {x, x, 0.3}),
-                                   b = precise_closest_point(upper, {x, x, 0.3});
+    const std::optional<PreciseClosestPoint> a = precise_closest_point(lower, {x, x, 0.3}),
+                                             b = precise_closest_point(upper, {x, x, 0.3});
     ASSERT_TRUE(a && b) << x;
     EXPECT_TRUE(compare(a->closest, b->closest) == 0) << x;
     EXPECT_EQ(a->closest.distance.high, 0.7 - 0.3) << x;
     // A rounding beside the border one of them is nearer, by less than 106 bits: nothing is known.
     const double beyond = std::nextafter(x, 4);
-    const std::optional<CloseFoot> over = precise_closest_point(lower, {beyond, x, 0.3});
-    const std::optional<CloseFoot> beside = precise_closest_point(upper, {beyond, x, 0.3});
+    const std::optional<PreciseClosestPoint> over = precise_closest_point(lower, {beyond, x, 0.3});
+    const std::optional<PreciseClosestPoint> beside = precise_closest_point(upper, {beyond, x, 0.3});
     ASSERT_TRUE(over && beside) << x;
     EXPECT_FALSE(over->feature) << x;
     EXPECT_TRUE(beside->feature) << x;

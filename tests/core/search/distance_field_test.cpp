@@ -35,12 +35,12 @@ struct Grid {
   explicit Grid(const TriangleMesh& mesh, double least = 1, std::size_t most_samples = 1'000'000)
       : brute(BruteForce::build(mesh, {})), frame(FilterFrame::around(mesh.bounds())) {
     const Vec3 low = frame.to_frame(mesh.bounds().min), high = frame.to_frame(mesh.bounds().max);
-    grid = DistanceGrid(low.cast<float>(), high.cast<float>(), mesh.size());
+    grid = DistanceField(low.cast<float>(), high.cast<float>(), mesh.size());
     grid.fill([&](const Vec3& place, double most) {
-      if (samples++ == most_samples) return DistanceGrid::Interval{-1, -1};
+      if (samples++ == most_samples) return DistanceField::Interval{-1, -1};
       const double distance = frame.scale() * distance_to(brute, frame.origin() + place / frame.scale());
       EXPECT_LE(distance, most);
-      return DistanceGrid::Interval{least * distance, distance};
+      return DistanceField::Interval{least * distance, distance};
     });
   }
   double distance(const Vec3& in_frame) const {
@@ -52,7 +52,7 @@ struct Grid {
 
   BruteForce brute;
   FilterFrame frame;
-  DistanceGrid grid;
+  DistanceField grid;
   std::size_t samples = 0;
 };
 
@@ -64,10 +64,10 @@ TEST(DistanceGrid, BoundsTheDistanceInsideAndFarOutside) {
       const Vec3 p = random.vector(i % 3 == 0 ? 0.7 : i % 3 == 1 ? 3 : 1e5);
       const double distance = known.distance(p);
       for (const Grid* grid : {&known, &roughly}) {
-        EXPECT_LE(static_cast<double>(grid->grid.at_least(grid->point(p))), distance) << p.transpose();
+        EXPECT_LE(static_cast<double>(grid->grid.lower_bound(grid->point(p))), distance) << p.transpose();
         EXPECT_LE(static_cast<double>(grid->grid.tight_lower_bound(grid->point(p))), distance)
             << p.transpose();
-        EXPECT_GE(static_cast<double>(grid->grid.at_most(grid->point(p))), distance) << p.transpose();
+        EXPECT_GE(static_cast<double>(grid->grid.upper_bound(grid->point(p))), distance) << p.transpose();
       }
     }
   }
@@ -81,9 +81,10 @@ TEST(DistanceGrid, KnowsThatAPointIsFar) {
     const Vec3 p = random.vector(4);
     const double distance = known.distance(p);
     if (distance < 0.2) continue;  // two cubes' edges
-    EXPECT_GT(static_cast<double>(known.grid.at_least(known.point(p))), 0.3 * distance) << p.transpose();
+    EXPECT_GT(static_cast<double>(known.grid.lower_bound(known.point(p))), 0.3 * distance) << p.transpose();
     if (p.lpNorm<Eigen::Infinity>() < 0.5) {
-      EXPECT_LT(static_cast<double>(known.grid.at_most(known.point(p))), 2 * distance + 0.2) << p.transpose();
+      EXPECT_LT(static_cast<double>(known.grid.upper_bound(known.point(p))), 2 * distance + 0.2)
+          << p.transpose();
     }
   }
 }
@@ -96,7 +97,7 @@ TEST(DistanceGrid, KnowsMoreByEight) {
   for (int i = 0; i < 1000; ++i) {
     const Vec3 p = random.vector(0.6);  // within the samples' box
     const double distance = known.distance(p);
-    missing_by_one += distance - static_cast<double>(known.grid.at_least(known.point(p)));
+    missing_by_one += distance - static_cast<double>(known.grid.lower_bound(known.point(p)));
     missing_by_eight += distance - static_cast<double>(known.grid.tight_lower_bound(known.point(p)));
   }
   EXPECT_LT(missing_by_eight, 0.6 * missing_by_one);
@@ -110,9 +111,9 @@ TEST(DistanceGrid, WhereSamplingEndsNothingIsClaimed) {
       const Grid cut(mesh, 1, most);
       for (int i = 0; i < 500; ++i) {
         const Vec3 p = random.vector(1.5);
-        EXPECT_LE(static_cast<double>(cut.grid.at_least(cut.point(p))), cut.distance(p));
+        EXPECT_LE(static_cast<double>(cut.grid.lower_bound(cut.point(p))), cut.distance(p));
         EXPECT_LE(static_cast<double>(cut.grid.tight_lower_bound(cut.point(p))), cut.distance(p));
-        EXPECT_GE(static_cast<double>(cut.grid.at_most(cut.point(p))), cut.distance(p));
+        EXPECT_GE(static_cast<double>(cut.grid.upper_bound(cut.point(p))), cut.distance(p));
       }
     }
   }
@@ -120,9 +121,9 @@ TEST(DistanceGrid, WhereSamplingEndsNothingIsClaimed) {
 
 TEST(DistanceGrid, ClaimsNothingBeforeItIsFilled) {
   const FilterPoint point{0.1F, 0.2F, 0.3F, 1e-6F};
-  EXPECT_LE(DistanceGrid().at_least(point), 0);
-  EXPECT_LE(DistanceGrid().tight_lower_bound(point), 0);
-  EXPECT_EQ(DistanceGrid().at_most(point), std::numeric_limits<float>::infinity());
+  EXPECT_LE(DistanceField().lower_bound(point), 0);
+  EXPECT_LE(DistanceField().tight_lower_bound(point), 0);
+  EXPECT_EQ(DistanceField().upper_bound(point), std::numeric_limits<float>::infinity());
 }
 
 TEST(DistanceGrid, StaysSmallForAFewTriangles) {

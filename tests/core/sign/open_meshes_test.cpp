@@ -16,7 +16,7 @@ namespace touchmark {
 namespace {
 
 using SignedBruteForce = Signed<BruteForce>;
-using Way = SideFinder::Way;
+using Method = SideFinder::Method;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -78,8 +78,8 @@ sign::Winding winding_of(const TriangleMesh& mesh) {
 TEST(OpenMeshes, ARayAndItsCurtainsGiveTheWindingNumberOfAllTriangles) {
   bench::support::Random random(4);
   for (const TriangleMesh& mesh :
-       {bench::scenes::icosphere(2), cut_off(bench::scenes::icosphere(2), 0.1),
-        bench::scenes::single_triangle(), bench::scenes::soup(50), cut_off(bench::scenes::torus(12, 8), 0)}) {
+       {bench::scenes::icosphere(2), cut_off(bench::scenes::icosphere(2), 0.1), bench::scenes::single_triangle(), bench::scenes::soup(50),
+        cut_off(bench::scenes::torus(12, 8), 0)}) {
     const sign::Winding winding = winding_of(mesh);
     for (int i = 0; i < 500; ++i) {
       const Vec3 point = mesh.bounds().center() + random.unit() * mesh.diagonal() * random.direction();
@@ -94,7 +94,7 @@ TEST(OpenMeshes, ARayAndItsCurtainsGiveTheWindingNumberOfAllTriangles) {
 TEST(OpenMeshes, ABallWithASmallHoleIsDecidedAwayFromTheHoleAndNeverWrongly) {
   const TriangleMesh ball = bench::scenes::icosphere(3), open = cut_off(ball, -0.94);
   const SignedBruteForce whole = SignedBruteForce::build(ball, {}), holed = SignedBruteForce::build(open, {});
-  ASSERT_EQ(holed.sides().surface().way, Way::winding_number);
+  ASSERT_EQ(holed.sides().surface().method, Method::winding_number);
   bench::support::Random random(5);
   int decided = 0;
   constexpr int count = 1000;
@@ -122,7 +122,7 @@ TEST(OpenMeshes, NothingIsDecidedInTheMouthOfAHemisphere) {
 
 TEST(OpenMeshes, AMoebiusStripIsUndecidedEverywhereButOnItself) {
   const SignedBruteForce strip = SignedBruteForce::build(moebius_strip(24), {});
-  ASSERT_EQ(strip.sides().surface().way, Way::none);
+  ASSERT_EQ(strip.sides().surface().method, Method::none);
   bench::support::Random random(7);
   for (int i = 0; i < 300; ++i)
     EXPECT_EQ(side_at(strip, 2 * random.direction() * random.unit()), Side::undecided);

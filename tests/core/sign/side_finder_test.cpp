@@ -138,7 +138,7 @@ TEST(SideFinder, AShellTurnedAgainstTheRestIsUndecidedWithinAndTheRestIsNotDistu
 TEST(SideFinder, DecidesByPseudonormalsWhereNothingIsDifficult) {
   const TriangleMesh mesh = bench::scenes::noisy_sphere(2000);
   const SignedBruteForce detector = SignedBruteForce::build(mesh, {});
-  EXPECT_EQ(detector.sides().surface().way, SideFinder::Way::pseudonormals);
+  EXPECT_EQ(detector.sides().surface().method, SideFinder::Method::pseudonormals);
   SignedBruteForce::Session session;
   bench::support::Random random(5);
   constexpr int count = 2000;

@@ -49,10 +49,10 @@ TEST(GroupFilter, GivesTheSameBitsOnEveryProcessor) {
       for (std::size_t i = 0; i < group.count; ++i)
         ASSERT_EQ(bits(chosen.squared[i / 4][i % 4]), bits(portable.squared[i / 4][i % 4])) << step;
       ASSERT_EQ(bits(chosen.least), bits(portable.least)) << step;
-      ASSERT_EQ(chosen.over_one, portable.over_one) << step;
+      ASSERT_EQ(chosen.over_face, portable.over_face) << step;
       ASSERT_EQ(bits(chosen.height), bits(portable.height)) << step;
       ASSERT_EQ(chosen.guess, portable.guess) << step;
-      over += chosen.over_one ? 1 : 0;
+      over += chosen.over_face ? 1 : 0;
     }
     EXPECT_GT(over, 0);
     EXPECT_LT(over, 5000);

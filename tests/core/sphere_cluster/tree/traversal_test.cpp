@@ -16,7 +16,7 @@ using Bounds = portable::Wide (*)(const TriangleBlock&, std::size_t, const porta
 
 /// Of the block's first triangle.
 float first_of(Bounds bounds, const TriangleBlock& block, const FilterPoint& point) {
-  return bounds(block, 0, portable::spread(point))[0];
+  return bounds(block, 0, portable::broadcast(point))[0];
 }
 
 struct Alone {
@@ -73,7 +73,7 @@ TEST_P(TriangleBounds, FromAboveNeverFallShortOfTheDistance) {
     const double distance = std::sqrt(squared_distance(alone.triangle, c.point));
     const auto is_within = [&](double radius) {
       return (portable::surely_within(alone.block, alone.frame.to_frame_rounded_down(radius),
-                                      portable::spread(point)) &
+                                      portable::broadcast(point)) &
               1) != 0;
     };
     const double error = alone.frame.kernel_error(point.plane_error);
