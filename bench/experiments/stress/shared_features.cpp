@@ -129,8 +129,6 @@ std::vector<SharedFeature> shared_feature_meshes(std::size_t triangles) {
   return all;
 }
 
-namespace stress {
-
 namespace {
 
 /// These centres first, then others about them, from a diagonal away to hardly beside them.
@@ -163,5 +161,4 @@ std::vector<workload::Workload> shared_features(std::uint64_t seed, std::size_t 
   return workloads;
 }
 
-}  // namespace stress
 }  // namespace touchmark::bench::experiments::stress
