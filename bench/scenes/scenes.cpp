@@ -16,7 +16,7 @@
 #include "bench/support/numbers.h"
 #include "core/mesh_io/mesh_io.h"
 
-namespace touchmark:: ::scenes {
+namespace touchmark::bench::scenes {
 namespace {
 
 namespace fs = std::filesystem;
@@ -316,4 +316,4 @@ TriangleMesh load_mesh(const std::string& name, bool normalize) {
   return normalize ? mesh.normalized() : mesh;
 }
 
-}  // namespace touchmark::::scenes
+}  // namespace touchmark::bench::scenes

@@ -6,7 +6,7 @@
 
 #include "core/triangle_mesh.h"
 
-namespace touchmark:: ::scenes {
+namespace touchmark::bench::scenes {
 
 struct SceneInfo {
   std::string name;         ///< as written on the command line, with its parameters' form: "icosphere:N"
@@ -31,4 +31,4 @@ TriangleMesh load_scene(const std::string& name);
 /// Returns the mesh of that name or file, normalised if asked to. Throws std::invalid_argument or MeshError.
 TriangleMesh load_mesh(const std::string& name, bool normalize);
 
-}  // namespace touchmark::::scenes
+}  // namespace touchmark::bench::scenes

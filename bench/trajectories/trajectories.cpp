@@ -9,7 +9,7 @@
 #include "bench/trajectories/trajectory_csv.h"
 #include "bench/trajectories/trajectory_shapes.h"
 
-namespace touchmark:: ::trajectories {
+namespace touchmark::bench::trajectories {
 namespace {
 
 constexpr std::size_t default_steps = 20'000;
@@ -85,4 +85,4 @@ Trajectory make_trajectory(const std::string& what, const TriangleMesh& mesh,
           {}};
 }
 
-}  // namespace touchmark::::trajectories
+}  // namespace touchmark::bench::trajectories

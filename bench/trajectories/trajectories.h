@@ -10,7 +10,7 @@
 #include "bench/trajectories/trajectory.h"
 #include "core/triangle_mesh.h"
 
-namespace touchmark:: ::trajectories {
+namespace touchmark::bench::trajectories {
 
 struct TrajectoryInfo {
   std::string name;
@@ -38,4 +38,4 @@ bool is_generated(const std::string& name);
 Trajectory make_trajectory(const std::string& what, const TriangleMesh& mesh,
                            const TrajectoryOptions& options = {});
 
-}  // namespace touchmark::::trajectories
+}  // namespace touchmark::bench::trajectories

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace touchmark:: ::scenes {
+namespace touchmark::bench::scenes {
 namespace {
 
 std::string refusal(const std::string& name) {
@@ -74,4 +74,4 @@ TEST(Scenes, ABadNameOrParameterIsNamedInOneLine) {
 }
 
 }  // namespace
-}  // namespace touchmark::::scenes
+}  // namespace touchmark::bench::scenes

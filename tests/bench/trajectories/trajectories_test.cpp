@@ -11,7 +11,7 @@
 #include "bench/trajectories/mesh_edges.h"
 #include "core/aabb_tree/aabb_tree.h"
 
-namespace touchmark:: ::trajectories {
+namespace touchmark::bench::trajectories {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -431,4 +431,4 @@ TEST(Trajectories, JumpOnlyWhereTheyMustTakeOff) {
 }
 
 }  // namespace
-}  // namespace touchmark::::trajectories
+}  // namespace touchmark::bench::trajectories

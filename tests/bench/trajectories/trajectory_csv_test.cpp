@@ -13,7 +13,7 @@
 
 #include "bench/trajectories/trajectories.h"
 
-namespace touchmark:: ::trajectories {
+namespace touchmark::bench::trajectories {
 namespace {
 
 /// A directory of its own for each test, removed at its end.
@@ -377,4 +377,4 @@ TEST_F(TrajectoryCsv, IsATrajectoryLikeAnyOther) {
 }
 
 }  // namespace
-}  // namespace touchmark::::trajectories
+}  // namespace touchmark::bench::trajectories
