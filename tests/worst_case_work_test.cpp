@@ -149,7 +149,8 @@ TEST(WorstCaseWork, IsAtMostTwiceBruteForceAndALittle) {
 // at no more of the triangles that are all as near but for rounding than it keeps open at once.
 TEST(WorstCaseWork, OfATouchAmongTangentTrianglesEndsAtTheFirstThatTouches) {
   constexpr std::uint64_t few_looks = 256, few_decisions = 16;
-  for (const bench::experiments::stress::SharedFeature& shared : bench::experiments::stress::shared_feature_meshes(6630)) {
+  for (const bench::experiments::stress::SharedFeature& shared :
+       bench::experiments::stress::shared_feature_meshes(6630)) {
     if (!shared.name.starts_with("tangent") && !shared.name.starts_with("spikes")) continue;
     const bench::oracle::Oracle oracle(shared.mesh);
     const Vec3& center = shared.centers.front();

@@ -116,7 +116,7 @@ ContestantInfo grid_group() {
   static const Names<GridGroup::Lookup> lookups{{"direct", GridGroup::Lookup::direct},
                                                 {"scan", GridGroup::Lookup::scan}};
   static const Names<GridGroup::Construction> makings{{"whole", GridGroup::Construction::whole},
-                                                {"lazy", GridGroup::Construction::lazy}};
+                                                      {"lazy", GridGroup::Construction::lazy}};
   static const Names<GridGroup::Shape> shapes{{"cube", GridGroup::Shape::cube},
                                               {"sphere", GridGroup::Shape::sphere}};
   ContestantInfo info;
@@ -164,7 +164,7 @@ ContestantInfo sphere_cluster() {
   static const Names<Simd> widths{
       {"avx512", Simd::avx512}, {"avx2", Simd::avx2}, {"portable", Simd::portable}};
   static const Names<SphereCluster::Construction> makings{{"whole", SphereCluster::Construction::whole},
-                                                    {"lazy", SphereCluster::Construction::lazy}};
+                                                          {"lazy", SphereCluster::Construction::lazy}};
   ContestantInfo info;
   info.name = "sphere-cluster";
   info.summary = "triangles in clustered bounding spheres, after Choi & Sung 2017";

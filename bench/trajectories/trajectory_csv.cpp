@@ -24,7 +24,7 @@ namespace touchmark::bench::trajectories {
 namespace {
 
 constexpr double max_ticks = 100'000'000;  // of a resampled motion, as of --steps
-constexpr double bytes_a_tick = 256;        // here and in the workers
+constexpr double bytes_a_tick = 256;       // here and in the workers
 
 /// Reads the rows of one file.
 class MotionReader {

@@ -26,7 +26,7 @@ struct Workload {
   std::optional<double> reach;  ///< mesh units; nothing: each probe's radius
   std::vector<std::string> trajectories;
   std::vector<std::vector<Step>> traces;                   ///< one a trajectory
-  std::vector<Pace> motions = {};                        ///< one a trajectory, or none
+  std::vector<Pace> motions = {};                          ///< one a trajectory, or none
   std::optional<support::LengthUnit> unit = std::nullopt;  ///< nothing: unknown
 };
 

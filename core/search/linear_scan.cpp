@@ -26,7 +26,7 @@ bool LinearScan::touches(const Probe& probe, Work& work) const noexcept {
 
 std::optional<Contact> LinearScan::nearest(const Vec3& center, double reach, Work& work) const noexcept {
   return is_certified ? nearest_of_all(triangles, bounds, center, reach, ids, work)
-                   : nearest_as_computed(center, reach, work);
+                      : nearest_as_computed(center, reach, work);
 }
 
 std::optional<Impact> LinearScan::first_hit(const Sweep& sweep, Work& work) const noexcept {

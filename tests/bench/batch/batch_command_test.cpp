@@ -12,7 +12,7 @@
 #include "bench/support/csv_reader.h"
 #include "tests/bench/cli/run_touchmark.h"
 
-namespace touchmark::bench::batch {
+namespace touchmark::bench::cli {
 namespace {
 
 namespace fs = std::filesystem;
@@ -259,4 +259,4 @@ TEST_F(Sweep, NamesWhatIsWrongOnTheCommandLine) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench::batch
+}  // namespace touchmark::bench::cli

@@ -250,7 +250,7 @@ TEST_F(LyingDetector, HasItsFirstWrongAnswersNamed) {
     std::vector<std::size_t> named;
     for (const Charge& one : charges.kept()) {
       named.push_back(one.step);
-      EXPECT_EQ(counts(one.errors), Counts{.beyond_bound = 1});
+      EXPECT_EQ(counts(one.counts), Counts{.beyond_bound = 1});
     }
     EXPECT_EQ(named, expected);
   }

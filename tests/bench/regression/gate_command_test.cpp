@@ -8,7 +8,7 @@
 
 #include "tests/bench/cli/run_touchmark.h"
 
-namespace touchmark::bench::regression::gate {
+namespace touchmark::bench::cli {
 namespace {
 
 const std::string hostile = TOUCHMARK_HOSTILE_PROGRAM;
@@ -133,4 +133,4 @@ TEST_F(Gate, NamesWhatIsWrongOnTheCommandLine) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench::regression::gate
+}  // namespace touchmark::bench::cli

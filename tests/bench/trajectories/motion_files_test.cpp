@@ -9,7 +9,7 @@
 
 #include "tests/bench/cli/run_touchmark.h"
 
-namespace touchmark::bench::trajectories {
+namespace touchmark::bench::cli {
 namespace {
 
 std::vector<std::string> query(const std::string& motion, const std::vector<std::string>& more = {}) {
@@ -150,4 +150,4 @@ TEST(MeshFiles, WhatIsNoMeshIsToldInOneLine) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench::trajectories
+}  // namespace touchmark::bench::cli

@@ -3,5 +3,5 @@
 #include "tests/bench/workers/hostile_roster.h"
 
 int main(int argc, char** argv) {
-  return touchmark::bench::cli::run_program(argc, argv, touchmark::bench::hostile_roster());
+  return touchmark::bench::cli::run_program(argc, argv, touchmark::bench::workers::hostile_roster());
 }

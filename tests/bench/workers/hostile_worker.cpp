@@ -16,11 +16,11 @@ extern "C" int clock_gettime(clockid_t clock, timespec* time) noexcept {
   if (clock != CLOCK_PROCESS_CPUTIME_ID) {
     return static_cast<int>(::syscall(SYS_clock_gettime, clock, time));
   }
-  const std::int64_t ns = touchmark::bench::hostile_ns();
+  const std::int64_t ns = touchmark::bench::workers::hostile_ns();
   *time = {ns / 1'000'000'000, ns % 1'000'000'000};
   return 0;
 }
 
 int main(int argc, char** argv) {
-  return touchmark::bench::workers::run_worker(argc, argv, touchmark::bench::hostile_roster());
+  return touchmark::bench::workers::run_worker(argc, argv, touchmark::bench::workers::hostile_roster());
 }

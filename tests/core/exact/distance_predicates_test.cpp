@@ -62,7 +62,8 @@ TEST_P(ExactDecision, OfPartsOfAWayIsTheOracles) {
     const double fraction = i % 2 == 0 ? 1 : std::round(cases.fraction() * 0x1p53) / 0x1p53;
     const double distance = bench::oracle::nearest_exactly(c.point, {&c.triangle, 1}).high;
     for (const double radius : radii(std::min(distance, largest))) {
-      const bool expected = bench::oracle::compare_part_distance(from, c.point, fraction, c.triangle, radius) <= 0;
+      const bool expected =
+          bench::oracle::compare_part_distance(from, c.point, fraction, c.triangle, radius) <= 0;
       ASSERT_EQ(path_within_exactly(c.triangle, from, c.point, fraction, radius), expected)
           << "case " << i << ", radius " << radius << ", fraction " << fraction;
       ++(expected ? within : beyond);

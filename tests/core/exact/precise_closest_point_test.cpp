@@ -121,7 +121,8 @@ struct Hinge {
     a = {p, q, r};
     b = {q, p, other + bend * normal};
     const double part = cases.fraction();
-    point = (1 - part) * p + part * q + cases.fraction() * normal + cases.magnitude(-18, -15) * cases.vector();
+    point =
+        (1 - part) * p + part * q + cases.fraction() * normal + cases.magnitude(-18, -15) * cases.vector();
   }
 };
 

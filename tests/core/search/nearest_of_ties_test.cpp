@@ -45,7 +45,8 @@ std::vector<Step> steps_about(const bench::experiments::stress::SharedFeature& s
 }
 
 TEST(SharedFeatures, AreDecidedAsTheOracleDoesWithFewWholeNumbers) {
-  for (const bench::experiments::stress::SharedFeature& shared : bench::experiments::stress::shared_feature_meshes(300)) {
+  for (const bench::experiments::stress::SharedFeature& shared :
+       bench::experiments::stress::shared_feature_meshes(300)) {
     const bench::oracle::Oracle oracle(shared.mesh);
     const std::vector<Step> steps = steps_about(shared);
     std::vector<bench::oracle::GroundTruth> truths;
@@ -104,7 +105,7 @@ TEST_P(SureFeatures, ThatAreSharedAreTies) {
   for (int i = 0; i < 4000; ++i) {
     const CornerCases::Corners a = GetParam().triangle(cases);
     const CornerCases::Corners b = i % 2 == 0 ? CornerCases::Corners{a[1], a[0], cases.vector()}
-                                            : CornerCases::Corners{cases.vector(), a[0], cases.vector()};
+                                              : CornerCases::Corners{cases.vector(), a[0], cases.vector()};
     // On a shared corner or edge, or anywhere.
     const Vec3 point = i % 5 == 0 ? a[0] : i % 5 == 1 ? Vec3(0.5 * (a[0] + a[1])) : cases.point_near(a);
     const std::optional<Feature> feature = sure_feature(prepare(a[0], a[1], a[2], 0), point);

@@ -78,8 +78,8 @@ sign::Winding winding_of(const TriangleMesh& mesh) {
 TEST(OpenMeshes, ARayAndItsCurtainsGiveTheWindingNumberOfAllTriangles) {
   bench::support::Random random(4);
   for (const TriangleMesh& mesh :
-       {bench::scenes::icosphere(2), cut_off(bench::scenes::icosphere(2), 0.1), bench::scenes::single_triangle(), bench::scenes::soup(50),
-        cut_off(bench::scenes::torus(12, 8), 0)}) {
+       {bench::scenes::icosphere(2), cut_off(bench::scenes::icosphere(2), 0.1),
+        bench::scenes::single_triangle(), bench::scenes::soup(50), cut_off(bench::scenes::torus(12, 8), 0)}) {
     const sign::Winding winding = winding_of(mesh);
     for (int i = 0; i < 500; ++i) {
       const Vec3 point = mesh.bounds().center() + random.unit() * mesh.diagonal() * random.direction();

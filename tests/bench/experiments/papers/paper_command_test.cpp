@@ -12,7 +12,7 @@
 #include "bench/scenes/scenes.h"
 #include "tests/bench/cli/run_touchmark.h"
 
-namespace touchmark::bench::experiments::papers {
+namespace touchmark::bench::cli {
 namespace {
 
 using Rows = std::vector<std::map<std::string, std::string>>;
@@ -135,7 +135,7 @@ TEST(PaperChoiSungBunny, MakesThePapersCountsOfThePapersBunny) {
 }
 
 TEST(PaperChoiSungBunny, DecimatesWhereThePapersBunnyIsMissingAndSaysSo) {
-  if (!can_decimate()) GTEST_SKIP() << "built without OpenMesh";
+  if (!experiments::papers::can_decimate()) GTEST_SKIP() << "built without OpenMesh";
   const TemporaryFolder folder;
   ::setenv("TOUCHMARK_MODELS", "/no-such-folder", 1);
   const Outcome outcome = run_paper("choi-sung-2017", "", folder, {"--levels", "1", "--steps", "5"});
@@ -222,4 +222,4 @@ TEST(Papers, ShowAnExample) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench::experiments::papers
+}  // namespace touchmark::bench::cli

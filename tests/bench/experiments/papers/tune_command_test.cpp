@@ -71,31 +71,32 @@ TEST(Detector, IsWrittenAsTheCommandLineTakesIt) {
 TEST(TuneCommand, FindsAFinerSurfaceAtARateThatEveryoneHolds) {
   // A sphere's facets are wrong where its subdivision is right: the finest level has the least error.
   const TemporaryFolder folder;
-  const Outcome outcome = run_touchmark({"tune", "--rate", "0.001", "--mesh", "icosphere:1", "--quick",
-                                         "--levels", "2", "--out", folder.file("")});
+  const cli::Outcome outcome = cli::run_touchmark({"tune", "--rate", "0.001", "--mesh", "icosphere:1",
+                                                   "--quick", "--levels", "2", "--out", folder.file("")});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("as published: ls3 level 2, sphere-cluster:lookup=scan"), std::string::npos)
       << outcome.out;
   EXPECT_NE(outcome.out.find("--method ls3 --levels 2"), std::string::npos) << outcome.out;
   EXPECT_EQ(outcome.out.find("inf"), std::string::npos) << outcome.out;
-  EXPECT_NE(content_of(folder.file("tune.csv")).find("method,level,form"), std::string::npos);
+  EXPECT_NE(cli::content_of(folder.file("tune.csv")).find("method,level,form"), std::string::npos);
 }
 
 TEST(TuneCommand, SaysThatNothingHoldsAnImpossibleRate) {
-  const Outcome outcome = run_touchmark({"tune", "--rate", "1e12", "--mesh", "icosphere:0", "--quick"});
+  const cli::Outcome outcome =
+      cli::run_touchmark({"tune", "--rate", "1e12", "--mesh", "icosphere:0", "--quick"});
   EXPECT_EQ(outcome.status, 1) << outcome.err;
   EXPECT_NE(outcome.out.find("as published: none holds 1e12 Hz"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("fast and exact: none holds 1e12 Hz"), std::string::npos) << outcome.out;
 }
 
 TEST(TuneCommand, RefusesBadInputInOneLine) {
-  expect_bad_input({"tune", "--mesh", "icosphere:1"}, {"--rate"});
-  expect_bad_input({"tune", "--rate", "1000"}, {"mesh"});
+  cli::expect_bad_input({"tune", "--mesh", "icosphere:1"}, {"--rate"});
+  cli::expect_bad_input({"tune", "--rate", "1000"}, {"mesh"});
   const auto with = [](const std::string& option, const std::string& value) {
     std::vector<std::string> words{"tune", "--mesh", "icosphere:1"};
     if (option != "--rate") words.insert(words.end(), {"--rate", "1000"});
     words.insert(words.end(), {option, value});
-    expect_bad_input(words, {option, value});
+    cli::expect_bad_input(words, {option, value});
   };
   for (const char* rate : {"0", "-1", "inf", "nan", "fast"}) with("--rate", rate);
   for (const char* levels : {"-1", "9", "x"}) with("--levels", levels);

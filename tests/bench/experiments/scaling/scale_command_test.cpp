@@ -11,7 +11,7 @@
 #include "tests/bench/cli/run_touchmark.h"
 #include "tests/temporary_folder.h"
 
-namespace touchmark::bench::experiments::scaling {
+namespace touchmark::bench::cli {
 namespace {
 
 using Fields = std::vector<std::string>;
@@ -116,4 +116,4 @@ TEST(ScaleCommand, NamesBadInput) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench::experiments::scaling
+}  // namespace touchmark::bench::cli

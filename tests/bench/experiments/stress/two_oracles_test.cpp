@@ -24,7 +24,7 @@ constexpr std::size_t centers_a_trace = 2;
 mpq_class min_squared_distance(const TriangleMesh& mesh, const Vec3& center) {
   std::optional<mpq_class> least;
   for (std::uint32_t i = 0; i < mesh.size(); ++i) {
-    const mpq_class squared = squared_distance_by_multipliers(center, oracle::triangle_of(mesh, i));
+    const mpq_class squared = oracle::squared_distance_by_multipliers(center, oracle::triangle_of(mesh, i));
     if (!least || squared < *least) least = squared;
   }
   return *least;
@@ -45,7 +45,8 @@ void expect_agreement(const workload::Workload& workload, std::string_view famil
         if (++centers > centers_a_trace) break;
         squared = min_squared_distance(workload.mesh, center);
         last = center;
-        EXPECT_EQ(squared_distance_by_multipliers(center, oracle::triangle_of(workload.mesh, truth.triangle)),
+        EXPECT_EQ(oracle::squared_distance_by_multipliers(center,
+                                                          oracle::triangle_of(workload.mesh, truth.triangle)),
                   squared)
             << family << ": its triangle is not a nearest one";
       }

@@ -11,7 +11,7 @@
 #include "tests/bench/cli/run_touchmark.h"
 #include "tests/temporary_folder.h"
 
-namespace touchmark::bench::experiments::update {
+namespace touchmark::bench::cli {
 namespace {
 
 using Fields = std::vector<std::string>;
@@ -94,4 +94,4 @@ TEST(Deformation, MovesItsShareOfTheVerticesNotFar) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench::experiments::update
+}  // namespace touchmark::bench::cli

@@ -13,7 +13,7 @@
 #include "bench/results/results_csv.h"
 #include "tests/bench/cli/run_touchmark.h"
 
-namespace touchmark::bench::results::validation {
+namespace touchmark::bench::cli {
 namespace {
 
 /// One run for all tests: two contestants, one of which does not answer the query.
@@ -41,7 +41,7 @@ class Validate : public testing::Test {
 
   /// The file with one field, of a line from 2, replaced. No field of these rows has a comma in it.
   static std::string with(const std::string& column, int line, const std::string& value) {
-    const std::vector<std::string> names = results_columns();
+    const std::vector<std::string> names = results::results_columns();
     auto at = std::find(names.begin(), names.end(), column) - names.begin();
     std::size_t begin = 0;
     for (int i = 1; i < line; ++i) begin = csv().find('\n', begin) + 1;
@@ -224,7 +224,7 @@ TEST_F(Validate, NoticesATruncatedFile) {
   const std::size_t cut = csv().find(",ok,");
   ASSERT_LT(cut, last);
   expect_fault(validate(csv().substr(0, cut), ""), "results.csv:2: the line has 19 fields, the header " +
-                                                       std::to_string(results_columns().size()));
+                                                       std::to_string(results::results_columns().size()));
   expect_fault(validate("", ""), "results.csv: the file is empty");
   expect_fault(validate(csv() + "\"open", ""), "results.csv:4: a quote is never closed");
 }
@@ -264,4 +264,4 @@ TEST_F(Validate, RefusesWhatIsNotThere) {
 }
 
 }  // namespace
-}  // namespace touchmark::bench::results::validation
+}  // namespace touchmark::bench::cli
