@@ -103,9 +103,9 @@ class Setup(unittest.TestCase):
                 echo 'Need to get 9100 kB/12.6 MB of archives.'
                 echo 'After this operation, 1.5 GB of additional disk space will be used.' ;;
               *)
-                echo 'dlstatus:1:60.0000:Retrieving file 1 of 2'
+                echo 'dlstatus:1:60.0000:Retrieving file 1 of 2' >&3
                 echo 'Unpacking what nobody wants to read'
-                echo 'pmstatus:libc6:51.2500:Unpacking libc6 (amd64)' ;;
+                echo 'pmstatus:libc6:51.2500:Unpacking libc6 (amd64)' >&3 ;;
             esac""")
         self.assertEqual(done.returncode, 0, done.stderr)
         lines = done.stderr.splitlines()
