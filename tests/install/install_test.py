@@ -70,8 +70,8 @@ FUSED = ["-mfma", "-ffp-contract=fast"]  # as GCC has it with -march=native on m
 # number is exact. The queries only compare a displacement with what their detector knows to be free, which leaves
 # 2^-40 and more of it for rounding.
 FUSED_WITHOUT_HARM = re.compile(r"touchmark::(Aabb::center|grid::DirectMemory::moved_less|"
-                                r"(SphereTree|grid::DirectGrid)::surely_free|"
-                                r"(GridGroup|SphereCluster|Signed<.*>)::(touches|nearest|surely_free))\(")
+                                r"(SphereTree|grid::DirectGrid)::is_clear|"
+                                r"(GridGroup|SphereCluster|Signed<.*>)::(touches|nearest|is_clear))\(")
 
 
 def run(*command, **options):
