@@ -1,5 +1,5 @@
 /// What a haptic point remembers of the hierarchy: the blocks of triangles near it, so that the next ticks
-/// need not descend from the root.
+/// need not start from the root.
 #pragma once
 
 #include <cstdint>

@@ -2,8 +2,8 @@
 ///   center      where the search is from
 ///   limit       squared, in the tree's frame: only triangles within it need to be shown; may fall meanwhile
 ///   work        counts
-///   wants(at)   does it want to know about the triangle kept there
-///   take(at, offset)
+///   accepts(at)   does it ask for the triangle in that slot
+///   update(at, offset)   learns of a triangle that it asked for
 #pragma once
 
 #include <algorithm>

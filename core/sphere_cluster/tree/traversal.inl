@@ -171,7 +171,7 @@ inline void visit(const TreeParts& tree, std::uint32_t at, Visitor& visitor) noe
 }
 
 /// Shows the visitor every triangle that may be within its limit, nearest volumes first. Returns a lower
-/// bound of the squared distance to what it was not shown, or gave_up when the visitor's work has come to
+/// bound of the squared distance to what it was not shown, or `exhausted` when the visitor's work has come to
 /// more than `budget` before the end. Never inlined: whoever mostly answers without it would pay for its
 /// frame.
 template <class Visitor>
