@@ -33,7 +33,7 @@ void add_share(CLI::App& command, const std::string& flag, double& share, const 
 }  // namespace
 
 int main(int argc, char** argv) {
-  restore_denormals();
+  support::restore_denormals();
   CLI::App program("Measures builds of the core for scripts/regress.", "touchmark-regression");
   program.require_subcommand(1);
   program.footer(
@@ -69,16 +69,16 @@ int main(int argc, char** argv) {
 
   try {
     program.parse(argc, argv);
-    return exit_done;
+    return support::exit_done;
   } catch (const CLI::Success& asked) {
     return program.exit(asked);
   } catch (const CLI::ParseError& error) {
-    return fail(exit_bad_input, error.what());
+    return fail(support::exit_bad_input, error.what());
   } catch (const std::invalid_argument& error) {
-    return fail(exit_bad_input, error.what());
+    return fail(support::exit_bad_input, error.what());
   } catch (const std::bad_alloc&) {
-    return fail(exit_resources, "out of memory");
+    return fail(support::exit_resources, "out of memory");
   } catch (const std::exception& error) {
-    return fail(exit_resources, error.what());
+    return fail(support::exit_resources, error.what());
   }
 }
