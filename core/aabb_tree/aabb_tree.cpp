@@ -191,7 +191,7 @@ void AabbTree::update(const TriangleMesh& mesh) {
 }
 
 double AabbTree::lower_bound(const Aabb& box, const Vec3& center, double pad) noexcept {
-  return std::sqrt(box.squared_distance(center)) - pad;
+  return box.excess(center).norm() - pad;  // squared_distance would be a call for each box
 }
 
 bool AabbTree::touches(const Probe& probe, Session& session) const noexcept {
