@@ -22,6 +22,11 @@ double half_area(const Aabb& box) noexcept {
   return e.x() * e.y() + e.y() * e.z() + e.z() * e.x();
 }
 
+/// Returns AabbTree::lower_bound, inside the loops that ask it of every box.
+[[gnu::always_inline]] inline double bound_below(const Aabb& box, const Vec3& center, double pad) noexcept {
+  return box.excess(center).norm() - pad;
+}
+
 /// A box or subtree that waits, with the bound it was left for.
 struct StackEntry {
   double bound;
@@ -191,7 +196,7 @@ void AabbTree::update(const TriangleMesh& mesh) {
 }
 
 double AabbTree::lower_bound(const Aabb& box, const Vec3& center, double pad) noexcept {
-  return box.excess(center).norm() - pad;  // squared_distance would be a call for each box
+  return bound_below(box, center, pad);
 }
 
 bool AabbTree::touches(const Probe& probe, Session& session) const noexcept {
@@ -211,7 +216,7 @@ bool AabbTree::touches(const Probe& probe, Session& session) const noexcept {
   session.last = no_triangle;
   std::array<StackEntry, max_levels> stack;
   std::size_t count = 0;
-  stack[count++] = {lower_bound(nodes_[0].box, probe.center, pad), 0};
+  stack[count++] = {bound_below(nodes_[0].box, probe.center, pad), 0};
   while (count > 0) {
     if (work.boxes + work.triangles > budget) return fallback().touches(probe, work);
     const StackEntry next = stack[--count];
@@ -224,8 +229,8 @@ bool AabbTree::touches(const Probe& probe, Session& session) const noexcept {
     }
     if (node.count > 0) continue;
     work.boxes += 2;
-    StackEntry near{lower_bound(nodes_[node.first].box, probe.center, pad), node.first};
-    StackEntry far{lower_bound(nodes_[node.first + 1].box, probe.center, pad), node.first + 1};
+    StackEntry near{bound_below(nodes_[node.first].box, probe.center, pad), node.first};
+    StackEntry far{bound_below(nodes_[node.first + 1].box, probe.center, pad), node.first + 1};
     if (far.bound < near.bound) std::swap(near, far);
     stack[count++] = far;
     stack[count++] = near;
@@ -251,7 +256,7 @@ std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Sessi
   double limit = std::min(reach, std::sqrt(candidates.best().squared_distance)) + error;
   std::array<StackEntry, max_levels> stack;
   std::size_t count = 0;
-  stack[count++] = {lower_bound(nodes_[0].box, center, pad), 0};
+  stack[count++] = {bound_below(nodes_[0].box, center, pad), 0};
   while (count > 0) {
     if (work.boxes + work.triangles > budget) return fallback().nearest(center, reach, work);
     const StackEntry next = stack[--count];
@@ -263,8 +268,8 @@ std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Sessi
       continue;
     }
     work.boxes += 2;
-    StackEntry near{lower_bound(nodes_[node.first].box, center, pad), node.first};
-    StackEntry far{lower_bound(nodes_[node.first + 1].box, center, pad), node.first + 1};
+    StackEntry near{bound_below(nodes_[node.first].box, center, pad), node.first};
+    StackEntry far{bound_below(nodes_[node.first + 1].box, center, pad), node.first + 1};
     if (far.bound < near.bound) std::swap(near, far);
     stack[count++] = far;
     stack[count++] = near;
