@@ -42,11 +42,11 @@ ErrorCounts judge(const Oracle& oracle, std::span<const GroundTruth> truths, wor
 /// (core/geometry/sphere_triangle_sweep.h) of the triangle named. All of these are decided in whole numbers,
 /// on the path itself and not on positions rounded to points.
 ///
-/// Of others a hit is right when the sweep hits, the centre at the reported fraction is the radius away
-/// from the mesh (at fraction 0: at most that), and was not nearer before; all within the accuracy plus the
-/// rounding of a position on the path. Of all the contact is judged as `nearest` there. The accuracy's
-/// relative part is kernel_relative_error at least, and max_early_gap of those who claim exactness: no sweep
-/// claims better.
+/// The hit of any other contestant is right when the sweep hits, the centre at the reported fraction is the
+/// radius away from the mesh (at fraction 0: at most that), and was not nearer before; all within the
+/// accuracy plus the rounding of a position on the path. For all contestants the contact is judged as
+/// `nearest` there. The accuracy's relative part is kernel_relative_error at least, and max_early_gap of
+/// those who claim exactness: no sweep claims better.
 ErrorCounts judge(const Oracle& oracle, std::span<const SweepGroundTruth> truths,
                   std::span<const Sweep> sweeps, std::span<const workload::Answer> answers,
                   const Accuracy& accuracy, const Reported& reported = {}, Charges* charges = nullptr);

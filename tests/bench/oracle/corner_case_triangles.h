@@ -39,7 +39,7 @@ struct CornerCase {
   CornerCases::Corners triangle;
   Vec3 point;
 
-  /// Of the point's coordinates and the corners'.
+  /// Returns the largest difference between the point's coordinates and the corners'.
   double largest_difference() const {
     double largest = 0;
     for (const Vec3& v : triangle) largest = std::max(largest, (v - point).cwiseAbs().maxCoeff());
