@@ -230,7 +230,7 @@ std::strong_ordering compare_exactly(const TriangleCorners& a, const TriangleCor
 
 std::partial_ordering compare(const ClosestPoint& a, const ClosestPoint& b) noexcept {
   const double error = a.error + b.error;
-  // Where one is infinite so is its error, and the difference may be no number.
+  // An infinite one has an infinite error, and the difference may be no number.
   if (std::isinf(error)) return std::partial_ordering::unordered;
   if (error == 0) {
     const std::partial_ordering order = a.distance.high <=> b.distance.high;

@@ -239,7 +239,7 @@ bool DistanceField::sample_near(const FilterPoint& p, const DistanceAt& distance
   if (unsampled == all_eighths && coarse_steps_[cube] == max_steps) {
     const Interval distance = distance_at(middle(coarse_, x, y, z), std::numeric_limits<double>::infinity());
     if (distance.lower >= 0) keep(x, y, z, distance);
-    // Where nothing was found out nothing more is asked for.
+    // A cube about which nothing was found out is not asked for again.
     if (distance.lower < 0 || is_far(distance.lower)) unsampled_.clear(cube, all_eighths);
     return distance.lower >= 0;
   }

@@ -185,7 +185,7 @@ std::optional<Contact> NearestOfTies::contact(double reach, double error, const 
   if (first_ == nullptr) return std::nullopt;
   const PreparedTriangle& triangle = *first_;
   const TriangleId id = ids[triangle.index];
-  // The same bits as where the search was certain of this triangle at once.
+  // These are the bits that a search gives that was certain of this triangle at once.
   const double computed = std::sqrt(touchmark::squared_distance(triangle, center_));
   if (is_certain_on(triangle, computed, center_, reach, error)) {
     if (computed > reach) return std::nullopt;

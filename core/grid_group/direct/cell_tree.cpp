@@ -123,7 +123,7 @@ class CellTreeBuilder {
     cells_.smallest_edge_ = edge;
     std::vector<Open> next;
     for (const Open& cell : open) {
-      // Where leaves are built lazily, what the parent knows says which cells those are.
+      // Where leaves are built lazily, what the parent knows tells which cells are such leaves.
       const bool inherited =
           options_.lazy && level >= cells_.top_levels_ && !needs_children(cell.inherited, edge);
       const CellTree::Leaf leaf = inherited ? cell.inherited : nearest_to(cell);

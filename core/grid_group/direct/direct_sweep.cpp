@@ -136,7 +136,7 @@ std::optional<Impact> DirectGrid::first_hit(const Sweep& sweep, DirectMemory& me
   if (start.beyond) return std::nullopt;
   const std::uint64_t before = work.total();
   SweepSearch search(store_, sweep, padded_radius);
-  // Where a group is valid is convex: it covers the path between two points that it covers.
+  // A group is valid in a convex region: it covers the path between two points that it covers.
   if (start.group != nullptr && group_covering(start.slot, store_.frame.point(sweep.to), work) != nullptr) {
     search.consider_group(groups_.members(*start.group), work);
   } else if (!search.consider_tree(tree_, work_budget(store_.size()), work)) {
