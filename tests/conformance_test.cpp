@@ -265,10 +265,15 @@ std::vector<contestants::ContestantSpec> every_option(const contestants::Contest
   return specs;
 }
 
-bool is_ours(const contestants::ContestantInfo& info) {
-  for (const char* name : {"brute-force", "aabb-tree", "grid-group", "sphere-cluster"})
-    if (info.name == name) return true;
-  return false;
+/// Those that are compared by default; of a rival that is not, those that are verified.
+std::vector<contestants::ContestantSpec> rivals_asked() {
+  std::vector<contestants::ContestantSpec> specs;
+  for (const contestants::ContestantInfo& info : contestants::roster().contestants()) {
+    if (info.ours || !info.built()) continue;
+    for (const std::string& options : info.forms.compared.empty() ? info.forms.verified : info.forms.compared)
+      specs.push_back(contestants::roster().parse(options.empty() ? info.name : info.name + ":" + options));
+  }
+  return specs;
 }
 
 std::string summary(const oracle::ErrorCounts& t) {
@@ -288,7 +293,7 @@ TEST_P(Conformance, OursKeepTheirWordAndTheExactOnesGiveTheBitsOfBruteForce) {
   std::vector<std::vector<workload::Answer>> expected;
   for (const Part& part : exam.parts()) expected.push_back(ask(brute_force, part));
   for (const contestants::ContestantInfo& info : contestants::roster().contestants()) {
-    if (!is_ours(info)) continue;
+    if (!info.ours) continue;
     for (const contestants::ContestantSpec& spec : every_option(info)) {
       const auto contestant = contestants::roster().build(spec, exam.mesh());
       const Accuracy accuracy = contestant->accuracy();
@@ -314,8 +319,7 @@ TEST_P(Conformance, OursKeepTheirWordAndTheExactOnesGiveTheBitsOfBruteForce) {
 TEST_P(Conformance, RivalsThatClaimExactnessKeepTheirWord) {
   const Exam exam(GetParam());
   Verdicts verdicts(exam);
-  for (const contestants::ContestantSpec& spec : contestants::roster().default_set()) {
-    if (is_ours(contestants::roster().find(spec.name))) continue;
+  for (const contestants::ContestantSpec& spec : rivals_asked()) {
     const auto judged = [&](std::size_t i, const Accuracy& accuracy,
                             const std::vector<workload::Answer>& answers) {
       const oracle::ErrorCounts counts = verdicts.on(i, answers, accuracy);

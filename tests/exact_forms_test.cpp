@@ -1,7 +1,5 @@
 // Every exact form of core on meshes that detectors fail on: brute force is right by the oracle, the others
 // give its bits. Small and quick, so that it can be run against every mutant of core.
-#include "tests/exact_forms.h"
-
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -15,7 +13,12 @@
 #include "bench/experiments/stress/near_ties.h"
 #include "bench/oracle/judge.h"
 #include "bench/oracle/oracle.h"
+#include "core/aabb_tree/aabb_tree.h"
+#include "core/brute_force/brute_force.h"
+#include "core/grid_group/grid_group.h"
+#include "core/sphere_cluster/sphere_cluster.h"
 #include "tests/bench/oracle/corner_case_meshes.h"
+#include "tests/own_forms.h"
 
 namespace touchmark {
 namespace {

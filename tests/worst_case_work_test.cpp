@@ -16,7 +16,7 @@
 #include "bench/oracle/oracle.h"
 #include "core/grid_group/grid_group.h"
 #include "tests/bench/oracle/corner_case_meshes.h"
-#include "tests/exact_forms.h"
+#include "tests/own_forms.h"
 
 namespace touchmark {
 namespace {
@@ -103,8 +103,6 @@ struct Worst {
   std::string where;
 };
 
-bool is_as_published(const std::string& form) { return form.find(", scan") != std::string::npos; }
-
 /// Also that giving a search up changes no answer.
 std::map<std::string, Worst> worst_of_all() {
   std::map<std::string, Worst> worst;
@@ -119,7 +117,7 @@ std::map<std::string, Worst> worst_of_all() {
           const std::string where = named.name + ", step " + std::to_string(i);
           EXPECT_EQ(std::memcmp(&asked.answers[i], &brute_force.answers[i], sizeof(Answer)), 0)
               << form.name << ", " << name_of(query) << ": " << where;
-          if (is_as_published(form.name)) continue;
+          if (form.as_published) continue;
           // It looks at all triangles, unless one that touches comes first; again at the start of a sweep
           // that touches something; and once more where rounding could tell the nearest.
           const std::uint64_t least = std::max<std::uint64_t>(brute_force.work[i], named.mesh.size());

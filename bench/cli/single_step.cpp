@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/contestants/roster_options.h"
+#include "bench/contestants/entry.h"
 #include "bench/results/answer_rows.h"
 #include "bench/support/available_memory.h"
 #include "bench/support/failures.h"

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -27,6 +28,8 @@ class Contestant {
   Contestant& operator=(const Contestant&) = delete;
   virtual ~Contestant() = default;
 
+  /// Returns another contestant over the same detector, with a fresh session: for another thread.
+  virtual std::unique_ptr<Contestant> share() const = 0;
   virtual bool answers(workload::Query query) const noexcept = 0;
   virtual Accuracy accuracy() const noexcept = 0;
   virtual std::size_t bytes() const noexcept = 0;
@@ -74,7 +77,10 @@ enum class Prefetch { off, on };
 template <Detector D, Prefetch prefetch = Prefetch::off>
 requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : public Contestant {
  public:
-  explicit ContestantOf(D detector) : detector_(std::move(detector)) { session_.emplace(); }
+  explicit ContestantOf(D detector) : ContestantOf(std::make_shared<D>(std::move(detector))) {}
+  explicit ContestantOf(std::shared_ptr<D> detector) : detector_(std::move(detector)) { session_.emplace(); }
+
+  std::unique_ptr<Contestant> share() const override { return std::make_unique<ContestantOf>(detector_); }
 
   bool answers(workload::Query query) const noexcept override {
     switch (query) {
@@ -87,16 +93,16 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
     }
     return false;
   }
-  Accuracy accuracy() const noexcept override { return detector_.accuracy(); }
-  std::size_t bytes() const noexcept override { return detector_.bytes(); }
+  Accuracy accuracy() const noexcept override { return detector_->accuracy(); }
+  std::size_t bytes() const noexcept override { return detector_->bytes(); }
   bool builds_lazily() const noexcept override {
-    if constexpr (BuildsLazily<D>) return detector_.builds_lazily();
+    if constexpr (BuildsLazily<D>) return detector_->builds_lazily();
     return false;
   }
   void forget() override { session_.emplace(); }
   bool updates() const noexcept override { return Updates<D>; }
   void update([[maybe_unused]] const TriangleMesh& mesh) override {
-    if constexpr (Updates<D>) detector_.update(mesh);
+    if constexpr (Updates<D>) detector_->update(mesh);
   }
   Work work() const noexcept override { return session_->work; }
 
@@ -152,7 +158,7 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
 
  private:
   void prepare() noexcept {
-    if constexpr (prefetch == Prefetch::on) detector_.prepare(*session_);
+    if constexpr (prefetch == Prefetch::on) detector_->prepare(*session_);
   }
   /// Calls visit(ask) with the ask(steps, i) -> Answer of this query.
   template <class Visitor>
@@ -160,27 +166,27 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
     using Steps = std::span<const workload::Step>;
     if constexpr (AnswersTouches<D>) {
       if (query == workload::Query::touches) {
-        return visit([this](Steps steps, std::size_t i) noexcept {
+        return visit([&detector = *detector_, &session = *session_](Steps steps, std::size_t i) noexcept {
           workload::Answer answer;
-          answer.found = detector_.touches(steps[i].probe, *session_) ? 1 : 0;
+          answer.found = detector.touches(steps[i].probe, session) ? 1 : 0;
           return answer;
         });
       }
     }
     if constexpr (AnswersNearest<D>) {
       if (query == workload::Query::nearest) {
-        return visit([this](Steps steps, std::size_t i) noexcept {
-          const std::optional<Contact> contact = detector_.nearest(steps[i].probe, steps[i].reach, *session_);
+        return visit([&detector = *detector_, &session = *session_](Steps steps, std::size_t i) noexcept {
+          const std::optional<Contact> contact = detector.nearest(steps[i].probe, steps[i].reach, session);
           return contact ? workload::Answer::of(*contact) : workload::Answer{};
         });
       }
     }
     if constexpr (AnswersSweep<D>) {
       if (query == workload::Query::sweep) {
-        return visit([this](Steps steps, std::size_t i) noexcept {
+        return visit([&detector = *detector_, &session = *session_](Steps steps, std::size_t i) noexcept {
           const Probe& now = steps[i].probe;
           const Sweep sweep{steps[i > 0 ? i - 1 : 0].probe.center, now.center, now.radius};
-          const std::optional<Impact> impact = detector_.first_hit(sweep, *session_);
+          const std::optional<Impact> impact = detector.first_hit(sweep, session);
           return impact ? workload::Answer::of(impact->contact, impact->fraction) : workload::Answer{};
         });
       }
@@ -188,7 +194,7 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
     assert(!"the query must be one that answers(query) affirms");
   }
 
-  D detector_;
+  std::shared_ptr<D> detector_;
   std::optional<typename D::Session> session_;  // engaged always; optional so that any session can be renewed
 };
 

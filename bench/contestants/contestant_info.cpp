@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -137,12 +138,11 @@ bool ContestantInfo::answers(workload::Query query) const noexcept {
   return std::find(queries.begin(), queries.end(), query) != queries.end();
 }
 
-Roster::Roster(std::vector<ContestantInfo> contestants, std::vector<std::string> default_set,
-               std::vector<std::string> verified_besides, std::vector<std::string> frontier)
-    : contestants_(std::move(contestants)),
-      default_set_(std::move(default_set)),
-      verified_besides_(std::move(verified_besides)),
-      frontier_(std::move(frontier)) {}
+Roster::Roster(std::vector<ContestantInfo> contestants) : contestants_(std::move(contestants)) {
+  std::ranges::stable_sort(contestants_, [](const ContestantInfo& a, const ContestantInfo& b) {
+    return std::tie(a.rank, a.name) < std::tie(b.rank, b.name);
+  });
+}
 
 const ContestantInfo& Roster::find(const std::string& name) const {
   const auto found = std::find_if(contestants_.begin(), contestants_.end(),
@@ -172,27 +172,19 @@ ContestantSpec Roster::parse(const std::string& text) const {
   return {contestant.name, fmt::format("{}", fmt::join(in_order, ",")), std::move(chosen), claimed};
 }
 
-void Roster::add_built(std::vector<ContestantSpec>& specs, const std::vector<std::string>& texts) const {
-  for (const std::string& text : texts) {
-    if (find(text.substr(0, text.find(':'))).built()) specs.push_back(parse(text));
+std::vector<ContestantSpec> Roster::forms(std::vector<std::string> Forms::*set) const {
+  std::vector<ContestantSpec> specs;
+  for (const ContestantInfo& info : contestants_) {
+    if (!info.built()) continue;
+    for (const std::string& options : info.forms.*set)
+      specs.push_back(parse(options.empty() ? info.name : info.name + ":" + options));
   }
-}
-
-std::vector<ContestantSpec> Roster::default_set() const {
-  std::vector<ContestantSpec> specs;
-  add_built(specs, default_set_);
-  return specs;
-}
-
-std::vector<ContestantSpec> Roster::frontier() const {
-  std::vector<ContestantSpec> specs;
-  add_built(specs, frontier_);
   return specs;
 }
 
 std::vector<ContestantSpec> Roster::thorough_set() const {
   std::vector<ContestantSpec> specs = default_set();
-  add_built(specs, verified_besides_);
+  for (ContestantSpec& spec : forms(&Forms::verified)) specs.push_back(std::move(spec));
   return specs;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -52,9 +53,24 @@ using BuildContestant = std::function<std::unique_ptr<Contestant>(const Triangle
 /// The program beside this one that most contestants run in.
 inline constexpr const char* default_worker_program = "touchmark-worker";
 
+/// The forms of a contestant that a command asks when no contestant is named. A form is its options as they
+/// are typed, "key=value,key=value"; "" is the default form.
+struct Forms {
+  std::vector<std::string> compared = {};  ///< by `bench`, and by whatever else has no set of its own
+  std::vector<std::string> verified = {};  ///< by `verify` besides
+  std::vector<std::string> frontier =
+      {};  ///< by `bench --frontier`: over what trades its accuracy for its time
+  std::vector<std::string> scaled =
+      {};  ///< by `scale`: those whose time does not grow with the mesh as a scan's
+  std::vector<std::string> updated = {};  ///< by `update`
+  std::vector<std::string> tested = {};   ///< by no command, but by the tests and the fuzzer besides
+};
+
 struct ContestantInfo {
   std::string name;
-  std::string summary;  ///< one line
+  int rank = std::numeric_limits<int>::max();  ///< Lists go from the lowest to the highest, then by name.
+  bool ours = false;                           ///< True if its entry is one of bench/contestants/own.
+  std::string summary;                         ///< one line
   /// What its forms claim: "GUARANTEE" or "GUARANTEE; KEY=VALUE[ with KEY=VALUE]: GUARANTEE[; ...]", of which
   /// the last whose options are chosen holds.
   std::string accuracy;
@@ -75,6 +91,8 @@ struct ContestantInfo {
   std::function<std::optional<StorageRounding>(const TriangleMesh&, const OptionValues&)> storage_rounding =
       [](const TriangleMesh&, const OptionValues&) { return std::nullopt; };
 
+  Forms forms;
+
   bool built() const noexcept { return static_cast<bool>(build); }
   bool answers(workload::Query query) const noexcept;
 };
@@ -93,23 +111,21 @@ struct ContestantSpec {
 /// Throws std::invalid_argument for another form.
 std::optional<Guarantee> claimed_guarantee(const std::string& accuracy, const OptionValues& values);
 
-/// All contestants, and those that are compared or verified when none is named.
+/// All contestants, in the order of their ranks.
 class Roster {
  public:
-  Roster(std::vector<ContestantInfo> contestants, std::vector<std::string> default_set,
-         std::vector<std::string> verified_besides = {}, std::vector<std::string> frontier = {});
+  explicit Roster(std::vector<ContestantInfo> contestants);
 
   const std::vector<ContestantInfo>& contestants() const noexcept { return contestants_; }
   /// Throws std::invalid_argument; an unknown name's message lists the nearest ones.
   const ContestantInfo& find(const std::string& name) const;
   /// `NAME[:key=value,...]`. Throws std::invalid_argument naming the name, key or value that is wrong.
   ContestantSpec parse(const std::string& text) const;
-  /// The default set, without those that are not built in.
-  std::vector<ContestantSpec> default_set() const;
-  /// The default set and the forms that only verify runs.
+  /// Returns these forms of all contestants that are built in.
+  std::vector<ContestantSpec> forms(std::vector<std::string> Forms::*set) const;
+  std::vector<ContestantSpec> default_set() const { return forms(&Forms::compared); }
+  /// Returns the default set and the forms that only `verify` runs.
   std::vector<ContestantSpec> thorough_set() const;
-  /// Every contestant over the options that trade accuracy for time.
-  std::vector<ContestantSpec> frontier() const;
   /// Throws ResourceError where there is less memory than the contestant takes for so many triangles. For
   /// what builds it, to be asked before a clock starts: the answer comes from the system.
   void require_memory_for(const ContestantSpec& spec, std::size_t triangles) const;
@@ -117,12 +133,7 @@ class Roster {
   std::unique_ptr<Contestant> build(const ContestantSpec& spec, const TriangleMesh& mesh) const;
 
  private:
-  void add_built(std::vector<ContestantSpec>& specs, const std::vector<std::string>& texts) const;
-
   std::vector<ContestantInfo> contestants_;
-  std::vector<std::string> default_set_;
-  std::vector<std::string> verified_besides_;
-  std::vector<std::string> frontier_;
 };
 
 }  // namespace touchmark::bench::contestants

@@ -1,6 +1,7 @@
 /// Queries take no memory: every allocation of the process is counted here, and a query must not add to them.
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <limits>
 #include <new>
@@ -9,11 +10,9 @@
 
 #include <gtest/gtest.h>
 
-#include "core/aabb_tree/aabb_tree.h"
-#include "core/brute_force/brute_force.h"
-#include "core/grid_group/grid_group.h"
-#include "core/sign/signed_detector.h"
-#include "core/sphere_cluster/sphere_cluster.h"
+#include "bench/workload/answer.h"
+#include "bench/workload/steps.h"
+#include "tests/own_forms.h"
 
 namespace {
 
@@ -43,6 +42,11 @@ std::size_t allocations = 0;
 namespace touchmark {
 namespace {
 
+using bench::workload::Answer;
+using bench::workload::Query;
+using bench::workload::QueryTrace;
+using bench::workload::Step;
+
 /// A wavy sheet of 2 * n * n triangles over the unit square.
 TriangleMesh sheet(std::uint32_t n) {
   std::vector<Vec3> vertices;
@@ -69,28 +73,28 @@ std::vector<Vec3> path() {
   return positions;
 }
 
-template <Detector D>
-void expect_no_allocation(const typename D::Options& options) {
-  const D detector = D::build(sheet(20), options);
-  const std::vector<Vec3> positions = path();
+void expect_no_allocation(const bench::contestants::ContestantSpec& spec) {
+  const auto detector = own_roster().build(spec, sheet(20));
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  typename D::Session session;
+  std::vector<Step> near, any;
+  for (const Vec3& position : path()) {
+    near.push_back({{position, 0.01}, 0.01});
+    any.push_back({{position, 0.01}, infinity});
+  }
   std::size_t answered = 0;
+  std::vector<Answer> answers(1);
+  std::vector<std::uint64_t> work(1);
   const std::size_t before = allocations;
-  for (std::size_t i = 1; i < positions.size(); ++i) {
-    const Probe probe{positions[i], 0.01};
-    if constexpr (AnswersTouches<D>) answered += detector.touches(probe, session);
-    if constexpr (AnswersNearest<D>) {
-      answered += detector.nearest(probe, 0.01, session).has_value();
-      answered += detector.nearest(probe, infinity, session).has_value();
-      if constexpr (Prepares<D>) detector.prepare(session);
-    }
-    if constexpr (AnswersSweep<D>) {
-      answered += detector.first_hit({positions[i - 1], positions[i], 0.01}, session).has_value();
+  for (std::size_t i = 1; i < near.size(); ++i) {
+    for (const QueryTrace& trace : {QueryTrace{Query::touches, near}, QueryTrace{Query::nearest, near},
+                                    QueryTrace{Query::nearest, any}, QueryTrace{Query::sweep, near}}) {
+      if (!detector->answers(trace.query)) continue;
+      detector->answer(trace, {i, i + 1}, answers, work);
+      answered += answers[0].found;
     }
   }
-  EXPECT_EQ(allocations, before);
-  EXPECT_GT(answered, 199u);
+  EXPECT_EQ(allocations, before) << spec.text();
+  EXPECT_GT(answered, 199u) << spec.text();
 }
 
 TEST(NoAllocation, CountsAllocations) {
@@ -99,32 +103,13 @@ TEST(NoAllocation, CountsAllocations) {
   EXPECT_EQ(allocations, before + one.size());
 }
 
-TEST(NoAllocation, BruteForce) { expect_no_allocation<BruteForce>({}); }
-
-TEST(NoAllocation, AabbTree) { expect_no_allocation<AabbTree>({}); }
-
-TEST(NoAllocation, Signed) { expect_no_allocation<Signed<AabbTree>>({}); }
-
-TEST(NoAllocation, GridGroup) {
-  for (const GridGroup::Shape shape : {GridGroup::Shape::cube, GridGroup::Shape::sphere}) {
-    for (const GridGroup::Lookup lookup : {GridGroup::Lookup::scan, GridGroup::Lookup::direct}) {
-      GridGroup::Options options;
-      options.shape = shape;
-      options.lookup = lookup;
-      expect_no_allocation<GridGroup>(options);
-    }
-  }
-  expect_no_allocation<GridGroup>({.construction = GridGroup::Construction::lazy});
+TEST(NoAllocation, InAnyFormOfOurDetectors) {
+  for (const bench::contestants::ContestantSpec& spec : own_forms()) expect_no_allocation(spec);
 }
 
-TEST(NoAllocation, SphereCluster) {
-  using Lookup = SphereCluster::Lookup;
-  expect_no_allocation<SphereCluster>({.construction = SphereCluster::Construction::lazy});
-  for (const double clustering : {0.0, 0.1}) {
-    expect_no_allocation<SphereCluster>({clustering, Lookup::scan, true});
-    expect_no_allocation<SphereCluster>({clustering, Lookup::scan, false});
-    expect_no_allocation<SphereCluster>({clustering, Lookup::tree, true});
-  }
+TEST(NoAllocation, WhereTheSideIsAsked) {
+  for (const bench::contestants::ContestantInfo& info : own_roster().contestants())
+    expect_no_allocation(own_roster().parse(info.name + ":side=on"));
 }
 
 }  // namespace

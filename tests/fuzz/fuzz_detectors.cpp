@@ -10,7 +10,7 @@
 
 #include "bench/oracle/judge.h"
 #include "bench/oracle/oracle.h"
-#include "tests/exact_forms.h"
+#include "tests/own_forms.h"
 #include "tests/fuzz/script.h"
 #include "tests/fuzz/target.h"
 

@@ -230,7 +230,7 @@ void add_bench(CLI::App& program, ProgramContext& context) {
   command->final_callback([options, command, &context] {
     const BenchmarkFlags flags = parse_benchmark_flags(command->remaining());
     if (options->frontier) {
-      for (const contestants::ContestantSpec& spec : context.roster.frontier())
+      for (const contestants::ContestantSpec& spec : context.roster.forms(&contestants::Forms::frontier))
         options->selectors.detectors.push_back(spec.text());
     }
     BenchRun run(context, *options, flags);

@@ -14,7 +14,7 @@
 #include "bench/cli/selector_options.h"
 #include "bench/cli/single_step.h"
 #include "bench/cli/worker_options.h"
-#include "bench/contestants/roster_options.h"
+#include "bench/contestants/entry.h"
 #include "bench/results/answer_rows.h"
 #include "bench/scenes/scenes.h"
 #include "bench/support/atomic_file.h"

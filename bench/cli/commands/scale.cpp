@@ -6,7 +6,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -40,15 +39,6 @@ namespace scaling = experiments::scaling;
 
 namespace {
 
-// Those of the default comparison whose time does not grow with the mesh as a scan's does.
-const std::set<std::string> scaled_by_default{"aabb-tree",
-                                              "grid-group",
-                                              "sphere-cluster",
-                                              "fcl",
-                                              "fcl:bv=aabb,method=distance,narrow=exact",
-                                              "bullet:method=callback,frame=fitted",
-                                              "embree",
-                                              "cgal:kernel=simple,hint=bounded"};
 constexpr const char* default_sizes = "1k,10k,100k,1M,10M";
 constexpr const char* quick_sizes = "1k,10k,100k";
 constexpr std::chrono::milliseconds default_build_timeout{600'000};
@@ -72,11 +62,7 @@ double checked_limit(const std::string& text) {
 contestants::CheckedSelectors checked(const contestants::Selectors& selectors,
                                       const contestants::Roster& roster) {
   contestants::CheckedSelectors selection = contestants::check(selectors, roster);
-  if (selectors.detectors.empty()) {
-    std::erase_if(selection.contestants, [](const contestants::ContestantSpec& spec) {
-      return !scaled_by_default.contains(spec.text());
-    });
-  }
+  if (selectors.detectors.empty()) selection.contestants = roster.forms(&contestants::Forms::scaled);
   return selection;
 }
 

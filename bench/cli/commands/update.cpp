@@ -30,21 +30,6 @@ namespace update = experiments::update;
 
 namespace {
 
-// Ours, and rivals with an update of their own or in the form that is fastest to build; the others are asked
-// so that it shows that they have none.
-constexpr std::string_view asked_by_default[] = {"brute-force",
-                                                 "aabb-tree",
-                                                 "grid-group",
-                                                 "sphere-cluster",
-                                                 "fcl",
-                                                 "fcl:bv=aabb,method=distance,narrow=exact",
-                                                 "bullet",
-                                                 "bullet:method=callback,frame=fitted",
-                                                 "embree",
-                                                 "embree:quality=refit",
-                                                 "libccd+aabb:algorithm=mpr",
-                                                 "cgal:kernel=simple,hint=bounded"};
-
 struct UpdateOptions {
   contestants::Selectors selectors;
   std::string shares = "1%,10%,100%";
@@ -75,12 +60,7 @@ std::vector<double> checked_shares(std::string_view text) {
 contestants::CheckedSelectors checked(const contestants::Selectors& selectors,
                                       const contestants::Roster& roster) {
   contestants::CheckedSelectors selection = contestants::check(selectors, roster);
-  if (!selectors.detectors.empty()) return selection;
-  selection.contestants.clear();
-  for (const std::string_view text : asked_by_default) {
-    contestants::ContestantSpec spec = roster.parse(std::string(text));
-    if (roster.find(spec.name).built()) selection.contestants.push_back(std::move(spec));
-  }
+  if (selectors.detectors.empty()) selection.contestants = roster.forms(&contestants::Forms::updated);
   return selection;
 }
 

@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "bench/contestants/roster_options.h"
+#include "bench/contestants/entry.h"
 #include "bench/experiments/papers/paper_trace.h"
 #include "bench/scenes/welded_mesh.h"
 #include "bench/support/available_memory.h"

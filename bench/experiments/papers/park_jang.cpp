@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/contestants/roster_options.h"
+#include "bench/contestants/entry.h"
 #include "bench/experiments/papers/paper_trace.h"
 #include "bench/support/available_memory.h"
 #include "bench/support/failures.h"

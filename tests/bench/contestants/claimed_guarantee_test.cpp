@@ -14,7 +14,7 @@ namespace {
 TEST(ClaimedGuarantee, IsThatOfTheBuiltContestant) {
   const TriangleMesh mesh = scenes::load_scene("icosphere:1");
   std::vector<ContestantSpec> specs = roster().thorough_set();
-  for (const ContestantSpec& spec : roster().frontier()) specs.push_back(spec);
+  for (const ContestantSpec& spec : roster().forms(&Forms::frontier)) specs.push_back(spec);
   std::size_t compared = 0;
   for (const ContestantSpec& spec : specs) {
     ASSERT_TRUE(spec.claimed) << spec.text();

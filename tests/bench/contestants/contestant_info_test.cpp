@@ -21,7 +21,9 @@ Roster small_roster() {
   grid.build = [](const TriangleMesh&, const OptionValues&) { return nullptr; };
   ContestantInfo absent;
   absent.name = "absent";
-  return Roster({grid, absent}, {"absent", "grid-group", "grid-group:shape=sphere"});
+  absent.forms.compared = {""};
+  grid.forms.compared = {"", "shape=sphere"};
+  return Roster({grid, absent});
 }
 
 std::string error_of(const std::string& text) {

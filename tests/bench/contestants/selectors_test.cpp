@@ -11,7 +11,7 @@ namespace {
 
 std::string error_of(const Selectors& selectors) {
   try {
-    check(selectors, Roster({}, {}));
+    check(selectors, Roster({}));
   } catch (const std::invalid_argument& error) {
     return error.what();
   }
@@ -34,9 +34,9 @@ TEST(Length, RefusesWhatIsNoLength) {
 
 TEST(Selectors, ReachIsTheRadiusUnlessGiven) {
   Selectors selectors;
-  EXPECT_FALSE(check(selectors, Roster({}, {})).reach);
+  EXPECT_FALSE(check(selectors, Roster({})).reach);
   selectors.reach = "inf";
-  EXPECT_EQ(check(selectors, Roster({}, {})).reach->value, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(check(selectors, Roster({})).reach->value, std::numeric_limits<double>::infinity());
 }
 
 TEST(Selectors, NameTheOptionAndTheValueThatIsWrong) {

@@ -159,6 +159,12 @@ contestants::ContestantInfo contestant(std::string name) {
   return info;
 }
 
+contestants::ContestantInfo honest() {
+  contestants::ContestantInfo info = contestant<Misbehaving<Honest>>("honest");
+  info.forms.compared = {""};
+  return info;
+}
+
 contestants::ContestantInfo makes_later() {
   contestants::ContestantInfo info = contestant<GridGroup>("makes-later");
   info.build = [](const TriangleMesh& mesh,
@@ -175,15 +181,14 @@ std::int64_t hostile_ns() noexcept { return spent_ns; }
 
 const contestants::Roster& hostile_roster() {
   static const contestants::Roster all(
-      {contestant<Misbehaving<Honest>>("honest"), contestant<Misbehaving<Aborts>>("aborts"),
+      {honest(), contestant<Misbehaving<Aborts>>("aborts"),
        contestant<Misbehaving<AbortsAtBuild>>("aborts-at-build"),
        contestant<Misbehaving<DividesByZero>>("divides-by-zero"), contestant<Misbehaving<Throws>>("throws"),
        contestant<Misbehaving<Exits>>("exits"), contestant<Misbehaving<Hangs>>("hangs"),
        contestant<Misbehaving<HangsAtBuild>>("hangs-at-build"), contestant<Misbehaving<Refuses>>("refuses"),
        contestant<Misbehaving<Lies>>("lies"), contestant<Misbehaving<Fickle>>("fickle"),
        contestant<TouchesOnly>("touches-only"), contestant<Misbehaving<Paced>>("paced"),
-       contestant<Misbehaving<Moody>>("moody"), contestant<Misbehaving<Stalls>>("stalls"), makes_later()},
-      {"honest"});
+       contestant<Misbehaving<Moody>>("moody"), contestant<Misbehaving<Stalls>>("stalls"), makes_later()});
   return all;
 }
 

@@ -17,7 +17,7 @@
 #include "bench/oracle/exact_distance.h"
 #include "bench/oracle/oracle.h"
 #include "tests/bench/oracle/corner_case_triangles.h"
-#include "tests/exact_forms.h"
+#include "tests/own_forms.h"
 
 namespace touchmark {
 namespace {

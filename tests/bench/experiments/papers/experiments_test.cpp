@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/contestants/roster_options.h"
+#include "bench/contestants/entry.h"
 #include "bench/experiments/papers/choi_sung.h"
 #include "bench/experiments/papers/choi_sung_report.h"
 #include "bench/experiments/papers/choi_sung_scores.h"

@@ -1,4 +1,5 @@
-/// How roster.cpp ties the names of options on the command line to values of a detector's Options.
+/// What an entry is written with: it ties the names of options on the command line to values of a detector's
+/// Options.
 #pragma once
 
 #include <cstddef>
@@ -102,13 +103,20 @@ OptionInfo choice(std::string key, const Names<Value>& names, std::string summar
   return option;
 }
 
-/// The roster has checked that the value is one of the names.
+/// Returns what the chosen name stands for. The roster has checked that it is one of the names.
 template <class Value>
 Value chosen(const OptionValues& values, const std::string& key, const Names<Value>& names) {
   for (const auto& [name, value] : names) {
     if (name == values.text(key)) return value;
   }
   return names.front().second;
+}
+
+inline const Names<bool> yes_or_no{{"true", true}, {"false", false}};
+inline const Names<bool> no_or_yes{{"false", false}, {"true", true}};
+
+inline OptionInfo certified_option() {
+  return choice("certified", yes_or_no, "false: contact as doubles have it, to measure what certainty costs");
 }
 
 }  // namespace touchmark::bench::contestants

@@ -1,0 +1,61 @@
+#include "bench/contestants/entry.h"
+
+#include <optional>
+#include <stdexcept>
+
+#include "baselines/bullet/bullet_detector.h"
+#include "baselines/bullet/view.h"
+#include "bench/contestants/rival_options.h"
+
+namespace touchmark::bench::contestants {
+
+ContestantInfo bullet_entry() {
+  ContestantInfo info;
+  info.name = "bullet";
+  info.rank = 60;
+  info.summary = "Bullet Physics: a hierarchy of quantised boxes";
+  using baselines::BulletDetector;
+  using Precision = BulletDetector::Precision;
+  using Method = BulletDetector::Method;
+  using Frame = BulletDetector::Frame;
+  static const Names<Precision> precisions{{"double", Precision::double_precision},
+                                           {"float", Precision::single_precision}};
+  static const Names<Method> methods{{"contact", Method::contact}, {"callback", Method::callback}};
+  static const Names<Frame> frames{{"mesh", Frame::mesh}, {"fitted", Frame::fitted}};
+  info.accuracy = "approximate; method=callback: exact";
+  info.queries = queries_of<BulletDetector>();
+  info.options = {
+      choice("precision", precisions, "which of Debian's two builds of the library"),
+      choice("method", methods, "contact: as most programs use it; callback: this project's kernel"),
+      choice("frame", frames, "fitted: moved and scaled to the size that Bullet is written for"),
+      query_option()};
+  // The two builds define the same names, so a program has one or the other.
+  info.worker_program = [](const OptionValues& values) {
+    return values.text("precision") == "float" ? "touchmark-worker-bullet-float" : default_worker_program;
+  };
+  info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
+    if (chosen(values, "precision", precisions) != BulletDetector::precision()) {
+      throw std::invalid_argument("bullet: precision=" + values.text("precision") +
+                                  " is not the build of Bullet that this program has");
+    }
+    return contestant<BulletDetector>(
+        mesh, {chosen(values, "method", methods), chosen(values, "frame", frames), asking(values)});
+  };
+  info.storage_rounding = [](const TriangleMesh& mesh,
+                             const OptionValues& values) -> std::optional<StorageRounding> {
+    if (values.text("precision") != "float" || values.text("method") != "contact") return std::nullopt;
+    baselines::BulletView view;
+    if (chosen(values, "frame", frames) == Frame::fitted) view = baselines::BulletView::fitted(mesh);
+    return stored_in_single_precision(view.scale, view.origin);
+  };
+  info.forms = {
+      .compared = {"", "precision=float", "precision=float,frame=fitted", "method=callback,frame=fitted"},
+      .verified = {"frame=fitted", "precision=float,method=callback"},
+      .frontier = {"", "frame=fitted", "precision=float", "precision=float,frame=fitted",
+                   "method=callback,frame=fitted"},
+      .scaled = {"method=callback,frame=fitted"},
+      .updated = {"", "method=callback,frame=fitted"}};
+  return info;
+}
+
+}  // namespace touchmark::bench::contestants

@@ -1,0 +1,44 @@
+#include "bench/contestants/entry.h"
+
+#include "baselines/fcl/fcl_detector.h"
+#include "bench/contestants/rival_options.h"
+
+namespace touchmark::bench::contestants {
+
+ContestantInfo fcl_entry() {
+  ContestantInfo info;
+  info.name = "fcl";
+  info.rank = 50;
+  info.summary = "Flexible Collision Library: bounding volume hierarchies";
+  using baselines::FclDetector;
+  using Volume = FclDetector::Volume;
+  using Method = FclDetector::Method;
+  using Narrow = FclDetector::Narrow;
+  static const Names<Volume> volumes{{"kios", Volume::kios},
+                                     {"obbrss", Volume::obbrss},
+                                     {"obb", Volume::obb},
+                                     {"rss", Volume::rss},
+                                     {"aabb", Volume::aabb}};
+  static const Names<Method> methods{
+      {"collide", Method::collide}, {"traverse", Method::traverse}, {"distance", Method::distance}};
+  static const Names<Narrow> narrows{{"fcl", Narrow::fcl}, {"exact", Narrow::exact}};
+  info.accuracy = "approximate; bv=aabb with narrow=exact: exact";
+  info.queries = queries_of<FclDetector>();
+  info.options = {
+      choice("bv", volumes, "the hierarchy's bounding volume"),
+      choice("method", methods, "collide: as most programs use it; distance: best first, bounded"),
+      choice("narrow", narrows, "exact: this project's kernel on the triangles FCL reaches"), query_option()};
+  info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
+    return contestant<FclDetector>(mesh, {chosen(values, "bv", volumes), chosen(values, "method", methods),
+                                          chosen(values, "narrow", narrows), asking(values)});
+  };
+  info.forms = {.compared = {"", "bv=obbrss", "bv=aabb,method=distance,narrow=exact"},
+                .verified = {"bv=obb", "bv=rss,method=distance", "bv=kios,method=traverse,narrow=exact"},
+                .frontier = {"", "bv=kios,method=traverse,narrow=exact", "bv=rss,method=distance",
+                             "bv=aabb,method=distance,narrow=exact"},
+                .scaled = {"", "bv=aabb,method=distance,narrow=exact"},
+                .updated = {"", "bv=aabb,method=distance,narrow=exact"}};
+  return info;
+}
+
+}  // namespace touchmark::bench::contestants

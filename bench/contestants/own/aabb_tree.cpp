@@ -1,0 +1,51 @@
+#include "core/aabb_tree/aabb_tree.h"
+
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+
+#include "bench/contestants/entry.h"
+#include "core/aabb_tree/float_tree.h"
+
+namespace touchmark::bench::contestants {
+
+ContestantInfo aabb_tree_entry() {
+  static const Names<bool> precisions{{"double", false}, {"float", true}};
+  const auto in_floats = [](const OptionValues& values) { return chosen(values, "precision", precisions); };
+  ContestantInfo info;
+  info.name = "aabb-tree";
+  info.rank = 20;
+  info.summary = "a plain binary tree of boxes: the reference";
+  info.accuracy = "exact; precision=float: approximate";
+  info.queries = queries_of<AabbTree>();
+  info.options = {{"leaf_size", OptionKind::count, {}, "4", "triangles a leaf holds at most"},
+                  choice("precision", precisions,
+                         "float: mesh, boxes, kernel and distances in single precision; touches and nearest, "
+                         "no side, nothing certified"),
+                  certified_option(),
+                  updated_option(),
+                  side_option()};
+  info.build = [=](const TriangleMesh& mesh, const OptionValues& values) {
+    const std::size_t leaf_size = values.count("leaf_size");
+    if (in_floats(values)) {
+      if (asks_for_side(values)) throw std::invalid_argument("aabb-tree: precision=float tells no side");
+      return contestant<FloatTree>(mesh, {leaf_size});
+    }
+    return contestant<AabbTree>(mesh, {leaf_size, chosen(values, "certified", yes_or_no)}, values);
+  };
+  info.storage_rounding = [=](const TriangleMesh& mesh,
+                              const OptionValues& values) -> std::optional<StorageRounding> {
+    if (!in_floats(values)) return std::nullopt;
+    const FloatFrame frame = FloatFrame::around(mesh.bounds());
+    return stored_in_single_precision(frame.scale, frame.origin);
+  };
+  info.forms = {.compared = {""},
+                .verified = {"precision=float", "updated=true"},
+                .frontier = {"", "certified=false", "precision=float"},
+                .scaled = {""},
+                .updated = {""},
+                .tested = {"leaf_size=1"}};
+  return info;
+}
+
+}  // namespace touchmark::bench::contestants

@@ -1,0 +1,22 @@
+#include "core/brute_force/brute_force.h"
+
+#include "bench/contestants/entry.h"
+
+namespace touchmark::bench::contestants {
+
+ContestantInfo brute_force_entry() {
+  ContestantInfo info;
+  info.name = "brute-force";
+  info.rank = 10;
+  info.summary = "every triangle, every time: both papers' \"without grouping\"";
+  info.accuracy = "exact";
+  info.queries = queries_of<BruteForce>();
+  info.options = {side_option()};
+  info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
+    return contestant<BruteForce>(mesh, {}, values);
+  };
+  info.forms = {.compared = {""}, .updated = {""}};
+  return info;
+}
+
+}  // namespace touchmark::bench::contestants

@@ -1,0 +1,46 @@
+/// The forms of our own detectors, as their entries list them, and the exact ones among these built of a
+/// mesh.
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/contestants/contestant.h"
+#include "bench/contestants/roster.h"
+
+namespace touchmark {
+
+inline const bench::contestants::Roster& own_roster() {
+  static const bench::contestants::Roster ours(bench::contestants::own_entries());
+  return ours;
+}
+
+/// Returns every form that `bench` and `verify` ask, and those that only tests do. Brute force comes first.
+inline std::vector<bench::contestants::ContestantSpec> own_forms() {
+  std::vector<bench::contestants::ContestantSpec> specs = own_roster().thorough_set();
+  for (auto& spec : own_roster().forms(&bench::contestants::Forms::tested)) specs.push_back(std::move(spec));
+  return specs;
+}
+
+struct ExactForm {
+  std::string name;
+  std::unique_ptr<bench::contestants::Contestant> detector;
+  bool as_published = false;
+};
+
+/// Brute force comes first: the others must give its bits.
+inline std::vector<ExactForm> exact_forms(const TriangleMesh& mesh) {
+  constexpr double largest = 1e300;  // of which percents are taken
+  std::vector<ExactForm> forms;
+  for (const bench::contestants::ContestantSpec& spec : own_forms()) {
+    if (spec.claimed != Guarantee::exact) continue;
+    if (spec.options.find('%') != std::string::npos && !(mesh.diagonal() < largest)) continue;
+    forms.push_back({spec.text(), own_roster().build(spec, mesh), spec.options.starts_with("lookup=scan")});
+  }
+  return forms;
+}
+
+}  // namespace touchmark
