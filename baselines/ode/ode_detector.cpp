@@ -1,0 +1,181 @@
+#include "baselines/ode/ode_detector.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <ode/ode.h>
+
+#include "core/geometry/point_triangle.h"
+#include "core/triangle_mesh.h"
+
+namespace touchmark::baselines {
+namespace {
+
+static_assert(sizeof(dReal) == sizeof(double), "Debian builds ODE in double precision");
+
+/// What one question may bring back. dCollide takes the number in sixteen bits.
+constexpr int max_contacts = 4096;
+
+/// ODE's own state, which a program sets up once.
+void start_ode() { [[maybe_unused]] static const int started = dInitODE2(0); }
+
+Vec3 vec3(const dVector3& v) { return {v[0], v[1], v[2]}; }
+
+}  // namespace
+
+struct OdeDetector::Model {
+  Model(const TriangleMesh& mesh, const Options& chosen)
+      : options(chosen),
+        bounds(mesh.bounds()),
+        triangles(prepare(mesh)),
+        ids(mesh.ids().begin(), mesh.ids().end()),
+        vertices(mesh.vertices().begin(), mesh.vertices().end()) {
+    for (const TriangleMesh::Corners& c : mesh.triangles()) corners.push_back({c[0], c[1], c[2]});
+    if (options.sides == Sides::both)
+      for (const TriangleMesh::Corners& c : mesh.triangles()) corners.push_back({c[0], c[2], c[1]});
+    data = dGeomTriMeshDataCreate();
+    dGeomTriMeshDataBuildDouble(data, vertices.data(), sizeof(Vec3), static_cast<int>(vertices.size()),
+                                corners.data(), static_cast<int>(3 * corners.size()), sizeof(corners[0]));
+    geometry = dCreateTriMesh(nullptr, data, nullptr, nullptr, nullptr);
+  }
+  Model(const Model&) = delete;
+  Model& operator=(const Model&) = delete;
+  ~Model() {
+    dGeomDestroy(geometry);
+    dGeomTriMeshDataDestroy(data);
+  }
+
+  Options options;
+  Aabb bounds;
+  std::vector<PreparedTriangle> triangles;
+  std::vector<TriangleId> ids;
+  std::vector<Vec3> vertices;
+  std::vector<std::array<dTriIndex, 3>> corners;
+  dTriMeshDataID data;
+  dGeomID geometry;
+};
+
+struct OdeDetector::Session::State {
+  State() { start_ode(), ball = dCreateSphere(nullptr, 1); }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+  ~State() { dGeomDestroy(ball); }
+
+  /// Returns what ODE reports of the ball and the mesh, at most so much, and perhaps less where `flags` say
+  /// that any will do.
+  std::span<const dContactGeom> collide(dGeomID mesh, const Vec3& center, double radius, int flags) {
+    dGeomSphereSetRadius(ball, radius);
+    dGeomSetPosition(ball, center.x(), center.y(), center.z());
+    const int found = dCollide(ball, mesh, flags, contacts.data(), sizeof(dContactGeom));
+    return {contacts.data(), static_cast<std::size_t>(found)};
+  }
+
+  dGeomID ball;
+  std::vector<dContactGeom> contacts{max_contacts};
+  std::uint32_t last = no_triangle;  ///< The triangle of the last contact.
+};
+
+OdeDetector::Session::Session() noexcept = default;
+OdeDetector::Session::Session(Session&&) noexcept = default;
+OdeDetector::Session& OdeDetector::Session::operator=(Session&&) noexcept = default;
+OdeDetector::Session::~Session() = default;
+
+OdeDetector::OdeDetector(std::unique_ptr<Model> model) noexcept : model_(std::move(model)) {}
+OdeDetector::OdeDetector(OdeDetector&&) noexcept = default;
+OdeDetector& OdeDetector::operator=(OdeDetector&&) noexcept = default;
+OdeDetector::~OdeDetector() = default;
+
+OdeDetector OdeDetector::build(const TriangleMesh& mesh, const Options& options) {
+  if (mesh.size() > std::size_t{1} << 30 || mesh.vertices().size() > std::numeric_limits<int>::max())
+    throw MeshError("ode: a mesh of " + std::to_string(mesh.size()) + " triangles and " +
+                    std::to_string(mesh.vertices().size()) + " vertices has more of them than ODE can count");
+  start_ode();
+  return OdeDetector(std::make_unique<Model>(mesh, options));
+}
+
+OdeDetector::Session::State& OdeDetector::state(Session& session) {
+  if (!session.state_) session.state_ = std::make_unique<Session::State>();
+  return *session.state_;
+}
+
+bool OdeDetector::touches(const Probe& probe, Session& session) const noexcept {
+  const Model& model = *model_;
+  if (model.options.query == Asking::checked && out_of_reach(model.bounds, probe.center, probe.radius))
+    return false;
+  const double radius = finite_reach(model.bounds, probe.center, probe.radius);
+  if (!answerable(probe.center, radius)) return false;
+  const auto found = state(session).collide(model.geometry, probe.center, radius, 1 | CONTACTS_UNIMPORTANT);
+  session.work.triangles += found.size();
+  return !found.empty();
+}
+
+/// A ball that has brought back as much as it may is asked again as small as the nearest of it.
+std::optional<Contact> OdeDetector::nearest_in_ball(const Vec3& center, double radius,
+                                                    Session& session) const noexcept {
+  const Model& model = *model_;
+  Session::State& state = *session.state_;
+  for (;;) {
+    const auto found = state.collide(model.geometry, center, radius, max_contacts);
+    session.work.triangles += found.size();
+    std::optional<Contact> best;
+    for (const dContactGeom& contact : found) {
+      const Vec3 point = vec3(contact.pos);
+      const double distance = (center - point).norm();
+      const std::size_t triangle = static_cast<std::size_t>(contact.side2) % model.triangles.size();
+      const TriangleId id = model.ids.empty() ? static_cast<TriangleId>(triangle) : model.ids[triangle];
+      if (!(distance <= radius)) continue;
+      if (best && !(std::pair(distance, id) < std::pair(best->distance, best->triangle))) continue;
+      state.last = static_cast<std::uint32_t>(triangle);
+      best = {point, distance > 0 ? Vec3((center - point) / distance) : vec3(contact.normal), distance, id};
+    }
+    if (found.size() < max_contacts || !best || !(best->distance < radius)) return best;
+    radius = best->distance;
+  }
+}
+
+std::optional<Contact> OdeDetector::nearest(const Probe& probe, double reach,
+                                            Session& session) const noexcept {
+  const Model& model = *model_;
+  const Vec3& center = probe.center;
+  Session::State& state = OdeDetector::state(session);
+  const bool checked = model.options.query == Asking::checked;
+  if (checked && out_of_reach(model.bounds, center, reach)) {
+    state.last = no_triangle;
+    return std::nullopt;
+  }
+  reach = finite_reach(model.bounds, center, reach);
+  if (!answerable(center, reach)) return std::nullopt;
+  double within = reach;
+  if (checked && state.last < model.triangles.size()) {
+    constexpr double a_little_more = 1 + 1e-6;  // so that triangles as near stay within
+    ++session.work.triangles;
+    within =
+        std::min(reach, a_little_more * std::sqrt(squared_distance(model.triangles[state.last], center)));
+  }
+  const auto ask = [&](double radius) { return nearest_in_ball(center, radius, session); };
+  std::optional<Contact> contact = nearest_by_growing(model.bounds, center, within, ask);
+  // From behind, ODE does not know the last triangle, and what it knows may be farther.
+  if (!contact && within < reach) contact = nearest_by_growing(model.bounds, center, reach, ask);
+  if (!contact) state.last = no_triangle;
+  return contact;
+}
+
+std::size_t OdeDetector::bytes() const noexcept {
+  const Model& model = *model_;
+  return model.vertices.capacity() * sizeof(Vec3) + model.corners.capacity() * sizeof(model.corners[0]) +
+         model.triangles.capacity() * sizeof(PreparedTriangle) + model.ids.capacity() * sizeof(TriangleId);
+}
+
+Accuracy OdeDetector::accuracy() const noexcept {
+  // Boxes are compared in single precision: a triangle at the very reach may be lost by some of its
+  // roundings.
+  const double largest = model_->bounds.min.cwiseAbs().cwiseMax(model_->bounds.max.cwiseAbs()).maxCoeff();
+  constexpr double roundoff = std::numeric_limits<float>::epsilon() / 2;
+  return {Guarantee::approximate, 8 * roundoff, 8 * roundoff * largest};
+}
+
+}  // namespace touchmark::baselines
