@@ -66,7 +66,7 @@ void merge(const MergeOptions& options) {
   }
   jobs = batch::in_order(std::move(jobs), manifest);
   support::AtomicFile file(options.out);
-  file.write(results::csv_line(results::results_columns()));
+  file.write(results::csv_line(results::names_of(results::results_columns())));
   for (const batch::FoundJob& job : jobs) file.write(results::csv_line(job.result.fields));
   file.commit();
   fmt::print(stderr, "touchmark: {} rows\n", jobs.size());

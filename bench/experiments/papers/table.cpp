@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/results/results_csv.h"
+#include "bench/results/column.h"
 
 namespace touchmark::bench::experiments::papers {
 namespace {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "bench/experiments/scaling/mesh_sizes.h"
-#include "bench/results/results_csv.h"
+#include "bench/results/column.h"
 #include "bench/support/text_table.h"
 #include "bench/workload/query_name.h"
 
@@ -69,6 +69,26 @@ std::optional<Growth> growth_along(const std::vector<const measurement::ResultRo
 
 std::string rounded(double value) { return fmt::format("{:.6g}", value); }
 
+// The order is the contract.
+constexpr auto columns = std::to_array<results::Column<Growth>>({
+    {"schema", [](const Growth&) { return std::to_string(scaling_schema); }},
+    {"detector", [](const Growth& growth) { return growth.detector; }},
+    {"options", [](const Growth& growth) { return growth.options; }},
+    {"trajectory", [](const Growth& growth) { return growth.trajectory; }},
+    {"quantity", [](const Growth& growth) { return std::string(growth.quantity); }},
+    {"points", [](const Growth& growth) { return std::to_string(growth.law.points); }},
+    {"exponent", [](const Growth& growth) { return rounded(growth.law.exponent); }},
+    {"exponent_low",
+     [](const Growth& growth) { return growth.law.interval ? rounded(growth.law.interval->low) : ""; }},
+    {"exponent_high",
+     [](const Growth& growth) { return growth.law.interval ? rounded(growth.law.interval->high) : ""; }},
+    {"factor", [](const Growth& growth) { return rounded(growth.law.factor); }},
+    {"family", [](const Growth& growth) { return growth.family; }},
+    {"query", [](const Growth& growth) { return std::string(workload::name_of(growth.query)); }},
+    {"least_triangles", [](const Growth& growth) { return std::to_string(growth.min_triangles); }},
+    {"most_triangles", [](const Growth& growth) { return std::to_string(growth.max_triangles); }},
+});
+
 std::string exponent_cell(const PowerLaw& law) {
   if (!law.interval) return fmt::format("{:.2f}", law.exponent);
   return fmt::format("{:.2f} [{:.2f}, {:.2f}]", law.exponent, law.interval->low, law.interval->high);
@@ -97,21 +117,7 @@ std::vector<Growth> growth_of(const std::vector<measurement::ResultRow>& rows) {
   return growths;
 }
 
-std::string scaling_csv(const std::vector<Growth>& growths) {
-  std::string csv = results::csv_line({"schema", "detector", "options", "trajectory", "quantity", "points",
-                                       "exponent", "exponent_low", "exponent_high", "factor", "family",
-                                       "query", "least_triangles", "most_triangles"});
-  for (const Growth& growth : growths) {
-    const PowerLaw& law = growth.law;
-    csv += results::csv_line(
-        {fmt::format("{}", scaling_schema), growth.detector, growth.options, growth.trajectory,
-         std::string(growth.quantity), fmt::format("{}", law.points), rounded(law.exponent),
-         law.interval ? rounded(law.interval->low) : "", law.interval ? rounded(law.interval->high) : "",
-         rounded(law.factor), growth.family, std::string(workload::name_of(growth.query)),
-         fmt::format("{}", growth.min_triangles), fmt::format("{}", growth.max_triangles)});
-  }
-  return csv;
-}
+std::string scaling_csv(const std::vector<Growth>& growths) { return results::csv_of(columns, growths); }
 
 std::string growth_table(const std::vector<Growth>& growths) {
   std::vector<std::string> header{"detector"};

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/results/results_csv.h"
+#include "bench/results/column.h"
 #include "bench/support/csv_reader.h"
 #include "bench/support/numbers.h"
 

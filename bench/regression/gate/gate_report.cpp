@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/results/results_csv.h"
+#include "bench/results/column.h"
 #include "bench/support/text_table.h"
 
 namespace touchmark::bench::regression::gate {
