@@ -47,7 +47,10 @@ class PairedBatches::Contender {
   }
 
   double ns_per_query(double budget_ns) {
-    return std::max(attempt([&] { return process_.calibrate(task_, budget_ns); }).ns_per_query, 1.0);
+    return std::max(attempt([&] {
+                      return process_.ask(workers::request::Calibrate{task_, budget_ns});
+                    }).ns_per_query,
+                    1.0);
   }
 
   /// Before anything is timed.
@@ -55,7 +58,7 @@ class PairedBatches::Contender {
     task_.steps = steps;
     const std::vector<workload::StepRange> ranges =
         workload::sample_steps(batches_.workload_.traces[task_.trace].size(), steps);
-    const workers::Answered answered = attempt([&] { return process_.answer(task_); });
+    const workers::Answered answered = attempt([&] { return process_.ask(workers::request::Answer{task_}); });
     const workers::OutputBuffers& buffers = batches_.arena_.buffers();
     const std::size_t count = workload::steps_in(ranges);
     checksum_ = answered.checksum;
@@ -79,7 +82,7 @@ class PairedBatches::Contender {
 
  private:
   double timed(std::int64_t passes) {
-    const workers::Timed timed = attempt([&] { return process_.time(task_, passes); });
+    const workers::Timed timed = attempt([&] { return process_.ask(workers::request::Time{task_, passes}); });
     if (!timed.steady || timed.checksum != checksum_) fail("answers otherwise when it is timed");
     return timed.cpu_ns_per_query;
   }
