@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "bench/ground_truth/ground_truth.h"
+#include "bench/support/interleaving.h"
 #include "bench/support/interrupt.h"
 #include "bench/support/random.h"
 #include "bench/workload/sample_steps.h"
@@ -141,13 +142,10 @@ Batch PairedBatches::measure() {
   for (Contender& contender : contenders) contender.warm_up(effort_.turn_ns);
 
   support::Random random(seed_++);
-  std::array<std::size_t, 3> order{0, 1, 2};
-  for (std::size_t round = 0; round < effort_.rounds; ++round) {
-    random.shuffle(order);
-    for (const std::size_t which : order) {
-      support::check_for_interrupt();
-      contenders[which].turn();
-    }
+  const std::vector<std::size_t> rounds(effort_.rounds, contenders.size());
+  for (const support::Turn& turn : support::interleaved(rounds, random)) {
+    support::check_for_interrupt();
+    contenders[turn.which].turn();
   }
   log_ratios_ = differences(detector.log_ns(), reference.log_ns());
   return {median_ratio(log_ratios_, seed_),
