@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/support/numbers.h"
+#include "bench/support/table.h"
 #include "bench/workload/query_name.h"
 
 namespace touchmark::bench::results {
@@ -89,18 +90,11 @@ std::vector<std::string> fields_of(const Columns& columns, const Row& row, const
   return fields;
 }
 
-/// One field, in quotes if it needs them, as RFC 4180 has it.
-std::string csv_field(const std::string& text);
-
-/// One line, ended by a line feed.
-std::string csv_line(const std::vector<std::string>& fields);
-
-/// Header and rows, each ended by a line feed.
 template <class Columns, class Rows>
-std::string csv_of(const Columns& columns, const Rows& rows, const std::string& run_id = "") {
-  std::string csv = csv_line(names_of(columns));
-  for (const auto& row : rows) csv += csv_line(fields_of(columns, row, run_id));
-  return csv;
+support::Table table_of(const Columns& columns, const Rows& rows, const std::string& run_id = "") {
+  support::Table table(names_of(columns));
+  for (const auto& row : rows) table.add(fields_of(columns, row, run_id));
+  return table;
 }
 
 }  // namespace touchmark::bench::results

@@ -268,7 +268,7 @@ constexpr auto columns = std::to_array<Column<R>>({
 std::span<const Column<R>> results_columns() { return columns; }
 
 std::string results_csv(const std::string& run_id, const std::vector<R>& rows) {
-  return csv_of(columns, rows, run_id);
+  return table_of(columns, rows, run_id).csv();
 }
 
 }  // namespace touchmark::bench::results

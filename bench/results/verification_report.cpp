@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -9,24 +10,11 @@
 
 #include "bench/support/available_memory.h"
 #include "bench/support/failures.h"
-#include "bench/support/text_table.h"
+#include "bench/support/table.h"
 #include "bench/workload/query_name.h"
 
 namespace touchmark::bench::results {
 namespace {
-
-/// Sums up all rows of one contestant.
-struct Summary {
-  std::string contestant;
-  std::string guarantee;
-  oracle::ErrorCounts counts;
-  std::size_t unsupported = 0;
-  std::size_t refused = 0;
-  std::size_t crashed = 0;
-  std::size_t timed_out = 0;
-  std::size_t broken = 0;
-  std::string short_of_memory;  ///< the first status that says so
-};
 
 bool answered(const measurement::ResultRow& row) { return row.status == "ok"; }
 constexpr std::string_view refusal = "refused: ";
@@ -35,30 +23,20 @@ bool declined(const measurement::ResultRow& row) {
          row.status.starts_with("skipped: ");
 }
 
-void add(Summary& summary, const measurement::ResultRow& row) {
-  if (row.counts) summary.counts += *row.counts;
-  if (row.claim()) summary.guarantee = measurement::guarantee_name(row);
-  summary.unsupported += row.status == "unsupported" ? 1 : 0;
-  summary.refused += row.status.starts_with("refused") ? 1 : 0;
-  summary.crashed += row.status.starts_with("crashed") ? 1 : 0;
-  summary.timed_out += row.status == "timeout" ? 1 : 0;
-  summary.broken += claim_is_broken(row) ? 1 : 0;
-  if (is_short_of_memory(row) && summary.short_of_memory.empty()) summary.short_of_memory = row.status;
-}
-
 std::vector<Summary> summarize(const std::vector<measurement::ResultRow>& rows) {
-  std::vector<Summary> summaries;
+  std::vector<Summary> contestants;
   for (const measurement::ResultRow& row : rows) {
     const std::string name = row.contestant();
-    auto found = std::find_if(summaries.begin(), summaries.end(),
-                              [&](const Summary& summary) { return summary.contestant == name; });
-    if (found == summaries.end()) {
-      summaries.emplace_back().contestant = name;
-      found = summaries.end() - 1;
+    auto found = std::find_if(contestants.begin(), contestants.end(),
+                              [&](const Summary& one) { return one.contestant == name; });
+    if (found == contestants.end()) {
+      contestants.emplace_back().contestant = name;
+      found = contestants.end() - 1;
     }
-    add(*found, row);
+    found->add(row);
+    found->broken = found->broken || claim_is_broken(row);
   }
-  return summaries;
+  return contestants;
 }
 
 bool without_fault(const measurement::ResultRow& row) {
@@ -108,25 +86,45 @@ std::string judged_answers(const std::vector<measurement::ResultRow>& rows) {
   return fmt::format("{} answers judged exactly\n", judged);
 }
 
+void Summary::add(const measurement::ResultRow& row) {
+  if (row.counts) counts += *row.counts;
+  if (row.claim()) guarantee = measurement::guarantee_name(row);
+  unsupported += row.status == "unsupported" ? 1 : 0;
+  refusals += row.status.starts_with("refused") ? 1 : 0;
+  crashes += row.status.starts_with("crashed") ? 1 : 0;
+  timeouts += row.status == "timeout" ? 1 : 0;
+  if (is_short_of_memory(row) && short_of_memory.empty()) short_of_memory = row.status;
+}
+
 int status_of(const std::vector<measurement::ResultRow>& rows, bool faulty) {
+  return status_of(summarize(rows), faulty);
+}
+
+int status_of(const std::vector<Summary>& summaries, bool faulty) {
   if (faulty) return support::exit_check_failed;
-  std::uint64_t judged = 0;
+  std::map<std::string, std::uint64_t> judged;
+  std::uint64_t all_judged = 0;
+  for (const Summary& one : summaries) {
+    judged[one.contestant] += one.counts.judged;
+    all_judged += one.counts.judged;
+  }
+  std::set<std::string> reported;
   int status = support::exit_done;
-  for (const Summary& one : summarize(rows)) {
-    judged += one.counts.judged;
-    if (one.counts.judged > 0 || one.short_of_memory.empty()) continue;
+  for (const Summary& one : summaries) {
+    if (judged[one.contestant] > 0 || one.short_of_memory.empty()) continue;
+    if (!reported.insert(one.contestant).second) continue;
     fmt::print(stderr, "touchmark: {}: nothing judged: {}\n", one.contestant, one.short_of_memory);
     status = support::exit_resources;
   }
-  if (status != support::exit_done || judged > 0) return status;
+  if (status != support::exit_done || all_judged > 0) return status;
   fmt::print(stderr, "touchmark: inconclusive: 0 answers were judged\n");
   return support::exit_inconclusive;
 }
 
 std::string verification_table(const std::vector<measurement::ResultRow>& rows) {
-  support::TextTable table({"detector", "guarantee", "answers", "missed", "false", "triangle", "distance",
-                            "point", "normal", "side", "no number", "rounding", "unresolved", "error/diag",
-                            "unsupported", "refused", "crashed", "timeout", "verdict"});
+  support::Table table({"detector", "guarantee", "answers", "missed", "false", "triangle", "distance",
+                        "point", "normal", "side", "no number", "rounding", "unresolved", "error/diag",
+                        "unsupported", "refused", "crashed", "timeout", "verdict"});
   const auto count = [](std::uint64_t value) { return fmt::format("{}", value); };
   for (const Summary& one : summarize(rows)) {
     const oracle::ErrorCounts& counts = one.counts;
@@ -135,8 +133,8 @@ std::string verification_table(const std::vector<measurement::ResultRow>& rows) 
                count(counts.wrong_point), count(counts.wrong_normal), count(counts.wrong_side),
                count(counts.malformed), count(counts.rounding), count(counts.unresolved),
                fmt::format("{:.2g}", counts.max_distance_error_of_diagonal), count(one.unsupported),
-               count(one.refused), count(one.crashed), count(one.timed_out),
-               std::string(verdict_on(one.broken > 0, counts.judged))});
+               count(one.refusals), count(one.crashes), count(one.timeouts),
+               std::string(verdict_on(one.broken, counts.judged))});
   }
   return table.text() + judged_answers(rows);
 }

@@ -8,7 +8,7 @@
 
 #include "bench/experiments/scaling/mesh_sizes.h"
 #include "bench/results/column.h"
-#include "bench/support/text_table.h"
+#include "bench/support/table.h"
 #include "bench/workload/query_name.h"
 
 namespace touchmark::bench::experiments::scaling {
@@ -117,7 +117,9 @@ std::vector<Growth> growth_of(const std::vector<measurement::ResultRow>& rows) {
   return growths;
 }
 
-std::string scaling_csv(const std::vector<Growth>& growths) { return results::csv_of(columns, growths); }
+std::string scaling_csv(const std::vector<Growth>& growths) {
+  return results::table_of(columns, growths).csv();
+}
 
 std::string growth_table(const std::vector<Growth>& growths) {
   std::vector<std::string> header{"detector"};
@@ -129,7 +131,7 @@ std::string growth_table(const std::vector<Growth>& growths) {
     if (std::none_of(tables.begin(), tables.end(), same)) tables.push_back(&growth);
   }
   for (const Growth* kind : tables) {
-    support::TextTable table(header);
+    support::Table table(header);
     std::vector<std::string> names;
     for (const Growth& growth : growths) {
       const bool known = std::find(names.begin(), names.end(), growth.contestant()) != names.end();

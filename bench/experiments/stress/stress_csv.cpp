@@ -82,7 +82,7 @@ constexpr auto columns = std::to_array<results::Column<Score>>({
 std::span<const results::Column<Score>> stress_columns() { return columns; }
 
 std::string stress_csv(const std::string& run_id, const std::vector<Score>& scores) {
-  return results::csv_of(columns, scores, run_id);
+  return results::table_of(columns, scores, run_id).csv();
 }
 
 }  // namespace touchmark::bench::experiments::stress

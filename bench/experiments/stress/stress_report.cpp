@@ -8,7 +8,7 @@
 
 #include "bench/results/run_circumstances.h"
 #include "bench/results/verification_report.h"
-#include "bench/support/text_table.h"
+#include "bench/support/table.h"
 #include "bench/workload/query_name.h"
 
 namespace touchmark::bench::experiments::stress {
@@ -74,7 +74,7 @@ std::string stress_table(const std::vector<Score>& scores) {
   std::map<std::size_t, bool> broken;
   std::map<std::size_t, std::uint64_t> judged;
   for (const Score& score : scores) {
-    const std::size_t row = column_of(contestants, score.contestant());
+    const std::size_t row = column_of(contestants, score.contestant);
     cells[{row, column_of(shown, score.family)}].add(score);
     broken[row] = broken[row] || score.broken;
     judged[row] += score.counts.judged;
@@ -82,7 +82,7 @@ std::string stress_table(const std::vector<Score>& scores) {
   std::vector<std::string> header{"contestant"};
   for (std::size_t column = 0; column < shown.size(); ++column) header.push_back(letter(column));
   header.emplace_back("verdict");
-  support::TextTable table(header);
+  support::Table table(header);
   for (std::size_t row = 0; row < contestants.size(); ++row) {
     std::vector<std::string> line{contestants[row]};
     for (std::size_t column = 0; column < shown.size(); ++column) {

@@ -8,7 +8,7 @@
 
 #include "bench/measurement/result_row.h"
 #include "bench/results/column.h"
-#include "bench/support/text_table.h"
+#include "bench/support/table.h"
 
 namespace touchmark::bench::experiments::update {
 namespace {
@@ -88,7 +88,7 @@ std::string table_of(const std::vector<UpdateRow>& rows, const std::string& mesh
   for (const double share : shares) header.push_back(fmt::format("{:g} %", 100 * share));
   for (const char* name : {"query then", "missed", "false", "triangle", "off", "status"})
     header.emplace_back(name);
-  support::TextTable table(header);
+  support::Table table(header);
   for (const std::string& contestant : contestants) {
     std::vector<std::string> cells{contestant, ""};
     std::optional<double> dearest;
@@ -118,7 +118,7 @@ std::string table_of(const std::vector<UpdateRow>& rows, const std::string& mesh
 
 }  // namespace
 
-std::string update_csv(const std::vector<UpdateRow>& rows) { return results::csv_of(columns, rows); }
+std::string update_csv(const std::vector<UpdateRow>& rows) { return results::table_of(columns, rows).csv(); }
 
 std::string update_table(const std::vector<UpdateRow>& rows) {
   std::vector<std::string> meshes;

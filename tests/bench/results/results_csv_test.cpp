@@ -69,11 +69,11 @@ TEST(ResultsCsv, AcceptsWhatItsColumnsAreFor) {
 }
 
 TEST(ResultsCsv, QuotesAsRfc4180Does) {
-  EXPECT_EQ(csv_field("plain text"), "plain text");
-  EXPECT_EQ(csv_field("lookup=scan,shape=cube"), "\"lookup=scan,shape=cube\"");
-  EXPECT_EQ(csv_field("say \"no\""), "\"say \"\"no\"\"\"");
-  EXPECT_EQ(csv_field("two\nlines"), "\"two\nlines\"");
-  EXPECT_EQ(csv_field(""), "");
+  EXPECT_EQ(support::csv_field("plain text"), "plain text");
+  EXPECT_EQ(support::csv_field("lookup=scan,shape=cube"), "\"lookup=scan,shape=cube\"");
+  EXPECT_EQ(support::csv_field("say \"no\""), "\"say \"\"no\"\"\"");
+  EXPECT_EQ(support::csv_field("two\nlines"), "\"two\nlines\"");
+  EXPECT_EQ(support::csv_field(""), "");
 }
 
 TEST(ResultsCsv, LeavesEmptyWhatWasNotMeasured) {
