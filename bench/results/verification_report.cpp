@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <map>
 #include <set>
 #include <utility>
 
@@ -10,6 +9,7 @@
 
 #include "bench/support/available_memory.h"
 #include "bench/support/failures.h"
+#include "bench/support/grouping.h"
 #include "bench/support/table.h"
 #include "bench/workload/query_name.h"
 
@@ -25,16 +25,14 @@ bool declined(const measurement::ResultRow& row) {
 
 std::vector<Summary> summarize(const std::vector<measurement::ResultRow>& rows) {
   std::vector<Summary> contestants;
-  for (const measurement::ResultRow& row : rows) {
-    const std::string name = row.contestant();
-    auto found = std::find_if(contestants.begin(), contestants.end(),
-                              [&](const Summary& one) { return one.contestant == name; });
-    if (found == contestants.end()) {
-      contestants.emplace_back().contestant = name;
-      found = contestants.end() - 1;
+  for (const auto& [name, of_it] :
+       support::grouped_by(rows, [](const measurement::ResultRow& row) { return row.contestant(); })) {
+    Summary& summary = contestants.emplace_back();
+    summary.contestant = name;
+    for (const measurement::ResultRow* row : of_it) {
+      summary.add(*row);
+      summary.broken = summary.broken || claim_is_broken(*row);
     }
-    found->add(row);
-    found->broken = found->broken || claim_is_broken(row);
   }
   return contestants;
 }
@@ -102,18 +100,19 @@ int status_of(const std::vector<measurement::ResultRow>& rows, bool faulty) {
 
 int status_of(const std::vector<Summary>& summaries, bool faulty) {
   if (faulty) return support::exit_check_failed;
-  std::map<std::string, std::uint64_t> judged;
   std::uint64_t all_judged = 0;
-  for (const Summary& one : summaries) {
-    judged[one.contestant] += one.counts.judged;
-    all_judged += one.counts.judged;
-  }
-  std::set<std::string> reported;
   int status = support::exit_done;
-  for (const Summary& one : summaries) {
-    if (judged[one.contestant] > 0 || one.short_of_memory.empty()) continue;
-    if (!reported.insert(one.contestant).second) continue;
-    fmt::print(stderr, "touchmark: {}: nothing judged: {}\n", one.contestant, one.short_of_memory);
+  for (const auto& [contestant, of_it] :
+       support::grouped_by(summaries, [](const Summary& one) { return one.contestant; })) {
+    std::uint64_t judged = 0;
+    std::string short_of_memory;
+    for (const Summary* one : of_it) {
+      judged += one->counts.judged;
+      if (short_of_memory.empty()) short_of_memory = one->short_of_memory;
+    }
+    all_judged += judged;
+    if (judged > 0 || short_of_memory.empty()) continue;
+    fmt::print(stderr, "touchmark: {}: nothing judged: {}\n", contestant, short_of_memory);
     status = support::exit_resources;
   }
   if (status != support::exit_done || all_judged > 0) return status;

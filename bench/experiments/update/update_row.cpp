@@ -8,6 +8,7 @@
 
 #include "bench/measurement/result_row.h"
 #include "bench/results/column.h"
+#include "bench/support/grouping.h"
 #include "bench/support/table.h"
 
 namespace touchmark::bench::experiments::update {
@@ -71,37 +72,26 @@ constexpr auto columns = std::to_array<results::Column<R>>({
     {"max_distance_error_of_diagonal", of_counts<&E::max_distance_error_of_diagonal>},
 });
 
-template <class Values, class Value>
-void add_new(Values& values, const Value& value) {
-  if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
-}
-
-std::string table_of(const std::vector<UpdateRow>& rows, const std::string& mesh) {
-  std::vector<double> shares;
-  std::vector<std::string> contestants;
-  for (const UpdateRow& row : rows) {
-    if (row.mesh != mesh) continue;
-    add_new(shares, row.share);
-    add_new(contestants, row.contestant());
-  }
+std::string table_of(const std::vector<const UpdateRow*>& rows, const std::string& mesh) {
   std::vector<std::string> header{"detector", "build ms"};
-  for (const double share : shares) header.push_back(fmt::format("{:g} %", 100 * share));
+  for (const auto& [share, _] : support::grouped_by(rows, [](Row row) { return row.share; }))
+    header.push_back(fmt::format("{:g} %", 100 * share));
   for (const char* name : {"query then", "missed", "false", "triangle", "off", "status"})
     header.emplace_back(name);
   support::Table table(header);
-  for (const std::string& contestant : contestants) {
+  for (const auto& [contestant, of_it] :
+       support::grouped_by(rows, [](Row row) { return row.contestant(); })) {
     std::vector<std::string> cells{contestant, ""};
     std::optional<double> dearest;
     oracle::ErrorCounts errors;
     std::string status = "ok";
-    for (const UpdateRow& row : rows) {
-      if (row.mesh != mesh || row.contestant() != contestant) continue;
-      if (row.updated) cells[1] = fmt::format("{:.3g}", row.updated->build_ms);
-      cells.push_back(row.updated ? fmt::format("{:.3g}", row.updated->update_over_build) : "");
-      if (row.counts) errors += *row.counts;
-      if (row.status != "ok") status = row.status;
-      if (row.ns_updated && row.ns_built)
-        dearest = std::max(dearest.value_or(0), *row.ns_updated / std::max(*row.ns_built, 1e-3));
+    for (const UpdateRow* row : of_it) {
+      if (row->updated) cells[1] = fmt::format("{:.3g}", row->updated->build_ms);
+      cells.push_back(row->updated ? fmt::format("{:.3g}", row->updated->update_over_build) : "");
+      if (row->counts) errors += *row->counts;
+      if (row->status != "ok") status = row->status;
+      if (row->ns_updated && row->ns_built)
+        dearest = std::max(dearest.value_or(0), *row->ns_updated / std::max(*row->ns_built, 1e-3));
     }
     cells.push_back(dearest ? fmt::format("{:.2f}", *dearest) : "");
     for (const std::uint64_t count :
@@ -121,10 +111,9 @@ std::string table_of(const std::vector<UpdateRow>& rows, const std::string& mesh
 std::string update_csv(const std::vector<UpdateRow>& rows) { return results::table_of(columns, rows).csv(); }
 
 std::string update_table(const std::vector<UpdateRow>& rows) {
-  std::vector<std::string> meshes;
-  for (const UpdateRow& row : rows) add_new(meshes, row.mesh);
   std::string text;
-  for (const std::string& mesh : meshes) text += table_of(rows, mesh);
+  for (const auto& [mesh, of_mesh] : support::grouped_by(rows, [](Row row) { return row.mesh; }))
+    text += table_of(of_mesh, mesh);
   return text;
 }
 
