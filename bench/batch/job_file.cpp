@@ -18,25 +18,25 @@ namespace {
 constexpr int job_schema = 1;
 
 nlohmann::json form_of_jobs() {
+  const std::vector<std::string> names = results::names_of(results::results_columns());
   nlohmann::json columns = nlohmann::json::object();
-  for (const std::string& column : results::results_columns()) columns[column] = {{"type", "string"}};
-  return {
-      {"type", "object"},
-      {"required", {"schema", "id", "machine", "run", "row"}},
-      {"properties",
-       {{"schema", {{"const", job_schema}}},
-        {"id", {{"type", "string"}, {"pattern", "^[0-9a-f]{16}$"}}},
-        {"machine", {{"type", "string"}, {"pattern", "^[0-9a-f]{16}$"}}},
-        {"run", nlohmann::json::parse(validation::run_schema)},
-        {"row", {{"type", "object"}, {"required", results::results_columns()}, {"properties", columns}}}}}};
+  for (const std::string& name : names) columns[name] = {{"type", "string"}};
+  return {{"type", "object"},
+          {"required", {"schema", "id", "machine", "run", "row"}},
+          {"properties",
+           {{"schema", {{"const", job_schema}}},
+            {"id", {{"type", "string"}, {"pattern", "^[0-9a-f]{16}$"}}},
+            {"machine", {{"type", "string"}, {"pattern", "^[0-9a-f]{16}$"}}},
+            {"run", nlohmann::json::parse(validation::run_schema)},
+            {"row", {{"type", "object"}, {"required", names}, {"properties", columns}}}}}};
 }
 
 }  // namespace
 
 std::string JobResult::json() const {
   nlohmann::ordered_json row = nlohmann::ordered_json::object();
-  const std::vector<std::string> columns = results::results_columns();
-  for (std::size_t i = 0; i < columns.size(); ++i) row[columns[i]] = fields[i];
+  for (std::size_t i = 0; i < fields.size(); ++i)
+    row[std::string(results::results_columns()[i].name)] = fields[i];
   const nlohmann::ordered_json job{
       {"schema", job_schema}, {"id", id}, {"machine", machine}, {"row", row}, {"run", run}};
   return job.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
@@ -55,8 +55,8 @@ JobResult read_job(const std::string& path) {
     throw std::invalid_argument(validation::line_of(faults.front()) + " (not a finished job)");
   const nlohmann::json& job = document->value;
   JobResult result{job.at("id"), job.at("machine"), job.at("run"), {}};
-  for (const std::string& column : results::results_columns())
-    result.fields.push_back(job.at("row").at(column));
+  for (const auto& column : results::results_columns())
+    result.fields.push_back(job.at("row").at(std::string(column.name)));
   return result;
 }
 

@@ -8,11 +8,8 @@
 #include <fmt/format.h>
 
 #include "bench/results/results_csv.h"
-#include "bench/results/validation/column_rules.h"
 
 namespace touchmark::bench::batch {
-
-namespace validation = results::validation;
 
 namespace {
 
@@ -30,7 +27,7 @@ std::string identity_of(const JobResult& job) {
 }
 
 std::vector<std::string> sorting_key(const FoundJob& job) {
-  const std::vector<std::string> columns = results::results_columns();
+  const std::vector<std::string> columns = results::names_of(results::results_columns());
   std::vector<std::string> key;
   for (const char* name :
        {"mesh", "trajectory", "query", "radius", "reach", "detector", "options", "run_id"}) {
@@ -74,8 +71,8 @@ FoundJob found_job(const std::string& path) {
 void drop_times(FoundJob& job) {
   job.timed = false;
   for (std::size_t i = 0; i < job.result.fields.size(); ++i) {
-    const validation::Presence presence = validation::column_rules()[i].presence;
-    if (presence == validation::Presence::built || presence == validation::Presence::timed)
+    const results::Presence presence = results::results_columns()[i].presence;
+    if (presence == results::Presence::built || presence == results::Presence::timed)
       job.result.fields[i].clear();
   }
 }

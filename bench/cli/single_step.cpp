@@ -61,10 +61,10 @@ std::string rows_of_step(const contestants::Roster& roster, const workload::Work
   std::string replayed, fresh;
   try {
     check_it_answers(process.build(), task.query, spec.text());
-    process.answer(all);
+    process.ask(workers::request::Answer{all});
     results::append_answer_row(replayed, task.query, step, trace[step],
                                arena.buffers().answers(step + 1)[step], with_side);
-    process.answer_afresh(all, step);
+    process.ask(workers::request::AnswerAfresh{all, step});
     results::append_answer_row(fresh, task.query, step, trace[step], arena.buffers().answers(1).front(),
                                with_side);
   } catch (const workers::WorkerFailure& failure) {

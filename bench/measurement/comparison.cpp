@@ -8,6 +8,7 @@
 #include "bench/ground_truth/ground_truth.h"
 #include "bench/measurement/measurement.h"
 #include "bench/support/available_memory.h"
+#include "bench/support/interleaving.h"
 #include "bench/support/interrupt.h"
 #include "bench/support/random.h"
 
@@ -21,30 +22,20 @@ struct Request {
   Action action = nullptr;
 };
 
-void append_shuffled(std::vector<Request>& requests, std::vector<Request> some, support::Random& random) {
-  random.shuffle(some);
-  requests.insert(requests.end(), some.begin(), some.end());
-}
-
-/// Round by round, so that whatever changes on the machine meets all contestants alike; in random order
-/// within a round. Passes for latency are spread over the rounds.
+/// Passes for latency are spread over the rounds.
 std::vector<Request> requests_for(std::size_t measurements, const Effort& effort, support::Random random) {
-  std::vector<Request> requests;
-  const auto all = [&](Action action) {
-    std::vector<Request> some;
-    for (std::size_t which = 0; which < measurements; ++which) some.push_back({which, action});
-    return some;
-  };
-  append_shuffled(requests, all(&Measurement::first_pass), random);
+  std::vector<std::vector<Action>> rounds{{&Measurement::first_pass}};
   std::size_t clocked = 0;
   for (std::size_t round = 1; round <= effort.repetitions; ++round) {
-    std::vector<Request> some = all(&Measurement::repetition);
-    for (; clocked * effort.repetitions < round * effort.latency_passes; ++clocked) {
-      const std::vector<Request> more = all(&Measurement::latency_pass);
-      some.insert(some.end(), more.begin(), more.end());
-    }
-    append_shuffled(requests, std::move(some), random);
+    std::vector<Action>& actions = rounds.emplace_back(1, &Measurement::repetition);
+    for (; clocked * effort.repetitions < round * effort.latency_passes; ++clocked)
+      actions.push_back(&Measurement::latency_pass);
   }
+  std::vector<std::size_t> turns;
+  for (const std::vector<Action>& actions : rounds) turns.push_back(actions.size() * measurements);
+  std::vector<Request> requests;
+  for (const auto& [round, which] : support::interleaved(turns, random))
+    requests.push_back({which % measurements, rounds[round][which / measurements]});
   return requests;
 }
 

@@ -11,6 +11,9 @@
 #include "bench/workload/sample_steps.h"
 
 namespace touchmark::bench::measurement {
+
+namespace request = workers::request;
+
 namespace {
 
 constexpr std::uint64_t bootstrap_seed = 1;
@@ -72,7 +75,7 @@ void Measurement::begin() {
     return;
   }
   process_.rebuild_if_lazy();
-  row_.first_answer_ms = built.build_ms + process_.first(task_).ns_per_query / 1e6;
+  row_.first_answer_ms = built.build_ms + process_.ask(request::First{task_}).ns_per_query / 1e6;
 }
 
 void Measurement::calibrate() {
@@ -100,7 +103,7 @@ void Measurement::choose_steps() {
   for (std::size_t wanted = 16;; wanted *= 4) {
     workers::Task task = task_;
     task.ranges = plan_.ranges(wanted);
-    calibrated_ns_ = std::max(process_.calibrate(task, 0).ns_per_query, 1.0);
+    calibrated_ns_ = std::max(process_.ask(request::Calibrate{task, 0}).ns_per_query, 1.0);
     const double elapsed = calibrated_ns_ * static_cast<double>(workload::steps_in(task.ranges));
     if (elapsed * 4 >= effort_.pass_budget_ns || wanted >= plan_.total()) return;
   }
@@ -152,7 +155,7 @@ PieceTimes Measurement::piece_times() const {
 void Measurement::verify(ground_truth::GroundTruths& truths, ground_truth::GroundTruths* rounded) {
   attempt([&] {
     process_.rebuild_if_lazy();
-    const workers::Answered answered = process_.answer(task_);
+    const workers::Answered answered = process_.ask(request::Answer{task_});
     row_.checksum = answered.checksum;
     row_.work = summarize_work(arena_.buffers().work(row_.steps), answered.work);
   });
@@ -180,7 +183,7 @@ void Measurement::expect_verified_answers(const workers::Timed& timed) {
 void Measurement::first_pass() {
   attempt([&] {
     process_.rebuild_if_lazy();
-    const workers::Timed timed = process_.first_pass(task_);
+    const workers::Timed timed = process_.ask(request::FirstPass{task_});
     first_pass_ns_ = timed.ns_per_query;
     expect_verified_answers(timed);
   });
@@ -193,7 +196,7 @@ void Measurement::repetition() {
       static_cast<double>(effort_.repetitions) * std::max(2 * effort_.pass_budget_ns, effort_.repetition_ns);
   if (repetitions_ns_.size() >= fewest && repeating_ns_ > budget) return;
   attempt([&] {
-    const workers::Timed timed = process_.sample(task_, passes_, replays_);
+    const workers::Timed timed = process_.ask(request::Sample{task_, passes_, replays_});
     repetitions_ns_.push_back(timed.ns_per_query);
     repetitions_cpu_ns_.push_back(timed.cpu_ns_per_query);
     repeating_ns_ +=
@@ -206,7 +209,7 @@ void Measurement::repetition() {
 
 void Measurement::latency_pass() {
   attempt([&] {
-    const workers::Timed timed = process_.latency(task_);
+    const workers::Timed timed = process_.ask(request::Latency{task_});
     expect_verified_answers(timed);
     latencies_ns_.push_back(in_ns(arena_.buffers().ticks(row_.steps)));
     if (process_.build().prepares) prepared_ns_.push_back(in_ns(arena_.buffers().prepare_ticks(row_.steps)));

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/support/text_table.h"
+#include "bench/support/table.h"
 
 namespace touchmark::bench::results {
 namespace {
@@ -98,9 +98,9 @@ std::string disturbance(const measurement::Steadiness& steadiness) {
 
 std::string timing_table(const std::vector<measurement::ResultRow>& rows) {
   const std::string off = fmt::format("off>{:g}", oracle::physical_tolerance);
-  support::TextTable table({"detector", "guarantee", "missed", "false", "triangle", off, "rounding",
-                            "point/normal", "ns/query", "95 %", "x fastest", "p99.9 ns", "x least p99.9",
-                            "max ns", "Hz", "build ms", "MB", "steps"});
+  support::Table table({"detector", "guarantee", "missed", "false", "triangle", off, "rounding",
+                        "point/normal", "ns/query", "95 %", "x fastest", "p99.9 ns", "x least p99.9",
+                        "max ns", "Hz", "build ms", "MB", "steps"});
   const Minima least = minima_of(rows);
   for (const measurement::ResultRow& row : rows) {
     std::vector<std::string> cells{row.contestant(), std::string(measurement::guarantee_name(row))};
@@ -137,7 +137,7 @@ std::string verdict(const std::vector<measurement::ResultRow>& rows,
 }
 
 std::string work_table(const std::vector<measurement::ResultRow>& rows) {
-  support::TextTable table(
+  support::Table table(
       {"looked at a step", "cells", "spheres", "boxes", "triangles", "of all", "most", "exact decisions"});
   for (const measurement::ResultRow& row : rows) {
     if (!row.work) continue;

@@ -1,5 +1,6 @@
 #include "bench/results/results_csv.h"
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 
@@ -11,207 +12,263 @@
 namespace touchmark::bench::results {
 namespace {
 
-struct Column {
-  std::string_view name;
-  std::string (*value)(const measurement::ResultRow& row);
-};
+using R = measurement::ResultRow;
+using E = oracle::ErrorCounts;
+using L = measurement::LatencySummary;
+using T = measurement::ThroughputResult;
+using U = measurement::UndisturbedTime;
+using W = measurement::WorkResult;
+using Row = const R&;
 
-std::string exactly(double value) { return fmt::format("{}", value); }
-/// Times: more digits than the clock has would be noise.
-std::string rounded(double value) { return fmt::format("{:.6g}", value); }
+// What a row has in a column. Times have six digits: more than the clock has would be noise.
 
 template <auto Member>
-std::string count_of(const measurement::ResultRow& row) {
-  return row.counts ? fmt::format("{}", (*row.counts).*Member) : "";
+std::string plain(Row row) {
+  return fmt::format("{}", row.*Member);
 }
 
-template <auto Member>
-std::string stored_count_of(const measurement::ResultRow& row) {
-  return row.rounded_scene_counts ? fmt::format("{}", (*row.rounded_scene_counts).*Member) : "";
+/// A member of an optional part of the row, written so that it reads back the same.
+template <auto Part, auto... Member>
+std::string exact(Row row) {
+  return row.*Part ? fmt::format("{}", (*(row.*Part).*....*Member)) : "";
 }
 
-template <auto Member>
-std::string error_of(const measurement::ResultRow& row) {
-  return row.counts ? exactly((*row.counts).*Member) : "";
+template <auto Part, auto... Member>
+std::string six_digits(Row row) {
+  return row.*Part ? fmt::format("{:.6g}", (*(row.*Part).*....*Member)) : "";
 }
 
-template <auto Member>
-std::string throughput_of(const measurement::ResultRow& row) {
-  return row.throughput ? rounded((*row.throughput).*Member) : "";
-}
-
-template <auto Member>
-std::string latency_of(const measurement::ResultRow& row) {
-  return row.latency ? rounded((*row.latency).*Member) : "";
-}
-
-template <auto Member>
-std::string prepare_of(const measurement::ResultRow& row) {
-  return row.prepare ? rounded((*row.prepare).*Member) : "";
+template <auto Checksum>
+std::string hex(Row row) {
+  return row.*Checksum ? support::hex(*(row.*Checksum)) : "";
 }
 
 template <auto Latency>
-std::string p999_in(const measurement::ResultRow& row) {
+std::string p999_in(Row row) {
   const std::optional<double> ns = measurement::p999_of(row, row.*Latency);
-  return ns ? rounded(*ns) : "";
-}
-
-template <auto Member>
-std::string undisturbed_of(const measurement::ResultRow& row) {
-  return row.throughput ? rounded(row.throughput->undisturbed.*Member) : "";
+  return ns ? fmt::format("{:.6g}", *ns) : "";
 }
 
 template <std::size_t Deadline>
-std::string misses_of(const measurement::ResultRow& row) {
+std::string misses_of(Row row) {
   return row.latency ? fmt::format("{}", row.latency->deadlines[Deadline].misses) : "";
 }
 
 template <std::size_t Deadline>
-std::string longest_run_of(const measurement::ResultRow& row) {
+std::string longest_run_of(Row row) {
   return row.latency ? fmt::format("{}", row.latency->deadlines[Deadline].longest_run) : "";
 }
 
 template <auto Member>
-std::string optional_time(const measurement::ResultRow& row) {
-  return row.*Member ? rounded(*(row.*Member)) : "";
-}
-
-template <auto Member>
-std::string optional_count(const measurement::ResultRow& row) {
-  return row.*Member ? fmt::format("{}", *(row.*Member)) : "";
-}
-
-template <auto Member>
-std::string work_of(const measurement::ResultRow& row) {
+std::string work_of(Row row) {
   if (!row.work) return "";
-  return rounded(static_cast<double>(row.work->total.*Member) / static_cast<double>(row.steps));
+  return fmt::format("{:.6g}", static_cast<double>(row.work->total.*Member) / static_cast<double>(row.steps));
 }
 
-using R = measurement::ResultRow;
-using Row = const measurement::ResultRow&;
+std::string query_of(Row row) { return std::string(workload::name_of(row.query)); }
+std::string guarantee_of(Row row) { return std::string(measurement::guarantee_name(row)); }
+std::string update_rate(Row row) {
+  return row.throughput ? fmt::format("{:.6g}", 1e9 / row.throughput->ns_per_query) : "";
+}
+std::string clock_cost(Row row) { return row.latency ? fmt::format("{:.6g}", row.clock_cost_ns) : ""; }
+std::string decides_exactly(Row row) {
+  return row.accuracy ? fmt::format("{:d}", row.accuracy->decides_exactly) : "";
+}
 
-// The order is the contract. schema and run_id come before these.
-constexpr std::array columns{
-    Column{"detector", [](Row row) { return row.detector; }},
-    Column{"options", [](Row row) { return row.options; }},
-    Column{"mesh", [](Row row) { return row.mesh; }},
-    Column{"triangles", [](Row row) { return fmt::format("{}", row.triangles); }},
-    Column{"trajectory", [](Row row) { return row.trajectory; }},
-    Column{"query", [](Row row) { return std::string(workload::name_of(row.query)); }},
-    Column{"steps", [](Row row) { return fmt::format("{}", row.steps); }},
-    Column{"radius", [](Row row) { return exactly(row.radius); }},
-    Column{"reach", [](Row row) { return exactly(row.reach); }},
-    Column{"guarantee", [](Row row) { return std::string(measurement::guarantee_name(row)); }},
-    Column{"missed", count_of<&oracle::ErrorCounts::missed>},
-    Column{"false_contacts", count_of<&oracle::ErrorCounts::false_contacts>},
-    Column{"wrong_triangle", count_of<&oracle::ErrorCounts::wrong_triangle>},
-    Column{"max_distance_error", error_of<&oracle::ErrorCounts::max_distance_error>},
-    Column{"max_distance_error_ulp", error_of<&oracle::ErrorCounts::max_distance_error_ulp>},
-    Column{"max_normal_angle_deg", error_of<&oracle::ErrorCounts::max_normal_angle_deg>},
-    Column{"unresolved", count_of<&oracle::ErrorCounts::unresolved>},
-    Column{"status", [](Row row) { return row.status; }},
-    Column{"ns_per_query", throughput_of<&measurement::ThroughputResult::ns_per_query>},
-    Column{"ns_p50", latency_of<&measurement::LatencySummary::p50>},
-    Column{"ns_p90", latency_of<&measurement::LatencySummary::p90>},
-    Column{"ns_p99", latency_of<&measurement::LatencySummary::p99>},
-    Column{"ns_p999", p999_in<&R::latency>},
-    Column{"ns_max", latency_of<&measurement::LatencySummary::max>},
-    Column{"update_rate_hz",
-           [](Row row) { return row.throughput ? rounded(1e9 / row.throughput->ns_per_query) : ""; }},
-    Column{"deadline_misses_1khz", misses_of<0>},
-    Column{"longest_miss_run_1khz", longest_run_of<0>},
-    Column{"build_ms", optional_time<&R::build_ms>},
-    Column{"first_answer_ms", optional_time<&R::first_answer_ms>},
-    Column{"bytes", optional_count<&R::bytes>},
-    Column{"heap_bytes", optional_count<&R::heap_bytes>},
-    Column{"work_mean", [](Row row) { return row.work ? rounded(row.work->mean) : ""; }},
-    Column{"work_max", [](Row row) { return row.work ? fmt::format("{}", row.work->max) : ""; }},
-    Column{"repetitions",
-           [](Row row) { return row.throughput ? fmt::format("{}", row.throughput->repetitions) : ""; }},
+constexpr Kind angle{[](std::string_view text) {
+                       constexpr double rounding = 1e-9;  // of the conversion from radians
+                       return kinds::is_number(text, [](double x) { return x <= 180 + rounding; });
+                     },
+                     "an angle from 0 to 180"};
+
+bool is_options(std::string_view text) {
+  while (!text.empty()) {
+    const std::string_view option = text.substr(0, text.find(','));
+    const std::size_t equals = option.find('=');
+    if (equals == 0 || equals == std::string_view::npos || equals + 1 == option.size()) return false;
+    if (option.size() == text.size()) return true;
+    text.remove_prefix(option.size() + 1);
+  }
+  return false;  // after a comma comes nothing
+}
+constexpr Kind option_list{&is_options, "key=value,key=value"};
+
+bool is_status(std::string_view text) {
+  constexpr std::array words{"ok", "unsupported", "timeout", "checksum mismatch"};
+  constexpr std::array beginnings{"refused: ", "crashed:", "skipped: "};
+  const auto begins = [&](std::string_view begin) { return text.starts_with(begin) && text != begin; };
+  return std::find(words.begin(), words.end(), text) != words.end() ||
+         std::any_of(beginnings.begin(), beginnings.end(), begins);
+}
+constexpr Kind row_status{
+    &is_status, "ok, unsupported, timeout, checksum mismatch, refused: WHY, skipped: WHY or crashed:HOW"};
+
+using enum Presence;
+using namespace kinds;
+
+// The order is the contract.
+constexpr auto columns = std::to_array<Column<R>>({
+    {"schema", [](Row) { return std::to_string(results_schema); }, always, one, "version of these columns"},
+    {"run_id", nullptr, always, any_text, "ties the row to its [run.json](run-json.md)"},
+    {"detector", plain<&R::detector>, always, any_text, "the contestant's name, as `--detector` takes it"},
+    {"options", plain<&R::options>, optional, option_list,
+     "the options that were written out, `key=value` joined by commas; the rest were at their defaults"},
+    {"mesh", plain<&R::mesh>, always, any_text, "the scene's name or file, as `--mesh` took it"},
+    {"triangles", plain<&R::triangles>, always, whole_number, "number of triangles of the mesh"},
+    {"trajectory", plain<&R::trajectory>, always, any_text,
+     "the motion's name or file, as `--trajectory` took it"},
+    {"query", query_of, always, query,
+     "`touches`: is the distance at most the radius; `nearest`: the contact within the reach; `sweep`: the "
+     "first touch along the straight line of a tick"},
+    {"steps", plain<&R::steps>, always, whole_number,
+     "servo ticks replayed, timed and verified, each one query; a slow contestant gets fewer, so that all "
+     "get about the same time: blocks of 32 drawn by phase (in contact, within 2 % of the diagonal of it, "
+     "free), each phase in its share, at least two blocks of each, the same for the same seed"},
+    {"radius", plain<&R::radius>, always, length, "the probe's radius"},
+    {"reach", plain<&R::reach>, always, length, "how far `nearest` looks"},
+    {"guarantee", guarantee_of, judged, guarantee,
+     "what the contestant claims: `exact`, `conservative` (never misses a contact, may report one too many)"
+     " or `approximate`"},
+    {"missed", exact<&R::counts, &E::missed>, judged, whole_number,
+     "steps in contact by the oracle, and not by the contestant"},
+    {"false_contacts", exact<&R::counts, &E::false_contacts>, judged, whole_number,
+     "steps in contact by the contestant, and not by the oracle"},
+    {"wrong_triangle", exact<&R::counts, &E::wrong_triangle>, judged, whole_number,
+     "steps whose triangle is not one of the nearest, or, of a contestant that claims to name it, not the "
+     "first of the exactly nearest"},
+    {"max_distance_error", exact<&R::counts, &E::max_distance_error>, judged, length,
+     "largest difference between reported and true distance"},
+    {"max_distance_error_ulp", exact<&R::counts, &E::max_distance_error_ulp>, judged, length,
+     "the same in units of the true distance's last place"},
+    {"max_normal_angle_deg", exact<&R::counts, &E::max_normal_angle_deg>, judged, angle,
+     "largest angle between reported and true normal"},
+    {"unresolved", exact<&R::counts, &E::unresolved>, judged, whole_number,
+     "steps where the truth is within the contestant's declared accuracy of the threshold: neither right "
+     "nor wrong; 0 for ours, which decide `touches` and `nearest` exactly"},
+    {"status", plain<&R::status>, always, row_status,
+     "`ok`; `unsupported`: it does not answer this query; `refused: ...`: it would not build, and why; "
+     "`crashed:SIGSEGV` and the like; `timeout`; `skipped: ...`: `touchmark scale` left it out, because it "
+     "took too long, or failed, on a smaller mesh; `checksum mismatch`: timed answers differ from the "
+     "verified ones"},
+    {"ns_per_query", six_digits<&R::throughput, &T::ns_per_query>, timed, positive,
+     "time of a query, elapsed, over these steps; the median of the repetitions. Other work on the machine "
+     "moves it: compare `ns_undisturbed`"},
+    {"ns_p50", six_digits<&R::latency, &L::p50>, timed, finite,
+     "half of the steps took at most this, each clocked alone, the clock's own cost included; of several "
+     "passes each step counts with its median, so that one interruption by the system is not the detector's"},
+    {"ns_p90", six_digits<&R::latency, &L::p90>, timed, finite, "90 % of the steps took at most this"},
+    {"ns_p99", six_digits<&R::latency, &L::p99>, timed, finite, "99 % of the steps took at most this"},
+    {"ns_p999", p999_in<&R::latency>, optional, finite,
+     "99.9 % of the steps took at most this; empty below 1,000 steps"},
+    {"ns_max", six_digits<&R::latency, &L::max>, timed, finite, "time of the slowest step"},
+    {"update_rate_hz", update_rate, timed, positive, "queries a second: 1e9 / `ns_per_query`"},
+    {"deadline_misses_1khz", misses_of<0>, timed, whole_number, "steps that took more than 1 ms"},
+    {"longest_miss_run_1khz", longest_run_of<0>, timed, whole_number, "longest run of such steps"},
+    {"build_ms", six_digits<&R::build_ms>, built, finite,
+     "time from the mesh in memory to a detector that can answer"},
+    {"first_answer_ms", six_digits<&R::first_answer_ms>, built, finite,
+     "time of building and answering the first query"},
+    {"bytes", exact<&R::bytes>, judged, whole_number,
+     "size of the structure by its own count, its copy of the mesh included"},
+    {"heap_bytes", exact<&R::heap_bytes>, built, whole_number,
+     "by how much the process's heap grew during the build"},
+    {"work_mean", six_digits<&R::work, &W::mean>, optional, finite,
+     "cells, spheres, boxes and triangles looked at in a step, on average: the same on every machine, and "
+     "with `build=lazy` those of the first queries; of rivals only what passes through our code is counted,"
+     " which is triangles and no boxes of theirs"},
+    {"work_max", exact<&R::work, &W::max>, optional, whole_number, "the most of these in one step"},
+    {"repetitions", exact<&R::throughput, &T::repetitions>, timed, positive_count,
+     "how often the steps were replayed for `ns_per_query`"},
     // Appended to schema 1.
-    Column{"ns_per_query_min", throughput_of<&measurement::ThroughputResult::ns_per_query_min>},
-    Column{"ns_per_query_mad", throughput_of<&measurement::ThroughputResult::ns_per_query_mad>},
-    Column{"ns_per_query_first_pass", throughput_of<&measurement::ThroughputResult::ns_per_query_first_pass>},
-    Column{"deadline_misses_4khz", misses_of<1>},
-    Column{"longest_miss_run_4khz", longest_run_of<1>},
-    Column{"deadline_misses_10khz", misses_of<2>},
-    Column{"longest_miss_run_10khz", longest_run_of<2>},
-    Column{"clock_cost_ns", [](Row row) { return row.latency ? rounded(row.clock_cost_ns) : ""; }},
-    Column{"max_distance_error_of_diagonal", error_of<&oracle::ErrorCounts::max_distance_error_of_diagonal>},
-    Column{"beyond_bound", count_of<&oracle::ErrorCounts::beyond_bound>},
-    Column{"wrong_point", count_of<&oracle::ErrorCounts::wrong_point>},
-    Column{"wrong_normal", count_of<&oracle::ErrorCounts::wrong_normal>},
-    Column{"malformed", count_of<&oracle::ErrorCounts::malformed>},
-    Column{"cpu_ns_per_query", throughput_of<&measurement::ThroughputResult::cpu_ns_per_query>},
-    Column{"answers_checksum", [](Row row) { return row.checksum ? support::hex(*row.checksum) : ""; }},
-    Column{"cells_mean", work_of<&Work::cells>},
-    Column{"spheres_mean", work_of<&Work::spheres>},
-    Column{"boxes_mean", work_of<&Work::boxes>},
-    Column{"triangles_mean", work_of<&Work::triangles>},
-    Column{"exact_decisions",
-           [](Row row) { return row.work ? fmt::format("{}", row.work->total.exact_decisions) : ""; }},
-    Column{"decides_exactly",
-           [](Row row) { return row.accuracy ? fmt::format("{:d}", row.accuracy->decides_exactly) : ""; }},
-    Column{"stored_missed", stored_count_of<&oracle::ErrorCounts::missed>},
-    Column{"stored_false_contacts", stored_count_of<&oracle::ErrorCounts::false_contacts>},
-    Column{"stored_max_distance_error_of_diagonal",
-           [](Row row) {
-             return row.rounded_scene_counts
-                        ? exactly(row.rounded_scene_counts->max_distance_error_of_diagonal)
-                        : "";
-           }},
-    Column{"wrong_side", count_of<&oracle::ErrorCounts::wrong_side>},
-    Column{"prepare_ns_p50", prepare_of<&measurement::LatencySummary::p50>},
-    Column{"prepare_ns_p999", p999_in<&R::prepare>},
-    Column{"prepare_ns_max", prepare_of<&measurement::LatencySummary::max>},
-    Column{"ns_undisturbed", undisturbed_of<&measurement::UndisturbedTime::ns>},
-    Column{"ns_undisturbed_low", undisturbed_of<&measurement::UndisturbedTime::low>},
-    Column{"ns_undisturbed_high", undisturbed_of<&measurement::UndisturbedTime::high>},
-    Column{"disturbed_share", throughput_of<&measurement::ThroughputResult::disturbed_share>},
-    Column{"decisions_checksum",
-           [](Row row) { return row.decisions_checksum ? support::hex(*row.decisions_checksum) : ""; }},
-    Column{"judged", count_of<&oracle::ErrorCounts::judged>},
-    Column{"beyond_tolerance", count_of<&oracle::ErrorCounts::beyond_tolerance>},
-    Column{"rounding", count_of<&oracle::ErrorCounts::rounding>},
-};
+    {"ns_per_query_min", six_digits<&R::throughput, &T::ns_per_query_min>, timed, positive,
+     "the fastest repetition"},
+    {"ns_per_query_mad", six_digits<&R::throughput, &T::ns_per_query_mad>, timed, finite,
+     "the median distance of repetitions from their median: small beside `ns_per_query` on a quiet machine"},
+    {"ns_per_query_first_pass", six_digits<&R::throughput, &T::ns_per_query_first_pass>, timed, positive,
+     "time of a query with a fresh session, when other contestants have used the caches meanwhile; a "
+     "detector with `build=lazy` is built anew just before, so that what its first queries make is in it"},
+    {"deadline_misses_4khz", misses_of<1>, timed, whole_number, "steps that took more than 0.25 ms"},
+    {"longest_miss_run_4khz", longest_run_of<1>, timed, whole_number, "longest run of such steps"},
+    {"deadline_misses_10khz", misses_of<2>, timed, whole_number, "steps that took more than 0.1 ms"},
+    {"longest_miss_run_10khz", longest_run_of<2>, timed, whole_number, "longest run of such steps"},
+    {"clock_cost_ns", clock_cost, timed, finite, "cost of reading the clock: a part of every clocked step"},
+    {"max_distance_error_of_diagonal", exact<&R::counts, &E::max_distance_error_of_diagonal>, judged, length,
+     "`max_distance_error` over the diagonal of the mesh's box"},
+    {"beyond_bound", exact<&R::counts, &E::beyond_bound>, judged, whole_number,
+     "steps whose distance is off by more than the contestant declares, or, where it declares nothing, than"
+     " 1e-6 of the diagonal; triangle, point and normal are held to the same"},
+    {"wrong_point", exact<&R::counts, &E::wrong_point>, judged, whole_number,
+     "steps whose point is off by more than the same"},
+    {"wrong_normal", exact<&R::counts, &E::wrong_normal>, judged, whole_number,
+     "steps whose normal is off by more than the same"},
+    {"malformed", exact<&R::counts, &E::malformed>, judged, whole_number,
+     "answers with NaN, infinity or a negative distance in them"},
+    {"cpu_ns_per_query", six_digits<&R::throughput, &T::cpu_ns_per_query>, timed, finite,
+     "processor time of a query, without what other processes took of the core"},
+    {"answers_checksum", hex<&R::checksum>, judged, checksum,
+     "checksum of all answers, in hexadecimal: contestants with the same one answered the same bits"},
+    {"cells_mean", work_of<&Work::cells>, optional, finite,
+     "cells looked at in a step, on average; what a query skipped is not counted"},
+    {"spheres_mean", work_of<&Work::spheres>, optional, finite, "spheres looked at in a step, likewise"},
+    {"boxes_mean", work_of<&Work::boxes>, optional, finite, "boxes looked at in a step, likewise"},
+    {"triangles_mean", work_of<&Work::triangles>, optional, finite,
+     "triangles looked at in a step, likewise"},
+    {"exact_decisions", exact<&R::work, &W::total, &Work::exact_decisions>, optional, whole_number,
+     "how often, over all steps, doubles of one word and of two left the answer open and whole numbers "
+     "decided"},
+    {"decides_exactly", decides_exactly, judged, bit,
+     "1: contact is decided for the true distance of the stored doubles, closed, without any tolerance"},
+    {"stored_missed", exact<&R::rounded_scene_counts, &E::missed>, optional, whole_number,
+     "contacts missed by the scene as the contestant stores it, in single precision: what is left of them "
+     "is not due to storing. Empty where it decides by the given doubles"},
+    {"stored_false_contacts", exact<&R::rounded_scene_counts, &E::false_contacts>, optional, whole_number,
+     "contacts made up, likewise"},
+    {"stored_max_distance_error_of_diagonal",
+     exact<&R::rounded_scene_counts, &E::max_distance_error_of_diagonal>, optional, length,
+     "the largest error of a distance, likewise"},
+    {"wrong_side", exact<&R::counts, &E::wrong_side>, judged, whole_number,
+     "`nearest` with the option `side=on`, closed meshes: steps said to be inside, outside or on the "
+     "surface that are not; `undecided` is never wrong"},
+    {"prepare_ns_p50", six_digits<&R::prepare, &L::p50>, optional, finite,
+     "with the option `prepare=true`: what was done after an answer for the next one is clocked apart, and "
+     "half of these parts took at most this. It is in `ns_per_query` and the work, and not in `ns_p50` to "
+     "`ns_max`"},
+    {"prepare_ns_p999", p999_in<&R::prepare>, optional, finite,
+     "99.9 % of these parts took at most this; empty below 1,000 steps"},
+    {"prepare_ns_max", six_digits<&R::prepare, &L::max>, optional, finite,
+     "time of the slowest of these parts"},
+    {"ns_undisturbed", six_digits<&R::throughput, &T::undisturbed, &U::ns>, timed, positive,
+     "time of a query where nothing interrupts it, the mean over the whole trajectory: what the table, the "
+     "verdict and the plots rank by. The steps are timed in pieces of about 0.5 ms, again and again, a "
+     "sample being the shorter of elapsed and processor time; each piece counts with the 15 % quantile of "
+     "its samples, and where `steps` are a sample, each phase with its share of the trajectory"},
+    {"ns_undisturbed_low", six_digits<&R::throughput, &T::undisturbed, &U::low>, timed, positive,
+     "lower end of the 95 % interval of `ns_undisturbed`, by bootstrap over the repetitions, and over the "
+     "blocks where `steps` are a sample. What differs from process to process comes on top: see the control"
+     " in `run.json`"},
+    {"ns_undisturbed_high", six_digits<&R::throughput, &T::undisturbed, &U::high>, timed, positive,
+     "upper end of this interval"},
+    {"disturbed_share", six_digits<&R::throughput, &T::disturbed_share>, timed, share,
+     "the share of the samples of `ns_undisturbed` that took over 1.2 times their processor time"},
+    {"decisions_checksum", hex<&R::decisions_checksum>, optional, checksum,
+     "checksum of contact or none, and for `nearest` of the triangle: all who claim exactness have the same"
+     " one for the same steps. Empty for others, and for those that name any of several triangles equally "
+     "near"},
+    {"judged", exact<&R::counts, &E::judged>, judged, whole_number, "answers that the oracle judged"},
+    {"beyond_tolerance", exact<&R::counts, &E::beyond_tolerance>, judged, whole_number,
+     "steps whose distance is off by more than 1e-6 of the diagonal of the mesh's box, whatever is "
+     "declared: 0.2 micrometres on an object of 20 cm, where haptic devices resolve 1 to 55"},
+    {"rounding", exact<&R::counts, &E::rounding>, judged, whole_number,
+     "steps whose distance is off by less than that, and by more than arithmetic in double must be: 48 "
+     "roundings of the largest coordinate difference"},
+});
 
 }  // namespace
 
-std::string csv_field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char character : text) {
-    if (character == '"') quoted += '"';
-    quoted += character;
-  }
-  return quoted + '"';
-}
+std::span<const Column<R>> results_columns() { return columns; }
 
-std::vector<std::string> results_columns() {
-  std::vector<std::string> names{"schema", "run_id"};
-  for (const Column& column : columns) names.emplace_back(column.name);
-  return names;
-}
-
-std::vector<std::string> results_fields(const std::string& run_id, const measurement::ResultRow& row) {
-  std::vector<std::string> fields{std::to_string(results_schema), run_id};
-  for (const Column& column : columns) fields.push_back(column.value(row));
-  return fields;
-}
-
-std::string csv_line(const std::vector<std::string>& fields) {
-  std::string line;
-  for (std::size_t i = 0; i < fields.size(); ++i) {
-    if (i > 0) line += ',';
-    line += csv_field(fields[i]);
-  }
-  return line + '\n';
-}
-
-std::string results_csv(const std::string& run_id, const std::vector<measurement::ResultRow>& rows) {
-  std::string csv = csv_line(results_columns());
-  for (const measurement::ResultRow& row : rows) csv += csv_line(results_fields(run_id, row));
-  return csv;
+std::string results_csv(const std::string& run_id, const std::vector<R>& rows) {
+  return table_of(columns, rows, run_id).csv();
 }
 
 }  // namespace touchmark::bench::results

@@ -9,24 +9,12 @@
 
 #include "bench/support/available_memory.h"
 #include "bench/support/failures.h"
-#include "bench/support/text_table.h"
+#include "bench/support/grouping.h"
+#include "bench/support/table.h"
 #include "bench/workload/query_name.h"
 
 namespace touchmark::bench::results {
 namespace {
-
-/// Sums up all rows of one contestant.
-struct Summary {
-  std::string contestant;
-  std::string guarantee;
-  oracle::ErrorCounts counts;
-  std::size_t unsupported = 0;
-  std::size_t refused = 0;
-  std::size_t crashed = 0;
-  std::size_t timed_out = 0;
-  std::size_t broken = 0;
-  std::string short_of_memory;  ///< the first status that says so
-};
 
 bool answered(const measurement::ResultRow& row) { return row.status == "ok"; }
 constexpr std::string_view refusal = "refused: ";
@@ -35,30 +23,18 @@ bool declined(const measurement::ResultRow& row) {
          row.status.starts_with("skipped: ");
 }
 
-void add(Summary& summary, const measurement::ResultRow& row) {
-  if (row.counts) summary.counts += *row.counts;
-  if (row.claim()) summary.guarantee = measurement::guarantee_name(row);
-  summary.unsupported += row.status == "unsupported" ? 1 : 0;
-  summary.refused += row.status.starts_with("refused") ? 1 : 0;
-  summary.crashed += row.status.starts_with("crashed") ? 1 : 0;
-  summary.timed_out += row.status == "timeout" ? 1 : 0;
-  summary.broken += claim_is_broken(row) ? 1 : 0;
-  if (is_short_of_memory(row) && summary.short_of_memory.empty()) summary.short_of_memory = row.status;
-}
-
 std::vector<Summary> summarize(const std::vector<measurement::ResultRow>& rows) {
-  std::vector<Summary> summaries;
-  for (const measurement::ResultRow& row : rows) {
-    const std::string name = row.contestant();
-    auto found = std::find_if(summaries.begin(), summaries.end(),
-                              [&](const Summary& summary) { return summary.contestant == name; });
-    if (found == summaries.end()) {
-      summaries.emplace_back().contestant = name;
-      found = summaries.end() - 1;
+  std::vector<Summary> contestants;
+  for (const auto& [name, of_it] :
+       support::grouped_by(rows, [](const measurement::ResultRow& row) { return row.contestant(); })) {
+    Summary& summary = contestants.emplace_back();
+    summary.contestant = name;
+    for (const measurement::ResultRow* row : of_it) {
+      summary.add(*row);
+      summary.broken = summary.broken || claim_is_broken(*row);
     }
-    add(*found, row);
   }
-  return summaries;
+  return contestants;
 }
 
 bool without_fault(const measurement::ResultRow& row) {
@@ -108,25 +84,46 @@ std::string judged_answers(const std::vector<measurement::ResultRow>& rows) {
   return fmt::format("{} answers judged exactly\n", judged);
 }
 
+void Summary::add(const measurement::ResultRow& row) {
+  if (row.counts) counts += *row.counts;
+  if (row.claim()) guarantee = measurement::guarantee_name(row);
+  unsupported += row.status == "unsupported" ? 1 : 0;
+  refusals += row.status.starts_with("refused") ? 1 : 0;
+  crashes += row.status.starts_with("crashed") ? 1 : 0;
+  timeouts += row.status == "timeout" ? 1 : 0;
+  if (is_short_of_memory(row) && short_of_memory.empty()) short_of_memory = row.status;
+}
+
 int status_of(const std::vector<measurement::ResultRow>& rows, bool faulty) {
+  return status_of(summarize(rows), faulty);
+}
+
+int status_of(const std::vector<Summary>& summaries, bool faulty) {
   if (faulty) return support::exit_check_failed;
-  std::uint64_t judged = 0;
+  std::uint64_t all_judged = 0;
   int status = support::exit_done;
-  for (const Summary& one : summarize(rows)) {
-    judged += one.counts.judged;
-    if (one.counts.judged > 0 || one.short_of_memory.empty()) continue;
-    fmt::print(stderr, "touchmark: {}: nothing judged: {}\n", one.contestant, one.short_of_memory);
+  for (const auto& [contestant, of_it] :
+       support::grouped_by(summaries, [](const Summary& one) { return one.contestant; })) {
+    std::uint64_t judged = 0;
+    std::string short_of_memory;
+    for (const Summary* one : of_it) {
+      judged += one->counts.judged;
+      if (short_of_memory.empty()) short_of_memory = one->short_of_memory;
+    }
+    all_judged += judged;
+    if (judged > 0 || short_of_memory.empty()) continue;
+    fmt::print(stderr, "touchmark: {}: nothing judged: {}\n", contestant, short_of_memory);
     status = support::exit_resources;
   }
-  if (status != support::exit_done || judged > 0) return status;
+  if (status != support::exit_done || all_judged > 0) return status;
   fmt::print(stderr, "touchmark: inconclusive: 0 answers were judged\n");
   return support::exit_inconclusive;
 }
 
 std::string verification_table(const std::vector<measurement::ResultRow>& rows) {
-  support::TextTable table({"detector", "guarantee", "answers", "missed", "false", "triangle", "distance",
-                            "point", "normal", "side", "no number", "rounding", "unresolved", "error/diag",
-                            "unsupported", "refused", "crashed", "timeout", "verdict"});
+  support::Table table({"detector", "guarantee", "answers", "missed", "false", "triangle", "distance",
+                        "point", "normal", "side", "no number", "rounding", "unresolved", "error/diag",
+                        "unsupported", "refused", "crashed", "timeout", "verdict"});
   const auto count = [](std::uint64_t value) { return fmt::format("{}", value); };
   for (const Summary& one : summarize(rows)) {
     const oracle::ErrorCounts& counts = one.counts;
@@ -135,8 +132,8 @@ std::string verification_table(const std::vector<measurement::ResultRow>& rows) 
                count(counts.wrong_point), count(counts.wrong_normal), count(counts.wrong_side),
                count(counts.malformed), count(counts.rounding), count(counts.unresolved),
                fmt::format("{:.2g}", counts.max_distance_error_of_diagonal), count(one.unsupported),
-               count(one.refused), count(one.crashed), count(one.timed_out),
-               std::string(verdict_on(one.broken > 0, counts.judged))});
+               count(one.refusals), count(one.crashes), count(one.timeouts),
+               std::string(verdict_on(one.broken, counts.judged))});
   }
   return table.text() + judged_answers(rows);
 }

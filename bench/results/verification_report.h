@@ -19,6 +19,21 @@ std::string_view verdict_on(bool broken, std::uint64_t judged) noexcept;
 /// Returns true if it was refused since there is too little memory.
 bool is_short_of_memory(const measurement::ResultRow& row);
 
+/// Sums up rows of one contestant.
+struct Summary {
+  std::string contestant;
+  std::string guarantee;  ///< as claimed; empty where it is not known
+  oracle::ErrorCounts counts;
+  std::uint64_t unsupported = 0;
+  std::uint64_t refusals = 0;
+  std::uint64_t crashes = 0;
+  std::uint64_t timeouts = 0;
+  std::string short_of_memory;  ///< the first status that says so
+  bool broken = false;          ///< a claim of exactness, as who sums up sees it
+
+  void add(const measurement::ResultRow& row);
+};
+
 /// "N answers judged exactly".
 std::string judged_answers(const std::vector<measurement::ResultRow>& rows);
 
@@ -26,6 +41,8 @@ std::string judged_answers(const std::vector<measurement::ResultRow>& rows);
 /// had nothing judged for want of memory, exit_inconclusive where nobody had anything judged. Says the latter
 /// two on stderr.
 int status_of(const std::vector<measurement::ResultRow>& rows, bool faulty);
+/// Contestants may have several of these.
+int status_of(const std::vector<Summary>& summaries, bool faulty);
 
 /// One line a contestant, in the order of first appearance.
 std::string verification_table(const std::vector<measurement::ResultRow>& rows);

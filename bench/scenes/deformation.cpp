@@ -8,7 +8,6 @@
 #include <vector>
 
 #include <Eigen/Geometry>
-#include <nlohmann/json.hpp>
 
 #include "bench/support/random.h"
 
@@ -104,15 +103,6 @@ std::size_t moved_vertices(const TriangleMesh& before, const TriangleMesh& after
     moved += same ? 0 : 1;
   }
   return moved;
-}
-
-void to_json(nlohmann::json& json, const Deformation& deformation) {
-  json = {{"share", deformation.share}, {"seed", deformation.seed}};
-}
-
-void from_json(const nlohmann::json& json, Deformation& deformation) {
-  json.at("share").get_to(deformation.share);
-  json.at("seed").get_to(deformation.seed);
 }
 
 }  // namespace touchmark::bench::scenes

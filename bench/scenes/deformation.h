@@ -4,8 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "core/triangle_mesh.h"
 
 namespace touchmark::bench::scenes {
@@ -23,8 +21,5 @@ TriangleMesh deformed(const TriangleMesh& mesh, const Deformation& deformation);
 
 /// Vertices whose bits differ. Both meshes have as many.
 std::size_t moved_vertices(const TriangleMesh& before, const TriangleMesh& after);
-
-void to_json(nlohmann::json& json, const Deformation& deformation);
-void from_json(const nlohmann::json& json, Deformation& deformation);
 
 }  // namespace touchmark::bench::scenes

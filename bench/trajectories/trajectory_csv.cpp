@@ -1,8 +1,6 @@
 #include "bench/trajectories/trajectory_csv.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -13,7 +11,6 @@
 
 #include <fmt/format.h>
 
-#include "bench/support/atomic_file.h"
 #include "bench/support/available_memory.h"
 #include "bench/support/csv_reader.h"
 #include "bench/trajectories/motion_columns.h"
@@ -162,13 +159,6 @@ Trajectory MotionReader::read() {
   return ticks;
 }
 
-void append(std::string& line, double value) {
-  std::array<char, 32> text;
-  const auto written = std::to_chars(text.data(), text.data() + text.size(), value);
-  if (!line.empty()) line += ',';
-  line.append(text.data(), written.ptr);
-}
-
 /// A step takes about four times its row, here and in the workers.
 void require_memory_for(const std::string& path) {
   std::error_code error;
@@ -186,21 +176,6 @@ Trajectory read_trajectory(const std::string& path, std::size_t most, const Moti
   file.accept_any_dialect();
   if (most == 0) require_memory_for(path);
   return MotionReader(file, path, most, options).read();
-}
-
-void write_trajectory(const Trajectory& trajectory, const std::string& path) {
-  support::AtomicFile file(path);
-  const bool timed = !trajectory.times_s.empty(), sized = !trajectory.radii.empty();
-  file.write(std::string(timed ? "time_s," : "") + "x,y,z" + (sized ? ",radius\n" : "\n"));
-  std::string line;
-  for (std::size_t i = 0; i < trajectory.size(); ++i) {
-    line.clear();
-    if (timed) append(line, trajectory.times_s[i]);
-    for (int axis = 0; axis < 3; ++axis) append(line, trajectory.positions[i][axis]);
-    if (sized) append(line, trajectory.radii[i]);
-    file.write(line += '\n');
-  }
-  file.commit();
 }
 
 }  // namespace touchmark::bench::trajectories

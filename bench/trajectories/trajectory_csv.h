@@ -1,4 +1,4 @@
-/// Trajectories as CSV files: recorded ones come in, generated ones go out.
+/// Recorded trajectories as CSV files.
 #pragma once
 
 #include <cstddef>
@@ -23,9 +23,5 @@ namespace touchmark::bench::trajectories {
 /// Throws std::invalid_argument, naming the file, line and column, for anything that is not a finite number,
 /// a negative radius, a row of another length than the header, no row at all, and times that are not as said.
 Trajectory read_trajectory(const std::string& path, std::size_t most = 0, const MotionOptions& options = {});
-
-/// Shortest text that reads back to the same bits. Written whole or not at all; throws std::runtime_error
-/// when it cannot be written.
-void write_trajectory(const Trajectory& trajectory, const std::string& path);
 
 }  // namespace touchmark::bench::trajectories

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 namespace touchmark::bench::workers {
@@ -40,12 +39,12 @@ ContestantProcess::ContestantProcess(const SharedArena& arena, contestants::Cont
                                      std::string worker_program)
     : arena_(arena), spec_(std::move(spec)), program_(std::move(worker_program)) {}
 
-nlohmann::json ContestantProcess::ask(const nlohmann::json& request, std::chrono::milliseconds timeout) {
+Reply ContestantProcess::exchange(const Request& request, std::chrono::milliseconds timeout) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
   const auto count_time = [&] { busy_s_ += std::chrono::duration<double>(Clock::now() - start).count(); };
   try {
-    nlohmann::json reply = process_->ask(request, timeout);
+    Reply reply = process_->ask(request, timeout);
     count_time();
     return reply;
   } catch (const WorkerFailure&) {
@@ -61,13 +60,12 @@ void ContestantProcess::start() {
   const WorkerOptions& options = arena_.options();
   process_ = std::make_unique<WorkerProcess>(arena_.launch(program_));
   try {
-    opened_ =
-        ask({{"order", "open"}, {"layout", arena_.layout()}, {"calibrate_clock", options.calibrate_clock}},
-            options.build_timeout);
-    const nlohmann::json reply = request_build();
+    opened_ = std::get<Opened>(
+        exchange(request::Open{arena_.layout(), options.calibrate_clock}, options.build_timeout));
+    Built built = request_build();
     if (!built_) {
-      built_ = reply.get<Built>();
-      pass_on(reply.at("remarks").get<std::vector<std::string>>(), spec_.text());
+      pass_on(built.remarks, spec_.text());
+      built_ = std::move(built);
     }
   } catch (const WorkerFailure& failure) {
     failed_build_ = failure.what();
@@ -84,9 +82,9 @@ void ContestantProcess::mark_failed(std::string status) {
   failed_build_ = std::move(status);
 }
 
-nlohmann::json ContestantProcess::request_build() {
+Built ContestantProcess::request_build() {
   asked_ = false;
-  return ask({{"order", "build"}, {"contestant", spec_.text()}}, arena_.options().build_timeout);
+  return std::get<Built>(exchange(request::Build{spec_.text()}, arena_.options().build_timeout));
 }
 
 const Built& ContestantProcess::build() {
@@ -97,58 +95,8 @@ const Built& ContestantProcess::build() {
 void ContestantProcess::rebuild_if_lazy() {
   start();
   if (!built_->builds_lazily || !asked_) return;
-  const Built again = request_build().get<Built>();
+  const Built again = request_build();
   if (!again.refused.empty()) throw WorkerFailure("refused: " + again.refused);
-}
-
-nlohmann::json ContestantProcess::request(const char* what, const Task& task, const nlohmann::json& more) {
-  start();
-  asked_ = true;
-  nlohmann::json request{{"order", what}, {"task", task}};
-  request.update(more);
-  return ask(request, arena_.options().request_timeout);
-}
-
-Timed ContestantProcess::first(const Task& task) { return request("first", task, nlohmann::json::object()); }
-
-Timed ContestantProcess::calibrate(const Task& task, double budget_ns) {
-  return request("calibrate", task, {{"budget_ns", budget_ns}});
-}
-
-Answered ContestantProcess::answer(const Task& task) {
-  return request("answer", task, nlohmann::json::object());
-}
-
-Answered ContestantProcess::answer_afresh(const Task& task, std::size_t step) {
-  return request("answer_afresh", task, {{"step", step}});
-}
-
-Timed ContestantProcess::first_pass(const Task& task) {
-  return request("first_pass", task, nlohmann::json::object());
-}
-
-Timed ContestantProcess::time(const Task& task, std::int64_t passes) {
-  return request("time", task, {{"passes", passes}});
-}
-
-Timed ContestantProcess::sample(const Task& task, std::int64_t passes, std::int64_t replays) {
-  return request("sample", task, {{"passes", passes}, {"together", replays}});
-}
-
-Timed ContestantProcess::latency(const Task& task) {
-  return request("latency", task, nlohmann::json::object());
-}
-
-Updated ContestantProcess::update(const scenes::Deformation& deformation) {
-  start();
-  return ask({{"order", "update"}, {"contestant", spec_.text()}, {"deformation", deformation}},
-             arena_.options().build_timeout);
-}
-
-void ContestantProcess::rebuild(const scenes::Deformation& deformation) {
-  start();
-  ask({{"order", "rebuild"}, {"contestant", spec_.text()}, {"deformation", deformation}},
-      arena_.options().build_timeout);
 }
 
 }  // namespace touchmark::bench::workers

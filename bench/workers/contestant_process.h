@@ -7,10 +7,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "bench/contestants/contestant_info.h"
-#include "bench/scenes/deformation.h"
 #include "bench/workers/shared_workload.h"
 #include "bench/workers/worker_process.h"
 #include "bench/workers/worker_protocol.h"
@@ -60,19 +60,15 @@ class ContestantProcess {
   /// Builds a lazily built detector anew if it was asked anything since: all of its parts are to
   /// be built again. Does nothing for others, which would not change.
   void rebuild_if_lazy();
-  Timed first(const Task& task);
-  /// Replays the task's ranges once, or, where it names none, as many steps as `budget_ns` allows.
-  Timed calibrate(const Task& task, double budget_ns);
-  Answered answer(const Task& task);
-  /// The answer to that step alone, by a fresh session; it lies first in the output buffers.
-  Answered answer_afresh(const Task& task, std::size_t step);
-  Timed first_pass(const Task& task);
-  Timed time(const Task& task, std::int64_t passes);
-  Timed sample(const Task& task, std::int64_t passes, std::int64_t replays);
-  Timed latency(const Task& task);
-  /// The detector follows the mesh as it is deformed; or, built anew, is that of the deformed mesh.
-  Updated update(const scenes::Deformation& deformation);
-  void rebuild(const scenes::Deformation& deformation);
+  /// Starts and builds first, if that was not done.
+  template <class Kind>
+  typename Kind::Reply ask(const Kind& request) {
+    constexpr bool of_steps = requires { request.task; };
+    start();
+    asked_ = asked_ || of_steps;
+    return std::get<typename Kind::Reply>(
+        exchange(request, of_steps ? arena_.options().request_timeout : arena_.options().build_timeout));
+  }
 
   /// Seconds that all its workers were waited for, building included.
   double busy_s() const noexcept { return busy_s_; }
@@ -83,9 +79,8 @@ class ContestantProcess {
 
  private:
   void start();
-  nlohmann::json request_build();
-  nlohmann::json request(const char* what, const Task& task, const nlohmann::json& more);
-  nlohmann::json ask(const nlohmann::json& request, std::chrono::milliseconds timeout);
+  Built request_build();
+  Reply exchange(const Request& request, std::chrono::milliseconds timeout);
 
   const SharedArena& arena_;
   contestants::ContestantSpec spec_;
@@ -93,7 +88,7 @@ class ContestantProcess {
   std::unique_ptr<WorkerProcess> process_;
   Opened opened_;
   std::optional<Built> built_;
-  bool asked_ = false;  ///< since it was built
+  bool asked_ = false;  ///< about steps, since it was built
   std::string failed_build_;
   double busy_s_ = 0;
 };

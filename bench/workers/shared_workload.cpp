@@ -5,8 +5,6 @@
 #include <cstring>
 #include <new>
 
-#include <nlohmann/json.hpp>
-
 namespace touchmark::bench::workers {
 namespace {
 
@@ -65,20 +63,6 @@ std::size_t WorkloadLayout::longest_trace() const noexcept {
   std::size_t longest = 0;
   for (const std::size_t steps : trace_steps) longest = std::max(longest, steps);
   return longest;
-}
-
-void to_json(nlohmann::json& json, const WorkloadLayout& layout) {
-  json = {{"vertices", layout.vertices},
-          {"triangles", layout.triangles},
-          {"ids", layout.ids},
-          {"course_steps", layout.trace_steps}};
-}
-
-void from_json(const nlohmann::json& json, WorkloadLayout& layout) {
-  json.at("vertices").get_to(layout.vertices);
-  json.at("triangles").get_to(layout.triangles);
-  json.at("ids").get_to(layout.ids);
-  json.at("course_steps").get_to(layout.trace_steps);
 }
 
 std::size_t OutputBuffers::bytes_for(std::size_t steps) noexcept {

@@ -7,8 +7,6 @@
 #include <span>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "bench/contestants/contestant.h"
 #include "bench/workers/shared_memory.h"
 #include "bench/workload/answer.h"
@@ -26,9 +24,6 @@ struct WorkloadLayout {
   std::size_t input_bytes() const noexcept;
   std::size_t longest_trace() const noexcept;
 };
-
-void to_json(nlohmann::json& json, const WorkloadLayout& layout);
-void from_json(const nlohmann::json& json, WorkloadLayout& layout);
 
 /// Holds one request's results. Answers and work, or two kinds of ticks: a step needs one or the other.
 class OutputBuffers {

@@ -37,7 +37,7 @@ class KeepTimesPerPass : public benchmark::BenchmarkReporter {
 /// Compares each pass's answers with the first one's.
 class AnswersOfPasses {
  public:
-  explicit AnswersOfPasses(Throughput& result) : result_(result) {}
+  explicit AnswersOfPasses(Timed& result) : result_(result) {}
   void add(const workload::Checksum& checksum) {
     result_.steady = result_.steady && (first_ || checksum.value() == result_.checksum);
     result_.checksum = checksum.value();
@@ -45,14 +45,14 @@ class AnswersOfPasses {
   }
 
  private:
-  Throughput& result_;
+  Timed& result_;
   bool first_ = true;
 };
 
 /// Elapsed and processor time from its construction on; reading the second one is outside of the first.
 class SampleClock {
  public:
-  void stop(double passes, Throughput& result) const {
+  void stop(double passes, Timed& result) const {
     const Clock::time_point end = Clock::now();
     const double processor = support::processor_ns() - processor_start_;
     const double elapsed = std::chrono::duration<double, std::nano>(end - start_).count();
@@ -69,7 +69,7 @@ class SampleClock {
 
 /// Runs `pass` so many times, at least once, and fills in the times of a query.
 template <class Pass>
-void run_passes(const Pass& pass, std::int64_t passes, double queries_a_pass, Throughput& result) {
+void run_passes(const Pass& pass, std::int64_t passes, double queries_a_pass, Timed& result) {
   const auto run = [&](benchmark::State& state) {
     for (auto _ : state) pass();
   };
@@ -99,9 +99,9 @@ std::vector<std::string> initialize_throughput(const std::vector<std::string>& f
   return {pointers.begin() + 1, pointers.begin() + std::max(count, 1)};
 }
 
-Throughput measure_throughput(contestants::Contestant& contestant, const workload::QueryTrace& trace,
-                              const std::vector<workload::StepRange>& ranges, std::int64_t passes) {
-  Throughput result;
+Timed measure_throughput(contestants::Contestant& contestant, const workload::QueryTrace& trace,
+                         const std::vector<workload::StepRange>& ranges, std::int64_t passes) {
+  Timed result;
   AnswersOfPasses answers(result);
   run_passes(
       [&] {
@@ -113,11 +113,11 @@ Throughput measure_throughput(contestants::Contestant& contestant, const workloa
   return result;
 }
 
-Throughput sample_throughput(contestants::Contestant& contestant, const workload::QueryTrace& trace,
-                             const std::vector<workload::StepRange>& ranges, std::int64_t passes,
-                             std::int64_t replays) {
+Timed sample_throughput(contestants::Contestant& contestant, const workload::QueryTrace& trace,
+                        const std::vector<workload::StepRange>& ranges, std::int64_t passes,
+                        std::int64_t replays) {
   assert(replays == 1 || ranges.size() == 1);
-  Throughput result;
+  Timed result;
   AnswersOfPasses answers(result);
   result.samples.reserve(ranges.size() * static_cast<std::size_t>(std::max<std::int64_t>(passes, 1)));
   const auto pass = [&] {

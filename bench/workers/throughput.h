@@ -7,31 +7,23 @@
 #include <vector>
 
 #include "bench/contestants/contestant.h"
+#include "bench/workers/worker_protocol.h"
 
 namespace touchmark::bench::workers {
-
-struct Throughput {
-  double ns_per_query = 0;      ///< elapsed, the mean over all passes
-  double cpu_ns_per_query = 0;  ///< the process's own time: without what others took of the core
-  std::uint64_t checksum = 0;   ///< one pass's
-  bool steady = true;           ///< every pass had the same checksum
-  std::vector<double> samples;  ///< see measure_throughput; ns
-  std::size_t interrupted = 0;  ///< samples that took over 1.2 times their processor time
-};
 
 /// Hands --benchmark_* flags to the library. Those it does not know come back.
 std::vector<std::string> initialize_throughput(const std::vector<std::string>& flags);
 
 /// Replays all ranges `passes` times (at least once) without forgetting the session in between.
-Throughput measure_throughput(contestants::Contestant& contestant, const workload::QueryTrace& trace,
-                              const std::vector<workload::StepRange>& ranges, std::int64_t passes);
+Timed measure_throughput(contestants::Contestant& contestant, const workload::QueryTrace& trace,
+                         const std::vector<workload::StepRange>& ranges, std::int64_t passes);
 
 /// Replays all ranges `passes` times, each range timed separately: a sample is the shorter of its elapsed and
 /// its processor time. A range is replayed `replays` times in a sample, more than once only where there is no
 /// other. `samples` holds those of the ranges in turn, pass by pass, each divided by `replays`. The last
 /// range is replayed before, so that the first does not pay for what others did to the caches.
-Throughput sample_throughput(contestants::Contestant& contestant, const workload::QueryTrace& trace,
-                             const std::vector<workload::StepRange>& ranges, std::int64_t passes,
-                             std::int64_t replays);
+Timed sample_throughput(contestants::Contestant& contestant, const workload::QueryTrace& trace,
+                        const std::vector<workload::StepRange>& ranges, std::int64_t passes,
+                        std::int64_t replays);
 
 }  // namespace touchmark::bench::workers

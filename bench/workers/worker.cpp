@@ -8,12 +8,13 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
 #include <malloc.h>
-#include <nlohmann/json.hpp>
 
 #include "bench/contestants/build_notes.h"
 #include "bench/contestants/tick_clock.h"
@@ -21,6 +22,7 @@
 #include "bench/support/available_memory.h"
 #include "bench/support/denormals.h"
 #include "bench/support/failures.h"
+#include "bench/support/median.h"
 #include "bench/support/processor_time.h"
 #include "bench/support/system_limit.h"
 #include "bench/workers/line_channel.h"
@@ -40,11 +42,6 @@ std::uint64_t heap_in_use() {
   return info.uordblks + info.hblkhd;
 }
 
-/// Messages of rivals and file names may hold bytes that are not UTF-8.
-std::string dumped(const nlohmann::json& json) {
-  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-}
-
 class Worker {
  public:
   explicit Worker(const contestants::Roster& roster)
@@ -52,52 +49,39 @@ class Worker {
         input_(SharedMemory::attach(worker_input, SharedMemory::Access::read)),
         output_(SharedMemory::attach(worker_output, SharedMemory::Access::write)) {}
 
-  /// Returns the reply to one request.
-  nlohmann::json dispatch(const nlohmann::json& request) {
-    const std::string what = request.at("order");
-    if (what == "open") return open(request.at("layout"), request.at("calibrate_clock"));
-    if (what == "build") {
-      contestants::take_remarks();
-      nlohmann::json reply = build(request.at("contestant"));
-      reply["remarks"] = contestants::take_remarks();
-      return reply;
-    }
-    if (contestant_ == nullptr) throw std::logic_error("nothing is built");
-    if (what == "update") return update(request.at("contestant"), request.at("deformation"));
-    if (what == "rebuild") return rebuild(request.at("contestant"), request.at("deformation"));
-    const Task task = request.at("task");
-    if (what == "first") return first(task);
-    if (what == "calibrate") return calibrate(task, request.at("budget_ns"));
-    if (what == "answer") return answer(task);
-    if (what == "answer_afresh") return answer_afresh(task, request.at("step"));
-    if (what == "first_pass") return first_pass(task);
-    if (what == "time") return time(task, request.at("passes"));
-    if (what == "sample") return sample(task, request.at("passes"), request.at("together"));
-    if (what == "latency") return latency(task);
-    throw std::logic_error("unknown order " + what);
+  Reply dispatch(const Request& request) {
+    return std::visit(
+        [&](const auto& one) -> Reply {
+          using Kind = std::decay_t<decltype(one)>;
+          constexpr bool builds = std::is_same_v<Kind, request::Open> || std::is_same_v<Kind, request::Build>;
+          if (!builds && contestant_ == nullptr) throw std::logic_error("nothing is built");
+          return typename Kind::Reply(handle(one));
+        },
+        request);
   }
 
  private:
-  nlohmann::json open(const WorkloadLayout& layout, bool with_clock);
-  nlohmann::json build(const std::string& spec);
-  nlohmann::json update(const std::string& spec, const scenes::Deformation& deformation);
-  nlohmann::json rebuild(const std::string& spec, const scenes::Deformation& deformation);
-  nlohmann::json refused(std::string why);
-  nlohmann::json first(const Task& task);
-  nlohmann::json calibrate(const Task& task, double budget_ns);
-  nlohmann::json answer(const Task& task);
-  nlohmann::json answer_afresh(const Task& task, std::size_t step);
-  nlohmann::json first_pass(const Task& task);
-  nlohmann::json time(const Task& task, std::int64_t passes);
-  nlohmann::json sample(const Task& task, std::int64_t passes, std::int64_t replays);
-  nlohmann::json latency(const Task& task);
+  Opened handle(const request::Open& request);
+  Built handle(const request::Build& request);
+  Updated handle(const request::Update& request);
+  Done handle(const request::Rebuild& request);
+  Timed handle(const request::First& request);
+  Timed handle(const request::Calibrate& request);
+  Answered handle(const request::Answer& request);
+  Answered handle(const request::AnswerAfresh& request);
+  Timed handle(const request::FirstPass& request);
+  Timed handle(const request::Time& request);
+  Timed handle(const request::Sample& request);
+  Timed handle(const request::Latency& request);
 
   workload::QueryTrace trace_of(const Task& task) const { return {task.query, traces_.at(task.trace)}; }
   std::vector<workload::StepRange> ranges_of(const Task& task) const {
     return task.ranges.empty() ? workload::sample_steps(traces_.at(task.trace).size(), task.steps)
                                : task.ranges;
   }
-  double timed_build(const contestants::ContestantSpec& spec);
+  Built built();
+  Answered answered(const workload::QueryTrace& trace, const std::vector<workload::StepRange>& ranges);
+  double timed_build();
   Timed timed_replay(const workload::QueryTrace& trace, const std::vector<workload::StepRange>& ranges);
 
   const contestants::Roster& roster_;
@@ -107,57 +91,67 @@ class Worker {
   std::optional<OutputBuffers> buffers_;
   std::optional<TriangleMesh> mesh_;
   std::vector<std::vector<workload::Step>> traces_;
+  std::optional<contestants::ContestantSpec> spec_;
   std::unique_ptr<contestants::Contestant> contestant_;
 };
 
-nlohmann::json Worker::open(const WorkloadLayout& layout, bool with_clock) {
+Opened Worker::handle(const request::Open& request) {
   Opened opened;
   opened.flushed_to_zero = support::restore_denormals();
-  layout_ = layout;
-  mesh_ = read_mesh(input_.bytes(), layout);
-  traces_ = read_traces(input_.bytes(), layout);
-  buffers_.emplace(output_.bytes(), layout.longest_trace());
+  layout_ = request.layout;
+  mesh_ = read_mesh(input_.bytes(), layout_);
+  traces_ = read_traces(input_.bytes(), layout_);
+  buffers_.emplace(output_.bytes(), layout_.longest_trace());
   const contestants::ClockCalibration clock =
-      with_clock ? contestants::calibrate_clock() : contestants::ClockCalibration{};
+      request.calibrate_clock ? contestants::calibrate_clock() : contestants::ClockCalibration{};
   opened.clock_cost_ns = clock.cost_ns;
   opened.ns_per_tick = clock.ns_per_tick;
   return opened;
 }
 
-double Worker::timed_build(const contestants::ContestantSpec& spec) {
+double Worker::timed_build() {
   contestant_.reset();
-  roster_.require_memory_for(spec, mesh_->size());
+  roster_.require_memory_for(*spec_, mesh_->size());
   const Clock::time_point start = Clock::now();
-  contestant_ = roster_.build(spec, *mesh_);
+  contestant_ = roster_.build(*spec_, *mesh_);
   return ns_since(start);
 }
 
-nlohmann::json Worker::build(const std::string& spec_text) {
-  const contestants::ContestantSpec spec = roster_.parse(spec_text);
+Built Worker::handle(const request::Build& request) {
+  contestants::take_remarks();
+  spec_ = roster_.parse(request.contestant);
+  Built reply;
+  const auto refuse = [&](std::string why) {
+    contestant_.reset();
+    reply.refused = std::move(why);
+  };
+  try {
+    reply = built();
+  } catch (const std::bad_alloc&) {
+    refuse(fmt::format("{}all of it is taken", support::no_memory));
+  } catch (const support::ResourceError& error) {
+    refuse(fmt::format("{}{}", support::no_memory, error.what()));
+  } catch (const std::system_error& error) {
+    if (!support::limit_behind(error.code().value()).empty()) throw;  // no fault of the mesh
+    refuse(error.what());
+  } catch (const std::exception& error) {
+    refuse(error.what());
+  }
+  reply.remarks = contestants::take_remarks();
+  return reply;
+}
+
+Built Worker::built() {
   if (!mesh_) mesh_ = read_mesh(input_.bytes(), layout_);
   Built built;
   const std::uint64_t heap_before = heap_in_use();
-  std::vector<double> times_ns;
-  try {
-    times_ns.push_back(timed_build(spec));
-    const std::uint64_t heap_after = heap_in_use();
-    built.heap_bytes = heap_after > heap_before ? heap_after - heap_before : 0;
-    // A short build is repeated, since the first one pays for page faults that have nothing to do with it.
-    constexpr double short_build_ns = 20e6;
-    while (times_ns.size() < 5 && times_ns.front() < short_build_ns) times_ns.push_back(timed_build(spec));
-  } catch (const std::bad_alloc&) {
-    return refused(fmt::format("{}all of it is taken", support::no_memory));
-  } catch (const support::ResourceError& error) {
-    return refused(fmt::format("{}{}", support::no_memory, error.what()));
-  } catch (const std::system_error& error) {
-    if (support::limit_behind(error.code().value()).empty()) return refused(error.what());
-    throw;  // for want of threads or descriptors, which is no fault of the mesh
-  } catch (const std::exception& error) {
-    return refused(error.what());
-  }
-  std::nth_element(times_ns.begin(), times_ns.begin() + static_cast<std::ptrdiff_t>(times_ns.size() / 2),
-                   times_ns.end());
-  built.build_ms = times_ns[times_ns.size() / 2] / 1e6;
+  std::vector<double> times_ns{timed_build()};
+  const std::uint64_t heap_after = heap_in_use();
+  built.heap_bytes = heap_after > heap_before ? heap_after - heap_before : 0;
+  // A short build is repeated, since the first one pays for page faults that have nothing to do with it.
+  constexpr double short_build_ns = 20e6;
+  while (times_ns.size() < 5 && times_ns.front() < short_build_ns) times_ns.push_back(timed_build());
+  built.build_ms = support::median(times_ns) / 1e6;
   mesh_.reset();  // detectors hold copies of what they need
   built.bytes = contestant_->bytes();
   built.accuracy = contestant_->accuracy();
@@ -166,13 +160,6 @@ nlohmann::json Worker::build(const std::string& spec_text) {
   }
   built.prepares = contestant_->prepares();
   built.builds_lazily = contestant_->builds_lazily();
-  return built;
-}
-
-nlohmann::json Worker::refused(std::string why) {
-  contestant_.reset();
-  Built built;
-  built.refused = std::move(why);
   return built;
 }
 
@@ -185,26 +172,25 @@ Timed Worker::timed_replay(const workload::QueryTrace& trace,
   return {elapsed / static_cast<double>(workload::steps_in(ranges)), 0, checksum.value(), true, {}};
 }
 
-nlohmann::json Worker::update(const std::string& spec_text, const scenes::Deformation& deformation) {
-  if (!contestant_->updates()) return Updated{};
-  const TriangleMesh rest = read_mesh(input_.bytes(), layout_);
-  return time_updates(*contestant_, roster_, roster_.parse(spec_text), rest, deformation);
+Updated Worker::handle(const request::Update& request) {
+  if (!contestant_->updates()) return {};
+  return time_updates(*contestant_, roster_, *spec_, read_mesh(input_.bytes(), layout_), request.deformation);
 }
 
-nlohmann::json Worker::rebuild(const std::string& spec, const scenes::Deformation& deformation) {
-  const contestants::ContestantSpec parsed = roster_.parse(spec);
-  const TriangleMesh moved = scenes::deformed(read_mesh(input_.bytes(), layout_), deformation);
-  roster_.require_memory_for(parsed, moved.size());
-  contestant_ = roster_.build(parsed, moved);
-  return nlohmann::json::object();
+Done Worker::handle(const request::Rebuild& request) {
+  const TriangleMesh moved = scenes::deformed(read_mesh(input_.bytes(), layout_), request.deformation);
+  roster_.require_memory_for(*spec_, moved.size());
+  contestant_ = roster_.build(*spec_, moved);
+  return {};
 }
 
-nlohmann::json Worker::first(const Task& task) {
+Timed Worker::handle(const request::First& request) {
   contestant_->forget();
-  return timed_replay(trace_of(task), {{0, 1}});
+  return timed_replay(trace_of(request.task), {{0, 1}});
 }
 
-nlohmann::json Worker::calibrate(const Task& task, double budget_ns) {
+Timed Worker::handle(const request::Calibrate& request) {
+  const Task& task = request.task;
   if (!task.ranges.empty()) {
     const double start = support::processor_ns();
     Timed timed = timed_replay(trace_of(task), task.ranges);
@@ -218,13 +204,12 @@ nlohmann::json Worker::calibrate(const Task& task, double budget_ns) {
     const std::vector<workload::StepRange> ranges = workload::sample_steps(total, steps);
     const Timed timed = timed_replay(trace_of(task), ranges);
     const double elapsed = timed.ns_per_query * static_cast<double>(workload::steps_in(ranges));
-    if (elapsed * 4 >= budget_ns || steps >= total) return timed;
+    if (elapsed * 4 >= request.budget_ns || steps >= total) return timed;
   }
 }
 
-nlohmann::json Worker::answer(const Task& task) {
-  const workload::QueryTrace trace = trace_of(task);
-  const std::vector<workload::StepRange> ranges = ranges_of(task);
+/// The ranges' answers and work, by a fresh session, one after the other in the output buffers.
+Answered Worker::answered(const workload::QueryTrace& trace, const std::vector<workload::StepRange>& ranges) {
   const std::size_t steps = workload::steps_in(ranges);
   contestant_->forget();
   std::size_t done = 0;
@@ -235,41 +220,36 @@ nlohmann::json Worker::answer(const Task& task) {
   }
   workload::Checksum checksum;
   for (const workload::Answer& answer : buffers_->answers(steps)) checksum.add(answer);
-  return Answered{checksum.value(), contestant_->work()};
+  return {checksum.value(), contestant_->work()};
 }
 
-nlohmann::json Worker::answer_afresh(const Task& task, std::size_t step) {
-  contestant_->forget();
-  contestant_->answer(trace_of(task), {step, step + 1}, buffers_->answers(1), buffers_->work(1));
-  workload::Checksum checksum;
-  checksum.add(buffers_->answers(1).front());
-  return Answered{checksum.value(), contestant_->work()};
+Answered Worker::handle(const request::Answer& request) {
+  return answered(trace_of(request.task), ranges_of(request.task));
 }
 
-nlohmann::json Worker::first_pass(const Task& task) {
+Answered Worker::handle(const request::AnswerAfresh& request) {
+  return answered(trace_of(request.task), {{request.step, request.step + 1}});
+}
+
+Timed Worker::handle(const request::FirstPass& request) {
   contestant_->forget();
-  Timed timed = timed_replay(trace_of(task), ranges_of(task));
+  Timed timed = timed_replay(trace_of(request.task), ranges_of(request.task));
   timed.work = contestant_->work();
   return timed;
 }
 
-nlohmann::json Worker::time(const Task& task, std::int64_t passes) {
-  const Throughput throughput = measure_throughput(*contestant_, trace_of(task), ranges_of(task), passes);
-  return Timed{
-      throughput.ns_per_query, throughput.cpu_ns_per_query, throughput.checksum, throughput.steady, {}};
+Timed Worker::handle(const request::Time& request) {
+  return measure_throughput(*contestant_, trace_of(request.task), ranges_of(request.task), request.passes);
 }
 
-nlohmann::json Worker::sample(const Task& task, std::int64_t passes, std::int64_t replays) {
-  const Throughput throughput =
-      sample_throughput(*contestant_, trace_of(task), ranges_of(task), passes, replays);
-  return Timed{
-      throughput.ns_per_query, throughput.cpu_ns_per_query, throughput.checksum, throughput.steady, {},
-      throughput.samples,      throughput.interrupted};
+Timed Worker::handle(const request::Sample& request) {
+  return sample_throughput(*contestant_, trace_of(request.task), ranges_of(request.task), request.passes,
+                           request.replays);
 }
 
-nlohmann::json Worker::latency(const Task& task) {
-  const workload::QueryTrace trace = trace_of(task);
-  const std::vector<workload::StepRange> ranges = ranges_of(task);
+Timed Worker::handle(const request::Latency& request) {
+  const workload::QueryTrace trace = trace_of(request.task);
+  const std::vector<workload::StepRange> ranges = ranges_of(request.task);
   const std::span<std::uint64_t> ticks = buffers_->ticks(workload::steps_in(ranges));
   const std::span<std::uint64_t> prepare_ticks = buffers_->prepare_ticks(ticks.size());
   // No page fault inside a timed step.
@@ -289,7 +269,7 @@ nlohmann::json Worker::latency(const Task& task) {
 void serve(Worker worker, LineChannel channel) {
   std::string line;
   while (channel.receive(line, std::nullopt, [] {}) == LineChannel::Outcome::line) {
-    if (!channel.send(dumped(worker.dispatch(nlohmann::json::parse(line))))) return;
+    if (!channel.send(line_of(worker.dispatch(request_in(line))))) return;
   }
 }
 
@@ -298,7 +278,7 @@ void serve(Worker worker, LineChannel channel) {
 int run_worker(int argc, char** argv, const contestants::Roster& roster) {
   const LineChannel channel(worker_control);
   const auto reply_exhausted = [&](const std::string& what) {
-    channel.send(dumped({{out_of_resources, what}}));
+    channel.send(line_of(OutOfResources{what}));
     return support::exit_resources;
   };
   try {

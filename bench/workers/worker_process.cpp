@@ -8,10 +8,11 @@
 #include <string_view>
 #include <system_error>
 #include <thread>
+#include <type_traits>
+#include <variant>
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <sched.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -22,15 +23,15 @@
 #include "bench/support/failures.h"
 #include "bench/support/interrupt.h"
 #include "bench/support/system_limit.h"
-#include "bench/workers/worker_protocol.h"
 
 namespace touchmark::bench::workers {
 namespace {
 
 /// The exit status of a program that could not be loaded, as the dynamic loader and shells have it.
 constexpr int not_loaded = 127;
-constexpr std::string_view start_error_key = "start_error";
-constexpr std::string_view start_error_begin = "{\"start_error\":";
+// NotStarted, as line_of has it.
+constexpr std::string_view start_error_begin = "[0,{\"error\":", start_error_end = "}]\n";
+static_assert(std::is_same_v<std::variant_alternative_t<0, Reply>, NotStarted>);
 
 std::filesystem::path beside_this_program(const std::string& program) {
   std::error_code ignored;
@@ -67,13 +68,15 @@ bool place_descriptors(int control, int input, int output) {
 void tell_start_error(int control, int error) {
   std::array<char, 32> line{};
   std::size_t begin = line.size();
-  line[--begin] = '\n';
-  line[--begin] = '}';
+  const auto prepend = [&](std::string_view text) {
+    for (std::size_t i = text.size(); i > 0; --i) line[--begin] = text[i - 1];
+  };
+  prepend(start_error_end);
   do {
     line[--begin] = static_cast<char>('0' + error % 10);
     error /= 10;
   } while (error > 0);
-  for (std::size_t i = start_error_begin.size(); i > 0; --i) line[--begin] = start_error_begin[i - 1];
+  prepend(start_error_begin);
   const ssize_t ignored = send(control, line.data() + begin, line.size() - begin, MSG_NOSIGNAL);
   static_cast<void>(ignored);
 }
@@ -177,9 +180,9 @@ void WorkerProcess::explain(const Ending& ending) const {
       fmt::format("{} ended before it knew whom to run: {}{}", program_, how, support::memory_limit()));
 }
 
-nlohmann::json WorkerProcess::ask(const nlohmann::json& request, std::chrono::milliseconds timeout) {
+Reply WorkerProcess::ask(const Request& request, std::chrono::milliseconds timeout) {
   if (process_ <= 0) throw WorkerFailure("ended");
-  channel_.send(request.dump());  // one that is gone may have left a reply that says why
+  channel_.send(line_of(request));  // one that is gone may have left a reply that says why
   std::string line;
   const auto deadline = std::chrono::steady_clock::now() + timeout;
   switch (channel_.receive(line, deadline, support::check_for_interrupt)) {
@@ -192,15 +195,15 @@ nlohmann::json WorkerProcess::ask(const nlohmann::json& request, std::chrono::mi
       end();
       throw WorkerFailure("timeout");
   }
-  nlohmann::json reply = nlohmann::json::parse(line);
-  if (const auto error = reply.find(start_error_key); error != reply.end()) {
+  Reply reply = reply_in(line);
+  if (const auto* failed = std::get_if<NotStarted>(&reply)) {
     end();
     throw support::ResourceError(
-        fmt::format("cannot start {}: {}", program_, support::described_with_limit(error->get<int>())));
+        fmt::format("cannot start {}: {}", program_, support::described_with_limit(failed->error)));
   }
-  if (const auto what = reply.find(out_of_resources); what != reply.end()) {
+  if (const auto* exhausted = std::get_if<OutOfResources>(&reply)) {
     end();
-    throw support::ResourceError(fmt::format("{}: {}", program_, what->get<std::string>()));
+    throw support::ResourceError(fmt::format("{}: {}", program_, exhausted->what));
   }
   replied_ = true;
   return reply;

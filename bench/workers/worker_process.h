@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
 #include <sys/types.h>
 
 #include "bench/workers/line_channel.h"
+#include "bench/workers/worker_protocol.h"
 
 namespace touchmark::bench::workers {
 
@@ -42,7 +42,7 @@ class WorkerProcess {
   /// Throws WorkerFailure (the process is gone then), Interrupted, or ResourceError where the machine, not
   /// the contestant, kept the worker from answering: no descriptor, memory or processor time was left for it,
   /// or it ended before it knew whom to run.
-  nlohmann::json ask(const nlohmann::json& request, std::chrono::milliseconds timeout);
+  Reply ask(const Request& request, std::chrono::milliseconds timeout);
 
  private:
   struct Ending {

@@ -1,15 +1,17 @@
-/// What the program and a worker say to each other: one JSON object a line, a request and its reply in turn.
-/// Bulk data (mesh, traces, answers, times) goes through shared memory, see shared_workload.h.
+/// What the program and a worker say to each other: a request and its reply in turn, a line of JSON each. A
+/// request is a struct below, a member of `Request`, and a function of worker.cpp that handles it. Bulk data
+/// (mesh, traces, answers, times) goes through shared memory, see shared_workload.h.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <variant>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "bench/contestants/contestant.h"
+#include "bench/scenes/deformation.h"
+#include "bench/workers/shared_workload.h"
 #include "bench/workload/answer.h"
 #include "core/detector.h"
 
@@ -20,9 +22,6 @@ inline constexpr int worker_control = 3;
 inline constexpr int worker_input = 4;
 inline constexpr int worker_output = 5;
 
-/// The key of a reply that says what the worker itself, not its contestant, was short of.
-inline constexpr const char* out_of_resources = "out_of_resources";
-
 /// Which steps of which trace are meant: those of `ranges`, or, where there are none, of
 /// sample_steps(steps of the trace, `steps`).
 struct Task {
@@ -32,14 +31,25 @@ struct Task {
   std::vector<workload::StepRange> ranges = {};  ///< ascending
 };
 
-/// Reply to "open": the worker has read the mesh and the traces.
+/// The worker's program could not be started: its first reply, which the child writes by hand.
+struct NotStarted {
+  int error = 0;  ///< the value of errno
+};
+
+/// The worker itself, not its contestant, was short of something.
+struct OutOfResources {
+  std::string what;
+};
+
+struct Done {};
+
+/// The worker has read the mesh and the traces.
 struct Opened {
   double clock_cost_ns = 0;  ///< one reading's in the latency pass
   double ns_per_tick = 1;
   bool flushed_to_zero = false;  ///< a library had switched denormal numbers off; the worker switched them on
 };
 
-/// Reply to "build", which may be ordered again.
 struct Built {
   std::string refused;  ///< the message of what build threw; empty when it built
   double build_ms = 0;
@@ -49,28 +59,24 @@ struct Built {
   std::vector<workload::Query> queries;
   bool prepares = false;
   bool builds_lazily = false;  ///< its first queries build parts of it
+  std::vector<std::string> remarks;
 };
 
-/// Reply to "answer": answers and work lie in the output buffers, from a fresh session.
 struct Answered {
   std::uint64_t checksum = 0;
   Work work;  ///< all steps'
 };
 
-/// Reply to "first" (one step, fresh session), "calibrate", "first_pass" (fresh session), "time", "sample"
-/// and "latency" (ticks lie in the output buffers).
 struct Timed {
-  double ns_per_query = 0;      ///< elapsed; of "calibrate" the shorter of that and the processor time
-  double cpu_ns_per_query = 0;  ///< "time" and "sample" only
+  double ns_per_query = 0;      ///< elapsed; of Calibrate the shorter of that and the processor time
+  double cpu_ns_per_query = 0;  ///< only Time and Sample: without what other processes took of the core
   std::uint64_t checksum = 0;
   bool steady = true;                ///< every pass gave the same checksum
-  Work work;                         ///< "first_pass" only: all steps'
-  std::vector<double> samples = {};  ///< "sample" only: see sample_throughput
-  std::size_t interrupted = 0;       ///< how many samples were
+  Work work;                         ///< only FirstPass: all steps
+  std::vector<double> samples = {};  ///< only Sample: see sample_throughput
+  std::size_t interrupted = 0;       ///< samples that took over 1.2 times their processor time
 };
 
-/// Reply to "update": the detector follows the deformed mesh now. Updates, there and back, and builds of the
-/// deformed mesh took turns before; medians over the rounds.
 struct Updated {
   bool supported = false;
   std::string refused;  ///< the message of what update threw
@@ -80,17 +86,98 @@ struct Updated {
   double update_over_build = 0;  ///< within a round
 };
 
-void to_json(nlohmann::json& json, const Updated& updated);
-void from_json(const nlohmann::json& json, Updated& updated);
-void to_json(nlohmann::json& json, const Task& task);
-void from_json(const nlohmann::json& json, Task& task);
-void to_json(nlohmann::json& json, const Opened& opened);
-void from_json(const nlohmann::json& json, Opened& opened);
-void to_json(nlohmann::json& json, const Built& built);
-void from_json(const nlohmann::json& json, Built& built);
-void to_json(nlohmann::json& json, const Answered& answered);
-void from_json(const nlohmann::json& json, Answered& answered);
-void to_json(nlohmann::json& json, const Timed& timed);
-void from_json(const nlohmann::json& json, Timed& timed);
+namespace request {
+
+struct Open {
+  using Reply = Opened;
+  WorkloadLayout layout;
+  bool calibrate_clock = true;
+};
+
+/// May come again.
+struct Build {
+  using Reply = Built;
+  std::string contestant;
+};
+
+/// The detector follows the deformed mesh then. Updates, there and back, and builds of the deformed mesh take
+/// turns before; medians over the rounds.
+struct Update {
+  using Reply = Updated;
+  scenes::Deformation deformation;
+};
+
+/// The detector is built anew, of the deformed mesh.
+struct Rebuild {
+  using Reply = Done;
+  scenes::Deformation deformation;
+};
+
+/// One step, by a fresh session.
+struct First {
+  using Reply = Timed;
+  Task task;
+};
+
+/// Replays the task's ranges once, or, where it names none, as many steps as `budget_ns` allows.
+struct Calibrate {
+  using Reply = Timed;
+  Task task;
+  double budget_ns = 0;
+};
+
+/// Answers and work lie in the output buffers then, from a fresh session.
+struct Answer {
+  using Reply = Answered;
+  Task task;
+};
+
+/// The answer to that step alone, by a fresh session; it lies first in the output buffers.
+struct AnswerAfresh {
+  using Reply = Answered;
+  Task task;
+  std::size_t step = 0;
+};
+
+/// By a fresh session.
+struct FirstPass {
+  using Reply = Timed;
+  Task task;
+};
+
+struct Time {
+  using Reply = Timed;
+  Task task;
+  std::int64_t passes = 1;
+};
+
+/// See sample_throughput.
+struct Sample {
+  using Reply = Timed;
+  Task task;
+  std::int64_t passes = 1;
+  std::int64_t replays = 1;
+};
+
+/// Ticks lie in the output buffers then.
+struct Latency {
+  using Reply = Timed;
+  Task task;
+};
+
+}  // namespace request
+
+using Request = std::variant<request::Open, request::Build, request::Update, request::Rebuild, request::First,
+                             request::Calibrate, request::Answer, request::AnswerAfresh, request::FirstPass,
+                             request::Time, request::Sample, request::Latency>;
+using Reply = std::variant<NotStarted, OutOfResources, Done, Opened, Built, Answered, Timed, Updated>;
+
+// A line is [which of them, {its members}], so that a reply NotStarted is [0,{"error":2}]. Bytes that are not
+// UTF-8, which messages of rivals and file names may hold, are replaced.
+std::string line_of(const Request& request);
+std::string line_of(const Reply& reply);
+/// Throws std::exception for a line that is none.
+Request request_in(const std::string& line);
+Reply reply_in(const std::string& line);
 
 }  // namespace touchmark::bench::workers

@@ -66,8 +66,8 @@ void merge(const MergeOptions& options) {
   }
   jobs = batch::in_order(std::move(jobs), manifest);
   support::AtomicFile file(options.out);
-  file.write(results::csv_line(results::results_columns()));
-  for (const batch::FoundJob& job : jobs) file.write(results::csv_line(job.result.fields));
+  file.write(support::csv_line(results::names_of(results::results_columns())));
+  for (const batch::FoundJob& job : jobs) file.write(support::csv_line(job.result.fields));
   file.commit();
   fmt::print(stderr, "touchmark: {} rows\n", jobs.size());
 }

@@ -1,4 +1,5 @@
 /// `touchmark mesh`: what a mesh is like, and finer ones.
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,10 +29,6 @@ struct InfoOptions {
 
 /// What report_on takes for a triangle.
 constexpr double bytes_reported_on = 400;
-
-const char* yes_or_no(bool value) { return value ? "yes" : "no"; }
-
-std::string coordinates(const Vec3& v) { return fmt::format("{} {} {}", v.x(), v.y(), v.z()); }
 
 const char* name_of(SideFinder::Method method) {
   switch (method) {
@@ -68,48 +65,10 @@ std::vector<Metric> metrics_of(const scenes::MeshReport& report, const support::
   return metrics;
 }
 
-std::string as_text(const scenes::MeshReport& report, const std::optional<support::LengthUnit>& unit) {
-  std::string text;
-  const auto line = [&text](const char* what, const auto& value) {
-    text += fmt::format("{}: {}\n", what, value);
-  };
-  line("triangles", report.triangles);
-  line("faces", report.faces);
-  line("vertices", report.vertices);
-  line("positions", report.positions);
-  line("bounds_min", coordinates(report.bounds.min));
-  line("bounds_max", coordinates(report.bounds.max));
-  line("diagonal", report.diagonal);
-  line("degenerate_triangles", report.degenerate);
-  line("edges", report.edges);
-  line("boundary_edges", report.boundary_edges);
-  line("non_manifold_edges", report.non_manifold_edges);
-  line("euler_characteristic", report.euler_characteristic);
-  line("closed", yes_or_no(report.closed));
-  line("oriented", yes_or_no(report.oriented));
-  line("area", report.area);
-  if (report.volume) line("volume", *report.volume);
-  line("shortest_edge", report.shortest_edge);
-  line("mean_edge", report.mean_edge);
-  line("longest_edge", report.longest_edge);
-  line("worst_aspect_ratio", report.worst_aspect_ratio);
-  line("sides_by", name_of(report.sides.method));
-  line("simple_triangles", report.sides.simple_triangles);
-  line("open_edges", report.sides.open_edges);
-  line("contrary_edges", report.sides.contrary_edges);
-  line("inside_out", yes_or_no(report.sides.inside_out));
-  if (unit) {
-    line("unit", unit->name);
-    for (const Metric& metric : metrics_of(report, *unit)) line(metric.what, metric.value);
-  }
-  return text;
-}
-
-std::string as_json(const std::string& mesh, const scenes::MeshReport& report,
-                    const std::optional<support::LengthUnit>& unit) {
+nlohmann::ordered_json members_of(const scenes::MeshReport& report,
+                                  const std::optional<support::LengthUnit>& unit) {
   const auto triple = [](const Vec3& v) { return nlohmann::ordered_json{v.x(), v.y(), v.z()}; };
   nlohmann::ordered_json json;
-  json["mesh"] = mesh;
   json["triangles"] = report.triangles;
   json["faces"] = report.faces;
   json["vertices"] = report.vertices;
@@ -139,7 +98,7 @@ std::string as_json(const std::string& mesh, const scenes::MeshReport& report,
     json["unit"] = unit->name;
     for (const Metric& metric : metrics_of(report, *unit)) json[metric.what] = metric.value;
   }
-  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return json;
 }
 
 void add_info(CLI::App& mesh_command) {
@@ -156,14 +115,38 @@ void add_info(CLI::App& mesh_command) {
     const TriangleMesh mesh = scenes::load_mesh(options->mesh, options->normalize);
     support::require_memory(fmt::format("edges and sides of {} triangles", mesh.size()),
                             bytes_reported_on * static_cast<double>(mesh.size()));
-    const scenes::MeshReport report = scenes::report_on(mesh);
+    const nlohmann::ordered_json members = members_of(scenes::report_on(mesh), unit);
+    nlohmann::ordered_json named{{"mesh", options->mesh}};
+    named.update(members);
     support::StandardOutput out;
-    out.write(options->json ? as_json(options->mesh, report, unit) : as_text(report, unit));
+    out.write(options->json
+                  ? named.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n"
+                  : lines_of(members));
     out.finish();
   });
 }
 
 }  // namespace
+
+std::string lines_of(const nlohmann::ordered_json& members) {
+  std::string text;
+  const auto line = [&](const std::string& name, const auto& value) {
+    text += fmt::format("{}: {}\n", name, value);
+  };
+  for (const auto& [name, value] : members.items()) {
+    if (value.is_boolean())
+      line(name, value.get<bool>() ? "yes" : "no");
+    else if (value.is_number_integer())
+      line(name, value.get<std::int64_t>());
+    else if (value.is_number())
+      line(name, value.get<double>());
+    else if (value.is_array())
+      line(name, fmt::format("{}", fmt::join(value.get<std::vector<double>>(), " ")));
+    else if (value.is_string())
+      line(name, value.get<std::string>());
+  }
+  return text;
+}
 
 void add_mesh_options(CLI::App& command, std::string& mesh, bool& normalize) {
   command.add_option("--mesh,mesh", mesh, "a scene (touchmark list) or a mesh file")

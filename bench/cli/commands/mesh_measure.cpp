@@ -1,7 +1,6 @@
 /// `touchmark mesh measure`: what Choi & Sung 2017 measure on a mesh.
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -77,19 +76,6 @@ nlohmann::ordered_json measures_of(const TriangleMesh& mesh, const Vec3& center)
   return measures;
 }
 
-std::string as_text(const nlohmann::ordered_json& measures) {
-  std::string text;
-  for (const auto& [name, value] : measures.items()) {
-    if (value.is_boolean())
-      text += fmt::format("{}: {}\n", name, value.get<bool>() ? "yes" : "no");
-    else if (value.is_number_integer())
-      text += fmt::format("{}: {}\n", name, value.get<std::uint64_t>());
-    else
-      text += fmt::format("{}: {}\n", name, value.get<double>());
-  }
-  return text;
-}
-
 }  // namespace
 
 void add_mesh_measure(CLI::App& mesh_command) {
@@ -108,7 +94,7 @@ void add_mesh_measure(CLI::App& mesh_command) {
     nlohmann::ordered_json measures =
         measures_of(scenes::load_mesh(options->mesh, options->normalize), center);
     support::StandardOutput out;
-    out.write(options->json ? measures.dump(2) + "\n" : as_text(measures));
+    out.write(options->json ? measures.dump(2) + "\n" : lines_of(measures));
     out.finish();
   });
 }

@@ -100,7 +100,7 @@ class Run {
  private:
   void write_tables(const papers::ChoiSungResult& result, const papers::FrontierResult& frontier) const {
     const bool own = papers::is_choi_sungs_bunny(mesh_.mesh);
-    const papers::Table claims = papers::claims_table(papers::choi_sung_claims(result, own));
+    const support::Table claims = papers::claims_table(papers::choi_sung_claims(result, own));
     folder_.write_file("table1.csv", papers::choi_sung_table1(result).csv());
     folder_.write_file("table2.csv", papers::choi_sung_table2(result).csv());
     folder_.write_file("table3.csv", papers::choi_sung_table3(result).csv());

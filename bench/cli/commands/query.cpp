@@ -130,7 +130,7 @@ void run_query(const QueryOptions& options, const contestants::Roster& roster) {
   workers::ContestantProcess process(arena, spec, roster.find(spec.name).worker_program(spec.values));
   try {
     check_it_answers(process.build(), query, spec.text());
-    process.answer({0, query, trace.size()});
+    process.ask(workers::request::Answer{{0, query, trace.size()}});
   } catch (const workers::WorkerFailure& failure) {
     explain(failure, spec.text());
   }

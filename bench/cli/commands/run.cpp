@@ -145,7 +145,7 @@ void SweepRun::run_scene(const batch::SweepScene& scene) {
   for (const measurement::ResultRow& row : rows) {
     const std::string id = batch::job_id(scene, row.contestant(), manifest_.effort, manifest_.version);
     const batch::JobResult job{id, results::machine_fingerprint(), run,
-                               results::results_fields(description.run_id, row)};
+                               results::fields_of(results::results_columns(), row, description.run_id)};
     folder_.write_file(batch::job_path("", id), job.json());
     ++done_;
   }

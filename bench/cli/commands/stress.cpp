@@ -1,6 +1,6 @@
 /// `touchmark stress`: families of hard questions to every contestant, each answer against the exact oracle.
+#include <algorithm>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -82,28 +82,6 @@ stress::StressRequest request_of(const StressOptions& options, const contestants
   return request;
 }
 
-/// As that of rows, see verification_report.h.
-int status_of(const std::vector<stress::Score>& scores) {
-  std::map<std::string, std::uint64_t> judged;
-  std::map<std::string, std::string> short_of_memory;
-  std::uint64_t all_judged = 0;
-  for (const stress::Score& score : scores) {
-    if (score.broken) return support::exit_check_failed;
-    all_judged += score.counts.judged;
-    judged[score.contestant()] += score.counts.judged;
-    if (!score.short_of_memory.empty()) short_of_memory.emplace(score.contestant(), score.short_of_memory);
-  }
-  int status = support::exit_done;
-  for (const auto& [contestant, why] : short_of_memory) {
-    if (judged[contestant] > 0) continue;
-    fmt::print(stderr, "touchmark: {}: nothing judged: {}\n", contestant, why);
-    status = support::exit_resources;
-  }
-  if (status != support::exit_done || all_judged > 0) return status;
-  fmt::print(stderr, "touchmark: inconclusive: 0 answers were judged\n");
-  return support::exit_inconclusive;
-}
-
 class StressCommand {
  public:
   StressCommand(const ProgramContext& context, const StressOptions& options)
@@ -146,7 +124,9 @@ int StressCommand::run() {
     return support::exit_interrupted;
   }
   report(true);
-  return status_of(run_.scores());
+  const std::vector<results::Summary> summaries(run_.scores().begin(), run_.scores().end());
+  return results::status_of(summaries, std::any_of(summaries.begin(), summaries.end(),
+                                                   [](const results::Summary& one) { return one.broken; }));
 }
 
 /// "QUERY/MESH/COURSE/STEP": one answer of the only family, by the only contestant.

@@ -19,7 +19,7 @@
 #include "bench/support/interrupt.h"
 #include "bench/support/progress.h"
 #include "bench/support/standard_output.h"
-#include "bench/support/text_table.h"
+#include "bench/support/table.h"
 
 namespace touchmark::bench::cli {
 
@@ -75,8 +75,8 @@ papers::FrontierSettings checked(const TuneOptions& options, const TriangleMesh&
 double percent_of(double error, double diagonal) { return diagonal > 0 ? 100 * error / diagonal : 0; }
 
 std::string table_of(const papers::FrontierResult& result, double diagonal, double rate) {
-  support::TextTable table({"surface", "form", "clustering", "triangles", "spheres", "error %",
-                            "99 % within us", "Hz", "in time", "best"});
+  support::Table table({"surface", "form", "clustering", "triangles", "spheres", "error %", "99 % within us",
+                        "Hz", "in time", "best"});
   for (const papers::FrontierPoint& p : result.points) {
     table.add({fmt::format("{} {}", p.method, p.level), p.form, fmt::format("{:.4g}", p.clustering),
                std::to_string(p.triangles), std::to_string(p.spheres),

@@ -62,7 +62,6 @@ struct ChoiSungRow {
 
 struct ChoiSungResult {
   std::vector<ChoiSungRow> rows;  ///< level 0 first, then by method and level; without clustering, then with
-  double largest_edge = 0;        ///< the threshold, mesh units
   bool answers_agree = true;      ///< did all exact forms answer alike on every surface?
   bool finished = false;          ///< false: interrupted
 };

@@ -7,19 +7,19 @@
 #include "bench/experiments/papers/choi_sung.h"
 #include "bench/experiments/papers/claims.h"
 #include "bench/experiments/papers/frontier.h"
-#include "bench/experiments/papers/table.h"
+#include "bench/support/table.h"
 
 namespace touchmark::bench::experiments::papers {
 
 /// Table 1 in full, with what it leaves out: one row a surface, without and with clustering.
-Table choi_sung_table1(const ChoiSungResult& result);
+support::Table choi_sung_table1(const ChoiSungResult& result);
 /// The scores; empty unless the run was finished.
-Table choi_sung_table2(const ChoiSungResult& result);
+support::Table choi_sung_table2(const ChoiSungResult& result);
 /// LS3 without and with clustering, and the reduction ratios.
-Table choi_sung_table3(const ChoiSungResult& result);
+support::Table choi_sung_table3(const ChoiSungResult& result);
 /// Compares the exact fast forms on these queries, and says how many times the published scan's update rate
 /// they hold.
-Table choi_sung_fast_table(const ChoiSungResult& result);
+support::Table choi_sung_fast_table(const ChoiSungResult& result);
 
 /// Number by number. `own_mesh`: it is the mesh of the paper.
 std::vector<Claim> choi_sung_claims(const ChoiSungResult& result, bool own_mesh);

@@ -1,7 +1,11 @@
+#include <array>
+#include <string>
+
 #include <fmt/format.h>
 
 #include "bench/experiments/papers/choi_sung_report.h"
 #include "bench/experiments/papers/choi_sung_scores.h"
+#include "bench/results/column.h"
 
 namespace touchmark::bench::experiments::papers {
 namespace {
@@ -25,56 +29,35 @@ std::string reduction(double without, double with) {
 
 }  // namespace
 
-Table choi_sung_table1(const ChoiSungResult& result) {
-  Table table({"method",
-               "level",
-               "clustering",
-               "triangles",
-               "mean_triangle_area",
-               "spheres",
-               "tightness",
-               "relative_tightness",
-               "relative_volume",
-               "crease_deg",
-               "contacts",
-               "detection_ms",
-               "update_rate_hz",
-               "tests_per_query",
-               "tree_ms",
-               "tree_update_rate_hz",
-               "tree_tests_per_query",
-               "grid_ms",
-               "grid_update_rate_hz",
-               "grid_tests_per_query"});
-  for (const ChoiSungRow& row : result.rows) {
-    const SurfaceMeasures& s = row.surface;
-    const double scan = ns_of(row.scan), tree = ns_of(row.tree), grid = ns_of(row.grid);
-    table.add({s.method,
-               std::to_string(s.level),
-               number(row.clustering),
-               std::to_string(s.triangles),
-               number(s.mean_area),
-               std::to_string(row.spheres),
-               number(row.tightness),
-               number(row.relative_tightness),
-               number(s.relative_volume),
-               number(s.crease_deg),
-               row.scan ? std::to_string(row.scan->contacts) : "",
-               milliseconds(scan),
-               hertz(scan),
-               work_of(row.scan),
-               milliseconds(tree),
-               hertz(tree),
-               work_of(row.tree),
-               milliseconds(grid),
-               hertz(grid),
-               work_of(row.grid)});
-  }
-  return table;
+support::Table choi_sung_table1(const ChoiSungResult& result) {
+  using Row = const ChoiSungRow&;
+  constexpr auto columns = std::to_array<results::Column<ChoiSungRow>>({
+      {"method", [](Row row) { return row.surface.method; }},
+      {"level", [](Row row) { return std::to_string(row.surface.level); }},
+      {"clustering", [](Row row) { return number(row.clustering); }},
+      {"triangles", [](Row row) { return std::to_string(row.surface.triangles); }},
+      {"mean_triangle_area", [](Row row) { return number(row.surface.mean_area); }},
+      {"spheres", [](Row row) { return std::to_string(row.spheres); }},
+      {"tightness", [](Row row) { return number(row.tightness); }},
+      {"relative_tightness", [](Row row) { return number(row.relative_tightness); }},
+      {"relative_volume", [](Row row) { return number(row.surface.relative_volume); }},
+      {"crease_deg", [](Row row) { return number(row.surface.crease_deg); }},
+      {"contacts", [](Row row) { return row.scan ? std::to_string(row.scan->contacts) : ""; }},
+      {"detection_ms", [](Row row) { return milliseconds(ns_of(row.scan)); }},
+      {"update_rate_hz", [](Row row) { return hertz(ns_of(row.scan)); }},
+      {"tests_per_query", [](Row row) { return work_of(row.scan); }},
+      {"tree_ms", [](Row row) { return milliseconds(ns_of(row.tree)); }},
+      {"tree_update_rate_hz", [](Row row) { return hertz(ns_of(row.tree)); }},
+      {"tree_tests_per_query", [](Row row) { return work_of(row.tree); }},
+      {"grid_ms", [](Row row) { return milliseconds(ns_of(row.grid)); }},
+      {"grid_update_rate_hz", [](Row row) { return hertz(ns_of(row.grid)); }},
+      {"grid_tests_per_query", [](Row row) { return work_of(row.grid); }},
+  });
+  return results::table_of(columns, result.rows);
 }
 
-Table choi_sung_table2(const ChoiSungResult& result) {
-  Table table(
+support::Table choi_sung_table2(const ChoiSungResult& result) {
+  support::Table table(
       {"method", "appearance", "volume_equality", "tightness", "detection_time", "update_rate", "total"});
   const auto score = [](double value) { return fmt::format("{:.2f}", value); };
   for (const MethodScores& s : choi_sung_scores(result)) {
@@ -84,10 +67,10 @@ Table choi_sung_table2(const ChoiSungResult& result) {
   return table;
 }
 
-Table choi_sung_table3(const ChoiSungResult& result) {
-  Table table({"level", "spheres", "clustered_spheres", "sphere_reduction_percent", "detection_ms",
-               "clustered_detection_ms", "detection_reduction_percent", "update_rate_hz",
-               "clustered_update_rate_hz", "update_increment_percent"});
+support::Table choi_sung_table3(const ChoiSungResult& result) {
+  support::Table table({"level", "spheres", "clustered_spheres", "sphere_reduction_percent", "detection_ms",
+                        "clustered_detection_ms", "detection_reduction_percent", "update_rate_hz",
+                        "clustered_update_rate_hz", "update_increment_percent"});
   for (int level = 0;; ++level) {
     const ChoiSungRow* single = find_row(result, SubdivisionMethod::ls3, level, false);
     const ChoiSungRow* clustered = find_row(result, SubdivisionMethod::ls3, level, true);
@@ -101,10 +84,11 @@ Table choi_sung_table3(const ChoiSungResult& result) {
   }
 }
 
-Table choi_sung_fast_table(const ChoiSungResult& result) {
-  Table table({"method", "level", "triangles", "scan_update_rate_hz", "clustered_scan_update_rate_hz",
-               "tree_update_rate_hz", "grid_update_rate_hz", "tree_over_scan", "grid_over_scan",
-               "tree_over_clustered_scan", "grid_over_clustered_scan"});
+support::Table choi_sung_fast_table(const ChoiSungResult& result) {
+  support::Table table({"method", "level", "triangles", "scan_update_rate_hz",
+                        "clustered_scan_update_rate_hz", "tree_update_rate_hz", "grid_update_rate_hz",
+                        "tree_over_scan", "grid_over_scan", "tree_over_clustered_scan",
+                        "grid_over_clustered_scan"});
   for (std::size_t i = 0; i + 1 < result.rows.size(); i += 2) {
     const ChoiSungRow& single = result.rows[i];
     const double scan = ns_of(single.scan), clustered = ns_of(result.rows[i + 1].scan);

@@ -49,8 +49,8 @@ Claim statement_claim(std::string where, std::string statement, bool holds, std:
           holds ? std::string() : std::move(why_not)};
 }
 
-Table claims_table(const std::vector<Claim>& claims) {
-  Table table({"where", "what", "printed", "reproduced", "agrees", "why"});
+support::Table claims_table(const std::vector<Claim>& claims) {
+  support::Table table({"where", "what", "printed", "reproduced", "agrees", "why"});
   for (const Claim& c : claims)
     table.add({c.where, c.what, c.printed, c.reproduced, word_for(c.agreement), c.why});
   return table;
@@ -58,7 +58,7 @@ Table claims_table(const std::vector<Claim>& claims) {
 
 std::string claims_markdown(const std::vector<Claim>& claims) {
   std::vector<std::string> reasons;
-  Table table({"where", "what", "printed", "reproduced", "agrees", "why"});
+  support::Table table({"where", "what", "printed", "reproduced", "agrees", "why"});
   for (const Claim& c : claims) {
     std::string mark;
     if (!c.why.empty()) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/experiments/papers/table.h"
+#include "bench/support/table.h"
 
 namespace touchmark::bench::experiments::papers {
 
@@ -28,7 +28,7 @@ Claim number_claim(std::string where, std::string what, double printed, double r
 Claim statement_claim(std::string where, std::string statement, bool holds, std::string reproduced,
                       std::string why_not);
 
-Table claims_table(const std::vector<Claim>& claims);
+support::Table claims_table(const std::vector<Claim>& claims);
 /// Returns the claims in Markdown, with the reasons numbered below the table.
 std::string claims_markdown(const std::vector<Claim>& claims);
 

@@ -148,9 +148,10 @@ FrontierResult run_frontier(const TriangleMesh& original, const FrontierSettings
   return result;
 }
 
-Table frontier_table(const FrontierResult& result, double diagonal) {
-  Table table({"method", "level", "form", "clustering", "triangles", "spheres", "mean_error", "rms_error",
-               "max_error", "mean_error_percent", "detection_ms", "update_rate_hz", "on_frontier"});
+support::Table frontier_table(const FrontierResult& result, double diagonal) {
+  support::Table table({"method", "level", "form", "clustering", "triangles", "spheres", "mean_error",
+                        "rms_error", "max_error", "mean_error_percent", "detection_ms", "update_rate_hz",
+                        "on_frontier"});
   const auto number = [](double value) { return fmt::format("{:.6g}", value); };
   for (const FrontierPoint& p : result.points) {
     table.add({p.method, std::to_string(p.level), p.form, number(p.clustering), std::to_string(p.triangles),

@@ -13,7 +13,7 @@
 #include "bench/experiments/papers/choi_sung.h"
 #include "bench/experiments/papers/geometric_error.h"
 #include "bench/experiments/papers/interleaved_timing.h"
-#include "bench/experiments/papers/table.h"
+#include "bench/support/table.h"
 
 namespace touchmark::bench::experiments::papers {
 
@@ -61,6 +61,6 @@ FrontierResult run_frontier(const TriangleMesh& original, const FrontierSettings
 void mark_best(std::vector<FrontierPoint>& points, const std::function<bool(const FrontierPoint&)>& among);
 
 /// `diagonal`: of the original mesh, for errors in percent of it.
-Table frontier_table(const FrontierResult& result, double diagonal);
+support::Table frontier_table(const FrontierResult& result, double diagonal);
 
 }  // namespace touchmark::bench::experiments::papers

@@ -6,23 +6,13 @@
 #include <utility>
 
 #include "bench/measurement/latency.h"
+#include "bench/support/interleaving.h"
 #include "bench/support/interrupt.h"
 #include "bench/support/median.h"
 #include "bench/support/processor_time.h"
 #include "bench/support/random.h"
 
 namespace touchmark::bench::experiments::papers {
-namespace {
-
-std::vector<std::size_t> shuffled(std::size_t count, support::Random& random) {
-  std::vector<std::size_t> order(count);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  random.shuffle(order);
-  return order;
-}
-
-}  // namespace
-
 InterleavedTiming::InterleavedTiming(std::span<const workload::Step> steps, workload::Query query,
                                      std::uint64_t seed)
     : trace_{query, steps}, seed_(seed) {}
@@ -81,12 +71,11 @@ void InterleavedTiming::clock_steps(Entry& entry) const {
 void InterleavedTiming::run(const TimingEffort& effort,
                             const std::function<void(std::size_t, std::size_t)>& progress) {
   support::Random random(seed_);
-  for (std::size_t round = 0; round < effort.rounds; ++round) {
-    for (const std::size_t detector : shuffled(entries_.size(), random)) {
-      support::check_for_interrupt();
-      progress(round, detector);
-      turn(entries_[detector], effort.min_turn_ns);
-    }
+  const std::vector<std::size_t> rounds(effort.rounds, entries_.size());
+  for (const auto& [round, detector] : support::interleaved(rounds, random)) {
+    support::check_for_interrupt();
+    progress(round, detector);
+    turn(entries_[detector], effort.min_turn_ns);
   }
 }
 

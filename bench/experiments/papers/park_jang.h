@@ -66,8 +66,8 @@ std::vector<ParkJangBest> park_jang_best(const ParkJangResult& result);
 std::vector<Claim> park_jang_claims(const ParkJangResult& result);
 
 /// times.csv and best.csv.
-Table park_jang_times(const ParkJangResult& result);
-Table park_jang_best_table(const ParkJangResult& result);
+support::Table park_jang_times(const ParkJangResult& result);
+support::Table park_jang_best_table(const ParkJangResult& result);
 std::string park_jang_report(const std::vector<PaperMesh>& meshes, const ParkJangSettings& settings,
                              const ParkJangResult& result);
 

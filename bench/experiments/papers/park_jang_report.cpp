@@ -118,9 +118,9 @@ Claim factor_claim(const ParkJangBest& best, const std::vector<ParkJangBest>& al
 
 }  // namespace
 
-Table park_jang_times(const ParkJangResult& result) {
-  Table table({"mesh", "triangles", "form", "cell", "groups", "detection_ms", "update_rate_hz",
-               "tests_per_query", "contacts", "times_ungrouped"});
+support::Table park_jang_times(const ParkJangResult& result) {
+  support::Table table({"mesh", "triangles", "form", "cell", "groups", "detection_ms", "update_rate_hz",
+                        "tests_per_query", "contacts", "times_ungrouped"});
   double ungrouped = 0;
   for (const ParkJangRow& row : result.rows) {
     const double ns = row.timed ? row.timed->ns : 0;
@@ -134,9 +134,9 @@ Table park_jang_times(const ParkJangResult& result) {
   return table;
 }
 
-Table park_jang_best_table(const ParkJangResult& result) {
-  Table table({"mesh", "triangles", "shape", "best_groups", "within_10_percent_from", "within_10_percent_to",
-               "detection_ms", "ungrouped_ms", "factor", "most_groups_ms"});
+support::Table park_jang_best_table(const ParkJangResult& result) {
+  support::Table table({"mesh", "triangles", "shape", "best_groups", "within_10_percent_from",
+                        "within_10_percent_to", "detection_ms", "ungrouped_ms", "factor", "most_groups_ms"});
   for (const ParkJangBest& best : park_jang_best(result)) {
     table.add({best.mesh, std::to_string(best.triangles), best.shape, std::to_string(best.groups),
                std::to_string(best.from), std::to_string(best.to), number(best.ns * 1e-6),

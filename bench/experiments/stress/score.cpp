@@ -1,7 +1,5 @@
 #include "bench/experiments/stress/score.h"
 
-#include "bench/results/verification_report.h"
-
 namespace touchmark::bench::experiments::stress {
 namespace {
 
@@ -40,7 +38,9 @@ std::string_view name_of(Standing standing) noexcept {
 }
 
 Score::Score(const measurement::ResultRow& first, const Family& of)
-    : detector(first.detector), options(first.options), family(&of), query(first.query) {}
+    : detector(first.detector), options(first.options), family(&of), query(first.query) {
+  contestant = first.contestant();
+}
 
 bool Score::is_of(const measurement::ResultRow& row, const Family& of) const {
   return family == &of && query == row.query && detector == row.detector && options == row.options;
@@ -48,18 +48,13 @@ bool Score::is_of(const measurement::ResultRow& row, const Family& of) const {
 
 void Score::add(const measurement::ResultRow& row, bool of_another_mesh) {
   meshes += of_another_mesh ? 1 : 0;
-  if (row.claim()) guarantee = measurement::guarantee_name(row);
-  if (row.counts) counts += *row.counts;
+  Summary::add(row);
   if (row.counts && row.throughput) {
     ns_ += row.throughput->ns_per_query * static_cast<double>(row.counts->judged);
     timed_ += row.counts->judged;
   }
-  timeouts += row.status == "timeout" ? 1 : 0;
-  refusals += row.status.starts_with("refused") ? 1 : 0;
-  unsupported += row.status == "unsupported" ? 1 : 0;
-  // A checksum mismatch is a worker whose memory cannot be trusted.
-  crashes += row.status.starts_with("crashed") || row.status == "checksum mismatch" ? 1 : 0;
-  if (results::is_short_of_memory(row) && short_of_memory.empty()) short_of_memory = row.status;
+  // A worker whose memory cannot be trusted.
+  crashes += row.status == "checksum mismatch" ? 1 : 0;
   broken = broken || breaks_the_claim(row);
 }
 

@@ -1,14 +1,15 @@
 #include "bench/experiments/stress/stress_report.h"
 
 #include <algorithm>
-#include <map>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "bench/results/run_circumstances.h"
 #include "bench/results/verification_report.h"
-#include "bench/support/text_table.h"
+#include "bench/support/grouping.h"
+#include "bench/support/table.h"
 #include "bench/workload/query_name.h"
 
 namespace touchmark::bench::experiments::stress {
@@ -44,14 +45,6 @@ struct Cell {
   }
 };
 
-template <class Value>
-std::size_t column_of(std::vector<Value>& list, const Value& value) {
-  const auto found = std::find(list.begin(), list.end(), value);
-  if (found != list.end()) return static_cast<std::size_t>(found - list.begin());
-  list.push_back(value);
-  return list.size() - 1;
-}
-
 std::string letter(std::size_t column) {
   return std::string(1, static_cast<char>(column < 26 ? 'a' + column : 'A' + (column - 26)));
 }
@@ -68,33 +61,34 @@ std::string sums(const std::vector<Score>& scores) {
 }  // namespace
 
 std::string stress_table(const std::vector<Score>& scores) {
-  std::vector<std::string> contestants;
-  std::vector<const Family*> shown;
-  std::map<std::pair<std::size_t, std::size_t>, Cell> cells;
-  std::map<std::size_t, bool> broken;
-  std::map<std::size_t, std::uint64_t> judged;
-  for (const Score& score : scores) {
-    const std::size_t row = column_of(contestants, score.contestant());
-    cells[{row, column_of(shown, score.family)}].add(score);
-    broken[row] = broken[row] || score.broken;
-    judged[row] += score.counts.judged;
-  }
+  const auto shown = support::grouped_by(scores, [](const Score& score) { return score.family; });
   std::vector<std::string> header{"contestant"};
   for (std::size_t column = 0; column < shown.size(); ++column) header.push_back(letter(column));
   header.emplace_back("verdict");
-  support::TextTable table(header);
-  for (std::size_t row = 0; row < contestants.size(); ++row) {
-    std::vector<std::string> line{contestants[row]};
-    for (std::size_t column = 0; column < shown.size(); ++column) {
-      const auto cell = cells.find({row, column});
-      line.push_back(cell == cells.end() ? "" : cell->second.text());
+  support::Table table(header);
+  for (const auto& [contestant, of_it] :
+       support::grouped_by(scores, [](const Score& score) { return score.contestant; })) {
+    std::vector<std::string> line{contestant};
+    bool broken = false;
+    std::uint64_t judged = 0;
+    for (const auto& [family, _] : shown) {
+      std::optional<Cell> cell;
+      for (const Score* score : of_it) {
+        if (score->family != family) continue;
+        if (!cell) cell.emplace();
+        cell->add(*score);
+        broken = broken || score->broken;
+        judged += score->counts.judged;
+      }
+      line.push_back(cell ? cell->text() : "");
     }
-    line.emplace_back(results::verdict_on(broken[row], judged[row]));
+    line.emplace_back(results::verdict_on(broken, judged));
     table.add(line);
   }
   std::string text = table.text() + '\n';
   for (std::size_t column = 0; column < shown.size(); ++column)
-    text += fmt::format("{}  {}: {}\n", letter(column), shown[column]->name, shown[column]->meaning);
+    text +=
+        fmt::format("{}  {}: {}\n", letter(column), shown[column].first->name, shown[column].first->meaning);
   text +=
       "N missed, made up or malformed, ~N otherwise off by more than declared, or, where nothing is "
       "declared, than " +

@@ -7,21 +7,23 @@
 #include <fmt/format.h>
 
 #include "bench/measurement/result_row.h"
-#include "bench/results/results_csv.h"
-#include "bench/support/text_table.h"
+#include "bench/results/column.h"
+#include "bench/support/grouping.h"
+#include "bench/support/table.h"
 
 namespace touchmark::bench::experiments::update {
 namespace {
 
-struct Column {
-  std::string_view name;
-  std::string (*value)(const UpdateRow& row);
-};
-
 using Row = const UpdateRow&;
 
-std::string rounded(std::optional<double> value) { return value ? fmt::format("{:.6g}", *value) : ""; }
-
+template <auto Member>
+std::string plain(Row row) {
+  return fmt::format("{}", row.*Member);
+}
+template <auto Member>
+std::string optional(Row row) {
+  return row.*Member ? fmt::format("{:.6g}", *(row.*Member)) : "";
+}
 template <auto Member>
 std::string of_update(Row row) {
   return row.updated ? fmt::format("{:.6g}", static_cast<double>((*row.updated).*Member)) : "";
@@ -36,68 +38,60 @@ std::string guarantee(Row row) {
   return std::string(measurement::guarantee_name(row.accuracy->guarantee));
 }
 
-// The order is the contract. schema comes before these.
-constexpr std::array columns{
-    Column{"detector", [](Row row) { return row.detector; }},
-    Column{"options", [](Row row) { return row.options; }},
-    Column{"mesh", [](Row row) { return row.mesh; }},
-    Column{"triangles", [](Row row) { return fmt::format("{}", row.triangles); }},
-    Column{"vertices", [](Row row) { return fmt::format("{}", row.vertices); }},
-    Column{"share", [](Row row) { return fmt::format("{:.6g}", row.share); }},
-    Column{"moved_vertices", [](Row row) { return fmt::format("{}", row.moved_vertices); }},
-    Column{"guarantee", guarantee},
-    Column{"status", [](Row row) { return row.status; }},
-    Column{"rounds", of_update<&workers::Updated::rounds>},
-    Column{"build_ms", of_update<&workers::Updated::build_ms>},
-    Column{"update_ms", of_update<&workers::Updated::update_ms>},
-    Column{"update_over_build", of_update<&workers::Updated::update_over_build>},
-    Column{"ns_per_query_updated", [](Row row) { return rounded(row.ns_updated); }},
-    Column{"ns_per_query_built", [](Row row) { return rounded(row.ns_built); }},
-    Column{"answers_as_built",
-           [](Row row) {
-             return std::string(!row.answers_as_built ? "" : *row.answers_as_built ? "1" : "0");
-           }},
-    Column{"judged", of_counts<&oracle::ErrorCounts::judged>},
-    Column{"missed", of_counts<&oracle::ErrorCounts::missed>},
-    Column{"false_contacts", of_counts<&oracle::ErrorCounts::false_contacts>},
-    Column{"wrong_triangle", of_counts<&oracle::ErrorCounts::wrong_triangle>},
-    Column{"beyond_bound", of_counts<&oracle::ErrorCounts::beyond_bound>},
-    Column{"malformed", of_counts<&oracle::ErrorCounts::malformed>},
-    Column{"unresolved", of_counts<&oracle::ErrorCounts::unresolved>},
-    Column{"max_distance_error_of_diagonal", of_counts<&oracle::ErrorCounts::max_distance_error_of_diagonal>},
-};
+using E = oracle::ErrorCounts;
+using R = UpdateRow;
+using U = workers::Updated;
 
-template <class Values, class Value>
-void add_new(Values& values, const Value& value) {
-  if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
-}
+// The order is the contract.
+constexpr auto columns = std::to_array<results::Column<R>>({
+    {"schema", [](Row) { return std::to_string(update_schema); }},
+    {"detector", plain<&R::detector>},
+    {"options", plain<&R::options>},
+    {"mesh", plain<&R::mesh>},
+    {"triangles", plain<&R::triangles>},
+    {"vertices", plain<&R::vertices>},
+    {"share", [](Row row) { return fmt::format("{:.6g}", row.share); }},
+    {"moved_vertices", plain<&R::moved_vertices>},
+    {"guarantee", guarantee},
+    {"status", plain<&R::status>},
+    {"rounds", of_update<&U::rounds>},
+    {"build_ms", of_update<&U::build_ms>},
+    {"update_ms", of_update<&U::update_ms>},
+    {"update_over_build", of_update<&U::update_over_build>},
+    {"ns_per_query_updated", optional<&R::ns_updated>},
+    {"ns_per_query_built", optional<&R::ns_built>},
+    {"answers_as_built",
+     [](Row row) { return row.answers_as_built ? fmt::format("{:d}", *row.answers_as_built) : ""; }},
+    {"judged", of_counts<&E::judged>},
+    {"missed", of_counts<&E::missed>},
+    {"false_contacts", of_counts<&E::false_contacts>},
+    {"wrong_triangle", of_counts<&E::wrong_triangle>},
+    {"beyond_bound", of_counts<&E::beyond_bound>},
+    {"malformed", of_counts<&E::malformed>},
+    {"unresolved", of_counts<&E::unresolved>},
+    {"max_distance_error_of_diagonal", of_counts<&E::max_distance_error_of_diagonal>},
+});
 
-std::string table_of(const std::vector<UpdateRow>& rows, const std::string& mesh) {
-  std::vector<double> shares;
-  std::vector<std::string> contestants;
-  for (const UpdateRow& row : rows) {
-    if (row.mesh != mesh) continue;
-    add_new(shares, row.share);
-    add_new(contestants, row.contestant());
-  }
+std::string table_of(const std::vector<const UpdateRow*>& rows, const std::string& mesh) {
   std::vector<std::string> header{"detector", "build ms"};
-  for (const double share : shares) header.push_back(fmt::format("{:g} %", 100 * share));
+  for (const auto& [share, _] : support::grouped_by(rows, [](Row row) { return row.share; }))
+    header.push_back(fmt::format("{:g} %", 100 * share));
   for (const char* name : {"query then", "missed", "false", "triangle", "off", "status"})
     header.emplace_back(name);
-  support::TextTable table(header);
-  for (const std::string& contestant : contestants) {
+  support::Table table(header);
+  for (const auto& [contestant, of_it] :
+       support::grouped_by(rows, [](Row row) { return row.contestant(); })) {
     std::vector<std::string> cells{contestant, ""};
     std::optional<double> dearest;
     oracle::ErrorCounts errors;
     std::string status = "ok";
-    for (const UpdateRow& row : rows) {
-      if (row.mesh != mesh || row.contestant() != contestant) continue;
-      if (row.updated) cells[1] = fmt::format("{:.3g}", row.updated->build_ms);
-      cells.push_back(row.updated ? fmt::format("{:.3g}", row.updated->update_over_build) : "");
-      if (row.counts) errors += *row.counts;
-      if (row.status != "ok") status = row.status;
-      if (row.ns_updated && row.ns_built)
-        dearest = std::max(dearest.value_or(0), *row.ns_updated / std::max(*row.ns_built, 1e-3));
+    for (const UpdateRow* row : of_it) {
+      if (row->updated) cells[1] = fmt::format("{:.3g}", row->updated->build_ms);
+      cells.push_back(row->updated ? fmt::format("{:.3g}", row->updated->update_over_build) : "");
+      if (row->counts) errors += *row->counts;
+      if (row->status != "ok") status = row->status;
+      if (row->ns_updated && row->ns_built)
+        dearest = std::max(dearest.value_or(0), *row->ns_updated / std::max(*row->ns_built, 1e-3));
     }
     cells.push_back(dearest ? fmt::format("{:.2f}", *dearest) : "");
     for (const std::uint64_t count :
@@ -114,23 +108,12 @@ std::string table_of(const std::vector<UpdateRow>& rows, const std::string& mesh
 
 }  // namespace
 
-std::string update_csv(const std::vector<UpdateRow>& rows) {
-  std::vector<std::string> header{"schema"};
-  for (const Column& column : columns) header.emplace_back(column.name);
-  std::string csv = results::csv_line(header);
-  for (const UpdateRow& row : rows) {
-    std::vector<std::string> fields{fmt::format("{}", update_schema)};
-    for (const Column& column : columns) fields.push_back(column.value(row));
-    csv += results::csv_line(fields);
-  }
-  return csv;
-}
+std::string update_csv(const std::vector<UpdateRow>& rows) { return results::table_of(columns, rows).csv(); }
 
 std::string update_table(const std::vector<UpdateRow>& rows) {
-  std::vector<std::string> meshes;
-  for (const UpdateRow& row : rows) add_new(meshes, row.mesh);
   std::string text;
-  for (const std::string& mesh : meshes) text += table_of(rows, mesh);
+  for (const auto& [mesh, of_mesh] : support::grouped_by(rows, [](Row row) { return row.mesh; }))
+    text += table_of(of_mesh, mesh);
   return text;
 }
 

@@ -84,9 +84,10 @@ workers::Task UpdateRun::task_for(std::size_t trace) const {
 }
 
 workers::Timed UpdateRun::timed(workers::ContestantProcess& process, const workers::Task& task) const {
-  const double pass_ns =
-      std::max(process.first_pass(task).ns_per_query, 1.0) * static_cast<double>(task.steps);
-  return process.time(task, static_cast<std::int64_t>(std::max(ns_to_time / pass_ns, 1.0)));
+  const double pass_ns = std::max(process.ask(workers::request::FirstPass{task}).ns_per_query, 1.0) *
+                         static_cast<double>(task.steps);
+  return process.ask(
+      workers::request::Time{task, static_cast<std::int64_t>(std::max(ns_to_time / pass_ns, 1.0))});
 }
 
 void UpdateRun::measure(workers::ContestantProcess& process, std::size_t index, UpdateRow& row) {
@@ -94,7 +95,8 @@ void UpdateRun::measure(workers::ContestantProcess& process, std::size_t index, 
   const workers::Built& built = process.build();
   row.accuracy = built.accuracy;
   const bool answers = std::find(built.queries.begin(), built.queries.end(), query_) != built.queries.end();
-  const workers::Updated updated = answers ? process.update(scene.deformation) : workers::Updated{};
+  const workers::Updated updated =
+      answers ? process.ask(workers::request::Update{scene.deformation}) : workers::Updated{};
   if (!updated.supported) {
     row.status = "unsupported";
     return;
@@ -104,14 +106,14 @@ void UpdateRun::measure(workers::ContestantProcess& process, std::size_t index, 
   oracle::ErrorCounts counts;
   for (std::size_t k = 0; k < traces_a_scene; ++k) {
     const workers::Task task = task_for(traces_a_scene * index + k);
-    process.answer(task);
+    process.ask(workers::request::Answer{task});
     counts += scene.truths[k].judge(query_, workload::sample_steps(task.steps, task.steps),
                                     arena_.buffers().answers(task.steps), *row.accuracy);
   }
   row.counts = counts;
   const workers::Task along = task_for(traces_a_scene * index);
   const workers::Timed after_update = timed(process, along);
-  process.rebuild(scene.deformation);
+  process.ask(workers::request::Rebuild{scene.deformation});
   const workers::Timed after_build = timed(process, along);
   row.ns_updated = after_update.cpu_ns_per_query;
   row.ns_built = after_build.cpu_ns_per_query;

@@ -19,6 +19,7 @@
 #include "bench/regression/driver/workloads.h"
 #include "bench/support/atomic_file.h"
 #include "bench/support/failures.h"
+#include "bench/support/interleaving.h"
 #include "bench/support/processor_time.h"
 #include "bench/support/random.h"
 
@@ -78,7 +79,8 @@ class Sitting {
   bool build(const char* detector, const TouchmarkGateMesh& mesh) {
     for (auto& old : detectors_) old.reset();
     try {
-      for (const std::size_t i : random_order()) detectors_[i] = plugins_[i].build(detector, mesh);
+      for (const auto& [_, i] : support::interleaved({3}, random_))
+        detectors_[i] = plugins_[i].build(detector, mesh);
     } catch (const std::runtime_error&) {
       return false;
     }
@@ -88,7 +90,7 @@ class Sitting {
   /// A turn begins with an untimed pass, so that none pays for what the one before left in the caches.
   std::array<double, 3> round(const TouchmarkGatePass& pass) {
     std::array<double, 3> ns = {};
-    for (const std::size_t i : random_order()) {
+    for (const auto& [_, i] : support::interleaved({3}, random_)) {
       TouchmarkGatePass mine = pass;
       (void)plugins_[i].replay(detectors_[i], mine);
       mine.again = again_[i];
@@ -100,12 +102,6 @@ class Sitting {
   }
 
  private:
-  std::array<std::size_t, 3> random_order() {
-    std::array<std::size_t, 3> order = {0, 1, 2};
-    random_.shuffle(order);
-    return order;
-  }
-
   const std::array<PluginLibrary, 3>& plugins_;
   const std::array<double, 3>& again_;
   support::Random& random_;

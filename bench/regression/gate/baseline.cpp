@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "bench/results/results_csv.h"
+#include "bench/results/column.h"
 #include "bench/support/csv_reader.h"
 #include "bench/support/numbers.h"
 
@@ -88,7 +88,7 @@ BaselineRow row_of(const Record& record) {
 
 std::string line_of(const BaselineRow& row) {
   const GateKey& key = row.key;
-  return results::csv_line(
+  return support::csv_line(
       {key.mesh, key.trajectory, key.query, key.detector, key.reference, support::hex(row.mesh_hash),
        support::hex(row.trace_hash), fmt::format("{}", row.steps), fmt::format("{:.6g}", row.ratio.ratio),
        fmt::format("{:.6g}", row.ratio.low), fmt::format("{:.6g}", row.ratio.high),
@@ -134,7 +134,7 @@ void Baseline::put(BaselineRow row) {
 }
 
 std::string Baseline::csv() const {
-  std::string text = results::csv_line({columns.begin(), columns.end()});
+  std::string text = support::csv_line({columns.begin(), columns.end()});
   for (const BaselineRow& row : rows_) text += line_of(row);
   return text;
 }

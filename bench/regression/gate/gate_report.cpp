@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include "bench/results/results_csv.h"
-#include "bench/support/text_table.h"
+#include "bench/results/column.h"
+#include "bench/support/table.h"
 
 namespace touchmark::bench::regression::gate {
 namespace {
@@ -33,8 +33,8 @@ std::vector<std::string> cells_of(const GateLine& line) {
 }  // namespace
 
 std::string gate_table(const std::vector<GateLine>& lines) {
-  support::TextTable table({"trajectory", "detector", "baseline", "ratio", "interval", "change", "control",
-                            "batches", "answers", "verdict"});
+  support::Table table({"trajectory", "detector", "baseline", "ratio", "interval", "change", "control",
+                        "batches", "answers", "verdict"});
   for (const GateLine& line : lines) table.add(cells_of(line));
   return table.text();
 }
@@ -48,7 +48,7 @@ std::string gate_csv(const std::vector<GateLine>& lines, double tolerance) {
     const auto measured = [&](double value) {
       return line.judgement.batches == 0 ? "" : fmt::format("{:.6g}", value);
     };
-    csv += results::csv_line(
+    csv += support::csv_line(
         {line.key.mesh, line.key.trajectory, line.key.query, line.key.detector, line.key.reference,
          line.baseline ? fmt::format("{:.6g}", line.baseline->ratio) : "", measured(ratio.ratio),
          measured(ratio.low), measured(ratio.high), measured(control.low), measured(control.high),

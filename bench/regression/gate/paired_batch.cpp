@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "bench/ground_truth/ground_truth.h"
+#include "bench/support/interleaving.h"
 #include "bench/support/interrupt.h"
 #include "bench/support/random.h"
 #include "bench/workload/sample_steps.h"
@@ -47,7 +48,10 @@ class PairedBatches::Contender {
   }
 
   double ns_per_query(double budget_ns) {
-    return std::max(attempt([&] { return process_.calibrate(task_, budget_ns); }).ns_per_query, 1.0);
+    return std::max(attempt([&] {
+                      return process_.ask(workers::request::Calibrate{task_, budget_ns});
+                    }).ns_per_query,
+                    1.0);
   }
 
   /// Before anything is timed.
@@ -55,7 +59,7 @@ class PairedBatches::Contender {
     task_.steps = steps;
     const std::vector<workload::StepRange> ranges =
         workload::sample_steps(batches_.workload_.traces[task_.trace].size(), steps);
-    const workers::Answered answered = attempt([&] { return process_.answer(task_); });
+    const workers::Answered answered = attempt([&] { return process_.ask(workers::request::Answer{task_}); });
     const workers::OutputBuffers& buffers = batches_.arena_.buffers();
     const std::size_t count = workload::steps_in(ranges);
     checksum_ = answered.checksum;
@@ -79,7 +83,7 @@ class PairedBatches::Contender {
 
  private:
   double timed(std::int64_t passes) {
-    const workers::Timed timed = attempt([&] { return process_.time(task_, passes); });
+    const workers::Timed timed = attempt([&] { return process_.ask(workers::request::Time{task_, passes}); });
     if (!timed.steady || timed.checksum != checksum_) fail("answers otherwise when it is timed");
     return timed.cpu_ns_per_query;
   }
@@ -138,13 +142,10 @@ Batch PairedBatches::measure() {
   for (Contender& contender : contenders) contender.warm_up(effort_.turn_ns);
 
   support::Random random(seed_++);
-  std::array<std::size_t, 3> order{0, 1, 2};
-  for (std::size_t round = 0; round < effort_.rounds; ++round) {
-    random.shuffle(order);
-    for (const std::size_t which : order) {
-      support::check_for_interrupt();
-      contenders[which].turn();
-    }
+  const std::vector<std::size_t> rounds(effort_.rounds, contenders.size());
+  for (const support::Turn& turn : support::interleaved(rounds, random)) {
+    support::check_for_interrupt();
+    contenders[turn.which].turn();
   }
   log_ratios_ = differences(detector.log_ns(), reference.log_ns());
   return {median_ratio(log_ratios_, seed_),

@@ -18,8 +18,8 @@ std::string CsvTable::field(const CsvRecord& record, const std::string& column) 
   return at < header.size() && at < record.fields.size() ? record.fields[at] : "";
 }
 
-bool begins_with_columns(const CsvTable& table, const std::vector<std::string_view>& names,
-                         std::size_t at_least, Faults& faults) {
+bool begins_with_columns(const CsvTable& table, const std::vector<std::string>& names, std::size_t at_least,
+                         Faults& faults) {
   const std::size_t given = table.header.size();
   for (std::size_t i = 0; i < std::max(at_least, std::min(given, names.size())); ++i) {
     const std::string found = i < given ? table.header[i] : "";
@@ -29,6 +29,24 @@ bool begins_with_columns(const CsvTable& table, const std::vector<std::string_vi
     return false;
   }
   return true;
+}
+
+bool is_ok(const CsvTable& table, const CsvRecord& record) { return table.field(record, "status") == "ok"; }
+
+void check_field(const CsvTable& table, const CsvRecord& record, std::string_view column, Presence presence,
+                 const Kind& kind, bool timed, Faults& faults) {
+  const std::string name(column), text = table.field(record, name);
+  if (!table.has(name)) return;
+  const auto fault = [&](const std::string& wrong) {
+    faults.push_back({table.path, record.line, name, text, wrong});
+  };
+  const bool ok = is_ok(table, record);
+  const bool of_times = presence == Presence::built || presence == Presence::timed;
+  const bool always = presence == Presence::always;
+  if (text.empty() && (always || (ok && (presence == Presence::judged || (of_times && timed)))))
+    fault(always ? "must not be empty" : "must not be empty where the status is ok");
+  if (!text.empty() && presence == Presence::timed && !ok) fault("must be empty where the status is not ok");
+  if (!text.empty() && !kind.accepts(text)) fault(fmt::format("is not {}", kind.what));
 }
 
 CsvTable read_csv_table(const std::string& path, Faults& faults) {

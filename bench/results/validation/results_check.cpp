@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/measurement/result_row.h"
-#include "bench/results/validation/column_rules.h"
+#include "bench/results/results_csv.h"
 #include "bench/results/validation/rows_asked.h"
 #include "bench/support/numbers.h"
 
@@ -54,8 +54,6 @@ constexpr std::array ascending{
     std::pair{"prepare_ns_p999", "prepare_ns_max"},
 };
 
-bool is_ok(const CsvTable& table, const CsvRecord& record) { return table.field(record, "status") == "ok"; }
-
 class ResultsCheck {
  public:
   ResultsCheck(const CsvTable& table, const nlohmann::json* run, Faults& faults)
@@ -66,9 +64,7 @@ class ResultsCheck {
   }
 
   void check() {
-    std::vector<std::string_view> names;
-    for (const ColumnRule& rule : column_rules()) names.push_back(rule.name);
-    if (!begins_with_columns(table_, names, columns_of_the_contract, faults_)) return;
+    if (!begins_with_columns(table_, names_of(results_columns()), columns_of_the_contract, faults_)) return;
     for (const CsvRecord& record : table_.records) {
       if (record.fields.size() != table_.header.size()) continue;  // check_form has said so
       row_ = &record;
@@ -86,7 +82,6 @@ class ResultsCheck {
 
  private:
   void check_fields();
-  void check_presence(const ColumnRule& rule, const std::string& text);
   void check_order();
   void check_rate();
   void check_mean();
@@ -108,28 +103,11 @@ class ResultsCheck {
 };
 
 void ResultsCheck::check_fields() {
-  for (const ColumnRule& rule : column_rules()) {
-    if (!table_.has(std::string(rule.name))) return;  // columns may be missing at the end only
-    const std::string text = field(std::string(rule.name));
-    check_presence(rule, text);
-    if (!text.empty() && !rule.accepts(text)) fault(rule.name, std::string(rule.expected));
+  for (const auto& column : results_columns())
+    check_field(table_, *row_, column.name, column.presence, column.kind, timed_, faults_);
+  for (const char* const column : {"judged", "steps"}) {
+    if (is_ok(table_, *row_) && field(column) == "0") fault(column, "must be above 0 where the status is ok");
   }
-}
-
-void ResultsCheck::check_presence(const ColumnRule& rule, const std::string& text) {
-  const bool ok = is_ok(table_, *row_);
-  const bool of_times = rule.presence == Presence::built || rule.presence == Presence::timed;
-  const bool needed = rule.presence == Presence::always || (rule.presence == Presence::judged && ok) ||
-                      (of_times && ok && timed_);
-  if (text.empty() && needed) {
-    fault(rule.name, rule.presence == Presence::always ? "must not be empty"
-                                                       : "must not be empty where the status is ok");
-  }
-  if (!text.empty() && rule.presence == Presence::timed && !ok) {
-    fault(rule.name, "must be empty where the status is not ok");
-  }
-  if (rule.name == "judged" && ok && text == "0") fault(rule.name, "must be above 0 where the status is ok");
-  if (rule.name == "steps" && ok && text == "0") fault(rule.name, "must be above 0 where the status is ok");
 }
 
 void ResultsCheck::check_order() {

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "bench/results/column.h"
 #include "bench/results/validation/fault.h"
 
 namespace touchmark::bench::results::validation {
@@ -34,8 +35,15 @@ CsvTable read_csv_table(const std::string& path, Faults& faults);
 
 /// Returns true if the header begins with these names, as far as it goes, and at least with so many of them.
 /// The first that is another becomes a fault.
-bool begins_with_columns(const CsvTable& table, const std::vector<std::string_view>& names,
-                         std::size_t at_least, Faults& faults);
+bool begins_with_columns(const CsvTable& table, const std::vector<std::string>& names, std::size_t at_least,
+                         Faults& faults);
+
+bool is_ok(const CsvTable& table, const CsvRecord& record);
+
+/// Checks one field by the rules of its column, unless the file ends before that column. `timed`: rows of
+/// this file have times.
+void check_field(const CsvTable& table, const CsvRecord& record, std::string_view column, Presence presence,
+                 const Kind& kind, bool timed, Faults& faults);
 
 /// Any CSV file: a header of different names, and as many fields in each record.
 void check_form(const CsvTable& table, Faults& faults);

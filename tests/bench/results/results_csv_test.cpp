@@ -1,7 +1,11 @@
 #include "bench/results/results_csv.h"
 
+#include <algorithm>
+#include <initializer_list>
 #include <limits>
+#include <set>
 #include <string>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
@@ -29,14 +33,47 @@ TEST(ResultsCsv, BeginsWithTheColumnsOfTheContract) {
   const std::string csv = results_csv("run", {});
   EXPECT_EQ(csv.substr(0, contract.size() + 1), contract + ",");
   EXPECT_EQ(csv.find('\n'), csv.size() - 1);
+  EXPECT_EQ(results_columns()[columns_of_the_contract - 1].name, "repetitions");
+}
+
+TEST(ResultsCsv, SaysOfEachColumnWhatItMeansAndHolds) {
+  std::set<std::string_view> names;
+  for (const auto& column : results_columns()) {
+    EXPECT_TRUE(names.insert(column.name).second) << column.name;
+    EXPECT_GT(column.means.size(), 10U) << column.name;
+    EXPECT_EQ(column.means.find_first_of("|\n"), std::string_view::npos)
+        << column.name << ": not a cell of a table";
+    EXPECT_NE(column.kind.what, "") << column.name;
+    EXPECT_EQ(column.value == nullptr, column.name == "run_id") << column.name;
+  }
+}
+
+TEST(ResultsCsv, AcceptsWhatItsColumnsAreFor) {
+  using namespace kinds;
+  const auto all = [](const Kind& kind, std::initializer_list<const char*> texts) {
+    return std::all_of(texts.begin(), texts.end(), kind.accepts);
+  };
+  const auto none = [](const Kind& kind, std::initializer_list<const char*> texts) {
+    return std::none_of(texts.begin(), texts.end(), kind.accepts);
+  };
+  EXPECT_TRUE(all(whole_number, {"0", "7"}) && none(whole_number, {"-1", "1.5", "seven", "inf"}));
+  EXPECT_TRUE(all(positive_count, {"1"}) && none(positive_count, {"0", "-1", "1.5"}));
+  EXPECT_TRUE(all(length, {"0", "1.5", "inf", "1e-300"}) && none(length, {"-1", "nan", "long"}));
+  EXPECT_TRUE(all(finite, {"0", "1.5"}) && none(finite, {"inf", "nan", "-1", "1e999"}));
+  EXPECT_TRUE(all(positive, {"1.5"}) && none(positive, {"0", "inf", "nan", "-1"}));
+  EXPECT_TRUE(all(share, {"0", "0.5", "1"}) && none(share, {"1.01", "inf", "-1"}));
+  EXPECT_TRUE(all(bit, {"0", "1"}) && none(bit, {"2", "true"}));
+  EXPECT_TRUE(all(checksum, {"0123456789abcdef"}) && none(checksum, {"0123", "0123456789abcdeg"}));
+  EXPECT_TRUE(all(query, {"touches", "nearest", "sweep"}) && none(query, {"touch"}));
+  EXPECT_TRUE(all(guarantee, {"exact", "conservative", "approximate"}) && none(guarantee, {"Exact"}));
 }
 
 TEST(ResultsCsv, QuotesAsRfc4180Does) {
-  EXPECT_EQ(csv_field("plain text"), "plain text");
-  EXPECT_EQ(csv_field("lookup=scan,shape=cube"), "\"lookup=scan,shape=cube\"");
-  EXPECT_EQ(csv_field("say \"no\""), "\"say \"\"no\"\"\"");
-  EXPECT_EQ(csv_field("two\nlines"), "\"two\nlines\"");
-  EXPECT_EQ(csv_field(""), "");
+  EXPECT_EQ(support::csv_field("plain text"), "plain text");
+  EXPECT_EQ(support::csv_field("lookup=scan,shape=cube"), "\"lookup=scan,shape=cube\"");
+  EXPECT_EQ(support::csv_field("say \"no\""), "\"say \"\"no\"\"\"");
+  EXPECT_EQ(support::csv_field("two\nlines"), "\"two\nlines\"");
+  EXPECT_EQ(support::csv_field(""), "");
 }
 
 TEST(ResultsCsv, LeavesEmptyWhatWasNotMeasured) {

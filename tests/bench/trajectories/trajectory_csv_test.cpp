@@ -323,51 +323,6 @@ TEST_F(TrajectoryCsv, ReadsAFileOfManyBuffers) {
     ASSERT_EQ(path.positions[static_cast<std::size_t>(i)], Vec3(i, 2 * i, 0.125));
 }
 
-TEST_F(TrajectoryCsv, WritesWhatReadsBackToTheSameBits) {
-  const Trajectory written{"odd numbers",
-                           {{0.1, -1.0 / 3, 5e-324}, {1e6 + 1e-10, 1.7976931348623157e308, -0.0}},
-                           {0.005, 0},
-                           {0, 0.001}};
-  const std::string path = directory_ / "out.csv";
-  write_trajectory(written, path);
-  const Trajectory back = read_trajectory(path);
-  EXPECT_EQ(back.positions, written.positions);
-  EXPECT_TRUE(std::signbit(back.positions[1].z()));
-  EXPECT_EQ(back.radii, written.radii);
-  EXPECT_EQ(back.times_s, written.times_s);
-}
-
-TEST_F(TrajectoryCsv, WritesTheShortestText) {
-  const std::string path = directory_ / "out.csv";
-  write_trajectory({"short", {{0.1, 2, 1e22}}, {}, {}}, path);
-  std::stringstream text;
-  text << std::ifstream(path).rdbuf();
-  EXPECT_EQ(text.str(), "x,y,z\n0.1,2,1e+22\n");
-}
-
-TEST_F(TrajectoryCsv, LeavesNothingBehindWhereItCannotWrite) {
-  const std::string path = directory_ / "no such folder" / "out.csv";
-  try {
-    write_trajectory({"lost", two, {}, {}}, path);
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_EQ(error.what(), "cannot write " + path + ": No such file or directory");
-  }
-  std::filesystem::create_directory(directory_ / "taken.csv");
-  EXPECT_THROW(write_trajectory({"lost", two, {}, {}}, directory_ / "taken.csv"), std::runtime_error);
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(directory_), {}), 1);
-}
-
-TEST_F(TrajectoryCsv, WritesIntoDevicesWithoutReplacingThem) {
-  write_trajectory({"gone", two, {}, {}}, "/dev/null");
-  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
-}
-
-TEST_F(TrajectoryCsv, FailsOnAFullDisk) {
-  Trajectory large{"large", std::vector<Vec3>(10'000, two[1]), {}, {}};
-  EXPECT_THROW(write_trajectory(large, "/dev/full"), std::runtime_error);
-}
-
 TEST_F(TrajectoryCsv, IsATrajectoryLikeAnyOther) {
   const TriangleMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
   const std::string path = file("x,y,z\n1,2,3\n-4,5e-1,6\n");

@@ -42,10 +42,11 @@ class FirstPass : public testing::Test {
 
 TEST_F(FirstPass, CostsMoreOnceUnmade) {
   ContestantProcess later = process("makes-later");
-  const Timed fresh = later.first_pass(task(0));
-  EXPECT_LT(later.first_pass(task(0)).work.total(), fresh.work.total()) << "or nothing was left to be made";
+  const Timed fresh = later.ask(request::FirstPass{task(0)});
+  EXPECT_LT(later.ask(request::FirstPass{task(0)}).work.total(), fresh.work.total())
+      << "or nothing was left to be made";
   later.rebuild_if_lazy();
-  const Timed again = later.first_pass(task(0));
+  const Timed again = later.ask(request::FirstPass{task(0)});
   EXPECT_EQ(again.work.total(), fresh.work.total());
   EXPECT_EQ(again.checksum, fresh.checksum);
 }
@@ -58,16 +59,17 @@ TEST_F(FirstPass, OfACaseComesAfterNoOtherQuery) {
   slide.calibrate();
   slide.verify(truths);
   slide.repetition();
-  later.answer(task(1));
-  const std::uint64_t once_made = later.answer(task(1)).work.total();
+  later.ask(request::Answer{task(1)});
+  const std::uint64_t once_made = later.ask(request::Answer{task(1)}).work.total();
   slide.first_pass();
-  EXPECT_GT(later.answer(task(1)).work.total(), once_made) << "what another motion had made was still there";
+  EXPECT_GT(later.ask(request::Answer{task(1)}).work.total(), once_made)
+      << "what another motion had made was still there";
   EXPECT_EQ(slide.row().status, "ok");
 }
 
 TEST_F(FirstPass, IsWhatTheWorkOfARowCounts) {
   ContestantProcess later = process("makes-later");
-  const Work fresh = later.first_pass(task(0)).work;
+  const Work fresh = later.ask(request::FirstPass{task(0)}).work;
   measurement::Effort verify_only = effort_;
   verify_only.repetitions = 0;
   measurement::Comparison comparison(hostile_roster(), workload_, {hostile_roster().parse("makes-later")}, {},

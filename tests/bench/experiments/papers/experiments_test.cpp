@@ -18,10 +18,10 @@
 #include "bench/experiments/papers/interleaved_timing.h"
 #include "bench/experiments/papers/paper_trace.h"
 #include "bench/experiments/papers/park_jang.h"
-#include "bench/experiments/papers/table.h"
 #include "bench/scenes/scenes.h"
 #include "bench/support/interrupt.h"
 #include "bench/support/median.h"
+#include "bench/support/table.h"
 #include "core/brute_force/brute_force.h"
 #include "core/subdivision/mesh_measures.h"
 
@@ -35,7 +35,7 @@ TEST(Median, IsTheMiddleOrTheMeanOfTheTwoThere) {
 }
 
 TEST(PaperTable, QuotesInCsvAndKeepsEmptyCells) {
-  Table table({"a", "b"});
+  support::Table table({"a", "b"});
   table.add({"", "x,y"});
   EXPECT_EQ(table.csv(), "a,b\n,\"x,y\"\n");
   EXPECT_EQ(table.markdown(), "| a | b |\n| --- | --- |\n|  | x,y |\n");

@@ -1,5 +1,4 @@
 /// `touchmark scale` from the outside.
-#include <algorithm>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -7,14 +6,12 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "bench/support/csv_reader.h"
+#include "tests/bench/cli/csv_fields.h"
 #include "tests/bench/cli/run_touchmark.h"
 #include "tests/temporary_folder.h"
 
 namespace touchmark::bench::cli {
 namespace {
-
-using Fields = std::vector<std::string>;
 
 class Scale : public testing::Test {
  protected:
@@ -24,20 +21,8 @@ class Scale : public testing::Test {
     command.insert(command.end(), more.begin(), more.end());
     return run_touchmark(command);
   }
-  /// Each record's fields of these columns.
   std::vector<Fields> read(const std::string& name, const Fields& columns) const {
-    support::CsvReader reader(folder_.file("out/" + name));
-    Fields header, fields;
-    reader.next(header);
-    std::vector<Fields> records;
-    while (reader.next(fields)) {
-      Fields& record = records.emplace_back();
-      for (const std::string& column : columns) {
-        const auto at = std::find(header.begin(), header.end(), column) - header.begin();
-        record.push_back(fields.at(static_cast<std::size_t>(at)));
-      }
-    }
-    return records;
+    return fields_in(folder_.file("out/" + name), columns);
   }
   TemporaryFolder folder_;
 };

@@ -31,7 +31,7 @@ std::vector<std::vector<std::string>> table_in(const std::string& path) {
 }
 
 std::size_t column_index(const std::string& column) {
-  const std::vector<std::string> columns = experiments::stress::stress_columns();
+  const auto columns = results::names_of(experiments::stress::stress_columns());
   return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), column) - columns.begin());
 }
 
@@ -47,7 +47,7 @@ TEST(Stress, ExactContestantsAreCleanAndItsFilesSaySo) {
 
   const auto rows = table_in(folder.file("out/stress.csv"));
   ASSERT_EQ(rows.size(), 1U + 2 * 2 * 2) << "contestants, families, queries";
-  EXPECT_EQ(rows[0], experiments::stress::stress_columns());
+  EXPECT_EQ(rows[0], results::names_of(experiments::stress::stress_columns()));
   for (std::size_t i = 1; i < rows.size(); ++i) {
     ASSERT_EQ(rows[i].size(), rows[0].size());
     const bool empty = rows[i][column_index("family")] == "empty-mesh";

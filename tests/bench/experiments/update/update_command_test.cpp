@@ -1,5 +1,4 @@
 /// `touchmark update` from the outside, and what it moves.
-#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -7,14 +6,12 @@
 
 #include "bench/scenes/deformation.h"
 #include "bench/scenes/scenes.h"
-#include "bench/support/csv_reader.h"
+#include "tests/bench/cli/csv_fields.h"
 #include "tests/bench/cli/run_touchmark.h"
 #include "tests/temporary_folder.h"
 
 namespace touchmark::bench::cli {
 namespace {
-
-using Fields = std::vector<std::string>;
 
 class Update : public testing::Test {
  protected:
@@ -23,20 +20,8 @@ class Update : public testing::Test {
     command.insert(command.end(), more.begin(), more.end());
     return run_touchmark(command);
   }
-  /// Each record's fields of these columns.
   std::vector<Fields> read(const Fields& columns) const {
-    support::CsvReader reader(folder_.file("out/update.csv"));
-    Fields header, fields;
-    reader.next(header);
-    std::vector<Fields> records;
-    while (reader.next(fields)) {
-      Fields& record = records.emplace_back();
-      for (const std::string& column : columns) {
-        const auto at = std::find(header.begin(), header.end(), column) - header.begin();
-        record.push_back(fields.at(static_cast<std::size_t>(at)));
-      }
-    }
-    return records;
+    return fields_in(folder_.file("out/update.csv"), columns);
   }
   TemporaryFolder folder_;
 };

@@ -41,7 +41,7 @@ class Validate : public testing::Test {
 
   /// The file with one field, of a line from 2, replaced. No field of these rows has a comma in it.
   static std::string with(const std::string& column, int line, const std::string& value) {
-    const std::vector<std::string> names = results::results_columns();
+    const std::vector<std::string> names = results::names_of(results::results_columns());
     auto at = std::find(names.begin(), names.end(), column) - names.begin();
     std::size_t begin = 0;
     for (int i = 1; i < line; ++i) begin = csv().find('\n', begin) + 1;

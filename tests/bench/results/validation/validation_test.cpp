@@ -5,8 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/results/results_csv.h"
-#include "bench/results/validation/column_rules.h"
 #include "bench/results/validation/json_schema.h"
 #include "bench/results/validation/located_json.h"
 #include "bench/results/validation/run_check.h"
@@ -14,13 +12,6 @@
 
 namespace touchmark::bench::results::validation {
 namespace {
-
-TEST(ColumnRules, AreThoseOfTheColumnsThatAreWritten) {
-  const std::vector<std::string> columns = results_columns();
-  ASSERT_EQ(column_rules().size(), columns.size());
-  for (std::size_t i = 0; i < columns.size(); ++i) EXPECT_EQ(column_rules()[i].name, columns[i]);
-  EXPECT_EQ(column_rules()[columns_of_the_contract - 1].name, "repetitions");
-}
 
 TEST(Fault, IsOneLineWhateverTheValueHolds) {
   EXPECT_EQ(line_of({"a.csv", 3, "ns_p50", "two\nlines\x1b", "is not a number"}),

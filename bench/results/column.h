@@ -1,0 +1,100 @@
+/// Columns of the CSV files: what a column is called, what writes it, what it may hold, and what it means.
+/// The writer, `touchmark validate` and the reference all go by the one table of a file.
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/support/numbers.h"
+#include "bench/support/table.h"
+#include "bench/workload/query_name.h"
+
+namespace touchmark::bench::results {
+
+/// When a column must be filled in.
+enum class Presence {
+  always,
+  optional,
+  judged,  ///< in every row whose status is ok
+  built,   ///< in every row whose status is ok, in a file with times; may be there in others
+  timed,   ///< as built, but must be empty in every other row
+};
+
+/// What the text of a column may be. It is asked only when there is text.
+struct Kind {
+  bool (*accepts)(std::string_view text);
+  std::string_view what;  ///< completes "is not ..."
+};
+
+namespace kinds {
+
+using Text = std::string_view;
+
+/// Returns true if `text` is a number that `accepts` takes.
+template <class Accepts>
+bool is_number(Text text, Accepts accepts) {
+  const std::optional<double> value = support::parse_number(text);
+  return value && *value >= 0 && accepts(*value);
+}
+
+inline constexpr Kind any_text{[](Text) { return true; }, "text"};
+inline constexpr Kind one{[](Text text) { return text == "1"; }, "1"};
+inline constexpr Kind bit{[](Text text) { return text == "0" || text == "1"; }, "0 or 1"};
+inline constexpr Kind whole_number{[](Text text) { return support::parse_count(text).has_value(); },
+                                   "a whole number of 0 or more"};
+inline constexpr Kind positive_count{[](Text text) { return support::parse_count(text).value_or(0) > 0; },
+                                     "a whole number above 0"};
+inline constexpr Kind length{[](Text text) { return is_number(text, [](double) { return true; }); },
+                             "a number of 0 or more, or inf"};
+inline constexpr Kind finite{
+    [](Text text) { return is_number(text, [](double x) { return std::isfinite(x); }); },
+    "a finite number of 0 or more"};
+inline constexpr Kind positive{
+    [](Text text) { return is_number(text, [](double x) { return x > 0 && std::isfinite(x); }); },
+    "a finite number above 0"};
+inline constexpr Kind share{[](Text text) { return is_number(text, [](double x) { return x <= 1; }); },
+                            "a share from 0 to 1"};
+inline constexpr Kind checksum{[](Text text) { return support::is_hex(text); }, "16 hexadecimal digits"};
+inline constexpr Kind query{[](Text text) { return workload::query_named(text).has_value(); },
+                            "one of touches, nearest, sweep"};
+inline constexpr Kind guarantee{
+    [](Text text) { return text == "exact" || text == "conservative" || text == "approximate"; },
+    "one of exact, conservative, approximate"};
+
+}  // namespace kinds
+
+/// One column of a table of `Row`s.
+template <class Row>
+struct Column {
+  std::string_view name;
+  std::string (*value)(const Row& row);  ///< null in the column of the run's id, which no row knows
+  Presence presence = Presence::optional;
+  Kind kind = kinds::any_text;
+  std::string_view means = {};  ///< for the reference, in Markdown
+};
+
+template <class Columns>
+std::vector<std::string> names_of(const Columns& columns) {
+  std::vector<std::string> names;
+  for (const auto& column : columns) names.emplace_back(column.name);
+  return names;
+}
+
+template <class Columns, class Row>
+std::vector<std::string> fields_of(const Columns& columns, const Row& row, const std::string& run_id) {
+  std::vector<std::string> fields;
+  for (const auto& column : columns) fields.push_back(column.value != nullptr ? column.value(row) : run_id);
+  return fields;
+}
+
+template <class Columns, class Rows>
+support::Table table_of(const Columns& columns, const Rows& rows, const std::string& run_id = "") {
+  support::Table table(names_of(columns));
+  for (const auto& row : rows) table.add(fields_of(columns, row, run_id));
+  return table;
+}
+
+}  // namespace touchmark::bench::results
