@@ -16,6 +16,7 @@
 #include "core/geometry/point_triangle.h"
 #include "core/geometry/sphere_triangle_sweep.h"
 #include "core/mesh_update.h"
+#include "core/search/first_touch.h"
 
 namespace touchmark::baselines {
 namespace {
@@ -112,7 +113,7 @@ struct World {
 
 struct BulletDetector::Model {
   Model(const TriangleMesh& mesh, const Options& chosen)
-      : options(chosen), connectivity(mesh), ids(mesh.ids().begin(), mesh.ids().end()) {
+      : options(chosen), connectivity(mesh), ids(mesh.triangle_ids()) {
     if (options.frame == Frame::fitted) view = {BulletView::fitted(mesh)};
     if (options.method == Method::callback) triangles = prepare(mesh);
     set_bounds(mesh);
@@ -149,10 +150,6 @@ struct BulletDetector::Model {
     if (!shape->usesQuantizedAabbCompression()) shape->buildOptimizedBvh();
   }
 
-  TriangleId id(std::size_t triangle) const {
-    return ids.empty() ? static_cast<TriangleId>(triangle) : ids[triangle];
-  }
-
   /// Calls visit(triangle) for every triangle that may come as near as `reach` to the segment. Bullet rounds
   /// vertices and boxes to its own precision; what it does with them then is monotone.
   template <class Visit>
@@ -171,7 +168,7 @@ struct BulletDetector::Model {
   Options options;
   Connectivity connectivity;
   Aabb bounds;
-  std::vector<TriangleId> ids;
+  TriangleIds ids;
   View view;
   double largest_coordinate = 0;            ///< in Bullet's frame
   std::vector<PreparedTriangle> triangles;  ///< method callback only
@@ -237,7 +234,7 @@ struct BulletDetector::Queries {
     const Vec3 point = model.view.back(deepest.on_mesh);
     const double distance = std::max(0.0, reach + static_cast<double>(deepest.depth) / model.view.scale);
     return Contact{point, direction(point, center, deepest.normal), distance,
-                   model.id(static_cast<std::size_t>(deepest.index))};
+                   model.ids[static_cast<std::size_t>(deepest.index)]};
   }
 
   bool checked() const { return model.options.query == Asking::checked; }
@@ -294,7 +291,7 @@ struct BulletDetector::Queries {
     if (best.index >= model.triangles.size() || !(std::sqrt(best.squared_distance) <= reach))
       return std::nullopt;
     state.last = best.index;
-    return contact_on(model.triangles[best.index], center, model.id(best.index));
+    return contact_on(model.triangles[best.index], center, model.ids[best.index]);
   }
 
   /// The last triangle's distance bounds the nearest one's.
@@ -332,25 +329,17 @@ struct BulletDetector::Queries {
     const Vec3 center = position_at(sweep, fraction);
     const Vec3 point = model.view.back(hit.point);
     return Impact{fraction, Contact{point, direction(point, center, hit.normal), (center - point).norm(),
-                                    model.id(static_cast<std::size_t>(hit.index))}};
+                                    model.ids[static_cast<std::size_t>(hit.index)]}};
   }
 
   std::optional<Impact> exact_sweep(const Sweep& sweep) const {
-    HitCandidate first;
+    FirstTouch first(sweep);
     model.near(sweep.from, sweep.to, sweep.radius, [&](std::uint32_t triangle) {
       ++session.work.triangles;
-      const auto fraction = sweep_hit(model.triangles[triangle], sweep, std::min(first.fraction, 1.0),
-                                      session.work.exact_decisions);
-      if (fraction) first = std::min(first, HitCandidate{*fraction, triangle});
+      first.consider(model.triangles[triangle], triangle, session.work.exact_decisions);
     });
-    if (first.index >= model.triangles.size()) return std::nullopt;
-    if (!(first.fraction > 0)) {  // of all the triangles touched at the start the nearest one counts
-      // Doubles, which decide its other contacts, may find it beyond the radius.
-      constexpr double any_reach = std::numeric_limits<double>::infinity();
-      if (const std::optional<Contact> contact = nearest(sweep.from, any_reach)) return Impact{0, *contact};
-    }
-    return Impact{first.fraction, contact_on_path(model.triangles[first.index], sweep, first.fraction,
-                                                  model.id(first.index))};
+    return impact_of(first, model.triangles, model.ids, false,
+                     [&](double reach) { return nearest(sweep.from, reach); });
   }
 };
 
@@ -406,8 +395,7 @@ std::size_t BulletDetector::bytes() const noexcept {
   return model_->shape->getOptimizedBvh()->calculateSerializeBufferSize() +
          model_->vertices.capacity() * sizeof(btVector3) +
          model_->corners_of_bullet.capacity() * sizeof(int) +
-         model_->triangles.capacity() * sizeof(PreparedTriangle) +
-         model_->ids.capacity() * sizeof(TriangleId);
+         model_->triangles.capacity() * sizeof(PreparedTriangle) + model_->ids.bytes();
 }
 
 Accuracy BulletDetector::accuracy() const noexcept {

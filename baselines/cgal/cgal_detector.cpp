@@ -21,7 +21,7 @@ namespace touchmark::baselines {
 /// What the kernels have in common.
 struct CgalDetector::Model {
   Model(const TriangleMesh& mesh, const Options& chosen)
-      : ids(mesh.ids().begin(), mesh.ids().end()), bounds(mesh.bounds()), options(chosen) {}
+      : ids(mesh.triangle_ids()), bounds(mesh.bounds()), options(chosen) {}
   Model(const Model&) = delete;
   Model& operator=(const Model&) = delete;
   virtual ~Model() = default;
@@ -42,9 +42,7 @@ struct CgalDetector::Model {
   virtual Vec3 face_normal(std::uint32_t index) const = 0;
   virtual std::size_t tree_bytes() const = 0;
 
-  TriangleId id(std::uint32_t index) const noexcept { return ids.empty() ? index : ids[index]; }
-
-  std::vector<TriangleId> ids;
+  TriangleIds ids;
   Aabb bounds;
   Options options;
 };
@@ -237,7 +235,7 @@ std::optional<Contact> CgalDetector::nearest(const Probe& probe, double reach,
   session.last = found->index;
   const double length = found->away.norm();
   const Vec3 normal = length > 0 ? Vec3(found->away / length) : model_->face_normal(found->index);
-  return Contact{found->point, normal, found->distance, model_->id(found->triangle)};
+  return Contact{found->point, normal, found->distance, model_->ids[found->triangle]};
 }
 
 bool CgalDetector::touches(const Probe& probe, Session& session) const noexcept {
@@ -252,9 +250,7 @@ bool CgalDetector::touches(const Probe& probe, Session& session) const noexcept 
   return model_->touches(asked, checked ? session.last : alone);
 }
 
-std::size_t CgalDetector::bytes() const noexcept {
-  return model_->tree_bytes() + model_->ids.capacity() * sizeof(TriangleId);
-}
+std::size_t CgalDetector::bytes() const noexcept { return model_->tree_bytes() + model_->ids.bytes(); }
 
 Accuracy CgalDetector::accuracy() const noexcept {
   if (model_->options.kernel == Kernel::epeck) {

@@ -40,7 +40,7 @@ struct EmbreeDetector::Model {
   Model(const TriangleMesh& mesh, const Options& chosen)
       : options(chosen),
         connectivity(mesh),
-        ids(mesh.ids().begin(), mesh.ids().end()),
+        ids(mesh.triangle_ids()),
         bounds(mesh.bounds()),
         frame(bounds),
         size(mesh.size()) {
@@ -53,7 +53,6 @@ struct EmbreeDetector::Model {
     if (device != nullptr) rtcReleaseDevice(device);
   }
 
-  TriangleId id(std::uint32_t index) const noexcept { return ids.empty() ? index : ids[index]; }
   bool checked() const noexcept { return options.query == Asking::checked; }
 
   /// Embree's own copy; of triangle geometry only.
@@ -68,7 +67,7 @@ struct EmbreeDetector::Model {
   Options options;
   Connectivity connectivity;
   std::vector<PreparedTriangle> triangles;  ///< not with Geometry::triangle
-  std::vector<TriangleId> ids;
+  TriangleIds ids;
   Aabb bounds;
   EmbreeFrame frame;
   std::size_t size;
@@ -136,7 +135,7 @@ struct EmbreeCallbacks {
     double squared(std::uint32_t i) const noexcept { return squared_distance(model.triangles[i], center); }
     double own(double length) const noexcept { return length; }
     Contact contact(const Candidate& best) const noexcept {
-      return contact_on(model.triangles[best.index], center, model.id(best.index));
+      return contact_on(model.triangles[best.index], center, model.ids[best.index]);
     }
 
     const EmbreeDetector::Model& model;
@@ -165,7 +164,7 @@ struct EmbreeCallbacks {
       const Vec3 normal =
           best.squared_distance > 0 ? from_mesh.stableNormalized() : Vec3(face.cast<double>());
       return {center - from_mesh / model.frame.scale, normal,
-              std::sqrt(best.squared_distance) / model.frame.scale, model.id(best.index)};
+              std::sqrt(best.squared_distance) / model.frame.scale, model.ids[best.index]};
     }
 
     const EmbreeDetector::Model& model;
@@ -348,7 +347,7 @@ bool EmbreeDetector::touches(const Probe& probe, Session& session) const noexcep
 
 std::size_t EmbreeDetector::bytes() const noexcept {
   return static_cast<std::size_t>(model_->taken) + model_->triangles.capacity() * sizeof(PreparedTriangle) +
-         model_->ids.capacity() * sizeof(TriangleId);
+         model_->ids.bytes();
 }
 
 Accuracy EmbreeDetector::accuracy() const noexcept {

@@ -224,11 +224,11 @@ struct FclDetector::Model {
   Connectivity connectivity;
   Aabb bounds;
   double largest_coordinate = 0;
-  std::vector<TriangleId> ids;
+  TriangleIds ids;
   std::vector<PreparedTriangle> triangles;  ///< narrow exact only
 
   Model(const TriangleMesh& mesh, const Options& chosen)
-      : options(chosen), connectivity(mesh), ids(mesh.ids().begin(), mesh.ids().end()) {
+      : options(chosen), connectivity(mesh), ids(mesh.triangle_ids()) {
     set_bounds(mesh);
     if (options.narrow == Narrow::exact) triangles = prepare(mesh);
   }
@@ -242,12 +242,9 @@ struct FclDetector::Model {
   virtual std::optional<Contact> nearest(const Vec3& center, double reach, Session& session) const = 0;
   virtual std::size_t hierarchy_bytes() const = 0;
 
-  TriangleId id(std::size_t triangle) const {
-    return ids.empty() ? static_cast<TriangleId>(triangle) : ids[triangle];
-  }
   /// The contact as FCL gave it: its point, and the distance that goes with it.
   Contact contact_at(const Vec3& point, const Vec3& normal, double distance, std::size_t triangle) const {
-    return {point, normal, distance, id(triangle)};
+    return {point, normal, distance, ids[triangle]};
   }
 };
 
@@ -440,7 +437,7 @@ struct FclDetector::ModelOf : FclDetector::Model {
 
   std::optional<Contact> exact_contact(const Candidate& best, const Vec3& center, double reach) const {
     if (best.index >= triangles.size() || !(std::sqrt(best.squared_distance) <= reach)) return std::nullopt;
-    return contact_on(triangles[best.index], center, id(best.index));
+    return contact_on(triangles[best.index], center, ids[best.index]);
   }
 
   Vec3 face_normal(int triangle) const {
@@ -543,7 +540,7 @@ std::optional<Contact> FclDetector::nearest(const Probe& probe, double reach,
 }
 
 std::size_t FclDetector::bytes() const noexcept {
-  return model_->hierarchy_bytes() + model_->ids.capacity() * sizeof(TriangleId) +
+  return model_->hierarchy_bytes() + model_->ids.bytes() +
          model_->triangles.capacity() * sizeof(PreparedTriangle);
 }
 

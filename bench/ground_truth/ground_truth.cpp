@@ -103,8 +103,7 @@ WrongAnswer GroundTruths::wrong_answer(workload::Query query, std::size_t step, 
         wrong.truth, center, query == workload::Query::touches ? wrong.asked.probe.radius : reaches_[step]);
     if (charged.wrong_side > 0) wrong.side = oracle_.side(center);
   }
-  const auto ids = oracle_.mesh().ids();
-  if (wrong.truth.defined) wrong.triangle = ids.empty() ? wrong.truth.triangle : ids[wrong.truth.triangle];
+  if (wrong.truth.defined) wrong.triangle = oracle_.mesh().id(wrong.truth.triangle);
   return wrong;
 }
 

@@ -85,8 +85,7 @@ class AnswerJudge {
   /// Returns true if it names another triangle than the first of the nearest, and claims not to.
   bool is_misnamed(const GroundTruth& truth, const workload::Answer& answer) const {
     if (!accuracy_.names_exactly || !reported_.triangle || !std::isfinite(truth.high)) return false;
-    const auto ids = oracle_.mesh().ids();
-    return answer.triangle != (ids.empty() ? truth.triangle : ids[truth.triangle]);
+    return answer.triangle != oracle_.mesh().id(truth.triangle);
   }
   bool is_wrong(Side said, const Vec3& center) const {
     if (said == Side::unasked || said == Side::undecided) return false;

@@ -6,7 +6,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/geometry/sphere_triangle_sweep.h"
 #include "core/geometry/sweep_box.h"
 #include "core/search/certified_nearest.h"
 #include "core/search/closest_candidates.h"
@@ -286,8 +285,7 @@ std::optional<Impact> AabbTree::first_hit(const Sweep& sweep, Session& session) 
   const double difference = largest_difference(bounds(), sweep);
   if (!fourth_powers_fit(difference)) return fallback().first_hit(sweep, work);
   const double padded_radius = padded_sweep_radius(sweep, difference);
-  HitCandidate first;
-  std::uint32_t kept_at = 0;
+  FirstTouch first(sweep);
   std::array<std::uint32_t, max_levels> stack;
   std::size_t count = 0;
   stack[count++] = 0;
@@ -295,27 +293,19 @@ std::optional<Impact> AabbTree::first_hit(const Sweep& sweep, Session& session) 
     if (work.boxes + work.triangles > budget) return fallback().first_hit(sweep, work);
     const Node& node = nodes_[stack[--count]];
     ++work.boxes;
-    const double limit = std::min(first.fraction, 1.0);
-    if (!(enters(node.box, sweep, padded_radius, limit) <= limit)) continue;
+    if (!(enters(node.box, sweep, padded_radius, first.limit()) <= first.limit())) continue;
     if (node.count == 0) {
       stack[count++] = node.first + 1;
       stack[count++] = node.first;
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       ++work.triangles;
-      const std::optional<double> fraction =
-          sweep_hit(triangles_[i], sweep, std::min(first.fraction, 1.0), work.exact_decisions);
-      const HitCandidate candidate{fraction.value_or(infinity), triangles_[i].index};
-      if (!fraction || !(candidate < first)) continue;
-      first = candidate;
-      kept_at = i;
+      first.consider(triangles_[i], i, work.exact_decisions);
     }
   }
-  if (first.index >= triangles_.size()) return std::nullopt;
-  return impact_on(triangles_[kept_at], sweep, first.fraction, ids_[first.index], certified_,
-                   [&](double reach) {
-                     return nearest({sweep.from, sweep.radius}, reach, session);
-                   });
+  return impact_of(first, triangles_, ids_, certified_, [&](double reach) {
+    return nearest({sweep.from, sweep.radius}, reach, session);
+  });
 }
 
 std::size_t AabbTree::bytes() const noexcept {

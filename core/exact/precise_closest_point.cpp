@@ -11,9 +11,7 @@ namespace touchmark {
 namespace {
 
 // Below, m is the largest coordinate of the corners as seen from the point, and v = 2^-103 bounds the
-// relative error of a sum, difference or product of two double-doubles (Joldes, Muller & Popescu, "Tight and
-// rigorous error bounds for basic building blocks of double-word arithmetic", 2017: 3 u^2 and 5 u^2). The
-// differences of two doubles, so the corners and the edges, are exact.
+// relative error of an operation of double-doubles: docs/exactness.md, E7.
 
 using double_double::cross, double_double::difference, double_double::dot, double_double::Vector;
 using Corners = std::array<Vector, 3>;

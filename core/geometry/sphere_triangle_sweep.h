@@ -44,15 +44,4 @@ Contact contact_on_path(const PreparedTriangle& triangle, const Sweep& sweep, do
 /// Returns where the probe stands at a fraction of the path, rounded; exact at 0 and 1.
 Vec3 position_at(const Sweep& sweep, double fraction) noexcept;
 
-/// A candidate for the first touch: smaller fraction first, then lower index, so that detectors which look at
-/// triangles in any order agree bit for bit.
-struct HitCandidate {
-  double fraction = std::numeric_limits<double>::infinity();
-  std::uint32_t index = std::numeric_limits<std::uint32_t>::max();
-
-  bool operator<(const HitCandidate& other) const noexcept {
-    return fraction < other.fraction || (fraction == other.fraction && index < other.index);
-  }
-};
-
 }  // namespace touchmark

@@ -1,4 +1,5 @@
-/// Finds where a moving ball first comes near a box: the culling test of every first_hit.
+/// Finds where a moving ball first comes near a box, and how near its path comes to a point: the culling
+/// tests of every first_hit.
 #pragma once
 
 #include <algorithm>
@@ -12,16 +13,8 @@
 namespace touchmark {
 
 /// How far from the path, anywhere up to the fraction that sweep_hit tells, a triangle that it finds can be,
-/// with room for the test of a bounding volume. `largest_difference` M bounds the coordinate differences
-/// between the path's ends and the mesh.
-///
-/// The path's start is within M of a triangle's corners and the path's own coordinates within 2 M, so S is at
-/// most 3 M. At its fraction a touched triangle is no farther than the radius and max_early_gap, 1152 u M;
-/// the path is real here, not rounded. `enters` below rounds two differences of at most M and M + the
-/// widening, the path's coordinate and two quotients: with a radius below 4 M as if the box were 26 u M off;
-/// with a larger one every box is met, whatever rounds. In single precision's frame both ends and the boxes'
-/// corners are rounded once more, 6 u M. A distance of a sphere's centre to the path is off by less than 40 u
-/// M. In all less than 1280 u M.
+/// with room for the test of a bounding volume: docs/exactness.md, E18. `largest_difference` M bounds the
+/// coordinate differences between the path's ends and the mesh.
 inline double padded_sweep_radius(const Sweep& sweep, double largest_difference) noexcept {
   return sweep.radius + 1280 * (std::numeric_limits<double>::epsilon() / 2) * largest_difference;
 }
@@ -45,6 +38,14 @@ inline double enters(const Aabb& box, const Sweep& sweep, double pad, double lim
     leave = std::min(leave, std::max(low / path, high / path));
   }
   return enter > leave ? never : enter;
+}
+
+/// Returns the square of the distance from a point to the path.
+inline double squared_distance_to_path(const Sweep& sweep, const Vec3& point) noexcept {
+  const Vec3 path = sweep.to - sweep.from, to = point - sweep.from;
+  const double along = to.dot(path), squared = path.squaredNorm();
+  if (!(along > 0)) return to.squaredNorm();
+  return (to - (along < squared ? along / squared : 1.0) * path).squaredNorm();
 }
 
 }  // namespace touchmark

@@ -14,11 +14,8 @@ namespace {
 constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// By how much the direction from the foot may be off, for a distance that is off by `error`: the foot is,
-/// but for error / 9, a point of the triangle no farther than D + error, where D is the true distance, and of
-/// these none is farther than sqrt(2 D error + error^2) from the nearest. Between vectors of about those
-/// lengths the angle's chord is twice their difference over their sum, which the root below exceeds from a
-/// distance of four errors on; nearer than that nothing is known.
+/// Bounds by how much the direction from the foot is off, for a distance that is off by `error`:
+/// docs/exactness.md, E17.
 double direction_error(double distance, double error) noexcept {
   const double relative = error / distance;
   return relative < 0.25 ? 2 * std::sqrt(relative * (1 + relative)) : infinity;

@@ -76,9 +76,9 @@ float DistanceField::tight_lower_bound(const FilterPoint& p) const noexcept {
   const Lanes across = __builtin_shufflevector(first_squared, second_squared, 0, 4, 0, 4) +
                        __builtin_shufflevector(first_squared, second_squared, 1, 1, 5, 5);
   const std::uint32_t row = fine_.count(0), plane = row * fine_.count(1);
+  const auto step_count = [&](std::uint32_t cube) { return static_cast<float>(fine_steps_[cube].load()); };
   const auto steps = [&](std::uint32_t at) {
-    return Lanes{static_cast<float>(fine_steps_[at]), static_cast<float>(fine_steps_[at + 1]),
-                 static_cast<float>(fine_steps_[at + row]), static_cast<float>(fine_steps_[at + row + 1])};
+    return Lanes{step_count(at), step_count(at + 1), step_count(at + row), step_count(at + row + 1)};
   };
   const std::uint32_t at = fine_.index(first);
   const Lanes within = simd::max(steps(at) * step_ - simd::sqrt(across + first_squared[2]),

@@ -19,9 +19,9 @@
 
 #include "core/aabb.h"
 #include "core/probe.h"
+#include "core/search/lazy_construction.h"
 #include "core/search/plane_filter.h"
 #include "core/search/sample_lattice.h"
-#include "core/search/shared_bytes.h"
 #include "core/simd/lanes.h"
 
 namespace touchmark {
@@ -76,18 +76,17 @@ class DistanceField {
   /// Returns an upper bound of the distance, or infinity: some part of the mesh is at most this far.
   float upper_bound(const FilterPoint& point) const noexcept;
   std::size_t bytes() const noexcept {
-    return fine_steps_.bytes() + coarse_steps_.bytes() + unsampled_.bytes();
+    return fine_steps_.capacity() + coarse_steps_.capacity() + unsampled_.capacity();
   }
 
  private:
   using Step = std::uint8_t;
+  using SharedBytes = std::vector<SharedValue<std::uint8_t>>;
   static constexpr Step max_steps = 255;
   static constexpr std::uint8_t all_eighths = 255;
 
-  /// More than all roundings between two points of the lattice's box: the frame's coordinates are below 2,
-  /// and plane_error is at least 4 u of them (plane_filter.h), u = 2^-24. The point and its coordinates are
-  /// rounded once each; differences, squares, sums and the root relatively: below 8 u of the box in all. What
-  /// is left holds the rounding of the double kernel as well, 2^-24 plane_error.
+  /// More than all roundings between two points of the lattice's box, those of the double kernel included:
+  /// docs/exactness.md, E13.
   static constexpr float plane_errors_of_pad = 4;
 
   static Lanes lanes_of(const FilterPoint& p) noexcept { return Lanes{p.x, p.y, p.z, 0}; }
@@ -113,7 +112,7 @@ class DistanceField {
   }
   /// Bounds the distance in the middle of a coarse cube from above, by what is known.
   double upper_bound_at(std::uint32_t cube) const noexcept {
-    const Step steps = coarse_steps_[cube];
+    const Step steps = coarse_steps_[cube].load();
     return steps == max_steps ? std::numeric_limits<double>::infinity()
                               : static_cast<double>(steps) * static_cast<double>(step_);
   }
@@ -128,7 +127,7 @@ class DistanceField {
     return {2 * x + (eighth & 1), 2 * y + (eighth >> 1 & 1), 2 * z + (eighth >> 2)};
   }
   void keep_fine(const Cube& cube, Step steps) const noexcept {
-    fine_steps_.set(fine_.index(cube[0], cube[1], cube[2]), steps);
+    fine_steps_[fine_.index(cube[0], cube[1], cube[2])].store(steps);
   }
 
   Step steps_in(double distance) const noexcept {
@@ -156,7 +155,7 @@ inline float DistanceField::lower_bound(const FilterPoint& p) const noexcept {
   if (fine_steps_.empty()) return 0;
   const Lanes point = lanes_of(p), nearest = fine_.clamped(point);
   const LaneBits cube = fine_.cube_of(nearest);
-  const float steps = static_cast<float>(fine_steps_[fine_.index(cube)]);
+  const float steps = static_cast<float>(fine_steps_[fine_.index(cube)].load());
   const float within = steps * step_ - root(squared(nearest - fine_.middle(cube)));
   return beyond_box(p, point - nearest, within);
 }
@@ -165,7 +164,7 @@ inline float DistanceField::upper_bound(const FilterPoint& p) const noexcept {
   if (coarse_steps_.empty()) return std::numeric_limits<float>::infinity();
   const Lanes point = lanes_of(p);
   const LaneBits cube = coarse_.cube_of(point);
-  const Step steps = coarse_steps_[coarse_.index(cube)];
+  const Step steps = coarse_steps_[coarse_.index(cube)].load();
   if (steps == max_steps) return std::numeric_limits<float>::infinity();
   return static_cast<float>(steps) * step_ + root(squared(point - coarse_.middle(cube))) +
          plane_errors_of_pad * p.plane_error;
@@ -173,7 +172,7 @@ inline float DistanceField::upper_bound(const FilterPoint& p) const noexcept {
 
 inline void DistanceField::keep(std::uint32_t x, std::uint32_t y, std::uint32_t z,
                                 const Interval& distance) const noexcept {
-  coarse_steps_.set(coarse_.index(x, y, z), steps_in(distance.upper + step_));
+  coarse_steps_[coarse_.index(x, y, z)].store(steps_in(distance.upper + step_));
   if (!is_far(distance.lower)) return;
   const Step lower = steps_in(distance.lower - to_eighth());
   for (std::uint32_t eighth = 0; eighth < 8; ++eighth) keep_fine(eighth_of(x, y, z, eighth), lower);
@@ -233,18 +232,18 @@ bool DistanceField::sample_near(const FilterPoint& p, const DistanceAt& distance
   const auto i = static_cast<std::uint32_t>(fine_cube[0]), j = static_cast<std::uint32_t>(fine_cube[1]),
              k = static_cast<std::uint32_t>(fine_cube[2]);
   const std::uint32_t x = i / 2, y = j / 2, z = k / 2, cube = coarse_.index(x, y, z);
-  const std::uint8_t unsampled = unsampled_[cube];
+  const std::uint8_t unsampled = unsampled_[cube].load();
   const auto bit = static_cast<std::uint8_t>(1U << ((i & 1) | (j & 1) << 1 | (k & 1) << 2));
   if ((unsampled & bit) == 0) return false;
-  if (unsampled == all_eighths && coarse_steps_[cube] == max_steps) {
+  if (unsampled == all_eighths && coarse_steps_[cube].load() == max_steps) {
     const Interval distance = distance_at(middle(coarse_, x, y, z), std::numeric_limits<double>::infinity());
     if (distance.lower >= 0) keep(x, y, z, distance);
     // A cube about which nothing was found out is not asked for again.
-    if (distance.lower < 0 || is_far(distance.lower)) unsampled_.clear(cube, all_eighths);
+    if (distance.lower < 0 || is_far(distance.lower)) unsampled_[cube].clear(all_eighths);
     return distance.lower >= 0;
   }
   const double lower = distance_at(middle(fine_, i, j, k), upper_bound_at(cube) + to_eighth()).lower;
-  unsampled_.clear(cube, bit);
+  unsampled_[cube].clear(bit);
   if (lower < 0) return false;
   keep_fine({i, j, k}, steps_in(lower));
   return true;
@@ -261,9 +260,9 @@ void DistanceField::refill(const DistanceAt& distance_at, std::span<const Aabb> 
         const std::uint32_t cube = coarse_.index(x, y, z);
         if (!any_within(moved, middle(coarse_, x, y, z), upper_bound_at(cube) + 2 * to_eighth())) continue;
         changed[cube] = true;
-        coarse_steps_.set(cube, max_steps);
+        coarse_steps_[cube].store(max_steps);
         for (std::uint32_t eighth = 0; eighth < 8; ++eighth) keep_fine(eighth_of(x, y, z, eighth), 0);
-        if (is_lazy()) unsampled_.set(cube, all_eighths);
+        if (is_lazy()) unsampled_[cube].store(all_eighths);
       }
     }
   }

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/geometry/sphere_triangle_sweep.h"
 #include "core/search/certified_nearest.h"
 
 namespace touchmark {
+
 bool LinearScan::touches(const Probe& probe, Work& work) const noexcept {
   if (!(probe.radius >= 0) || !probe.center.allFinite()) return false;
   const double error = is_certified ? distance_error(bounds, probe.center) : 0;
@@ -31,19 +31,16 @@ std::optional<Contact> LinearScan::nearest(const Vec3& center, double reach, Wor
 
 std::optional<Impact> LinearScan::first_hit(const Sweep& sweep, Work& work) const noexcept {
   if (!(sweep.radius >= 0)) return std::nullopt;
-  HitCandidate first;
-  const PreparedTriangle* hit = nullptr;
-  for (const PreparedTriangle& triangle : triangles) {
-    const std::optional<double> fraction =
-        sweep_hit(triangle, sweep, std::min(first.fraction, 1.0), work.exact_decisions);
-    if (!fraction || !(HitCandidate{*fraction, triangle.index} < first)) continue;
-    first = {*fraction, triangle.index};
-    hit = &triangle;
-  }
-  work.triangles += triangles.size();
-  if (hit == nullptr) return std::nullopt;
-  return impact_on(*hit, sweep, first.fraction, ids[first.index], is_certified,
+  return impact_of(first_touch(sweep, work), triangles, ids, is_certified,
                    [&](double reach) { return nearest(sweep.from, reach, work); });
+}
+
+FirstTouch LinearScan::first_touch(const Sweep& sweep, Work& work) const noexcept {
+  FirstTouch first(sweep);
+  for (std::uint32_t slot = 0; slot < triangles.size(); ++slot)
+    first.consider(triangles[slot], slot, work.exact_decisions);
+  work.triangles += triangles.size();
+  return first;
 }
 
 std::optional<Contact> LinearScan::nearest_as_computed(const Vec3& center, double reach,

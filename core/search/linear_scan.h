@@ -14,9 +14,9 @@
 #include "core/aabb.h"
 #include "core/detector.h"
 #include "core/geometry/point_triangle.h"
-#include "core/geometry/sphere_triangle_sweep.h"
 #include "core/probe.h"
-#include "core/triangle_mesh.h"
+#include "core/search/first_touch.h"
+#include "core/triangle_ids.h"
 
 namespace touchmark {
 
@@ -28,22 +28,6 @@ inline std::uint64_t work_budget(std::size_t triangles) noexcept {
 }
 
 inline constexpr std::uint64_t any_work = std::numeric_limits<std::uint64_t>::max();
-
-/// The reach at the start of a sweep that touches there by whole numbers, where contact is decided by
-/// doubles: these may find it beyond the radius.
-inline constexpr double any_reach = std::numeric_limits<double>::infinity();
-
-/// Returns the impact of a sweep that first hits this triangle at this fraction. Of all the triangles that
-/// are touched at the start the nearest one counts: nearest(reach) looks for it.
-template <class Nearest>
-std::optional<Impact> impact_on(const PreparedTriangle& triangle, const Sweep& sweep, double fraction,
-                                TriangleId id, bool decides_exactly, const Nearest& nearest) noexcept {
-  if (fraction == 0) {
-    const std::optional<Contact> start = nearest(decides_exactly ? sweep.radius : any_reach);
-    if (start) return Impact{0, *start};
-  }
-  return Impact{fraction, contact_on_path(triangle, sweep, fraction, id)};
-}
 
 /// What is left of it after `spent`.
 inline std::uint64_t remaining(std::uint64_t budget, std::uint64_t spent) noexcept {
@@ -62,6 +46,8 @@ struct LinearScan {
   bool touches(const Probe& probe, Work& work) const noexcept;
   std::optional<Contact> nearest(const Vec3& center, double reach, Work& work) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, Work& work) const noexcept;
+  /// Looks at all for the first touch.
+  FirstTouch first_touch(const Sweep& sweep, Work& work) const noexcept;
 
  private:
   std::optional<Contact> nearest_as_computed(const Vec3& center, double reach, Work& work) const noexcept;

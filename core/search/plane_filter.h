@@ -75,9 +75,7 @@ class FilterFrame {
   /// what is measured at the result holds of the point only within from_frame_error.
   Vec3 from_frame(const Vec3& in_frame) const noexcept { return origin_ + in_frame * unit_; }
   /// Bounds in this frame how far a point whose coordinates are within `largest` of 0 is from where
-  /// from_frame puts it. The product by a power of two is exact; the sum is rounded once a coordinate, by u
-  /// of itself, u = 2^-53, and a vector is no longer than the sum of its coordinates. A quarter more than
-  /// that.
+  /// from_frame puts it: docs/exactness.md, E13.
   double from_frame_error(double largest) const noexcept {
     constexpr double u = std::numeric_limits<double>::epsilon() / 2;
     return 1.25 * u * (origin_.lpNorm<1>() * scale_ + 3 * largest);
@@ -117,8 +115,7 @@ class FilterFrame {
   /// Returns the radius of a ball around the frame's middle that holds the mesh, in the frame.
   double radius() const noexcept { return radius_; }
 
-  /// u = 2^-24. The point, the normal and the offset are rounded once each, the three products once, the
-  /// three sums once: at most 6u(|x||n| + |offset|). Two more u, the kernel's own slack (2^-46) included.
+  /// Eight roundings of single precision: docs/exactness.md, E10.
   static constexpr double plane_error_per_unit = 8 * 0x1p-24;
 
  private:
@@ -167,13 +164,8 @@ inline float squared_lower_bound(Lanes values, const FilterPoint& p) noexcept {
   return height * height + excess * excess;
 }
 
-/// Bounds from above use the corners where two sides meet. Off these by s beyond the side with the outward
-/// normal n and by t beyond the one with m, either of which may be negative, the point is, in the face's
-/// plane, sqrt((s^2 + t^2 - 2 st c) / (1 - c^2)) away, with c = n.m: off an acute corner, where c is below 0.
-/// As long as 1 - |c| is 1/64, s and t that are off by plane_error change that by 8 sqrt(2) plane_error, with
-/// the height's plane_error 11.4 plane_error in all. Its square comes out within a relative 2^-12: c is off
-/// by 10 u at most, so what is above by 24 u (s^2 + t^2), of which 1/64 is left at least, and what is below
-/// by 22 u.
+/// Bounds from above use the corners where two sides meet at a cosine between this and 0, with a pad in
+/// plane_errors and a factor for rounding: docs/exactness.md, E11.
 inline constexpr float sharpest_cosine = -63.0F / 64;
 inline constexpr float corner_pad = 16, corner_excess = 1 + 0x1p-12F;
 

@@ -133,9 +133,7 @@ SquaredDistance squared_off_corner(const Vec3& corner, const Vec3& point) noexce
   return {square, 0x1p-100 * square.high + underflow};  // 5 u^2 for each square and 3 u^2 for each sum
 }
 
-/// With w to the nearer end and v = 2^-103 for each operation (precise_closest_point.cpp), each coordinate of
-/// w x e is off by 8 v |w| |e|, so their vector by 14 v |w| |e|, the square of the distance d by 28 v d |w|
-/// and, for what that leaves out, v^2 |w|^2 times 600, and by 12 v d^2 for the rest.
+/// The error: docs/exactness.md, E7.
 SquaredDistance squared_off_edge(const Feature& edge, const Vec3& point) noexcept {
   const Vec3 &p = edge.corner[0], &q = edge.corner[1];
   const double pp = (point - p).squaredNorm(), qq = (point - q).squaredNorm();
@@ -148,9 +146,7 @@ SquaredDistance squared_off_edge(const Feature& edge, const Vec3& point) noexcep
   return {square, 0x1p-97 * d * nearer + 0x1p-194 * nearer * nearer + 0x1p-98 * d * d + underflow};
 }
 
-/// With e and f two edges, each coordinate of the normal n is off by 8 v |e| |f|, so n by 14 v |e| |f|, and
-/// the height's product with it by as much times |w|, and 12 v |w| |n| of its own. With s = |e| |f| / |n| the
-/// height h = d is off by (14 + 12) v |w| s and by 14 v d s + 2^-101 d.
+/// The error: docs/exactness.md, E7; `stretch` is its s.
 SquaredDistance squared_over_face(const Feature& face, const Vec3& point) noexcept {
   for (Eigen::Index axis = 0; axis < 3; ++axis)
     if (are_level(face, axis)) return squared_height(face.corner[0], point, axis);

@@ -53,16 +53,9 @@ std::partial_ordering BesideCorner::compare(const TriangleCorners& triangle) con
   return both_at_corner ? std::partial_ordering::equivalent : std::partial_ordering::unordered;
 }
 
-// Along an edge e the point is t = v.e / |e| from the corner. The product of double-doubles is off by less
-// than 5 v |v| |e|, so t by 2^-100 |v| and, for the norms and the quotient, 8 u of itself: there is room
+// The bounds of s: docs/exactness.md, E6, step 4. The product of double-doubles is off by less than 5 v |v|
+// |e|, so t = v.e / |e| by 2^-100 |v| and, for the norms and the quotient, 8 u of itself: there is room
 // twice.
-// - Behind both edges, t <= 0, nothing of the cone is nearer than the corner: s is 0.
-// - An edge as long as its t holds the point there, so s is no less.
-// - The foot on the cone is on the first edge where t_1 > 0 and what is left of v, v - t_1 e_1 / |e_1|, is
-// not
-//   in front of the second: t_2 <= t_1 c, with c the cosine between them. Then s is t_1.
-// - Else it is on one edge or between them, and so within half the angle of one: at c >= 0,
-//   s <= max(t_1, t_2) / cos(angle / 2), where 2 cos^2(angle / 2) = 1 + c.
 BesideCorner::Advance BesideCorner::advance(const TriangleCorners& triangle,
                                             std::size_t corner) const noexcept {
   const std::array<Vector, 2> edge = {difference(triangle[(corner + 1) % 3], corner_),

@@ -13,12 +13,8 @@
 namespace touchmark {
 
 /// Compares a triangle with others that have one corner with it, by how much nearer than that corner they
-/// come.
-///
-/// The corner is at the distance |w| from the point. Where v is the way from it to the point, the triangle is
-/// part of the cone of its two edges from there, and the cone's nearest point is the foot of v on it, at the
-/// distance s from the corner: so the squared distance is |w|^2 - s^2 for the cone, and no less for the
-/// triangle. Distances that agree to 2^-106, as over the hub of an oblique wheel, so have very different s.
+/// come: docs/exactness.md, E6, step 4. Distances that agree to 2^-106, as over the hub of an oblique wheel,
+/// so have very different s.
 class BesideCorner {
  public:
   /// The corner is the one of this triangle that is nearest to the point.

@@ -173,22 +173,7 @@ bool SideFinder::is_simple_at(const Reading& reading) const noexcept {
   return simple_vertex_[normals_.corners(reading.face)[reading.side]];
 }
 
-/// Let c be the point of the reading, d its distance and e what distances may be off by: no point of the mesh
-/// is nearer than d - e.
-///
-/// Near c there is nothing but the faces that meet there: the others that share a vertex with the face are
-/// farther than `sharpest` times their distance along it, the rest farther than the clearance, all that is
-/// more than e. The straight way to c cannot meet anything farther from c than e, so the side is that of the
-/// way's direction among those of the faces at c.
-///
-/// No direction x of these faces leads towards the centre with a cosine above t, t^2 = 2 e / d: as they go on
-/// for at least `reach` and reach^2 > 2 e d, they would come nearer than d - e. By the divergence theorem
-/// (Baerentzen & Aanaes) the pseudonormal times the way's direction is minus twice the integral of x's cosine
-/// over the solid's directions, or twice that over the free ones. If the centre is outside, the solid's
-/// directions all have a cosine of at most t, so that is above -2 * 2 pi t * t; if inside, below the same.
-/// So beyond 8 pi e / d the sign is certain. The offset's own error turns its direction by e / d: with the
-/// pseudonormal's length, at most 2 pi, that makes 10 pi e / d. The rest is the rounding of at most 64 unit
-/// normals and angles, some 20 u each.
+/// The proof, with e for `error` and d for the distance: docs/exactness.md, E21.
 std::optional<Side> SideFinder::by_pseudonormal(const Vec3& center, const Contact& nearest) const noexcept {
   const double error = distance_error(bounds_, center);
   if (!(error <= clearance_)) return std::nullopt;

@@ -13,8 +13,7 @@ namespace touchmark {
 inline constexpr double smallest_length = 1e-150;
 
 /// A sphere can hold a triangle whose computed distance is at most `reach` only if the square of the distance
-/// to its centre is at most the square of this. The kernel may fall short of the true distance by
-/// culling_pad(|p - c| + R), with room for the few roundings of the test itself: twice that, relatively.
+/// to its centre is at most the square of this: docs/exactness.md, E12.
 inline double grown_radius(double radius, double reach) noexcept {
   constexpr double factor = 1 + 512 * (std::numeric_limits<double>::epsilon() / 2);
   return (radius + reach) * factor + smallest_length;
@@ -26,15 +25,6 @@ inline double grown_radius(double radius, double reach) noexcept {
 inline double sweep_pad(const Sweep& sweep) noexcept {
   return 128 * std::numeric_limits<double>::epsilon() *
          (sweep.from.lpNorm<Eigen::Infinity>() + sweep.to.lpNorm<Eigen::Infinity>());
-}
-
-/// The square of the distance from a point to the part [0, limit] of the path.
-inline double squared_distance_to_path(const Sweep& sweep, double limit, const Vec3& point) noexcept {
-  const Vec3 path = limit * (sweep.to - sweep.from);
-  const Vec3 to = point - sweep.from;
-  const double along = to.dot(path), squared = path.squaredNorm();
-  if (!(along > 0)) return to.squaredNorm();
-  return (to - (along < squared ? along / squared : 1.0) * path).squaredNorm();
 }
 
 }  // namespace touchmark

@@ -24,7 +24,7 @@ class Scripts(unittest.TestCase):
     def test_all_show_an_example(self):
         for name in ("setup", "build-program", "bench", "test", "dev", "plot", "papers", "plot-papers",
                      "regress", "gate-trials", "record", "sweep-slurm", "check_layers", "docs",
-                     "check_comments", "history"):
+                     "check_comments", "check_sizes", "history"):
             done = run(SCRIPTS / name, "--help")
             self.assertEqual(done.returncode, 0, name)
             self.assertRegex(done.stdout, "example: ", name)
@@ -32,7 +32,7 @@ class Scripts(unittest.TestCase):
     def test_refuse_what_they_do_not_know(self):
         for name in ("setup", "build-program", "dev", "plot", "papers", "plot-papers", "regress",
                      "gate-trials", "record", "sweep-slurm", "check_layers", "docs", "check_comments",
-                     "history"):
+                     "check_sizes", "history"):
             self.assertEqual(run(SCRIPTS / name, "--no-such-thing", "x").returncode, 2, name)
 
     def test_bench_forwards_help_to_the_program(self):
@@ -266,6 +266,21 @@ class CheckComments(unittest.TestCase):
             done = run(SCRIPTS / "check_comments", "--root", root, "core")
         self.assertEqual(done.returncode, 1)
         self.assertEqual(done.stderr, 'core/probe.h:2: a comment begins with "of": of a tree\n')
+
+
+class CheckSizes(unittest.TestCase):
+    def test_finds_what_it_forbids(self):
+        done = run(SCRIPTS / "check_sizes", "--self-test")
+        self.assertEqual((done.returncode, done.stdout), (0, "check_sizes: clean\n"), done.stderr)
+
+    def test_names_file_and_line(self):
+        with tempfile.TemporaryDirectory() as root:
+            file = pathlib.Path(root) / "core" / "probe.cpp"
+            file.parent.mkdir()
+            file.write_text("\nvoid f() {\n" + "  g();\n" * 59 + "}\n", encoding="utf-8")
+            done = run(SCRIPTS / "check_sizes", "--root", root)
+        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.stderr, "core/probe.cpp:2: a function of 61 lines, more than 60\n")
 
 
 if __name__ == "__main__":

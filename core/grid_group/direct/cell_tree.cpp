@@ -22,38 +22,17 @@ CellTree::Leaf CellTree::nearest_to(const TriangleStore& store, const BoxTree& t
   return {search.slot(), std::max(rounded_down(distance - middle_error_), 0.0F)};
 }
 
-CellTree::Leaves::Leaves(const Leaves& other) {
-  for (std::uint32_t i = 0; i < other.size(); ++i) add(other.at(i), other.is_inherited(i));
-  shrink_to_fit();
-}
-
-void CellTree::Leaves::add(const Leaf& leaf, bool inherited) {
-  if (inherited && inherited_.empty()) inherited_.resize(leaves_.size(), 0);
-  leaves_.push_back(leaf);
-  if (inherited || !inherited_.empty()) inherited_.push_back(inherited ? 1 : 0);
-}
-
-void CellTree::Leaves::shrink_to_fit() {
-  leaves_.shrink_to_fit();
-  inherited_.shrink_to_fit();
-}
-
-void CellTree::Leaves::set(std::uint32_t i, const Leaf& leaf, bool inherited) const noexcept {
-  std::atomic_ref(leaves_[i].slot).store(leaf.slot, std::memory_order_relaxed);
-  std::atomic_ref(leaves_[i].distance).store(leaf.distance, std::memory_order_relaxed);
-  if (!inherited_.empty()) std::atomic_ref(inherited_[i]).store(inherited ? 1 : 0, std::memory_order_relaxed);
-}
-
 bool CellTree::build_lazily(const Vec3& in_frame, const TriangleStore& store, const BoxTree& tree,
                             std::uint64_t budget, Work& work) const noexcept {
   const Units units_at = units(in_frame);
   const Found at = find(units_at);
-  if (!leaves_.is_inherited(at.leaf)) return false;
-  const Leaf inherited = leaves_.at(at.leaf);
+  if (states_.empty() || !states_[at.leaf].claim()) return false;
+  const Leaf inherited = leaves_[at.leaf].load();
   // A tick's work is bounded: where that is not enough, what is known will do.
   Leaf leaf = nearest_to(store, tree, middle(units_at, at.shift), inherited.slot, budget, work);
   leaf.distance = std::max(leaf.distance, inherited.distance);
-  leaves_.set(at.leaf, leaf, false);
+  leaves_[at.leaf].store(leaf);
+  states_[at.leaf].finish();
   return true;
 }
 
@@ -65,7 +44,6 @@ class CellTreeBuilder {
 
   CellTree build() {
     set_up_cube();
-    cells_.inherited_ = options_.lazy;
     const auto root = cells_.root_ = static_cast<std::uint32_t>(cells_.links_.size());
     cells_.links_.push_back(0);
     std::vector<Open> level = {{Vec3::Zero(), root, {0, 0}}};
@@ -73,6 +51,7 @@ class CellTreeBuilder {
     fill_top(root);
     cells_.links_.shrink_to_fit();
     cells_.leaves_.shrink_to_fit();
+    cells_.states_.shrink_to_fit();
     return std::move(cells_);
   }
 
@@ -142,7 +121,8 @@ class CellTreeBuilder {
         }
       } else {
         cells_.links_[cell.link] = CellTree::is_leaf | static_cast<std::uint32_t>(cells_.leaves_.size());
-        cells_.leaves_.add(leaf, inherited);
+        cells_.leaves_.push_back({leaf.slot, leaf.distance});
+        if (options_.lazy) cells_.states_.push_back(inherited ? LazyState::unbuilt() : LazyState());
       }
     }
     return next;
@@ -207,12 +187,13 @@ void CellTree::update(const TriangleStore& store, const BoxTree& tree, const std
       continue;
     }
     const std::uint32_t number = cell.link & ~is_leaf;
-    const Leaf leaf = leaves_.at(number);
+    const Leaf leaf = leaves_[number].load();
     if (!any_within(moved, cell.middle, upper_bound(static_cast<double>(leaf.distance)))) continue;
     Work unreported;
-    const Leaf known = inherited_ ? Leaf{leaf.slot, 0}
-                                  : nearest_to(store, tree, cell.middle, leaf.slot, any_work, unreported);
-    leaves_.set(number, known, inherited_);
+    const bool is_lazy = !states_.empty();
+    leaves_[number].store(is_lazy ? Leaf{leaf.slot, 0}
+                                  : nearest_to(store, tree, cell.middle, leaf.slot, any_work, unreported));
+    if (is_lazy) states_[number] = LazyState::unbuilt();
   }
 }
 

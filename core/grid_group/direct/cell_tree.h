@@ -5,7 +5,6 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -15,6 +14,7 @@
 #include "core/detector.h"
 #include "core/grid_group/direct/box_tree.h"
 #include "core/grid_group/direct/triangle_store.h"
+#include "core/search/lazy_construction.h"
 
 namespace touchmark::grid {
 
@@ -46,7 +46,7 @@ class CellTree {
   Cell at(const Vec3& in_frame) const noexcept {
     const Units at = units(in_frame);
     const Found found = find(at);
-    const Leaf leaf = leaves_.at(found.leaf);
+    const Leaf leaf = leaves_[found.leaf].load();
     return {middle(at, found.shift), static_cast<double>(leaf.distance), leaf.slot};
   }
   /// The mesh is no farther from the middle of a cell of this distance, where a search for what is nearest to
@@ -65,7 +65,10 @@ class CellTree {
   std::size_t cells() const noexcept { return leaves_.size(); }
   double smallest_edge() const noexcept { return smallest_edge_; }
   bool coarsened() const noexcept { return coarsened_; }
-  std::size_t bytes() const noexcept { return links_.capacity() * sizeof(std::uint32_t) + leaves_.bytes(); }
+  std::size_t bytes() const noexcept {
+    return links_.capacity() * sizeof(std::uint32_t) + leaves_.capacity() * sizeof(SharedLeaf) +
+           states_.capacity() * sizeof(LazyState);
+  }
 
  private:
   friend class CellTreeBuilder;
@@ -76,34 +79,16 @@ class CellTree {
     std::uint32_t slot;
     float distance;
   };
-  /// What is known of each, which any thread may read and set at any time: of one whose slot is the new one
-  /// and whose distance is the old one both are true.
-  class Leaves {
-   public:
-    Leaves() = default;
-    Leaves(const Leaves& other);
-    Leaves& operator=(const Leaves& other) { return *this = Leaves(other); }
-    Leaves(Leaves&&) noexcept = default;
-    Leaves& operator=(Leaves&&) noexcept = default;
-    ~Leaves() = default;
+  /// A leaf that any thread may read and set: with a new slot and the old distance both are still true.
+  struct SharedLeaf {
+    SharedValue<std::uint32_t> slot;
+    SharedValue<float> distance;
 
-    /// Rough: what its parent knows.
-    void add(const Leaf& leaf, bool inherited);
-    void shrink_to_fit();
-    Leaf at(std::uint32_t i) const noexcept {
-      return {std::atomic_ref(leaves_[i].slot).load(std::memory_order_relaxed),
-              std::atomic_ref(leaves_[i].distance).load(std::memory_order_relaxed)};
+    Leaf load() const noexcept { return {slot.load(), distance.load()}; }
+    void store(const Leaf& leaf) const noexcept {
+      slot.store(leaf.slot);
+      distance.store(leaf.distance);
     }
-    bool is_inherited(std::uint32_t i) const noexcept {
-      return !inherited_.empty() && std::atomic_ref(inherited_[i]).load(std::memory_order_relaxed) != 0;
-    }
-    void set(std::uint32_t i, const Leaf& leaf, bool inherited) const noexcept;
-    std::size_t size() const noexcept { return leaves_.size(); }
-    std::size_t bytes() const noexcept { return leaves_.capacity() * sizeof(Leaf) + inherited_.capacity(); }
-
-   private:
-    mutable std::vector<Leaf> leaves_;
-    mutable std::vector<std::uint8_t> inherited_;  ///< empty where none ever was
   };
 
   using Units = std::array<std::uint32_t, 3>;  ///< numbers of a cell of the last possible level
@@ -156,9 +141,9 @@ class CellTree {
   double middle_error_ = 0;
   unsigned top_levels_ = 0;
   std::vector<std::uint32_t> links_;  ///< the top table, then eight a node: the first of a node, or a leaf
-  Leaves leaves_;
-  bool inherited_ = false;
-  std::uint32_t root_ = 0;  ///< link of the whole cube
+  std::vector<SharedLeaf> leaves_;
+  std::vector<LazyState> states_;  ///< states of the leaves, with lazy construction
+  std::uint32_t root_ = 0;         ///< link of the whole cube
   double smallest_edge_ = 0;
   bool coarsened_ = false;
 };

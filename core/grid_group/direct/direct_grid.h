@@ -19,6 +19,8 @@
 
 namespace touchmark::grid {
 
+class NearestSearch;
+
 struct DirectOptions {
   double cell = 0;                  ///< edge of the smallest cell, mesh units; 0: choose
   double bytes_per_triangle = 400;  ///< the whole structure
@@ -138,6 +140,10 @@ class DirectGrid {
   template <Sought sought>
   Located locate(const Vec3& center, const FilterPoint& point, double reach, DirectMemory& memory,
                  Work& work) const noexcept;
+  void look_for_group(NearestSearch& search, Start& start, Work& work) const noexcept;
+  template <Sought sought>
+  Located conclude(NearestSearch& search, const Vec3& center, double squared_lower, DirectMemory& memory,
+                   Work& work) const noexcept;
   /// Builds lazily after a query that no group covered: the group of one of the slots, or the cell of this
   /// centre, whichever is still to be done. `spent` counts the boxes and triangles of the query.
   void build_lazily(std::uint32_t near, std::uint32_t start, const Vec3& center, std::uint64_t spent,
@@ -160,14 +166,12 @@ class DirectGrid {
   /// Answers for probes so far away that single precision tells the triangles no longer apart.
   std::optional<Contact> far_nearest(const Vec3& center, double reach, Work& work) const noexcept;
   std::optional<Impact> far_first_hit(const Sweep& sweep, Work& work) const noexcept;
-  std::optional<Impact> first_hit_of_all(const Sweep& sweep, DirectMemory& memory, Work& work) const noexcept;
-  /// The impact of a sweep whose first hit is known.
-  std::optional<Impact> impact_on(const Sweep& sweep, double fraction, std::uint32_t slot,
-                                  DirectMemory& memory, Work& work) const noexcept;
+  [[gnu::noinline]] std::optional<Impact> impact_of(const FirstTouch& first, DirectMemory& memory,
+                                                    Work& work) const noexcept;
   /// Returns the contact with the exactly nearest triangle, where rounding could tell; nothing where it is
   /// beyond the reach.
-  std::optional<Contact> contact_of(const PreparedTriangle& nearest, const Vec3& center, double reach,
-                                    double error, Work& work) const noexcept;
+  std::optional<Contact> exact_contact(const PreparedTriangle& nearest, const Vec3& center, double reach,
+                                       double error, Work& work) const noexcept;
   /// Samples distances, or those that the boxes of what moved may have changed.
   void fill_distances();
   void refill_distances(const std::vector<Aabb>& moved);

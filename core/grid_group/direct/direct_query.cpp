@@ -34,6 +34,17 @@ DirectGrid::Start DirectGrid::start_at(const Vec3& center, const FilterPoint& po
   return {false, cell.slot, group_covering(cell.slot, point, work)};
 }
 
+/// Hops twice at most to that member of a triangle's group which seems nearest, until its own group covers
+/// the point.
+[[gnu::always_inline]] inline void DirectGrid::look_for_group(NearestSearch& search, Start& start,
+                                                              Work& work) const noexcept {
+  for (int hop = 0; hop < 2 && start.group == nullptr && groups_.of(start.slot).count() > 0; ++hop) {
+    const std::uint32_t next = search.closest_of(groups_.members(groups_.of(start.slot)));
+    if (next == start.slot) break;
+    start = {false, next, group_covering(next, search.point(), work)};
+  }
+}
+
 template <DirectGrid::Sought sought>
 DirectGrid::Located DirectGrid::locate(const Vec3& center, const FilterPoint& point, double reach,
                                        DirectMemory& memory, Work& work) const noexcept {
@@ -62,11 +73,7 @@ DirectGrid::Located DirectGrid::locate(const Vec3& center, const FilterPoint& po
   // all are, and after a jump its neighbours are not worth a look each.
   const bool near = start.group != nullptr || search.may_be_near(start.slot) ||
                     (center - before).squaredNorm() < cell() * cell();
-  for (int hop = 0; hop < 2 && near && start.group == nullptr && groups_.of(start.slot).count() > 0; ++hop) {
-    const std::uint32_t next = search.closest_of(groups_.members(groups_.of(start.slot)));
-    if (next == start.slot) break;
-    start = {false, next, group_covering(next, search.point(), work)};
-  }
+  if (near) look_for_group(search, start, work);
   double squared_lower = reach * reach;
   bool exhausted = false;
   if (start.group != nullptr) {
@@ -84,6 +91,17 @@ DirectGrid::Located DirectGrid::locate(const Vec3& center, const FilterPoint& po
     work.exact_decisions += search.exact_decisions();
     return {.exhausted = true};
   }
+  return conclude<sought>(search, center, squared_lower, memory, work);
+}
+
+/// What a search that came to its end has located.
+template <DirectGrid::Sought sought>
+[[gnu::always_inline]] inline DirectGrid::Located DirectGrid::conclude(NearestSearch& search,
+                                                                       const Vec3& center,
+                                                                       double squared_lower,
+                                                                       DirectMemory& memory,
+                                                                       Work& work) const noexcept {
+  constexpr bool to_touch = sought == Sought::touch;
   if (!search.found()) {
     remember(center, search.point().plane_error, std::sqrt(squared_lower), infinity, memory);
     return {};
@@ -95,7 +113,7 @@ DirectGrid::Located DirectGrid::locate(const Vec3& center, const FilterPoint& po
     work.exact_decisions += search.exact_decisions();
     if (touching) {
       memory.slot = search.slot();
-      return {.plane_error = point.plane_error, .within = search.within()};
+      return {.plane_error = search.point().plane_error, .within = search.within()};
     }
   }
   memory.slot = search.slot();
@@ -146,14 +164,14 @@ std::optional<Contact> DirectGrid::nearest(const Vec3& center, double reach, Dir
     const double error = distance_error(bounds_, center);
     const bool is_first = located.exactly == nullptr;
     if (!is_first || !is_certain_on(*located.triangle, contact.distance, center, reach, error))
-      return contact_of(is_first ? *located.triangle : *located.exactly, center, reach, error, work);
+      return exact_contact(is_first ? *located.triangle : *located.exactly, center, reach, error, work);
   }
   if (!within) return std::nullopt;
   return contact;
 }
 
-std::optional<Contact> DirectGrid::contact_of(const PreparedTriangle& nearest, const Vec3& center,
-                                              double reach, double error, Work& work) const noexcept {
+std::optional<Contact> DirectGrid::exact_contact(const PreparedTriangle& nearest, const Vec3& center,
+                                                 double reach, double error, Work& work) const noexcept {
   NearestOfTies only(center);
   only.consider(nearest);
   const std::optional<Contact> contact = only.contact(reach, error, store_.ids);

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <span>
 
-#include "core/geometry/sphere_triangle_sweep.h"
+#include "core/geometry/distance_error.h"
 #include "core/geometry/sweep_box.h"
 #include "core/grid_group/direct/direct_grid.h"
-#include "core/search/certified_nearest.h"
+#include "core/search/first_touch.h"
 #include "core/simd/lanes.h"
 
 namespace touchmark::grid {
@@ -20,16 +20,14 @@ class SweepSearch {
   /// The store's frame covers both ends.
   SweepSearch(const TriangleStore& store, const Sweep& sweep, double padded_radius) noexcept
       : store_(store),
-        sweep_(sweep),
         in_frame_{store.frame.scale() * (sweep.from - store.frame.origin()),
                   store.frame.scale() * (sweep.to - store.frame.origin()), 0},
         start_(store.frame.point(sweep.from)),
         length_((sweep.to - sweep.from).norm()),
-        padded_radius_(padded_radius) {}
+        padded_radius_(padded_radius),
+        first_(sweep) {}
 
-  bool found() const noexcept { return first_.fraction <= 1; }
-  double fraction() const noexcept { return first_.fraction; }
-  std::uint32_t slot() const noexcept { return slot_; }  ///< slot of the triangle first hit
+  const FirstTouch& first() const noexcept { return first_; }
 
   /// Considers the members of a group that covers the whole path.
   void consider_group(std::span<const std::uint32_t> members, Work& work) noexcept {
@@ -53,7 +51,7 @@ class SweepSearch {
       if (work.boxes + work.triangles - before > budget) return false;
       const BoxStack::Entry next = stack.pop();
       // The bound may have been rounded up to single precision, where that is denormal by 2^-149.
-      if (static_cast<double>(next.bound) > limit() * (1 + 0x1p-22) + 0x1p-149) continue;
+      if (static_cast<double>(next.bound) > first_.limit() * (1 + 0x1p-22) + 0x1p-149) continue;
       if (next.level > 0) {
         visit(tree, next.level - 1, next.index, stack, work);
       } else {
@@ -64,13 +62,11 @@ class SweepSearch {
   }
 
  private:
-  double limit() const noexcept { return std::min(first_.fraction, 1.0); }
-
   /// Pushes the children that the path meets, the first met on top.
   void visit(const BoxTree& tree, std::uint32_t level, std::uint32_t index, BoxStack& stack,
              Work& work) const noexcept {
     const EightBoxes& node = tree.node(level, index);
-    const double padded_radius = store_.frame.scale() * padded_radius_;
+    const double padded_radius = store_.frame.scale() * padded_radius_, limit = first_.limit();
     const std::size_t base = stack.size();
     work.boxes += BoxTree::arity;
     for (std::uint32_t child = 0; child < BoxTree::arity; ++child) {
@@ -79,15 +75,15 @@ class SweepSearch {
         box.min[static_cast<int>(k)] = static_cast<double>(node.min[k][child / 4][child % 4]);
         box.max[static_cast<int>(k)] = static_cast<double>(node.max[k][child / 4][child % 4]);
       }
-      const double enter = enters(box, in_frame_, padded_radius, limit());
-      if (enter <= limit())
+      const double enter = enters(box, in_frame_, padded_radius, limit);
+      if (enter <= limit)
         stack.insert(base, {static_cast<float>(enter), index * BoxTree::arity + child, level});
     }
   }
 
   /// What is farther from the path's start than its length can't be met.
   float within() const noexcept {
-    const double farthest = length_ * limit() * (1 + 0x1p-40) + padded_radius_;
+    const double farthest = length_ * first_.limit() * (1 + 0x1p-40) + padded_radius_;
     return store_.frame.limit(farthest * farthest);
   }
 
@@ -103,21 +99,15 @@ class SweepSearch {
   }
 
   void consider(std::uint32_t slot, Work& work) noexcept {
-    const PreparedTriangle& triangle = store_.exact[slot];
-    const std::optional<double> hit = sweep_hit(triangle, sweep_, limit(), work.exact_decisions);
-    if (!hit || !(HitCandidate{*hit, triangle.index} < first_)) return;
-    first_ = {*hit, triangle.index};
-    slot_ = slot;
+    first_.consider(store_.exact[slot], slot, work.exact_decisions);
   }
 
   const TriangleStore& store_;
-  const Sweep& sweep_;
   Sweep in_frame_;
   FilterPoint start_;
   double length_;
   double padded_radius_;
-  HitCandidate first_;
-  std::uint32_t slot_ = 0;
+  FirstTouch first_;
 };
 
 }  // namespace
@@ -140,14 +130,13 @@ std::optional<Impact> DirectGrid::first_hit(const Sweep& sweep, DirectMemory& me
   if (start.group != nullptr && group_covering(start.slot, store_.frame.point(sweep.to), work) != nullptr) {
     search.consider_group(groups_.members(*start.group), work);
   } else if (!search.consider_tree(tree_, work_budget(store_.size()), work)) {
-    return first_hit_of_all(sweep, memory, work);
+    return impact_of(fallback().first_touch(sweep, work), memory, work);
   } else {
-    build_lazily(search.found() ? search.slot() : start.slot, start.slot, sweep.from, work.total() - before,
-                 work);
+    build_lazily(search.first().found() ? search.first().slot() : start.slot, start.slot, sweep.from,
+                 work.total() - before, work);
   }
-  if (!search.found()) return std::nullopt;
-  memory.slot = search.slot();
-  return impact_on(sweep, search.fraction(), search.slot(), memory, work);
+  if (search.first().found()) memory.slot = search.first().slot();
+  return impact_of(search.first(), memory, work);
 }
 
 std::optional<Impact> DirectGrid::far_first_hit(const Sweep& sweep, Work& work) const noexcept {
@@ -155,30 +144,13 @@ std::optional<Impact> DirectGrid::far_first_hit(const Sweep& sweep, Work& work) 
   if (enters(bounds_, sweep, padded_sweep_radius(sweep, largest_difference(bounds_, sweep)), 1) > 1)
     return std::nullopt;
   DirectMemory memory;
-  return first_hit_of_all(sweep, memory, work);
+  return impact_of(fallback().first_touch(sweep, work), memory, work);
 }
 
-std::optional<Impact> DirectGrid::first_hit_of_all(const Sweep& sweep, DirectMemory& memory,
-                                                   Work& work) const noexcept {
-  HitCandidate first;
-  std::uint32_t first_slot = 0;
-  for (std::uint32_t slot = 0; slot < store_.size(); ++slot) {
-    const PreparedTriangle& triangle = store_.exact[slot];
-    const std::optional<double> hit =
-        sweep_hit(triangle, sweep, std::min(first.fraction, 1.0), work.exact_decisions);
-    if (!hit || !(HitCandidate{*hit, triangle.index} < first)) continue;
-    first = {*hit, triangle.index};
-    first_slot = slot;
-  }
-  work.triangles += store_.size();
-  if (!(first.fraction <= 1)) return std::nullopt;
-  return impact_on(sweep, first.fraction, first_slot, memory, work);
-}
-
-std::optional<Impact> DirectGrid::impact_on(const Sweep& sweep, double fraction, std::uint32_t slot,
-                                            DirectMemory& memory, Work& work) const noexcept {
-  return touchmark::impact_on(store_.exact[slot], sweep, fraction, store_.id(slot), certified_,
-                              [&](double reach) { return nearest(sweep.from, reach, memory, work); });
+std::optional<Impact> DirectGrid::impact_of(const FirstTouch& first, DirectMemory& memory,
+                                            Work& work) const noexcept {
+  return touchmark::impact_of(first, store_.exact, store_.ids, certified_,
+                              [&](double reach) { return nearest(first.sweep().from, reach, memory, work); });
 }
 
 }  // namespace touchmark::grid

@@ -71,7 +71,7 @@ void GroupBuilder::add(std::uint32_t slot, const GroupFinder::Found& found) {
   groups_.groups_[slot] = {static_cast<std::uint32_t>(groups_.members_.size()), count, found.height,
                            found.margin};
   groups_.members_.insert(groups_.members_.end(), found.members.data(), found.members.data() + stored);
-  ++groups_.count_;
+  groups_.count_.add(1);
 }
 
 }  // namespace touchmark::grid

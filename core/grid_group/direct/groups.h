@@ -2,13 +2,13 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "core/search/lazy_construction.h"
 #include "core/search/plane_filter.h"
 #include "core/simd/lanes.h"
 
@@ -22,10 +22,10 @@ class Group {
   Group(std::uint32_t first, std::size_t count, float height, float margin) noexcept
       : first_(first), count_(static_cast<std::uint16_t>(count)), height_(height), margin_(margin) {}
 
-  std::size_t count() const noexcept {  ///< number of members
-    return std::atomic_ref(count_).load(std::memory_order_acquire);
-  }
-  float height() const noexcept { return std::atomic_ref(height_).load(std::memory_order_acquire); }
+  std::size_t count() const noexcept {
+    return count_.load(std::memory_order_acquire);
+  }  ///< number of members
+  float height() const noexcept { return height_.load(std::memory_order_acquire); }
   float margin() const noexcept { return margin_; }  ///< valid only if there are members
 
   /// Is the point with these values of the triangle's planes surely where the group is valid?
@@ -38,14 +38,13 @@ class Group {
   friend class Groups;
   std::uint32_t first_ = 0;  ///< member
   // Whoever sees the count sees the first member, and whoever sees the height sees all.
-  mutable std::uint16_t count_ = 0;
-  mutable std::uint16_t state_ = 0;
-  mutable float height_ = -1;
+  SharedValue<std::uint16_t> count_ = 0;
+  LazyState state_;
+  SharedValue<float> height_ = -1;
   float margin_ = -1;
 };
 
-/// Groups by slot in the TriangleStore. Those that are not built yet may be built while others are read, by
-/// any thread, each by one: it claims the group, and puts it. Nothing waits and nothing takes memory then.
+/// Groups by slot in the TriangleStore, all of them built at once or each lazily: whoever claims one puts it.
 class Groups {
  public:
   /// A group has more than many members only where a lower prism would not help.
@@ -70,37 +69,28 @@ class Groups {
   /// The members' number with the copies of the last behind them, up to a multiple of eight.
   static constexpr std::size_t rounded_up(std::size_t members) { return (members + 7) / 8 * 8; }
 
-  bool is_unbuilt(std::uint32_t slot) const noexcept {
-    return std::atomic_ref(groups_[slot].state_).load(std::memory_order_relaxed) == unbuilt;
-  }
+  bool is_unbuilt(std::uint32_t slot) const noexcept { return groups_[slot].state_.is_unbuilt(); }
   /// Is it the caller who has to put it?
-  bool claim(std::uint32_t slot) const noexcept {
-    std::uint16_t expected = unbuilt;
-    return is_unbuilt(slot) &&
-           std::atomic_ref(groups_[slot].state_)
-               .compare_exchange_strong(expected, in_construction, std::memory_order_relaxed);
-  }
+  bool claim(std::uint32_t slot) const noexcept { return groups_[slot].state_.claim(); }
   /// Members with their copies behind them. Without any where there is no room for them.
   void put(std::uint32_t slot, std::span<const std::uint32_t> members, float height,
            float margin) const noexcept;
 
   bool is_lazy() const noexcept { return lazy_; }
   /// Returns how many groups have members.
-  std::size_t count() const noexcept { return std::atomic_ref(count_).load(std::memory_order_relaxed); }
+  std::size_t count() const noexcept { return count_.load(); }
   std::size_t bytes() const noexcept {
     return groups_.capacity() * sizeof(Group) + members_.capacity() * sizeof(std::uint32_t);
   }
 
  private:
   friend class GroupBuilder;
-  static constexpr std::uint16_t built = 0, unbuilt = 1, in_construction = 2;  ///< states of a group
-
   bool lazy_ = false;
   // What is not made belongs to nobody but who has claimed it.
   mutable std::vector<Group> groups_;
   mutable std::vector<std::uint32_t> members_;
-  mutable std::size_t taken_ = 0;  ///< how many of members_ are in use, with lazy construction
-  mutable std::size_t count_ = 0;
+  SharedValue<std::size_t> taken_ = 0;  ///< how many of members_ are in use, with lazy construction
+  SharedValue<std::size_t> count_ = 0;
 };
 
 }  // namespace touchmark::grid

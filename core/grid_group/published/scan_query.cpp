@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/geometry/sphere_triangle_sweep.h"
 #include "core/geometry/sweep_box.h"
 #include "core/grid_group/published/scan_grid.h"
 #include "core/search/certified_nearest.h"
+#include "core/search/first_touch.h"
 
 namespace touchmark::grid {
 namespace {
@@ -31,11 +31,8 @@ bool passes(const Aabb& box, const Sweep& sweep, double by) noexcept {
 }
 
 bool passes(const Sphere& sphere, const Sweep& sweep, double by) noexcept {
-  const Vec3 path = sweep.to - sweep.from, to_center = sphere.center - sweep.from;
-  const double squared = path.squaredNorm();
-  const double nearest = squared > 0 ? std::clamp(to_center.dot(path) / squared, 0.0, 1.0) : 0;
   const double radius = sphere.radius + by;
-  return !((to_center - nearest * path).squaredNorm() > radius * radius);
+  return !(squared_distance_to_path(sweep, sphere.center) > radius * radius);
 }
 
 }  // namespace
@@ -96,22 +93,19 @@ std::optional<Impact> ScanGrid::first_hit(const Sweep& sweep, Work& work) const 
   const double difference = largest_difference(bounds_, sweep);
   if (!fourth_powers_fit(difference)) return fallback().first_hit(sweep, work);
   const double by = padded_sweep_radius(sweep, difference);
-  HitCandidate first;
+  FirstTouch first(sweep);
   const auto scan = [&](const auto& shapes) {
     for (std::size_t group = 0; group < shapes.size(); ++group) {
       ++work.cells;
       if (!passes(shapes[group], sweep, by)) continue;
       search_members(group, work, [&](const PreparedTriangle& triangle) {
-        const std::optional<double> hit =
-            sweep_hit(triangle, sweep, std::min(first.fraction, 1.0), work.exact_decisions);
-        if (hit) first = std::min(first, HitCandidate{*hit, triangle.index});
+        first.consider(triangle, triangle.index, work.exact_decisions);
         return false;
       });
     }
   };
   boxes_.empty() ? scan(spheres_) : scan(boxes_);
-  if (first.index >= triangles_.size()) return std::nullopt;
-  return impact_on(triangles_[first.index], sweep, first.fraction, ids_[first.index], true,
+  return impact_of(first, triangles_, ids_, true,
                    [&](double reach) { return nearest(sweep.from, reach, work); });
 }
 

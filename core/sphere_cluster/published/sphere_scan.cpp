@@ -5,10 +5,10 @@
 #include <bit>
 #include <cmath>
 
-#include "core/geometry/sphere_triangle_sweep.h"
 #include "core/geometry/sweep_box.h"
 #include "core/search/certified_nearest.h"
 #include "core/search/closest_candidates.h"
+#include "core/search/first_touch.h"
 #include "core/sphere_cluster/search_bounds.h"
 
 namespace touchmark {
@@ -105,27 +105,20 @@ std::optional<Impact> SphereScan::first_hit(const Sweep& sweep, Work& work) cons
   const double reach = std::max(padded_sweep_radius(sweep, difference), sweep.radius + error);
   const auto outside = [&](std::size_t i) noexcept {
     const double grown = grown_radius(radius_[i], reach);
-    const double squared = squared_distance_to_path(sweep, 1, {x_[i], y_[i], z_[i]});
+    const double squared = squared_distance_to_path(sweep, {x_[i], y_[i], z_[i]});
     return static_cast<std::uint8_t>(squared > grown * grown);
   };
-  HitCandidate first;
-  std::size_t kept_at = 0;
+  FirstTouch first(sweep);
   ClosestCandidates at_start(triangles_.data(), sweep.from, error);
   for_each_held(x_.size(), outside, [&](std::size_t sphere) noexcept {
     search(sphere, sweep.from, at_start, work);
-    for (std::size_t i = first_[sphere]; i < first_[sphere + 1]; ++i) {
-      const auto fraction =
-          sweep_hit(triangles_[i], sweep, std::min(first.fraction, 1.0), work.exact_decisions);
-      if (!fraction || !(HitCandidate{*fraction, triangles_[i].index} < first)) continue;
-      first = {*fraction, triangles_[i].index};
-      kept_at = i;
-    }
+    for (std::uint32_t i = first_[sphere]; i < first_[sphere + 1]; ++i)
+      first.consider(triangles_[i], i, work.exact_decisions);
     return false;
   });
   work.spheres += x_.size();
-  if (first.index >= triangles_.size()) return std::nullopt;
   // What is known of the start mostly is enough to say what is nearest there.
-  return impact_on(triangles_[kept_at], sweep, first.fraction, ids_[first.index], true, [&](double within) {
+  return impact_of(first, triangles_, ids_, true, [&](double within) {
     const double distance = std::sqrt(at_start.best().squared_distance);
     return is_certain_first(at_start, triangles_, distance, sweep.from, within, error)
                ? contact_on(triangles_[at_start.at()], sweep.from, ids_[at_start.best().index])

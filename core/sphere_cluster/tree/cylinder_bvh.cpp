@@ -198,8 +198,10 @@ void SphereTree::remember_touch(const Vec3& center, double lower, double upper, 
   memory.upper = upper;
 }
 
-std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Memory& memory, Work& work,
-                                           bool* exhausted) const noexcept {
+/// Ends with exhausted() where the work budget is used up. Always inline, so that no contact is copied.
+template <class Exhausted>
+[[gnu::always_inline]] inline std::optional<Contact> SphereTree::search_nearest(
+    const Vec3& center, double reach, Memory& memory, Work& work, const Exhausted& exhausted) const noexcept {
   claim(memory);
   const FilterPoint point = frame_.point(center);
   if (!can_search(point)) return nearest_without(center, reach, work);
@@ -226,9 +228,7 @@ std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Mem
   if (unseen == spheres::exhausted) {
     work += visitor.work;
     memory.forget_distance();
-    if (exhausted == nullptr) return fallback().nearest(center, reach, work);
-    *exhausted = true;
-    return std::nullopt;
+    return exhausted();
   }
   const ClosestCandidates& candidates = visitor.candidates;
   const double distance = std::sqrt(candidates.best().squared_distance);
@@ -239,14 +239,28 @@ std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Mem
   memory.lower = clearance_from(unseen, distance, clearance_pad(point));
   work += visitor.work;
   if (!candidates.found()) return std::nullopt;
-  if (certified_ && !(is_certain(distance, reach, error) && candidates.is_surely_first(error))) {
-    const double tight_error = distance_error(bounds_, center);
-    if (!is_certain_first(candidates, parts_.triangles, distance, center, reach, tight_error))
-      return nearest_of_ties(candidates, center, reach, tight_error, ids_, work.exact_decisions);
-  }
+  if (certified_ && !(is_certain(distance, reach, error) && candidates.is_surely_first(error)))
+    return contact_of(candidates, parts_.triangles, center, reach, distance_error(bounds_, center), ids_,
+                      work);
   if (distance > reach) return std::nullopt;
   return contact_at(parts_.triangles[candidates.at()], center,
                     {visitor.offset, candidates.best().squared_distance}, ids_[candidates.best().index]);
+}
+
+std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Memory& memory,
+                                           Work& work) const noexcept {
+  return search_nearest(center, reach, memory, work, [&] { return fallback().nearest(center, reach, work); });
+}
+
+SphereTree::WithinBudget SphereTree::nearest_within_budget(const Vec3& center, double reach, Memory& memory,
+                                                           Work& work) const noexcept {
+  bool exhausted = false;
+  return {search_nearest(center, reach, memory, work,
+                         [&]() -> std::optional<Contact> {
+                           exhausted = true;
+                           return std::nullopt;
+                         }),
+          exhausted};
 }
 
 void SphereTree::look_ahead(Memory& memory, Work& work) const noexcept {

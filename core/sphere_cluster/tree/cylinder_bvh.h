@@ -59,10 +59,7 @@ class SphereTree {
   }
   // All look, even where it is known to be clear. A radius or reach must be at least 0.
   bool touches(const Probe& probe, Memory& memory, Work& work) const noexcept;
-  /// If `exhausted` points somewhere, a search that looked at as much as all triangles are ends there, with
-  /// that set and no answer.
-  std::optional<Contact> nearest(const Vec3& center, double reach, Memory& memory, Work& work,
-                                 bool* exhausted = nullptr) const noexcept;
+  std::optional<Contact> nearest(const Vec3& center, double reach, Memory& memory, Work& work) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, Memory& memory, Work& work) const noexcept;
   /// Did the last query find a triangle?
   bool is_near(const Memory& memory) const noexcept { return memory.epoch == epoch_ && memory.is_near(); }
@@ -91,6 +88,16 @@ class SphereTree {
   /// Returns at least the distance between two points of the mesh's frame, in the tree's.
   float displacement(const Vec3& from, const Vec3& to, const FilterPoint& at) const noexcept;
 
+  template <class Exhausted>
+  std::optional<Contact> search_nearest(const Vec3& center, double reach, Memory& memory, Work& work,
+                                        const Exhausted& exhausted) const noexcept;
+  /// The answer of `nearest`, or that the work budget was exhausted before there was one.
+  struct WithinBudget {
+    std::optional<Contact> contact;
+    bool exhausted;
+  };
+  WithinBudget nearest_within_budget(const Vec3& center, double reach, Memory& memory,
+                                     Work& work) const noexcept;
   LinearScan fallback() const noexcept { return {parts_.triangles, bounds_, ids_, certified_}; }
   std::uint64_t work_limit() const noexcept { return work_budget(parts_.triangles.size()); }
   std::optional<Contact> nearest_without(const Vec3& center, double reach, Work& work) const noexcept;

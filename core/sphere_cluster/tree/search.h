@@ -4,6 +4,8 @@
 ///   work        counts
 ///   accepts(at)   does it ask for the triangle in that slot
 ///   update(at, offset)   learns of a triangle that it asked for
+/// Always inline: what they call is a function for each instruction set, and no more call is wanted before
+/// it.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +18,7 @@
 namespace touchmark {
 
 template <class Visitor>
-void SphereTree::visit(std::uint32_t at, Visitor& visitor) const noexcept {
+[[gnu::always_inline]] inline void SphereTree::visit(std::uint32_t at, Visitor& visitor) const noexcept {
   ++visitor.work.triangles;
   simd_ == Simd::portable ? spheres::portable::visit(parts_, at, visitor)
                           : spheres::avx2::visit(parts_, at, visitor);
@@ -28,7 +30,8 @@ void SphereTree::visit_all(Visitor& visitor) const noexcept {
 }
 
 template <class Visitor>
-float SphereTree::traverse(const FilterPoint& point, Visitor& visitor, std::uint64_t budget) const noexcept {
+[[gnu::always_inline]] inline float SphereTree::traverse(const FilterPoint& point, Visitor& visitor,
+                                                         std::uint64_t budget) const noexcept {
   switch (simd_) {
     case Simd::avx512:
       return spheres::avx512::traverse(parts_, point, budget, visitor);
@@ -47,8 +50,9 @@ inline float SphereTree::displacement(const Vec3& from, const Vec3& to,
 /// Searches the cached leaves when they are all that can be within the limit, and refills the cache when they
 /// are not.
 template <class Visitor>
-float SphereTree::search_near(const FilterPoint& point, Visitor& visitor, Memory& memory,
-                              std::uint64_t budget) const noexcept {
+[[gnu::always_inline]] inline float SphereTree::search_near(const FilterPoint& point, Visitor& visitor,
+                                                            Memory& memory,
+                                                            std::uint64_t budget) const noexcept {
   const float distance = std::sqrt(visitor.limit) + point.plane_error;
   float away = displacement(memory.cache.center, visitor.center, point);
   if (!(distance + away < memory.cache.covered_radius)) {
@@ -61,8 +65,9 @@ float SphereTree::search_near(const FilterPoint& point, Visitor& visitor, Memory
 }
 
 template <class Visitor>
-float SphereTree::search_cached(const FilterPoint& point, Visitor& visitor, const spheres::LeafCache& cache,
-                                float away, std::uint64_t budget) const noexcept {
+[[gnu::always_inline]] inline float SphereTree::search_cached(const FilterPoint& point, Visitor& visitor,
+                                                              const spheres::LeafCache& cache, float away,
+                                                              std::uint64_t budget) const noexcept {
   switch (simd_) {
     case Simd::avx512:
       return spheres::avx512::search_cached(parts_, point, cache, away, budget, visitor);

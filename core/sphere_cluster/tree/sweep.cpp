@@ -1,10 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/geometry/sphere_triangle_sweep.h"
+#include "core/geometry/distance_error.h"
 #include "core/geometry/sweep_box.h"
-#include "core/search/certified_nearest.h"
-#include "core/sphere_cluster/search_bounds.h"
+#include "core/search/first_touch.h"
 #include "core/sphere_cluster/tree/cylinder_bvh.h"
 #include "core/sphere_cluster/tree/search.h"
 
@@ -18,17 +17,11 @@ struct SweepVisitor {
   Vec3 center;
   float limit;
   Work work{};
-  HitCandidate first{};
-  std::uint32_t kept_at = 0;
+  FirstTouch first{sweep};
 
   /// Never: how far the triangle is from the centre does not matter.
   bool accepts(std::uint32_t at) noexcept {
-    const auto fraction =
-        sweep_hit(tree.triangles[at], sweep, std::min(first.fraction, 1.0), work.exact_decisions);
-    if (fraction && HitCandidate{*fraction, tree.triangles[at].index} < first) {
-      first = {*fraction, tree.triangles[at].index};
-      kept_at = at;
-    }
+    first.consider(tree.triangles[at], at, work.exact_decisions);
     return false;
   }
   void update(std::uint32_t, const Offset&) noexcept {}
@@ -42,10 +35,9 @@ std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, 
   if (!can_search(sweep.from) || !can_search(sweep.to)) return fallback().first_hit(sweep, work);
   const std::uint64_t before = work.total();
   if (!is_clear(sweep.from, sweep.radius, memory)) {
-    bool exhausted = false;
-    const std::optional<Contact> start = nearest(sweep.from, sweep.radius, memory, work, &exhausted);
-    if (exhausted) return fallback().first_hit(sweep, work);
-    if (start) return Impact{0, *start};
+    const WithinBudget start = nearest_within_budget(sweep.from, sweep.radius, memory, work);
+    if (start.exhausted) return fallback().first_hit(sweep, work);
+    if (start.contact) return Impact{0, *start.contact};
   }
   const double length = (sweep.to - sweep.from).norm();
   const double reach = padded_sweep_radius(sweep, largest_difference(bounds_, sweep));
@@ -57,7 +49,7 @@ std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, 
       std::clamp(std::ceil(length / (2 * std::max(sweep.radius, mean_leaf_radius_))), 1.0, max_parts);
   // The middle of a part is rounded to a point.
   const double ball = reach + position_error(sweep) + 0.5 * length / parts * (1 + 0x1p-40);
-  for (double part = 0; part < parts && !(visitor.first.fraction < part / parts); ++part) {
+  for (double part = 0; part < parts && !(visitor.first.fraction() < part / parts); ++part) {
     visitor.center = position_at(sweep, (part + 0.5) / parts);
     visitor.limit = frame_.limit(ball * ball);
     if (traverse(frame_.point(visitor.center), visitor, budget) != spheres::exhausted) continue;
@@ -65,9 +57,7 @@ std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, 
     break;
   }
   work += visitor.work;
-  if (visitor.first.index >= parts_.triangles.size()) return std::nullopt;
-  const HitCandidate& first = visitor.first;
-  return impact_on(parts_.triangles[visitor.kept_at], sweep, first.fraction, ids_[first.index], certified_,
+  return impact_of(visitor.first, parts_.triangles, ids_, certified_,
                    [&](double reach_at_start) { return nearest(sweep.from, reach_at_start, memory, work); });
 }
 

@@ -170,6 +170,43 @@ inline void visit(const TreeParts& tree, std::uint32_t at, Visitor& visitor) noe
   if (visitor.accepts(at)) visitor.update(at, kernel(tree.triangles[at], visitor.center));
 }
 
+/// Shows the visitor what a block has within its limit. Returns true where that ends the search.
+template <class Visitor>
+[[gnu::always_inline]] inline bool visit_block(const TreeParts& tree, std::uint32_t index, const Point& p,
+                                               Wide& unseen, Visitor& visitor) noexcept {
+  const TriangleBlock& block = tree.blocks[index];
+  const bool far = visitor.limit > tree.far;
+  alignas(64) std::array<float, tree_width> bound;
+  unsigned near = within(
+      [&](std::size_t at) {
+        const Wide bounds = far ? corner_bounds(block, at, p) : triangle_bounds(block, at, p);
+        store(bound.data() + at, bounds);
+        return bounds;
+      },
+      visitor.limit, unseen);
+  visitor.work.triangles += tree_width;
+  if (near == 0) return false;
+  if constexpr (requires { visitor.update_within(index); }) {
+    if (unsigned sure = surely_within(block, visitor.enough, p); sure != 0) {
+      visitor.update_within(index * tree_width + pop_lowest(sure));
+      return true;
+    }
+  }
+  for (unsigned left = near; left != 0;) prefetch(tree.triangles[index * tree_width + pop_lowest(left)]);
+  // The most promising one first: it may be nearer than others can be.
+  unsigned left = near;
+  std::uint32_t first = pop_lowest(left);
+  while (left != 0) {
+    const std::uint32_t other = pop_lowest(left);
+    first = bound[other] < bound[first] ? other : first;
+  }
+  visit(tree, index * tree_width + first, visitor);
+  near &= ~(1U << first);
+  near &= within([&](std::size_t at) { return load(bound.data() + at); }, visitor.limit, unseen);
+  while (near != 0) visit(tree, index * tree_width + pop_lowest(near), visitor);
+  return false;
+}
+
 /// Shows the visitor every triangle that may be within its limit, nearest volumes first. Returns a lower
 /// bound of the squared distance to what it was not shown, or `exhausted` when the visitor's work has come to
 /// more than `budget` before the end. Never inlined: whoever mostly answers without it would pay for its
@@ -191,36 +228,7 @@ template <class Visitor>
     if (visitor.work.spheres + visitor.work.triangles > budget) return exhausted;
     const std::uint32_t index = next.ref.index();
     if (next.ref.is_block()) {
-      const TriangleBlock& block = tree.blocks[index];
-      const bool far = visitor.limit > tree.far;
-      alignas(64) std::array<float, tree_width> bound;
-      unsigned near = within(
-          [&](std::size_t at) {
-            const Wide bounds = far ? corner_bounds(block, at, p) : triangle_bounds(block, at, p);
-            store(bound.data() + at, bounds);
-            return bounds;
-          },
-          visitor.limit, unseen);
-      visitor.work.triangles += tree_width;
-      if (near == 0) continue;
-      if constexpr (requires { visitor.update_within(index); }) {
-        if (unsigned sure = surely_within(block, visitor.enough, p); sure != 0) {
-          visitor.update_within(index * tree_width + pop_lowest(sure));
-          break;
-        }
-      }
-      for (unsigned left = near; left != 0;) prefetch(tree.triangles[index * tree_width + pop_lowest(left)]);
-      // The most promising one first: it may be nearer than others can be.
-      unsigned left = near;
-      std::uint32_t first = pop_lowest(left);
-      while (left != 0) {
-        const std::uint32_t other = pop_lowest(left);
-        first = bound[other] < bound[first] ? other : first;
-      }
-      visit(tree, index * tree_width + first, visitor);
-      near &= ~(1U << first);
-      near &= within([&](std::size_t at) { return load(bound.data() + at); }, visitor.limit, unseen);
-      while (near != 0) visit(tree, index * tree_width + pop_lowest(near), visitor);
+      if (visit_block(tree, index, p, unseen, visitor)) break;
       continue;
     }
     const TreeNode& node = tree.nodes[index];

@@ -1,0 +1,67 @@
+/// The triangle that a moving ball touches first, of those that a search looks at, and the impact on it.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "core/detector.h"
+#include "core/geometry/point_triangle.h"
+#include "core/geometry/sphere_triangle_sweep.h"
+#include "core/probe.h"
+#include "core/triangle_ids.h"
+
+namespace touchmark {
+
+/// Keeps the smallest fraction, then the lowest index, so that triangles may come in any order and more than
+/// once.
+class FirstTouch {
+ public:
+  /// The sweep must outlive this.
+  explicit FirstTouch(const Sweep& sweep) noexcept : sweep_(sweep) {}
+  explicit FirstTouch(const Sweep&&) = delete;
+
+  const Sweep& sweep() const noexcept { return sweep_; }
+  bool found() const noexcept { return fraction_ <= 1; }
+  double fraction() const noexcept { return fraction_; }
+  std::uint32_t slot() const noexcept { return slot_; }
+  /// Returns the part of the path that is still to be looked at.
+  double limit() const noexcept { return std::min(fraction_, 1.0); }
+
+  /// Looks at the triangle in this slot; counts where whole numbers decide.
+  void consider(const PreparedTriangle& triangle, std::uint32_t slot,
+                std::uint64_t& exact_decisions) noexcept {
+    const std::optional<double> fraction = sweep_hit(triangle, sweep_, limit(), exact_decisions);
+    if (!fraction || !(*fraction < fraction_ || (*fraction == fraction_ && triangle.index < index_))) return;
+    fraction_ = *fraction;
+    index_ = triangle.index;
+    slot_ = slot;
+  }
+
+ private:
+  const Sweep& sweep_;
+  double fraction_ = std::numeric_limits<double>::infinity();
+  std::uint32_t index_ = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t slot_ = 0;
+};
+
+/// Ends a search for `first_hit`: returns the impact, or nothing. Of all the triangles that are touched at
+/// the start the nearest one counts: nearest(reach) looks for it. Where contact is decided by doubles, these
+/// may find it beyond the radius, so that any reach will do.
+template <class Nearest>
+std::optional<Impact> impact_of(const FirstTouch& first, std::span<const PreparedTriangle> triangles,
+                                const TriangleIds& ids, bool decides_exactly,
+                                const Nearest& nearest) noexcept {
+  if (!first.found()) return std::nullopt;
+  const Sweep& sweep = first.sweep();
+  if (first.fraction() == 0) {
+    const double reach = decides_exactly ? sweep.radius : std::numeric_limits<double>::infinity();
+    if (const std::optional<Contact> start = nearest(reach)) return Impact{0, *start};
+  }
+  const PreparedTriangle& triangle = triangles[first.slot()];
+  return Impact{first.fraction(), contact_on_path(triangle, sweep, first.fraction(), ids[triangle.index])};
+}
+
+}  // namespace touchmark
