@@ -111,10 +111,10 @@ class SweepSearch {
 
 }  // namespace
 
-/// Always inline: a touch whose address were passed on would keep the search out of registers.
-[[gnu::always_inline]] inline std::optional<Impact> DirectGrid::impact_of(const FirstTouch& first,
-                                                                          DirectMemory& memory,
-                                                                          Work& work) const noexcept {
+/// Takes the touch by value: if its address were passed on, the search that holds it would be kept out of
+/// registers.
+std::optional<Impact> DirectGrid::impact_of(FirstTouch first, DirectMemory& memory,
+                                            Work& work) const noexcept {
   return touchmark::impact_of(first, store_.exact, store_.ids, certified_,
                               [&](double reach) { return nearest(first.sweep().from, reach, memory, work); });
 }
