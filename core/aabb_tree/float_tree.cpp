@@ -9,7 +9,6 @@
 
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/geometry/point_triangle_kernel.h"
-#include "core/search/certified_nearest.h"
 
 namespace touchmark {
 namespace {

@@ -10,8 +10,8 @@
 #include <Eigen/Geometry>
 
 #include "core/exact/orientation.h"
+#include "core/geometry/distance_error.h"
 #include "core/geometry/point_triangle.h"
-#include "core/search/certified_nearest.h"
 #include "core/sign/clearance.h"
 #include "core/sign/open_edges.h"
 #include "core/sign/volume.h"

@@ -166,8 +166,7 @@ class DirectGrid {
   /// Answers for probes so far away that single precision tells the triangles no longer apart.
   std::optional<Contact> far_nearest(const Vec3& center, double reach, Work& work) const noexcept;
   std::optional<Impact> far_first_hit(const Sweep& sweep, Work& work) const noexcept;
-  [[gnu::noinline]] std::optional<Impact> impact_of(const FirstTouch& first, DirectMemory& memory,
-                                                    Work& work) const noexcept;
+  std::optional<Impact> impact_of(FirstTouch first, DirectMemory& memory, Work& work) const noexcept;
   /// Returns the contact with the exactly nearest triangle, where rounding could tell; nothing where it is
   /// beyond the reach.
   std::optional<Contact> exact_contact(const PreparedTriangle& nearest, const Vec3& center, double reach,

@@ -1,6 +1,5 @@
 /// Nearest and touching: what the session knows, else the group that covers the point, else the hierarchy.
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "core/grid_group/direct/direct_grid.h"

@@ -1,5 +1,4 @@
 /// The first touch along a straight path, through the hierarchy of boxes.
-#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -66,7 +65,7 @@ class SweepSearch {
   void visit(const BoxTree& tree, std::uint32_t level, std::uint32_t index, BoxStack& stack,
              Work& work) const noexcept {
     const EightBoxes& node = tree.node(level, index);
-    const double padded_radius = store_.frame.scale() * padded_radius_, limit = first_.limit();
+    const double padded_radius = store_.frame.scale() * padded_radius_;
     const std::size_t base = stack.size();
     work.boxes += BoxTree::arity;
     for (std::uint32_t child = 0; child < BoxTree::arity; ++child) {
@@ -75,8 +74,8 @@ class SweepSearch {
         box.min[static_cast<int>(k)] = static_cast<double>(node.min[k][child / 4][child % 4]);
         box.max[static_cast<int>(k)] = static_cast<double>(node.max[k][child / 4][child % 4]);
       }
-      const double enter = enters(box, in_frame_, padded_radius, limit);
-      if (enter <= limit)
+      const double enter = enters(box, in_frame_, padded_radius, first_.limit());
+      if (enter <= first_.limit())
         stack.insert(base, {static_cast<float>(enter), index * BoxTree::arity + child, level});
     }
   }
@@ -112,6 +111,14 @@ class SweepSearch {
 
 }  // namespace
 
+/// Takes the touch by value: if its address were passed on, the search that holds it would be kept out of
+/// registers.
+std::optional<Impact> DirectGrid::impact_of(FirstTouch first, DirectMemory& memory,
+                                            Work& work) const noexcept {
+  return touchmark::impact_of(first, store_.exact, store_.ids, certified_,
+                              [&](double reach) { return nearest(first.sweep().from, reach, memory, work); });
+}
+
 std::optional<Impact> DirectGrid::first_hit(const Sweep& sweep, DirectMemory& memory,
                                             Work& work) const noexcept {
   const double difference = largest_difference(bounds_, sweep);
@@ -145,12 +152,6 @@ std::optional<Impact> DirectGrid::far_first_hit(const Sweep& sweep, Work& work) 
     return std::nullopt;
   DirectMemory memory;
   return impact_of(fallback().first_touch(sweep, work), memory, work);
-}
-
-std::optional<Impact> DirectGrid::impact_of(const FirstTouch& first, DirectMemory& memory,
-                                            Work& work) const noexcept {
-  return touchmark::impact_of(first, store_.exact, store_.ids, certified_,
-                              [&](double reach) { return nearest(first.sweep().from, reach, memory, work); });
 }
 
 }  // namespace touchmark::grid

@@ -1,7 +1,7 @@
 #include "core/grid_group/direct/exact_offset.h"
 
 #include "core/geometry/point_triangle_avx2.h"
-#include "core/simd/dispatch.h"
+#include "core/simd/dispatch.h"  // IWYU pragma: keep
 
 namespace touchmark::grid {
 

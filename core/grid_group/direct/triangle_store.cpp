@@ -9,8 +9,6 @@
 
 #include <Eigen/Geometry>
 
-#include "core/mesh_update.h"
-
 namespace touchmark::grid {
 namespace {
 

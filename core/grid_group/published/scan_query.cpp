@@ -1,6 +1,5 @@
 /// Collision detection as published: the HIP against every group, then the triangles of the groups that hold
 /// it.
-#include <algorithm>
 #include <cmath>
 
 #include "core/geometry/sweep_box.h"

@@ -1,6 +1,5 @@
 #include "core/sphere_cluster/tree/bounding_cylinder.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

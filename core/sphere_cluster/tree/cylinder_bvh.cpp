@@ -1,13 +1,11 @@
 #include "core/sphere_cluster/tree/cylinder_bvh.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/search/certified_nearest.h"
 #include "core/sphere_cluster/tree/builder.h"
-#include "core/sphere_cluster/tree/refit.h"
-#include "core/sphere_cluster/tree/search.h"
+#include "core/sphere_cluster/tree/search.h"  // IWYU pragma: keep
 #include "core/sphere_cluster/tree/visitors.h"
 
 namespace touchmark {

@@ -4,7 +4,7 @@
 
 #include "core/sphere_cluster/tree/cylinder_bvh.h"
 #include "core/sphere_cluster/tree/refit.h"
-#include "core/sphere_cluster/tree/search.h"
+#include "core/sphere_cluster/tree/search.h"  // IWYU pragma: keep
 
 namespace touchmark {
 namespace {

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <limits>
 
-#include "core/mesh_update.h"
 #include "core/sphere_cluster/tree/node_writer.h"
 
 namespace touchmark::spheres {

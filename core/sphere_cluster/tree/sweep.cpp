@@ -5,7 +5,7 @@
 #include "core/geometry/sweep_box.h"
 #include "core/search/first_touch.h"
 #include "core/sphere_cluster/tree/cylinder_bvh.h"
-#include "core/sphere_cluster/tree/search.h"
+#include "core/sphere_cluster/tree/search.h"  // IWYU pragma: keep
 
 namespace touchmark {
 namespace {
