@@ -1,0 +1,2 @@
+# This machine, by clang.
+set(CMAKE_CXX_COMPILER clang++)
