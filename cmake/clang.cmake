@@ -1,2 +1,0 @@
-# This machine, by clang.
-set(CMAKE_CXX_COMPILER clang++)
