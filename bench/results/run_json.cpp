@@ -15,6 +15,7 @@
 #include "bench/support/numbers.h"
 #include "bench/workload/content_hash.h"
 #include "bench/workload/query_name.h"
+#include "core/simd/dispatch.h"
 
 namespace touchmark::bench::results {
 namespace {
@@ -28,6 +29,17 @@ Json libraries() {
   Json json = Json::object();
   for (const LibraryVersion& library : library_versions()) json[library.name] = library.version;
   return json;
+}
+
+const char* name_of(Simd simd) {
+  switch (simd) {
+    case Simd::avx512:
+      return "avx512";
+    case Simd::avx2:
+      return "avx2";
+    default:
+      return "portable";
+  }
 }
 
 Json mesh_json(const workload::Workload& workload) {
@@ -144,6 +156,7 @@ Json run_circumstances(const RunDescription& run) {
           {"build_type", build.build_type},
           {"native", build.native},
           {"cpu", run.system.cpu_model},
+          {"simd", name_of(widest_simd())},
           {"cores", run.system.cores},
           {"governor", run.system.governor},
           {"load_average", run.system.load_average},

@@ -213,8 +213,9 @@ Positions cross(Motion motion) {
   while (!path.full()) {
     const SurfacePoint& surface_point = thin_points[motion.random.below(thin_points.size())];
     // Not always square on: tilted by up to 45 degrees.
-    const Vec3 direction =
-        (surface_point.normal + motion.random.unit() * motion.random.direction()).normalized();
+    const Vec3 aside =
+        motion.random.direction();  // before its length: compilers choose an order of their own
+    const Vec3 direction = (surface_point.normal + motion.random.unit() * aside).normalized();
     const Vec3 a = surface_point.point + run_up * direction, b = surface_point.point - run_up * direction;
     const bool outwards = motion.random.below(2) == 0;
     path.fly(outwards ? b : a, speed);

@@ -7,12 +7,7 @@
 #pragma once
 
 #include "core/geometry/point_triangle.h"
-
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define TOUCHMARK_HAS_AVX2 1
-#else
-#define TOUCHMARK_HAS_AVX2 0
-#endif
+#include "core/simd/target.h"
 
 #if TOUCHMARK_HAS_AVX2
 #include <array>
@@ -22,9 +17,7 @@
 
 #include <immintrin.h>
 
-#pragma GCC push_options
-#pragma GCC target("avx2")
-
+TOUCHMARK_TARGET("avx2")
 namespace touchmark {
 namespace avx2 {
 
@@ -124,6 +117,5 @@ inline Offset offset_from(const PreparedTriangle& triangle, const Vec3& point) n
 
 }  // namespace avx2
 }  // namespace touchmark
-
-#pragma GCC pop_options
+TOUCHMARK_END_TARGET
 #endif

@@ -2,35 +2,15 @@
 /// counts.
 #pragma once
 
-#include <algorithm>
-
 namespace touchmark {
 
 enum class Simd {
-  portable,  ///< what every x86-64 has, or plain C++ elsewhere
+  portable,  ///< what every processor of its kind has: SSE2 on x86-64, NEON on 64-bit ARM
   avx2,
   avx512  ///< with its VL and DQ parts; the vectors stay 256 bits wide
 };
 
-/// Returns true if the processor has AVX2, whatever the build has code for.
-inline bool has_avx2() noexcept {
-#if defined(__x86_64__) && defined(__GNUC__)
-  return __builtin_cpu_supports("avx2") != 0;
-#else
-  return false;
-#endif
-}
-
-/// The widest of this processor, of those that the build has code for.
-inline Simd widest_simd() noexcept {
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-  if (!has_avx2()) return Simd::portable;
-  const bool avx512 = __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512vl") != 0 &&
-                      __builtin_cpu_supports("avx512dq") != 0;
-  return avx512 ? Simd::avx512 : Simd::avx2;
-#else
-  return Simd::portable;
-#endif
-}
+/// Returns the widest of this processor, of those that the build has code for.
+Simd widest_simd() noexcept;
 
 }  // namespace touchmark

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#ifdef __SSE2__
+#if defined(__SSE2__)
 #include <emmintrin.h>
+#elif defined(__aarch64__)
+#include <arm_neon.h>
 #endif
 
 namespace touchmark {
@@ -17,25 +19,22 @@ using LaneBits [[gnu::vector_size(16)]] = int;
 
 inline Lanes broadcast(float x) noexcept { return Lanes{x, x, x, x}; }
 
-/// Returns true if every lane is greater than its counterpart.
-inline bool all_exceed(Lanes values, Lanes limits) noexcept {
-  const LaneBits beyond = values > limits;
-#ifdef __SSE2__
-  return _mm_movemask_ps(reinterpret_cast<__m128>(beyond)) == 0xf;
+/// Bit i of the result is set when lane i is.
+inline unsigned to_bits(LaneBits lanes) noexcept {
+#if defined(__SSE2__)
+  return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(lanes)));
+#elif defined(__aarch64__)
+  return vaddvq_u32(reinterpret_cast<uint32x4_t>(lanes & LaneBits{1, 2, 4, 8}));
 #else
-  return (beyond[0] & beyond[1] & beyond[2] & beyond[3]) != 0;
+  return static_cast<unsigned>((lanes[0] & 1) | (lanes[1] & 2) | (lanes[2] & 4) | (lanes[3] & 8));
 #endif
 }
 
+/// Returns true if every lane is greater than its counterpart.
+inline bool all_exceed(Lanes values, Lanes limits) noexcept { return to_bits(values > limits) == 0xf; }
+
 /// Bit i of the result is set when lane i is at most the limit.
-inline unsigned at_most(Lanes values, float limit) noexcept {
-  const LaneBits below = values <= limit;
-#ifdef __SSE2__
-  return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(below)));
-#else
-  return static_cast<unsigned>((below[0] & 1) | (below[1] & 2) | (below[2] & 4) | (below[3] & 8));
-#endif
-}
+inline unsigned at_most(Lanes values, float limit) noexcept { return to_bits(values <= limit); }
 
 /// Lane by lane, in a namespace of their own so that members called min and max do not hide them.
 namespace simd {
@@ -44,8 +43,10 @@ inline Lanes max(Lanes a, Lanes b) noexcept { return a > b ? a : b; }
 inline Lanes min(Lanes a, Lanes b) noexcept { return a < b ? a : b; }
 
 inline Lanes sqrt(Lanes a) noexcept {
-#ifdef __SSE2__
+#if defined(__SSE2__)
   return reinterpret_cast<Lanes>(_mm_sqrt_ps(reinterpret_cast<__m128>(a)));
+#elif defined(__aarch64__)
+  return reinterpret_cast<Lanes>(vsqrtq_f32(reinterpret_cast<float32x4_t>(a)));
 #else
   return Lanes{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])};
 #endif

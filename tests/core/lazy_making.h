@@ -28,13 +28,16 @@ inline std::vector<Question> questions() {
   bench::support::Random random(17);
   std::vector<Question> all;
   for (int walk = 0; walk < 40; ++walk) {
-    Vec3 center = (1 + 0.1 * random.unit()) * random.direction();
+    Vec3 center = random.direction();
+    center *= 1 + 0.1 * random.unit();
     for (int step = 0; step < 20; ++step) {
       center += 0.01 * random.direction();
       all.push_back({center, step % 5 == 0 ? std::numeric_limits<double>::infinity() : 0.05});
     }
-    all.push_back({2 * random.unit() * random.direction(), std::numeric_limits<double>::infinity()});
-    all.push_back({2 * random.unit() * random.direction(), 0.05});
+    for (const double reach : {std::numeric_limits<double>::infinity(), 0.05}) {
+      const Vec3 direction = random.direction();
+      all.push_back({2 * random.unit() * direction, reach});
+    }
   }
   return all;
 }

@@ -36,5 +36,11 @@ TEST(Rounding, ProductsAreRoundedBeforeTheyAreAdded) {
   EXPECT_EQ(a * a + b, 0);
 }
 
+TEST(Rounding, SoTheyAreInProductsOfEigensMatrices) {
+  const volatile double a = just_above_one, b = -just_above_one * just_above_one;
+  const Eigen::Matrix2d left = Eigen::Matrix2d{{b, a}, {b, a}}, right = Eigen::Matrix2d{{1, 1}, {a, a}};
+  EXPECT_EQ(Eigen::Matrix2d(left * right), Eigen::Matrix2d::Zero());
+}
+
 }  // namespace
 }  // namespace touchmark

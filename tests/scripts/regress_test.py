@@ -2,6 +2,7 @@
 """The judgement of scripts/regress, on made-up numbers whose truth is known."""
 import argparse
 import contextlib
+import csv
 import importlib.machinery
 import importlib.util
 import io
@@ -541,6 +542,49 @@ echo '{{"commit": "c0ffee"}}' >"$2/run.json"; printf '{self.ROWS}' >"$2/results.
         self.assertIn("results.csv", self.measured("rm $2/results.csv").skipped)
         with mock.patch.object(rivals, "PROGRAM", builds.ROOT / "no" / "such"):
             self.assertEqual(rivals.measured().skipped, "no/such is not built")
+
+
+class AnswersOfAFile(unittest.TestCase):
+    """scripts/regress --answers, for what another compiler's touchmark-regression has written."""
+
+    def setUp(self):
+        self.cases = expectations.read_answers(SCRIPTS.parent / "results" / "expected" / "answers.json")
+
+    def judged(self, **changed):
+        """Exit status and text, for what is expected but for one case."""
+        header = ("case", "needs_file", *expectations.FIELDS, "note")
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "answers.csv"
+            with open(path, "w", newline="", encoding="utf-8") as file:
+                rows = csv.DictWriter(file, header)
+                rows.writeheader()
+                for name, case in self.cases.items():
+                    rows.writerow({"case": name, "needs_file": "0", **case, **changed.get(name, {})})
+            done = subprocess.run([SCRIPTS / "regress", "--answers", path], capture_output=True, text=True, check=False)
+        return done.returncode, done.stdout
+
+    def test_pass_where_they_are_the_expected_ones(self):
+        self.assertEqual(self.judged(), (0, f"{len(self.cases)} of {len(self.cases)} cases have the expected answers and work\n"))
+
+    def test_fail_where_an_answer_or_the_work_differs(self):
+        name = next(iter(self.cases))
+        for change in ({"answers": "0" * 16}, {"details": "0" * 16}, {"triangles": 7}, {"inputs": "0" * 16}):
+            status, text = self.judged(**{name: change})
+            self.assertEqual(status, 1)
+            self.assertIn(f"failed: {name}", text)
+
+    def test_tell_what_was_left_out_and_fail_where_that_is_all(self):
+        left_out = {"needs_file": "1", **dict.fromkeys(expectations.FIELDS, ""), "note": "left out"}
+        name = next(iter(self.cases))
+        status, text = self.judged(**{name: left_out})
+        self.assertEqual(status, 0)
+        self.assertIn(f"left out: {name}", text)
+        self.assertEqual(self.judged(**dict.fromkeys(self.cases, left_out))[0], 1)
+
+    def test_that_are_missing_are_refused(self):
+        done = subprocess.run([SCRIPTS / "regress", "--answers", "/no/such/file"], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 3)
+        self.assertNotIn("Traceback", done.stderr)
 
 
 class CommandLine(unittest.TestCase):

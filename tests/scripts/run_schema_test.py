@@ -23,7 +23,7 @@ DAMAGED = [  # path to a member, and what stands there instead; None: nothing
     (["schema"], 2), (["run_id"], "x"), (["date"], "yesterday"), (["finished"], 1), (["cores"], 0), (["cores"], 2.5),
     (["cores"], 2.0), (["load_average"], [1, 2]), (["load_average"], [1, 2, -3]), (["workers_core"], "any"),
     (["workers_core"], "all"), (["libraries"], {"fmt": 9}), (["mesh", "fnv1a"], "12"), (["mesh", "triangles"], None),
-    (["query"], "near"), (["radius"], "inf"), (["radius"], "0.5"), (["reach"], "radius"), (["reach"], -1),
+    (["query"], "near"), (["simd"], "sse9"), (["radius"], "inf"), (["radius"], "0.5"), (["reach"], "radius"), (["reach"], -1),
     (["trajectories"], []), (["trajectories", 0, "steps"], 0), (["contestants", 1, "options"], {"a": 1}),
     (["contestants", 1, "name"], None), (["clock"], None), (["new_member"], "is allowed"),
 ]

@@ -31,7 +31,8 @@ std::vector<workload::Step> near_what_moved(const TriangleMesh& before, const Tr
     const std::size_t vertex = moved[random.below(moved.size())];
     const Vec3& near = (i % 2 == 0 ? before : after).vertices()[vertex];
     steps.push_back(like);
-    steps.back().probe.center = near + 4 * like.probe.radius * random.unit() * random.direction();
+    const Vec3 away = random.direction();
+    steps.back().probe.center = near + 4 * like.probe.radius * random.unit() * away;
   }
   if (steps.empty()) steps.push_back(like);
   return steps;

@@ -10,8 +10,8 @@
 namespace touchmark::bench::regression::driver {
 
 /// case,needs_file,inputs,cells,spheres,boxes,triangles,answers,details,note: checksums in hexadecimal; where
-/// there is a note, it says why there are no numbers.
-void write_answers(const std::string& plugin, const std::string& out);
+/// there is a note, it says why there are no numbers. `generated` leaves out the cases whose mesh is a file.
+void write_answers(const std::string& plugin, const std::string& out, bool generated);
 
 /// One replay of every timed case with instructions counted, for valgrind --tool=callgrind
 /// --instr-atstart=no: a dump for each case, named after it. Throws ResourceError when built without

@@ -47,7 +47,9 @@ int main(int argc, char** argv) {
   auto* const answers = program.add_subcommand("answers", "work counters and checksums of every case");
   answers->add_option("--plugin", plugin)->required();
   answers->add_option("--out", out)->required();
-  answers->callback([&] { regression::driver::write_answers(plugin, out); });
+  bool generated = false;
+  answers->add_flag("--generated", generated, "leave out the cases whose mesh is a file");
+  answers->callback([&] { regression::driver::write_answers(plugin, out, generated); });
 
   auto* const instructions = program.add_subcommand("instructions", "under callgrind: a dump for every case");
   instructions->add_option("--plugin", plugin)->required();

@@ -8,7 +8,7 @@ namespace touchmark::grid {
 #if TOUCHMARK_HAS_AVX2
 namespace {
 
-const bool use_avx2 = has_avx2();
+const bool use_avx2 = widest_simd() >= Simd::avx2;
 
 [[gnu::target("avx2")]] Offset with_avx2(const PreparedTriangle& triangle, const Vec3& center) noexcept {
   return avx2::offset_from(triangle, center);

@@ -4,11 +4,12 @@
 #include <bit>
 #include <limits>
 
-#ifdef __x86_64__
+#include "core/simd/dispatch.h"
+#include "core/simd/target.h"
+
+#if TOUCHMARK_HAS_AVX2
 #include <immintrin.h>
 #endif
-
-#include "core/simd/dispatch.h"
 
 namespace touchmark::grid {
 namespace {
@@ -38,9 +39,9 @@ void conclude(const Leaders& leaders, const std::uint32_t* slots, GroupBounds& b
   bounds.guess = slots[first];
 }
 
-#ifdef __x86_64__
+#if TOUCHMARK_HAS_AVX2
 
-const bool use_avx2 = has_avx2();
+const bool use_avx2 = widest_simd() >= Simd::avx2;
 
 /// Eight members at a time: two of them share a register, row by row, until the transposition.
 [[gnu::target("avx2")]] Leaders pass_avx2(const TrianglePlanes* planes, const std::uint32_t* slots,
@@ -122,7 +123,7 @@ Leaders pass(const TrianglePlanes* planes, const std::uint32_t* slots, std::size
 
 GroupBounds filter_group(const TrianglePlanes* planes, const std::uint32_t* slots, std::size_t count,
                          const FilterPoint& point) noexcept {
-#ifdef __x86_64__
+#if TOUCHMARK_HAS_AVX2
   if (use_avx2) {
     GroupBounds bounds;
     conclude(pass_avx2(planes, slots, count, point, bounds), slots, bounds);

@@ -1,4 +1,4 @@
-/// The search of the hierarchy, for the portable instruction set and for AVX2, chosen at run time.
+/// The search of the hierarchy, for the portable instruction set, AVX2 and AVX-512, chosen at run time.
 #pragma once
 
 #include <algorithm>
@@ -11,16 +11,13 @@
 #include <limits>
 #include <span>
 
-#if defined(__SSE2__)
-#include <immintrin.h>
-#endif
-
 #include "core/detector.h"
 #include "core/geometry/point_triangle.h"
 #include "core/geometry/point_triangle_avx2.h"
 #include "core/search/plane_filter.h"
-#include "core/simd/dispatch.h"
+#include "core/simd/lanes.h"
 #include "core/simd/prefetch.h"
+#include "core/simd/target.h"
 #include "core/sphere_cluster/tree/binned_sah.h"
 #include "core/sphere_cluster/tree/leaf_cache.h"
 #include "core/sphere_cluster/tree/node.h"
@@ -55,22 +52,11 @@ inline Offset kernel(const PreparedTriangle& triangle, const Vec3& point) noexce
 }
 
 inline constexpr std::size_t lanes = 4;
-using Wide [[gnu::vector_size(16)]] = float;
-using WideBits [[gnu::vector_size(16)]] = int;
+using Wide = Lanes;
+using WideBits = LaneBits;
 
-#if defined(__SSE2__)
-inline Wide square_root(Wide x) noexcept { return _mm_sqrt_ps(x); }
-inline unsigned to_bits(WideBits mask) noexcept {
-  return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(mask)));
-}
-#else
-inline Wide square_root(Wide x) noexcept {
-  return Wide{std::sqrt(x[0]), std::sqrt(x[1]), std::sqrt(x[2]), std::sqrt(x[3])};
-}
-inline unsigned to_bits(WideBits mask) noexcept {
-  return static_cast<unsigned>((mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8));
-}
-#endif
+inline Wide square_root(Wide x) noexcept { return simd::sqrt(x); }
+using touchmark::to_bits;
 /// Writes those of eight words whose bits are set, one after the other. Eight may be written.
 template <class Word>
 inline void compress(Word* to, const Word* from, unsigned chosen) noexcept {
@@ -90,8 +76,7 @@ constexpr std::array<std::uint64_t, 256> positions_of_bits() noexcept {
   return all;
 }
 
-#pragma GCC push_options
-#pragma GCC target("avx2")
+TOUCHMARK_TARGET("avx2")
 namespace avx2 {
 
 inline Offset kernel(const PreparedTriangle& triangle, const Vec3& point) noexcept {
@@ -118,10 +103,9 @@ inline void compress(Word* to, const Word* from, unsigned chosen) noexcept {
 #include "core/sphere_cluster/tree/traversal.inl"
 
 }  // namespace avx2
-#pragma GCC pop_options
+TOUCHMARK_END_TARGET
 
-#pragma GCC push_options
-#pragma GCC target("avx2,avx512f,avx512vl,avx512dq")
+TOUCHMARK_TARGET("avx2,avx512f,avx512vl,avx512dq")
 namespace avx512 {
 
 using avx2::kernel, avx2::lanes, avx2::square_root, avx2::Wide, avx2::WideBits;
@@ -145,7 +129,7 @@ inline unsigned split(Wide bounds, float limit, Wide& unseen) noexcept {
 #include "core/sphere_cluster/tree/traversal.inl"
 
 }  // namespace avx512
-#pragma GCC pop_options
+TOUCHMARK_END_TARGET
 #else
 namespace avx2 = portable;
 namespace avx512 = portable;

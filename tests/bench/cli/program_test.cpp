@@ -79,8 +79,8 @@ TEST(Bench, LeavesOneRowAContestantAndTrajectoryAndARunJson) {
 
   const auto json = nlohmann::json::parse(content_of(folder.file("new/folder/run.json")));
   for (const char* key : {"schema", "run_id", "date", "commit", "compiler", "flags", "build_type", "native",
-                          "cpu", "cores", "governor", "load_average", "flushed_to_zero", "libraries", "seed",
-                          "command_line", "mesh", "clock"}) {
+                          "cpu", "simd", "cores", "governor", "load_average", "flushed_to_zero", "libraries",
+                          "seed", "command_line", "mesh", "clock"}) {
     EXPECT_TRUE(json.contains(key)) << key;
   }
   EXPECT_EQ(json["run_id"], split_csv(csv[1])[1]);
