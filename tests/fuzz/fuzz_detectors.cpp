@@ -10,9 +10,9 @@
 
 #include "bench/oracle/judge.h"
 #include "bench/oracle/oracle.h"
-#include "tests/own_forms.h"
 #include "tests/fuzz/script.h"
 #include "tests/fuzz/target.h"
+#include "tests/own_forms.h"
 
 namespace touchmark::fuzz {
 namespace {
