@@ -20,7 +20,28 @@
 
 namespace touchmark::bench::contestants {
 
-/// One built detector with one session. answer, replay and replay_clocked need answers(trace.query).
+/// Returns what was looked at between two readings of a session's counters.
+inline Work work_between(const Work& before, const Work& after) noexcept {
+  return {after.cells - before.cells, after.spheres - before.spheres, after.boxes - before.boxes,
+          after.triangles - before.triangles, after.exact_decisions - before.exact_decisions};
+}
+
+/// Says which step is asked next and when, and takes what came of it: a loop that waits for the time of a
+/// tick, or one that does something to the machine between queries.
+class StepPacer {
+ public:
+  StepPacer() = default;
+  StepPacer(const StepPacer&) = delete;
+  StepPacer& operator=(const StepPacer&) = delete;
+  virtual ~StepPacer() = default;
+
+  /// Returns the next step when it is to be asked, nothing at the end.
+  virtual std::optional<std::size_t> next() noexcept = 0;
+  /// `ticks` is the query's time by TickClock, one reading of it included, `work` what it looked at.
+  virtual void took(std::uint64_t ticks, const workload::Answer& answer, const Work& work) noexcept = 0;
+};
+
+/// One built detector with one session. answer and the replays need answers(trace.query).
 class Contestant {
  public:
   Contestant() = default;
@@ -57,6 +78,8 @@ class Contestant {
   virtual void replay_clocked(const workload::QueryTrace& trace, workload::StepRange range,
                               workload::Checksum& checksum, std::span<std::uint64_t> ticks,
                               std::span<std::uint64_t> prepare_ticks) noexcept = 0;
+  /// Asks the steps that the pacer names, each clocked, and prepares after the pacer has taken the answer.
+  virtual void replay_paced(const workload::QueryTrace& trace, StepPacer& pacer) noexcept = 0;
   /// Returns true if the detector prepares after each step. That is in all other times, and in the work.
   virtual bool prepares() const noexcept = 0;
 };
@@ -151,6 +174,21 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
         }
       }
       checksum = sum;
+    });
+  }
+
+  void replay_paced(const workload::QueryTrace& trace, StepPacer& pacer) noexcept override {
+    with_query(trace.query, [&](auto ask) {
+      // Kept here: to look at the session's counters before a query would fetch them for it.
+      Work seen = session_->work;
+      while (const std::optional<std::size_t> step = pacer.next()) {
+        const std::uint64_t before = TickClock::now();
+        const workload::Answer answer = ask(trace.steps, *step);
+        const std::uint64_t after = TickClock::now();
+        pacer.took(after - before, answer, work_between(seen, session_->work));
+        prepare();
+        seen = session_->work;
+      }
     });
   }
 

@@ -30,8 +30,9 @@ struct WorkerOptions {
 /// The shared memory of all workers of one workload.
 class SharedArena {
  public:
-  /// Throws ResourceError when memory is short.
-  SharedArena(const workload::Workload& workload, WorkerOptions options);
+  /// The output has room for so many steps where the longest trace has fewer. Throws ResourceError when
+  /// memory is short.
+  SharedArena(const workload::Workload& workload, WorkerOptions options, std::size_t min_output_steps = 0);
 
   const WorkerOptions& options() const noexcept { return options_; }
   const WorkloadLayout& layout() const noexcept { return layout_; }
@@ -66,8 +67,10 @@ class ContestantProcess {
     constexpr bool of_steps = requires { request.task; };
     start();
     asked_ = asked_ || of_steps;
-    return std::get<typename Kind::Reply>(
-        exchange(request, of_steps ? arena_.options().request_timeout : arena_.options().build_timeout));
+    std::chrono::milliseconds timeout =
+        of_steps ? arena_.options().request_timeout : arena_.options().build_timeout;
+    if constexpr (requires { request.paced_time(); }) timeout += request.paced_time();
+    return std::get<typename Kind::Reply>(exchange(request, timeout));
   }
 
   /// Seconds that all its workers were waited for, building included.

@@ -59,8 +59,8 @@ std::size_t WorkloadLayout::input_bytes() const noexcept {
   return bytes;
 }
 
-std::size_t WorkloadLayout::longest_trace() const noexcept {
-  std::size_t longest = 0;
+std::size_t WorkloadLayout::output_steps() const noexcept {
+  std::size_t longest = min_output_steps;
   for (const std::size_t steps : trace_steps) longest = std::max(longest, steps);
   return longest;
 }
@@ -76,10 +76,12 @@ OutputBuffers::OutputBuffers(std::span<std::byte> bytes, std::size_t steps) {
   answers_ = {answers, steps};
   work_ = {reinterpret_cast<std::uint64_t*>(bytes.data() + steps * sizeof(workload::Answer)), steps};
   prepare_ticks_ = {work_.data() + steps, steps};
+  tick_records_ = {reinterpret_cast<TickRecord*>(bytes.data()), steps};
 }
 
-WorkloadLayout layout_of(const TriangleMesh& mesh, const std::vector<std::vector<workload::Step>>& traces) {
-  WorkloadLayout layout{mesh.vertices().size(), mesh.size(), mesh.ids().size(), {}};
+WorkloadLayout layout_of(const TriangleMesh& mesh, const std::vector<std::vector<workload::Step>>& traces,
+                         std::size_t min_output_steps) {
+  WorkloadLayout layout{mesh.vertices().size(), mesh.size(), mesh.ids().size(), {}, min_output_steps};
   for (const std::vector<workload::Step>& trace : traces) layout.trace_steps.push_back(trace.size());
   return layout;
 }

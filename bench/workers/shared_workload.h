@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/contestants/contestant.h"
+#include "bench/workers/paced_replay.h"
 #include "bench/workers/shared_memory.h"
 #include "bench/workload/answer.h"
 #include "core/triangle_mesh.h"
@@ -20,12 +21,15 @@ struct WorkloadLayout {
   std::size_t triangles = 0;
   std::size_t ids = 0;
   std::vector<std::size_t> trace_steps;
+  std::size_t min_output_steps = 0;  ///< the output has room for more than the longest trace
 
   std::size_t input_bytes() const noexcept;
-  std::size_t longest_trace() const noexcept;
+  /// How many steps the output has room for.
+  std::size_t output_steps() const noexcept;
 };
 
-/// Holds one request's results. Answers and work, or two kinds of ticks: a step needs one or the other.
+/// Holds one request's results. Answers and work, two kinds of ticks, or records of a paced loop's ticks: a
+/// step needs one of these.
 class OutputBuffers {
  public:
   static std::size_t bytes_for(std::size_t steps) noexcept;
@@ -37,16 +41,20 @@ class OutputBuffers {
   std::span<std::uint64_t> prepare_ticks(std::size_t steps) const noexcept {
     return prepare_ticks_.first(steps);
   }
+  /// They lie where the answers do.
+  std::span<TickRecord> tick_records(std::size_t ticks) const noexcept { return tick_records_.first(ticks); }
 
  private:
   std::span<workload::Answer> answers_;
   std::span<std::uint64_t> work_;
   std::span<std::uint64_t> prepare_ticks_;
+  std::span<TickRecord> tick_records_;
 };
 
 /// The program's side: fills the input. Throws ResourceError when memory is short.
 SharedMemory write_input(const TriangleMesh& mesh, const std::vector<std::vector<workload::Step>>& traces);
-WorkloadLayout layout_of(const TriangleMesh& mesh, const std::vector<std::vector<workload::Step>>& traces);
+WorkloadLayout layout_of(const TriangleMesh& mesh, const std::vector<std::vector<workload::Step>>& traces,
+                         std::size_t min_output_steps = 0);
 
 /// The worker's side.
 TriangleMesh read_mesh(std::span<const std::byte> input, const WorkloadLayout& layout);

@@ -26,6 +26,7 @@
 #include "bench/support/processor_time.h"
 #include "bench/support/system_limit.h"
 #include "bench/workers/line_channel.h"
+#include "bench/workers/servo_stretch.h"
 #include "bench/workers/shared_memory.h"
 #include "bench/workers/shared_workload.h"
 #include "bench/workers/throughput.h"
@@ -73,6 +74,9 @@ class Worker {
   Timed handle(const request::Time& request);
   Timed handle(const request::Sample& request);
   Timed handle(const request::Latency& request);
+  ServoStretch handle(const request::Servo& request) {
+    return run_servo(*contestant_, trace_of(request.task), request, *buffers_);
+  }
 
   workload::QueryTrace trace_of(const Task& task) const { return {task.query, traces_.at(task.trace)}; }
   std::vector<workload::StepRange> ranges_of(const Task& task) const {
@@ -101,7 +105,7 @@ Opened Worker::handle(const request::Open& request) {
   layout_ = request.layout;
   mesh_ = read_mesh(input_.bytes(), layout_);
   traces_ = read_traces(input_.bytes(), layout_);
-  buffers_.emplace(output_.bytes(), layout_.longest_trace());
+  buffers_.emplace(output_.bytes(), layout_.output_steps());
   const contestants::ClockCalibration clock =
       request.calibrate_clock ? contestants::calibrate_clock() : contestants::ClockCalibration{};
   opened.clock_cost_ns = clock.cost_ns;

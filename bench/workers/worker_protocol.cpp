@@ -31,7 +31,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Deformation, share, seed)
 
 namespace workers {
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WorkloadLayout, vertices, triangles, ids, trace_steps)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WorkloadLayout, vertices, triangles, ids, trace_steps, min_output_steps)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Pace, rate_hz, work_us, first_tick, overrun_ticks)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Task, trace, query, steps, ranges)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(NotStarted, error)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OutOfResources, what)
@@ -43,6 +44,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Timed, ns_per_query, cpu_ns_per_query, checks
                                    interrupted)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Updated, supported, refused, rounds, build_ms, update_ms,
                                    update_over_build)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ServoStretch, recorded, overrun, minor_faults, major_faults,
+                                   involuntary_switches, scheduler, memory)
 static void to_json(nlohmann::json& json, const Done&) { json = nlohmann::json::object(); }
 static void from_json(const nlohmann::json&, Done&) {}
 
@@ -59,6 +62,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FirstPass, task)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Time, task, passes)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Sample, task, passes, replays)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Latency, task)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Servo, task, pace, warm_up, ticks, idle)
 }  // namespace request
 
 namespace {

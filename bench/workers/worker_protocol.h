@@ -3,6 +3,8 @@
 /// (mesh, traces, answers, times) goes through shared memory, see shared_workload.h.
 #pragma once
 
+#include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -11,6 +13,7 @@
 
 #include "bench/contestants/contestant.h"
 #include "bench/scenes/deformation.h"
+#include "bench/workers/paced_replay.h"
 #include "bench/workers/shared_workload.h"
 #include "bench/workload/answer.h"
 #include "core/detector.h"
@@ -84,6 +87,15 @@ struct Updated {
   double build_ms = 0;
   double update_ms = 0;
   double update_over_build = 0;  ///< within a round
+};
+
+/// What came of each tick lies in the output buffers as its record.
+struct ServoStretch {
+  std::size_t recorded = 0;                          ///< ticks with a record
+  bool overrun = false;                              ///< see PacedReplay::overrun
+  std::uint64_t minor_faults = 0, major_faults = 0;  ///< the thread's, during `ticks`
+  std::uint64_t involuntary_switches = 0;            ///< likewise
+  std::string scheduler, memory;                     ///< see RealTimeScope and lock_memory
 };
 
 namespace request {
@@ -165,12 +177,29 @@ struct Latency {
   Task task;
 };
 
+/// A stretch of a paced loop. The session goes on from stretch to stretch.
+struct Servo {
+  using Reply = ServoStretch;
+  Task task;
+  Pace pace;
+  std::size_t warm_up = 0;  ///< ticks before, of which nothing is told
+  std::size_t ticks = 1;    ///< at most as many as the output has room for
+  bool idle = false;        ///< nothing is asked
+
+  /// What it takes by the clock before the contestant takes any time.
+  std::chrono::milliseconds paced_time() const {
+    const double ticks_ms = 1e3 * static_cast<double>(warm_up + ticks + 2) / pace.rate_hz;
+    return std::chrono::milliseconds(std::llround(ticks_ms));
+  }
+};
+
 }  // namespace request
 
 using Request = std::variant<request::Open, request::Build, request::Update, request::Rebuild, request::First,
                              request::Calibrate, request::Answer, request::AnswerAfresh, request::FirstPass,
-                             request::Time, request::Sample, request::Latency>;
-using Reply = std::variant<NotStarted, OutOfResources, Done, Opened, Built, Answered, Timed, Updated>;
+                             request::Time, request::Sample, request::Latency, request::Servo>;
+using Reply =
+    std::variant<NotStarted, OutOfResources, Done, Opened, Built, Answered, Timed, Updated, ServoStretch>;
 
 // A line is [which of them, {its members}], so that a reply NotStarted is [0,{"error":2}]. Bytes that are not
 // UTF-8, which messages of rivals and file names may hold, are replaced.

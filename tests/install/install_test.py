@@ -158,10 +158,10 @@ class Install(unittest.TestCase):
         run("g++", "-std=c++20", self.source / "example.cpp", *flags, "-o", program)
         self.assertEqual(run(program).rstrip("\n"), self.promised)
 
-    def test_the_examples_print_what_the_page_on_the_library_says(self):
+    def test_the_examples_print_what_the_pages_say(self):
         docs = HERE.parents[1] / "docs"
-        page = (docs / "library.md").read_text(encoding="utf-8")
-        promised = dict(re.findall(r"`(\w+)` prints:\n\n```text\n(.*?)```", page, re.S))
+        pages = "".join((docs / name).read_text(encoding="utf-8") for name in ("library.md", "real-time.md"))
+        promised = dict(re.findall(r"`(\w+)` prints:\n\n```text\n(.*?)```", pages, re.S))
         self.assertEqual(sorted(promised), sorted(path.stem for path in (docs / "examples").glob("*.cpp")))
         build = self.source / "examples"
         run("cmake", "-S", docs / "examples", "-B", build, f"-DCMAKE_PREFIX_PATH={self.prefix}")

@@ -13,7 +13,7 @@ SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(SCRIPTS))
 
-from drawing import comparison, detectors, history, layout, results, sizes  # noqa: E402
+from drawing import comparison, detectors, history, layout, results, servo, sizes  # noqa: E402
 
 ROW = {
     "detector": "grid-group", "options": "", "mesh": "bunny", "triangles": 69666, "trajectory": "slide", "query": "nearest",
@@ -392,6 +392,13 @@ class Looks(unittest.TestCase):
         self.assertEqual(layout.entries_per_line(["abcde"] * 6, 4), 3)
         self.assertEqual(layout.entries_per_line(["abcde" * 20] + ["abcde"] * 5, 11.5), 4)
         self.assertEqual(layout.entries_per_line(["abcde"] * 6, 0.1), 1)
+
+
+class Servo(unittest.TestCase):
+    def test_the_share_of_later_ticks_falls_from_all_to_the_latest(self):
+        buckets = [servo.Bucket({"detector": "a", "options": "", "trajectory": "slide", "loop": "idle", "time": "latency",
+                                 "up_to_ns": str(ns), "ticks": str(ticks)}, 1) for ns, ticks in ((10, 6), (40, 1), (20, 3))]
+        self.assertEqual(servo.later(buckets), [(10, 1.0), (20, 0.4), (40, 0.1)])
 
 
 if __name__ == "__main__":

@@ -166,6 +166,20 @@ class Plot(unittest.TestCase):
                      "180 of them at the edge"):
             self.assertIn(text, picture)
 
+    def test_draws_a_paced_loop_as_ticks_later_than_a_time(self):
+        (self.directory / "servo_histogram.csv").write_text(
+            "schema,detector,options,trajectory,loop,time,up_to_ns,ticks\n1,grid-group,,slide,detector,latency,20000,999\n"
+            "1,grid-group,,slide,detector,latency,3000000,1\n1,grid-group,,slide,detector,query,500,1000\n"
+            "1,grid-group,,slide,idle,latency,19000,1000\n", encoding="utf-8")
+        (self.directory / "run.json").write_text(
+            '{"servo": {"rate_hz": 1000, "ticks": 1000, "load": "cpu", "scheduler": "SCHED_FIFO 50"}}', encoding="utf-8")
+        done = self.plot()
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(self.pictures(), ["servo.png", "servo.svg"])
+        picture = (self.directory / "plots" / "servo.svg").read_text(encoding="utf-8")
+        for text in ("grid-group", "1,000 ticks at 1000 Hz, load cpu, SCHED_FIFO 50", "nothing asked", "the period: 1 ms"):
+            self.assertIn(text, picture)
+
     def test_says_where_the_numbers_are_from(self):
         self.write(GOOD)
         (self.directory / "run.json").write_text('{"cpu": "Abacus 3", "commit": "beef"}', encoding="utf-8")

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "bench/cli/program.h"
+#include "bench/experiments/servo/servo_check.h"
 #include "bench/experiments/stress/stress_check.h"
 #include "bench/results/validation/located_json.h"
 #include "bench/results/validation/results_check.h"
@@ -19,6 +20,7 @@
 
 namespace touchmark::bench::cli {
 
+namespace servo = experiments::servo;
 namespace stress = experiments::stress;
 namespace validation = results::validation;
 
@@ -70,15 +72,27 @@ std::string check_json(const std::string& path, validation::Faults& faults) {
 }
 
 bool is_stress_csv(const fs::path& path) { return path.filename() == "stress.csv"; }
+bool is_servo_csv(const fs::path& path) { return path.filename() == "servo.csv"; }
 
-/// The run.json beside a results.csv or stress.csv; its own faults are reported where it is checked itself.
+/// The run.json beside a results.csv, stress.csv or servo.csv; its own faults are reported where it is
+/// checked itself.
 std::optional<validation::LocatedJson> run_next_to(const fs::path& path) {
   const fs::path run_path = path.parent_path() / "run.json";
-  if ((path.filename() != "results.csv" && !is_stress_csv(path)) || !fs::exists(run_path))
+  if ((path.filename() != "results.csv" && !is_stress_csv(path) && !is_servo_csv(path)) ||
+      !fs::exists(run_path))
     return std::nullopt;
   validation::Faults reported_elsewhere;
   std::optional<validation::LocatedJson> run = validation::read_located_json(run_path, reported_elsewhere);
   return run && run->value.is_object() ? std::move(run) : std::nullopt;
+}
+
+void check_servo_csv(const validation::CsvTable& table, const nlohmann::json* run,
+                     validation::Faults& faults) {
+  const fs::path beside = fs::path(table.path).parent_path() / "servo_histogram.csv";
+  std::optional<validation::CsvTable> histogram;
+  validation::Faults reported_elsewhere;
+  if (fs::exists(beside)) histogram = validation::read_csv_table(beside.string(), reported_elsewhere);
+  servo::check_servo(table, histogram ? &*histogram : nullptr, run, faults);
 }
 
 std::string check_csv(const std::string& path, validation::Faults& faults) {
@@ -89,6 +103,10 @@ std::string check_csv(const std::string& path, validation::Faults& faults) {
   if (is_stress_csv(path)) {
     stress::check_stress(table, run_json, faults);
     return fmt::format("stress, {} rows", table.records.size());
+  }
+  if (is_servo_csv(path)) {
+    check_servo_csv(table, run_json, faults);
+    return fmt::format("servo, {} rows", table.records.size());
   }
   const bool results =
       fs::path(path).filename() == "results.csv" || table.has("run_id") || table.has("answers_checksum");
@@ -119,9 +137,10 @@ void add_validate(CLI::App& program, ProgramContext& context) {
   const auto paths = std::make_shared<std::vector<std::string>>();
   CLI::App* command = program.add_subcommand("validate", "check recorded results: CSV files and run.json");
   command
-      ->add_option("path", *paths,
-                   "results.csv, stress.csv, run.json, or folders that hold some; other CSV files are "
-                   "checked for their form")
+      ->add_option(
+          "path", *paths,
+          "results.csv, stress.csv, servo.csv, run.json, or folders that hold some; other CSV files are "
+          "checked for their form")
       ->type_name("FILE|DIR")
       ->required();
   command->footer(

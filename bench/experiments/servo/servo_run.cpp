@@ -1,0 +1,159 @@
+#include "bench/experiments/servo/servo_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "bench/measurement/result_row.h"
+#include "bench/oracle/oracle.h"
+#include "bench/support/random.h"
+
+namespace touchmark::bench::experiments::servo {
+namespace {
+
+/// After others had the core: as many as a short stretch has, but no more than 16 ms.
+constexpr std::size_t min_stretch = 16;
+constexpr double warm_up_s = 0.016;
+
+std::uint64_t checksum_of(const workload::Answer& answer) {
+  workload::Checksum checksum;
+  checksum.add(answer);
+  return checksum.value();
+}
+
+}  // namespace
+
+std::uint64_t ticks_a_stretch(const ServoSettings& settings) {
+  const auto tenth = static_cast<std::uint64_t>(std::ceil(settings.rate_hz / 10));
+  return std::min(std::max<std::uint64_t>(tenth, min_stretch), settings.ticks);
+}
+
+ServoRun::ServoRun(const contestants::Roster& roster, const workload::Workload& workload,
+                   workload::Query query, const std::vector<contestants::ContestantSpec>& contestants,
+                   const ServoSettings& settings, const workers::WorkerOptions& workers)
+    : workload_(workload),
+      query_(query),
+      settings_(settings),
+      arena_(workload, workers, std::max<std::size_t>(ticks_a_stretch(settings), min_stretch)),
+      checksums_(contestants.size()),
+      next_tick_(contestants.size()) {
+  for (const contestants::ContestantSpec& spec : contestants) {
+    processes_.emplace_back(arena_, spec, roster.find(spec.name).worker_program(spec.values));
+    ServoRow& row = rows_.emplace_back();
+    row.detector = spec.name;
+    row.options = spec.options;
+    row.mesh = workload.mesh_name;
+    row.triangles = workload.mesh.size();
+    row.trajectory = workload.trajectories.front();
+    row.query = query;
+    row.steps = workload.traces.front().size();
+    row.radius = workload.radius;
+    row.reach = workload.reach.value_or(workload.radius);
+  }
+}
+
+template <class Action>
+void ServoRun::attempt(std::size_t contestant, Action action) {
+  if (rows_[contestant].status != "ok") return;
+  try {
+    action();
+  } catch (const workers::WorkerFailure& failure) {
+    const std::string_view what = failure.what();
+    // The kernel's watchdog: see RealTimeScope.
+    rows_[contestant].status = what == "crashed:SIGXCPU" ? overrun : what;
+  }
+}
+
+void ServoRun::verify(std::size_t contestant, ground_truth::GroundTruths& truths) {
+  ServoRow& row = rows_[contestant];
+  workers::ContestantProcess& process = processes_[contestant];
+  const workers::Built& built = process.build();
+  row.accuracy = built.accuracy;
+  if (std::find(built.queries.begin(), built.queries.end(), query_) == built.queries.end()) {
+    row.status = "unsupported";
+    return;
+  }
+  const workers::Answered answered = process.ask(workers::request::Answer{task()});
+  const std::span<const workload::Answer> answers = arena_.buffers().answers(row.steps);
+  const measurement::WorkResult work =
+      measurement::summarize_work(arena_.buffers().work(row.steps), answered.work);
+  row.work_mean = work.mean;
+  row.work_max = work.max;
+  for (const workload::Answer& answer : answers) checksums_[contestant].push_back(checksum_of(answer));
+  row.counts = truths.judge(query_, {{0, row.steps}}, answers, *row.accuracy);
+}
+
+void ServoRun::verify(const std::function<void(const std::string&)>& progress) {
+  const oracle::Oracle oracle(workload_.mesh);
+  ground_truth::GroundTruths truths(oracle, workload_.traces.front());
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    progress(rows_[i].contestant());
+    attempt(i, [&] { verify(i, truths); });
+  }
+}
+
+void ServoRun::run_stretch(std::size_t contestant, bool idle, std::uint64_t ticks) {
+  ServoRow& row = rows_[contestant];
+  workers::request::Servo request;
+  request.task = task();
+  request.pace = {settings_.rate_hz, settings_.work_us, next_tick_[contestant]};
+  request.warm_up = std::min(min_stretch, static_cast<std::size_t>(std::ceil(warm_up_s * settings_.rate_hz)));
+  request.ticks = ticks;
+  request.idle = idle;
+  const workers::ServoStretch stretch = processes_[contestant].ask(request);
+  std::optional<LoopResult>& result = idle ? row.idle : row.loop;
+  if (!result) result = LoopResult{TickTally(settings_.rate_hz, processes_[contestant].opened().ns_per_tick)};
+  const std::span<const workers::TickRecord> records = arena_.buffers().tick_records(stretch.recorded);
+  result->tally.add(records);
+  result->minor_faults += stretch.minor_faults;
+  result->major_faults += stretch.major_faults;
+  result->involuntary_switches += stretch.involuntary_switches;
+  row.scheduler = stretch.scheduler;
+  row.memory = stretch.memory;
+  result->overrun = stretch.overrun;
+  if (stretch.overrun) row.status = overrun;
+  if (idle) return;
+  next_tick_[contestant] += request.warm_up + ticks;
+  const std::vector<std::uint64_t>& verified = checksums_[contestant];
+  if (std::any_of(records.begin(), records.end(), [&](const workers::TickRecord& record) {
+        return record.asked != 0 && record.checksum != verified[record.step];
+      }))
+    row.status = "checksum mismatch";
+}
+
+void ServoRun::take_turns(const std::vector<std::pair<std::size_t, bool>>& turns, std::uint64_t ticks) {
+  std::vector<Misses> before;
+  for (const ServoRow& row : rows_) before.push_back(row.misses());
+  for (const auto& [contestant, idle] : turns) {
+    ServoRow& row = rows_[contestant];
+    // Where one loop was ended before the other had a turn, that is still to tell whose fault it is.
+    const bool last_turn = row.status == overrun && !(idle ? row.idle : row.loop);
+    if (last_turn) row.status = "ok";
+    attempt(contestant, [&, who = contestant, nothing = idle] { run_stretch(who, nothing, ticks); });
+    if (last_turn && row.status == "ok") row.status = overrun;
+  }
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const Misses now = rows_[i].misses();
+    if (now.ticks == before[i].ticks || now.idle_ticks == before[i].idle_ticks) continue;
+    const std::uint64_t missed = now.missed - before[i].missed;
+    const std::uint64_t idle_missed = now.idle_missed - before[i].idle_missed;
+    rows_[i].worse += missed > idle_missed ? 1 : 0;
+    rows_[i].idle_worse += idle_missed > missed ? 1 : 0;
+  }
+}
+
+void ServoRun::run(const std::function<void(std::uint64_t)>& progress) {
+  support::Random random(settings_.seed);
+  const std::vector<int> others = other_cores(arena_.options().core.value_or(0));
+  const LoadGenerators load(settings_.load, others, bytes_to_walk_over(others.size()));
+  const std::uint64_t stretch = ticks_a_stretch(settings_);
+  std::vector<std::pair<std::size_t, bool>> turns;  // contestant, and whether nothing is asked
+  for (std::size_t i = 0; i < rows_.size(); ++i) turns.insert(turns.end(), {{i, false}, {i, true}});
+  for (std::uint64_t done = 0; done < settings_.ticks; done += stretch) {
+    progress(done);
+    random.shuffle(turns);
+    take_turns(turns, std::min(stretch, settings_.ticks - done));
+  }
+}
+
+}  // namespace touchmark::bench::experiments::servo

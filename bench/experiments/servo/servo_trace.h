@@ -1,0 +1,33 @@
+/// A trajectory by time: where the hand is at each tick of a loop of any rate.
+#pragma once
+
+#include <string>
+
+#include "bench/experiments/servo/servo_row.h"
+#include "bench/workload/selection.h"
+#include "bench/workload/workload.h"
+#include "core/triangle_mesh.h"
+
+namespace touchmark::bench::experiments::servo {
+
+/// The steps of a generated trajectory that is not asked to be longer.
+inline constexpr std::size_t default_steps = 20'000;
+
+/// What becomes of --rate for this trajectory: that of `selection` for a motion file with times, nothing for
+/// another one, each of whose rows is a tick. Throws std::invalid_argument for a file that cannot be used.
+workload::Selection selection_by_time(workload::Selection selection, const TriangleMesh& mesh,
+                                      const std::string& trajectory, double rate_hz);
+
+/// Generated trajectories have a position each millisecond; at another rate they are resampled linearly.
+/// Throws std::invalid_argument.
+workload::Workload workload_by_time(std::string mesh_name, TriangleMesh mesh,
+                                    const workload::Selection& selection, const std::string& trajectory,
+                                    const ServoSettings& settings);
+
+/// True if the steps of `touchmark query` are other ones, since the trajectory was resampled and is no file.
+bool is_resampled_shape(const std::string& trajectory, double rate_hz);
+
+/// The positions as a motion file.
+std::string motion_csv(const workload::Workload& workload);
+
+}  // namespace touchmark::bench::experiments::servo

@@ -1,0 +1,149 @@
+/// `touchmark servo` as a user runs it. No time is demanded of this machine: only what must hold at any
+/// speed.
+#include <algorithm>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "bench/support/csv_reader.h"
+#include "tests/bench/cli/run_touchmark.h"
+#include "tests/temporary_folder.h"
+
+namespace touchmark::bench::cli {
+namespace {
+
+using Fields = std::vector<std::string>;
+
+class Servo : public testing::Test {
+ protected:
+  Outcome servo(const Fields& more) const {
+    Fields command{"servo", "--mesh", "icosphere:3", "--out", folder_.file("out")};
+    command.insert(command.end(), more.begin(), more.end());
+    return run_touchmark(command);
+  }
+  /// Each record as a map from column to field.
+  std::vector<std::map<std::string, std::string>> read(const std::string& name) const {
+    support::CsvReader reader(folder_.file("out/" + name));
+    Fields header, fields;
+    reader.next(header);
+    std::vector<std::map<std::string, std::string>> records;
+    while (reader.next(fields)) {
+      auto& record = records.emplace_back();
+      for (std::size_t i = 0; i < header.size(); ++i) record[header[i]] = fields.at(i);
+    }
+    return records;
+  }
+  void expect_valid() const {
+    const Outcome outcome = run_touchmark({"validate", folder_.file("out")});
+    EXPECT_EQ(outcome.status, 0) << outcome.out;
+  }
+  TemporaryFolder folder_;
+};
+
+std::string last_line(const std::string& text) {
+  const std::size_t end = text.find_last_not_of('\n');
+  return text.substr(text.rfind('\n', end) + 1, end - text.rfind('\n', end));
+}
+
+TEST_F(Servo, ASecondEndsWithItsVerdictAsLastLineAndStatus) {
+  const Outcome outcome =
+      servo({"--seconds", "1", "--detector", "sphere-cluster", "--detector", "grid-group", "--load", "none"});
+  const std::map<std::string, int> statuses{{"holds", 0}, {"does not hold", 1}, {"inconclusive", 4}};
+  const std::string verdict = last_line(outcome.out);
+  ASSERT_TRUE(statuses.contains(verdict)) << outcome.out << outcome.err;
+  EXPECT_EQ(outcome.status, statuses.at(verdict));
+  const auto rows = read("servo.csv");
+  ASSERT_EQ(rows.size(), 2u);
+  for (const auto& row : rows) {
+    EXPECT_EQ(row.at("status"), "ok");
+    EXPECT_EQ(row.at("ticks"), "1000");
+    EXPECT_EQ(row.at("idle_ticks"), "1000");
+    EXPECT_EQ(row.at("missed"), "0") << "answers";
+    EXPECT_NE(row.at("query_ns_max"), "");
+  }
+  EXPECT_NE(outcome.out.find("1000 ticks at 1000 Hz"), std::string::npos) << outcome.out;
+  expect_valid();
+}
+
+TEST_F(Servo, TheCommandOfAWorstTickAnswersItsStepAgain) {
+  for (const char* rate : {"1000", "2500"}) {
+    servo({"--seconds", "0.2", "--rate", rate});
+    const auto rows = read("servo_worst.csv");
+    ASSERT_EQ(rows.size(), 10u);
+    for (const std::size_t i : {0u, 9u}) {
+      const std::string command = rows[i].at("command"), step = rows[i].at("step");
+      ASSERT_TRUE(command.starts_with("touchmark query ")) << command;
+      const Outcome again = run_program_at(
+          {"/bin/sh", "-c", TOUCHMARK_PROGRAM + command.substr(std::string("touchmark").size())});
+      EXPECT_EQ(again.status, 0) << again.err;
+      EXPECT_NE(again.out.find("\n" + step + ","), std::string::npos) << command << again.out;
+    }
+  }
+}
+
+TEST_F(Servo, ADetectorThatNeedsLongerThanThePeriodDoesNotHold) {
+  // A query looks at 81,920 triangles, which no processor does in 100 us.
+  const Outcome outcome =
+      run_touchmark({"servo", "--mesh", "icosphere:6", "--steps", "3", "--detector", "brute-force", "--rate",
+                     "10000", "--seconds", "1", "--out", folder_.file("out")});
+  EXPECT_EQ(outcome.status, 1) << outcome.out << outcome.err;
+  EXPECT_EQ(last_line(outcome.out), "does not hold");
+  EXPECT_EQ(read("servo.csv").at(0).at("verdict"), "does not hold");
+  expect_valid();
+}
+
+TEST_F(Servo, AnOverrunIsEndedAndIsTheMachinesWhereNothingWasAsked) {
+  // More other work than a tick has time for: the loop never sleeps, nor does the idle one.
+  const Outcome outcome = servo({"--seconds", "3", "--work", "1500"});
+  EXPECT_EQ(outcome.status, 4) << outcome.out << outcome.err;
+  EXPECT_EQ(read("servo.csv").at(0).at("status"), "overrun");
+  EXPECT_NE(outcome.out.find("no time to sleep"), std::string::npos);
+  expect_valid();
+}
+
+TEST_F(Servo, RefusesWhatItCannotDo) {
+  expect_bad_input({"servo", "--rate", "0"}, {"--rate"});
+  expect_bad_input({"servo", "--seconds", "none"}, {"--seconds", "none"});
+  expect_bad_input({"servo", "--load", "disk"}, {"--load", "disk", "memory"});
+  expect_bad_input({"servo", "--work", "-1"}, {"--work"});
+  expect_bad_input({"servo", "--cpu", "1000"}, {"--cpu", "1000"});
+  expect_bad_input({"servo", "--trajectory", "slide", "--trajectory", "hover"}, {"--trajectory", "hover"});
+}
+
+TEST_F(Servo, ValidateFindsARowThatContradictsItself) {
+  servo({"--seconds", "0.1"});
+  const std::string path = folder_.file("out/servo.csv"), good = content_of(path);
+  const auto with = [&](const std::string& column, const std::string& value) {
+    support::CsvReader reader(path);
+    Fields header, fields;
+    reader.next(header);
+    reader.next(fields);
+    fields.at(static_cast<std::size_t>(std::find(header.begin(), header.end(), column) - header.begin())) =
+        value;
+    std::string text = good.substr(0, good.find('\n') + 1);
+    for (std::size_t i = 0; i < fields.size(); ++i) text += (i > 0 ? "," : "") + fields[i];
+    return text + "\n";
+  };
+  expect_valid();
+  for (const auto& [column, value] :
+       std::vector<std::pair<std::string, std::string>>{{"ticks", "101"},
+                                                        {"missed_ticks", "200"},
+                                                        {"longest_miss_run", "99"},
+                                                        {"miss_rate_below", "0.5"},
+                                                        {"latency_ns_p99", "0"},
+                                                        {"verdict", "perhaps"},
+                                                        {"load", "disk"},
+                                                        {"run_id", "another"}}) {
+    const std::string bad = with(column, value);
+    folder_.file("out/servo.csv", bad);
+    const Outcome outcome = run_touchmark({"validate", path});
+    EXPECT_EQ(outcome.status, 1) << column;
+    EXPECT_NE(outcome.out.find(column), std::string::npos) << column << "\n" << outcome.out;
+    folder_.file("out/servo.csv", good);
+  }
+}
+
+}  // namespace
+}  // namespace touchmark::bench::cli
