@@ -234,7 +234,7 @@ TEST_F(Validate, NamesLineAndPlaceInRunJson) {
     std::string text = run();
     return text.replace(text.find(from), from.size(), to);
   };
-  expect_fault(validate(csv(), damaged("\"cores\": ", "\"cores\": -")), "run.json:13: /cores \"-");
+  expect_fault(validate(csv(), damaged("\"cores\": ", "\"cores\": -")), "run.json:14: /cores \"-");
   expect_fault(validate(csv(), damaged("\"finished\": true", "\"finished\": \"yes\"")),
                "run.json:5: /finished \"yes\" is not of type boolean");
   expect_fault(validate(csv(), damaged("\"seed\"", "\"sead\"")), "run.json:1: /seed \"\" is missing");
