@@ -77,16 +77,16 @@ std::size_t farthest_from(const Vec3& center, std::span<const Vec3> points) noex
   return farthest;
 }
 
-/// Four roundings in the norm and one in each difference, with room.
-Sphere around_all(const Vec3& center, std::span<const Vec3> points) noexcept {
+}  // namespace
+
+bool Sphere::contains(const Vec3& point) const noexcept { return (point - center).norm() <= radius; }
+
+Sphere sphere_about(const Vec3& center, std::span<const Vec3> points) noexcept {
+  // Four roundings in the norm and one in each difference, with room.
   const double radius = (points[farthest_from(center, points)] - center).norm();
   constexpr double eps = std::numeric_limits<double>::epsilon();
   return {center, radius * (1 + 8 * eps)};
 }
-
-}  // namespace
-
-bool Sphere::contains(const Vec3& point) const noexcept { return (point - center).norm() <= radius; }
 
 Sphere smallest_sphere(std::span<const Vec3> points) noexcept {
   Support support;
@@ -105,7 +105,7 @@ Sphere smallest_sphere(std::span<const Vec3> points) noexcept {
     sphere = *larger;
     support = carrying;
   }
-  return around_all(sphere.center, points);
+  return sphere_about(sphere.center, points);
 }
 
 }  // namespace touchmark

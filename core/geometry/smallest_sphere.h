@@ -20,4 +20,8 @@ struct Sphere {
 /// enclosing balls" (1999): the farthest point joins the support until none is outside.
 Sphere smallest_sphere(std::span<const Vec3> points) noexcept;
 
+/// The sphere about this centre that reaches the farthest of the points (finite, at least one), rounded up so
+/// that it holds every one for certain.
+Sphere sphere_about(const Vec3& center, std::span<const Vec3> points) noexcept;
+
 }  // namespace touchmark

@@ -33,6 +33,40 @@ int widest_axis(std::span<const Vec3> points) {
   return axis;
 }
 
+/// The mean of slack(radius, distance) over all pairs of a sphere and a centroid in it for which there is
+/// one.
+template <class Slack>
+std::optional<double> mean_slack(std::span<const Vec3> centers, std::span<const double> radii,
+                                 std::span<const Vec3> centroids, const Slack& slack) {
+  if (centers.size() != radii.size()) {
+    throw std::invalid_argument(std::to_string(centers.size()) + " centres for " +
+                                std::to_string(radii.size()) + " radii");
+  }
+  // Sorted along one axis, a sphere sees a slab of the centroids only.
+  const int axis = widest_axis(centroids);
+  std::vector<Vec3> sorted(centroids.begin(), centroids.end());
+  const auto along = [axis](const Vec3& p) { return p[axis]; };
+  std::ranges::stable_sort(sorted, {}, along);
+  double sum = 0;
+  std::size_t pairs = 0;
+  for (std::size_t s = 0; s < centers.size(); ++s) {
+    const Vec3& center = centers[s];
+    // The first centroid that is not farther below the centre than the radius, as the distance itself rounds.
+    auto p = std::ranges::partition_point(sorted,
+                                          [&](const Vec3& q) { return center[axis] - q[axis] > radii[s]; });
+    for (; p != sorted.end() && !((*p)[axis] - center[axis] > radii[s]); ++p) {
+      const double distance = (*p - center).norm();
+      if (!(distance <= radii[s])) continue;
+      const std::optional<double> found = slack(radii[s], distance);
+      if (!found) continue;
+      sum += *found;
+      ++pairs;
+    }
+  }
+  if (pairs == 0) return std::nullopt;
+  return sum / static_cast<double>(pairs);
+}
+
 }  // namespace
 
 double area(const TriangleMesh& mesh) {
@@ -80,31 +114,16 @@ EdgeStatistics edge_statistics(const TriangleMesh& mesh) {
 
 std::optional<double> tightness(std::span<const Vec3> centers, std::span<const double> radii,
                                 std::span<const Vec3> centroids) {
-  if (centers.size() != radii.size()) {
-    throw std::invalid_argument(std::to_string(centers.size()) + " centres for " +
-                                std::to_string(radii.size()) + " radii");
-  }
-  // Sorted along one axis, a sphere sees a slab of the centroids only.
-  const int axis = widest_axis(centroids);
-  std::vector<Vec3> sorted(centroids.begin(), centroids.end());
-  const auto along = [axis](const Vec3& p) { return p[axis]; };
-  std::ranges::stable_sort(sorted, {}, along);
-  double sum = 0;
-  std::size_t pairs = 0;
-  for (std::size_t s = 0; s < centers.size(); ++s) {
-    const Vec3& center = centers[s];
-    // The first centroid that is not farther below the centre than the radius, as the distance itself rounds.
-    auto p = std::ranges::partition_point(sorted,
-                                          [&](const Vec3& q) { return center[axis] - q[axis] > radii[s]; });
-    for (; p != sorted.end() && !((*p)[axis] - center[axis] > radii[s]); ++p) {
-      const double distance = (*p - center).norm();
-      if (!(distance <= radii[s])) continue;
-      sum += radii[s] - distance;
-      ++pairs;
-    }
-  }
-  if (pairs == 0) return std::nullopt;
-  return sum / static_cast<double>(pairs);
+  return mean_slack(centers, radii, centroids,
+                    [](double radius, double distance) { return radius - distance; });
+}
+
+std::optional<double> scale_free_tightness(std::span<const Vec3> centers, std::span<const double> radii,
+                                           std::span<const Vec3> centroids) {
+  return mean_slack(centers, radii, centroids, [](double radius, double distance) -> std::optional<double> {
+    if (!(radius > 0)) return std::nullopt;
+    return (radius - distance) / radius;
+  });
 }
 
 }  // namespace touchmark

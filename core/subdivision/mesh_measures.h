@@ -44,5 +44,9 @@ EdgeStatistics edge_statistics(const TriangleMesh& mesh);
 /// (std::invalid_argument otherwise).
 std::optional<double> tightness(std::span<const Vec3> centers, std::span<const double> radii,
                                 std::span<const Vec3> centroids);
+/// The mean of (radius - distance) / radius over those pairs, which no scale changes; spheres of radius 0 are
+/// left out.
+std::optional<double> scale_free_tightness(std::span<const Vec3> centers, std::span<const double> radii,
+                                           std::span<const Vec3> centroids);
 
 }  // namespace touchmark

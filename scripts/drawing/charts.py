@@ -36,6 +36,12 @@ class Table1:
         return number(row, column) if row else math.nan
 
 
+def distance_text(table):
+    """Of the caption: which distance the spheres were clustered within."""
+    distances = [float(row["clustering"]) for (_, _, clustered), row in table.rows.items() if clustered]
+    return f" (distance {max(distances):.3g} mesh units, the paper's 0.02)" if distances else ""
+
+
 def short(value):
     """Three digits, without an exponent."""
     if not math.isfinite(value):
@@ -216,3 +222,14 @@ def draw_groups_against_time(plt, directory):
         raise ValueError("times.csv has no times of several numbers of groups")
     return groups.draw_groups(plt, panels, "Park & Jang 2018, Fig. 7: time against the number of groups",
                               "query: nearest; down is better", "processor time of one query, as touchmark paper measured it")
+
+
+def draw_groups_against_operations(plt, directory):
+    """The compared curve of Fig. 7: what a query looks at, the same on every machine."""
+    panels = groups.operations_from_paper(pathlib.Path(directory) / "times.csv")
+    if not panels:
+        raise ValueError("times.csv has no counts of several numbers of groups")
+    return groups.draw_groups(plt, panels, "Park & Jang 2018, Fig. 7: operations against the number of groups",
+                              "query: nearest; down is better; the same on every machine",
+                              "arithmetic operations of one query, as touchmark paper counted them",
+                              unit="operations of one query", written=count)

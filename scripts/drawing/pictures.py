@@ -103,27 +103,161 @@ def draw_original(plt, directory, pixels=PIXELS):
 
 
 def draw_groups(plt, directory, shape, title, printed, pixels=PIXELS):
-    """Left the groups, right the triangles of one group that holds the probe, dark on the pale model."""
+    """Left the groups; right the HIP, the group that holds it, and the triangles looked at for it, on the pale model,
+    seen from outside where they are."""
     folder = folder_of(directory)
     triangles = read_triangles(folder / "original-mesh.csv")
     active = read_triangles(folder / f"{shape}-active.csv")
     groups, hip = read(folder / f"{shape}-groups.csv"), read(folder / "hip.csv")[0]
     points = triangles.reshape(-1, 3)
     view = facing(hip, points)
-    figure, (left, right) = plt.subplots(1, 2, figsize=(10, 5.6))
+    figure, (left, right) = plt.subplots(1, 2, figsize=(10, 5.8))
     picture = raster.Picture(points, 2 * pixels, view, margin=0.1)
-    if shape == "cube":
-        picture.boxes(groups[:, :3], groups[:, 3:])
-    else:
-        picture.spheres(groups[:, :3], groups[:, 3])
+    add_shapes(picture, groups)
     show(left, picture)
     left.set_xlabel(f"{len(groups):,} groups (printed: {printed:,})", fontsize=11)
-    picture = raster.Picture(points, 2 * pixels, view, margin=0.1)
+    # Room for the triangles looked at and for the group itself.
+    group = read(folder / f"{shape}-active-shape.csv")[0]
+    bounds = group.reshape(2, 3) if len(group) == 6 else numpy.array([group[:3] - group[3], group[:3] + group[3]])
+    reach = 2.2 * numpy.abs(numpy.vstack([active.reshape(-1, 3), bounds]) - hip).max() / extent(points)
+    picture = raster.Picture(around(hip, points, reach), 2 * pixels, view, margin=0.02)
     picture.triangles(triangles, lines=False)
-    toward_viewer = view[2] * 0.01 * (points.max(axis=0) - points.min(axis=0)).max()
-    picture.triangles(active + toward_viewer, brightness=0.3, lines=False, cull=False)
+    front = view[2] * 0.01 * extent(points)
+    picture.triangles(active + front, brightness=0.45, lines=True, cull=False)
+    outline(picture, read(folder / f"{shape}-active-shape.csv"), 3 * front)
+    picture.spheres((hip + 6 * front)[None], numpy.array([0.008 * extent(points)]), brightness=0.05)
     show(right, picture)
-    right.set_xlabel(f"dark: the {len(active):,} triangles of the active group, of {len(triangles):,}", fontsize=11)
+    right.set_xlabel(f"near the HIP (black dot): its group outlined, dark the {len(active):,} triangles\nlooked at, of "
+                     f"{len(triangles):,}", fontsize=10)
+    figure.suptitle(title, fontsize=13, fontweight="bold")
+    figure.tight_layout()
+    return figure
+
+
+def extent(points):
+    return (points.max(axis=0) - points.min(axis=0)).max()
+
+
+def around(point, points, part):
+    """The corners of a cube about the point, of this part of the model's extent."""
+    half = part * extent(points) / 2
+    return numpy.array([point - half, point + half])
+
+
+def add_shapes(picture, shapes):
+    """Boxes have six columns, spheres four."""
+    if shapes.shape[1] == 6:
+        picture.boxes(shapes[:, :3], shapes[:, 3:])
+    else:
+        picture.spheres(shapes[:, :3], shapes[:, 3])
+
+
+def outline(picture, shapes, front):
+    """A box by its edges, a sphere by a circle that faces the viewer; moved to the front, to be seen."""
+    for shape in shapes:
+        if len(shape) == 6:
+            picture._box_edges(shape[None, :3] + front, shape[None, 3:] + front)
+            continue
+        angles = numpy.linspace(0, 2 * numpy.pi, 2000)
+        right, up = picture.rotation[0], picture.rotation[1]
+        circle = shape[:3] + shape[3] * (numpy.cos(angles)[:, None] * right + numpy.sin(angles)[:, None] * up)
+        picture.spheres(circle + front + shape[3] * picture.rotation[2], numpy.full(len(angles), 0.8 / picture.scale),
+                        brightness=0.05)
+
+
+def draw_grouping(plt, directory, pixels=PIXELS):
+    """Figs 1 to 3, step by step, from the program's own cells and groups."""
+    folder = folder_of(directory)
+    triangles, hip = read_triangles(folder / "original-mesh.csv"), read(folder / "hip.csv")[0]
+    points, data = triangles.reshape(-1, 3), {}
+    for name in ("cells", "cell", "cuboid", "cuboids", "centered", "smallest", "spheres"):
+        data[name] = read(folder / f"grouping-{name}.csv")
+    members = read_triangles(folder / "grouping-triangles.csv")
+    view = facing(hip, points)
+    front = view[2] * 0.02 * extent(points)
+    sphere, smallest = data["centered"][0], data["smallest"][0]
+    near = numpy.vstack([members.reshape(-1, 3), *raster.box_corners(data["cell"][:, :3], data["cell"][:, 3:]),
+                         *raster.box_corners(data["cuboid"][:, :3], data["cuboid"][:, 3:]),
+                         *(ball[:3] + sign * ball[3] * view[k] for ball in (sphere, smallest) for k in (0, 1)
+                           for sign in (-1, 1))])
+    cells = raster.box_corners(data["cells"][:, :3], data["cells"][:, 3:]).reshape(-1, 3)
+
+    def cell_picture(shapes):
+        picture = raster.Picture(near, pixels, view, margin=0.02)
+        picture.triangles(members, cull=False, brightness=0.6)
+        for name in shapes:
+            outline(picture, data[name], 0 * front)
+        return picture
+
+    def whole(shapes, model=True):
+        picture = raster.Picture(cells, pixels, view, margin=0.04)
+        if model:
+            picture.triangles(triangles, lines=False)
+        shapes(picture)
+        return picture
+
+    steps = [
+        ("(1) the model in cells", whole(lambda p: p._box_edges(data["cells"][:, :3] + front, data["cells"][:, 3:] + front))),
+        ("(2) a cell and all triangles that touch it", cell_picture(["cell"])),
+        ("(3) the cuboid around them", cell_picture(["cuboid"])),
+        (f"(4) all {len(data['cuboids'])} cuboids", whole(lambda p: add_shapes(p, data["cuboids"]), False)),
+        ("(5) from the finished cuboid ...", cell_picture(["cuboid"])),
+        ("(6) its centre and farthest vertex", cell_picture(["cuboid", "centered"])),
+        ("(6') or the smallest sphere", cell_picture(["cuboid", "smallest"])),
+        (f"(7) all {len(data['spheres'])} spheres", whole(lambda p: add_shapes(p, data["spheres"]), False))]
+    figure, axes = plt.subplots(2, 4, figsize=(12, 6.8))
+    for cell, (text, picture) in zip(axes.flat, steps):
+        show(cell, picture)
+        cell.set_xlabel(text, fontsize=9.5)
+    figure.suptitle("Park & Jang 2018, Figs 1 to 3: grouping by cuboids (above) and by spheres (below)", fontsize=13,
+                    fontweight="bold")
+    figure.tight_layout()
+    return figure
+
+
+def draw_closeups(plt, directory, title, pixels=PIXELS):
+    """A row a level of the same small part of every surface, where the shapes of triangles can be told."""
+    folder = folder_of(directory)
+    original = read_triangles(folder / "original-0-mesh.csv")
+    points = original.reshape(-1, 3)
+    middle = points[numpy.argmax(points @ FRONT[2])]
+    frame = around(middle, points, 0.28)
+    levels = range(3)
+    figure, axes = plt.subplots(len(levels), len(METHODS), squeeze=False, figsize=(2.5 * len(METHODS), 2.6 * len(levels) + 0.5))
+    for column, (method, label) in enumerate(METHODS):
+        for level in levels:
+            path = folder / f"{method if level else 'original'}-{level}-mesh.csv"
+            if not path.exists():
+                axes[level][column].set_visible(False)
+                continue
+            picture = raster.Picture(frame, pixels, FRONT, margin=0)
+            picture.triangles(read_triangles(path), lines=True)
+            show(axes[level][column], picture)
+            if level == 0:
+                axes[level][column].set_title(label, fontsize=11)
+            if column == 0:
+                axes[level][column].set_ylabel("original" if level == 0 else f"level {level}", fontsize=11)
+    figure.suptitle(title, fontsize=13, fontweight="bold", y=0.995, va="top")
+    figure.tight_layout(rect=(0, 0, 1, 0.99), h_pad=0.6, w_pad=0.4)
+    return figure
+
+
+def draw_spheres_side_by_side(plt, directory, title, pixels=PIXELS):
+    """LS3's spheres, above without and below with clustering, a column a level."""
+    folder = folder_of(directory)
+    frame = read_triangles(folder / "original-0-mesh.csv").reshape(-1, 3)
+    middle = (frame.min(axis=0) + frame.max(axis=0)) / 2
+    frame = middle + 1.12 * (frame - middle)
+    levels = [level for level in range(6) if level == 0 or (folder / f"ls3-{level}-mesh.csv").exists()]
+    figure, axes = plt.subplots(2, len(levels), squeeze=False, figsize=(2.6 * len(levels) + 0.4, 6))
+    for row, (what, name) in enumerate((("spheres", "without clustering"), ("clustered", "with clustering"))):
+        for column, level in enumerate(levels):
+            picture, count = surface_picture(folder, "ls3", level, what, frame, pixels)
+            show(axes[row][column], picture)
+            axes[row][column].set_xlabel(f"{count:,} spheres", fontsize=9)
+            if row == 0:
+                axes[row][column].set_title("original" if level == 0 else f"level {level}", fontsize=11)
+        axes[row][0].set_ylabel(name, fontsize=11)
     figure.suptitle(title, fontsize=13, fontweight="bold")
     figure.tight_layout()
     return figure

@@ -8,6 +8,7 @@
 #include "bench/cli/commands/paper_commands.h"
 #include "bench/cli/program.h"
 #include "bench/experiments/papers/choi_sung.h"
+#include "bench/experiments/papers/choi_sung_models.h"
 #include "bench/experiments/papers/choi_sung_report.h"
 #include "bench/experiments/papers/frontier.h"
 #include "bench/experiments/papers/paper_options.h"
@@ -69,6 +70,7 @@ class Run {
       : mesh_(std::move(mesh)),
         settings_(checked(options, mesh_.mesh)),
         frontier_(frontier_settings(settings_, mesh_.mesh, options.common.quick)),
+        models_(options.common.quick ? std::vector<papers::Model>() : papers::choi_sung_models()),
         folder_(options.common.out) {}
 
   int run() {
@@ -82,11 +84,14 @@ class Run {
       folder_.write_file(name + "-clustered.csv", papers::spheres_csv(clustered.spheres));
     };
     const papers::PrintProgress print_progress = [this](const std::string& what) { progress_.show(what); };
-    const papers::ChoiSungResult result =
+    papers::ChoiSungResult result =
         papers::run_choi_sung(mesh_.mesh, settings_, keep_pictures, print_progress);
     papers::FrontierResult frontier;
     write_tables(result, frontier);
     if (result.finished) frontier = papers::run_frontier(mesh_.mesh, frontier_, print_progress);
+    papers::add_distances(frontier, result);
+    if (frontier.finished)
+      papers::add_models(models_, settings_, mesh_.mesh.diagonal(), result, print_progress);
     progress_.clear();
     write_tables(result, frontier);
     if (!frontier.finished) {
@@ -104,6 +109,8 @@ class Run {
     folder_.write_file("table1.csv", papers::choi_sung_table1(result).csv());
     folder_.write_file("table2.csv", papers::choi_sung_table2(result).csv());
     folder_.write_file("table3.csv", papers::choi_sung_table3(result).csv());
+    folder_.write_file("distances.csv", papers::choi_sung_distances(result).csv());
+    folder_.write_file("models.csv", papers::choi_sung_models(result).csv());
     folder_.write_file("fast_forms.csv", papers::choi_sung_fast_table(result).csv());
     folder_.write_file("numbers.csv", claims.csv());
     folder_.write_file("tool_counts.csv",
@@ -116,6 +123,13 @@ class Run {
   int finish(const papers::ChoiSungResult& result) const {
     fmt::print("{}\n",
                papers::summary(papers::choi_sung_claims(result, papers::is_choi_sungs_bunny(mesh_.mesh))));
+    if (!papers::is_choi_sungs_bunny(mesh_.mesh)) {
+      fmt::print(
+          "These counts are of {}, not of the paper's mesh: docs/papers.md says where that comes from and "
+          "where to put "
+          "it.\n",
+          mesh_.name);
+    }
     if (result.answers_agree) return support::exit_done;
     fmt::print(stderr, "touchmark: the exact forms answer differently on some surface (table1.csv)\n");
     return support::exit_check_failed;
@@ -124,6 +138,7 @@ class Run {
   papers::PaperMesh mesh_;
   papers::ChoiSungSettings settings_;
   papers::FrontierSettings frontier_;
+  std::vector<papers::Model> models_;
   results::ResultsFolder folder_;
   support::ProgressLine progress_;
 };

@@ -28,7 +28,7 @@ namespace papers = experiments::papers;
 namespace {
 
 struct TuneOptions {
-  std::string mesh, rate, levels, threshold = "1%";
+  std::string mesh, rate, levels, reference, threshold = "1%";
   std::vector<std::string> methods, clusterings;
   papers::PaperOptions common{"", "0.5%", "", "1", false};
 };
@@ -65,6 +65,10 @@ papers::FrontierSettings checked(const TuneOptions& options, const TriangleMesh&
   settings.radius = papers::checked_finite_length("--radius", options.common.radius).in_mesh_units(mesh);
   settings.steps = papers::checked_number("--steps", options.common.steps, 1, 1'000'000, quick ? 50 : 1000);
   settings.seed = papers::checked_seed(options.common.seed);
+  if (!options.reference.empty())
+    settings.reference = scenes::load_scene(options.reference);
+  else if (papers::sharp_edges(mesh).share >= papers::mostly_sharp)
+    settings.reference = mesh;
   if (quick) {
     settings.samples = 100;
     settings.effort = {2, 1e5};
@@ -106,6 +110,30 @@ std::string description(const char* which, const std::optional<papers::FrontierP
   return text;
 }
 
+/// What the error is measured against, and what that says of sharp edges.
+std::string reference_note(const TuneOptions& options, const TriangleMesh& mesh,
+                           const papers::FrontierResult& result) {
+  if (!options.reference.empty())
+    return fmt::format("error: against {} ({} triangles)\n", options.reference, result.reference_triangles);
+  const papers::SharpEdges sharp = papers::sharp_edges(mesh);
+  const std::string edges = fmt::format("{} edges ({:.0f} % of the length) turn by more than 60 degrees",
+                                        sharp.count, 100 * sharp.share);
+  if (sharp.share >= papers::mostly_sharp)
+    return fmt::format(
+        "error: against the mesh as it is, since {}: subdivision would round them. --reference FINE names "
+        "what is "
+        "true.\n",
+        edges);
+  std::string text = fmt::format(
+      "error: against LS3's own limit surface ({} triangles), not against the object: --reference FINE names "
+      "a scan or "
+      "a CAD tessellation of that.\n",
+      result.reference_triangles);
+  if (sharp.count > 0)
+    text += fmt::format("warning: {}; if these are corners of the object, subdivision rounds them.\n", edges);
+  return text;
+}
+
 int run(const TuneOptions& options) {
   const double rate = papers::checked_positive("--rate", options.rate);
   const TriangleMesh mesh = scenes::load_scene(options.mesh);
@@ -115,8 +143,9 @@ int run(const TuneOptions& options) {
   support::watch_for_interrupts();
   support::restore_denormals();
   support::ProgressLine progress;
-  const papers::FrontierResult result =
-      papers::run_frontier(mesh, settings, [&](const std::string& what) { progress.show(what); });
+  const papers::LevelSearch search = papers::search_levels(
+      mesh, settings, rate, !options.levels.empty(), [&](const std::string& what) { progress.show(what); });
+  const papers::FrontierResult& result = search.result;
   progress.clear();
   if (folder) folder->write_file("tune.csv", papers::frontier_table(result, mesh.diagonal()).csv());
   if (!result.finished) {
@@ -126,9 +155,13 @@ int run(const TuneOptions& options) {
   for (const std::string& what : result.left_out) fmt::print(stderr, "touchmark: left out: {}\n", what);
   const papers::Tuned tuned = papers::tune(result, rate);
   support::StandardOutput out;
-  out.write(table_of(result, mesh.diagonal(), rate));
   out.write(description("as published", tuned.published, options, mesh.diagonal()));
   out.write(description("fast and exact", tuned.fast, options, mesh.diagonal()));
+  out.write(reference_note(options, mesh, result));
+  out.write(fmt::format("finer levels: none tried, {}\n", search.stopped));
+  const std::string rising = papers::rising_error_note(result);
+  if (!rising.empty()) out.write(rising + "\n");
+  out.write("\n" + table_of(result, mesh.diagonal(), rate));
   out.finish();
   return tuned.published || tuned.fast ? support::exit_done : support::exit_check_failed;
 }
@@ -149,7 +182,15 @@ void add_tune(CLI::App& program, ProgramContext& context) {
       ->type_name("METHOD")
       ->expected(1)
       ->take_all();
-  command->add_option("--levels", options->levels, "up to how many (3)")->type_name("N");
+  command
+      ->add_option("--levels", options->levels, "up to how many; without it 3, and more while the rate holds")
+      ->type_name("N");
+  command
+      ->add_option(
+          "--reference", options->reference,
+          "what errors are measured against: a finer mesh of the same object, in the same place; without it "
+          "LS3's limit surface, or the mesh itself where it has sharp edges")
+      ->type_name("MESH");
   command
       ->add_option("--threshold", options->threshold,
                    "only longer edges split: mesh units or % of the diagonal")

@@ -33,7 +33,8 @@ ContestantInfo grid_group_entry() {
   static const Names<GridGroup::Construction> constructions{{"whole", GridGroup::Construction::whole},
                                                             {"lazy", GridGroup::Construction::lazy}};
   static const Names<GridGroup::Shape> shapes{{"cube", GridGroup::Shape::cube},
-                                              {"sphere", GridGroup::Shape::sphere}};
+                                              {"sphere", GridGroup::Shape::sphere},
+                                              {"centered-sphere", GridGroup::Shape::centered_sphere}};
   ContestantInfo info;
   info.name = "grid-group";
   info.rank = 30;
@@ -42,7 +43,8 @@ ContestantInfo grid_group_entry() {
   info.queries = queries_of<GridGroup>();
   info.options = {
       choice("lookup", lookups, "direct: the probe's own cell; scan: every group, as published"),
-      choice("shape", shapes, "of the groups; scan only"),
+      choice("shape", shapes,
+             "of the groups; scan only; sphere: the smallest; centered-sphere: about the cuboid's centre"),
       {"cell",
        OptionKind::length,
        {},
@@ -72,7 +74,8 @@ ContestantInfo grid_group_entry() {
                                              : support::min_bytes_per_triangle;
   };
   info.forms = {.compared = {"lookup=scan", "lookup=scan,shape=sphere", ""},
-                .verified = {"cell=1%", "build=lazy", "updated=true", "build=lazy,updated=true"},
+                .verified = {"cell=1%", "lookup=scan,shape=centered-sphere", "build=lazy", "updated=true",
+                             "build=lazy,updated=true"},
                 .frontier = {"", "certified=false", "cell=0.5%", "cell=4%"},
                 .scaled = {""},
                 .updated = {""}};

@@ -1,16 +1,13 @@
 #include "bench/experiments/papers/choi_sung.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
+#include <deque>
 #include <utility>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "bench/contestants/entry.h"
 #include "bench/experiments/papers/paper_trace.h"
-#include "bench/scenes/welded_mesh.h"
 #include "bench/support/available_memory.h"
 #include "bench/support/failures.h"
 #include "bench/support/interrupt.h"
@@ -22,46 +19,41 @@
 namespace touchmark::bench::experiments::papers {
 namespace {
 
-/// object.position in the paper's volume: the origin, unless the mesh lies elsewhere.
-Vec3 volume_center(const TriangleMesh& original) {
-  const Aabb& box = original.bounds();
-  return box.contains(Vec3::Zero()) ? Vec3(Vec3::Zero()) : Vec3(box.center());
-}
+/// Both readings of the paper's formula.
+struct Tightness {
+  double absolute = 0, scale_free = 0;
+};
 
-double tightness_of(const TriangleMesh& mesh, const SphereClusters& clusters) {
+Tightness tightness_of(const TriangleMesh& mesh, const SphereClusters& clusters) {
   std::vector<Vec3> centers;
   std::vector<double> radii;
   for (const Sphere& sphere : clusters.spheres) {
     centers.push_back(sphere.center);
     radii.push_back(sphere.radius);
   }
-  return tightness(centers, radii, centroids(mesh)).value_or(0);
+  const std::vector<Vec3> middles = centroids(mesh);
+  const double absolute = tightness(centers, radii, middles).value_or(0);
+  // Mid-point's neighbours lie on the spheres, so here it matters that the detector's radii are rounded up.
+  for (std::size_t i = 0; i < radii.size() && clusters.size() == mesh.size(); ++i) {
+    radii[i] = 0;
+    for (int k = 0; k < 3; ++k) radii[i] = std::max(radii[i], (mesh.corner(i, k) - centers[i]).norm());
+  }
+  return {absolute, scale_free_tightness(centers, radii, middles).value_or(0)};
 }
 
-Vec3 face_normal(const TriangleMesh& mesh, std::uint32_t triangle) {
-  const Vec3& a = mesh.corner(triangle, 0);
-  return (mesh.corner(triangle, 1) - a).cross(mesh.corner(triangle, 2) - a).stableNormalized();
-}
-
-/// How creased the surface looks. Smooth ones halve it with every level, flat facets stay creased.
-double crease_deg(const TriangleMesh& mesh) {
-  const scenes::WeldedMesh welded(mesh);
-  double sum = 0, length = 0;
-  welded.each_edge([&](std::span<const scenes::TriangleSide> sides) {
-    if (sides.size() != 2) return;
-    const Vec3 a = face_normal(mesh, sides[0].triangle), b = face_normal(mesh, sides[1].triangle);
-    const double angle = std::atan2(a.cross(b).norm(), a.dot(b));
-    const double edge = (welded.nodes[sides[0].low] - welded.nodes[sides[0].high]).norm();
-    sum += edge * angle * angle;
-    length += edge;
-  });
-  return length > 0 ? std::sqrt(sum / length) * 180 / std::numbers::pi : 0;
+/// Catmull-Clark with each level's quadrilaterals cut before the next, as a file of triangles between two
+/// levels makes it: six triangles of each, not four. Fig. 6 comes out with these.
+TriangleMesh cut_between_levels(const TriangleMesh& original, int levels) {
+  TriangleMesh mesh = original;
+  for (int level = 0; level < levels; ++level)
+    mesh = choi_sung_surface(mesh, SubdivisionMethod::catmull_clark_linear, 1);
+  return mesh;
 }
 
 /// Which detectors of the timing belong to a row.
 struct Numbers {
-  std::size_t scan = 0, tree = 0;
-  std::optional<std::size_t> grid;
+  std::size_t scan = 0;
+  std::optional<std::size_t> tree, fast, grid;
 };
 
 class Experiment {
@@ -72,8 +64,11 @@ class Experiment {
         settings_(settings),
         sink_(sink),
         print_progress_(print_progress),
-        trace_(paper_trace("slide", original, settings.steps, settings.seed, settings.radius)),
-        timing_(trace_, workload::Query::nearest, settings.seed) {}
+        ruler_(original),
+        original_path_(paper_trace("slide", original, settings.steps, settings.seed, settings.radius)),
+        timing_(original_path_, workload::Query::nearest, settings.seed) {
+    result_.steps = settings.steps;
+  }
 
   ChoiSungResult run() {
     try {
@@ -82,9 +77,10 @@ class Experiment {
         for (int level = 1; level <= settings_.levels; ++level)
           measure_surface(name_of(method), level, choi_sung_surface(original_, method, level));
       }
-      timing_.run(settings_.effort, [this](std::size_t round, std::size_t) {
-        print_progress_(fmt::format("timing, round {} of {}", round + 1, settings_.effort.rounds));
-      });
+      if (settings_.timed)
+        timing_.run(settings_.effort, [this](std::size_t round, std::size_t) {
+          print_progress_(fmt::format("timing, round {} of {}", round + 1, settings_.effort.rounds));
+        });
       result_.finished = true;
     } catch (const support::Interrupted&) {
     }
@@ -96,47 +92,84 @@ class Experiment {
   void measure_surface(std::string_view method, int level, const TriangleMesh& mesh) {
     print_progress_(fmt::format("{} level {}: {} triangles", method, level, mesh.size()));
     support::require_memory_for_triangles(mesh.size(), support::min_bytes_per_triangle);
-    SurfaceMeasures surface{std::string(method), level, mesh.size(), mean_triangle_area(mesh)};
-    const double volume = absolute_volume(mesh, volume_center(original_));
-    if (level == 0) original_volume_ = volume;
-    surface.relative_volume = volume / original_volume_;
-    surface.crease_deg = crease_deg(mesh);
+    const SurfaceMeasures surface = ruler_.measure(std::string(method), level, mesh);
     const SphereClusters single = cluster_spheres(mesh, 0);
     const SphereClusters clustered = cluster_spheres(mesh, settings_.clustering, settings_.order);
     sink_(surface, mesh, single, clustered);
-    measure_spheres(surface, mesh, single, 0);
-    measure_spheres(surface, mesh, clustered, settings_.clustering);
+    // Over each surface itself: a path along level 0 leaves a shrunken one, and free motion is cheap.
+    paths_.push_back(paper_trace("slide", mesh, settings_.steps, settings_.seed, settings_.radius));
+    ChoiSungRow row;
+    row.surface = surface;
+    if (settings_.timed) row.contacts_of_original_path = contacts_of_original_path(mesh);
+    measure_spheres(row, mesh, single);
+    row.clustering = settings_.clustering;
+    measure_spheres(row, mesh, clustered);
   }
 
-  void measure_spheres(const SurfaceMeasures& surface, const TriangleMesh& mesh,
-                       const SphereClusters& clusters, double clustering) {
-    using Lookup = SphereCluster::Lookup;
-    ChoiSungRow row{surface, clustering, clusters.size(), tightness_of(mesh, clusters), 1, {}, {}, {}};
-    if (original_tightness_ == 0) original_tightness_ = row.tightness;
-    row.relative_tightness = original_tightness_ > 0 ? row.tightness / original_tightness_ : 1;
-    Numbers numbers;
-    const auto spheres = [&](Lookup lookup) {
-      return timing_.add(contestants::contestant<SphereCluster>(
-          mesh, {.clustering = clustering, .lookup = lookup, .order = settings_.order}));
-    };
-    numbers.scan = spheres(Lookup::scan);
-    numbers.tree = spheres(Lookup::tree);
-    if (clustering == 0) numbers.grid = timing_.add(contestants::contestant<GridGroup>(mesh, {}));
+  void measure_spheres(ChoiSungRow row, const TriangleMesh& mesh, const SphereClusters& clusters) {
+    row.spheres = clusters.size();
+    const Tightness tightness = tightness_of(mesh, clusters);
+    row.tightness = tightness.absolute;
+    if (original_tightness_.absolute == 0) original_tightness_ = tightness;
+    if (original_tightness_.absolute > 0) {
+      row.relative_tightness = row.tightness / original_tightness_.absolute;
+      row.relative_looseness = looseness_of(row, tightness.scale_free);
+    }
+    const Numbers numbers = add_detectors(mesh, row.clustering);
     check_answers(numbers);
     result_.rows.push_back(std::move(row));
     numbers_.push_back(numbers);
   }
 
+  double looseness_of(const ChoiSungRow& row, double scale_free) const {
+    const bool cut =
+        row.surface.method == name_of(SubdivisionMethod::catmull_clark_linear) && row.surface.level > 1;
+    if (cut && row.clustering == 0) {
+      const TriangleMesh finer = cut_between_levels(original_, row.surface.level);
+      scale_free = tightness_of(finer, cluster_spheres(finer, 0)).scale_free;
+    }
+    return scale_free / original_tightness_.scale_free;
+  }
+
+  Numbers add_detectors(const TriangleMesh& mesh, double clustering) {
+    using Lookup = SphereCluster::Lookup;
+    const auto spheres = [&](Lookup lookup, bool precise) {
+      return timing_.add(
+          contestants::contestant<SphereCluster>(
+              mesh,
+              {.clustering = clustering, .lookup = lookup, .precise = precise, .order = settings_.order}),
+          paths_.back());
+    };
+    Numbers numbers;
+    numbers.scan = spheres(Lookup::scan, true);
+    if (!settings_.timed) return numbers;
+    numbers.tree = spheres(Lookup::tree, true);
+    numbers.fast = spheres(Lookup::scan, false);
+    if (clustering == 0)
+      numbers.grid = timing_.add(contestants::contestant<GridGroup>(mesh, {}), paths_.back());
+    return numbers;
+  }
+
+  std::size_t contacts_of_original_path(const TriangleMesh& mesh) const {
+    const SphereCluster tree = SphereCluster::build(mesh);
+    SphereCluster::Session session;
+    return static_cast<std::size_t>(
+        std::count_if(original_path_.begin(), original_path_.end(), [&](const workload::Step& step) {
+          return tree.nearest(step.probe, step.reach, session).has_value();
+        }));
+  }
+
   void check_answers(const Numbers& numbers) {
     const std::uint64_t expected = timing_.timed(numbers.scan).answers;
-    const bool same = timing_.timed(numbers.tree).answers == expected &&
-                      (!numbers.grid || timing_.timed(*numbers.grid).answers == expected);
-    result_.answers_agree = result_.answers_agree && same;
+    for (const auto& other : {numbers.tree, numbers.grid}) {
+      if (other && timing_.timed(*other).answers != expected) result_.answers_agree = false;
+    }
   }
 
   void fill_times(ChoiSungRow& row, const Numbers& numbers) const {
     row.scan = timing_.timed(numbers.scan);
-    row.tree = timing_.timed(numbers.tree);
+    if (numbers.tree) row.tree = timing_.timed(*numbers.tree);
+    if (numbers.fast) row.fast = timing_.timed(*numbers.fast);
     if (numbers.grid) row.grid = timing_.timed(*numbers.grid);
   }
 
@@ -144,11 +177,13 @@ class Experiment {
   const ChoiSungSettings& settings_;
   const SurfaceSink& sink_;
   const PrintProgress& print_progress_;
-  std::vector<workload::Step> trace_;
+  SurfaceRuler ruler_;
+  std::vector<workload::Step> original_path_;
+  std::deque<std::vector<workload::Step>> paths_;  // a surface each
   InterleavedTiming timing_;
   ChoiSungResult result_;
   std::vector<Numbers> numbers_;  // one a row
-  double original_volume_ = 0, original_tightness_ = 0;
+  Tightness original_tightness_;
 };
 
 }  // namespace

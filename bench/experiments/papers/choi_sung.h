@@ -11,6 +11,7 @@
 
 #include "bench/experiments/papers/interleaved_timing.h"
 #include "bench/experiments/papers/paper_meshes.h"
+#include "bench/experiments/papers/surface_measures.h"
 #include "core/sphere_cluster/clustering.h"
 #include "core/subdivision/subdivision.h"
 
@@ -34,18 +35,9 @@ struct ChoiSungSettings {
   std::uint64_t seed = 1;
   double radius = 0;      ///< the probe's, mesh units
   double clustering = 0;  ///< distance, mesh units
+  bool timed = true;      ///< false: counts alone
   VisitOrder order = VisitOrder::breadth_first;
   TimingEffort effort;
-};
-
-/// One of the surfaces: level 0 is the same for every method and stands there once, as `original`.
-struct SurfaceMeasures {
-  std::string method;
-  int level = 0;
-  std::size_t triangles = 0;
-  double mean_area = 0;        ///< square mesh units
-  double relative_volume = 1;  ///< "volume equality": to level 0
-  double crease_deg = 0;       ///< length-weighted root mean square of the angles between neighbouring faces
 };
 
 /// One row of Table 1.
@@ -55,15 +47,43 @@ struct ChoiSungRow {
   std::size_t spheres = 0;
   double tightness = 0;           ///< mesh units, the paper's formula
   double relative_tightness = 1;  ///< to level 0 without clustering
+  /// The mean of (radius - distance) / radius over the same pairs, to level 0 without clustering.
+  double relative_looseness = 1;
   // Empty until timed. The published two-level scan, and what may replace it: exact, too.
   std::optional<TimedTurns> scan, tree;
   std::optional<TimedTurns> grid;  ///< knows no clustering: of unclustered rows only
+  std::optional<TimedTurns> fast;  ///< level 1 alone: the spheres and no triangle
+  /// Steps of the slide over level 0 that touch this surface, too.
+  std::size_t contacts_of_original_path = 0;
+};
+
+/// What a distance of clustering makes of one surface.
+struct DistanceRow {
+  std::string mesh;  ///< "paper", or the name of another model
+  std::string method;
+  int level = 0;
+  double clustering = 0;  ///< mesh units
+  std::size_t spheres = 0;
+  double tests_per_query = 0;  ///< spheres and triangles
+  std::optional<double> ns = {};
+};
+
+/// One of the paper's statements on another model than its bunny.
+struct ModelVerdict {
+  std::string model;
+  std::size_t triangles = 0;  ///< how many its level 0 has
+  std::string where, what;    ///< as in the list of claims
+  bool holds = false;
+  std::string reproduced;
 };
 
 struct ChoiSungResult {
   std::vector<ChoiSungRow> rows;  ///< level 0 first, then by method and level; without clustering, then with
-  bool answers_agree = true;      ///< did all exact forms answer alike on every surface?
-  bool finished = false;          ///< false: interrupted
+  std::size_t steps = 0;          ///< how many each surface's slide has
+  std::vector<DistanceRow> distances;  ///< empty until filled (choi_sung_models.h)
+  std::vector<ModelVerdict> models;    ///< empty until filled
+  bool answers_agree = true;           ///< did all exact forms answer alike on every surface?
+  bool finished = false;               ///< false: interrupted
 };
 
 /// Called with what is being done.

@@ -18,7 +18,7 @@ std::string setting(const PaperMesh& mesh, const ChoiSungSettings& settings, con
       "level; "
       "Catmull-Clark has no threshold and interpolates linearly). Clustering distance {:.6g}{}, triangles "
       "visited {}. "
-      "{} steps of a slide over level 0, probe radius {:.6g}, seed {}: the same for every surface. "
+      "{} steps of a slide over each surface itself, probe radius {:.6g}, seed {}. "
       "Detection time is one query of the published two levels: the probe against every sphere, then the "
       "triangles of "
       "the spheres it meets; the update rate is its inverse. tests_per_query counts spheres and triangles "
@@ -34,20 +34,22 @@ std::string setting(const PaperMesh& mesh, const ChoiSungSettings& settings, con
       result.finished ? "" : "INTERRUPTED: what follows is incomplete.\n");
 }
 
-/// A surface that has shrunk away from the path is touched less, and that is cheaper.
+/// Why every surface is slid over itself.
 std::string contact_shares(const ChoiSungSettings& settings, const ChoiSungResult& result) {
   std::string shares;
   for (const SubdivisionMethod method : choi_sung_methods) {
     const ChoiSungRow* row = find_row(result, method, settings.levels, false);
-    if (row == nullptr || !row->scan) continue;
-    shares +=
-        fmt::format("{}{} {:.0f} %", shares.empty() ? "" : ", ", name_of(method),
-                    100.0 * static_cast<double>(row->scan->contacts) / static_cast<double>(settings.steps));
+    if (row == nullptr) continue;
+    shares += fmt::format(
+        "{}{} {:.0f} %", shares.empty() ? "" : ", ", name_of(method),
+        100.0 * static_cast<double>(row->contacts_of_original_path) / static_cast<double>(settings.steps));
   }
   return fmt::format(
-      "\nSteps in contact at level {}: {}. Where a method shrinks the surface away from the path (Loop), its "
-      "times are in "
-      "part those of free motion, and look better than a slide over that surface would.\n",
+      "\nA path over level 0 would touch the surfaces of level {} in this share of its steps: {}. Loop flies "
+      "free of it "
+      "for the rest and would be paid for that with short times, so each surface is slid over by itself, and "
+      "every step "
+      "touches.\n",
       settings.levels, shares);
 }
 
@@ -55,10 +57,30 @@ constexpr const char* what_is_missing =
     "The images of Tables 1 and 2 are not in the text at hand; of their numbers only those of LS3 (Table 3 "
     "and the "
     "Discussion) and the rankings in words can be compared. Table 2's appearance is the authors' own "
-    "judgement; here "
-    "it is scored by the creases that remain (length-weighted root mean square of the angle between "
-    "neighbouring "
-    "faces), and every criterion linearly from 0 for the worst method to 5 for the best.\n";
+    "judgement, and "
+    "its formula is not printed. Here each criterion is scored linearly from 0 for the worst method to 5 for "
+    "the best; "
+    "appearance is half creases (length-weighted root mean square of the angle between neighbouring faces), "
+    "half mean "
+    "distance of the original's vertices to the surface (they are where the object is known to be). "
+    "Shrinking is rewarded in the other criteria: a smaller surface has smaller spheres, "
+    "tighter by the printed formula (column tightness), and fewer edges above the fixed threshold, so fewer "
+    "spheres and "
+    "less time (columns detection_time and update_rate, which are one measurement scored twice).\n\n"
+    "Not tested: that spheres made bottom-up are tighter than made top-down, and that inner spheres miss "
+    "boundary "
+    "polygons (both about other people's programs); that Butterfly makes dented regions (no definition of a "
+    "dent).\n";
+
+constexpr const char* future_work =
+    "| the paper's sentence | here |\n| --- | --- |\n"
+    "| the optimal number of iterations for speed and precision | `touchmark tune`, and \"Run time against "
+    "error\" below "
+    "|\n"
+    "| contact levels of detail in real time | not done |\n"
+    "| other real-case models | models.csv, on generated ones |\n"
+    "| sharp features by improved subdivision schemes | not done: `touchmark tune` says where they would be "
+    "rounded |\n";
 
 /// The last row of LS3: what the fast forms do to the paper's trade-off.
 std::string fast_forms_verdict(const ChoiSungResult& result) {
@@ -85,18 +107,6 @@ std::string fast_forms_verdict(const ChoiSungResult& result) {
         single->grid->ns / original->grid->ns);
   }
   return text + "\n";
-}
-
-/// Times apart from all else.
-std::string by_kind(const std::vector<Claim>& claims) {
-  std::vector<Claim> times, others;
-  for (const Claim& claim : claims) {
-    const bool timed =
-        claim.what.find("detect") != std::string::npos || claim.what.find("rate") != std::string::npos;
-    (timed ? times : others).push_back(claim);
-  }
-  return fmt::format("\n- Counts, ratios of counts, shapes and rankings: {}\n- Times and update rates: {}\n",
-                     summary(others), summary(times));
 }
 
 /// The configurations that nothing beats, first among the published forms, then among all.
@@ -137,7 +147,7 @@ std::string choi_sung_report(const PaperMesh& mesh, const ChoiSungSettings& sett
       "surface "
       "and sphere clustering\", PLoS ONE 12(9), 2017.\n\n";
   text += report_setting(mesh) + "\n" + setting(mesh, settings, result) + "\n" + summary(claims) + "\n" +
-          by_kind(claims) + contact_shares(settings, result);
+          contact_shares(settings, result);
   const auto section = [&text](const char* title, const std::string& body) {
     text += fmt::format("\n## {}\n\n{}", title, body);
   };
@@ -148,7 +158,10 @@ std::string choi_sung_report(const PaperMesh& mesh, const ChoiSungSettings& sett
           "spheres).\n\n" +
               claims_markdown(choi_sung_tool_counts(result, is_choi_sungs_bunny(mesh.mesh))));
   section("What cannot be compared", what_is_missing);
-  section("Table 1", choi_sung_table1(result).markdown());
+  section("Future work", future_work);
+  section("Table 1",
+          "Best of each level in bold, as the paper highlights it; more columns in table1.csv.\n\n" +
+              choi_sung_table1_short(result).markdown());
   section("Table 2", choi_sung_table2(result).markdown());
   section("Table 3 (LS3)", choi_sung_table3(result).markdown());
   section("With the fast exact forms",

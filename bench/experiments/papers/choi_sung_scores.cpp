@@ -48,12 +48,13 @@ std::vector<double> scores_of(const std::vector<double>& badness) {
 }
 
 std::vector<MethodScores> choi_sung_scores(const ChoiSungResult& result) {
-  if (!result.finished || levels_of(result) == 0) return {};
+  if (!result.finished || levels_of(result) == 0 || result.rows.front().scan->ns <= 0) return {};
   const auto score = [&result](bool both, const Value& value) {
     return scores_of(badness(result, both, value));
   };
   using Row = ChoiSungRow;
-  const auto appearance = score(false, [](const Row& row, const Row&) { return row.surface.crease_deg; });
+  const auto creases = score(false, [](const Row& row, const Row&) { return row.surface.crease_deg; });
+  const auto closeness = score(false, [](const Row& row, const Row&) { return row.surface.vertex_offset; });
   const auto volume =
       score(false, [](const Row& row, const Row&) { return std::abs(row.surface.relative_volume - 1); });
   const auto tight = score(false, [](const Row& row, const Row&) { return row.relative_tightness; });
@@ -63,7 +64,8 @@ std::vector<MethodScores> choi_sung_scores(const ChoiSungResult& result) {
       score(true, [](const Row& row, const Row& original) { return -original.scan->ns / row.scan->ns; });
   std::vector<MethodScores> scores;
   for (std::size_t i = 0; i < choi_sung_methods.size(); ++i)
-    scores.push_back({choi_sung_methods[i], appearance[i], volume[i], tight[i], detection[i], update[i]});
+    scores.push_back({choi_sung_methods[i], (creases[i] + closeness[i]) / 2, volume[i], tight[i],
+                      detection[i], update[i], creases[i], closeness[i]});
   return scores;
 }
 

@@ -13,12 +13,17 @@ namespace touchmark::bench::experiments::papers {
 /// from 0 (the worst method) to 5 (the best).
 struct MethodScores {
   SubdivisionMethod method;
-  double appearance =
-      0;                 ///< the paper's is subjective; here the creases that remain: the fewer, the smoother
+  /// The paper's is "how natural the model is", by eye. Here half is for few creases and half for passing
+  /// near the original's vertices, which are where the modelled object is known to be. Creases alone reward
+  /// what shrinks.
+  double appearance = 0;
   double volume = 0;     ///< |relative volume - 1|: the less, the better
   double tightness = 0;  ///< relative tightness without clustering: the less, the better
   double detection = 0;  ///< detection time without and with clustering, to level 0's: the less, the better
   double update = 0;     ///< update rate without and with clustering, to level 0's: the more, the better
+  double creases = 0;    ///< a part of appearance: the fewer and blunter, the better
+  double closeness =
+      0;  ///< a part of appearance: mean distance of the original's vertices, the less, the better
 
   double total() const noexcept { return appearance + volume + tightness + detection + update; }
 };

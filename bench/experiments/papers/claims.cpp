@@ -19,6 +19,8 @@ const char* word_for(Agreement agreement) {
       return "no";
     case Agreement::not_printed:
       return "unknown";
+    case Agreement::not_comparable:
+      return "not comparable (their machine)";
   }
   return "";
 }
@@ -47,6 +49,16 @@ Claim statement_claim(std::string where, std::string statement, bool holds, std:
           std::move(reproduced),
           holds ? Agreement::yes : Agreement::no,
           holds ? std::string() : std::move(why_not)};
+}
+
+Claim time_claim(std::string where, std::string what, double printed, double reproduced, int digits,
+                 std::string why) {
+  return {std::move(where),
+          std::move(what),
+          fmt::format("{:.{}f}", printed, digits),
+          fmt::format("{:.{}f}", reproduced, digits),
+          Agreement::not_comparable,
+          std::move(why)};
 }
 
 support::Table claims_table(const std::vector<Claim>& claims) {
@@ -78,9 +90,12 @@ std::string summary(const std::vector<Claim>& claims) {
     return std::count_if(claims.begin(), claims.end(),
                          [&](const Claim& claim) { return claim.agreement == agreement; });
   };
-  return fmt::format("Of {} printed numbers and statements {} agree, {} nearly, {} do not.",
-                     claims.size() - static_cast<std::size_t>(count(Agreement::not_printed)),
-                     count(Agreement::yes), count(Agreement::nearly), count(Agreement::no));
+  const auto not_comparable = count(Agreement::not_comparable);
+  return fmt::format(
+      "Of {} printed numbers and statements {} agree, {} nearly, {} do not{}.",
+      claims.size() - static_cast<std::size_t>(count(Agreement::not_printed)), count(Agreement::yes),
+      count(Agreement::nearly), count(Agreement::no),
+      not_comparable > 0 ? fmt::format("; {} of their machine, not comparable", not_comparable) : "");
 }
 
 }  // namespace touchmark::bench::experiments::papers

@@ -1,6 +1,7 @@
 #include "bench/experiments/papers/frontier.h"
 
 #include <algorithm>
+#include <deque>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -34,9 +35,10 @@ class Exploration {
   FrontierResult run() {
     try {
       make_reference();
-      add_surface("original", 0, original_);
+      if (settings_.first_level == 0) add_surface("original", 0, original_);
       for (const SubdivisionMethod method : settings_.methods) {
-        for (int level = 1; level <= settings_.levels; ++level) add_level(method, level);
+        for (int level = std::max(settings_.first_level, 1); level <= settings_.levels; ++level)
+          add_level(method, level);
       }
       timing_.run(settings_.effort, [this](std::size_t round, std::size_t) {
         print_progress_(fmt::format("frontier: timing, round {} of {}", round + 1, settings_.effort.rounds));
@@ -48,6 +50,7 @@ class Exploration {
       const TimedTurns timed = timing_.timed(i);
       if (timed.ns > 0) result_.points[i].ns = timed.ns;
       result_.points[i].ns_p99 = timed.ns_p99;
+      result_.points[i].tests_per_query = timed.work;
     }
     return std::move(result_);
   }
@@ -55,15 +58,21 @@ class Exploration {
  private:
   void make_reference() {
     print_progress_("frontier: the smooth surface");
+    const double offset = offset_in_diagonals * original_.diagonal();
+    if (settings_.reference) {
+      result_.reference_triangles = settings_.reference->size();
+      reference_.emplace(*settings_.reference, offset, settings_.samples, settings_.seed);
+      return;
+    }
     int levels = 1;
-    for (std::size_t size = 16 * original_.size(); levels < settings_.levels + 2 && size <= max_reference;
-         size *= 4)
+    const int wanted = settings_.reference_levels > 0 ? settings_.reference_levels : settings_.levels + 2;
+    for (std::size_t size = 16 * original_.size(); levels < wanted && size <= max_reference; size *= 4)
       ++levels;
     const TriangleMesh smooth = subdivide(
         original_, {.method = SubdivisionMethod::ls3, .levels = levels, .form = SubdivisionForm::meshlab});
     result_.reference_triangles = smooth.size();
     result_.reference_levels = levels;
-    reference_.emplace(smooth, offset_in_diagonals * original_.diagonal(), settings_.samples, settings_.seed);
+    reference_.emplace(smooth, offset, settings_.samples, settings_.seed);
   }
 
   void add_level(SubdivisionMethod method, int level) {
@@ -83,6 +92,7 @@ class Exploration {
 
   void add_surface(std::string_view method, int level, const TriangleMesh& mesh) {
     print_progress_(fmt::format("frontier: {} level {}", method, level));
+    paths_.push_back(paper_trace("slide", mesh, settings_.steps, settings_.seed, settings_.radius));
     // Every exact form answers for the same surface, so one error does for all of them.
     const SphereCluster tree = SphereCluster::build(mesh);
     FrontierPoint point{std::string(method),       level, "scan", 0, mesh.size(), mesh.size(),
@@ -110,7 +120,7 @@ class Exploration {
 
   template <class D>
   void add(const FrontierPoint& point, D detector) {
-    timing_.add(std::make_unique<contestants::ContestantOf<D>>(std::move(detector)));
+    timing_.add(std::make_unique<contestants::ContestantOf<D>>(std::move(detector)), paths_.back());
     result_.points.push_back(point);
   }
 
@@ -118,6 +128,7 @@ class Exploration {
   const FrontierSettings& settings_;
   const PrintProgress& print_progress_;
   std::vector<workload::Step> trace_;
+  std::deque<std::vector<workload::Step>> paths_;  // over each surface itself
   InterleavedTiming timing_;
   std::optional<ReferenceSurface> reference_;
   FrontierResult result_;  // point i is the timing's detector i
@@ -151,13 +162,14 @@ FrontierResult run_frontier(const TriangleMesh& original, const FrontierSettings
 support::Table frontier_table(const FrontierResult& result, double diagonal) {
   support::Table table({"method", "level", "form", "clustering", "triangles", "spheres", "mean_error",
                         "rms_error", "max_error", "mean_error_percent", "detection_ms", "update_rate_hz",
-                        "on_frontier"});
+                        "on_frontier", "tests_per_query"});
   const auto number = [](double value) { return fmt::format("{:.6g}", value); };
   for (const FrontierPoint& p : result.points) {
     table.add({p.method, std::to_string(p.level), p.form, number(p.clustering), std::to_string(p.triangles),
                std::to_string(p.spheres), number(p.error.mean), number(p.error.rms), number(p.error.max),
                number(diagonal > 0 ? 100 * p.error.mean / diagonal : 0), p.ns ? number(*p.ns * 1e-6) : "",
-               p.ns ? number(1e9 / *p.ns) : "", p.best ? "yes" : "no"});
+               p.ns ? number(1e9 / *p.ns) : "", p.best ? "yes" : "no",
+               fmt::format("{:.1f}", p.tests_per_query)});
   }
   return table;
 }

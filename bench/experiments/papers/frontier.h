@@ -20,7 +20,11 @@ namespace touchmark::bench::experiments::papers {
 struct FrontierSettings {
   std::vector<SubdivisionMethod> methods{choi_sung_methods.begin(), choi_sung_methods.end()};
   int levels = 3;
-  double threshold = 0;             ///< mesh units: edges longer than this split; 0: all do
+  int first_level = 0;                         ///< 0: the original, too
+  std::optional<TriangleMesh> reference = {};  ///< what is true; nothing: LS3 in place of its limit surface
+  int reference_levels =
+      0;                 ///< levels of that LS3; 0: two more than `levels`, as far as memory and time allow
+  double threshold = 0;  ///< mesh units: edges longer than this split; 0: all do
   std::vector<double> clusterings;  ///< mesh units; 0 among them: a sphere a triangle
   bool fast_forms = true;           ///< the exact tree and grid besides the published scans
   double radius = 0;                ///< the timed probe's, mesh units
@@ -40,20 +44,21 @@ struct FrontierPoint {
   GeometricError error;               ///< from the smooth surface
   std::optional<double> ns = {};      ///< per query; nothing where it was not timed
   std::optional<double> ns_p99 = {};  ///< what 99 of 100 queries are done in (interleaved_timing.h)
+  double tests_per_query = 0;         ///< spheres, boxes and triangles: the same on every machine
   bool best = false;                  ///< none of those compared is both faster and at most as far off
 };
 
 struct FrontierResult {
   std::vector<FrontierPoint> points;
   std::size_t reference_triangles = 0;
-  int reference_levels = 0;
+  int reference_levels = 0;           ///< 0: a reference was given
   std::vector<std::string> left_out;  ///< "loop level 3: ... triangles"
   bool finished = false;
 };
 
-/// The reference: LS3, up to `levels` + 2 levels with every edge split, in place of its limit surface. One
-/// surface for all methods, since a method's own limit would excuse what it does to the shape (mid-point's is
-/// the coarse mesh).
+/// The reference, unless one is given: LS3, up to `levels` + 2 levels with every edge split, in place of its
+/// limit. One surface for all methods, since a method's own limit would excuse what it does to the shape
+/// (mid-point's is the coarse mesh).
 FrontierResult run_frontier(const TriangleMesh& original, const FrontierSettings& settings,
                             const PrintProgress& print_progress);
 

@@ -18,19 +18,23 @@ InterleavedTiming::InterleavedTiming(std::span<const workload::Step> steps, work
     : trace_{query, steps}, seed_(seed) {}
 
 std::size_t InterleavedTiming::add(std::unique_ptr<contestants::Contestant> contestant) {
+  return add(std::move(contestant), trace_.steps);
+}
+
+std::size_t InterleavedTiming::add(std::unique_ptr<contestants::Contestant> contestant,
+                                   std::span<const workload::Step> steps) {
   support::check_for_interrupt();
-  Entry entry;
-  entry.contestant = std::move(contestant);
+  Entry entry{std::move(contestant), {trace_.query, steps}, {}, 0, {}, {}};
   answer_once(entry);
   entries_.push_back(std::move(entry));
   return entries_.size() - 1;
 }
 
 void InterleavedTiming::answer_once(Entry& entry) const {
-  const std::size_t steps = trace_.steps.size();
+  const std::size_t steps = entry.trace.steps.size();
   std::vector<workload::Answer> answers(steps);
   std::vector<std::uint64_t> work(steps);
-  entry.contestant->answer(trace_, {0, steps}, answers, work);
+  entry.contestant->answer(entry.trace, {0, steps}, answers, work);
   workload::Checksum checksum;
   for (const workload::Answer& answer : answers) {
     checksum.add(answer);
@@ -47,20 +51,21 @@ void InterleavedTiming::turn(Entry& entry, double min_turn_ns) const {
     workload::Checksum checksum;
     const double start = support::processor_ns();
     for (std::int64_t i = 0; i < passes; ++i)
-      entry.contestant->replay(trace_, {0, trace_.steps.size()}, checksum);
+      entry.contestant->replay(entry.trace, {0, entry.trace.steps.size()}, checksum);
     return std::max(support::processor_ns() - start, 1.0);
   };
   if (entry.passes == 0)
     entry.passes = static_cast<std::int64_t>(std::clamp(std::ceil(min_turn_ns / replay(1)), 1.0, 1e6));
   const double ns = replay(entry.passes);
-  entry.turn_ns.push_back(ns / static_cast<double>(entry.passes) / static_cast<double>(trace_.steps.size()));
+  entry.turn_ns.push_back(ns / static_cast<double>(entry.passes) /
+                          static_cast<double>(entry.trace.steps.size()));
   clock_steps(entry);
 }
 
 void InterleavedTiming::clock_steps(Entry& entry) const {
-  std::vector<std::uint64_t> ticks(trace_.steps.size());
+  std::vector<std::uint64_t> ticks(entry.trace.steps.size());
   workload::Checksum checksum;
-  entry.contestant->replay_clocked(trace_, {0, trace_.steps.size()}, checksum, ticks, {});
+  entry.contestant->replay_clocked(entry.trace, {0, entry.trace.steps.size()}, checksum, ticks, {});
   std::vector<double> ns;
   ns.reserve(ticks.size());
   for (const std::uint64_t step : ticks)
@@ -85,7 +90,7 @@ TimedTurns InterleavedTiming::timed(std::size_t detector) const {
   timed.ns = support::median(entry.turn_ns);
   if (!entry.step_ns.empty()) {
     const double measured = measurement::summarize_latency(measurement::median_per_step(entry.step_ns),
-                                                           {{0, trace_.steps.size()}})
+                                                           {{0, entry.trace.steps.size()}})
                                 .p99;
     timed.ns_p99 = std::max({measured, clock_.cost_ns, clock_.ns_per_tick});
   }

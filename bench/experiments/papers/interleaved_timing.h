@@ -38,6 +38,8 @@ class InterleavedTiming {
 
   /// Takes the detector in and answers the trace once, untimed. The number by which timed() knows it.
   std::size_t add(std::unique_ptr<contestants::Contestant> contestant);
+  /// Does the same with steps of the detector's own, which must outlive this and be at least one.
+  std::size_t add(std::unique_ptr<contestants::Contestant> contestant, std::span<const workload::Step> steps);
 
   /// May throw Interrupted; the finished turns count nevertheless. `progress` is called before each turn with
   /// the round, from 0, and the detector's number.
@@ -49,6 +51,7 @@ class InterleavedTiming {
  private:
   struct Entry {
     std::unique_ptr<contestants::Contestant> contestant;
+    workload::QueryTrace trace;
     TimedTurns timed;
     std::int64_t passes = 0;                   ///< in a turn; 0: not known yet
     std::vector<double> turn_ns;               ///< per query, one a round

@@ -15,8 +15,8 @@ struct PaperMesh {
 };
 
 /// Choi & Sung's level 0: the bunny of the CHAI3D distribution, 902 triangles. `requested` is a scene or
-/// file; empty: bunny-902.ply in the models' folder, else the bunny (or what stands in for it) decimated to
-/// about 900. Throws as load_scene and decimate do.
+/// file; empty: bunny-902.ply or bunny.obj in the models' folder, if it is that mesh, else the bunny (or what
+/// stands in for it) decimated to about 900. Throws as load_scene and decimate do.
 PaperMesh choi_sung_mesh(const std::string& requested);
 
 /// Park & Jang's bunny, whose resolution is not printed: those of the Stanford laboratory (948, 3,851, 16,301

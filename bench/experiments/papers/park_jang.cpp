@@ -1,7 +1,9 @@
 #include "bench/experiments/papers/park_jang.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,9 +15,71 @@
 #include "bench/support/interrupt.h"
 #include "core/brute_force/brute_force.h"
 #include "core/grid_group/grid_group.h"
+#include "core/grid_group/published/scan_grid.h"
 
 namespace touchmark::bench::experiments::papers {
 namespace {
+
+using Steps = std::vector<workload::Step>;
+
+/// Short slides in many places, one after the other; of each the first `steps`.
+struct Places {
+  std::vector<std::vector<workload::Step>> paths;
+
+  Steps first_of_each(std::size_t steps) const {
+    Steps chosen;
+    for (const Steps& path : paths)
+      chosen.insert(chosen.end(), path.begin(),
+                    path.begin() + static_cast<std::ptrdiff_t>(std::min(steps, path.size())));
+    return chosen;
+  }
+};
+
+Places places_on(const TriangleMesh& mesh, const ParkJangSettings& settings) {
+  const std::size_t count = std::clamp<std::size_t>(settings.places, 1, settings.steps);
+  Places places;
+  for (std::size_t place = 0; place < count; ++place)
+    places.paths.push_back(paper_trace("slide", mesh, std::max<std::size_t>(settings.steps / count, 1),
+                                       settings.seed + place, settings.radius.in_mesh_units(mesh)));
+  return places;
+}
+
+/// Asks the detector at every step of every place, untimed.
+CountedTests count_tests(contestants::Contestant& detector, const Places& places) {
+  CountedTests counted;
+  workload::Checksum checksum;
+  std::size_t steps = 0;
+  for (const Steps& path : places.paths) {
+    support::check_for_interrupt();
+    std::vector<workload::Answer> answers(path.size());
+    std::vector<std::uint64_t> work(path.size());
+    detector.answer({workload::Query::nearest, path}, {0, path.size()}, answers, work);
+    for (const workload::Answer& answer : answers) {
+      checksum.add(answer);
+      counted.contacts += answer.found;
+    }
+    const auto tests = static_cast<double>(std::accumulate(work.begin(), work.end(), std::uint64_t{0}));
+    counted.by_place.push_back(tests / static_cast<double>(path.size()));
+    counted.mean += tests;
+    steps += path.size();
+  }
+  counted.mean /= static_cast<double>(steps);
+  counted.answers = checksum.value();
+  detector.forget();
+  return counted;
+}
+
+const char* name_of(GridGroup::Shape shape) {
+  switch (shape) {
+    case GridGroup::Shape::cube:
+      return "cube";
+    case GridGroup::Shape::sphere:
+      return "sphere";
+    case GridGroup::Shape::centered_sphere:
+      return "centered-sphere";
+  }
+  return "";
+}
 
 /// One mesh: the ungrouped form, the published ones at every count, the fast one.
 class MeshExperiment {
@@ -24,15 +88,18 @@ class MeshExperiment {
       : mesh_(mesh),
         settings_(settings),
         print_progress_(print_progress),
-        trace_(paper_trace("slide", mesh.mesh, settings.steps, settings.seed,
-                           settings.radius.in_mesh_units(mesh.mesh))),
+        places_(places_on(mesh.mesh, settings)),
+        trace_(places_.first_of_each(
+            std::max<std::size_t>(settings.timed_steps / std::max<std::size_t>(places_.paths.size(), 1), 1))),
         timing_(trace_, workload::Query::nearest, settings.seed) {}
 
   /// Throws Interrupted; the rows so far can be taken nevertheless.
   void run() {
     support::require_memory_for_triangles(mesh_.mesh.size(), support::min_bytes_per_triangle);
     add("ungrouped", 0, 0, contestants::contestant<BruteForce>(mesh_.mesh, {}));
-    for (const auto shape : {GridGroup::Shape::cube, GridGroup::Shape::sphere}) add_counts(shape);
+    for (const auto shape :
+         {GridGroup::Shape::cube, GridGroup::Shape::sphere, GridGroup::Shape::centered_sphere})
+      add_counts(shape);
     GridGroup direct = GridGroup::build(mesh_.mesh);
     const double cell = direct.cell();
     add("direct", cell, 0, std::make_unique<contestants::ContestantOf<GridGroup>>(std::move(direct)));
@@ -48,10 +115,9 @@ class MeshExperiment {
     return rows;
   }
   bool answers_agree() const {
-    for (std::size_t i = 1; i < rows_.size(); ++i) {
-      if (timing_.timed(i).answers != timing_.timed(0).answers) return false;
-    }
-    return true;
+    return std::all_of(rows_.begin(), rows_.end(), [this](const ParkJangRow& row) {
+      return row.counted.answers == rows_.front().counted.answers;
+    });
   }
 
  private:
@@ -65,31 +131,50 @@ class MeshExperiment {
       if (detector.groups() <= last) continue;
       last = detector.groups();
       const double cell = detector.cell();
-      add(shape == GridGroup::Shape::cube ? "cube" : "sphere", cell, last,
+      add(name_of(shape), cell, last,
           std::make_unique<contestants::ContestantOf<GridGroup>>(std::move(detector)));
+      rows_.back().groups_per_triangle = groups_per_triangle(cell);
     }
   }
 
   void add(const char* form, double cell, std::size_t groups,
            std::unique_ptr<contestants::Contestant> detector) {
+    const CountedTests counted = count_tests(*detector, places_);
     timing_.add(std::move(detector));
-    rows_.push_back({mesh_.name, mesh_.mesh.size(), form, cell, groups, std::nullopt});
+    rows_.push_back({mesh_.name, mesh_.mesh.size(), form, cell, groups, std::nullopt, counted});
+  }
+
+  double groups_per_triangle(double cell) const {
+    if (!(cell > 0)) return 0;
+    const grid::ScanGrid grid = grid::ScanGrid::build(mesh_.mesh, {.cell = cell});
+    std::size_t memberships = 0;
+    for (std::size_t group = 0; group < grid.groups(); ++group) memberships += grid.members(group).size();
+    return static_cast<double>(memberships) / static_cast<double>(mesh_.mesh.size());
   }
 
   const PaperMesh& mesh_;
   const ParkJangSettings& settings_;
   const PrintProgress& print_progress_;
-  std::vector<workload::Step> trace_;
+  Places places_;
+  Steps trace_;
   InterleavedTiming timing_;
   std::vector<ParkJangRow> rows_;  // row i is the timing's detector i
 };
 
 }  // namespace
 
+double place_quantile(const CountedTests& counted, double part) {
+  if (counted.by_place.empty()) return counted.mean;
+  std::vector<double> sorted = counted.by_place;
+  std::sort(sorted.begin(), sorted.end());
+  return sorted[static_cast<std::size_t>(std::lround(part * static_cast<double>(sorted.size() - 1)))];
+}
+
 std::vector<std::size_t> park_jang_group_counts(std::size_t most) {
   std::vector<std::size_t> counts;
-  for (const std::size_t count : {1,   2,   4,    8,    16,   32,   61,   100,  160,   250,   379,
-                                  550, 783, 1100, 1550, 2115, 3000, 4500, 7000, 12000, 20000, 35000}) {
+  for (const std::size_t count :
+       {1,   2,   4,   8,   16,  24,  32,   45,   61,   80,   100,  130,  160,   214,   300,
+        379, 460, 550, 650, 783, 950, 1100, 1550, 2115, 3000, 4500, 7000, 12000, 20000, 35000}) {
     if (count <= most) counts.push_back(count);
   }
   return counts;

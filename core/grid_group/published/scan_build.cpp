@@ -111,7 +111,10 @@ void ScanGrid::enclose(const TriangleMesh& mesh, Shape shape) {
     }
     Aabb box;
     for (const Vec3& corner : corners) box.extend(corner);
-    boxes_.push_back(box);
+    if (shape == Shape::cube)
+      boxes_.push_back(box);
+    else
+      spheres_.push_back(sphere_about(box.center(), corners));
   }
 }
 

@@ -18,8 +18,13 @@
 
 namespace touchmark::grid {
 
-/// What a group is: the smallest cuboid along the axes, or the smallest sphere, that holds its triangles.
-enum class Shape { cube, sphere };
+/// What a group is. The paper's abstract has the smallest sphere, its text the other kind.
+enum class Shape {
+  cube,            ///< the smallest cuboid along the axes that holds its triangles
+  sphere,          ///< the smallest sphere that does
+  centered_sphere  ///< the sphere about that cuboid's centre that reaches the farthest vertex of its
+                   ///< triangles
+};
 
 struct ScanOptions {
   Shape shape = Shape::cube;

@@ -31,44 +31,59 @@ FastLevel::FastLevel(const TriangleMesh& mesh, const SphereClusters& clusters) :
   ids_.reserve(clusters.size());
   for (std::size_t i = 0; i < clusters.size(); ++i) {
     ids_.push_back(mesh.id(clusters.triangles_of(i).front()));
-    error_bound_ = std::max(error_bound_, spheres_[i].radius);
+    error_bound_ = std::max(error_bound_, spheres_.radius[i]);
   }
   const Vec3 farthest = mesh.bounds().min.cwiseAbs().cwiseMax(mesh.bounds().max.cwiseAbs());
   error_bound_ += 4 * std::numeric_limits<double>::epsilon() * farthest.maxCoeff();
 }
 
 double FastLevel::gap(std::size_t sphere, const Vec3& center) const noexcept {
-  return (center - spheres_[sphere].center).norm() - spheres_[sphere].radius;
+  return (center - spheres_.center(sphere)).norm() - spheres_.radius[sphere];
 }
 
 Contact FastLevel::contact_with(std::size_t sphere, const Vec3& center) const noexcept {
-  const Vec3 out = center - spheres_[sphere].center;
+  const Vec3 out = center - spheres_.center(sphere);
   const double length = out.norm();
   const Vec3 normal = length > 0 ? Vec3(out / length) : Vec3(Vec3::UnitZ());
-  const double distance = std::max(length - spheres_[sphere].radius, 0.0);
+  const double distance = std::max(length - spheres_.radius[sphere], 0.0);
   return {center - distance * normal, normal, distance, ids_[sphere]};
 }
 
+/// Squares leave out the roots of what is far; grown_radius has room for what the two ways round differently.
+template <class Found>
+void FastLevel::for_each_within(const double& limit, const Vec3& center, const Found& found) const noexcept {
+  const double px = center.x(), py = center.y(), pz = center.z();
+  const auto outside = [&](std::size_t i) noexcept {
+    const double dx = spheres_.x[i] - px, dy = spheres_.y[i] - py, dz = spheres_.z[i] - pz;
+    const double grown = grown_radius(spheres_.radius[i], limit);
+    return static_cast<std::uint8_t>(dx * dx + dy * dy + dz * dz > grown * grown);
+  };
+  for_each_held(spheres_.size(), outside, found);
+}
+
 bool FastLevel::touches(const Probe& probe, Work& work) const noexcept {
-  std::size_t tested = 0;
-  while (tested < spheres_.size())
-    if (gap(tested++, probe.center) <= probe.radius) {
-      work.spheres += tested;
-      return true;
-    }
+  std::size_t tested = spheres_.size();
+  bool touching = false;
+  for_each_within(probe.radius, probe.center, [&](std::size_t sphere) noexcept {
+    if (!(gap(sphere, probe.center) <= probe.radius)) return false;
+    tested = sphere + 1;
+    return touching = true;
+  });
   work.spheres += tested;
-  return false;
+  return touching;
 }
 
 std::optional<Contact> FastLevel::nearest(const Vec3& center, double reach, Work& work) const noexcept {
-  double least = infinity;
+  double least = infinity, limit = reach;
   std::size_t nearest = spheres_.size();
-  for (std::size_t i = 0; i < spheres_.size(); ++i) {
-    const double gap_here = gap(i, center);
-    if (!(gap_here < least)) continue;
+  for_each_within(limit, center, [&](std::size_t sphere) noexcept {
+    const double gap_here = gap(sphere, center);
+    if (!(gap_here < least)) return false;
     least = gap_here;
-    nearest = i;
-  }
+    limit = std::min(limit, least);
+    nearest = sphere;
+    return false;
+  });
   work.spheres += spheres_.size();
   if (nearest == spheres_.size() || !(std::max(least, 0.0) <= reach)) return std::nullopt;
   return contact_with(nearest, center);
@@ -80,7 +95,7 @@ std::optional<Impact> FastLevel::first_hit(const Sweep& sweep, Work& work) const
   double first = infinity;
   std::size_t hit = spheres_.size();
   for (std::size_t i = 0; i < spheres_.size(); ++i) {
-    const double fraction = first_within(sweep, spheres_[i].center, grown_radius(spheres_[i].radius, reach));
+    const double fraction = first_within(sweep, spheres_.center(i), grown_radius(spheres_.radius[i], reach));
     if (!(fraction < first)) continue;
     first = fraction;
     hit = i;
@@ -91,7 +106,7 @@ std::optional<Impact> FastLevel::first_hit(const Sweep& sweep, Work& work) const
 }
 
 std::size_t FastLevel::bytes() const noexcept {
-  return spheres_.capacity() * sizeof(Sphere) + ids_.capacity() * sizeof(TriangleId);
+  return spheres_.bytes() + ids_.capacity() * sizeof(TriangleId);
 }
 
 }  // namespace touchmark

@@ -8,6 +8,7 @@
 
 #include "core/detector.h"
 #include "core/sphere_cluster/clustering.h"
+#include "core/sphere_cluster/published/sphere_arrays.h"
 
 namespace touchmark {
 
@@ -33,7 +34,12 @@ class FastLevel {
   double gap(std::size_t sphere, const Vec3& center) const noexcept;
   Contact contact_with(std::size_t sphere, const Vec3& center) const noexcept;
 
-  std::vector<Sphere> spheres_;
+  /// Calls found(i) for every sphere i with gap(i) <= limit, and maybe for others, until it returns true.
+  /// `limit` may shrink between calls.
+  template <class Found>
+  void for_each_within(const double& limit, const Vec3& center, const Found& found) const noexcept;
+
+  SphereArrays spheres_;
   std::vector<TriangleId> ids_;  // of each sphere's leader
   double error_bound_ = 0;
 };

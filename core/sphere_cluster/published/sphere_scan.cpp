@@ -1,7 +1,6 @@
 #include "core/sphere_cluster/published/sphere_scan.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/geometry/sweep_box.h"
@@ -11,38 +10,9 @@
 #include "core/sphere_cluster/search_bounds.h"
 
 namespace touchmark {
-namespace {
-
-/// Calls `found(i)` for every i < count with outside(i) false, in order, until it returns true. `outside` is
-/// evaluated in blocks without a branch, so that it vectorises.
-template <class Outside, class Found>
-bool for_each_held(std::size_t count, const Outside& outside, const Found& found) noexcept {
-  constexpr std::size_t block = 32;
-  std::array<std::uint8_t, block> out;
-  for (std::size_t begin = 0; begin < count; begin += block) {
-    const std::size_t size = std::min(block, count - begin);
-    std::uint8_t all_out = 1;
-    for (std::size_t i = 0; i < size; ++i) {
-      out[i] = outside(begin + i);
-      all_out &= out[i];
-    }
-    if (all_out != 0) continue;
-    for (std::size_t i = 0; i < size; ++i)
-      if (out[i] == 0 && found(begin + i)) return true;
-  }
-  return false;
-}
-
-}  // namespace
 
 SphereScan::SphereScan(const TriangleMesh& mesh, const SphereClusters& clusters)
-    : bounds_(mesh.bounds()), first_(clusters.first), ids_(mesh.triangle_ids()) {
-  for (const Sphere& sphere : clusters.spheres) {
-    x_.push_back(sphere.center.x());
-    y_.push_back(sphere.center.y());
-    z_.push_back(sphere.center.z());
-    radius_.push_back(sphere.radius);
-  }
+    : bounds_(mesh.bounds()), spheres_(clusters.spheres), first_(clusters.first), ids_(mesh.triangle_ids()) {
   triangles_.reserve(mesh.size());
   for (const std::uint32_t triangle : clusters.members) triangles_.push_back(prepare(mesh, triangle));
 }
@@ -58,11 +28,11 @@ template <class Found>
 bool SphereScan::for_each_met(const Vec3& center, double reach, const Found& found) const noexcept {
   const double px = center.x(), py = center.y(), pz = center.z();
   const auto outside = [&](std::size_t i) noexcept {
-    const double dx = x_[i] - px, dy = y_[i] - py, dz = z_[i] - pz;
-    const double grown = grown_radius(radius_[i], reach);
+    const double dx = spheres_.x[i] - px, dy = spheres_.y[i] - py, dz = spheres_.z[i] - pz;
+    const double grown = grown_radius(spheres_.radius[i], reach);
     return static_cast<std::uint8_t>(dx * dx + dy * dy + dz * dz > grown * grown);
   };
-  return for_each_held(x_.size(), outside, found);
+  return for_each_held(spheres_.size(), outside, found);
 }
 
 bool SphereScan::touches(const Probe& probe, Work& work) const noexcept {
@@ -80,7 +50,7 @@ bool SphereScan::touches(const Probe& probe, Work& work) const noexcept {
     }
     return false;
   });
-  work.spheres += touching ? tested + 1 : x_.size();
+  work.spheres += touching ? tested + 1 : spheres_.size();
   return touching;
 }
 
@@ -92,7 +62,7 @@ std::optional<Contact> SphereScan::nearest(const Vec3& center, double reach, Wor
     search(sphere, center, candidates, work);
     return false;
   });
-  work.spheres += x_.size();
+  work.spheres += spheres_.size();
   return contact_of(candidates, triangles_, center, reach, error, ids_, work);
 }
 
@@ -103,19 +73,19 @@ std::optional<Impact> SphereScan::first_hit(const Sweep& sweep, Work& work) cons
   if (std::isinf(error) || !fourth_powers_fit(difference)) return fallback().first_hit(sweep, work);
   const double reach = std::max(padded_sweep_radius(sweep, difference), sweep.radius + error);
   const auto outside = [&](std::size_t i) noexcept {
-    const double grown = grown_radius(radius_[i], reach);
-    const double squared = squared_distance_to_path(sweep, {x_[i], y_[i], z_[i]});
+    const double grown = grown_radius(spheres_.radius[i], reach);
+    const double squared = squared_distance_to_path(sweep, spheres_.center(i));
     return static_cast<std::uint8_t>(squared > grown * grown);
   };
   FirstTouch first(sweep);
   ClosestCandidates at_start(triangles_.data(), sweep.from, error);
-  for_each_held(x_.size(), outside, [&](std::size_t sphere) noexcept {
+  for_each_held(spheres_.size(), outside, [&](std::size_t sphere) noexcept {
     search(sphere, sweep.from, at_start, work);
     for (std::uint32_t i = first_[sphere]; i < first_[sphere + 1]; ++i)
       first.consider(triangles_[i], i, work.exact_decisions);
     return false;
   });
-  work.spheres += x_.size();
+  work.spheres += spheres_.size();
   // What is known of the start mostly is enough to say what is nearest there.
   return impact_of(first, triangles_, ids_, true, [&](double within) {
     const double distance = std::sqrt(at_start.best().squared_distance);
@@ -126,7 +96,7 @@ std::optional<Impact> SphereScan::first_hit(const Sweep& sweep, Work& work) cons
 }
 
 std::size_t SphereScan::bytes() const noexcept {
-  return 4 * x_.capacity() * sizeof(double) + first_.capacity() * sizeof(std::uint32_t) +
+  return spheres_.bytes() + first_.capacity() * sizeof(std::uint32_t) +
          triangles_.capacity() * sizeof(PreparedTriangle) + ids_.bytes();
 }
 

@@ -13,6 +13,7 @@
 #include "core/geometry/point_triangle.h"
 #include "core/search/linear_scan.h"
 #include "core/sphere_cluster/clustering.h"
+#include "core/sphere_cluster/published/sphere_arrays.h"
 
 namespace touchmark {
 
@@ -39,8 +40,7 @@ class SphereScan {
   bool for_each_met(const Vec3& center, double reach, const Found& found) const noexcept;
 
   Aabb bounds_;
-  // The spheres as plain arrays, so that the fast level's loop vectorises.
-  std::vector<double> x_, y_, z_, radius_;
+  SphereArrays spheres_;
   std::vector<std::uint32_t> first_;         // sphere i holds triangles_[first_[i]] .. before first_[i + 1]
   std::vector<PreparedTriangle> triangles_;  // in the order of their spheres
   TriangleIds ids_;

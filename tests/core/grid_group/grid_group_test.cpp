@@ -1,5 +1,6 @@
 #include "core/grid_group/grid_group.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -30,6 +31,7 @@ TriangleMesh two_triangles() {
 std::vector<Options> forms(double cell) {
   return {{.shape = Shape::cube, .lookup = Lookup::scan, .cell = cell},
           {.shape = Shape::sphere, .lookup = Lookup::scan, .cell = cell},
+          {.shape = Shape::centered_sphere, .lookup = Lookup::scan, .cell = cell},
           {.shape = Shape::cube, .lookup = Lookup::direct, .cell = cell}};
 }
 
@@ -207,6 +209,26 @@ TEST(GridGroupScan, SpheresHoldTheProbeAtLeastAsOftenAsCuboids) {
   EXPECT_GT(triangles[1], triangles[0]);
 }
 
+TEST(GridGroupScan, ACenteredSphereSitsOnTheCuboidAndIsNoSmallerThanTheSmallest) {
+  const TriangleMesh mesh = icosphere(3);
+  const auto of_shape = [&](Shape shape) {
+    return grid::ScanGrid::build(mesh, {.shape = shape, .cell = 0.3});
+  };
+  const auto cuboids = of_shape(Shape::cube), smallest = of_shape(Shape::sphere),
+             centered = of_shape(Shape::centered_sphere);
+  ASSERT_EQ(centered.spheres().size(), cuboids.groups());
+  for (std::size_t group = 0; group < cuboids.groups(); ++group) {
+    const Sphere& sphere = centered.spheres()[group];
+    EXPECT_EQ(sphere.center, Vec3(cuboids.boxes()[group].center()));
+    EXPECT_GE(sphere.radius * (1 + 1e-12), smallest.spheres()[group].radius);
+    double farthest = 0;
+    for (const std::uint32_t triangle : centered.members(group))
+      for (int k = 0; k < 3; ++k)
+        farthest = std::max(farthest, (mesh.corner(triangle, k) - sphere.center).norm());
+    EXPECT_NEAR(sphere.radius, farthest, 1e-12);
+  }
+}
+
 TEST(GridGroupScan, MakesAboutAsManyGroupsAsAsked) {
   for (const std::size_t wanted : {50u, 379u, 783u, 2115u}) {
     const GridGroup detector = GridGroup::build(icosphere(5), {.lookup = Lookup::scan, .groups = wanted});
@@ -227,7 +249,7 @@ TEST(GridGroupScan, EveryGroupEnclosesItsTrianglesAndEveryTriangleIsInAGroup) {
   for (const testing::NamedMesh& named : testing::nasty_meshes()) {
     const TriangleMesh& mesh = named.mesh;
     if (!FilterFrame::fits(mesh.bounds())) continue;
-    for (const Shape shape : {Shape::cube, Shape::sphere}) {
+    for (const Shape shape : {Shape::cube, Shape::sphere, Shape::centered_sphere}) {
       const auto scan = grid::ScanGrid::build(mesh, {shape, 0.1 * mesh.diagonal(), 0});
       std::vector<bool> grouped(mesh.size());
       for (std::size_t group = 0; group < scan.groups(); ++group) {

@@ -337,6 +337,37 @@ TEST(SphereCluster, TheFastLevelNeverMissesAndKeepsItsBound) {
   }
 }
 
+TEST(SphereCluster, TheFastLevelAnswersWithTheFirstSphereOfLeastGap) {
+  for (const auto& scene : test::test_meshes()) {
+    if (scene.name == "overflowing") continue;  // its distances are no doubles
+    SCOPED_TRACE(scene.name);
+    const SphereCluster detector = SphereCluster::build(scene.mesh, {0.05 * scene.size, Lookup::scan, false});
+    const std::vector<Sphere>& spheres = detector.clusters().spheres;
+    SphereCluster::Session session;
+    test::Random random(32);
+    for (int step = 0; step < 300; ++step) {
+      const Vec3 center = test::random_point(scene, random);
+      double least = infinity;
+      std::size_t first = 0;
+      for (std::size_t i = 0; i < spheres.size(); ++i) {
+        const double gap = (center - spheres[i].center).norm() - spheres[i].radius;
+        if (gap < least) first = i;
+        least = std::min(least, gap);
+      }
+      const auto answer = detector.nearest({center, 0}, infinity, session);
+      ASSERT_TRUE(answer);
+      EXPECT_EQ(answer->triangle, scene.mesh.id(detector.clusters().triangles_of(first).front()));
+      EXPECT_EQ(answer->distance, std::max(least, 0.0));
+      // A reach is closed, and a probe touches what is no farther than its radius.
+      EXPECT_TRUE(detector.nearest({center, 0}, answer->distance, session));
+      EXPECT_TRUE(detector.touches({center, answer->distance}, session));
+      if (!(answer->distance > 0)) continue;
+      EXPECT_FALSE(detector.nearest({center, 0}, std::nextafter(answer->distance, 0), session));
+      EXPECT_FALSE(detector.touches({center, std::nextafter(answer->distance, 0)}, session));
+    }
+  }
+}
+
 TEST(SphereCluster, TheFastLevelMeetsTheSphereWhereTheTriangleIsStillAway) {
   const TriangleMesh mesh({{0, 0, 0}, {3, 0, 0}, {0, 3, 0}}, {{0, 1, 2}});  // centre (1, 1), radius sqrt 5
   const SphereCluster detector = SphereCluster::build(mesh, {0, Lookup::scan, false});

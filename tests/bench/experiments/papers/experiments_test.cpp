@@ -1,23 +1,28 @@
 /// The parts of the papers' experiments, each against what is known.
+#include <array>
 #include <cmath>
 #include <csignal>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "bench/contestants/entry.h"
 #include "bench/experiments/papers/choi_sung.h"
+#include "bench/experiments/papers/choi_sung_models.h"
 #include "bench/experiments/papers/choi_sung_report.h"
 #include "bench/experiments/papers/choi_sung_scores.h"
 #include "bench/experiments/papers/claims.h"
 #include "bench/experiments/papers/decimation.h"
 #include "bench/experiments/papers/geometric_error.h"
 #include "bench/experiments/papers/interleaved_timing.h"
+#include "bench/experiments/papers/line_fit.h"
 #include "bench/experiments/papers/paper_trace.h"
 #include "bench/experiments/papers/park_jang.h"
+#include "bench/experiments/papers/surface_measures.h"
 #include "bench/scenes/scenes.h"
 #include "bench/support/interrupt.h"
 #include "bench/support/median.h"
@@ -203,44 +208,113 @@ TEST(ParkJang, KeepsFinishedRowsWhenInterrupted) {
   });
   support::watch_for_interrupts();
   EXPECT_FALSE(result.finished);
-  ASSERT_EQ(result.rows.size(), 1u + 2 + 2 + 1 + 1);  // of b the ungrouped form, not timed
+  ASSERT_EQ(result.rows.size(), 1u + 2 + 2 + 2 + 1 + 1);  // of b the ungrouped form, not timed
   EXPECT_GT(result.rows[0].timed->ns, 0);
   EXPECT_EQ(result.rows.back().timed->ns, 0);
 }
 
-/// Of two meshes: ungrouped, with few groups, with some, with many.
-ParkJangResult two_meshes(double gained_by_the_larger) {
+/// A row whose queries looked at every group and at so many triangles.
+ParkJangRow counted_row(const char* mesh, std::size_t triangles, const char* form, std::size_t groups,
+                        double triangles_tested) {
+  ParkJangRow row{mesh, triangles, form, 0, groups, TimedTurns{.ns = 1}};
+  row.counted.mean = static_cast<double>(groups) + triangles_tested;
+  row.groups_per_triangle = groups > 0 ? 2 : 0;
+  return row;
+}
+
+/// Operations 80,000 ungrouped; 80,006, 8,640, 5,200 and 54,000 with 1, 40, 200 and 9,000 cuboids.
+ParkJangResult one_curve() {
   ParkJangResult result;
   result.finished = true;
-  const auto add = [&](const char* mesh, std::size_t triangles, double gained) {
-    const auto row = [&](const char* form, std::size_t groups, double ns) {
-      result.rows.push_back({mesh, triangles, form, 0, groups, TimedTurns{.ns = ns}});
-    };
-    row("ungrouped", 0, 1000);
-    row("cube", 1, 1010);
-    row("cube", 100, 1000 / gained);
-    row("cube", 9000, 500);
-  };
-  add("small", 1000, 20);
-  add("large", 9000, gained_by_the_larger);
+  result.rows = {counted_row("m", 1000, "ungrouped", 0, 1000), counted_row("m", 1000, "cube", 1, 1000),
+                 counted_row("m", 1000, "cube", 40, 105), counted_row("m", 1000, "cube", 200, 50),
+                 counted_row("m", 1000, "cube", 9000, 0)};
   return result;
 }
 
-std::string why_of(const std::vector<Claim>& claims, const std::string& what) {
-  for (const Claim& claim : claims)
-    if (claim.what == what) return claim.why;
-  return "no such claim";
+TEST(ParkJang, FindsWhereACurveReachesATenthIsLowestAndRises) {
+  const std::vector<ParkJangCurve> curves = park_jang_curves(one_curve());
+  ASSERT_EQ(curves.size(), 1u);
+  EXPECT_EQ(curves[0].best, 200u);
+  EXPECT_NEAR(curves[0].factor, 80000 / 5200.0, 1e-9);
+  // Straight lines in logarithms: 8,000 operations between 40 and 200 groups, 5,720 between 200 and 9,000.
+  ASSERT_TRUE(curves[0].tenth_from && curves[0].rises_from);
+  EXPECT_NEAR(*curves[0].tenth_from, 40 * std::pow(5.0, std::log(8640 / 8000.0) / std::log(8640 / 5200.0)),
+              1e-6);
+  EXPECT_NEAR(*curves[0].rises_from, 200 * std::pow(45.0, std::log(1.1) / std::log(54000 / 5200.0)), 1e-6);
 }
 
-TEST(ParkJang, SaysOfItsMeshesOnlyWhatCameOut) {
-  const std::string what = "best time, of the ungrouped one, small cubes";
-  EXPECT_TRUE(why_of(park_jang_claims(two_meshes(300)), what)
-                  .starts_with("the paper does not state its mesh's size; on the meshes tried the factor "
-                               "gained by cubes grows with the triangles, from 20 to 300: none of them gives "
-                               "the printed one"));
-  EXPECT_NE(why_of(park_jang_claims(two_meshes(5)), what)
-                .find("is 5 to 20: a mesh between them would give the printed one"),
-            std::string::npos);
+TEST(ParkJang, GivesOneVerdictAStatementForSomeMeshOfThoseTried) {
+  ParkJangResult result = one_curve();
+  const ParkJangResult other = one_curve();
+  for (ParkJangRow row : other.rows) {  // another mesh, whose best count is far off
+    row.mesh = "n";
+    if (row.groups == 200) row.counted.mean += 800;
+    result.rows.push_back(row);
+  }
+  std::size_t best_count = 0;
+  for (const Claim& claim : park_jang_claims(result)) {
+    if (claim.what != "cuboids that suit the bunny best") continue;
+    ++best_count;
+    EXPECT_EQ(claim.agreement, Agreement::yes) << claim.reproduced;  // 200 is within a quarter of 214
+    EXPECT_EQ(claim.printed, "about 214");
+    EXPECT_EQ(claim.reproduced, "200 (1000 triangles), 40 (1000 triangles)");
+  }
+  EXPECT_EQ(best_count, 1u);
+}
+
+TEST(ParkJang, PassesNoVerdictOnTheTimesOfAnotherMachine) {
+  const std::vector<Claim> claims = park_jang_claims(one_curve());
+  ASSERT_FALSE(claims.empty());
+  EXPECT_EQ(claims[0].what, "ungrouped time, ms");
+  EXPECT_EQ(claims[0].agreement, Agreement::not_comparable);
+  EXPECT_NE(claims_table({claims[0]}).csv().find("not comparable (their machine)"), std::string::npos);
+  EXPECT_EQ(
+      summary({claims[0]}),
+      "Of 1 printed numbers and statements 0 agree, 0 nearly, 0 do not; 1 of their machine, not comparable.");
+}
+
+TEST(LineFit, FindsTheLine) {
+  const std::array<std::pair<double, double>, 3> points{{{1, 5}, {2, 7}, {4, 11}}};
+  EXPECT_NEAR(line_through(points).offset, 3, 1e-12);
+  EXPECT_NEAR(line_through(points).slope, 2, 1e-12);
+}
+
+TEST(SurfaceRuler, TellsWhatASmallerSphereLost) {
+  const TriangleMesh sphere = scenes::load_scene("icosphere:3");
+  const SurfaceRuler ruler(sphere);
+  const SurfaceMeasures same = ruler.measure("original", 0, sphere);
+  EXPECT_TRUE(same.keeps_vertices);
+  EXPECT_EQ(same.vertices, 642u);
+  EXPECT_NEAR(same.mean_offset, 0, 1e-12);
+  const SurfaceMeasures smaller = ruler.measure("loop", 1, sphere.transformed(0.9, Vec3::Zero()));
+  EXPECT_FALSE(smaller.keeps_vertices);
+  EXPECT_NEAR(smaller.relative_volume, 0.729, 1e-9);
+  EXPECT_NEAR(smaller.vertex_offset, 0.1, 1e-3);
+  EXPECT_NEAR(smaller.shrinkage_at_creases, 1, 0.02);  // as far off everywhere
+}
+
+TEST(SurfaceMeasures, OfATriangleWithARightAngle) {
+  const TriangleMesh mesh({{0, 0, 0}, {3, 0, 0}, {0, 4, 0}}, {{0, 1, 2}});
+  EXPECT_NEAR(mean_edge_ratio(mesh), 5.0 / 3, 1e-12);
+  const SurfaceMeasures measures = SurfaceRuler(mesh).measure("original", 0, mesh);
+  EXPECT_NEAR(measures.circumradius, 2.5, 1e-12);                         // half the hypotenuse
+  EXPECT_NEAR(measures.centroid_radius, std::sqrt(1 + 64.0 / 9), 1e-12);  // from (1, 4/3) to (0, 4)
+}
+
+TEST(ChoiSungModels, AreClosedAndTheStatementsAreAskedOfThem) {
+  for (const Model& model : choi_sung_models()) {
+    EXPECT_TRUE(edge_statistics(model.mesh).closed()) << model.name;
+    EXPECT_GT(signed_volume(model.mesh), 0) << model.name;
+  }
+  ChoiSungSettings settings = small_settings();
+  settings.levels = 3;
+  ChoiSungResult result;
+  const std::vector<Model> ball{{"ball", scenes::load_scene("icosphere:0")}};
+  add_models(ball, settings, 2, result, [](const std::string&) {});
+  EXPECT_GT(result.models.size(), 10u);
+  EXPECT_EQ(result.models[0].model, "ball");
+  EXPECT_EQ(result.distances.size(), 6u);
 }
 
 TEST(ParkJang, FindsTheBestCountAndThoseNearIt) {

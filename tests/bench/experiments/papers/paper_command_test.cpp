@@ -71,9 +71,10 @@ class PaperChoiSung : public testing::Test {
 
 TEST_F(PaperChoiSung, LeavesTablesReportAndPictureData) {
   EXPECT_EQ(outcome.err, "");
-  for (const char* file :
-       {"table1.csv", "table2.csv", "table3.csv", "fast_forms.csv", "frontier.csv", "numbers.csv",
-        "report.md", "pictures/original-0-mesh.csv", "pictures/ls3-3-clustered.csv"})
+  EXPECT_NE(outcome.out.find("not of the paper's mesh"), std::string::npos) << outcome.out;
+  for (const char* file : {"distances.csv", "models.csv", "table1.csv", "table2.csv", "table3.csv",
+                           "fast_forms.csv", "frontier.csv", "numbers.csv", "report.md",
+                           "pictures/original-0-mesh.csv", "pictures/ls3-3-clustered.csv"})
     EXPECT_TRUE(is_there(folder, file)) << file;
 }
 
@@ -156,7 +157,7 @@ TEST(PaperParkJang, TimesEveryFormOnTheSameSteps) {
   EXPECT_EQ(forms["ungrouped"].size(), 1u);
   EXPECT_EQ(forms["direct"].size(), 1u);
   EXPECT_EQ(std::stod(forms["ungrouped"][0]["tests_per_query"]), 1280);
-  for (const char* shape : {"cube", "sphere"}) {
+  for (const char* shape : {"cube", "sphere", "centered-sphere"}) {
     ASSERT_GT(forms[shape].size(), 5u) << shape;
     for (std::size_t i = 1; i < forms[shape].size(); ++i)
       EXPECT_GT(std::stoi(forms[shape][i]["groups"]), std::stoi(forms[shape][i - 1]["groups"]));

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -5,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/experiments/papers/tuning.h"
+#include "bench/scenes/scenes.h"
 #include "tests/bench/cli/run_touchmark.h"
 
 namespace touchmark::bench::experiments::papers {
@@ -49,6 +51,33 @@ TEST(Tune, TakesWhatTookLessThanAnyClockTells) {
   EXPECT_EQ(tune(result, 1000).fast->error.mean, 0.22);
 }
 
+TEST(Tune, PrefersTheSimplerMeshWithinATenthOfTheError) {
+  const auto of_size = [](std::size_t triangles, double error) {
+    FrontierPoint p = point("tree", error, 100);
+    p.triangles = triangles;
+    return p;
+  };
+  FrontierResult result;
+  result.points = {of_size(40'000, 1), of_size(10'000, 1.09), of_size(900, 1.2)};
+  EXPECT_EQ(tune(result, 1000).fast->triangles, 10'000u);
+}
+
+TEST(SharpEdges, AreThoseOfACubeAndNoneOfASphere) {
+  const SharpEdges cube = sharp_edges(scenes::load_scene("cube"));
+  EXPECT_EQ(cube.count, 12u);
+  EXPECT_NEAR(cube.share, 12 / (12 + 6 * std::sqrt(2.0)), 1e-12);  // six faces have a flat diagonal each
+  EXPECT_EQ(sharp_edges(scenes::load_scene("icosphere:2")).count, 0u);
+}
+
+TEST(TuneNote, SaysWhenAFinerLevelIsFartherOff) {
+  FrontierResult result;
+  result.points = {point("scan", 2, 1), point("scan", 1, 1), point("scan", 1.5, 1)};
+  for (int level = 0; level < 3; ++level) result.points[static_cast<std::size_t>(level)].level = level;
+  EXPECT_TRUE(rising_error_note(result).starts_with("The error rises from level 1 to level 2 of ls3"));
+  result.points.pop_back();
+  EXPECT_EQ(rising_error_note(result), "");
+}
+
 TEST(MarkBest, MarksWhatNoOtherBeats) {
   std::vector<FrontierPoint> points = {point("scan", 5, 10), point("scan", 6, 20), point("scan", 1, 30),
                                        point("tree", 1, 20), point("scan", 0.5, std::nullopt)};
@@ -79,6 +108,35 @@ TEST(TuneCommand, FindsAFinerSurfaceAtARateThatEveryoneHolds) {
   EXPECT_NE(outcome.out.find("--method ls3 --levels 2"), std::string::npos) << outcome.out;
   EXPECT_EQ(outcome.out.find("inf"), std::string::npos) << outcome.out;
   EXPECT_NE(cli::content_of(folder.file("tune.csv")).find("method,level,form"), std::string::npos);
+}
+
+TEST(TuneCommand, AnswersFirstAndKeepsTheCornersOfACube) {
+  const cli::Outcome outcome = cli::run_touchmark({"tune", "--rate", "0.001", "--mesh", "cube", "--quick"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(outcome.out.starts_with("as published: original level 0")) << outcome.out;
+  EXPECT_NE(outcome.out.find("mean error 0.0000 %"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("error: against the mesh as it is, since 12 edges"), std::string::npos)
+      << outcome.out;
+}
+
+TEST(TuneCommand, GoesOnWhileTheRateHoldsAndSaysWhyItStops) {
+  const cli::Outcome outcome =
+      cli::run_touchmark({"tune", "--rate", "0.001", "--mesh", "icosphere:1", "--quick"});
+  EXPECT_NE(outcome.out.find("ls3 2 "), std::string::npos) << outcome.out;  // a row beyond quick's one level
+  EXPECT_NE(outcome.out.find("finer levels: none tried, level 4 would be the reference itself"),
+            std::string::npos)
+      << outcome.out;
+  EXPECT_NE(outcome.out.find("against LS3's own limit surface"), std::string::npos) << outcome.out;
+}
+
+TEST(TuneCommand, MeasuresAgainstTheReferenceThatIsNamed) {
+  const cli::Outcome outcome =
+      cli::run_touchmark({"tune", "--rate", "0.001", "--mesh", "icosphere:1", "--quick", "--reference",
+                          "icosphere:1", "--method", "loop"});
+  EXPECT_TRUE(outcome.out.starts_with("as published: original level 0")) << outcome.out;
+  EXPECT_NE(outcome.out.find("error: against icosphere:1 (80 triangles)"), std::string::npos) << outcome.out;
+  cli::expect_bad_input({"tune", "--rate", "1", "--mesh", "icosphere:1", "--reference", "no-such-mesh"},
+                        {"no-such-mesh"});
 }
 
 TEST(TuneCommand, SaysThatNothingHoldsAnImpossibleRate) {
