@@ -22,14 +22,16 @@ struct Request {
   Action action = nullptr;
 };
 
-/// Passes for latency are spread over the rounds.
+/// Passes for latency and with emptied caches are spread over the rounds.
 std::vector<Request> requests_for(std::size_t measurements, const Effort& effort, support::Random random) {
   std::vector<std::vector<Action>> rounds{{&Measurement::first_pass}};
-  std::size_t clocked = 0;
+  std::size_t clocked = 0, emptied = 0;
   for (std::size_t round = 1; round <= effort.repetitions; ++round) {
     std::vector<Action>& actions = rounds.emplace_back(1, &Measurement::repetition);
     for (; clocked * effort.repetitions < round * effort.latency_passes; ++clocked)
       actions.push_back(&Measurement::latency_pass);
+    for (; emptied * effort.repetitions < round * effort.cold_passes; ++emptied)
+      actions.push_back(&Measurement::cold_pass);
   }
   std::vector<std::size_t> turns;
   for (const std::vector<Action>& actions : rounds) turns.push_back(actions.size() * measurements);

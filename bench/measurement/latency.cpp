@@ -44,6 +44,13 @@ LatencySummary summarize_latency(std::span<const double> ns, const std::vector<w
   return summary;
 }
 
+ColdSummary summarize_cold(std::span<const double> ns) {
+  std::vector<double> sorted(ns.begin(), ns.end());
+  std::sort(sorted.begin(), sorted.end());
+  return {sorted.size(), percentile(sorted, 0.5), percentile(sorted, 0.99), percentile(sorted, 0.999),
+          sorted.back()};
+}
+
 std::vector<double> median_per_step(const std::vector<std::vector<double>>& passes) {
   std::vector<double> medians(passes.front().size());
   std::vector<double> one_step(passes.size());

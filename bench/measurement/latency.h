@@ -23,6 +23,15 @@ struct LatencySummary {
   std::array<DeadlineMisses, deadlines_hz.size()> deadlines;
 };
 
+/// Queries with emptied caches.
+struct ColdSummary {
+  std::size_t samples = 0;
+  double p50 = 0, p99 = 0, p999 = 0, max = 0;  ///< ns, nearest rank
+};
+
+/// At least one sample.
+ColdSummary summarize_cold(std::span<const double> ns);
+
 /// `ns` holds the ranges' steps one after the other. At least one step.
 LatencySummary summarize_latency(std::span<const double> ns, const std::vector<workload::StepRange>& ranges);
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bench/support/median.h"
+#include "bench/workers/cold_replay.h"
 #include "bench/workload/sample_steps.h"
 
 namespace touchmark::bench::measurement {
@@ -166,6 +167,12 @@ void Measurement::judge(ground_truth::GroundTruths& truths, ground_truth::Ground
   const std::span<const workload::Answer> answers = arena_.buffers().answers(row_.steps);
   workload::Checksum checksum;
   for (const workload::Answer& answer : answers) checksum.add(answer);
+  if (effort_.cold_passes > 0) {
+    for (const workload::Answer& answer : answers) {
+      workload::Checksum& one = answer_checksums_.emplace_back();
+      one.add(answer);
+    }
+  }
   if (checksum.value() != row_.checksum) {
     row_.status = "checksum mismatch";
     return;
@@ -216,6 +223,35 @@ void Measurement::latency_pass() {
   });
 }
 
+void Measurement::take_cold_samples(std::size_t bytes, std::size_t samples, std::vector<double>& ns,
+                                    std::vector<double>& floor_ns) {
+  const std::size_t room = arena_.layout().output_steps();
+  constexpr std::size_t samples_a_floor_sample = 5;
+  const std::size_t floor_samples =
+      std::min(std::max<std::size_t>(samples / samples_a_floor_sample, 1), room);
+  process_.ask(workers::request::Cold{task_, bytes, floor_samples, 0, floor_samples, true});
+  for (const workers::TickRecord& record : arena_.buffers().tick_records(floor_samples))
+    floor_ns.push_back(static_cast<double>(record.query_ticks) * process_.opened().ns_per_tick);
+  const std::size_t end = ns.size() + samples;
+  while (ns.size() < end) {
+    const std::size_t some = std::min(end - ns.size(), room);
+    process_.ask(workers::request::Cold{task_, bytes, some, ns.size(), samples * effort_.cold_passes, false});
+    for (const workers::TickRecord& record : arena_.buffers().tick_records(some)) {
+      ns.push_back(static_cast<double>(record.query_ticks) * process_.opened().ns_per_tick);
+      if (record.checksum != answer_checksums_[workload::place_in(ranges_, record.step)].value())
+        row_.status = "checksum mismatch";
+    }
+  }
+}
+
+void Measurement::cold_pass() {
+  static const workers::EvictionSizes sizes = workers::eviction_sizes();
+  attempt([&] {
+    take_cold_samples(sizes.second_level, effort_.cold_l2_samples, cold_l2_ns_, floor_l2_ns_);
+    take_cold_samples(sizes.all, effort_.cold_samples, cold_ns_, floor_ns_);
+  });
+}
+
 std::vector<double> Measurement::in_ns(std::span<const std::uint64_t> ticks) const {
   std::vector<double> ns;
   ns.reserve(ticks.size());
@@ -242,6 +278,12 @@ ResultRow Measurement::row() {
                                      static_cast<double>(interrupted_) / static_cast<double>(samples)};
   if (!latencies_ns_.empty()) row_.latency = summarize_latency(median_per_step(latencies_ns_), ranges_);
   if (!prepared_ns_.empty()) row_.prepare = summarize_latency(median_per_step(prepared_ns_), ranges_);
+  if (!cold_ns_.empty()) {
+    row_.cold_l2 = summarize_cold(cold_l2_ns_);
+    row_.cold = summarize_cold(cold_ns_);
+    row_.cold_floor_l2_ns = support::median(floor_l2_ns_);
+    row_.cold_floor_ns = support::median(floor_ns_);
+  }
   row_.clock_cost_ns = process_.opened().clock_cost_ns;
   return row_;
 }

@@ -44,6 +44,8 @@ class Measurement {
   void first_pass();
   void repetition();
   void latency_pass();
+  /// Some of the samples with emptied caches.
+  void cold_pass();
 
   /// Ends the contestant's process, which takes its memory. Asked again, it would be built again.
   void shut_down();
@@ -63,6 +65,8 @@ class Measurement {
   void choose_steps();
   void choose_pieces();
   PieceTimes piece_times() const;
+  void take_cold_samples(std::size_t bytes, std::size_t samples, std::vector<double>& ns,
+                         std::vector<double>& floor_ns);
   std::vector<double> in_ns(std::span<const std::uint64_t> ticks) const;
   void expect_verified_answers(const workers::Timed& timed);
   void judge(ground_truth::GroundTruths& truths, ground_truth::GroundTruths* rounded);
@@ -85,6 +89,9 @@ class Measurement {
   std::vector<double> repetitions_cpu_ns_;
   std::vector<std::vector<double>> latencies_ns_;
   std::vector<std::vector<double>> prepared_ns_;
+  std::vector<double> cold_l2_ns_, cold_ns_, floor_l2_ns_, floor_ns_;
+  std::vector<workload::Checksum>
+      answer_checksums_;  // of the verified answers, where caches are to be emptied
 };
 
 }  // namespace touchmark::bench::measurement

@@ -21,6 +21,8 @@ namespace touchmark::bench::measurement {
 
 /// Fewer steps have no 99.9 %: one in a thousand of them is none.
 inline constexpr std::size_t steps_for_p999 = 1000;
+/// Fewer samples have no 99 %.
+inline constexpr std::size_t samples_for_p99 = 100;
 
 /// How long queries took when the trajectory was replayed without a clock inside.
 struct ThroughputResult {
@@ -67,8 +69,10 @@ struct ResultRow {
       rounded_scene_counts;  ///< by the mesh that its library keeps, where that is another
   std::optional<ThroughputResult> throughput;
   std::optional<LatencySummary> latency;
-  std::optional<LatencySummary> prepare;         ///< between steps, where the contestant does that
-  std::vector<ground_truth::WrongAnswer> wrong;  ///< the first ones of those that were charged
+  std::optional<ColdSummary> cold_l2, cold;        ///< the second-level cache emptied; all caches
+  double cold_floor_l2_ns = 0, cold_floor_ns = 0;  ///< medians with nothing asked
+  std::optional<LatencySummary> prepare;           ///< between steps, where the contestant does that
+  std::vector<ground_truth::WrongAnswer> wrong;    ///< the first ones of those that were charged
   std::string repeat;  ///< the command that prints the answer to a step, up to the step's number
   double clock_cost_ns = 0;
   std::optional<double> build_ms;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/support/median.h"
 #include "bench/support/table.h"
 
 namespace touchmark::bench::results {
@@ -134,6 +135,26 @@ std::string verdict(const std::vector<measurement::ResultRow>& rows,
                         : fmt::format("; does not hold 1 kHz: {} of {} steps were late", misses, best->steps);
   }
   return line + '\n' + min_p999(rows) + disturbance(steadiness);
+}
+
+std::string cold_table(const std::vector<measurement::ResultRow>& rows) {
+  support::Table table(
+      {"ns with caches emptied", "warm p50", "L2 p50", "p99", "p99.9", "all p50", "p99", "max", "all/warm"});
+  std::vector<double> floor_l2, floor;
+  for (const measurement::ResultRow& row : rows) {
+    if (!row.cold || !row.cold_l2 || !row.latency) continue;
+    const measurement::ColdSummary &l2 = *row.cold_l2, &all = *row.cold;
+    table.add({row.contestant(), figure(row.latency->p50), figure(l2.p50), figure(l2.p99),
+               l2.samples >= measurement::steps_for_p999 ? figure(l2.p999) : "", figure(all.p50),
+               all.samples >= measurement::samples_for_p99 ? figure(all.p99) : "", figure(all.max),
+               fmt::format("{:.1f}", all.p50 / std::max(row.latency->p50, 1e-3))});
+    floor_l2.push_back(row.cold_floor_l2_ns);
+    floor.push_back(row.cold_floor_ns);
+  }
+  if (table.size() == 0) return "";
+  table.add({"nothing asked", "", figure(support::median(floor_l2)), "", "", figure(support::median(floor)),
+             "", "", ""});
+  return table.text();
 }
 
 std::string work_table(const std::vector<measurement::ResultRow>& rows) {

@@ -17,6 +17,10 @@ std::string verdict(const std::vector<measurement::ResultRow>& rows,
                     const measurement::Steadiness& steadiness);
 /// What a step looked at on average, and at most; the rest of the mesh was skipped. Of most rivals only the
 /// triangles are seen that they hand to a callback.
+/// A line for each contestant: its queries warm and with emptied caches, and what the clock takes then with
+/// nothing asked. Empty where no row has such times.
+std::string cold_table(const std::vector<measurement::ResultRow>& rows);
+
 std::string work_table(const std::vector<measurement::ResultRow>& rows);
 
 /// Says on stderr, a line each, which rows violated their guarantee or were timed with other answers than the

@@ -13,6 +13,7 @@ namespace touchmark::bench::results {
 namespace {
 
 using R = measurement::ResultRow;
+using C = measurement::ColdSummary;
 using E = oracle::ErrorCounts;
 using L = measurement::LatencySummary;
 using T = measurement::ThroughputResult;
@@ -73,6 +74,18 @@ std::string update_rate(Row row) {
 std::string clock_cost(Row row) { return row.latency ? fmt::format("{:.6g}", row.clock_cost_ns) : ""; }
 std::string decides_exactly(Row row) {
   return row.accuracy ? fmt::format("{:d}", row.accuracy->decides_exactly) : "";
+}
+
+template <auto Part>
+std::string cold_p99(Row row) {
+  return row.*Part && (row.*Part)->samples >= measurement::samples_for_p99
+             ? fmt::format("{:.6g}", (row.*Part)->p99)
+             : "";
+}
+std::string cold_l2_p999(Row row) {
+  return row.cold_l2 && row.cold_l2->samples >= measurement::steps_for_p999
+             ? fmt::format("{:.6g}", row.cold_l2->p999)
+             : "";
 }
 
 constexpr Kind angle{[](std::string_view text) {
@@ -261,6 +274,20 @@ constexpr auto columns = std::to_array<Column<R>>({
     {"rounding", exact<&R::counts, &E::rounding>, judged, whole_number,
      "steps whose distance is off by less than that, and by more than arithmetic in double must be: 48 "
      "roundings of the largest coordinate difference"},
+    {"cold_l2_ns_p50", six_digits<&R::cold_l2, &C::p50>, optional, positive,
+     "with `--cold`: half of the queries took at most this after as much as twice the second-level cache was "
+     "walked over; samples of the steps, the step before each answered unclocked first, the clock's own cost "
+     "and misses included"},
+    {"cold_l2_ns_p99", cold_p99<&R::cold_l2>, optional, positive,
+     "99 % of these took at most this; empty below 100 samples"},
+    {"cold_l2_ns_p999", cold_l2_p999, optional, positive,
+     "99.9 % of these took at most this; empty below 1,000 samples"},
+    {"cold_ns_p50", six_digits<&R::cold, &C::p50>, optional, positive,
+     "with `--cold`: half of the queries took at most this after as much as twice the last-level cache was "
+     "walked over"},
+    {"cold_ns_p99", cold_p99<&R::cold>, optional, positive,
+     "99 % of these took at most this; empty below 100 samples"},
+    {"cold_ns_max", six_digits<&R::cold, &C::max>, optional, positive, "time of the slowest of these"},
 });
 
 }  // namespace

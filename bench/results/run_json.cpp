@@ -129,6 +129,8 @@ Json effort_json(const measurement::Effort& effort) {
           {"pass_budget_ms", effort.pass_budget_ns / 1e6},
           {"latency_passes", effort.latency_passes},
           {"latency_note", "percentiles are of each step's median over the passes"},
+          {"cold_samples", effort.cold_passes * effort.cold_samples},
+          {"cold_l2_samples", effort.cold_passes * effort.cold_l2_samples},
           {"undisturbed_quantile", measurement::PieceTimes::quantile}};
 }
 

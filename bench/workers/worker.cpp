@@ -25,6 +25,7 @@
 #include "bench/support/median.h"
 #include "bench/support/processor_time.h"
 #include "bench/support/system_limit.h"
+#include "bench/workers/cold_replay.h"
 #include "bench/workers/line_channel.h"
 #include "bench/workers/servo_stretch.h"
 #include "bench/workers/shared_memory.h"
@@ -76,6 +77,10 @@ class Worker {
   Timed handle(const request::Latency& request);
   ServoStretch handle(const request::Servo& request) {
     return run_servo(*contestant_, trace_of(request.task), request, *buffers_);
+  }
+  Done handle(const request::Cold& request) {
+    run_cold(*contestant_, trace_of(request.task), ranges_of(request.task), request, *buffers_);
+    return {};
   }
 
   workload::QueryTrace trace_of(const Task& task) const { return {task.query, traces_.at(task.trace)}; }

@@ -63,6 +63,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Time, task, passes)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Sample, task, passes, replays)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Latency, task)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Servo, task, pace, warm_up, ticks, idle)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Cold, task, evicted_bytes, samples, first_sample, samples_in_all, idle)
 }  // namespace request
 
 namespace {

@@ -193,11 +193,23 @@ struct Servo {
   }
 };
 
+/// Queries with emptied caches: see ColdReplay. The samples lie in the output buffers as tick records,
+/// without latencies.
+struct Cold {
+  using Reply = Done;
+  Task task;
+  std::size_t evicted_bytes = 0;   ///< walked over before each sample; 0: nothing is
+  std::size_t samples = 1;         ///< at most as many as the output has room for
+  std::size_t first_sample = 0;    ///< how many of them other requests had before
+  std::size_t samples_in_all = 1;  ///< how many all requests have
+  bool idle = false;               ///< nothing is asked: what the clock takes, and its own misses
+};
+
 }  // namespace request
 
 using Request = std::variant<request::Open, request::Build, request::Update, request::Rebuild, request::First,
                              request::Calibrate, request::Answer, request::AnswerAfresh, request::FirstPass,
-                             request::Time, request::Sample, request::Latency, request::Servo>;
+                             request::Time, request::Sample, request::Latency, request::Servo, request::Cold>;
 using Reply =
     std::variant<NotStarted, OutOfResources, Done, Opened, Built, Answered, Timed, Updated, ServoStretch>;
 

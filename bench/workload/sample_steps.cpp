@@ -24,6 +24,15 @@ std::vector<StepRange> sample_steps(std::size_t total, std::size_t wanted) {
   return ranges;
 }
 
+std::size_t place_in(const std::vector<StepRange>& ranges, std::size_t step) {
+  std::size_t before = 0;
+  for (const StepRange& range : ranges) {
+    if (step >= range.begin && step < range.end) return before + step - range.begin;
+    before += range.size();
+  }
+  return before;
+}
+
 std::vector<StepRange> joined(const std::vector<StepRange>& ranges) {
   std::vector<StepRange> result;
   for (const StepRange& range : ranges) {

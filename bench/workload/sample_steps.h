@@ -13,6 +13,9 @@ namespace touchmark::bench::workload {
 std::vector<StepRange> sample_steps(std::size_t total, std::size_t wanted);
 
 /// Joins ranges that meet.
+/// Which of the ranges' steps this is, one after the other; it is one of them.
+std::size_t place_in(const std::vector<StepRange>& ranges, std::size_t step);
+
 std::vector<StepRange> joined(const std::vector<StepRange>& ranges);
 
 /// The range in so many parts, as equal as can be; not more than it has steps.

@@ -11,7 +11,8 @@ NUMBER_COLUMNS = ["triangles", "steps", "radius", "missed", "false_contacts", "w
 OPTIONAL_NUMBERS = ["ns_per_query", "ns_per_query_mad", "repetitions", "max_distance_error_of_diagonal", "build_ms",
                     "first_answer_ms", "bytes", "stored_missed", "stored_false_contacts",
                     "stored_max_distance_error_of_diagonal", "clock_cost_ns", "ns_undisturbed", "ns_undisturbed_low",
-                    "ns_undisturbed_high", "disturbed_share", "beyond_tolerance", "rounding"]
+                    "ns_undisturbed_high", "disturbed_share", "beyond_tolerance", "rounding", "cold_l2_ns_p50", "cold_ns_p50",
+                    "cold_ns_p99"]
 MAY_BE_INFINITE = ["radius", "max_distance_error", "max_distance_error_of_diagonal",
                    "stored_max_distance_error_of_diagonal"]
 OPTIONAL_TEXTS = ["answers_checksum"]

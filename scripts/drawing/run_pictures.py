@@ -16,6 +16,12 @@ PERCENTILES = [  # column, label, marker, how much of the colour: told apart by 
     ("ns_p999", "99.9 %", "D", 1.0),
     ("ns_max", "maximum", ">", 1.0),
 ]
+COLD = [
+    ("ns_p50", "median, warm", "|", 1.0),
+    ("cold_l2_ns_p50", "median, second-level cache emptied", "o", 0.0),
+    ("cold_ns_p50", "median, all caches emptied", "D", 1.0),
+    ("cold_ns_p99", "99 %, all caches emptied", "x", 1.0),
+]
 Kind = collections.namedtuple("Kind", "columns label hatch shade")
 ERRORS = [
     Kind(["missed"], "missed contacts", "////", "0.35"),
@@ -58,14 +64,37 @@ def draw_latency(plt, rows, source):
     return figure
 
 
+def has_cold(rows):
+    return any(row.cold_ns_p50 > 0 for row in rows)
+
+
+def draw_cold(plt, rows, source):
+    if not has_cold(rows):
+        raise NothingToDraw("no row has times with emptied caches: touchmark bench --cold")
+    times = positive(getattr(row, column) for row in rows for column, *_ in COLD)
+    names, trajectories = detectors.in_order(row.name for row in rows), trajectories_of(rows)
+    figure, panels = canvas(plt, len(trajectories), 3.1, 0.27 * len(names), left=room_for(names))
+    for axes, trajectory in zip(panels, trajectories):
+        for row in (row for row in rows if row.trajectory == trajectory):
+            draw_percentiles(axes, names.index(row.name), row, COLD)
+        name_panel(axes, shortened(trajectory, 40))
+        log_axis(axes.xaxis, min(times) / 2, max(times) * 3, duration)
+        name_axis(axes, names)
+    legend = [plt.Line2D([], [], linewidth=1, label=which, **percentile_mark(marker, "0.2", strength))
+              for _, which, marker, strength in COLD]
+    label(figure, "Queries with emptied caches: left is better", what_was_asked(rows), source,
+          "time for one query, the clock's own included (log scale)", legend)
+    return figure
+
+
 def percentile_mark(marker, colour, strength):
     return {"marker": marker, "color": colour, "markersize": 11 if marker == "|" else 5,
             "markeredgewidth": 2 if marker == "|" else 1, "markerfacecolor": tinted(colour, strength)}
 
 
-def draw_percentiles(axes, y, row):
+def draw_percentiles(axes, y, row, percentiles=None):
     colour = detectors.colour(row.name)
-    points = [(getattr(row, column), marker, strength) for column, _, marker, strength in PERCENTILES]
+    points = [(getattr(row, column), marker, strength) for column, _, marker, strength in percentiles or PERCENTILES]
     points = [point for point in points if math.isfinite(point[0]) and point[0] > 0]
     if not points:
         note(axes, y, shortened(row.status) or "no times")

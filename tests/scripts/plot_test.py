@@ -151,6 +151,17 @@ class Plot(unittest.TestCase):
         self.assertEqual(self.plot(self.directory / "results.csv", "--only", "latency", "--out", elsewhere).returncode, 0)
         self.assertTrue((elsewhere / "latency.png").exists())
 
+    def test_draws_emptied_caches_only_where_they_were_timed(self):
+        self.write(GOOD)
+        self.assertIn("cold: left out", self.plot("--only", "cold", self.directory).stdout)
+        with open(self.directory / "results.csv", "w", newline="", encoding="utf-8") as file:
+            row = {**GOOD, "cold_l2_ns_p50": 300, "cold_ns_p50": 5000, "cold_ns_p99": 9000}
+            writer = csv.DictWriter(file, [*COLUMNS, "cold_l2_ns_p50", "cold_ns_p50", "cold_ns_p99"])
+            writer.writeheader()
+            writer.writerow(row)
+        self.assertEqual(self.plot("--only", "cold", self.directory).stdout, f"{self.directory}/plots/cold.png\n")
+        self.assertEqual(self.pictures(), ["cold.png", "cold.svg"])
+
     def test_draws_a_stress_run_as_contestants_by_families(self):
         fields = ("detector,options,family,query,status,probes,missed,false_contacts,wrong_triangle,beyond_bound,wrong_point,"
                   "wrong_normal,malformed,crashes,timeouts,refusals,adversarial")

@@ -41,6 +41,7 @@ struct BenchOptions {
   bool quick = false;
   bool frontier = false;
   bool work = false;
+  bool cold = false;
   WorkerSelectors workers;
 };
 
@@ -48,6 +49,7 @@ measurement::Effort effort_for(const BenchOptions& options, const BenchmarkFlags
   measurement::Effort effort;
   if (options.quick) effort = measurement::quick_effort;
   effort.repetitions = flags.repetitions.value_or(effort.repetitions);
+  if (options.cold) effort.cold_passes = measurement::usual_cold_passes;
   if (flags.min_time_s) effort.repetition_ns = *flags.min_time_s * 1e9;
   return effort;
 }
@@ -173,6 +175,8 @@ void BenchRun::end_trajectory(std::size_t trace) {
   out_.write(fmt::format("\n{} ({})\n{}{}", workload_.trajectories[trace],
                          workload::trace_text(workload_, trace), results::timing_table(rows),
                          results::verdict(rows, comparison_->steadiness().back())));
+  const std::string cold = results::cold_table(rows);
+  if (!cold.empty()) out_.write('\n' + cold);
   if (shows_work_) out_.write('\n' + results::work_table(rows));
   out_.finish();
 }
@@ -216,6 +220,8 @@ void add_bench(CLI::App& program, ProgramContext& context) {
                  "every contestant over the options that trade accuracy for time (see the plot time_error)")
       ->excludes("--detector");
   command->add_flag("--work", options->work, "also what a step looked at, and so what it skipped");
+  command->add_flag("--cold", options->cold,
+                    "also queries with the second-level cache, or all caches, emptied between them");
   command->add_flag("--quick", options->quick, "fewer steps and repetitions");
   add_worker_selectors(*command, options->workers);
   command->allow_extras();

@@ -40,6 +40,7 @@ class ServoRun {
   void verify(std::size_t contestant, ground_truth::GroundTruths& truths);
   /// Runs one stretch of every contestant and of its idle loop, in the order of `turns`.
   void take_turns(const std::vector<std::pair<std::size_t, bool>>& turns, std::uint64_t ticks);
+  void find_cause_of_overrun(std::size_t contestant, std::uint64_t ticks);
   void run_stretch(std::size_t contestant, bool idle, std::uint64_t ticks);
   /// Notes a worker's failure as the row's status.
   template <class Action>

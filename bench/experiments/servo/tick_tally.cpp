@@ -22,7 +22,7 @@ void TickTally::add(std::span<const workers::TickRecord> stretch) {
     work_max_ = std::max(work_max_, record.work.total());
     add_worst(record, tick);
   }
-  const auto slow = static_cast<double>(query_.percentile(0.99));
+  const auto slow = static_cast<double>(query_.percentile(0.95));
   for (const workers::TickRecord& record : stretch) {
     const double ns = static_cast<double>(record.query_ticks) * ns_per_tick_;
     if (record.asked == 0 || ns > slow) continue;
@@ -46,7 +46,7 @@ void TickTally::add_worst(const workers::TickRecord& record, std::uint64_t tick)
 }
 
 std::optional<double> TickTally::ns_for_work(double work) const {
-  if (!(work_squares_ > 0)) return std::nullopt;
+  if (!(work_squares_ > 0 && products_ > 0)) return std::nullopt;
   return ns_mean_ + products_ / work_squares_ * (work - work_mean_);
 }
 

@@ -45,7 +45,8 @@ class TickTally {
   std::uint64_t work_max() const noexcept { return work_max_; }
 
   /// Returns what a query of so much work takes by the line through query time against work, least squares
-  /// over the ticks but the slowest hundredth, which something else slowed. Nothing where work does not vary.
+  /// over the ticks but the slowest twentieth, which something else slowed. Nothing where work does not vary,
+  /// or more work does not take longer.
   std::optional<double> ns_for_work(double work) const;
 
  private:

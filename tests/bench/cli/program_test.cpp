@@ -64,7 +64,9 @@ TEST(Bench, LeavesOneRowAContestantAndTrajectoryAndARunJson) {
     constexpr int of_stored_scene = 3;  // these two store what they are given
     constexpr int of_prepare = 3;       // and prepare nothing
     constexpr int of_few_steps = 1;     // no 99.9 %
-    EXPECT_EQ(std::count(row.begin(), row.end(), ""), of_stored_scene + of_prepare + of_few_steps + i % 2)
+    constexpr int of_cold = 6;          // without --cold
+    EXPECT_EQ(std::count(row.begin(), row.end(), ""),
+              of_stored_scene + of_prepare + of_few_steps + of_cold + i % 2)
         << "besides, only brute-force's options are empty";
     EXPECT_EQ(row[0], "1");
     EXPECT_EQ(row[3], i % 2 == 1 ? "" : "lookup=scan,shape=sphere");

@@ -52,5 +52,12 @@ TEST(Windows, AreSpreadOverTheWholeWayAndAlmostAsManyStepsAsWanted) {
   EXPECT_GE(ranges.front().size(), 16U);  // neighbours, so that a session can profit
 }
 
+TEST(Windows, KnowThePlaceOfEachOfTheirSteps) {
+  const std::vector<StepRange> ranges{{3, 5}, {9, 12}};
+  std::vector<std::size_t> places;
+  for (const std::size_t step : {3u, 4u, 9u, 10u, 11u}) places.push_back(place_in(ranges, step));
+  EXPECT_EQ(places, (std::vector<std::size_t>{0, 1, 2, 3, 4}));
+}
+
 }  // namespace
 }  // namespace touchmark::bench::workload

@@ -150,6 +150,18 @@ TEST(TickTally, FindsWhatAUnitOfWorkCosts) {
   EXPECT_NEAR(tally.ns_for_work(1000).value(), 150 + 10 * 1000, 1e-6);
 }
 
+TEST(TickTally, SaysNothingWhereMoreWorkDoesNotTakeLonger) {
+  std::vector<workers::TickRecord> records;
+  for (std::uint64_t work = 0; work < 200; ++work) {
+    Work looked_at;
+    looked_at.triangles = work;
+    records.push_back({1, 0, 1, 9000 - 20 * work, 0, looked_at});
+  }
+  TickTally tally(1000, 1);
+  tally.add(records);
+  EXPECT_FALSE(tally.ns_for_work(1000));
+}
+
 TEST(Histogram, KeepsTheMaximumAndPercentilesWithinAThirtySecond) {
   std::mt19937_64 random(7);
   std::lognormal_distribution<double> times(8, 2);

@@ -1,0 +1,56 @@
+/// `touchmark bench --cold` from the outside. No time is demanded of this machine.
+#include <map>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "bench/support/csv_reader.h"
+#include "tests/bench/cli/run_touchmark.h"
+#include "tests/temporary_folder.h"
+
+namespace touchmark::bench::cli {
+namespace {
+
+using Fields = std::vector<std::string>;
+
+const Fields cold_columns{"cold_l2_ns_p50", "cold_l2_ns_p99", "cold_l2_ns_p999",
+                          "cold_ns_p50",    "cold_ns_p99",    "cold_ns_max"};
+
+/// The first row of what `bench` with these options leaves, as a map from column to field.
+std::map<std::string, std::string> first_row(const Fields& more, Outcome& outcome) {
+  const TemporaryFolder folder;
+  Fields command{"bench",   "--mesh", "icosphere:2", "--trajectory", "slide", "--quick",
+                 "--steps", "300",    "--detector",  "aabb-tree",    "--out", folder.file("out")};
+  command.insert(command.end(), more.begin(), more.end());
+  outcome = run_touchmark(command);
+  EXPECT_EQ(run_touchmark({"validate", folder.file("out")}).status, 0)
+      << run_touchmark({"validate", folder.file("out")}).out;
+  support::CsvReader reader(folder.file("out/results.csv"));
+  Fields header, fields;
+  reader.next(header);
+  reader.next(fields);
+  std::map<std::string, std::string> row;
+  for (std::size_t i = 0; i < header.size(); ++i) row[header[i]] = fields.at(i);
+  return row;
+}
+
+TEST(Cold, FillsItsColumnsAndPrintsTheFloor) {
+  Outcome outcome;
+  const auto row = first_row({"--cold"}, outcome);
+  EXPECT_EQ(row.at("status"), "ok") << outcome.err;
+  for (const std::string& column : cold_columns) EXPECT_NE(row.at(column), "") << column;
+  EXPECT_LE(std::stod(row.at("cold_ns_p50")), std::stod(row.at("cold_ns_p99")));
+  EXPECT_LE(std::stod(row.at("cold_ns_p99")), std::stod(row.at("cold_ns_max")));
+  EXPECT_NE(outcome.out.find("nothing asked"), std::string::npos) << outcome.out;
+}
+
+TEST(Cold, IsLeftAloneUnlessAskedFor) {
+  Outcome outcome;
+  const auto row = first_row({}, outcome);
+  for (const std::string& column : cold_columns) EXPECT_EQ(row.at(column), "") << column;
+  EXPECT_EQ(outcome.out.find("nothing asked"), std::string::npos) << outcome.out;
+}
+
+}  // namespace
+}  // namespace touchmark::bench::cli
