@@ -10,6 +10,7 @@
 #include <ode/ode.h>
 
 #include "core/geometry/point_triangle.h"
+#include "core/triangle_ids.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::baselines {
@@ -32,7 +33,7 @@ struct OdeDetector::Model {
       : options(chosen),
         bounds(mesh.bounds()),
         triangles(prepare(mesh)),
-        ids(mesh.ids().begin(), mesh.ids().end()),
+        ids(mesh.triangle_ids()),
         vertices(mesh.vertices().begin(), mesh.vertices().end()) {
     for (const TriangleMesh::Corners& c : mesh.triangles()) corners.push_back({c[0], c[1], c[2]});
     if (options.sides == Sides::both)
@@ -52,7 +53,7 @@ struct OdeDetector::Model {
   Options options;
   Aabb bounds;
   std::vector<PreparedTriangle> triangles;
-  std::vector<TriangleId> ids;
+  TriangleIds ids;
   std::vector<Vec3> vertices;
   std::vector<std::array<dTriIndex, 3>> corners;
   dTriMeshDataID data;
@@ -60,7 +61,10 @@ struct OdeDetector::Model {
 };
 
 struct OdeDetector::Session::State {
-  State() { start_ode(), ball = dCreateSphere(nullptr, 1); }
+  State() {
+    start_ode();
+    ball = dCreateSphere(nullptr, 1);
+  }
   State(const State&) = delete;
   State& operator=(const State&) = delete;
   ~State() { dGeomDestroy(ball); }
@@ -126,7 +130,7 @@ std::optional<Contact> OdeDetector::nearest_in_ball(const Vec3& center, double r
       const Vec3 point = vec3(contact.pos);
       const double distance = (center - point).norm();
       const std::size_t triangle = static_cast<std::size_t>(contact.side2) % model.triangles.size();
-      const TriangleId id = model.ids.empty() ? static_cast<TriangleId>(triangle) : model.ids[triangle];
+      const TriangleId id = model.ids[triangle];
       if (!(distance <= radius)) continue;
       if (best && !(std::pair(distance, id) < std::pair(best->distance, best->triangle))) continue;
       state.last = static_cast<std::uint32_t>(triangle);
@@ -167,7 +171,7 @@ std::optional<Contact> OdeDetector::nearest(const Probe& probe, double reach,
 std::size_t OdeDetector::bytes() const noexcept {
   const Model& model = *model_;
   return model.vertices.capacity() * sizeof(Vec3) + model.corners.capacity() * sizeof(model.corners[0]) +
-         model.triangles.capacity() * sizeof(PreparedTriangle) + model.ids.capacity() * sizeof(TriangleId);
+         model.triangles.capacity() * sizeof(PreparedTriangle) + model.ids.bytes();
 }
 
 Accuracy OdeDetector::accuracy() const noexcept {

@@ -32,8 +32,9 @@ struct EvictionSizes {
   std::size_t second_level = 0, all = 0;
 };
 
-/// Twice the cache in question: a walk over as much leaves lines where a cache does not replace the oldest.
-/// Where the system does not say (0), 1 MB and 32 MB are supposed; never more than `most`.
+/// Returns twice the cache in question: a walk over as much leaves lines where a cache does not replace the
+/// oldest. A cache of size 0 is one that the system does not tell: 1 MB and 32 MB are supposed. Neither size
+/// is more than `most`.
 EvictionSizes eviction_sizes(std::size_t second_level_cache, std::size_t last_level_cache, std::size_t most);
 /// By this machine's caches, and at most an eighth of its available memory.
 EvictionSizes eviction_sizes();
