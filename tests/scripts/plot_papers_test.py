@@ -42,10 +42,11 @@ class Figures(unittest.TestCase):
     def test_of_choi_and_sung_are_all_drawn(self):
         names = self.draw("choi-sung-2017", "icosphere:1")
         self.assertEqual(sorted({name.split("_")[0] for name in names if name.startswith("fig")}),
-                         [f"fig{n:02}" for n in range(2, 12)])
+                         [f"fig{n:02}" for n in range(1, 12)])
         self.assertIn("fig02_closeup", names)
         self.assertIn("fig04_fig05", names)
         self.assertIn("frontier", names)
+        self.assertIn("levels", names)
         self.assertIn("fast_forms", names)
 
     def test_of_park_and_jang_are_all_drawn(self):

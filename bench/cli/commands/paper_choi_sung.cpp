@@ -10,6 +10,7 @@
 #include "bench/experiments/papers/choi_sung.h"
 #include "bench/experiments/papers/choi_sung_models.h"
 #include "bench/experiments/papers/choi_sung_report.h"
+#include "bench/experiments/papers/contact_levels.h"
 #include "bench/experiments/papers/frontier.h"
 #include "bench/experiments/papers/paper_options.h"
 #include "bench/experiments/papers/paper_report.h"
@@ -64,12 +65,27 @@ papers::FrontierSettings frontier_settings(const papers::ChoiSungSettings& setti
   return frontier;
 }
 
+papers::ContactLevelSettings contact_level_settings(const papers::ChoiSungSettings& settings, bool quick) {
+  papers::ContactLevelSettings levels;
+  levels.levels = quick ? 1 : settings.levels;
+  levels.clustering = settings.clustering;
+  levels.radius = settings.radius;
+  levels.seed = settings.seed;
+  if (quick) {
+    levels.steps = settings.steps;
+    levels.rates = 3;
+    levels.rounds = 2;
+  }
+  return levels;
+}
+
 class Run {
  public:
   Run(const ChoiSungOptions& options, papers::PaperMesh mesh)
       : mesh_(std::move(mesh)),
         settings_(checked(options, mesh_.mesh)),
         frontier_(frontier_settings(settings_, mesh_.mesh, options.common.quick)),
+        contact_levels_(contact_level_settings(settings_, options.common.quick)),
         models_(options.common.quick ? std::vector<papers::Model>() : papers::choi_sung_models()),
         folder_(options.common.out) {}
 
@@ -87,14 +103,16 @@ class Run {
     papers::ChoiSungResult result =
         papers::run_choi_sung(mesh_.mesh, settings_, keep_pictures, print_progress);
     papers::FrontierResult frontier;
-    write_tables(result, frontier);
+    papers::ContactLevelResult levels;
+    write_tables(result, frontier, levels);
     if (result.finished) frontier = papers::run_frontier(mesh_.mesh, frontier_, print_progress);
     papers::add_distances(frontier, result);
-    if (frontier.finished)
+    if (frontier.finished) levels = papers::run_contact_levels(mesh_.mesh, contact_levels_, print_progress);
+    if (levels.finished)
       papers::add_models(models_, settings_, mesh_.mesh.diagonal(), result, print_progress);
     progress_.clear();
-    write_tables(result, frontier);
-    if (!frontier.finished) {
+    write_tables(result, frontier, levels);
+    if (!levels.finished) {
       fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n",
                  result.rows.size() + frontier.points.size());
       return support::exit_interrupted;
@@ -103,7 +121,8 @@ class Run {
   }
 
  private:
-  void write_tables(const papers::ChoiSungResult& result, const papers::FrontierResult& frontier) const {
+  void write_tables(const papers::ChoiSungResult& result, const papers::FrontierResult& frontier,
+                    const papers::ContactLevelResult& levels) const {
     const bool own = papers::is_choi_sungs_bunny(mesh_.mesh);
     const support::Table claims = papers::claims_table(papers::choi_sung_claims(result, own));
     folder_.write_file("table1.csv", papers::choi_sung_table1(result).csv());
@@ -115,9 +134,11 @@ class Run {
     folder_.write_file("numbers.csv", claims.csv());
     folder_.write_file("tool_counts.csv",
                        papers::claims_table(papers::choi_sung_tool_counts(result, own)).csv());
-    folder_.write_file("report.md", papers::choi_sung_report(mesh_, settings_, result, frontier));
+    folder_.write_file("report.md", papers::choi_sung_report(mesh_, settings_, result, frontier, levels));
     if (!frontier.points.empty())
       folder_.write_file("frontier.csv", papers::frontier_table(frontier, mesh_.mesh.diagonal()).csv());
+    if (levels.finished)
+      folder_.write_file("levels.csv", papers::contact_levels_table(levels, mesh_.mesh.diagonal()).csv());
   }
 
   int finish(const papers::ChoiSungResult& result) const {
@@ -138,6 +159,7 @@ class Run {
   papers::PaperMesh mesh_;
   papers::ChoiSungSettings settings_;
   papers::FrontierSettings frontier_;
+  papers::ContactLevelSettings contact_levels_;
   std::vector<papers::Model> models_;
   results::ResultsFolder folder_;
   support::ProgressLine progress_;

@@ -116,8 +116,9 @@ std::string reference_note(const TuneOptions& options, const TriangleMesh& mesh,
   if (!options.reference.empty())
     return fmt::format("error: against {} ({} triangles)\n", options.reference, result.reference_triangles);
   const papers::SharpEdges sharp = papers::sharp_edges(mesh);
-  const std::string edges = fmt::format("{} edges ({:.0f} % of the length) turn by more than 60 degrees",
-                                        sharp.count, 100 * sharp.share);
+  const std::string edges =
+      fmt::format("{} edges ({:.0f} % of the bent ones' length) turn by more than 60 degrees", sharp.count,
+                  100 * sharp.share);
   if (sharp.share >= papers::mostly_sharp)
     return fmt::format(
         "error: against the mesh as it is, since {}: subdivision would round them. --reference FINE names "

@@ -115,6 +115,7 @@ class Experiment {
       row.relative_tightness = row.tightness / original_tightness_.absolute;
       row.relative_looseness = looseness_of(row, tightness.scale_free);
     }
+    if (row.clustering > 0) row.partitions = partition_tightness(mesh, clusters);
     const Numbers numbers = add_detectors(mesh, row.clustering);
     check_answers(numbers);
     result_.rows.push_back(std::move(row));

@@ -11,6 +11,7 @@
 
 #include "bench/experiments/papers/interleaved_timing.h"
 #include "bench/experiments/papers/paper_meshes.h"
+#include "bench/experiments/papers/sphere_partitions.h"
 #include "bench/experiments/papers/surface_measures.h"
 #include "core/sphere_cluster/clustering.h"
 #include "core/subdivision/subdivision.h"
@@ -49,6 +50,7 @@ struct ChoiSungRow {
   double relative_tightness = 1;  ///< to level 0 without clustering
   /// The mean of (radius - distance) / radius over the same pairs, to level 0 without clustering.
   double relative_looseness = 1;
+  std::optional<PartitionTightness> partitions = {};  ///< empty in rows without clustering
   // Empty until timed. The published two-level scan, and what may replace it: exact, too.
   std::optional<TimedTurns> scan, tree;
   std::optional<TimedTurns> grid;  ///< knows no clustering: of unclustered rows only
@@ -66,6 +68,7 @@ struct DistanceRow {
   std::size_t spheres = 0;
   double tests_per_query = 0;  ///< spheres and triangles
   std::optional<double> ns = {};
+  std::optional<double> mean_error = {};  ///< how far the triangles are from the smooth surface, mesh units
 };
 
 /// One of the paper's statements on another model than its bunny.

@@ -6,6 +6,7 @@
 
 #include "bench/experiments/papers/choi_sung.h"
 #include "bench/experiments/papers/claims.h"
+#include "bench/experiments/papers/contact_levels.h"
 #include "bench/experiments/papers/frontier.h"
 #include "bench/support/table.h"
 
@@ -40,6 +41,7 @@ std::vector<Claim> choi_sung_tool_counts(const ChoiSungResult& result, bool own_
 
 /// report.md.
 std::string choi_sung_report(const PaperMesh& mesh, const ChoiSungSettings& settings,
-                             const ChoiSungResult& result, const FrontierResult& frontier);
+                             const ChoiSungResult& result, const FrontierResult& frontier,
+                             const ContactLevelResult& levels);
 
 }  // namespace touchmark::bench::experiments::papers

@@ -40,6 +40,16 @@ void add_growth(ChoiSungClaimList& list) {
   list.add(std::move(claim));
 }
 
+/// "nearly double the amount of other methods".
+void add_double_vertices(ChoiSungClaimList& list) {
+  const RowValue vertices = [](const ChoiSungRow& row) { return static_cast<double>(row.surface.vertices); };
+  double others = 0;
+  for (const auto m : {butterfly, mid_point, loop, ls3}) others += list.value(m, 3, false, vertices) / 4;
+  const double times = list.value(catmull_clark_linear, 3, false, vertices) / others;
+  list.add("Graphical test", "Catmull-Clark makes nearly double the vertices of the others",
+           times > 1.6 && times < 2.4, fmt::format("{:.2f} times at level 3", times));
+}
+
 void add_triangle_shapes(ChoiSungClaimList& list) {
   const RowValue ratio = [](const ChoiSungRow& row) { return row.surface.mean_edge_ratio; };
   const double original = list.value(loop, 0, false, ratio);
@@ -82,6 +92,25 @@ void add_volumes(ChoiSungClaimList& list) {
       fmt::format("the tenth of the vertices with the sharpest edges is {:.2f} times as far off", share));
 }
 
+/// Dents: where the original is convex they add to its concave edges, elsewhere they deepen them.
+void add_dents(ChoiSungClaimList& list) {
+  const RowValue bending = [](const ChoiSungRow& row) { return row.surface.concave_bending; };
+  const double original = list.value(loop, 0, false, bending);
+  if (!(original > 0)) return;
+  std::string found;
+  for (const SubdivisionMethod m : choi_sung_methods)
+    found += fmt::format("{}{} {:.2f}", found.empty() ? "" : ", ", name_of(m),
+                         list.value(m, 3, false, bending) / original);
+  const double dented = list.value(butterfly, 3, false, bending);
+  list.add("Graphical test", "Butterfly makes dented regions",
+           dented > 1.1 * original && list.sorted(3, false, bending).back() == butterfly,
+           fmt::format("concave bending (length times angle) over the original's: {}", found),
+           "a dent adds concave edges, which are summed here; the paper does not say what it calls dented");
+  list.add("Related works", "approximating schemes undulate less than interpolating ones",
+           list.value(loop, 3, false, bending) < dented && list.value(ls3, 3, false, bending) < dented,
+           "by the same sums, Loop and LS3 against Butterfly");
+}
+
 void add_kept_places(ChoiSungClaimList& list) {
   const auto kept = [&](SubdivisionMethod m) { return list.find(m, 3, false)->surface.keeps_vertices; };
   list.add("Related works", "Butterfly interpolates: the original vertices stay", kept(butterfly),
@@ -105,16 +134,55 @@ void add_smoothness(ChoiSungClaimList& list) {
   list.add("Graphical test", "Butterfly, Loop and LS3 are smoother than Catmull-Clark and Mid-point",
            smooth < facets,
            fmt::format("creases at level 3: at most {:.1f} against at least {:.1f} degrees", smooth, facets));
+  Claim claim = statement_claim(
+      "Related works", "approximating schemes are smoother than interpolating ones, in most cases",
+      facets < list.value(butterfly, 3, false, crease),
+      fmt::format("creases at level 3: Butterfly {:.1f}, LS3 {:.1f}, Loop {:.1f}, Mid-point {:.1f}, "
+                  "Catmull-Clark {:.1f}",
+                  list.value(butterfly, 3, false, crease), list.value(ls3, 3, false, crease),
+                  list.value(loop, 3, false, crease), list.value(mid_point, 3, false, crease),
+                  list.value(catmull_clark_linear, 3, false, crease)),
+      list.why(
+          "Loop and LS3 are; Mid-point and the tool's Catmull-Clark, which the paper calls approximating, "
+          "keep the facets"));
+  if (list.value(loop, 3, false, crease) < list.value(butterfly, 3, false, crease) &&
+      list.value(ls3, 3, false, crease) < list.value(butterfly, 3, false, crease) &&
+      claim.agreement == Agreement::no)
+    claim.agreement = Agreement::nearly;
+  list.add(std::move(claim));
+  bool smoother = true;
+  double off = 0;
+  for (int level = 1; level <= 3; ++level) {
+    smoother = smoother && list.value(ls3, level, false, crease) < list.value(ls3, level - 1, false, crease);
+    off = std::max(off, std::abs(list.find(ls3, level, false)->surface.relative_volume - 1));
+  }
+  list.add("Discussion", "LS3 gets smoother with every step and keeps the original's size",
+           smoother && off < 0.05,
+           fmt::format("creases {:.1f} to {:.1f} degrees, volume within {:.1f} %",
+                       list.value(ls3, 0, false, crease), list.value(ls3, 3, false, crease), 100 * off));
+}
+
+/// "maintaining the original surfaces".
+void add_kept_surfaces(ChoiSungClaimList& list) {
+  const RowValue offset = [](const ChoiSungRow& row) { return row.surface.mean_offset; };
+  const double clark = list.value(catmull_clark_linear, 3, false, offset),
+               mid = list.value(mid_point, 3, false, offset), ls = list.value(ls3, 3, false, offset);
+  list.add("Graphical test", "Catmull-Clark and Mid-point maintain the original surface",
+           std::max(clark, mid) < flat * ls,
+           fmt::format("mean distance to it at level 3: {:.2g} and {:.2g}, LS3 {:.2g}", clark, mid, ls));
 }
 
 }  // namespace
 
 void add_surface_claims(ChoiSungClaimList& list) {
   add_growth(list);
+  add_double_vertices(list);
   add_triangle_shapes(list);
   add_volumes(list);
+  add_kept_surfaces(list);
   add_kept_places(list);
   add_smoothness(list);
+  add_dents(list);
   list.add_best("Fig. 7", "Catmull-Clark makes the most triangles", catmull_clark_linear, 1, false,
                 [](const auto& r) { return -static_cast<double>(r.surface.triangles); });
   list.add_best("Fig. 8", "Catmull-Clark makes the smallest triangles", catmull_clark_linear, 1, false,

@@ -69,6 +69,10 @@ support::Table choi_sung_table1(const ChoiSungResult& result) {
       {"circumradius", [](Row row) { return number(row.surface.circumradius); }},
       {"scale_free_tightness", [](Row row) { return number(row.relative_looseness); }},
       {"contacts_of_original_path", [](Row row) { return std::to_string(row.contacts_of_original_path); }},
+      {"concave_bending", [](Row row) { return number(row.surface.concave_bending); }},
+      {"bottom_up_tightness",
+       [](Row row) { return row.partitions ? number(row.partitions->bottom_up) : ""; }},
+      {"top_down_tightness", [](Row row) { return row.partitions ? number(row.partitions->top_down) : ""; }},
   });
   return results::table_of(columns, result.rows);
 }
@@ -129,11 +133,11 @@ support::Table choi_sung_table1_short(const ChoiSungResult& result) {
 
 support::Table choi_sung_distances(const ChoiSungResult& result) {
   support::Table table(
-      {"mesh", "method", "level", "clustering", "spheres", "tests_per_query", "detection_ms"});
+      {"mesh", "method", "level", "clustering", "spheres", "tests_per_query", "detection_ms", "mean_error"});
   for (const DistanceRow& row : result.distances) {
     table.add({row.mesh, row.method, std::to_string(row.level), number(row.clustering),
                std::to_string(row.spheres), fmt::format("{:.1f}", row.tests_per_query),
-               row.ns ? milliseconds(*row.ns) : ""});
+               row.ns ? milliseconds(*row.ns) : "", row.mean_error ? number(*row.mean_error) : ""});
   }
   return table;
 }

@@ -112,6 +112,21 @@ void add_growing_ratios(ChoiSungClaimList& list) {
            time_rises && tests_rise, "the same ratios: a rate is the inverse of a time");
 }
 
+/// "the growth rate with clustering becomes more flat as the levels become higher".
+void add_flattening(ChoiSungClaimList& list) {
+  bool flatter = true;
+  double last = 1e9;
+  std::string found;
+  for (int level = 1; level <= 3; ++level) {
+    const double growth = list.value(ls3, level, true, tests) / list.value(ls3, level - 1, true, tests);
+    flatter = flatter && growth < last;
+    last = growth;
+    found += fmt::format("{}{:.2f}", found.empty() ? "" : ", ", growth);
+  }
+  list.add("Fig. 10", "with clustering the growth gets flatter as the levels get higher (LS3)", flatter,
+           fmt::format("from level to level {} times the tests", found));
+}
+
 void add_threshold_claims(ChoiSungClaimList& list) {
   const double fewest = list.value(ls3, 0, false, tests);
   bool better = false;
@@ -160,6 +175,7 @@ void add_time_claims(ChoiSungClaimList& list, int level) {
 void add_time_statements(ChoiSungClaimList& list) {
   add_slopes(list);
   add_growing_ratios(list);
+  add_flattening(list);
   add_threshold_claims(list);
   list.add_best("Fig. 10", "Loop detects fastest, without clustering", loop, 3, false, nanoseconds,
                 "the number of spheres decides; methods that differ little in it are within the noise");

@@ -64,15 +64,11 @@ class Exploration {
       reference_.emplace(*settings_.reference, offset, settings_.samples, settings_.seed);
       return;
     }
-    int levels = 1;
-    const int wanted = settings_.reference_levels > 0 ? settings_.reference_levels : settings_.levels + 2;
-    for (std::size_t size = 16 * original_.size(); levels < wanted && size <= max_reference; size *= 4)
-      ++levels;
-    const TriangleMesh smooth = subdivide(
-        original_, {.method = SubdivisionMethod::ls3, .levels = levels, .form = SubdivisionForm::meshlab});
-    result_.reference_triangles = smooth.size();
-    result_.reference_levels = levels;
-    reference_.emplace(smooth, offset, settings_.samples, settings_.seed);
+    const SmoothSurface smooth = smooth_surface(
+        original_, settings_.reference_levels > 0 ? settings_.reference_levels : settings_.levels + 2);
+    result_.reference_triangles = smooth.mesh.size();
+    result_.reference_levels = smooth.levels;
+    reference_.emplace(smooth.mesh, offset, settings_.samples, settings_.seed);
   }
 
   void add_level(SubdivisionMethod method, int level) {
@@ -135,6 +131,14 @@ class Exploration {
 };
 
 }  // namespace
+
+SmoothSurface smooth_surface(const TriangleMesh& original, int levels) {
+  int made = 1;
+  for (std::size_t size = 16 * original.size(); made < levels && size <= max_reference; size *= 4) ++made;
+  return {subdivide(original,
+                    {.method = SubdivisionMethod::ls3, .levels = made, .form = SubdivisionForm::meshlab}),
+          made};
+}
 
 void mark_best(std::vector<FrontierPoint>& points, const std::function<bool(const FrontierPoint&)>& among) {
   std::vector<FrontierPoint*> compared;

@@ -14,6 +14,7 @@
 #include "bench/experiments/papers/geometric_error.h"
 #include "bench/experiments/papers/interleaved_timing.h"
 #include "bench/support/table.h"
+#include "core/subdivision/subdivision.h"
 
 namespace touchmark::bench::experiments::papers {
 
@@ -56,9 +57,17 @@ struct FrontierResult {
   bool finished = false;
 };
 
-/// The reference, unless one is given: LS3, up to `levels` + 2 levels with every edge split, in place of its
-/// limit. One surface for all methods, since a method's own limit would excuse what it does to the shape
-/// (mid-point's is the coarse mesh).
+struct SmoothSurface {
+  TriangleMesh mesh;
+  int levels = 0;
+};
+/// Returns LS3 with every edge split in place of its limit surface: so many levels, or as many as memory and
+/// time allow.
+SmoothSurface smooth_surface(const TriangleMesh& original, int levels);
+
+/// The reference, unless one is given: the smooth surface of up to `levels` + 2 levels. One surface for all
+/// methods, since a method's own limit would excuse what it does to the shape (mid-point's is the coarse
+/// mesh).
 FrontierResult run_frontier(const TriangleMesh& original, const FrontierSettings& settings,
                             const PrintProgress& print_progress);
 

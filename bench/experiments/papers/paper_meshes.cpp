@@ -47,11 +47,11 @@ std::uint64_t fingerprint(const TriangleMesh& mesh) {
   return sum;
 }
 
-/// Returns the folders of meshes that no package ships: $TOUCHMARK_MODELS, or ../shared/models beside the
-/// working folder or beside the repository that the program was built in (its path is
-/// REPOSITORY/build/PRESET/bin/touchmark).
+/// Returns the folders of meshes that no package ships: where scripts/setup puts what it is given, and
+/// $TOUCHMARK_MODELS before it, or ../shared/models beside the working folder or beside the repository that
+/// the program was built in (its path is REPOSITORY/build/PRESET/bin/touchmark).
 std::vector<fs::path> model_folders() {
-  if (const char* folder = std::getenv("TOUCHMARK_MODELS")) return {folder};
+  if (const char* folder = std::getenv("TOUCHMARK_MODELS")) return {folder, scenes::data_folder()};
   std::vector<fs::path> folders{fs::path("..") / "shared" / "models"};
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
@@ -59,6 +59,7 @@ std::vector<fs::path> model_folders() {
     const fs::path repository = program.parent_path().parent_path().parent_path().parent_path();
     folders.push_back(repository.parent_path() / "shared" / "models");
   }
+  folders.push_back(scenes::data_folder());
   return folders;
 }
 
@@ -96,7 +97,7 @@ PaperMesh choi_sung_mesh(const std::string& requested) {
     if (is_choi_sungs_bunny(mesh.mesh)) mesh.origin = "the paper's own";
     return mesh;
   }
-  for (const char* name : {"bunny-902.ply", "bunny.obj"}) {
+  for (const char* name : {"bunny-902.ply", "bunny-902.obj", "bunny.obj"}) {
     const std::optional<fs::path> file = model(name);
     if (!file) continue;
     PaperMesh mesh{name, scenes::load_scene(file->string()), "the paper's own"};

@@ -30,14 +30,15 @@ Vec3 face_normal(const TriangleMesh& mesh, std::uint32_t triangle) {
 
 double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
-/// Calls visit(low, high, angle) for every edge of two triangles: its nodes, and how far the faces turn
-/// there.
+/// Calls visit(low, high, angle, across) for every edge of two triangles: its nodes, how far the faces turn
+/// there, and how far in front of the first the middle of the second lies.
 template <class Visitor>
 void each_crease(const TriangleMesh& mesh, const scenes::WeldedMesh& welded, const Visitor& visit) {
   welded.each_edge([&](std::span<const scenes::TriangleSide> sides) {
     if (sides.size() != 2) return;
-    visit(sides[0].low, sides[0].high,
-          angle_between(face_normal(mesh, sides[0].triangle), face_normal(mesh, sides[1].triangle)));
+    const Vec3 normal = face_normal(mesh, sides[0].triangle);
+    visit(sides[0].low, sides[0].high, angle_between(normal, face_normal(mesh, sides[1].triangle)),
+          normal.dot(centroid(mesh, sides[1].triangle) - welded.nodes[sides[0].low]));
   });
 }
 
@@ -45,7 +46,7 @@ void each_crease(const TriangleMesh& mesh, const scenes::WeldedMesh& welded, con
 std::vector<Vec3> sharpest_first(const TriangleMesh& mesh) {
   const scenes::WeldedMesh welded(mesh);
   std::vector<double> sharpest(welded.nodes.size());
-  each_crease(mesh, welded, [&](std::uint32_t low, std::uint32_t high, double angle) {
+  each_crease(mesh, welded, [&](std::uint32_t low, std::uint32_t high, double angle, double) {
     for (const std::uint32_t node : {low, high}) sharpest[node] = std::max(sharpest[node], angle);
   });
   std::vector<std::size_t> order(welded.nodes.size());
@@ -96,7 +97,7 @@ void measure_spheres(const TriangleMesh& mesh, SurfaceMeasures& measures) {
 
 void each_crease(const TriangleMesh& mesh, const std::function<void(double, double)>& visit) {
   const scenes::WeldedMesh welded(mesh);
-  each_crease(mesh, welded, [&](std::uint32_t low, std::uint32_t high, double angle) {
+  each_crease(mesh, welded, [&](std::uint32_t low, std::uint32_t high, double angle, double) {
     visit((welded.nodes[low] - welded.nodes[high]).norm(), angle);
   });
 }
@@ -108,6 +109,16 @@ double crease_deg(const TriangleMesh& mesh) {
     length += edge;
   });
   return length > 0 ? std::sqrt(sum / length) * 180 / std::numbers::pi : 0;
+}
+
+double concave_bending(const TriangleMesh& mesh) {
+  const scenes::WeldedMesh welded(mesh);
+  const double outwards = signed_volume(mesh) < 0 ? -1 : 1;
+  double sum = 0;
+  each_crease(mesh, welded, [&](std::uint32_t low, std::uint32_t high, double angle, double across) {
+    if (outwards * across > 0) sum += (welded.nodes[low] - welded.nodes[high]).norm() * angle;
+  });
+  return sum;
 }
 
 double mean_edge_ratio(const TriangleMesh& mesh) {
@@ -138,6 +149,7 @@ SurfaceMeasures SurfaceRuler::measure(std::string method, int level, const Trian
   measures.crease_deg = crease_deg(mesh);
   measures.vertices = scenes::WeldedMesh(mesh).nodes.size();
   measures.mean_edge_ratio = mean_edge_ratio(mesh);
+  measures.concave_bending = concave_bending(mesh);
   measures.mean_offset = mean_offset(mesh);
   compare_vertices(mesh, measures);
   measure_spheres(mesh, measures);

@@ -26,6 +26,8 @@ struct SurfaceMeasures {
   double vertex_offset = 0;    ///< mean distance of level 0's vertices to the surface, mesh units
   double shrinkage_at_creases = 0;  ///< how far the tenth of level 0's vertices with the sharpest edges are
                                     ///< off the surface, over the mean of all; 0 where none is off
+  double concave_bending = 0;       ///< sum over the edges at which the surface is concave of length times
+                                    ///< angle, mesh units: dents and ripples add to it
   double centroid_radius = 0;       ///< mean of the spheres about centroids that hold a triangle, mesh units
   double circumradius = 0;          ///< mean of the circumscribed circles' radii, mesh units
 };
@@ -55,6 +57,10 @@ void each_crease(const TriangleMesh& mesh, const std::function<void(double lengt
 /// Length-weighted root mean square of the angles between neighbouring faces, in degrees. Smooth surfaces
 /// halve it with every level, flat facets stay creased.
 double crease_deg(const TriangleMesh& mesh);
+
+/// Sum over the edges of two triangles at which a closed surface is concave of length times angle, in mesh
+/// units. Splitting triangles without moving the surface keeps it; a dent in a convex place adds to it.
+double concave_bending(const TriangleMesh& mesh);
 
 /// The mean over all triangles of the longest edge over the shortest; those without area are left out.
 double mean_edge_ratio(const TriangleMesh& mesh);

@@ -98,12 +98,13 @@ LevelSearch search_levels(const TriangleMesh& mesh, FrontierSettings settings, d
 }
 
 SharpEdges sharp_edges(const TriangleMesh& mesh) {
-  constexpr double sharp_deg = 60;
+  constexpr double sharp_deg = 60, flat_deg = 1;
   SharpEdges sharp;
   double length = 0;
   each_crease(mesh, [&](double edge, double angle) {
-    length += edge;
-    if (angle * 180 / std::numbers::pi <= sharp_deg) return;
+    const double deg = angle * 180 / std::numbers::pi;
+    if (deg > flat_deg) length += edge;
+    if (deg <= sharp_deg) return;
     ++sharp.count;
     sharp.share += edge;
   });

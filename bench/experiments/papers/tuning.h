@@ -37,7 +37,8 @@ LevelSearch search_levels(const TriangleMesh& mesh, FrontierSettings settings, d
 /// something round.
 struct SharpEdges {
   std::size_t count = 0;
-  double share = 0;  ///< part of the length of all edges
+  double share = 0;  ///< part of the length of all edges that turn by more than 1 degree: those within a flat
+                     ///< face say nothing of the object's shape, however finely it is cut
 };
 SharpEdges sharp_edges(const TriangleMesh& mesh);
 /// From this share on the mesh is taken for an object with corners, which LS3's limit would round.

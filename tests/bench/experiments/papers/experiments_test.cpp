@@ -22,13 +22,16 @@
 #include "bench/experiments/papers/line_fit.h"
 #include "bench/experiments/papers/paper_trace.h"
 #include "bench/experiments/papers/park_jang.h"
+#include "bench/experiments/papers/sphere_partitions.h"
 #include "bench/experiments/papers/surface_measures.h"
 #include "bench/scenes/scenes.h"
 #include "bench/support/interrupt.h"
 #include "bench/support/median.h"
 #include "bench/support/table.h"
 #include "core/brute_force/brute_force.h"
+#include "core/geometry/point_triangle.h"
 #include "core/subdivision/mesh_measures.h"
+#include "core/subdivision/subdivision.h"
 
 namespace touchmark::bench::experiments::papers {
 namespace {
@@ -59,6 +62,118 @@ TEST(NumberClaim, AgreesWhenThePrintedDigitsDo) {
 TEST(Scores, RunFromNoughtForTheWorstToFiveForTheBest) {
   EXPECT_EQ(scores_of({4, 2, 3}), (std::vector<double>{0, 5, 2.5}));
   EXPECT_EQ(scores_of({7, 7}), (std::vector<double>{5, 5}));
+}
+
+TEST(ConcaveBending, IsNoneOfAConvexSurfaceAndKeptByWhatDoesNotMoveIt) {
+  EXPECT_EQ(concave_bending(scenes::load_scene("cube")), 0);
+  const TriangleMesh torus = scenes::load_scene("torus:16x8");
+  const double bending = concave_bending(torus);
+  EXPECT_GT(bending, 0);
+  const TriangleMesh finer = subdivide(torus, {.method = SubdivisionMethod::mid_point, .levels = 1});
+  EXPECT_NEAR(concave_bending(finer), bending, 1e-9 * bending);
+}
+
+TEST(SpherePartitions, HalveIntoAsManyPartsAsWantedWithEveryTriangleOnce) {
+  const TriangleMesh mesh = scenes::load_scene("icosphere:2");
+  for (const std::size_t wanted : {1u, 7u, 320u, 1000u}) {
+    const auto parts = halved_into(mesh, wanted);
+    EXPECT_EQ(parts.size(), std::min<std::size_t>(wanted, mesh.size()));
+    std::vector<int> count(mesh.size());
+    for (const auto& part : parts)
+      for (const std::uint32_t triangle : part) ++count[triangle];
+    EXPECT_EQ(count, std::vector<int>(mesh.size(), 1));
+  }
+}
+
+TEST(SpherePartitions, AgreeWhereEveryTriangleHasItsOwnSphere) {
+  const TriangleMesh mesh = scenes::load_scene("icosphere:2");
+  const PartitionTightness tightness = partition_tightness(mesh, cluster_spheres(mesh, 0));
+  EXPECT_NEAR(tightness.bottom_up, tightness.top_down, 1e-12);
+}
+
+/// A number that counts what is done with it: the operations and comparisons of a textbook's test.
+struct Counted {
+  double value = 0;
+  static inline int operations = 0;
+
+  friend Counted operator+(Counted a, Counted b) { return {(++operations, a.value + b.value)}; }
+  friend Counted operator-(Counted a, Counted b) { return {(++operations, a.value - b.value)}; }
+  friend Counted operator*(Counted a, Counted b) { return {(++operations, a.value * b.value)}; }
+  friend Counted operator/(Counted a, Counted b) { return {(++operations, a.value / b.value)}; }
+  friend bool operator<=(Counted a, Counted b) { return ++operations, a.value <= b.value; }
+  friend bool operator>=(Counted a, Counted b) { return ++operations, a.value >= b.value; }
+};
+using Point = std::array<Counted, 3>;
+
+Point counted(const Vec3& p) { return {Counted{p.x()}, Counted{p.y()}, Counted{p.z()}}; }
+Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Point along(const Point& a, Counted t, const Point& d) {
+  return {a[0] + t * d[0], a[1] + t * d[1], a[2] + t * d[2]};
+}
+Counted dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// The square of the distance by the regions of a triangle, as Ericson's book has it: first the corners, then
+/// the edges, and what is left is the face.
+Counted by_regions(const Point& p, const Point& a, const Point& b, const Point& c) {
+  const Counted zero{0};
+  const auto to = [&p](const Point& q) {
+    const Point d = minus(p, q);
+    return dot(d, d);
+  };
+  const Point ab = minus(b, a), ac = minus(c, a), ap = minus(p, a);
+  const Counted d1 = dot(ab, ap), d2 = dot(ac, ap);
+  if (d1 <= zero && d2 <= zero) return to(a);
+  const Point bp = minus(p, b);
+  const Counted d3 = dot(ab, bp), d4 = dot(ac, bp);
+  if (d3 >= zero && d4 <= d3) return to(b);
+  const Counted vc = d1 * d4 - d3 * d2;
+  if (vc <= zero && d1 >= zero && d3 <= zero) return to(along(a, d1 / (d1 - d3), ab));
+  const Point cp = minus(p, c);
+  const Counted d5 = dot(ab, cp), d6 = dot(ac, cp);
+  if (d6 >= zero && d5 <= d6) return to(c);
+  const Counted vb = d5 * d2 - d1 * d6;
+  if (vb <= zero && d2 >= zero && d6 <= zero) return to(along(a, d2 / (d2 - d6), ac));
+  const Counted va = d3 * d6 - d5 * d4, b_to_c = d4 - d3, c_to_b = d5 - d6;
+  if (va <= zero && b_to_c >= zero && c_to_b >= zero)
+    return to(along(b, b_to_c / (b_to_c + c_to_b), minus(c, b)));
+  const Counted whole = va + vb + vc;
+  return to(along(along(a, vb / whole, ab), vc / whole, ac));
+}
+
+TEST(Operations, OfACuboidAreSixComparisonsAndOfASphereNine) {
+  const Point p = counted({0.5, 0.5, 0.5}), low = counted({0, 0, 0}), high = counted({1, 1, 1});
+  Counted::operations = 0;
+  bool inside = true;
+  for (std::size_t k = 0; k < 3; ++k) inside = inside && p[k] >= low[k] && p[k] <= high[k];
+  EXPECT_TRUE(inside);
+  EXPECT_EQ(Counted::operations, cuboid_operations);
+  Counted::operations = 0;
+  const Point d = minus(p, low);
+  EXPECT_TRUE(dot(d, d) <= Counted{1});  // the square of the radius is stored
+  EXPECT_EQ(Counted::operations, sphere_operations);
+}
+
+TEST(Operations, OfATriangleAreThoseOfAQueryWithoutGroups) {
+  const TriangleMesh mesh = scenes::load_scene("icosphere:3");
+  const std::vector<workload::Step> trace = paper_trace("slide", mesh, 20, 1, 0.01);
+  Counted::operations = 0;
+  int least = 1000, most = 0;
+  for (const workload::Step& step : trace) {
+    const Point p = counted(step.probe.center);
+    for (std::uint32_t i = 0; i < mesh.size(); ++i) {
+      const int before = Counted::operations;
+      const double squared =
+          by_regions(p, counted(mesh.corner(i, 0)), counted(mesh.corner(i, 1)), counted(mesh.corner(i, 2)))
+              .value;
+      least = std::min(least, Counted::operations - before);
+      most = std::max(most, Counted::operations - before);
+      EXPECT_NEAR(squared, squared_distance(prepare(mesh, i), step.probe.center), 1e-12);
+    }
+  }
+  const double mean = Counted::operations / static_cast<double>(trace.size() * mesh.size());
+  EXPECT_NEAR(mean, triangle_operations, 5);
+  EXPECT_EQ(least, 29);
+  EXPECT_EQ(most, 86);
 }
 
 TEST(Decimation, LeavesAboutAsManyTrianglesAsWantedAndTheShape) {
@@ -222,7 +337,7 @@ ParkJangRow counted_row(const char* mesh, std::size_t triangles, const char* for
   return row;
 }
 
-/// Operations 80,000 ungrouped; 80,006, 8,640, 5,200 and 54,000 with 1, 40, 200 and 9,000 cuboids.
+/// Operations 50,000 ungrouped; 50,006, 5,490, 3,700 and 54,000 with 1, 40, 200 and 9,000 cuboids.
 ParkJangResult one_curve() {
   ParkJangResult result;
   result.finished = true;
@@ -236,12 +351,12 @@ TEST(ParkJang, FindsWhereACurveReachesATenthIsLowestAndRises) {
   const std::vector<ParkJangCurve> curves = park_jang_curves(one_curve());
   ASSERT_EQ(curves.size(), 1u);
   EXPECT_EQ(curves[0].best, 200u);
-  EXPECT_NEAR(curves[0].factor, 80000 / 5200.0, 1e-9);
-  // Straight lines in logarithms: 8,000 operations between 40 and 200 groups, 5,720 between 200 and 9,000.
+  EXPECT_NEAR(curves[0].factor, 50000 / 3700.0, 1e-9);
+  // Straight lines in logarithms: 5,000 operations between 40 and 200 groups, 4,070 between 200 and 9,000.
   ASSERT_TRUE(curves[0].tenth_from && curves[0].rises_from);
-  EXPECT_NEAR(*curves[0].tenth_from, 40 * std::pow(5.0, std::log(8640 / 8000.0) / std::log(8640 / 5200.0)),
+  EXPECT_NEAR(*curves[0].tenth_from, 40 * std::pow(5.0, std::log(5490 / 5000.0) / std::log(5490 / 3700.0)),
               1e-6);
-  EXPECT_NEAR(*curves[0].rises_from, 200 * std::pow(45.0, std::log(1.1) / std::log(54000 / 5200.0)), 1e-6);
+  EXPECT_NEAR(*curves[0].rises_from, 200 * std::pow(45.0, std::log(1.1) / std::log(54000 / 3700.0)), 1e-6);
 }
 
 TEST(ParkJang, GivesOneVerdictAStatementForSomeMeshOfThoseTried) {

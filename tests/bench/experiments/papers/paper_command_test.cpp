@@ -73,7 +73,7 @@ TEST_F(PaperChoiSung, LeavesTablesReportAndPictureData) {
   EXPECT_EQ(outcome.err, "");
   EXPECT_NE(outcome.out.find("not of the paper's mesh"), std::string::npos) << outcome.out;
   for (const char* file : {"distances.csv", "models.csv", "table1.csv", "table2.csv", "table3.csv",
-                           "fast_forms.csv", "frontier.csv", "numbers.csv", "report.md",
+                           "fast_forms.csv", "frontier.csv", "levels.csv", "numbers.csv", "report.md",
                            "pictures/original-0-mesh.csv", "pictures/ls3-3-clustered.csv"})
     EXPECT_TRUE(is_there(folder, file)) << file;
 }
@@ -133,6 +133,15 @@ TEST(PaperChoiSungBunny, MakesThePapersCountsOfThePapersBunny) {
   const double printed[] = {728, 1686, 2469, 2896};
   for (std::size_t level = 0; level < 4; ++level)
     EXPECT_NEAR(std::stod(table3[level].at("clustered_spheres")), printed[level], 0.03 * printed[level]);
+  // What does not move the surface keeps its concave edges, Butterfly adds to them.
+  std::map<std::string, double> bending;
+  for (auto row : rows_of(folder.file("table1.csv")))
+    if (row["level"] == "0" || row["level"] == "3")
+      bending[row["method"]] = std::stod(row["concave_bending"]);
+  for (const char* method : {"mid-point", "catmull-clark-linear"})
+    EXPECT_NEAR(bending[method] / bending["original"], 1, 1e-3) << method;
+  EXPECT_GT(bending["butterfly"] / bending["original"], 1.5);
+  for (const char* method : {"loop", "ls3"}) EXPECT_LT(bending[method], bending["original"]) << method;
 }
 
 TEST(PaperChoiSungBunny, DecimatesWhereThePapersBunnyIsMissingAndSaysSo) {

@@ -1,4 +1,3 @@
-#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -7,6 +6,7 @@
 
 #include "bench/experiments/papers/tuning.h"
 #include "bench/scenes/scenes.h"
+#include "core/subdivision/subdivision.h"
 #include "tests/bench/cli/run_touchmark.h"
 
 namespace touchmark::bench::experiments::papers {
@@ -62,13 +62,6 @@ TEST(Tune, PrefersTheSimplerMeshWithinATenthOfTheError) {
   EXPECT_EQ(tune(result, 1000).fast->triangles, 10'000u);
 }
 
-TEST(SharpEdges, AreThoseOfACubeAndNoneOfASphere) {
-  const SharpEdges cube = sharp_edges(scenes::load_scene("cube"));
-  EXPECT_EQ(cube.count, 12u);
-  EXPECT_NEAR(cube.share, 12 / (12 + 6 * std::sqrt(2.0)), 1e-12);  // six faces have a flat diagonal each
-  EXPECT_EQ(sharp_edges(scenes::load_scene("icosphere:2")).count, 0u);
-}
-
 TEST(TuneNote, SaysWhenAFinerLevelIsFartherOff) {
   FrontierResult result;
   result.points = {point("scan", 2, 1), point("scan", 1, 1), point("scan", 1.5, 1)};
@@ -108,6 +101,16 @@ TEST(TuneCommand, FindsAFinerSurfaceAtARateThatEveryoneHolds) {
   EXPECT_NE(outcome.out.find("--method ls3 --levels 2"), std::string::npos) << outcome.out;
   EXPECT_EQ(outcome.out.find("inf"), std::string::npos) << outcome.out;
   EXPECT_NE(cli::content_of(folder.file("tune.csv")).find("method,level,form"), std::string::npos);
+}
+
+TEST(SharpEdges, AreThoseOfACubeHoweverFinelyItsFacesAreCut) {
+  const TriangleMesh cube = scenes::load_scene("cube");
+  EXPECT_EQ(sharp_edges(cube).count, 12u);
+  EXPECT_EQ(sharp_edges(cube).share, 1);
+  const TriangleMesh fine = subdivide(cube, {.method = SubdivisionMethod::mid_point, .levels = 3});
+  EXPECT_EQ(sharp_edges(fine).count, 12u * 8);
+  EXPECT_EQ(sharp_edges(fine).share, 1);
+  EXPECT_EQ(sharp_edges(scenes::load_scene("icosphere:2")).count, 0u);
 }
 
 TEST(TuneCommand, AnswersFirstAndKeepsTheCornersOfACube) {
