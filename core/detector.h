@@ -103,8 +103,9 @@ concept AnswersSweep = Detector<D> &&
   { detector.first_hit(sweep, session) } noexcept -> std::same_as<std::optional<Impact>>;
 };
 
-/// Uses the idle rest of a servo tick: `prepare` does ahead what the next query would else have to do first.
-/// It never changes an answer, does a bounded amount of work, and may be called or not after any query.
+/// `prepare` does ahead what the next query would else have to do first, and brings what that needs into the
+/// caches: best right after waking, before the device is read. It never changes an answer, does a bounded
+/// amount of work, and may be called or not after any query.
 template <class D>
 concept Prepares = Detector<D> && requires(const D& detector, typename D::Session& session) {
   { detector.prepare(session) } noexcept -> std::same_as<void>;

@@ -121,8 +121,9 @@ std::map<std::string, Worst> worst_of_all() {
           // It looks at all triangles, unless one that touches comes first; again at the start of a sweep
           // that touches something; and once more where rounding could tell the nearest.
           const std::uint64_t least = std::max<std::uint64_t>(brute_force.work[i], named.mesh.size());
-          // What is prepared for the next question looks at each triangle at most once more.
-          const std::uint64_t times = form.detector->prepares() ? 3 : 2;
+          // What prepares lists what is near, which looks at each triangle at most once more, and asks the
+          // question again.
+          const std::uint64_t times = form.detector->prepares() ? 5 : 2;
           const auto beyond =
               static_cast<std::int64_t>(asked.work[i]) - static_cast<std::int64_t>(times * least);
           Worst& so_far = worst[form.name + ", " + name_of(query)];

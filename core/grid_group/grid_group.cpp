@@ -60,8 +60,10 @@ void GridGroup::update(const TriangleMesh& mesh) {
 
 bool GridGroup::look_for_touch(const Probe& probe, Session& session) const noexcept {
   if (!(probe.radius >= 0)) return false;
-  if (const auto* direct = std::get_if<grid::DirectGrid>(&form_))
+  if (const auto* direct = std::get_if<grid::DirectGrid>(&form_)) {
+    session.question = {LastQuestion::Query::touches, probe.radius};
     return direct->touches(probe, session.memory, session.work);
+  }
   if (const auto* scan = std::get_if<grid::ScanGrid>(&form_)) return scan->touches(probe, session.work);
   BruteForce::Session plain;
   const bool touching = std::get_if<BruteForce>(&form_)->touches(probe, plain);
@@ -72,8 +74,10 @@ bool GridGroup::look_for_touch(const Probe& probe, Session& session) const noexc
 std::optional<Contact> GridGroup::look_for_nearest(const Probe& probe, double reach,
                                                    Session& session) const noexcept {
   if (!(reach >= 0)) return std::nullopt;
-  if (const auto* direct = std::get_if<grid::DirectGrid>(&form_))
+  if (const auto* direct = std::get_if<grid::DirectGrid>(&form_)) {
+    session.question = {LastQuestion::Query::nearest, reach};
     return direct->nearest(probe.center, reach, session.memory, session.work);
+  }
   if (const auto* scan = std::get_if<grid::ScanGrid>(&form_))
     return scan->nearest(probe.center, reach, session.work);
   BruteForce::Session plain;
@@ -84,13 +88,20 @@ std::optional<Contact> GridGroup::look_for_nearest(const Probe& probe, double re
 
 std::optional<Impact> GridGroup::first_hit(const Sweep& sweep, Session& session) const noexcept {
   if (!(sweep.radius >= 0)) return std::nullopt;
-  if (const auto* direct = std::get_if<grid::DirectGrid>(&form_))
+  if (const auto* direct = std::get_if<grid::DirectGrid>(&form_)) {
+    session.question = {LastQuestion::Query::sweep, sweep.radius};
     return direct->first_hit(sweep, session.memory, session.work);
+  }
   if (const auto* scan = std::get_if<grid::ScanGrid>(&form_)) return scan->first_hit(sweep, session.work);
   BruteForce::Session plain;
   const std::optional<Impact> impact = std::get_if<BruteForce>(&form_)->first_hit(sweep, plain);
   session.work += plain.work;
   return impact;
+}
+
+void GridGroup::prepare(Session& session) const noexcept {
+  if (const auto* direct = std::get_if<grid::DirectGrid>(&form_))
+    direct->prepare(session.question, session.memory, session.work);
 }
 
 Accuracy GridGroup::accuracy() const noexcept {

@@ -28,7 +28,7 @@
 
 namespace touchmark {
 
-/// The grid-group detector; satisfies Detector, Updates and every query. May be built lazily.
+/// The grid-group detector; satisfies Detector, Updates, Prepares and every query. May be built lazily.
 class GridGroup {
  public:
   using Shape = grid::Shape;
@@ -52,6 +52,7 @@ class GridGroup {
   /// What one haptic point remembers between ticks.
   struct Session {
     Work work;
+    LastQuestion question;
     grid::DirectMemory memory;
   };
 
@@ -72,6 +73,11 @@ class GridGroup {
     return look_for_nearest(probe, reach, session);
   }
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept;
+
+  /// Direct: asks the last question again where the point was, unless that is known to be clear. The next
+  /// query then finds its data and its code in the caches, best when this is called just before the device is
+  /// read. Work is bounded as a query's is.
+  void prepare(Session& session) const noexcept;
 
   std::size_t bytes() const noexcept;
   Accuracy accuracy() const noexcept;

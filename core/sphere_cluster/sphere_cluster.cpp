@@ -43,6 +43,7 @@ bool SphereCluster::look_for_touch(const Probe& probe, Session& session) const n
   if (!(probe.radius >= 0)) return false;
   if (!options_.precise) return fast_.touches(probe, session.work);
   if (options_.lookup == Lookup::scan) return scan_.touches(probe, session.work);
+  session.question = {LastQuestion::Query::touches, probe.radius};
   return tree_.touches(probe, session.memory, session.work);
 }
 
@@ -51,6 +52,7 @@ std::optional<Contact> SphereCluster::look_for_nearest(const Probe& probe, doubl
   if (!(reach >= 0)) return std::nullopt;
   if (!options_.precise) return fast_.nearest(probe.center, reach, session.work);
   if (options_.lookup == Lookup::scan) return scan_.nearest(probe.center, reach, session.work);
+  session.question = {LastQuestion::Query::nearest, reach};
   return tree_.nearest(probe.center, reach, session.memory, session.work);
 }
 
@@ -58,6 +60,7 @@ std::optional<Impact> SphereCluster::first_hit(const Sweep& sweep, Session& sess
   if (!(sweep.radius >= 0)) return std::nullopt;
   if (!options_.precise) return fast_.first_hit(sweep, session.work);
   if (options_.lookup == Lookup::scan) return scan_.first_hit(sweep, session.work);
+  session.question = {LastQuestion::Query::sweep, sweep.radius};
   return tree_.first_hit(sweep, session.memory, session.work);
 }
 

@@ -40,6 +40,7 @@ class SphereCluster {
   /// What one haptic point remembers between ticks.
   struct Session {
     Work work;
+    LastQuestion question;
     SphereTree::Memory memory;
   };
 
@@ -62,11 +63,12 @@ class SphereCluster {
   }
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept;
 
-  /// Fills, after `nearest` and with a tree, the cache of leaves near the point for a next tick that moves no
-  /// farther than twice as far as this one, and fetches what one that moves as this one did would look at.
-  /// Work is bounded as a query's is.
+  /// With a tree: lists, after `nearest`, the leaves near the point for a next tick that moves no farther
+  /// than twice as far as this one, and asks the last question again, where the point will be if it goes on
+  /// as it moved. The next query then finds its data and its code in the caches, best when this is called
+  /// just before the device is read. Work is bounded as that of two queries is.
   void prepare(Session& session) const noexcept {
-    if (tree_.is_near(session.memory)) tree_.look_ahead(session.memory, session.work);
+    tree_.prepare(session.question, session.memory, session.work);
   }
 
   std::size_t bytes() const noexcept;

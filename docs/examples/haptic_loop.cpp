@@ -74,11 +74,12 @@ int main() {
     wake_up = after(wake_up, period_ns);
     while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &wake_up, nullptr) == EINTR) {
     }
+    // What the caches lost while this thread slept comes back here, and not between position and force.
+    detector.prepare(session);
     const touchmark::Probe probe{device_position(tick), radius};
     const std::optional<touchmark::Contact> contact = detector.nearest(probe, radius, session);
     forces[static_cast<std::size_t>(tick)] = contact ? stiffness * (radius - contact->distance) : 0;
-    // The force goes to the device here. Only then what is not urgent: it changes no answer.
-    detector.prepare(session);
+    // The force goes to the device here. Only then what is not urgent.
   }
 
   // Printing takes locks and memory, so it waits until the loop is over.

@@ -34,7 +34,8 @@ int main() {
     } else {
       std::printf("tick %d: free\n", tick);
     }
-    // The idle rest of the tick: what the next query would do first is done ahead. It changes no answer.
+    // A real loop sleeps here. After waking, before the device is read, what the next query needs comes back
+    // into the caches. It changes no answer.
     detector.prepare(session);
     probe.center.z() -= 0.0005;
   }

@@ -15,6 +15,7 @@
 #include "core/search/distance_field.h"
 #include "core/search/epoch.h"
 #include "core/search/last_distance.h"
+#include "core/search/last_question.h"
 #include "core/search/linear_scan.h"
 
 namespace touchmark::grid {
@@ -58,6 +59,12 @@ class DirectGrid {
   std::optional<Contact> nearest(const Vec3& center, double reach, DirectMemory& memory,
                                  Work& work) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, DirectMemory& memory, Work& work) const noexcept;
+
+  /// Asks the question again where the point was, unless that is known to be clear.
+  void prepare(const LastQuestion& question, DirectMemory& memory, Work& work) const noexcept {
+    if (memory.epoch == epoch_ && !is_clear(memory.center, question.reach, memory))
+      ask_again(*this, question, memory.center, Vec3::Zero(), memory, work);
+  }
 
   /// Bounds what lazy construction adds to a query: no more boxes and triangles than this besides those that
   /// answer it, and with those no more than twice as many as there are triangles, and a little; a sweep at

@@ -11,7 +11,7 @@
 namespace touchmark {
 namespace {
 
-using spheres::FetchVisitor, spheres::NearestVisitor, spheres::TouchVisitor;
+using spheres::NearestVisitor, spheres::TouchVisitor;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -36,7 +36,7 @@ SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters,
       lazy_(options.lazy),
       ids_(mesh.triangle_ids()) {
   if (!searchable_) {
-    parts_.triangles = prepare(mesh);
+    parts_.triangles = touchmark::prepare(mesh);
     return;
   }
   frame_ = FilterFrame::around(mesh.bounds());
@@ -54,6 +54,11 @@ void SphereTree::measure_leaves() noexcept {
   const double mean = sum / static_cast<double>(parts_.blocks.size());
   mean_leaf_radius_ = mean / frame_.scale();
   parts_.far = static_cast<float>(far_in_leaf_radii * far_in_leaf_radii * mean * mean);
+}
+
+/// Does a point that moves so far a tick stay among the leaves that are listed for it?
+bool SphereTree::is_slow(const Vec3& move) const noexcept {
+  return move.norm() <= max_move_in_leaf_radii * mean_leaf_radius_;
 }
 
 void SphereTree::start_anew(Memory& memory) const noexcept {
@@ -261,24 +266,27 @@ SphereTree::WithinBudget SphereTree::nearest_within_budget(const Vec3& center, d
           exhausted};
 }
 
-void SphereTree::look_ahead(Memory& memory, Work& work) const noexcept {
-  const double moved = memory.move.norm();
-  if (!(moved <= max_move_in_leaf_radii * mean_leaf_radius_) || memory.cache.cooldown > 0) return;
+void SphereTree::prepare(const LastQuestion& question, Memory& memory, Work& work) const noexcept {
+  if (memory.epoch != epoch_ || is_clear(memory.center, question.reach, memory)) return;
+  const Vec3 move = is_slow(memory.move) ? memory.move : Vec3(Vec3::Zero());
+  if (question.query != LastQuestion::Query::touches && memory.is_near()) refill_ahead(memory, work);
+  const Vec3 kept = memory.move;
+  ask_again(*this, question, memory.center + move, move, memory, work);
+  memory.move = kept;
+}
+
+/// Refills the cache if the next tick would leave it.
+void SphereTree::refill_ahead(Memory& memory, Work& work) const noexcept {
+  if (!is_slow(memory.move) || memory.cache.cooldown > 0) return;
   const FilterPoint point = frame_.point(memory.center);
   const float distance = static_cast<float>(frame_.scale() * memory.upper) + 2 * point.plane_error;
   // A tick's move counts twice: so much farther may the nearest be, and so much farther is the cache's
   // center.
-  const float two_moves = static_cast<float>(2 * frame_.scale() * moved);
+  const float two_moves = static_cast<float>(2 * frame_.scale() * memory.move.norm());
   const float away = displacement(memory.cache.center, memory.center, point);
+  if (distance + away + ticks_prepared * two_moves < memory.cache.covered_radius) return;
   Work spent;
-  if (distance + away + ticks_prepared * two_moves < memory.cache.covered_radius ||
-      refill(memory.center, memory.move, distance, memory, work_limit(), spent)) {
-    const Vec3 next = memory.center + memory.move;
-    const double farthest = memory.upper + moved;
-    FetchVisitor visitor{next, frame_.limit(farthest * farthest)};
-    if (can_search(next)) search_cached(frame_.point(next), visitor, memory.cache, 0, work_limit());
-    spent += visitor.work;
-  }
+  refill(memory.center, memory.move, distance, memory, work_limit(), spent);
   work += spent;
 }
 

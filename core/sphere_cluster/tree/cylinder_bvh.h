@@ -14,6 +14,7 @@
 #include "core/search/distance_field.h"
 #include "core/search/epoch.h"
 #include "core/search/last_distance.h"
+#include "core/search/last_question.h"
 #include "core/search/linear_scan.h"
 #include "core/search/plane_filter.h"
 #include "core/simd/dispatch.h"
@@ -22,6 +23,8 @@
 #include "core/sphere_cluster/tree/node.h"
 
 namespace touchmark {
+
+class FirstTouch;
 
 namespace spheres {
 struct MovedTriangles;
@@ -61,11 +64,9 @@ class SphereTree {
   bool touches(const Probe& probe, Memory& memory, Work& work) const noexcept;
   std::optional<Contact> nearest(const Vec3& center, double reach, Memory& memory, Work& work) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, Memory& memory, Work& work) const noexcept;
-  /// Did the last query find a triangle?
-  bool is_near(const Memory& memory) const noexcept { return memory.epoch == epoch_ && memory.is_near(); }
-  /// Refills the cache for the next query where the point is near, and fetches what one needs if the point
-  /// goes on as it moved.
-  void look_ahead(Memory& memory, Work& work) const noexcept;
+  /// Refills the cache for the next query where the point is near, and asks the question ahead, where the
+  /// point will be if it goes on as it moved, unless that is known to be clear.
+  void prepare(const LastQuestion& question, Memory& memory, Work& work) const noexcept;
   std::size_t bytes() const noexcept;
 
  private:
@@ -102,6 +103,11 @@ class SphereTree {
   std::uint64_t work_limit() const noexcept { return work_budget(parts_.triangles.size()); }
   std::optional<Contact> nearest_without(const Vec3& center, double reach, Work& work) const noexcept;
 
+  bool search_middle(const Sweep& sweep, double length, double reach, std::uint64_t budget, FirstTouch& first,
+                     Work& work) const noexcept;
+  bool search_path(const Sweep& sweep, double length, double reach, std::uint64_t budget, FirstTouch& first,
+                   Work& work) const noexcept;
+
   void measure_leaves() noexcept;
   void fill_distances();
   void refill_distances(const spheres::MovedTriangles& moved);
@@ -119,8 +125,6 @@ class SphereTree {
   template <class Visitor>
   void visit(std::uint32_t at, Visitor& visitor) const noexcept;
   template <class Visitor>
-  void visit_all(Visitor& visitor) const noexcept;
-  template <class Visitor>
   float traverse(const FilterPoint& point, Visitor& visitor, std::uint64_t budget) const noexcept;
   template <class Visitor>
   float search_near(const FilterPoint& point, Visitor& visitor, Memory& memory,
@@ -128,6 +132,8 @@ class SphereTree {
   template <class Visitor>
   float search_cached(const FilterPoint& point, Visitor& visitor, const spheres::LeafCache& cache, float away,
                       std::uint64_t budget) const noexcept;
+  bool is_slow(const Vec3& move) const noexcept;
+  void refill_ahead(Memory& memory, Work& work) const noexcept;
   bool refill(const Vec3& center, const Vec3& move, float distance, Memory& memory, std::uint64_t budget,
               Work& work) const noexcept;
 

@@ -25,11 +25,6 @@ template <class Visitor>
 }
 
 template <class Visitor>
-void SphereTree::visit_all(Visitor& visitor) const noexcept {
-  for (std::uint32_t i = 0; i < parts_.triangles.size(); ++i) visit(i, visitor);
-}
-
-template <class Visitor>
 [[gnu::always_inline]] inline float SphereTree::traverse(const FilterPoint& point, Visitor& visitor,
                                                          std::uint64_t budget) const noexcept {
   switch (simd_) {

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 
 #include "core/geometry/distance_error.h"
@@ -10,14 +9,13 @@
 namespace touchmark {
 namespace {
 
-/// Keeps the first hit of the whole sweep among the triangles near a part of it.
-struct SweepVisitor {
+/// Keeps the first hit among the triangles near the middle of a path.
+struct MiddleVisitor {
   const spheres::TreeParts& tree;
-  const Sweep& sweep;
   Vec3 center;
   float limit;
+  FirstTouch& first;
   Work work{};
-  FirstTouch first{sweep};
 
   /// Never: how far the triangle is from the centre does not matter.
   bool accepts(std::uint32_t at) noexcept {
@@ -27,10 +25,26 @@ struct SweepVisitor {
   void update(std::uint32_t, const Offset&) noexcept {}
 };
 
+/// Keeps the first hit; what is left of the path falls with it.
+struct SweepVisitor {
+  const spheres::TreeParts& tree;
+  double length;  ///< the path's in the tree's frame, rounded up
+  float error;
+  FirstTouch& first;
+  Work work{};
+
+  float until() const noexcept { return static_cast<float>(first.limit() * length) + error; }
+  void consider(std::uint32_t at) noexcept { first.consider(tree.triangles[at], at, work.exact_decisions); }
+};
+
+/// A ball about the middle of a longer path meets more than the path does.
+constexpr double longest_in_leaf_radii = 0.5;
+
+/// In plane_errors of both ends together: the sum of all rounding is below 4 of them.
+constexpr float path_error = 16;
+
 }  // namespace
 
-// The path is cut into parts, each in a ball about its middle. What can touch the probe on a part is within
-// the part's half length and the radius of that middle.
 std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, Work& work) const noexcept {
   if (!can_search(sweep.from) || !can_search(sweep.to)) return fallback().first_hit(sweep, work);
   const std::uint64_t before = work.total();
@@ -43,22 +57,47 @@ std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, 
   const double reach = padded_sweep_radius(sweep, largest_difference(bounds_, sweep));
   if (is_clear(sweep.from, reach + length, memory)) return std::nullopt;
   const std::uint64_t budget = remaining(work_limit(), work.total() - before);
-  SweepVisitor visitor{parts_, sweep, sweep.from, 0};
-  constexpr double max_parts = 256;
-  const double parts =
-      std::clamp(std::ceil(length / (2 * std::max(sweep.radius, mean_leaf_radius_))), 1.0, max_parts);
-  // The middle of a part is rounded to a point.
-  const double ball = reach + position_error(sweep) + 0.5 * length / parts * (1 + 0x1p-40);
-  for (double part = 0; part < parts && !(visitor.first.fraction() < part / parts); ++part) {
-    visitor.center = position_at(sweep, (part + 0.5) / parts);
-    visitor.limit = frame_.limit(ball * ball);
-    if (traverse(frame_.point(visitor.center), visitor, budget) != spheres::exhausted) continue;
-    visit_all(visitor);
-    break;
+  FirstTouch first(sweep);
+  const bool done = length <= longest_in_leaf_radii * mean_leaf_radius_
+                        ? search_middle(sweep, length, reach, budget, first, work)
+                        : search_path(sweep, length, reach, budget, first, work);
+  if (!done) {
+    work.triangles += parts_.triangles.size();
+    for (std::uint32_t at = 0; at < parts_.triangles.size(); ++at)
+      first.consider(parts_.triangles[at], at, work.exact_decisions);
   }
-  work += visitor.work;
-  return impact_of(visitor.first, parts_.triangles, ids_, certified_,
+  return impact_of(first, parts_.triangles, ids_, certified_,
                    [&](double reach_at_start) { return nearest(sweep.from, reach_at_start, memory, work); });
+}
+
+/// Looks in a ball about the middle, which is rounded to a point. Returns false when the work budget was
+/// exhausted.
+bool SphereTree::search_middle(const Sweep& sweep, double length, double reach, std::uint64_t budget,
+                               FirstTouch& first, Work& work) const noexcept {
+  const double ball = reach + position_error(sweep) + 0.5 * length * (1 + 0x1p-40);
+  MiddleVisitor visitor{parts_, position_at(sweep, 0.5), frame_.limit(ball * ball), first};
+  const bool done = traverse(frame_.point(visitor.center), visitor, budget) != spheres::exhausted;
+  work += visitor.work;
+  return done;
+}
+
+/// Looks along the path. Returns false when the work budget was exhausted.
+bool SphereTree::search_path(const Sweep& sweep, double length, double reach, std::uint64_t budget,
+                             FirstTouch& first, Work& work) const noexcept {
+  const Vec3 direction = (sweep.to - sweep.from) / length;
+  const FilterPoint from = frame_.point(sweep.from), to = frame_.point(sweep.to);
+  const float error = path_error * (from.plane_error + to.plane_error);
+  const spheres::Path path{from,
+                           static_cast<float>(direction.x()),
+                           static_cast<float>(direction.y()),
+                           static_cast<float>(direction.z()),
+                           std::sqrt(frame_.limit(reach * reach)) * (1 + 0x1p-20F) + error,
+                           error};
+  SweepVisitor visitor{parts_, length * frame_.scale() * (1 + 0x1p-20), error, first};
+  const bool done = simd_ == Simd::portable ? spheres::portable::sweep(parts_, path, budget, visitor)
+                                            : spheres::avx2::sweep(parts_, path, budget, visitor);
+  work += visitor.work;
+  return done;
 }
 
 }  // namespace touchmark

@@ -31,6 +31,14 @@ struct StackEntry {
 /// Seven siblings wait at each level.
 inline constexpr std::size_t max_stack = TriangleSplitter::deepest * tree_width;
 
+/// The path of a ball's centre, in the tree's frame.
+struct Path {
+  FilterPoint from;
+  float direction_x, direction_y, direction_z;  ///< unit
+  float reach;                                  ///< what the ball touches, and the error
+  float error;                                  ///< more than all rounding on the path
+};
+
 /// Returned in place of a bound by a search whose work budget was exhausted.
 inline constexpr float exhausted = -1;
 

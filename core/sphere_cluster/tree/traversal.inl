@@ -392,3 +392,5 @@ float search_cached(const TreeParts& tree, const FilterPoint& point, const LeafC
   const float covered_radius = std::max(cache.covered_radius - moved, 0.0F);
   return std::min(covered_radius * covered_radius, reduce_min(unseen));
 }
+
+#include "core/sphere_cluster/tree/sweep_search.inl"

@@ -106,15 +106,5 @@ struct TouchVisitor {
   }
 }
 
-/// Wants nothing: a search for it brings what it looks at nearer to the processor.
-struct FetchVisitor {
-  const Vec3& center;
-  float limit;
-  Work work{};
-
-  bool accepts(std::uint32_t) const noexcept { return false; }
-  void update(std::uint32_t, const Offset&) const noexcept {}
-};
-
 }  // namespace
 }  // namespace touchmark::spheres
