@@ -54,7 +54,8 @@ ContestantInfo bullet_entry() {
       .frontier = {"", "frame=fitted", "precision=float", "precision=float,frame=fitted",
                    "method=callback,frame=fitted"},
       .scaled = {"method=callback,frame=fitted"},
-      .updated = {"", "method=callback,frame=fitted"}};
+      .updated = {"", "method=callback,frame=fitted"},
+      .suite = {"method=callback,frame=fitted", "precision=float,method=callback,frame=fitted"}};
   return info;
 }
 

@@ -32,7 +32,8 @@ ContestantInfo cgal_entry() {
                 .verified = {"", "hint=none,query=plain", "kernel=epeck,hint=bounded"},
                 .frontier = {"kernel=simple,hint=bounded", "kernel=epeck,hint=bounded"},
                 .scaled = {"kernel=simple,hint=bounded"},
-                .updated = {"kernel=simple,hint=bounded"}};
+                .updated = {"kernel=simple,hint=bounded"},
+                .suite = {"kernel=simple,hint=bounded"}};
   return info;
 }
 

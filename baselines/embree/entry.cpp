@@ -46,7 +46,8 @@ ContestantInfo embree_entry() {
                 .verified = {"geometry=triangle_exact", "geometry=triangle,query=plain"},
                 .frontier = {"", "geometry=triangle"},
                 .scaled = {""},
-                .updated = {"", "quality=refit"}};
+                .updated = {"", "quality=refit"},
+                .suite = {"", "geometry=triangle"}};
   return info;
 }
 

@@ -37,7 +37,8 @@ ContestantInfo fcl_entry() {
                 .frontier = {"", "bv=kios,method=traverse,narrow=exact", "bv=rss,method=distance",
                              "bv=aabb,method=distance,narrow=exact"},
                 .scaled = {"", "bv=aabb,method=distance,narrow=exact"},
-                .updated = {"", "bv=aabb,method=distance,narrow=exact"}};
+                .updated = {"", "bv=aabb,method=distance,narrow=exact"},
+                .suite = {"bv=aabb,method=distance,narrow=exact"}};
   return info;
 }
 

@@ -2,6 +2,8 @@
 /// loops below are templates, so the compiler sees the detector's query inside them.
 #pragma once
 
+#include <array>
+#include <atomic>
 #include <cassert>
 #include <chrono>
 #include <cstddef>
@@ -78,7 +80,8 @@ class Contestant {
   virtual void replay_clocked(const workload::QueryTrace& trace, workload::StepRange range,
                               workload::Checksum& checksum, std::span<std::uint64_t> ticks,
                               std::span<std::uint64_t> prepare_ticks) noexcept = 0;
-  /// Asks the steps that the pacer names, each clocked, and prepares after the pacer has taken the answer.
+  /// Asks the steps that the pacer names, each clocked. Prepares once the pacer has let it go, before the
+  /// clock is read: where a loop prepares just before it reads its device.
   virtual void replay_paced(const workload::QueryTrace& trace, StepPacer& pacer) noexcept = 0;
   /// Returns true if the detector prepares after each step. That is in all other times, and in the work.
   virtual bool prepares() const noexcept = 0;
@@ -182,11 +185,16 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
       // Kept here: to look at the session's counters before a query would fetch them for it.
       Work seen = session_->work;
       while (const std::optional<std::size_t> step = pacer.next()) {
+        prepare();
+        if constexpr (prefetch == Prefetch::on) seen = session_->work;
+        // A device's position has just been read: no query waits for it.
+        const std::array<workload::Step, 2> from_to{trace.steps[*step > 0 ? *step - 1 : 0],
+                                                    trace.steps[*step]};
+        std::atomic_signal_fence(std::memory_order_seq_cst);  // read, and not later
         const std::uint64_t before = TickClock::now();
-        const workload::Answer answer = ask(trace.steps, *step);
+        const workload::Answer answer = ask(from_to, 1);
         const std::uint64_t after = TickClock::now();
         pacer.took(after - before, answer, work_between(seen, session_->work));
-        prepare();
         seen = session_->work;
       }
     });

@@ -188,6 +188,15 @@ std::vector<ContestantSpec> Roster::thorough_set() const {
   return specs;
 }
 
+std::vector<ContestantSpec> Roster::candidates(workload::Query query) const {
+  std::vector<ContestantSpec> specs = forms(&Forms::scaled);
+  for (ContestantSpec& spec : forms(&Forms::chosen)) specs.push_back(std::move(spec));
+  std::erase_if(specs, [&](const ContestantSpec& spec) {
+    return spec.claimed != Guarantee::exact || !find(spec.name).answers(query);
+  });
+  return specs;
+}
+
 void Roster::require_memory_for(const ContestantSpec& spec, std::size_t triangles) const {
   support::require_memory_for_triangles(triangles, find(spec.name).bytes_per_triangle(spec.values));
 }

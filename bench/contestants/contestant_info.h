@@ -29,7 +29,8 @@ struct OptionInfo {
   OptionKind kind = OptionKind::choice;
   std::vector<std::string> choices;  ///< what a choice may be
   std::string default_value;
-  std::string summary;  ///< one line
+  std::string summary;    ///< one line
+  std::string code = {};  ///< sets it in a member of the detector's Options: "cell = {}"; empty: no such one
 };
 
 /// Every option of a contestant with its value, checked against its OptionInfo.
@@ -60,10 +61,17 @@ struct Forms {
   std::vector<std::string> verified = {};  ///< by `verify` besides
   std::vector<std::string> frontier =
       {};  ///< by `bench --frontier`: over what trades its accuracy for its time
-  std::vector<std::string> scaled =
-      {};  ///< by `scale`: those whose time does not grow with the mesh as a scan's
+  std::vector<std::string> scaled = {};  ///< by `scale`, and by `choose` if they claim exactness: those whose
+                                         ///< time does not grow with the mesh as a scan's
+  std::vector<std::string> chosen = {};  ///< by `choose` besides
   std::vector<std::string> updated = {};  ///< by `update`
+  std::vector<std::string> suite = {};    ///< by `bench --suite`: the fastest ones, exact or not
   std::vector<std::string> tested = {};   ///< by no command, but by the tests and the fuzzer besides
+};
+
+/// Names what a program includes, `<touchmark/HEADER.h>`, and the class in it. Empty: another library's.
+struct LibraryClass {
+  std::string header, name;
 };
 
 struct ContestantInfo {
@@ -92,6 +100,7 @@ struct ContestantInfo {
       [](const TriangleMesh&, const OptionValues&) { return std::nullopt; };
 
   Forms forms;
+  LibraryClass library = {};
 
   bool built() const noexcept { return static_cast<bool>(build); }
   bool answers(workload::Query query) const noexcept;
@@ -126,6 +135,8 @@ class Roster {
   std::vector<ContestantSpec> default_set() const { return forms(&Forms::compared); }
   /// Returns the default set and the forms that only `verify` runs.
   std::vector<ContestantSpec> thorough_set() const;
+  /// Returns those that `choose` measures: exact ones that answer the query.
+  std::vector<ContestantSpec> candidates(workload::Query query) const;
   /// Throws ResourceError where there is less memory than the contestant takes for so many triangles. For
   /// what builds it, to be asked before a clock starts: the answer comes from the system.
   void require_memory_for(const ContestantSpec& spec, std::size_t triangles) const;

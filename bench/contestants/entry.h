@@ -112,11 +112,19 @@ Value chosen(const OptionValues& values, const std::string& key, const Names<Val
   return names.front().second;
 }
 
+/// Returns the option with the code that sets it: "MEMBER = {}", or "MEMBER = TYPE::{}" for an enumeration.
+inline OptionInfo in_code(OptionInfo option, const std::string& member, const std::string& type = "") {
+  option.code = member + " = " + (type.empty() ? "" : type + "::") + "{}";
+  return option;
+}
+
 inline const Names<bool> yes_or_no{{"true", true}, {"false", false}};
 inline const Names<bool> no_or_yes{{"false", false}, {"true", true}};
 
 inline OptionInfo certified_option() {
-  return choice("certified", yes_or_no, "false: contact as doubles have it, to measure what certainty costs");
+  return in_code(
+      choice("certified", yes_or_no, "false: contact as doubles have it, to measure what certainty costs"),
+      "certified");
 }
 
 }  // namespace touchmark::bench::contestants

@@ -1,5 +1,6 @@
 #include "bench/measurement/comparison.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -11,6 +12,8 @@
 #include "bench/support/interleaving.h"
 #include "bench/support/interrupt.h"
 #include "bench/support/random.h"
+#include "bench/workers/cold_replay.h"
+#include "bench/workers/shared_workload.h"
 
 namespace touchmark::bench::measurement {
 namespace {
@@ -63,6 +66,15 @@ const workload::Workload& with_room(const workload::Workload& workload) {
   return workload;
 }
 
+/// Returns how many steps' room the samples of one pass with emptied caches take, and the memory that is
+/// walked over to empty them: all workers walk over the output that they share.
+std::size_t steps_for_cold(const Effort& effort) {
+  if (effort.cold_passes == 0) return 0;
+  const std::size_t samples = std::max(effort.cold_samples, effort.cold_l2_samples) / effort.cold_passes;
+  const std::size_t walked_over = 1 + workers::eviction_sizes().all / workers::OutputBuffers::bytes_for(1);
+  return std::max(cold_floor_samples + samples, walked_over);
+}
+
 }  // namespace
 
 Comparison::Comparison(const contestants::Roster& roster, const workload::Workload& workload,
@@ -72,7 +84,7 @@ Comparison::Comparison(const contestants::Roster& roster, const workload::Worklo
       workload_(with_room(workload)),
       effort_(effort),
       seed_(seed),
-      arena_(workload, workers),
+      arena_(workload, workers, steps_for_cold(effort)),
       oracle_(workload.mesh) {
   for (const contestants::ContestantSpec& spec : contestants) {
     processes_.emplace_back(arena_, spec, roster.find(spec.name).worker_program(spec.values));
@@ -196,6 +208,11 @@ std::vector<ResultRow> Comparison::rows_of(Begun& begun) {
   std::vector<ResultRow> rows;
   std::optional<Control> found;
   for (Measurement& one : begun.measurements) {
+    if (effort_.line_samples > 0) {
+      support::check_for_interrupt();
+      progress_(fmt::format("{}, cache lines", workload_.trajectories[begun.trace]), one.contestant());
+    }
+    one.count_lines();
     rows.push_back(one.row());
     if (&one == begun.controlled) found = control_of(rows.back(), begun.control->row());
   }
@@ -245,7 +262,10 @@ void Comparison::measure(Begun& begun, std::size_t end) {
     const Request& request = begun.requests[begun.done];
     support::check_for_interrupt();
     Measurement& one = *begun.interleaved[request.which];
-    progress_(workload_.trajectories[begun.trace], one.contestant());
+    if (request.action == &Measurement::cold_pass && begun.control && &one == &*begun.control) continue;
+    progress_(fmt::format("{}, {} %", workload_.trajectories[begun.trace],
+                          100 * begun.done / begun.requests.size()),
+              one.contestant());
     (one.*request.action)();
   }
 }

@@ -46,6 +46,8 @@ class Comparison {
   void set_progress(Progress progress) { progress_ = std::move(progress); }
   void set_filter(CaseFilter filter) { filter_ = std::move(filter); }
   void set_schedule(Schedule schedule) { schedule_ = schedule; }
+  /// For the runs that follow; none may be begun and not ended.
+  void set_effort(const Effort& effort) { effort_ = effort; }
   /// Its rows get this status instead of results.
   void skip(const contestants::ContestantSpec& spec, const std::string& status);
 

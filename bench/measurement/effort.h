@@ -10,13 +10,23 @@ struct Effort {
   std::size_t latency_passes = 3;
   double pass_budget_ns = 50e6;  ///< a trajectory that takes longer to replay is cut to a sample of its steps
   double repetition_ns = 8e6;    ///< shorter passes are repeated until they last so long
-  std::size_t cold_passes = 0;   ///< each of as many samples as follow; 0: caches are left alone
-  std::size_t cold_samples = 50;      ///< with all caches emptied
-  std::size_t cold_l2_samples = 500;  ///< with the second-level cache emptied
+  std::size_t cold_passes = 0;   ///< that the samples are spread over; 0: caches are left alone
+  double cold_budget_ns = 1e9;   ///< for all samples, besides the least number of them
+  std::size_t cold_samples = 400;      ///< at most so many with all caches emptied
+  std::size_t cold_l2_samples = 2000;  ///< at most so many with the second-level cache emptied
+  std::size_t line_samples = 0;        ///< queries whose cache lines are counted; 0: none
+  std::size_t min_cold_samples = 5;    ///< A pass takes so many of either kind, however long they take.
 };
 
-/// What --cold adds: enough samples for a p99 of the one and a p99.9 of the other.
-inline constexpr std::size_t usual_cold_passes = 2;
+/// How many samples with nothing asked each pass takes besides.
+inline constexpr std::size_t cold_floor_samples = 1;
+
+/// What --cache-lines counts of each row: slow, but the same in every run.
+inline constexpr std::size_t usual_line_samples = 200, quick_line_samples = 50;
+
+/// What --cold adds, however many contestants and trajectories there are.
+inline constexpr std::size_t usual_cold_passes = 2, quick_cold_passes = 1;
+inline constexpr double usual_cold_budget_ns = 30e9, quick_cold_budget_ns = 8e9;
 
 inline constexpr Effort quick_effort{10, 3, 10e6, 4e6};
 

@@ -223,33 +223,46 @@ void Measurement::latency_pass() {
   });
 }
 
-void Measurement::take_cold_samples(std::size_t bytes, std::size_t samples, std::vector<double>& ns,
-                                    std::vector<double>& floor_ns) {
-  const std::size_t room = arena_.layout().output_steps();
-  constexpr std::size_t samples_a_floor_sample = 5;
-  const std::size_t floor_samples =
-      std::min(std::max<std::size_t>(samples / samples_a_floor_sample, 1), room);
-  process_.ask(workers::request::Cold{task_, bytes, floor_samples, 0, floor_samples, true});
-  for (const workers::TickRecord& record : arena_.buffers().tick_records(floor_samples))
-    floor_ns.push_back(static_cast<double>(record.query_ticks) * process_.opened().ns_per_tick);
-  const std::size_t end = ns.size() + samples;
-  while (ns.size() < end) {
-    const std::size_t some = std::min(end - ns.size(), room);
-    process_.ask(workers::request::Cold{task_, bytes, some, ns.size(), samples * effort_.cold_passes, false});
-    for (const workers::TickRecord& record : arena_.buffers().tick_records(some)) {
-      ns.push_back(static_cast<double>(record.query_ticks) * process_.opened().ns_per_tick);
-      if (record.checksum != answer_checksums_[workload::place_in(ranges_, record.step)].value())
-        row_.status = "checksum mismatch";
-    }
+void Measurement::take_cold_samples(std::size_t bytes, std::size_t max_samples, double budget_ns,
+                                    std::vector<double>& ns, std::vector<double>& floor_ns) {
+  request::Cold request{
+      task_,       bytes,    cold_floor_samples, ns.size(), std::min(effort_.min_cold_samples, max_samples),
+      max_samples, budget_ns};
+  const std::size_t taken = process_.ask(request).taken;
+  const double ns_per_tick = process_.opened().ns_per_tick;
+  const std::span<const workers::TickRecord> records =
+      arena_.buffers().tick_records(cold_floor_samples + taken);
+  for (const workers::TickRecord& record : records.first(cold_floor_samples))
+    floor_ns.push_back(static_cast<double>(record.query_ticks) * ns_per_tick);
+  for (const workers::TickRecord& record : records.subspan(cold_floor_samples)) {
+    ns.push_back(static_cast<double>(record.query_ticks) * ns_per_tick);
+    // Whoever names any of several nearest triangles may name another one after other steps.
+    if (row_.accuracy->names_exactly &&
+        record.checksum != answer_checksums_[workload::place_in(ranges_, record.step)].value())
+      row_.status = "checksum mismatch";
   }
 }
 
 void Measurement::cold_pass() {
-  static const workers::EvictionSizes sizes = workers::eviction_sizes();
+  const workers::EvictionSizes sizes = workers::eviction_sizes();
+  constexpr double share_of_l2 = 0.25;  // of the time
+  const std::size_t passes = effort_.cold_passes;
+  const double budget = effort_.cold_budget_ns / static_cast<double>(passes);
   attempt([&] {
-    take_cold_samples(sizes.second_level, effort_.cold_l2_samples, cold_l2_ns_, floor_l2_ns_);
-    take_cold_samples(sizes.all, effort_.cold_samples, cold_ns_, floor_ns_);
+    take_cold_samples(sizes.second_level, effort_.cold_l2_samples / passes, share_of_l2 * budget, cold_l2_ns_,
+                      floor_l2_ns_);
+    take_cold_samples(sizes.all, effort_.cold_samples / passes, (1 - share_of_l2) * budget, cold_ns_,
+                      floor_ns_);
   });
+}
+
+void Measurement::count_lines() {
+  if (effort_.line_samples == 0 || !alive()) return;
+  try {
+    row_.lines = process_.count_cache_lines(task_, effort_.line_samples);
+  } catch (const workers::WorkerFailure&) {
+    // Who cannot run under valgrind has no counts; what was timed stands.
+  }
 }
 
 std::vector<double> Measurement::in_ns(std::span<const std::uint64_t> ticks) const {

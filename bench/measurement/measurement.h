@@ -47,6 +47,9 @@ class Measurement {
   /// Some of the samples with emptied caches.
   void cold_pass();
 
+  /// Counts the cache lines of some queries, where that is asked for: valgrind does, and nothing is timed.
+  void count_lines();
+
   /// Ends the contestant's process, which takes its memory. Asked again, it would be built again.
   void shut_down();
   ResultRow row();
@@ -65,8 +68,8 @@ class Measurement {
   void choose_steps();
   void choose_pieces();
   PieceTimes piece_times() const;
-  void take_cold_samples(std::size_t bytes, std::size_t samples, std::vector<double>& ns,
-                         std::vector<double>& floor_ns);
+  void take_cold_samples(std::size_t bytes, std::size_t max_samples, double budget_ns,
+                         std::vector<double>& ns, std::vector<double>& floor_ns);
   std::vector<double> in_ns(std::span<const std::uint64_t> ticks) const;
   void expect_verified_answers(const workers::Timed& timed);
   void judge(ground_truth::GroundTruths& truths, ground_truth::GroundTruths* rounded);

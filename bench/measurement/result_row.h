@@ -14,6 +14,7 @@
 #include "bench/measurement/latency.h"
 #include "bench/measurement/piece_times.h"
 #include "bench/oracle/judge.h"
+#include "bench/workers/cache_lines.h"
 #include "bench/workload/answer.h"
 #include "core/detector.h"
 
@@ -71,6 +72,7 @@ struct ResultRow {
   std::optional<LatencySummary> latency;
   std::optional<ColdSummary> cold_l2, cold;        ///< the second-level cache emptied; all caches
   double cold_floor_l2_ns = 0, cold_floor_ns = 0;  ///< medians with nothing asked
+  std::optional<workers::CacheLines> lines;        ///< that a query touches
   std::optional<LatencySummary> prepare;           ///< between steps, where the contestant does that
   std::vector<ground_truth::WrongAnswer> wrong;    ///< the first ones of those that were charged
   std::string repeat;  ///< the command that prints the answer to a step, up to the step's number

@@ -138,8 +138,8 @@ std::string verdict(const std::vector<measurement::ResultRow>& rows,
 }
 
 std::string cold_table(const std::vector<measurement::ResultRow>& rows) {
-  support::Table table(
-      {"ns with caches emptied", "warm p50", "L2 p50", "p99", "p99.9", "all p50", "p99", "max", "all/warm"});
+  support::Table table({"ns with caches emptied", "warm p50", "L2 p50", "p99", "p99.9", "all p50", "p99",
+                        "max", "all/warm", "samples"});
   std::vector<double> floor_l2, floor;
   for (const measurement::ResultRow& row : rows) {
     if (!row.cold || !row.cold_l2 || !row.latency) continue;
@@ -147,14 +147,21 @@ std::string cold_table(const std::vector<measurement::ResultRow>& rows) {
     table.add({row.contestant(), figure(row.latency->p50), figure(l2.p50), figure(l2.p99),
                l2.samples >= measurement::steps_for_p999 ? figure(l2.p999) : "", figure(all.p50),
                all.samples >= measurement::samples_for_p99 ? figure(all.p99) : "", figure(all.max),
-               fmt::format("{:.1f}", all.p50 / std::max(row.latency->p50, 1e-3))});
+               fmt::format("{:.1f}", all.p50 / std::max(row.latency->p50, 1e-3)), count(all.samples)});
     floor_l2.push_back(row.cold_floor_l2_ns);
     floor.push_back(row.cold_floor_ns);
   }
   if (table.size() == 0) return "";
   table.add({"nothing asked", "", figure(support::median(floor_l2)), "", "", figure(support::median(floor)),
-             "", "", ""});
+             "", "", "", ""});
   return table.text();
+}
+
+std::string lines_table(const std::vector<measurement::ResultRow>& rows) {
+  support::Table table({"cache lines a query touches", "of data", "of code"});
+  for (const measurement::ResultRow& row : rows)
+    if (row.lines) table.add({row.contestant(), figure(row.lines->data), figure(row.lines->code)});
+  return table.size() > 0 ? table.text() : "";
 }
 
 std::string work_table(const std::vector<measurement::ResultRow>& rows) {

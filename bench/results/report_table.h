@@ -21,6 +21,9 @@ std::string verdict(const std::vector<measurement::ResultRow>& rows,
 /// nothing asked. Empty where no row has such times.
 std::string cold_table(const std::vector<measurement::ResultRow>& rows);
 
+/// How many cache lines a query touches, a line a row; nothing where they were not counted.
+std::string lines_table(const std::vector<measurement::ResultRow>& rows);
+
 std::string work_table(const std::vector<measurement::ResultRow>& rows);
 
 /// Says on stderr, a line each, which rows violated their guarantee or were timed with other answers than the

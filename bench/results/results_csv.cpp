@@ -14,6 +14,7 @@ namespace {
 
 using R = measurement::ResultRow;
 using C = measurement::ColdSummary;
+using N = workers::CacheLines;
 using E = oracle::ErrorCounts;
 using L = measurement::LatencySummary;
 using T = measurement::ThroughputResult;
@@ -76,6 +77,10 @@ std::string decides_exactly(Row row) {
   return row.accuracy ? fmt::format("{:d}", row.accuracy->decides_exactly) : "";
 }
 
+template <auto Part>
+std::string samples_of(Row row) {
+  return row.*Part ? std::to_string((row.*Part)->samples) : "";
+}
 template <auto Part>
 std::string cold_p99(Row row) {
   return row.*Part && (row.*Part)->samples >= measurement::samples_for_p99
@@ -276,7 +281,7 @@ constexpr auto columns = std::to_array<Column<R>>({
      "roundings of the largest coordinate difference"},
     {"cold_l2_ns_p50", six_digits<&R::cold_l2, &C::p50>, optional, positive,
      "with `--cold`: half of the queries took at most this after as much as twice the second-level cache was "
-     "walked over; samples of the steps, the step before each answered unclocked first, the clock's own cost "
+     "walked over; runs of five steps, those before a run answered unclocked first, the clock's own cost "
      "and misses included"},
     {"cold_l2_ns_p99", cold_p99<&R::cold_l2>, optional, positive,
      "99 % of these took at most this; empty below 100 samples"},
@@ -288,6 +293,14 @@ constexpr auto columns = std::to_array<Column<R>>({
     {"cold_ns_p99", cold_p99<&R::cold>, optional, positive,
      "99 % of these took at most this; empty below 100 samples"},
     {"cold_ns_max", six_digits<&R::cold, &C::max>, optional, positive, "time of the slowest of these"},
+    {"cold_l2_samples", samples_of<&R::cold_l2>, optional, kinds::positive_count,
+     "how many queries `cold_l2_ns_*` are of: as many as there was time for"},
+    {"cold_samples", samples_of<&R::cold>, optional, kinds::positive_count,
+     "how many queries `cold_ns_*` are of: as many as there was time for"},
+    {"data_lines", six_digits<&R::lines, &N::data>, optional, positive,
+     "with `--cache-lines`: cache lines of data that a query touches, on average, with what it prepares; "
+     "valgrind counts them in samples of the steps, without AVX-512, which it does not know"},
+    {"code_lines", six_digits<&R::lines, &N::code>, optional, positive, "cache lines of code, likewise"},
 });
 
 }  // namespace

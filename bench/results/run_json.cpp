@@ -129,8 +129,9 @@ Json effort_json(const measurement::Effort& effort) {
           {"pass_budget_ms", effort.pass_budget_ns / 1e6},
           {"latency_passes", effort.latency_passes},
           {"latency_note", "percentiles are of each step's median over the passes"},
-          {"cold_samples", effort.cold_passes * effort.cold_samples},
-          {"cold_l2_samples", effort.cold_passes * effort.cold_l2_samples},
+          {"cold_samples", effort.cold_passes > 0 ? effort.cold_samples : 0},
+          {"cold_l2_samples", effort.cold_passes > 0 ? effort.cold_l2_samples : 0},
+          {"cold_budget_ms", effort.cold_passes > 0 ? effort.cold_budget_ns / 1e6 : 0},
           {"undisturbed_quantile", measurement::PieceTimes::quantile}};
 }
 

@@ -1,6 +1,7 @@
 /// Queries with the caches emptied between them, as physics and graphics leave them to a haptic loop.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -14,17 +15,18 @@
 
 namespace touchmark::bench::workers {
 
-/// A buffer that is walked over, a read a line, so that what was in the caches is there no more. All of its
-/// pages are touched when it is made; walking over it takes no memory.
+/// Memory that is walked over, a read a line, so that what was in the caches is there no more. It is
+/// another's: memory of one's own takes far longer to get than to walk over.
 class EvictionBuffer {
  public:
-  explicit EvictionBuffer(std::size_t bytes);
+  /// Touches all of its pages.
+  explicit EvictionBuffer(std::span<const std::byte> memory) noexcept : memory_(memory), touched_(walk()) {}
   /// Returns a number that depends on every line, so that no walk is left out.
   std::uint64_t walk() noexcept;
-  std::size_t bytes() const noexcept { return words_.size() * sizeof(std::uint64_t); }
 
  private:
-  std::vector<std::uint64_t> words_;
+  std::span<const std::byte> memory_;
+  std::uint64_t touched_;
 };
 
 /// How many bytes are walked over to empty the second-level cache, and all caches.
@@ -36,36 +38,43 @@ struct EvictionSizes {
 /// oldest. A cache of size 0 is one that the system does not tell: 1 MB and 32 MB are supposed. Neither size
 /// is more than `most`.
 EvictionSizes eviction_sizes(std::size_t second_level_cache, std::size_t last_level_cache, std::size_t most);
-/// By this machine's caches, and at most an eighth of its available memory.
+/// By this machine's caches, and at most an eighth of the memory that was available at the first call.
 EvictionSizes eviction_sizes();
 
-/// Samples of the ranges' steps, spread evenly. The step before a sample's is answered first, unclocked, so
-/// that the session is where it would be; then the caches are emptied.
+/// A run of the ranges' steps, one after the other as a loop asks them, with the caches emptied before each.
+/// The steps before the run are answered first, unclocked, so that the session knows what it would. Runs are
+/// spread evenly however many there will be: by multiples of the golden ratio.
 class ColdReplay final : public contestants::StepPacer {
  public:
-  /// At least one step; `records` takes the request's samples.
-  ColdReplay(const std::vector<workload::StepRange>& ranges, const request::Cold& request,
+  /// How many steps are answered before the first sample's: more than any list of ours lasts.
+  static constexpr std::size_t lead_up = 20;
+
+  /// At least one step. A sample a record; the last step is asked again where the range is too short.
+  /// `first_sample` were taken before.
+  ColdReplay(const std::vector<workload::StepRange>& ranges, std::size_t first_sample,
              EvictionBuffer* eviction, std::span<TickRecord> records) noexcept;
 
   std::optional<std::size_t> next() noexcept override;
   void took(std::uint64_t ticks, const workload::Answer& answer, const Work& work) noexcept override;
 
  private:
-  std::size_t step_of_sample() const noexcept;
+  workload::StepRange run_from(std::size_t first_sample) const noexcept;
+  std::size_t step_of_sample() const noexcept { return std::min(run_.begin + sample_, run_.end - 1); }
 
   const std::vector<workload::StepRange>& ranges_;
   std::size_t steps_;
-  std::size_t first_, of_;    // samples before, and in all
   EvictionBuffer* eviction_;  // null: nothing is evicted
   std::span<TickRecord> records_;
   std::size_t sample_ = 0;
-  bool led_up_ = false;  // the step before the sample's has been answered
+  workload::StepRange run_;
+  std::size_t led_up_to_ = 0;  // steps before this are answered
   std::uint64_t walked_ = 0;
 };
 
-/// The samples lie in the output buffers as tick records, without latencies.
-void run_cold(contestants::Contestant& contestant, const workload::QueryTrace& trace,
-              const std::vector<workload::StepRange>& ranges, const request::Cold& request,
-              const OutputBuffers& buffers);
+/// The samples lie in the output buffers as the request says. `memory` is walked over: it has at least as
+/// many bytes as the request wants.
+ColdSamples run_cold(contestants::Contestant& contestant, const workload::QueryTrace& trace,
+                     const std::vector<workload::StepRange>& ranges, const request::Cold& request,
+                     const OutputBuffers& buffers, std::span<const std::byte> memory);
 
 }  // namespace touchmark::bench::workers

@@ -32,8 +32,9 @@ SharedArena::SharedArena(const workload::Workload& workload, WorkerOptions optio
       buffers_(output_.bytes(), layout_.output_steps()) {}
 
 WorkerLaunch SharedArena::launch(const std::string& program) const {
-  return {program,       options_.flags,      input_.descriptor(), output_.descriptor(),
-          options_.core, options_.show_output};
+  return {
+      program, options_.flags, input_.descriptor(), output_.descriptor(), options_.core, options_.show_output,
+      {}};
 }
 
 ContestantProcess::ContestantProcess(const SharedArena& arena, contestants::ContestantSpec spec,
@@ -91,6 +92,20 @@ Built ContestantProcess::request_build() {
 const Built& ContestantProcess::build() {
   start();
   return *built_;
+}
+
+CacheLines ContestantProcess::count_cache_lines(const Task& task, std::size_t samples) const {
+  constexpr int slower = 50;  // than without valgrind, at the most
+  const CountsFolder folder;
+  WorkerLaunch launch = arena_.launch(program_);
+  launch.under = counting_program(folder.counts());
+  WorkerProcess counted(launch);
+  const std::chrono::milliseconds timeout = slower * arena_.options().build_timeout;
+  counted.ask(request::Open{arena_.layout(), false}, timeout);
+  const auto built = std::get<Built>(counted.ask(request::Build{spec_.text()}, timeout));
+  if (!built.refused.empty()) throw WorkerFailure("refused: " + built.refused);
+  counted.ask(request::Lines{task, samples}, timeout);
+  return counted_lines(folder.counts(), samples);
 }
 
 void ContestantProcess::rebuild_if_lazy() {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bench/contestants/contestant_info.h"
+#include "bench/workers/cache_lines.h"
 #include "bench/workers/shared_workload.h"
 #include "bench/workers/worker_process.h"
 #include "bench/workers/worker_protocol.h"
@@ -58,6 +59,8 @@ class ContestantProcess {
 
   // All throw WorkerFailure, whose what() is the status for the row, ResourceError or Interrupted.
   const Built& build();
+  /// Counts in a worker of its own, which is built for this: see cache_lines.h.
+  CacheLines count_cache_lines(const Task& task, std::size_t samples) const;
   /// Builds a lazily built detector anew if it was asked anything since: all of its parts are to
   /// be built again. Does nothing for others, which would not change.
   void rebuild_if_lazy();

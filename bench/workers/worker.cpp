@@ -25,6 +25,7 @@
 #include "bench/support/median.h"
 #include "bench/support/processor_time.h"
 #include "bench/support/system_limit.h"
+#include "bench/workers/cache_lines.h"
 #include "bench/workers/cold_replay.h"
 #include "bench/workers/line_channel.h"
 #include "bench/workers/servo_stretch.h"
@@ -78,8 +79,13 @@ class Worker {
   ServoStretch handle(const request::Servo& request) {
     return run_servo(*contestant_, trace_of(request.task), request, *buffers_);
   }
-  Done handle(const request::Cold& request) {
-    run_cold(*contestant_, trace_of(request.task), ranges_of(request.task), request, *buffers_);
+  ColdSamples handle(const request::Cold& request) {
+    return run_cold(*contestant_, trace_of(request.task), ranges_of(request.task), request, *buffers_,
+                    output_.bytes());
+  }
+
+  Done handle(const request::Lines& request) {
+    count_lines(*contestant_, trace_of(request.task), ranges_of(request.task), request.samples);
     return {};
   }
 

@@ -45,7 +45,9 @@ struct Exec {
   std::vector<char*> argv;
 
   explicit Exec(const WorkerLaunch& launch) : path(beside_this_program(launch.program)) {
+    arguments = launch.under;
     arguments.push_back(path);
+    path = arguments.front();
     arguments.insert(arguments.end(), launch.flags.begin(), launch.flags.end());
     for (std::string& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);

@@ -26,8 +26,9 @@ struct WorkerLaunch {
   std::vector<std::string> flags;  ///< --benchmark_*
   int input = -1;                  ///< descriptors of shared memory
   int output = -1;
-  std::optional<int> core;   ///< the only processor core it may run on
-  bool show_output = false;  ///< false: what the contestant's library prints goes to /dev/null
+  std::optional<int> core;              ///< the only processor core it may run on
+  bool show_output = false;             ///< false: what the contestant's library prints goes to /dev/null
+  std::vector<std::string> under = {};  ///< a program's path and its arguments, which runs the worker
 };
 
 /// Ends with the object, and with the program. Ctrl-C does not reach it.

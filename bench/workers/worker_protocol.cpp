@@ -46,6 +46,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Updated, supported, refused, rounds, build_ms
                                    update_over_build)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ServoStretch, recorded, overrun, minor_faults, major_faults,
                                    involuntary_switches, scheduler, memory)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ColdSamples, taken)
 static void to_json(nlohmann::json& json, const Done&) { json = nlohmann::json::object(); }
 static void from_json(const nlohmann::json&, Done&) {}
 
@@ -63,7 +64,9 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Time, task, passes)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Sample, task, passes, replays)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Latency, task)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Servo, task, pace, warm_up, ticks, idle)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Cold, task, evicted_bytes, samples, first_sample, samples_in_all, idle)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Cold, task, evicted_bytes, floor_samples, first_sample, min_samples,
+                                   max_samples, budget_ns)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Lines, task, samples)
 }  // namespace request
 
 namespace {

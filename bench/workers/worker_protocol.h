@@ -98,6 +98,11 @@ struct ServoStretch {
   std::string scheduler, memory;                     ///< see RealTimeScope and lock_memory
 };
 
+/// How many of queries there are.
+struct ColdSamples {
+  std::size_t taken = 0;
+};
+
 namespace request {
 
 struct Open {
@@ -194,24 +199,33 @@ struct Servo {
 };
 
 /// Queries with emptied caches: see ColdReplay. The samples lie in the output buffers as tick records,
-/// without latencies.
+/// without latencies: those with nothing asked, and then those of queries.
 struct Cold {
+  using Reply = ColdSamples;
+  Task task;
+  std::size_t evicted_bytes = 0;  ///< walked over before each sample; 0: nothing is
+  std::size_t floor_samples = 0;  ///< with nothing asked: what the clock takes, and its own misses
+  std::size_t first_sample = 0;   ///< how many of queries other requests had before
+  std::size_t min_samples = 1;    ///< queries, however long they take
+  std::size_t max_samples = 1;    ///< with the floor's at most as many as the output has room for
+  double budget_ns = 0;           ///< no sample above the least is begun later
+};
+
+/// Replays samples, each counted alone: see count_lines.
+struct Lines {
   using Reply = Done;
   Task task;
-  std::size_t evicted_bytes = 0;   ///< walked over before each sample; 0: nothing is
-  std::size_t samples = 1;         ///< at most as many as the output has room for
-  std::size_t first_sample = 0;    ///< how many of them other requests had before
-  std::size_t samples_in_all = 1;  ///< how many all requests have
-  bool idle = false;               ///< nothing is asked: what the clock takes, and its own misses
+  std::size_t samples = 1;
 };
 
 }  // namespace request
 
 using Request = std::variant<request::Open, request::Build, request::Update, request::Rebuild, request::First,
                              request::Calibrate, request::Answer, request::AnswerAfresh, request::FirstPass,
-                             request::Time, request::Sample, request::Latency, request::Servo, request::Cold>;
-using Reply =
-    std::variant<NotStarted, OutOfResources, Done, Opened, Built, Answered, Timed, Updated, ServoStretch>;
+                             request::Time, request::Sample, request::Latency, request::Servo, request::Cold,
+                             request::Lines>;
+using Reply = std::variant<NotStarted, OutOfResources, Done, Opened, Built, Answered, Timed, Updated,
+                           ServoStretch, ColdSamples>;
 
 // A line is [which of them, {its members}], so that a reply NotStarted is [0,{"error":2}]. Bytes that are not
 // UTF-8, which messages of rivals and file names may hold, are replaced.

@@ -33,6 +33,14 @@ std::size_t place_in(const std::vector<StepRange>& ranges, std::size_t step) {
   return before;
 }
 
+std::size_t step_at(const std::vector<StepRange>& ranges, std::size_t place) {
+  for (const StepRange& range : ranges) {
+    if (place < range.size()) return range.begin + place;
+    place -= range.size();
+  }
+  return ranges.back().end - 1;
+}
+
 std::vector<StepRange> joined(const std::vector<StepRange>& ranges) {
   std::vector<StepRange> result;
   for (const StepRange& range : ranges) {

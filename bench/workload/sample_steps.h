@@ -12,10 +12,12 @@ namespace touchmark::bench::workload {
 /// Disjoint ranges, ascending, of about `wanted` steps in all (at least 1; all `total` if wanted >= total).
 std::vector<StepRange> sample_steps(std::size_t total, std::size_t wanted);
 
-/// Joins ranges that meet.
-/// Which of the ranges' steps this is, one after the other; it is one of them.
+/// Returns which of the ranges' steps this is, one after the other; it is one of them.
 std::size_t place_in(const std::vector<StepRange>& ranges, std::size_t step);
+/// Returns the step at such a place, which is below steps_in(ranges).
+std::size_t step_at(const std::vector<StepRange>& ranges, std::size_t place);
 
+/// Joins ranges that meet.
 std::vector<StepRange> joined(const std::vector<StepRange>& ranges);
 
 /// The range in so many parts, as equal as can be; not more than it has steps.

@@ -18,13 +18,12 @@ ContestantInfo aabb_tree_entry() {
   info.summary = "a plain binary tree of boxes: the reference";
   info.accuracy = "exact; precision=float: approximate";
   info.queries = queries_of<AabbTree>();
-  info.options = {{"leaf_size", OptionKind::count, {}, "4", "triangles a leaf holds at most"},
-                  choice("precision", precisions,
-                         "float: mesh, boxes, kernel and distances in single precision; touches and nearest, "
-                         "no side, nothing certified"),
-                  certified_option(),
-                  updated_option(),
-                  side_option()};
+  info.options = {
+      in_code({"leaf_size", OptionKind::count, {}, "4", "triangles a leaf holds at most"}, "leaf_size"),
+      choice("precision", precisions,
+             "float: mesh, boxes, kernel and distances in single precision; touches and nearest, "
+             "no side, nothing certified"),
+      certified_option(), updated_option(), side_option()};
   info.build = [=](const TriangleMesh& mesh, const OptionValues& values) {
     const std::size_t leaf_size = values.count("leaf_size");
     if (in_floats(values)) {
@@ -39,6 +38,7 @@ ContestantInfo aabb_tree_entry() {
     const FloatFrame frame = FloatFrame::around(mesh.bounds());
     return stored_in_single_precision(frame.scale, frame.origin);
   };
+  info.library = {"aabb_tree", "AabbTree"};
   info.forms = {.compared = {""},
                 .verified = {"precision=float", "updated=true"},
                 .frontier = {"", "certified=false", "precision=float"},

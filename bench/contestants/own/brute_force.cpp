@@ -15,7 +15,8 @@ ContestantInfo brute_force_entry() {
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
     return contestant<BruteForce>(mesh, {}, values);
   };
-  info.forms = {.compared = {""}, .updated = {""}};
+  info.library = {"brute_force", "BruteForce"};
+  info.forms = {.compared = {""}, .chosen = {""}, .updated = {""}};
   return info;
 }
 

@@ -4,47 +4,75 @@
 
 namespace touchmark::bench::contestants {
 
-ContestantInfo sphere_cluster_entry() {
-  static const Names<SphereCluster::Lookup> lookups{{"tree", SphereCluster::Lookup::tree},
-                                                    {"scan", SphereCluster::Lookup::scan}};
-  static const Names<Simd> widths{
+namespace {
+
+const Names<SphereCluster::Lookup>& lookups() {
+  static const Names<SphereCluster::Lookup> names{{"tree", SphereCluster::Lookup::tree},
+                                                  {"scan", SphereCluster::Lookup::scan}};
+  return names;
+}
+
+const Names<Simd>& widths() {
+  static const Names<Simd> names{
       {"avx512", Simd::avx512}, {"avx2", Simd::avx2}, {"portable", Simd::portable}};
-  static const Names<SphereCluster::Construction> constructions{{"whole", SphereCluster::Construction::whole},
-                                                                {"lazy", SphereCluster::Construction::lazy}};
+  return names;
+}
+
+const Names<SphereCluster::Construction>& constructions() {
+  static const Names<SphereCluster::Construction> names{{"whole", SphereCluster::Construction::whole},
+                                                        {"lazy", SphereCluster::Construction::lazy}};
+  return names;
+}
+
+std::vector<OptionInfo> options() {
+  return {
+      in_code(
+          choice("lookup", lookups(), "tree: a hierarchy, nearest first; scan: every sphere, as published"),
+          "lookup", "SphereCluster::Lookup"),
+      in_code({"clustering",
+               OptionKind::length,
+               {},
+               "0",
+               "distance between centroids that share a sphere; 0: a sphere each"},
+              "clustering"),
+      in_code(choice("precise", yes_or_no, "false: the published fast level alone, spheres for triangles"),
+              "precise"),
+      certified_option(),
+      in_code(choice("build", constructions(),
+                     "tree; lazy: distances all around are sampled by the first queries that want them"),
+              "construction", "SphereCluster::Construction"),
+      choice(
+          "prepare", no_or_yes,
+          "true: list triangles for the next step and ask ahead in the idle rest of a tick, clocked apart"),
+      in_code(choice("simd", widths(), "tree: no wider instructions than these, nor than the processor's"),
+              "widest", "Simd"),
+      updated_option(),
+      side_option()};
+}
+
+}  // namespace
+
+ContestantInfo sphere_cluster_entry() {
   ContestantInfo info;
   info.name = "sphere-cluster";
   info.rank = 40;
   info.summary = "triangles in clustered bounding spheres, after Choi & Sung 2017";
   info.accuracy = "exact; precise=false: conservative";
   info.queries = queries_of<SphereCluster>();
-  info.options = {
-      choice("lookup", lookups, "tree: a hierarchy, nearest first; scan: every sphere, as published"),
-      {"clustering",
-       OptionKind::length,
-       {},
-       "0",
-       "distance between centroids that share a sphere; 0: a sphere each"},
-      choice("precise", yes_or_no, "false: the published fast level alone, spheres for triangles"),
-      certified_option(),
-      choice("build", constructions,
-             "tree; lazy: distances all around are sampled by the first queries that want them"),
-      choice("prepare", no_or_yes,
-             "true: list triangles for the next step in the idle rest of a tick, clocked apart"),
-      choice("simd", widths, "tree: no wider instructions than these, nor than the processor's"),
-      updated_option(),
-      side_option()};
+  info.options = options();
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
     SphereCluster::Options options;
-    options.lookup = chosen(values, "lookup", lookups);
+    options.lookup = chosen(values, "lookup", lookups());
     options.clustering = values.length("clustering", mesh);
     options.precise = chosen(values, "precise", yes_or_no);
     options.certified = chosen(values, "certified", yes_or_no);
-    options.widest = chosen(values, "simd", widths);
-    options.construction = chosen(values, "build", constructions);
+    options.widest = chosen(values, "simd", widths());
+    options.construction = chosen(values, "build", constructions());
     return chosen(values, "prepare", no_or_yes)
                ? contestant<SphereCluster, Prefetch::on>(mesh, options, values)
                : contestant<SphereCluster>(mesh, options, values);
   };
+  info.library = {"sphere_cluster", "SphereCluster"};
   info.forms = {
       .compared = {"lookup=scan", "lookup=scan,precise=false", ""},
       .verified = {"clustering=2%", "build=lazy", "prepare=true", "updated=true", "build=lazy,updated=true",
@@ -53,7 +81,9 @@ ContestantInfo sphere_cluster_entry() {
                    "clustering=1%,precise=false", "clustering=2%,precise=false",
                    "clustering=5%,precise=false"},
       .scaled = {""},
+      .chosen = {"prepare=true"},
       .updated = {""},
+      .suite = {""},
       .tested = {"simd=portable", "simd=avx2"}};
   return info;
 }

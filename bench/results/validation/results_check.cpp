@@ -10,6 +10,7 @@
 
 #include "bench/measurement/result_row.h"
 #include "bench/results/results_csv.h"
+#include "bench/results/validation/row_check.h"
 #include "bench/results/validation/rows_asked.h"
 #include "bench/support/numbers.h"
 
@@ -52,77 +53,62 @@ constexpr std::array ascending{
     std::pair{"triangles_mean", "work_mean"},
     std::pair{"prepare_ns_p50", "prepare_ns_p999"},
     std::pair{"prepare_ns_p999", "prepare_ns_max"},
+    std::pair{"cold_l2_ns_p50", "cold_l2_ns_p99"},
+    std::pair{"cold_l2_ns_p99", "cold_l2_ns_p999"},
+    std::pair{"cold_ns_p50", "cold_ns_p99"},
+    std::pair{"cold_ns_p99", "cold_ns_max"},
+    std::pair{"cold_ns_p50", "cold_ns_max"},
 };
 
-class ResultsCheck {
+class ResultsRowCheck : RowCheck {
  public:
-  ResultsCheck(const CsvTable& table, const nlohmann::json* run, Faults& faults)
-      : table_(table), run_(run), faults_(faults) {
-    timed_ = run != nullptr || std::any_of(table.records.begin(), table.records.end(), [&](const auto& row) {
-               return is_ok(table, row) && !table.field(row, "ns_per_query").empty();
-             });
-  }
+  /// `timed`: some row of the file has times.
+  ResultsRowCheck(const RowCheck& row, bool timed, const nlohmann::json* run)
+      : RowCheck(row), timed_(timed), run_(run) {}
 
-  void check() {
-    if (!begins_with_columns(table_, names_of(results_columns()), columns_of_the_contract, faults_)) return;
-    for (const CsvRecord& record : table_.records) {
-      if (record.fields.size() != table_.header.size()) continue;  // check_form has said so
-      row_ = &record;
-      check_fields();
-      check_order();
-      check_rate();
-      check_mean();
-      check_p999();
-      check_exactness();
-      if (run_ != nullptr) check_against_run();
-    }
-    check_rows_asked(table_, run_, faults_);
-    check_exact_peers(table_, faults_);
+  void check() const {
+    check_columns();
+    check_order();
+    check_rate();
+    check_mean();
+    check_p999();
+    check_exactness();
+    if (run_ != nullptr) check_against_run();
   }
 
  private:
-  void check_fields();
-  void check_order();
-  void check_rate();
-  void check_mean();
-  void check_p999();
-  void check_exactness();
-  void check_against_run();
-  void check_listed(const char* column, const nlohmann::json& list, const char* what);
+  void check_columns() const;
+  void check_order() const;
+  void check_rate() const;
+  void check_mean() const;
+  void check_p999() const;
+  void check_exactness() const;
+  void check_against_run() const;
+  void check_listed(const char* column, const nlohmann::json& list, const char* what) const;
 
-  std::string field(const std::string& column) const { return table_.field(*row_, column); }
-  void fault(std::string_view column, const std::string& wrong) {
-    faults_.push_back({table_.path, row_->line, std::string(column), field(std::string(column)), wrong});
-  }
-
-  const CsvTable& table_;
+  bool timed_;
   const nlohmann::json* run_;
-  Faults& faults_;
-  bool timed_ = false;
-  const CsvRecord* row_ = nullptr;
 };
 
-void ResultsCheck::check_fields() {
-  for (const auto& column : results_columns())
-    check_field(table_, *row_, column.name, column.presence, column.kind, timed_, faults_);
+void ResultsRowCheck::check_columns() const {
+  check_fields(results_columns(), timed_);
   for (const char* const column : {"judged", "steps"}) {
-    if (is_ok(table_, *row_) && field(column) == "0") fault(column, "must be above 0 where the status is ok");
+    if (is_ok() && field(column) == "0") fault(column, "must be above 0 where the status is ok");
   }
 }
 
-void ResultsCheck::check_order() {
+void ResultsRowCheck::check_order() const {
   for (const auto& [low, high] : ascending) {
-    const std::optional<double> less = support::parse_number(field(low)),
-                                more = support::parse_number(field(high));
+    const std::optional<double> less = number(low), more = number(high);
     if (less && more && *less > *more * (1 + rounding)) {
       fault(low, fmt::format("is above {} {}", high, field(high)));
     }
   }
 }
 
-void ResultsCheck::check_rate() {
-  const std::optional<double> ns = support::parse_number(field("ns_per_query"));
-  const std::optional<double> rate = support::parse_number(field("update_rate_hz"));
+void ResultsRowCheck::check_rate() const {
+  const std::optional<double> ns = number("ns_per_query");
+  const std::optional<double> rate = number("update_rate_hz");
   if (ns && rate && std::abs(*ns * *rate / 1e9 - 1) > 2 * rounding) {
     fault("update_rate_hz", fmt::format("is not 1e9 / ns_per_query {}", field("ns_per_query")));
   }
@@ -131,12 +117,12 @@ void ResultsCheck::check_rate() {
 /// No mean is above the maximum. The mean is of other passes than the maximum, so that where all steps take
 /// equally long it may be a little, and where the row says so what interrupted them is in one and not in the
 /// other.
-void ResultsCheck::check_mean() {
+void ResultsRowCheck::check_mean() const {
   constexpr double between_passes = 1.25;
-  const std::optional<double> most = support::parse_number(field("ns_max"));
-  const std::optional<double> disturbed = support::parse_number(field("disturbed_share"));
+  const std::optional<double> most = number("ns_max");
+  const std::optional<double> disturbed = number("disturbed_share");
   for (const char* const column : {"ns_per_query", "ns_undisturbed"}) {
-    const std::optional<double> mean = support::parse_number(field(column));
+    const std::optional<double> mean = number(column);
     const bool interrupted = column == std::string_view("ns_per_query") && disturbed && *disturbed > 0;
     if (mean && most && !interrupted && *mean > between_passes * *most)
       fault(column, fmt::format("is above ns_max {}", field("ns_max")));
@@ -144,9 +130,9 @@ void ResultsCheck::check_mean() {
 }
 
 /// From so many steps on there is a 99.9 %; of fewer it was told only before `ns_undisturbed` was.
-void ResultsCheck::check_p999() {
+void ResultsRowCheck::check_p999() const {
   const std::optional<std::uint64_t> steps = support::parse_count(field("steps"));
-  if (!steps || !is_ok(table_, *row_)) return;
+  if (!steps || !is_ok()) return;
   const bool enough = *steps >= measurement::steps_for_p999;
   if (enough && timed_ && field("ns_p999").empty()) fault("ns_p999", "must not be empty from 1,000 steps on");
   if (!enough && !field("ns_undisturbed").empty() && !field("ns_p999").empty())
@@ -154,8 +140,8 @@ void ResultsCheck::check_p999() {
 }
 
 /// Whoever claims exactness and errs is no result to quote.
-void ResultsCheck::check_exactness() {
-  if (field("guarantee") != "exact" || !is_ok(table_, *row_)) return;
+void ResultsRowCheck::check_exactness() const {
+  if (field("guarantee") != "exact" || !is_ok()) return;
   for (const char* const column : {"missed", "false_contacts", "wrong_triangle"}) {
     const std::optional<std::uint64_t> wrong = support::parse_count(field(column));
     if (wrong && *wrong > 0) fault(column, "must be 0 where the guarantee is exact");
@@ -163,14 +149,19 @@ void ResultsCheck::check_exactness() {
 }
 
 /// A run.json that is not as it should be has faults of its own, so what is not there is not compared.
-void ResultsCheck::check_against_run() {
+void ResultsRowCheck::check_against_run() const {
   const auto expect = [&](const char* column, const nlohmann::json& value) {
     if (!value.is_string() && !value.is_number()) return;
     const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
     if (field(column) != text) fault(column, fmt::format("is not run.json's {}", text));
   };
   expect("run_id", run_->value("run_id", nlohmann::json()));
-  expect("query", run_->value("query", nlohmann::json()));
+  const nlohmann::json queries = run_->value("queries", nlohmann::json());  // where it is of several
+  if (!queries.is_array()) {
+    expect("query", run_->value("query", nlohmann::json()));
+  } else if (std::find(queries.begin(), queries.end(), field("query")) == queries.end()) {
+    fault("query", "is not among run.json's queries");
+  }
   const nlohmann::json meshes = run_->value("meshes", nlohmann::json());
   nlohmann::json mesh = run_->value("mesh", nlohmann::json());
   if (meshes.is_array()) {
@@ -188,7 +179,7 @@ void ResultsCheck::check_against_run() {
   check_listed("detector", run_->value("contestants", nlohmann::json()), "contestants");
 }
 
-void ResultsCheck::check_listed(const char* column, const nlohmann::json& list, const char* what) {
+void ResultsRowCheck::check_listed(const char* column, const nlohmann::json& list, const char* what) const {
   if (!list.is_array()) return;
   const bool listed = std::any_of(list.begin(), list.end(), [&](const nlohmann::json& entry) {
     return entry.is_object() && entry.contains("name") && entry["name"] == field(column);
@@ -199,7 +190,14 @@ void ResultsCheck::check_listed(const char* column, const nlohmann::json& list, 
 }  // namespace
 
 void check_results(const CsvTable& table, const nlohmann::json* run, Faults& faults) {
-  ResultsCheck(table, run, faults).check();
+  const bool timed =
+      run != nullptr || std::any_of(table.records.begin(), table.records.end(), [&](const auto& row) {
+        return is_ok(table, row) && !table.field(row, "ns_per_query").empty();
+      });
+  const auto check = [&](const RowCheck& row) { ResultsRowCheck(row, timed, run).check(); };
+  if (!check_rows(table, results_columns(), columns_of_the_contract, faults, check)) return;
+  check_rows_asked(table, run, faults);
+  check_exact_peers(table, faults);
 }
 
 }  // namespace touchmark::bench::results::validation

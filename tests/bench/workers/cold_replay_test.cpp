@@ -2,6 +2,7 @@
 #include "bench/workers/cold_replay.h"
 
 #include <cstddef>
+#include <numeric>
 #include <set>
 #include <vector>
 
@@ -22,14 +23,6 @@ std::vector<std::size_t> asked(ColdReplay& replay) {
   return steps;
 }
 
-request::Cold request_for(std::size_t samples, std::size_t first, std::size_t in_all) {
-  request::Cold request;
-  request.samples = samples;
-  request.first_sample = first;
-  request.samples_in_all = in_all;
-  return request;
-}
-
 TEST(Eviction, WalksOverTwiceTheCacheOrWhatIsThere) {
   EXPECT_EQ(eviction_sizes(2 * mb, 32 * mb, 1000 * mb).second_level, 4 * mb);
   EXPECT_EQ(eviction_sizes(2 * mb, 32 * mb, 1000 * mb).all, 64 * mb);
@@ -39,42 +32,61 @@ TEST(Eviction, WalksOverTwiceTheCacheOrWhatIsThere) {
 }
 
 TEST(Eviction, TouchesEveryLine) {
-  EvictionBuffer buffer(mb);
-  EXPECT_EQ(buffer.bytes(), mb);
+  const std::vector<std::byte> memory(mb, std::byte{1});
+  EvictionBuffer buffer(memory);
   EXPECT_EQ(buffer.walk(), mb / 64) << "each line holds a 1 where it is read";
 }
 
-TEST(ColdReplay, AnswersTheStepBeforeEachSampleFirst) {
-  const std::vector<workload::StepRange> ranges{{0, 10}};
+std::vector<std::size_t> count_up(std::size_t begin, std::size_t end) {
+  std::vector<std::size_t> steps(end - begin);
+  std::iota(steps.begin(), steps.end(), begin);
+  return steps;
+}
+
+TEST(ColdReplay, AnswersTheStepsBeforeItsRunFirst) {
+  const std::vector<workload::StepRange> ranges{{0, 1000}};
   std::vector<TickRecord> records(5);
-  ColdReplay replay(ranges, request_for(5, 0, 5), nullptr, records);
-  EXPECT_EQ(asked(replay), (std::vector<std::size_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}));
+  ColdReplay replay(ranges, 0, nullptr, records);
+  // 1000 times the fraction of half the golden ratio: the run begins at 809.
+  EXPECT_EQ(asked(replay), count_up(809 - ColdReplay::lead_up, 814));
   for (std::size_t i = 0; i < records.size(); ++i) {
-    EXPECT_EQ(records[i].step, 2 * i + 1);
-    EXPECT_EQ(records[i].query_ticks, 100 + 2 * (i + 1)) << "the step before is not clocked";
+    EXPECT_EQ(records[i].step, 809 + i);
+    EXPECT_EQ(records[i].query_ticks, 100 + ColdReplay::lead_up + i + 1) << "what is before is not clocked";
   }
 }
 
-TEST(ColdReplay, SpreadsItsSamplesOverTheRangesAndOverRequests) {
-  const std::vector<workload::StepRange> ranges{{100, 150}, {300, 350}};
+TEST(ColdReplay, SpreadsItsRunsOverTheRangesAndOverRequests) {
+  const std::vector<workload::StepRange> ranges{{100, 600}, {3000, 3500}};
   std::set<std::size_t> sampled;
   for (std::size_t first = 0; first < 20; first += 5) {
     std::vector<TickRecord> records(5);
-    ColdReplay replay(ranges, request_for(5, first, 20), nullptr, records);
+    ColdReplay replay(ranges, first, nullptr, records);
     asked(replay);
     for (const TickRecord& record : records) {
       const std::size_t step = record.step;
-      EXPECT_TRUE((step >= 100 && step < 150) || (step >= 300 && step < 350)) << step;
+      EXPECT_TRUE((step >= 100 && step < 600) || (step >= 3000 && step < 3500)) << step;
       EXPECT_TRUE(sampled.insert(step).second) << step << " is asked twice";
     }
   }
-  EXPECT_EQ(std::distance(sampled.begin(), sampled.lower_bound(300)), 10);
+  EXPECT_EQ(std::distance(sampled.begin(), sampled.lower_bound(3000)), 10);
 }
 
-TEST(ColdReplay, TheFirstStepHasNoneBefore) {
+TEST(ColdReplay, ARunStaysInItsRange) {
+  const std::vector<workload::StepRange> ranges{{40, 46}};
+  for (std::size_t first = 0; first < 20; first += 5) {
+    std::vector<TickRecord> records(5);
+    ColdReplay replay(ranges, first, nullptr, records);
+    asked(replay);
+    EXPECT_GE(records.front().step, 40U);
+    EXPECT_EQ(records.back().step, records.front().step + 4);
+    EXPECT_LT(records.back().step, 46U);
+  }
+}
+
+TEST(ColdReplay, ARangeOfOneStepIsAskedAgainAndHasNoneBefore) {
   const std::vector<workload::StepRange> ranges{{0, 1}};
   std::vector<TickRecord> records(2);
-  ColdReplay replay(ranges, request_for(2, 0, 2), nullptr, records);
+  ColdReplay replay(ranges, 0, nullptr, records);
   EXPECT_EQ(asked(replay), (std::vector<std::size_t>{0, 0}));
 }
 

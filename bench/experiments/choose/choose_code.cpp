@@ -1,0 +1,111 @@
+#include "bench/experiments/choose/choose_code.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "bench/contestants/entry.h"
+#include "bench/support/length.h"
+
+namespace touchmark::bench::experiments::choose {
+namespace {
+
+/// A double as C++ reads it.
+std::string literal(double value) {
+  return std::isinf(value) ? "std::numeric_limits<double>::infinity()" : fmt::format("{}", value);
+}
+
+std::string value_in_code(const contestants::OptionInfo& option, const std::string& value) {
+  if (option.kind == contestants::OptionKind::choice) {
+    std::string name = value;  // of an enumerator, or true or false
+    std::replace(name.begin(), name.end(), '-', '_');
+    return name;
+  }
+  if (option.kind != contestants::OptionKind::length) return value;
+  const support::Length length = support::parse_length(value).value_or(support::Length{});
+  return length.percent ? fmt::format("{} / 100 * mesh.diagonal()", length.value) : literal(length.value);
+}
+
+/// A statement for each option that is not its default.
+std::string statements(const contestants::ContestantInfo& info, const contestants::OptionValues& values) {
+  std::string text;
+  for (const contestants::OptionInfo& option : info.options) {
+    const std::string& value = values.text(option.key);
+    if (option.code.empty() || value == option.default_value) continue;
+    std::string code = fmt::format(fmt::runtime(option.code), value_in_code(option, value));
+    const std::size_t type = code.find("= ") + 2;
+    if (code.find("::") != std::string::npos) code.insert(type, "touchmark::");
+    text += fmt::format("    options.{};\n", code);
+  }
+  return text;
+}
+
+struct Question {
+  std::string answer, parameters, call;
+};
+
+Question question_of(const workload::Workload& workload, workload::Query query) {
+  const std::string radius = literal(workload.radius);
+  const std::string reach = literal(workload.reach.value_or(workload.radius));
+  switch (query) {
+    case workload::Query::touches:
+      return {"bool", "const touchmark::Vec3& center",
+              fmt::format("touches({{center, {}}}, session_)", radius)};
+    case workload::Query::nearest:
+      return {"std::optional<touchmark::Contact>", "const touchmark::Vec3& center",
+              fmt::format("nearest({{center, {}}}, {}, session_)", radius, reach)};
+    case workload::Query::sweep:
+      break;
+  }
+  return {"std::optional<touchmark::Impact>", "const touchmark::Vec3& from, const touchmark::Vec3& to",
+          fmt::format("first_hit({{from, to, {}}}, session_)", radius)};
+}
+
+bool is_on(const contestants::OptionValues& values, const std::string& key) {
+  const auto found = values.all().find(key);
+  return found != values.all().end() && found->second == "true";
+}
+
+}  // namespace
+
+std::string code_for(const contestants::Roster& roster, const contestants::ContestantSpec& spec,
+                     const workload::Workload& workload, workload::Query query) {
+  const contestants::ContestantInfo& info = roster.find(spec.name);
+  if (info.library.name.empty())
+    return fmt::format("// {} is another library ({}); baselines/{} holds the calls that were measured.\n",
+                       spec.text(), info.summary, info.name);
+  const bool sides = contestants::asks_for_side(spec.values);
+  const std::string type = "touchmark::" + info.library.name;
+  const std::string detector = sides ? fmt::format("touchmark::Signed<{}>", type) : type;
+  const Question question = question_of(workload, query);
+  std::vector<std::string> headers{info.library.header, "probe", "triangle_mesh"};
+  if (sides) headers.emplace_back("signed_detector");
+  std::sort(headers.begin(), headers.end());
+  std::string text =
+      fmt::format("// {}, as touchmark choose recommends it. Lengths are in mesh units.\n", spec.text());
+  text += "#include <limits>\n#include <optional>\n\n";
+  for (const std::string& header : headers) text += fmt::format("#include <touchmark/{}.h>\n", header);
+  text += fmt::format(
+      "\nclass HapticContacts {{\n public:\n"
+      "  explicit HapticContacts(const touchmark::TriangleMesh& mesh)\n"
+      "      : detector_({}::build(mesh, options_for(mesh))) {{}}\n\n"
+      "  // Once a tick, by the thread of one haptic point.\n"
+      "  {} ask({}) noexcept {{\n    return detector_.{};\n  }}\n",
+      detector, question.answer, question.parameters, question.call);
+  if (is_on(spec.values, "prepare"))
+    text +=
+        "\n  // After the force has gone to the device, in the idle rest of the tick.\n"
+        "  void prepare() noexcept { detector_.prepare(session_); }\n";
+  text += fmt::format(
+      "\n private:\n  static {0}::Options options_for([[maybe_unused]] const touchmark::TriangleMesh& mesh) "
+      "{{\n"
+      "    {0}::Options options;\n{1}    return options;\n  }}\n\n"
+      "  {2} detector_;\n  {2}::Session session_;\n}};\n",
+      type, statements(info, spec.values), detector);
+  return text;
+}
+
+}  // namespace touchmark::bench::experiments::choose

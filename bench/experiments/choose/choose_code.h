@@ -1,0 +1,17 @@
+/// C++ that a haptics program pastes: the chosen class with its options and the query.
+#pragma once
+
+#include <string>
+
+#include "bench/contestants/contestant_info.h"
+#include "bench/workload/workload.h"
+
+namespace touchmark::bench::experiments::choose {
+
+/// Returns a source file that compiles against the installed library; for another library's detector, and
+/// for options that no program sets, a line that says so. The probe's radius and the reach are the
+/// workload's.
+std::string code_for(const contestants::Roster& roster, const contestants::ContestantSpec& spec,
+                     const workload::Workload& workload, workload::Query query);
+
+}  // namespace touchmark::bench::experiments::choose

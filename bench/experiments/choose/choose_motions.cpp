@@ -1,0 +1,63 @@
+#include "bench/experiments/choose/choose_motions.h"
+
+#include <algorithm>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "bench/experiments/servo/servo_trace.h"
+
+namespace touchmark::bench::experiments::choose {
+namespace {
+
+constexpr const char* fast_slide = "fast-slide";
+constexpr double faster = 10;
+
+/// The slide with a tenth of the ticks on its way.
+workload::Workload make_fast_slide(const std::string& mesh_name, const TriangleMesh& mesh,
+                                   const workload::Selection& selection, servo::ServoSettings settings) {
+  settings.rate_hz /= faster;
+  workload::Workload slide = servo::workload_by_time(
+      mesh_name, mesh, servo::selection_by_time(selection, mesh, "slide", settings.rate_hz), "slide",
+      settings);
+  slide.trajectories.front() = fast_slide;
+  for (workload::Pace& pace : slide.motions) {
+    pace.mean_speed *= faster;
+    pace.max_speed *= faster;
+  }
+  return slide;
+}
+
+}  // namespace
+
+const std::vector<std::string>& usual_motions() {
+  static const std::vector<std::string> motions{"slide", fast_slide, "approach", "hover", "cross"};
+  return motions;
+}
+
+workload::Workload workload_by_time(const std::string& mesh_name, const TriangleMesh& mesh,
+                                    const workload::Selection& selection,
+                                    const std::vector<std::string>& motions, double rate_hz) {
+  servo::ServoSettings settings;
+  settings.rate_hz = rate_hz;
+  settings.ticks = servo::default_steps;
+  std::optional<workload::Workload> all;
+  for (const std::string& motion : motions) {
+    workload::Workload one =
+        motion == fast_slide
+            ? make_fast_slide(mesh_name, mesh, selection, settings)
+            : servo::workload_by_time(mesh_name, mesh,
+                                      servo::selection_by_time(selection, mesh, motion, rate_hz), motion,
+                                      settings);
+    if (!all) {
+      all = std::move(one);
+      continue;
+    }
+    std::ranges::move(one.trajectories, std::back_inserter(all->trajectories));
+    std::ranges::move(one.traces, std::back_inserter(all->traces));
+    std::ranges::move(one.motions, std::back_inserter(all->motions));
+  }
+  return *std::move(all);
+}
+
+}  // namespace touchmark::bench::experiments::choose

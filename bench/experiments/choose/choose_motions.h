@@ -1,0 +1,23 @@
+/// The motions that candidates are measured on.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/workload/selection.h"
+#include "bench/workload/workload.h"
+#include "core/triangle_mesh.h"
+
+namespace touchmark::bench::experiments::choose {
+
+/// The generated motions where the user has none: along the surface, the same ten times as fast
+/// ("fast-slide"), pressing, free, and through thin parts.
+const std::vector<std::string>& usual_motions();
+
+/// All motions by time, a position a tick of the rate; names of trajectories, of files, or fast-slide. Throws
+/// std::invalid_argument.
+workload::Workload workload_by_time(const std::string& mesh_name, const TriangleMesh& mesh,
+                                    const workload::Selection& selection,
+                                    const std::vector<std::string>& motions, double rate_hz);
+
+}  // namespace touchmark::bench::experiments::choose
