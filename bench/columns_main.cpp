@@ -1,6 +1,10 @@
-/// Prints the columns of results.csv as the table that scripts/docs puts into docs/reference/results-csv.md.
+/// Prints the columns of results.csv, or of suite.csv where "suite" is the argument, as the table that
+/// scripts/docs puts into docs/reference/results-csv.md.
+#include <string_view>
+
 #include <fmt/format.h>
 
+#include "bench/experiments/suite/suite_csv.h"
 #include "bench/results/results_csv.h"
 
 namespace {
@@ -30,12 +34,21 @@ std::string_view without_article(std::string_view text) {
   return text;
 }
 
-}  // namespace
-
-int main() {
+template <class Columns>
+void print_table(const Columns& columns) {
   fmt::print("| column | means | holds | filled in |\n|---|---|---|---|\n");
-  for (const auto& column : results::results_columns()) {
+  for (const auto& column : columns) {
     fmt::print("| `{}` | {} | {} | {} |\n", column.name, column.means, without_article(column.kind.what),
                text_of(column.presence));
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc > 1 && std::string_view(argv[1]) == "suite") {
+    print_table(touchmark::bench::experiments::suite::suite_columns());
+  } else {
+    print_table(results::results_columns());
   }
 }

@@ -26,6 +26,7 @@ void add_verify(CLI::App& program, ProgramContext& context);
 void add_stress(CLI::App& program, ProgramContext& context);
 void add_scale(CLI::App& program, ProgramContext& context);
 void add_servo(CLI::App& program, ProgramContext& context);
+void add_choose(CLI::App& program, ProgramContext& context);
 void add_update(CLI::App& program, ProgramContext& context);
 void add_list(CLI::App& program, ProgramContext& context);
 void add_mesh(CLI::App& program, ProgramContext& context);

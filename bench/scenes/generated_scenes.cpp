@@ -10,26 +10,10 @@
 #include <Eigen/Geometry>
 
 #include "bench/scenes/portable_sincos.h"
+#include "bench/scenes/surface_builder.h"
 
 namespace touchmark::bench::scenes {
 namespace {
-
-using Corners = TriangleMesh::Corners;
-
-struct Surface {
-  std::vector<Vec3> vertices;
-  std::vector<Corners> triangles;
-
-  std::uint32_t add(const Vec3& vertex) {
-    vertices.push_back(vertex);
-    return static_cast<std::uint32_t>(vertices.size() - 1);
-  }
-  void quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
-    triangles.push_back({a, b, c});
-    triangles.push_back({a, c, d});
-  }
-  TriangleMesh mesh() && { return {std::move(vertices), std::move(triangles)}; }
-};
 
 Surface icosahedron() {
   const double golden = (1 + std::sqrt(5.0)) / 2;

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "bench/scenes/generated_scenes.h"
+#include "bench/scenes/sized_scenes.h"
 #include "bench/support/available_memory.h"
 #include "bench/support/did_you_mean.h"
 #include "bench/support/numbers.h"
@@ -88,18 +89,13 @@ TriangleMesh make_torus(const Request& request) {
   return torus(static_cast<std::uint32_t>(around), static_cast<std::uint32_t>(along));
 }
 
-TriangleMesh make_noisy_sphere(const Request& request) {
-  const std::string& text = parameter(request, "noisy-sphere:TRIANGLES");
-  const std::uint64_t triangles = whole_number(request, text, "TRIANGLES", 6, max_generated_triangles);
-  require_memory_for(request, triangles, triangles / 2);
-  return noisy_sphere(triangles);
-}
-
-TriangleMesh make_soup(const Request& request) {
-  const std::string& text = parameter(request, "soup:N");
-  const std::uint64_t triangles = whole_number(request, text, "N", 1, max_generated_triangles);
+TriangleMesh make_sized(const SizedScene& scene, const Request& request) {
+  const std::string_view form = scene.form;
+  const std::uint64_t triangles =
+      whole_number(request, parameter(request, form), form.substr(form.find(':') + 1), scene.min_triangles,
+                   max_generated_triangles);
   require_memory_for(request, triangles, 3 * triangles);
-  return soup(triangles);
+  return scene.make(triangles);
 }
 
 template <TriangleMesh (*make)()>
@@ -127,17 +123,6 @@ TriangleMesh make_bunny(const Request& request) {
     throw request.refusal(fmt::format("{} is not there; install the package glmark2-data", bunny_files[0]));
   }
   return load_file(file);
-}
-
-/// ${TOUCHMARK_DATA:-${XDG_CACHE_HOME:-~/.cache}/touchmark}, where scripts/setup puts what it fetches.
-fs::path data_folder() {
-  const auto variable = [](const char* name) -> fs::path {
-    const char* value = std::getenv(name);
-    return value == nullptr ? fs::path() : fs::path(value);
-  };
-  const fs::path data = variable("TOUCHMARK_DATA"), cache = variable("XDG_CACHE_HOME");
-  if (!data.empty()) return data;
-  return (cache.empty() ? variable("HOME") / ".cache" : cache) / "touchmark";
 }
 
 fs::path dragon_file(std::uint64_t resolution) {
@@ -169,12 +154,10 @@ struct Scene {
   const char* example;
   TriangleMesh (*make)(const Request&);
   bool (*available)() = always;
-
-  std::string name() const {
-    const std::string_view text = form;
-    return std::string(text.substr(0, text.find_first_of(":[")));
-  }
 };
+
+/// Returns what stands before the parameter.
+std::string name_in(std::string_view form) { return std::string(form.substr(0, form.find_first_of(":["))); }
 
 // One line a scene.
 constexpr Scene all_scenes[] = {
@@ -189,10 +172,6 @@ constexpr Scene all_scenes[] = {
     {"thin-plate", "closed slab 1 x 1 x 0.001, 4,352 triangles", "thin-plate", make_plain<thin_plate>},
     {"sliver-fan", "1,000 slivers round one vertex, the thinnest 1.3e-10 radians wide", "sliver-fan",
      make_plain<sliver_fan>},
-    {"noisy-sphere:TRIANGLES",
-     "bumpy unit sphere like a scan, of as many triangles (an odd number: one less)", "noisy-sphere:2000",
-     make_noisy_sphere},
-    {"soup:N", "N unconnected triangles of all sizes in the unit cube", "soup:500", make_soup},
     {"degenerate", "points, segments and collinear triangles among good ones", "degenerate",
      make_plain<degenerate>},
     {"doubled", "a sphere with each triangle three times: twice alike, once the other way round", "doubled",
@@ -266,7 +245,7 @@ TriangleMesh modified(TriangleMesh mesh, const Modifier& modifier) {
                     request.name.substr(at)));
   }
   std::vector<std::string> known;
-  for (const Scene& scene : all_scenes) known.push_back(scene.name());
+  for (const SceneInfo& scene : scenes()) known.push_back(name_in(scene.name));
   throw request.refusal(
       fmt::format("no scene and no file has this name; did you mean {}?",
                   support::near_names(request.name.substr(0, request.name.find(':')), known)));
@@ -275,10 +254,12 @@ TriangleMesh modified(TriangleMesh mesh, const Modifier& modifier) {
 TriangleMesh load_unmodified(Request& request) {
   const std::size_t colon = request.name.find(':');
   const std::string name = request.name.substr(0, colon);
+  if (colon != std::string::npos) request.parameter = request.name.substr(colon + 1);
   for (const Scene& scene : all_scenes) {
-    if (scene.name() != name) continue;
-    if (colon != std::string::npos) request.parameter = request.name.substr(colon + 1);
-    return scene.make(request);
+    if (name_in(scene.form) == name) return scene.make(request);
+  }
+  for (const SizedScene& scene : sized_scenes()) {
+    if (name_in(scene.form) == name) return make_sized(scene, request);
   }
   std::error_code ignored;
   const bool looks_like_a_path = request.name.find_first_of("/.") != std::string::npos;
@@ -289,11 +270,23 @@ TriangleMesh load_unmodified(Request& request) {
 
 }  // namespace
 
+fs::path data_folder() {
+  const auto variable = [](const char* name) -> fs::path {
+    const char* value = std::getenv(name);
+    return value == nullptr ? fs::path() : fs::path(value);
+  };
+  const fs::path data = variable("TOUCHMARK_DATA"), cache = variable("XDG_CACHE_HOME");
+  if (!data.empty()) return data;
+  return (cache.empty() ? variable("HOME") / ".cache" : cache) / "touchmark";
+}
+
 std::vector<SceneInfo> scenes() {
   std::vector<SceneInfo> infos;
   for (const Scene& scene : all_scenes) {
     infos.push_back({scene.form, scene.description, scene.example, scene.available()});
   }
+  for (const SizedScene& scene : sized_scenes())
+    infos.push_back({scene.form, scene.description, scene.example});
   return infos;
 }
 

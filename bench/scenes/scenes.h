@@ -1,6 +1,7 @@
 /// Meshes by name: generated ones that need no file, `bunny` and `dragon` from their packages, or any file.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -11,11 +12,15 @@ namespace touchmark::bench::scenes {
 struct SceneInfo {
   std::string name;         ///< as written on the command line, with its parameters' form: "icosphere:N"
   std::string description;  ///< one line
-  std::string example;    ///< a small instance that tests can run: "icosphere:3"; empty when it needs a file
-  bool available = true;  ///< false when its file is not installed
+  std::string example;      ///< a small instance that tests can run: "icosphere:3"; empty when it needs a
+                            ///< file, or another scene stands for its kind
+  bool available = true;    ///< false when its file is not installed
 };
 
 std::vector<SceneInfo> scenes();
+
+/// ${TOUCHMARK_DATA:-${XDG_CACHE_HOME:-~/.cache}/touchmark}, where scripts/setup puts what it fetches.
+std::filesystem::path data_folder();
 
 /// What commands use when no mesh is named: the bunny, or where it is not installed a generated mesh of its
 /// size.

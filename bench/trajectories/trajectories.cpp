@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
+#include "bench/support/length.h"
 #include "bench/trajectories/trajectory_csv.h"
 #include "bench/trajectories/trajectory_shapes.h"
 
@@ -13,20 +16,23 @@ namespace touchmark::bench::trajectories {
 namespace {
 
 constexpr std::size_t default_steps = 20'000;
+constexpr double min_speed_percent = 1e-4, max_speed_percent = 50;
 
 struct Shape {
   const char* name;
   const char* description;
   Positions (*positions)(Motion);
+  bool has_speed = false;  ///< takes ":speed=S%"
 };
 
 constexpr Shape shapes[] = {
-    {"slide", "in contact along the surface, 0.0005 diagonal a tick, the heading wanders", &slide},
-    {"approach", "in from 0.3 diagonal, press three times, retract, on to another place", &approach},
-    {"hover", "free motion 0.02 to 0.3 diagonal from the surface, 0.001 a tick", &hover},
+    {"slide", "in contact along the surface, 0.05 % of the diagonal a tick, the heading wanders", &slide,
+     true},
+    {"approach", "in from 0.3 diagonal, press three times, retract, on to another place", &approach, true},
+    {"hover", "free motion 0.02 to 0.3 diagonal from the surface, 0.1 % a tick", &hover, true},
     {"jump", "independent uniform points in 1.2 x the box: no coherence", &jump},
     {"tap", "three quick contacts at each of many random places", &tap},
-    {"edge", "in contact along sharp edges; along any edges where none is sharp", &edge},
+    {"edge", "in contact along sharp edges; along any edges where none is sharp", &edge, true},
     {"cross", "straight through thin parts, four radii a tick", &cross},
 };
 
@@ -51,18 +57,43 @@ std::invalid_argument unknown(const std::string& what) {
                                ", or a CSV file");
 }
 
+/// Returns the shape of "slide" or "slide:speed=0.4%", or null.
+const Shape* shape_of(const std::string& what) {
+  const auto* const shape = std::find_if(std::begin(shapes), std::end(shapes), [&](const Shape& candidate) {
+    return what.substr(0, what.find(':')) == candidate.name;
+  });
+  return shape == std::end(shapes) ? nullptr : shape;
+}
+
+/// Returns diagonals a tick, or nothing where there is no option.
+std::optional<double> speed_in(const std::string& what, const Shape& shape) {
+  const std::size_t colon = what.find(':');
+  if (colon == std::string::npos) return std::nullopt;
+  constexpr std::string_view key = "speed=";
+  const std::string_view option = std::string_view(what).substr(colon + 1);
+  if (!shape.has_speed || !option.starts_with(key)) {
+    throw std::invalid_argument("trajectory '" + what + "': " + shape.name +
+                                (shape.has_speed ? " takes speed=S% only" : " takes no option"));
+  }
+  const std::optional<support::Length> speed = support::parse_length(option.substr(key.size()));
+  if (!speed || !speed->percent || !(speed->value >= min_speed_percent) ||
+      !(speed->value <= max_speed_percent)) {
+    throw std::invalid_argument(
+        "trajectory '" + what +
+        "': its speed is not a percentage of the diagonal a tick from 0.0001% to 50%");
+  }
+  return speed->value / 100;
+}
+
 }  // namespace
 
 std::vector<TrajectoryInfo> trajectories() {
   std::vector<TrajectoryInfo> list;
-  for (const Shape& shape : shapes) list.push_back({shape.name, shape.description});
+  for (const Shape& shape : shapes) list.push_back({shape.name, shape.description, shape.has_speed});
   return list;
 }
 
-bool is_generated(const std::string& name) {
-  return std::any_of(std::begin(shapes), std::end(shapes),
-                     [&](const Shape& shape) { return name == shape.name; });
-}
+bool is_generated(const std::string& name) { return shape_of(name) != nullptr; }
 
 Trajectory make_trajectory(const std::string& what, const TriangleMesh& mesh,
                            const TrajectoryOptions& options) {
@@ -70,17 +101,16 @@ Trajectory make_trajectory(const std::string& what, const TriangleMesh& mesh,
     throw std::invalid_argument("the radius is " + std::to_string(options.radius) +
                                 ": it must be at least 0");
   }
-  const auto* const shape = std::find_if(std::begin(shapes), std::end(shapes),
-                                         [&](const Shape& candidate) { return what == candidate.name; });
-  if (shape == std::end(shapes)) {
+  const Shape* const shape = shape_of(what);
+  if (shape == nullptr) {
     if (is_path(what)) return read_trajectory(what, options.steps, options.motion);
     throw unknown(what);
   }
   const double diagonal = unit_of_length(mesh, options.radius);
   const std::size_t steps = options.steps == 0 ? default_steps : options.steps;
-  return {shape->name,
+  return {what,
           shape->positions({mesh, steps, support::Random(options.seed), diagonal,
-                            std::min(options.radius, 0.05 * diagonal)}),
+                            std::min(options.radius, 0.05 * diagonal), speed_in(what, *shape)}),
           {},
           {}};
 }

@@ -15,6 +15,7 @@ namespace touchmark::bench::trajectories {
 struct TrajectoryInfo {
   std::string name;
   std::string description;  ///< one line
+  bool has_speed = false;   ///< takes ":speed=S%": percent of the diagonal a tick
 };
 
 /// Returns the trajectories that need no file.
@@ -28,13 +29,13 @@ struct TrajectoryOptions {
   MotionOptions motion = {};  ///< for a file
 };
 
-/// True of a name from the list.
+/// True of a name from the list, with or without its speed.
 bool is_generated(const std::string& name);
 
-/// `what` is a name from the list or the path of a CSV file (trajectory_csv.h). Lengths are measured in box
-/// diagonals, so a scaled mesh gets a scaled trajectory; a mesh that is a single point counts its radius, or
-/// 1, for a diagonal. Throws std::invalid_argument for an unknown name, a file that cannot be used, or a
-/// radius that is negative or not a number.
+/// `what` is a name from the list, perhaps with a speed ("slide:speed=0.4%"), or the path of a CSV file
+/// (trajectory_csv.h). Lengths are measured in box diagonals, so a scaled mesh gets a scaled trajectory; a
+/// mesh that is a single point counts its radius, or 1, for a diagonal. Throws std::invalid_argument for an
+/// unknown name, a file that cannot be used, or a radius that is negative or not a number.
 Trajectory make_trajectory(const std::string& what, const TriangleMesh& mesh,
                            const TrajectoryOptions& options = {});
 

@@ -98,7 +98,7 @@ Vec3 limited(const Vec3& change, double most) {
 Positions edge(Motion motion) {
   const MeshEdges mesh(motion.mesh);
   const Starts starts(mesh);
-  const double step = 0.0005 * motion.diagonal;
+  const double step = motion.speed.value_or(0.0005) * motion.diagonal;
   constexpr std::size_t ticks_a_position = 2000, ticks_a_diagonal = 200;
   Path path(motion.steps);
   while (!path.full()) {

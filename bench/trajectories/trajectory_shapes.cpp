@@ -10,6 +10,9 @@
 namespace touchmark::bench::trajectories {
 namespace {
 
+/// Diagonals a tick, where no speed is given: 0.1 m/s on an object of 20 cm.
+constexpr double slide_speed = 0.0005;
+
 /// Short runs move faster, so that they too come down on the surface several times.
 double pace(std::size_t steps) { return std::clamp(static_cast<double>(steps) / 8000, 0.0, 1.0); }
 
@@ -57,7 +60,7 @@ class Progress {
 // moves: so no step is longer than two.
 Positions slide(Motion motion) {
   Surface surface(motion.mesh);
-  const double step = 0.0005 * motion.diagonal;
+  const double step = motion.speed.value_or(slide_speed) * motion.diagonal;
   const double highest = 0.9 * motion.radius;
   Positions path;
   path.reserve(motion.steps);
@@ -98,7 +101,8 @@ Positions slide(Motion motion) {
 
 Positions approach(Motion motion) {
   Surface surface(motion.mesh);
-  const double slowness = pace(motion.steps);
+  // At a given speed the ways keep it, however few steps there are.
+  const double slowness = motion.speed ? slide_speed / *motion.speed : pace(motion.steps);
   const std::size_t way_in = ticks(600 * slowness), press = ticks(60 * slowness);
   Path path(motion.steps);
   while (!path.full()) {
@@ -121,7 +125,7 @@ Positions approach(Motion motion) {
 // A step out of the band is taken again with another heading; the step back always exists.
 Positions hover(Motion motion) {
   Surface surface(motion.mesh);
-  const double step = 0.001 * motion.diagonal;
+  const double step = motion.speed.value_or(0.001) * motion.diagonal;
   const double nearest = 0.02 * motion.diagonal, farthest = 0.3 * motion.diagonal;
   // The nearest point of a centre stays nearest all the way to it, so this starts in the band for certain.
   const Vec3 outside = motion.mesh.bounds().center() + 2 * motion.diagonal * motion.random.direction();

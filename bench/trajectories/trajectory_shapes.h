@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "bench/support/random.h"
@@ -17,6 +18,7 @@ struct Motion {
   support::Random random;
   double diagonal;  ///< the unit of length, > 0: the mesh's diagonal, or a stand-in where that is zero
   double radius;    ///< the probe's, cut to 0.05 diagonal: a larger ball would not follow the surface
+  std::optional<double> speed = std::nullopt;  ///< diagonals a tick; nothing: the shape's own
 };
 
 using Positions = std::vector<Vec3>;

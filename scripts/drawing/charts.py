@@ -83,6 +83,27 @@ def draw_plain(plt, table, column, title, unit, clustered=False, from_level=0, b
     return figure
 
 
+def draw_tightness(plt, table):
+    """Fig. 6 by the formula as printed, and read without a scale, which gives the printed order from level 2 on."""
+    readings = [("relative_tightness", "the formula as printed: lengths", 0.0),
+                ("scale_free_tightness", "without a scale: parts of the radius", 1.0)]
+    readings = [reading for reading in readings if any(row.get(reading[0]) for row in table.rows.values())]
+    figure, panels = plt.subplots(1, len(readings), squeeze=False, figsize=(1.5 + 5.5 * len(readings), 4.3))
+    for axes, (column, name, base) in zip(panels[0], readings):
+        bars(axes, table, column, False, range(1, table.levels), base=base)
+        if base:
+            axes.axhline(base, color="black", linewidth=1)
+        axes.set_title(name, fontsize=10)
+        axes.tick_params(axis="x", labelsize=8)
+    panels[0][0].set_ylabel("tightness, original = 1")
+    handles, labels = panels[0][0].get_legend_handles_labels()
+    figure.legend(handles, labels, ncols=3, fontsize=9, loc="lower center", frameon=False)
+    figure.suptitle("Choi & Sung 2017, Fig. 6: tightness of the spheres, less is tighter", fontsize=12, fontweight="bold",
+                    x=0.01, ha="left")
+    figure.tight_layout(rect=(0, 0.06, 1, 1))
+    return figure
+
+
 def printed_ls3(directory, what):
     """(printed, reproduced) by level, of the report's list."""
     values = {}
@@ -126,7 +147,7 @@ def draw_ls3(axes, directory, printed, levels, relative, unit):
     axes.set_xticks(levels)
     axes.set_xlabel("level")
     axes.set_ylabel("ratio to level 0" if relative else unit)
-    axes.set_title("LS3: as printed in the paper, and here", fontsize=10)
+    axes.set_title("LS3: the paper, and here", fontsize=10)
     axes.legend(fontsize=8.5, frameon=False)
 
 
@@ -233,3 +254,40 @@ def draw_groups_against_operations(plt, directory):
                               "query: nearest; down is better; the same on every machine",
                               "arithmetic operations of one query, as touchmark paper counted them",
                               unit="operations of one query", written=count)
+
+
+def draw_levels(plt, directory):
+    """Rate against error over one trajectory: each level alone, the session that switches, and the exact tree."""
+    rows = read(pathlib.Path(directory) / "levels.csv")
+    figure, axes = plt.subplots(figsize=(9.5, 5.8))
+    names = {"spheres": "spheres alone", "triangles": "triangles", **{f"ls3 {n}": f"LS3 {n}" for n in range(1, 6)}}
+    for form, marker, fill, label, over in (("alone", "o", "white", "a level alone, as published", 6),
+                                            ("tree", "^", "black", "exact tree over the same triangles", -13)):
+        mine = [row for row in rows if row["form"] == form]
+        axes.plot([number(row, "rate_hz") for row in mine], [number(row, "mean_error_percent") for row in mine], marker,
+                  color="black", markerfacecolor=fill, markersize=9, label=label + ": the rate it holds", zorder=3)
+        for row in mine:
+            axes.annotate(names.get(row["level"], row["level"]), (number(row, "rate_hz"), number(row, "mean_error_percent")),
+                          (7, over), textcoords="offset points", fontsize=8.5)
+    switched = sorted((row for row in rows if row["form"] == "switched"), key=lambda row: number(row, "wanted_hz"))
+    wanted = [number(row, "wanted_hz") for row in switched]
+    error = [number(row, "mean_error_percent") for row in switched]
+    axes.plot(wanted, error, "-", color="0.45", linewidth=1.4, zorder=1)
+    for in_time, shade, label in ((True, "0.45", "switched at run time: wanted rate, 99 of 100 queries in time"),
+                                  (False, "white", "switched at run time: wanted rate, not held")):
+        shown = [k for k, row in enumerate(switched) if (number(row, "in_time_percent") >= 99) == in_time]
+        axes.plot([wanted[k] for k in shown], [error[k] for k in shown], "s", color="0.45", markeredgecolor="black",
+                  markeredgewidth=0.7, markerfacecolor=shade, markersize=5.5, label=label, zorder=2)
+    axes.axvline(1000, color="black", linestyle="--", linewidth=0.8, label="1 kHz: a haptic loop")
+    rates = [number(row, "rate_hz") for row in rows if row["form"] != "switched"] + wanted
+    errors = [value for value in (number(row, "mean_error_percent") for row in rows) if value > 0]
+    log_axis(axes.xaxis, min(rates + [1000]) / 1.6, max(rates) * 3, rate)
+    if errors:
+        log_axis(axes.yaxis, min(errors) / 1.6, max(errors) * 1.6, lambda percent: f"{plain(float(f'{percent:.3g}'))} %")
+    axes.set_xlabel("update rate (log scale)")
+    axes.set_ylabel("mean error of the depth of contact, of the diagonal (log scale)")
+    axes.set_title("Choi & Sung 2017, future work: levels of detail switched at run time; right and down is better",
+                   fontsize=11.5, fontweight="bold", loc="left")
+    axes.legend(fontsize=8.5, loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=2, frameon=False)
+    figure.tight_layout()
+    return figure

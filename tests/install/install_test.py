@@ -199,6 +199,22 @@ class Install(unittest.TestCase):
         self.assertEqual(distance_from(mesh, 0.25, 0.25, 2, 1), -1)
         self.assertEqual(distance_from(os.fsencode(source / "none.off"), 0, 0, 0, 1), -3)
 
+    def test_what_choose_prints_compiles(self):
+        program = BUILD / "bin" / "touchmark"
+        if not program.exists():
+            self.skipTest("the program is not built")
+        for contestant, query in (("sphere-cluster:prepare=true,clustering=2%,simd=portable", "nearest"),
+                                  ("grid-group:lookup=scan,shape=centered-sphere,cell=0.5,side=on", "nearest"),
+                                  ("grid-group:bytes_per_triangle=200,build=lazy", "touches"),
+                                  ("aabb-tree:leaf_size=8,certified=false", "sweep"), ("brute-force", "sweep")):
+            with self.subTest(contestant), tempfile.TemporaryDirectory() as out:
+                run(program, "choose", "--mesh", "icosphere:1", "--trajectory", "slide", "--steps", "20", "--quick",
+                    "--rate", "1", "--share", "1", "--query", query, "--detector", contestant, "--out", out)
+                code = pathlib.Path(out, "choose.cpp").read_text(encoding="utf-8")
+                for compiler in COMPILERS:
+                    flags = ["-std=c++20", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", f"-I{self.include}"]
+                    self.assertIsNone(first_error(compiler, *flags, code=code), code)
+
     def headers(self, pattern):
         return sorted(path.relative_to(self.include).as_posix() for path in self.include.glob(pattern))
 

@@ -191,6 +191,21 @@ class Plot(unittest.TestCase):
         for text in ("grid-group", "1,000 ticks at 1000 Hz, load cpu, SCHED_FIFO 50", "nothing asked", "the period: 1 ms"):
             self.assertIn(text, picture)
 
+    def test_draws_the_suite_scene_by_property_and_frames_losses(self):
+        head = "mesh,trajectory,query,reach,caches,ours,status,exact_ratio,any_ratio,exact_tail_ratio,any_tail_ratio\n"
+        (self.directory / "suite.csv").write_text(
+            head + "bunny,slide:speed=0.1%,nearest,0.5%,warm,best,ok,2.5,0.8,,\nbunny,jump,touches,5%,warm,best,ok,3.25,3.25,,\n"
+            "hair:9,jump,nearest,inf,warm,best,ok,0.43,0.43,,\nhair:9,jump,nearest,inf,warm,grid-group,ok,0.11,0.11,,\n"
+            "foam:9,jump,sweep,5%,warm,best,not measured,,,,\n", encoding="utf-8")
+        done = self.plot()
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(self.pictures(), ["suite-any.png", "suite-any.svg", "suite.png", "suite.svg"])
+        self.assertIn("suite-exact_tail: left out: no cell was measured", done.stdout)
+        picture = (self.directory / "plots" / "suite.svg").read_text(encoding="utf-8")
+        for text in ("bunny", "foam:9", "<!-- 2.5 -->", "<!-- 0.43 -->", "3 scenes, 3 of 4 cells", "framed: a rival is ahead"):
+            self.assertIn(text, picture)
+        self.assertNotIn("<!-- 0.11 -->", picture)
+
     def test_says_where_the_numbers_are_from(self):
         self.write(GOOD)
         (self.directory / "run.json").write_text('{"cpu": "Abacus 3", "commit": "beef"}', encoding="utf-8")

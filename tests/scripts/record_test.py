@@ -54,6 +54,12 @@ if [ "$1" = update ]; then
   echo made-up >"$3/update.csv"
   exit "${UPDATE_STATUS-0}"
 fi
+if [ "$1" = bench ]; then
+  echo "${*:1:6} ${*:9}" >>"$TEST_LOG"
+  mkdir -p "$8"
+  echo made-up >"$8/suite.csv"
+  exit "${SUITE_STATUS-0}"
+fi
 echo "$1" >>"$TEST_LOG"
 [ -s "$2/results.csv" ] && [ -s "$2/README.md" ] && exit "${VALIDATE_STATUS-0}"
 """
@@ -133,6 +139,14 @@ class Record(unittest.TestCase):
         log = (self.directory / "log").read_text(encoding="utf-8").splitlines()
         self.assertEqual(log[1:], ["scale --detector embree", "validate"])
 
+    def test_adds_the_suite_for_as_many_minutes_as_asked(self):
+        done = self.record("--suite", "30", "--only", "embree")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        [recording] = self.recordings()
+        self.assertTrue((recording / "suite" / "suite.csv").exists())
+        log = (self.directory / "log").read_text(encoding="utf-8").splitlines()
+        self.assertEqual(log[1:], ["bench --suite --cells all --minutes 30 --detector embree", "validate"])
+
     def test_records_other_comparisons_beside_the_default_one(self):
         done = self.record("--beside", "touches", "unlimited", "update")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -211,7 +225,7 @@ class Record(unittest.TestCase):
             ended.unlink()
 
     def test_refuses_what_it_does_not_know(self):
-        for words in (["--fast"], ["--only"], ["--only", "--papers"], ["--beside"], ["--beside", "everything"], ["here"]):
+        for words in (["--fast"], ["--only"], ["--only", "--papers"], ["--beside"], ["--beside", "everything"], ["--suite", "0"], ["--suite", "long"], ["here"]):
             done = self.record(*words)
             self.assertEqual(done.returncode, 2, words)
         self.expect_nothing_recorded()

@@ -131,6 +131,48 @@ class Setup(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout), (0, "102\n"), done.stderr)
         self.assertEqual(self.setup_with("--count", "everything").returncode, 2)
 
+    def setup_mesh(self, file, models="/none"):
+        """scripts/setup papers --mesh FILE where all packages are there, with its data folder in the directory."""
+        tools = {"dpkg-query": "echo installed"}
+        for name, text in tools.items():
+            (self.directory / name).write_text(f"#!/bin/bash\n{text}\n", encoding="utf-8")
+            (self.directory / name).chmod(0o755)
+        return run(SCRIPTS / "setup", "papers", *(["--mesh", file] if file else []),
+                   env={**os.environ, "PATH": f"{self.directory}:{os.environ['PATH']}", "TOUCHMARK_MODELS": models,
+                        "TOUCHMARK_DATA": str(self.directory / "data")})
+
+    def test_refuses_another_mesh_than_the_papers_and_says_where_that_is(self):
+        other = self.directory / "other.obj"
+        other.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", encoding="utf-8")
+        for file in (other, self.directory / "no-such-file"):
+            done = self.setup_mesh(file)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn(f"setup: --mesh {file}: ", done.stderr)
+            self.assertEqual(done.stderr.count("\n"), 1)
+        self.assertFalse((self.directory / "data").exists())
+        self.assertEqual(self.setup_with("--mesh").returncode, 2)
+        told = self.setup_mesh(None).stderr
+        self.assertIn("is in no package and not here", told)
+        self.assertRegex(told, "https://.*/bunny.obj\n")
+
+    def test_places_the_papers_mesh_whatever_its_format(self):
+        ply = ROOT.parent / "shared" / "models" / "bunny-902.ply"
+        if not ply.exists():
+            self.skipTest(f"no {ply}")
+        lines = ply.read_text(encoding="utf-8").splitlines()
+        begin = lines.index("end_header") + 1
+        obj = self.directory / "bunny.obj"
+        obj.write_text("".join(f"v {line}\n" for line in lines[begin:begin + 453])
+                       + "".join("f " + " ".join(f"{int(i) + 1}/1/1" for i in line.split()[1:]) + "\n"
+                                 for line in reversed(lines[begin + 453:])), encoding="utf-8")
+        for file in (ply, obj):
+            done = self.setup_mesh(file)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual((self.directory / "data" / f"bunny-902{file.suffix}").read_bytes(), file.read_bytes())
+            self.assertEqual(self.setup_mesh(None).stderr, "")
+            shutil.rmtree(self.directory / "data")
+        self.assertEqual(self.setup_mesh(None, str(ply.parent)).stderr, "")
+
     def test_takes_the_runtime_of_the_clang_there_is(self):
         self.assertIn("libclang-rt-19-dev", self.installed_by(
             "develop", apt_cache='[ "$1" = show ] && echo lists || printf "clang\\n  Depends: clang-19\\n"'))

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "bench/cli/benchmark_flags.h"
+#include "bench/cli/commands/bench_suite.h"
 #include "bench/cli/program.h"
 #include "bench/cli/repeat_command.h"
 #include "bench/cli/selector_options.h"
@@ -27,13 +29,14 @@
 #include "bench/support/interrupt.h"
 #include "bench/support/progress.h"
 #include "bench/support/standard_output.h"
+#include "bench/workers/cache_lines.h"
 #include "bench/workload/query_name.h"
 
 namespace touchmark::bench::cli {
 namespace {
 
 constexpr std::size_t faulty_rows_shown = 20;
-const std::vector<std::string> default_trajectories{"slide", "approach", "hover", "jump"};
+const std::vector<std::string> default_trajectories{"slide", "slide:speed=0.4%", "approach", "hover", "jump"};
 
 struct BenchOptions {
   contestants::Selectors selectors;
@@ -42,14 +45,25 @@ struct BenchOptions {
   bool frontier = false;
   bool work = false;
   bool cold = false;
+  bool cache_lines = false;
+  bool suite = false;
+  std::string cells, minutes;  ///< for the suite alone
   WorkerSelectors workers;
 };
 
-measurement::Effort effort_for(const BenchOptions& options, const BenchmarkFlags& flags) {
+/// `rows`: pairs of contestant and trajectory, which share the time for queries with emptied caches.
+measurement::Effort effort_for(const BenchOptions& options, const BenchmarkFlags& flags, std::size_t rows) {
   measurement::Effort effort;
   if (options.quick) effort = measurement::quick_effort;
   effort.repetitions = flags.repetitions.value_or(effort.repetitions);
-  if (options.cold) effort.cold_passes = measurement::usual_cold_passes;
+  if (options.cold) {
+    effort.cold_passes = options.quick ? measurement::quick_cold_passes : measurement::usual_cold_passes;
+    effort.cold_budget_ns =
+        (options.quick ? measurement::quick_cold_budget_ns : measurement::usual_cold_budget_ns) /
+        static_cast<double>(std::max<std::size_t>(rows, 1));
+  }
+  if (options.cache_lines)
+    effort.line_samples = options.quick ? measurement::quick_line_samples : measurement::usual_line_samples;
   if (flags.min_time_s) effort.repetition_ns = *flags.min_time_s * 1e9;
   return effort;
 }
@@ -76,6 +90,14 @@ class BenchRun {
     return flags_.wanted(contestant + "/" + trajectory);
   }
 
+  std::size_t wanted_rows() const {
+    std::size_t rows = 0;
+    for (const std::string& trajectory : workload_.trajectories)
+      rows += static_cast<std::size_t>(std::ranges::count_if(
+          selection_.contestants,
+          [&](const contestants::ContestantSpec& spec) { return wanted(trajectory, spec.text()); }));
+    return rows;
+  }
   const std::vector<std::string>& named() const {
     return selectors_.trajectories.empty() ? default_trajectories : selectors_.trajectories;
   }
@@ -110,11 +132,12 @@ BenchRun::BenchRun(const ProgramContext& context, const BenchOptions& options, c
       description_(results::begun_run(context.argc, context.argv)),
       workload_(workload_for(options, selection_)),
       shows_work_(options.work) {
+  if (options.cache_lines) workers::require_line_counting();
   if (!options.out.empty() && !flags.list_tests) folder_.emplace(options.out);
   description_.flushed_to_zero = support::restore_denormals();
   description_.query = selection_.queries.front();
   description_.seed = selection_.seed;
-  description_.effort = effort_for(options, flags);
+  description_.effort = effort_for(options, flags, wanted_rows());
   description_.core = results::core_for_workers();
   workers::WorkerOptions workers = worker_options(options.workers);
   workers.flags = flags.forwarded;
@@ -177,6 +200,8 @@ void BenchRun::end_trajectory(std::size_t trace) {
                          results::verdict(rows, comparison_->steadiness().back())));
   const std::string cold = results::cold_table(rows);
   if (!cold.empty()) out_.write('\n' + cold);
+  const std::string lines = results::lines_table(rows);
+  if (!lines.empty()) out_.write('\n' + lines);
   if (shows_work_) out_.write('\n' + results::work_table(rows));
   out_.finish();
 }
@@ -206,6 +231,31 @@ int BenchRun::run() {
   return rows_.empty() ? support::exit_done : results::status_of(rows_, faulty);
 }
 
+void add_suite(CLI::App& command, BenchOptions& options) {
+  CLI::Option* const suite = command.add_flag("--suite", options.suite,
+                                              "a score over many scenes, motions, speeds, queries and "
+                                              "reaches instead; with --mesh on that mesh alone");
+  command
+      .add_option("--cells", options.cells, "of the suite: how many a scene, or all; default: 12, quick 2")
+      ->type_name("N")
+      ->needs(suite);
+  command
+      .add_option("--minutes", options.minutes,
+                  "of the suite: what does not fit is left out and said so; default: 15, quick 1.5")
+      ->type_name("M")
+      ->needs(suite);
+}
+
+/// Throws std::invalid_argument for an option that the suite chooses itself.
+void expect_options_of_suite(const CLI::App& command) {
+  for (const char* const option :
+       {"--trajectory", "--query", "--radius", "--reach", "--unit", "--columns", "--motion-scale", "--rate",
+        "--frontier", "--cold", "--cache-lines", "--work"}) {
+    if (command.count(option) > 0)
+      throw std::invalid_argument(fmt::format("{} does not go with --suite", option));
+  }
+}
+
 }  // namespace
 
 void add_bench(CLI::App& program, ProgramContext& context) {
@@ -220,9 +270,12 @@ void add_bench(CLI::App& program, ProgramContext& context) {
                  "every contestant over the options that trade accuracy for time (see the plot time_error)")
       ->excludes("--detector");
   command->add_flag("--work", options->work, "also what a step looked at, and so what it skipped");
-  command->add_flag("--cold", options->cold,
+  command->add_flag("--cold,!--no-cold", options->cold,
                     "also queries with the second-level cache, or all caches, emptied between them");
+  command->add_flag("--cache-lines", options->cache_lines,
+                    "also how many cache lines a query touches, as valgrind counts them");
   command->add_flag("--quick", options->quick, "fewer steps and repetitions");
+  add_suite(*command, *options);
   add_worker_selectors(*command, options->workers);
   command->allow_extras();
   command->footer(
@@ -232,9 +285,16 @@ void add_bench(CLI::App& program, ProgramContext& context) {
       "fcl:bv=obbrss "
       "--out results/today\n"
       "         touchmark bench --mesh part.stl --unit mm --trajectory hand.csv --motion-scale 1000 --rate "
-      "1000\n");
+      "1000\n"
+      "         touchmark bench --suite --quick --out results/suite\n");
   command->final_callback([options, command, &context] {
     const BenchmarkFlags flags = parse_benchmark_flags(command->remaining());
+    if (options->suite) {
+      expect_options_of_suite(*command);
+      context.status = run_suite(context, {options->selectors, options->out, options->cells, options->minutes,
+                                           options->quick, options->workers});
+      return;
+    }
     if (options->frontier) {
       for (const contestants::ContestantSpec& spec : context.roster.forms(&contestants::Forms::frontier))
         options->selectors.detectors.push_back(spec.text());

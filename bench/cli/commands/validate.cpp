@@ -11,8 +11,10 @@
 #include <fmt/format.h>
 
 #include "bench/cli/program.h"
+#include "bench/experiments/choose/choose_check.h"
 #include "bench/experiments/servo/servo_check.h"
 #include "bench/experiments/stress/stress_check.h"
+#include "bench/experiments/suite/suite_check.h"
 #include "bench/results/validation/located_json.h"
 #include "bench/results/validation/results_check.h"
 #include "bench/results/validation/run_check.h"
@@ -20,8 +22,10 @@
 
 namespace touchmark::bench::cli {
 
+namespace choose = experiments::choose;
 namespace servo = experiments::servo;
 namespace stress = experiments::stress;
+namespace suite = experiments::suite;
 namespace validation = results::validation;
 
 namespace {
@@ -73,12 +77,15 @@ std::string check_json(const std::string& path, validation::Faults& faults) {
 
 bool is_stress_csv(const fs::path& path) { return path.filename() == "stress.csv"; }
 bool is_servo_csv(const fs::path& path) { return path.filename() == "servo.csv"; }
+bool is_choose_csv(const fs::path& path) { return path.filename() == "choose.csv"; }
+bool is_suite_csv(const fs::path& path) { return path.filename() == "suite.csv"; }
 
-/// The run.json beside a results.csv, stress.csv or servo.csv; its own faults are reported where it is
-/// checked itself.
+/// The run.json beside a results.csv, stress.csv, servo.csv, choose.csv or suite.csv; its own faults are
+/// reported where it is checked itself.
 std::optional<validation::LocatedJson> run_next_to(const fs::path& path) {
   const fs::path run_path = path.parent_path() / "run.json";
-  if ((path.filename() != "results.csv" && !is_stress_csv(path) && !is_servo_csv(path)) ||
+  if ((path.filename() != "results.csv" && !is_stress_csv(path) && !is_servo_csv(path) &&
+       !is_choose_csv(path) && !is_suite_csv(path)) ||
       !fs::exists(run_path))
     return std::nullopt;
   validation::Faults reported_elsewhere;
@@ -107,6 +114,14 @@ std::string check_csv(const std::string& path, validation::Faults& faults) {
   if (is_servo_csv(path)) {
     check_servo_csv(table, run_json, faults);
     return fmt::format("servo, {} rows", table.records.size());
+  }
+  if (is_choose_csv(path)) {
+    choose::check_choose(table, run_json, faults);
+    return fmt::format("choose, {} rows", table.records.size());
+  }
+  if (is_suite_csv(path)) {
+    suite::check_suite(table, run_json, faults);
+    return fmt::format("suite, {} rows", table.records.size());
   }
   const bool results =
       fs::path(path).filename() == "results.csv" || table.has("run_id") || table.has("answers_checksum");
@@ -139,7 +154,8 @@ void add_validate(CLI::App& program, ProgramContext& context) {
   command
       ->add_option(
           "path", *paths,
-          "results.csv, stress.csv, servo.csv, run.json, or folders that hold some; other CSV files are "
+          "results.csv, stress.csv, servo.csv, choose.csv, suite.csv, run.json, or folders that hold some; "
+          "other CSV files are "
           "checked for their form")
       ->type_name("FILE|DIR")
       ->required();

@@ -10,6 +10,7 @@
 
 #include "bench/scenes/mesh_report.h"
 #include "bench/scenes/portable_sincos.h"
+#include "bench/scenes/sized_scenes.h"
 
 namespace touchmark::bench::scenes {
 namespace {
@@ -202,6 +203,105 @@ TEST(GeneratedScenes, NeedlesAndCapsReachAspectRatiosOf1e15) {
     }
     EXPECT_GT(report_on(mesh).worst_aspect_ratio, 0.9e15);
   }
+}
+
+TEST(SizedScenes, AreOfAboutTheSizeAskedForAndHaveNoDegenerateTriangle) {
+  for (const SizedScene& scene : sized_scenes()) {
+    for (const std::uint64_t triangles : {scene.min_triangles, std::uint64_t{3000}}) {
+      if (triangles < scene.min_triangles) continue;
+      const MeshReport report = report_on(scene.make(triangles));
+      EXPECT_GT(report.triangles, 0U) << scene.form;
+      EXPECT_LE(report.triangles, triangles) << scene.form;
+      if (triangles == 3000) {
+        EXPECT_GE(report.triangles, triangles / 2) << scene.form;
+      }
+      EXPECT_EQ(report.degenerate, 0U) << scene.form << ' ' << triangles;
+    }
+  }
+}
+
+TEST(SizedScenes, AreWithinAFewUnitsOfTheOrigin) {
+  for (const SizedScene& scene : sized_scenes()) {
+    const TriangleMesh mesh = scene.make(3000);
+    EXPECT_LT(mesh.bounds().min.norm(), 3) << scene.form;
+    EXPECT_LT(mesh.bounds().max.norm(), 3) << scene.form;
+    EXPECT_GT(mesh.diagonal(), 1) << scene.form;
+  }
+}
+
+TEST(SizedScenes, PartsAreClosed) {
+  for (TriangleMesh (*make)(std::uint64_t) :
+       {clusters, pebbles, hair, wires, cable, cylinder, bolts, gear, spring, knot, spikes, shells}) {
+    const MeshReport report = report_on(make(2000));
+    EXPECT_TRUE(report.closed);
+    EXPECT_TRUE(report.oriented);
+  }
+}
+
+TEST(SizedScenes, TheCylinderApproachesTheRoundOne) {
+  const MeshReport report = report_on(cylinder(4000));
+  expect_solid(report, 0);
+  EXPECT_EQ(report.triangles, 4000U);
+  EXPECT_NEAR(report.volume.value() / (pi * 0.16), 1, 1e-5);
+  EXPECT_NEAR(report.area / (2 * pi * 0.16 + 2 * pi * 0.4), 1, 1e-5);
+}
+
+TEST(SizedScenes, CratesTouchSoThatMostOfTheirCornersAreEightfold) {
+  const MeshReport report = report_on(crates(12 * 27));
+  EXPECT_EQ(report.triangles, 12U * 27);
+  EXPECT_EQ(report.vertices, 8U * 27);
+  EXPECT_EQ(report.positions, 64U);
+}
+
+TEST(SizedScenes, AGiantQuadIsFiftyTimesAsLargeAsTheBallBesideIt) {
+  const TriangleMesh mesh = giant_quad(302);
+  EXPECT_NEAR(mesh.bounds().extent().x(), 1, 1e-12);
+  double largest = 0;
+  for (std::size_t t = 2; t < mesh.size(); ++t)
+    largest = std::max(largest, (mesh.corner(t, 0) - mesh.corner(t, 1)).norm());
+  EXPECT_LT(largest, 1.0 / 50);
+}
+
+TEST(SizedScenes, SheetsAreAHairApart) {
+  const TriangleMesh mesh = sheets(1600);
+  const std::size_t of_one = mesh.vertices().size() / 8;
+  for (std::size_t i = 0; i < of_one; ++i) {
+    const Vec3 apart = mesh.vertices()[i + of_one] - mesh.vertices()[i];
+    ASSERT_EQ(apart.x(), 0);
+    ASSERT_EQ(apart.y(), 0);
+    ASSERT_NEAR(apart.z(), 1e-4, 1e-12);
+  }
+}
+
+TEST(SizedScenes, ShellsLieInsideOneAnother) {
+  const TriangleMesh mesh = shells(2000);
+  const std::size_t of_one = mesh.vertices().size() / 10;
+  for (std::size_t i = 0; i + of_one < mesh.vertices().size(); ++i)
+    ASSERT_LT(mesh.vertices()[i + of_one].norm(), mesh.vertices()[i].norm());
+}
+
+TEST(SizedScenes, GradedTrianglesDifferAHundredThousandfold) {
+  const MeshReport report = report_on(graded(6000));
+  EXPECT_GT(report.longest_edge / report.shortest_edge, 1e5);
+}
+
+TEST(SizedScenes, FoamSharesItsWalls) {
+  // Between 27 cells there are 108 walls, each of two triangles, and those inside are of two cells.
+  const MeshReport report = report_on(foam(216));
+  EXPECT_EQ(report.triangles, 216U);
+  EXPECT_EQ(report.vertices, 64U);
+  EXPECT_GT(report.non_manifold_edges, 0U);
+}
+
+TEST(SizedScenes, VoxelFacesLieOnALattice) {
+  const TriangleMesh mesh = voxels(3000);
+  double least = 1;
+  for (std::size_t t = 0; t < mesh.size(); ++t) {
+    const Vec3 normal = (mesh.corner(t, 1) - mesh.corner(t, 0)).cross(mesh.corner(t, 2) - mesh.corner(t, 0));
+    EXPECT_NEAR(normal.cwiseAbs().maxCoeff(), normal.norm(), 1e-12) << t;
+    least = std::min(least, normal.norm());
+  }
+  EXPECT_GT(least, 1e-4);
 }
 
 }  // namespace

@@ -412,6 +412,53 @@ TEST(Trajectories, RefuseAnUnknownNameAndListTheKnownOnes) {
   }
 }
 
+TEST(Trajectories, MoveAsFastAsTheirNameSays) {
+  const TriangleMesh mesh = torus();
+  for (const double percent : {0.01, 0.4, 5.0}) {
+    const double wanted = percent / 100 * mesh.diagonal();
+    for (const char* shape : {"slide", "hover", "edge"}) {
+      const std::string name = std::string(shape) + ":speed=" + std::to_string(percent) + "%";
+      EXPECT_TRUE(is_generated(name));
+      const Trajectory path = make(name, mesh, 400, 0.01 * mesh.diagonal());
+      EXPECT_EQ(path.name, name);
+      std::vector<double> steps;
+      for (std::size_t i = 1; i < path.size(); ++i)
+        steps.push_back((path.positions[i] - path.positions[i - 1]).norm());
+      std::sort(steps.begin(), steps.end());
+      // Back to the surface, or along its curve, a step is longer or shorter.
+      EXPECT_GT(steps[steps.size() / 2], 0.5 * wanted) << name;
+      EXPECT_LT(steps[steps.size() / 2], 2 * wanted) << name;
+    }
+  }
+}
+
+TEST(Trajectories, WithoutASpeedMoveAsWithTheirOwn) {
+  const TriangleMesh mesh = torus();
+  EXPECT_EQ(make("slide", mesh, 300, 0.02).positions, make("slide:speed=0.05%", mesh, 300, 0.02).positions);
+  EXPECT_EQ(make("hover", mesh, 300, 0.02).positions, make("hover:speed=0.1%", mesh, 300, 0.02).positions);
+  EXPECT_NE(make("slide", mesh, 300, 0.02).positions, make("slide:speed=0.06%", mesh, 300, 0.02).positions);
+}
+
+TEST(Trajectories, ApproachFasterInFewerTicks) {
+  const TriangleMesh mesh = cube();
+  const auto way = [&](const std::string& name) {
+    const Trajectory path = make(name, mesh, 600, 0.01);
+    double length = 0;
+    for (std::size_t i = 1; i < path.size(); ++i)
+      length += (path.positions[i] - path.positions[i - 1]).norm();
+    return length;
+  };
+  EXPECT_GT(way("approach:speed=1%"), 5 * way("approach:speed=0.1%"));
+}
+
+TEST(Trajectories, RefuseASpeedThatMakesNoSense) {
+  for (const char* name :
+       {"slide:", "slide:speed", "slide:speed=", "slide:speed=0%", "slide:speed=1", "slide:speed=inf%",
+        "slide:speed=51%", "slide:speed=-1%", "slide:pace=1%", "jump:speed=1%", "cross:speed=1%"}) {
+    EXPECT_THROW(make(name, cube(), 10, 0.01), std::invalid_argument) << name;
+  }
+}
+
 TEST(Trajectories, RefuseARadiusThatMakesNoSense) {
   EXPECT_THROW(make("slide", cube(), 10, -1), std::invalid_argument);
   EXPECT_THROW(make("slide", cube(), 10, std::nan("")), std::invalid_argument);

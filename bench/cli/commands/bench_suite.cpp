@@ -1,0 +1,280 @@
+#include "bench/cli/commands/bench_suite.h"
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "bench/experiments/suite/suite_csv.h"
+#include "bench/experiments/suite/suite_plan.h"
+#include "bench/experiments/suite/suite_report.h"
+#include "bench/experiments/suite/suite_score.h"
+#include "bench/experiments/suite/suite_workload.h"
+#include "bench/measurement/comparison.h"
+#include "bench/results/report_table.h"
+#include "bench/results/results_csv.h"
+#include "bench/results/results_folder.h"
+#include "bench/results/run_json.h"
+#include "bench/scenes/scenes.h"
+#include "bench/support/denormals.h"
+#include "bench/support/interrupt.h"
+#include "bench/support/numbers.h"
+#include "bench/support/progress.h"
+#include "bench/support/standard_output.h"
+
+namespace touchmark::bench::cli {
+
+namespace suite = experiments::suite;
+
+namespace {
+
+constexpr std::size_t losses_shown = 40;
+constexpr std::chrono::milliseconds build_timeout{60'000}, request_timeout{10'000};
+
+/// How much of the suite is measured, and how thoroughly.
+struct Extent {
+  std::uint64_t triangles;
+  std::size_t cells;
+  std::size_t steps;
+  double minutes;
+  measurement::Effort effort;  ///< its cold passes are of the cold cells only
+};
+
+const Extent usual_extent{60'000, 12, 6000, 15, {8, 3, 8e6, 4e6, 1, 20, 20}};
+const Extent quick_extent{9'000, 2, 2000, 1.5, {5, 3, 3e6, 1.5e6}};
+
+double checked_minutes(const std::string& text) {
+  const std::optional<double> minutes = support::parse_number(text);
+  if (!minutes || !(*minutes > 0))
+    throw std::invalid_argument(fmt::format("--minutes \"{}\" is not a number above 0, or inf", text));
+  return *minutes;
+}
+
+std::size_t checked_cells(const std::string& text) {
+  const std::size_t most = suite::every_cell().size();
+  if (text == "all") return most;
+  const std::optional<std::uint64_t> cells = support::parse_count(text);
+  if (!cells || *cells < 1 || *cells > most)
+    throw std::invalid_argument(
+        fmt::format("--cells \"{}\" is not a whole number from 1 to {}, or all", text, most));
+  return *cells;
+}
+
+Extent extent_of(const SuiteOptions& options) {
+  Extent extent = options.quick ? quick_extent : usual_extent;
+  if (!options.cells.empty()) extent.cells = checked_cells(options.cells);
+  if (!options.minutes.empty()) extent.minutes = checked_minutes(options.minutes);
+  return extent;
+}
+
+contestants::CheckedSelectors checked(const contestants::Selectors& selectors,
+                                      const contestants::Roster& roster) {
+  contestants::CheckedSelectors selection = contestants::check(selectors, roster);
+  if (selectors.detectors.empty()) selection.contestants = roster.forms(&contestants::Forms::suite);
+  return selection;
+}
+
+class SuiteRun {
+ public:
+  SuiteRun(const ProgramContext& context, const SuiteOptions& options);
+
+  /// An exit status. Throws ResourceError, std::invalid_argument or MeshError.
+  int run();
+
+ private:
+  void run_scene(const suite::SuiteScene& scene);
+  void run_cell(measurement::Comparison& comparison, const suite::SceneWorkload& scene, std::size_t which,
+                suite::MeasuredCell& measured);
+  void finish_scene(const measurement::Comparison& comparison, const suite::SceneWorkload& scene,
+                    std::vector<suite::MeasuredCell> measured);
+  void add_unmeasured(const suite::SuiteScene& scene, const std::string& mesh);
+  void save(bool finished) const;
+  std::string run_json(bool finished) const;
+  std::vector<std::string> ours() const;
+  bool is_ours(const std::string& detector) const { return roster_.find(detector).ours; }
+  double minutes() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count() / 60;
+  }
+  std::string time_left() const;
+
+  const contestants::Roster& roster_;
+  const SuiteOptions& options_;
+  Extent extent_;
+  contestants::CheckedSelectors selection_;
+  suite::SuitePlan plan_;
+  std::optional<results::ResultsFolder> folder_;
+  results::RunDescription description_;
+  workers::WorkerOptions workers_;
+  support::ProgressLine progress_;
+  support::StandardOutput out_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::size_t scenes_done_ = 0, cells_done_ = 0;
+  std::vector<measurement::ResultRow> rows_;
+  std::vector<suite::SuiteRow> scored_;
+  std::vector<std::string> runs_;  // run.json of each scene
+};
+
+SuiteRun::SuiteRun(const ProgramContext& context, const SuiteOptions& options)
+    : roster_(context.roster),
+      options_(options),
+      extent_(extent_of(options)),
+      selection_(checked(options.selectors, context.roster)),
+      plan_(suite::make_plan(options.selectors.meshes.empty() ? suite::suite_meshes(extent_.triangles)
+                                                              : options.selectors.meshes,
+                             extent_.cells, selection_.seed, extent_.effort.cold_passes > 0)),
+      description_(results::begun_run(context.argc, context.argv)),
+      workers_(worker_options(options.workers)) {
+  if (ours().empty()) throw std::invalid_argument("--suite: no --detector is one of ours");
+  if (!options.out.empty()) folder_.emplace(options.out);
+  if (options.workers.timeout.empty()) {
+    workers_.build_timeout = build_timeout;
+    workers_.request_timeout = request_timeout;
+  }
+  extent_.steps = selection_.steps.value_or(extent_.steps);
+  description_.flushed_to_zero = support::restore_denormals();
+  description_.seed = selection_.seed;
+  description_.effort = extent_.effort;
+  description_.core = workers_.core = results::core_for_workers();
+}
+
+std::vector<std::string> SuiteRun::ours() const {
+  std::vector<std::string> names;
+  for (const contestants::ContestantSpec& spec : selection_.contestants)
+    if (is_ours(spec.name)) names.push_back(spec.text());
+  return names;
+}
+
+std::string SuiteRun::time_left() const {
+  if (cells_done_ == 0) return "";
+  const double left =
+      minutes() / static_cast<double>(cells_done_) * static_cast<double>(plan_.cells() - cells_done_);
+  return fmt::format(", about {:.0f} min left", std::min(left, extent_.minutes));
+}
+
+/// Every scene has its share of the time, and what one leaves over is for those after it.
+void SuiteRun::run_scene(const suite::SuiteScene& scene) {
+  progress_.show(fmt::format("{}: making the mesh and the trajectories{}", scene.mesh, time_left()));
+  const double left = extent_.minutes - minutes();
+  const double until = minutes() + left / static_cast<double>(plan_.scenes.size() - scenes_done_);
+  const suite::SceneWorkload made = suite::workload_of(
+      scene, scenes::load_mesh(scene.mesh, options_.selectors.normalize), extent_.steps, selection_.seed);
+  progress_.show(fmt::format("{}: preparing the oracle{}", made.workload.mesh_name, time_left()));
+  measurement::Comparison comparison(roster_, made.workload, selection_.contestants, workers_,
+                                     description_.effort, selection_.seed);
+  comparison.set_progress([&](const std::string& trajectory, const std::string& contestant) {
+    progress_.show(fmt::format("{} of {}, {}, {}: {}{}", scenes_done_ + 1, plan_.scenes.size(),
+                               made.workload.mesh_name, trajectory, contestant, time_left()));
+  });
+  std::vector<suite::MeasuredCell> measured;
+  for (const suite::SuiteCell& cell : scene.cells)
+    measured.push_back({made.workload.mesh_name, made.workload.mesh.size(), cell, {}});
+  try {
+    for (std::size_t i = 0; i < scene.cells.size() && (i == 0 || minutes() < until); ++i)
+      run_cell(comparison, made, i, measured[i]);
+  } catch (const support::Interrupted&) {
+    finish_scene(comparison, made, std::move(measured));
+    throw;
+  }
+  cells_done_ += scene.cells.size();
+  ++scenes_done_;
+  finish_scene(comparison, made, std::move(measured));
+}
+
+void SuiteRun::run_cell(measurement::Comparison& comparison, const suite::SceneWorkload& scene,
+                        std::size_t which, suite::MeasuredCell& measured) {
+  measurement::Effort effort = extent_.effort;
+  if (!measured.cell.cold) effort.cold_passes = 0;
+  comparison.set_effort(effort);
+  measured.rows = comparison.run(scene.trace_of[which], measured.cell.query);
+  measured.conclusive = comparison.steadiness().empty() || comparison.steadiness().back().conclusive();
+}
+
+void SuiteRun::finish_scene(const measurement::Comparison& comparison, const suite::SceneWorkload& scene,
+                            std::vector<suite::MeasuredCell> measured) {
+  const std::vector<std::string> names = ours();
+  for (suite::MeasuredCell& cell : measured) {
+    std::ranges::move(
+        suite::score(cell, names, [&](const std::string& detector) { return is_ours(detector); }),
+        std::back_inserter(scored_));
+    std::ranges::move(cell.rows, std::back_inserter(rows_));
+  }
+  description_.steadiness = comparison.steadiness();
+  runs_.push_back(results::run_json(description_, scene.workload, comparison.contestants()));
+  save(scenes_done_ == plan_.scenes.size());
+}
+
+/// The cells of a scene that was not begun.
+void SuiteRun::add_unmeasured(const suite::SuiteScene& scene, const std::string& mesh) {
+  for (const suite::SuiteCell& cell : scene.cells) {
+    std::ranges::move(suite::score({mesh, 0, cell, {}}, ours(), [](const std::string&) { return true; }),
+                      std::back_inserter(scored_));
+  }
+}
+
+/// The trajectories of all scenes, and what the suite adds.
+std::string SuiteRun::run_json(bool finished) const {
+  auto json = nlohmann::ordered_json::parse(results::joined_run_json(runs_, finished));
+  auto trajectories = nlohmann::ordered_json::array();
+  for (const std::string& run : runs_) {
+    const auto parsed = nlohmann::ordered_json::parse(run);
+    for (const auto& one : parsed.at("trajectories")) {
+      if (std::find(trajectories.begin(), trajectories.end(), one) == trajectories.end())
+        trajectories.push_back(one);
+    }
+  }
+  json["trajectories"] = trajectories;
+  json["queries"] = {"touches", "nearest", "sweep"};
+  json.erase("asked");  // not every motion with every query
+  json["suite"] = {{"scenes", plan_.scenes.size()},
+                   {"cells", plan_.cells()},
+                   {"cells_of_a_scene", suite::every_cell().size()},
+                   {"minutes", nlohmann::ordered_json(extent_.minutes)},
+                   {"steps", extent_.steps}};
+  if (!(extent_.minutes < 1e9)) json["suite"]["minutes"] = "inf";
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
+}
+
+void SuiteRun::save(bool finished) const {
+  if (!folder_ || runs_.empty()) return;
+  folder_->write(results::results_csv(description_.run_id, rows_), run_json(finished));
+  folder_->write_file("suite.csv", suite::suite_csv(description_.run_id, description_.seed, scored_));
+}
+
+int SuiteRun::run() {
+  support::watch_for_interrupts();
+  out_.write(fmt::format("suite: {} scenes, {} cells of {}, at most about {:g} minutes\n",
+                         plan_.scenes.size(), plan_.cells(), plan_.scenes.size() * suite::every_cell().size(),
+                         extent_.minutes));
+  out_.finish();
+  bool interrupted = false;
+  try {
+    for (const suite::SuiteScene& scene : plan_.scenes) run_scene(scene);
+  } catch (const support::Interrupted&) {
+    interrupted = true;
+  }
+  progress_.clear();
+  if (interrupted) {
+    for (std::size_t i = runs_.size(); i < plan_.scenes.size(); ++i)
+      add_unmeasured(plan_.scenes[i], results::without_directories(plan_.scenes[i].mesh));
+    save(false);
+    fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", rows_.size());
+  }
+  out_.write('\n' + suite::summary_table(scored_) + '\n' + suite::list_of_losses(scored_, losses_shown));
+  out_.finish();
+  if (interrupted) return support::exit_interrupted;
+  const auto where = [](const measurement::ResultRow& row) { return row.mesh + ", " + row.trajectory; };
+  return results::print_faults(rows_, where) ? support::exit_check_failed : support::exit_done;
+}
+
+}  // namespace
+
+int run_suite(const ProgramContext& context, const SuiteOptions& options) {
+  return SuiteRun(context, options).run();
+}
+
+}  // namespace touchmark::bench::cli

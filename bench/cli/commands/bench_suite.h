@@ -1,0 +1,25 @@
+/// `touchmark bench --suite`: many scenes, motions, questions and reaches, and one score.
+#pragma once
+
+#include <string>
+
+#include "bench/cli/program.h"
+#include "bench/cli/worker_options.h"
+#include "bench/contestants/selectors.h"
+#include "bench/measurement/effort.h"
+
+namespace touchmark::bench::cli {
+
+struct SuiteOptions {
+  contestants::Selectors selectors;
+  std::string out;
+  std::string cells;    ///< a scene; empty: by the effort
+  std::string minutes;  ///< at most, about; empty: by the effort
+  bool quick = false;
+  WorkerSelectors workers;
+};
+
+/// An exit status. Throws std::invalid_argument, MeshError or ResourceError.
+int run_suite(const ProgramContext& context, const SuiteOptions& options);
+
+}  // namespace touchmark::bench::cli

@@ -1,0 +1,137 @@
+#include "bench/experiments/suite/suite_plan.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "bench/scenes/scenes.h"
+#include "bench/scenes/sized_scenes.h"
+#include "bench/support/random.h"
+#include "bench/workload/query_name.h"
+
+namespace touchmark::bench::experiments::suite {
+namespace {
+
+constexpr std::array moving{"slide", "approach", "hover"};
+constexpr std::array speeds{"0.01%", "0.1%", "0.7%", "5%"};
+constexpr std::array reaches{"0.05%", "0.5%", "5%", "inf"};
+
+/// Few triangles of this kind are as hard as many of others.
+constexpr std::string_view slow_kind = "large-soup";
+constexpr std::uint64_t slow_kind_triangles = 5000;
+
+/// Scans and models that packages install.
+constexpr std::array files{"/usr/share/glmark2/models/horse.3ds", "/usr/share/glmark2/models/cat.3ds",
+                           "/usr/share/glmark2/models/asteroid-high.3ds"};
+
+/// Counts how often each property of a cell was chosen.
+using Counts = std::map<std::string, double>;
+
+/// Returns what is to come up equally often. In all cells together each of these does, so that what is chosen
+/// stands for all.
+std::vector<std::string> properties_of(const SuiteCell& cell) {
+  const std::string query(workload::name_of(cell.query));
+  return {cell.trajectory, query + " within " + cell.reach, cell.trajectory + ' ' + query,
+          cell.trajectory + " within " + cell.reach};
+}
+
+double rarity(const std::vector<std::string>& properties, Counts& counts) {
+  double sum = 0;
+  for (const std::string& property : properties) sum += 1 / (1 + counts[property]);
+  return sum;
+}
+
+/// Takes the cell out of `left` whose properties came up least, in the scene and in all.
+SuiteCell take_rarest(std::vector<SuiteCell>& left, Counts& of_scene, Counts& of_all) {
+  const auto score = [&](const SuiteCell& cell) {
+    const std::vector<std::string> properties = properties_of(cell);
+    return rarity(properties, of_scene) + rarity(properties, of_all);
+  };
+  auto best = left.begin();
+  double most = -1;
+  for (auto cell = left.begin(); cell != left.end(); ++cell) {
+    if (const double here = score(*cell); here > most) best = cell, most = here;
+  }
+  SuiteCell taken = *best;
+  left.erase(best);
+  for (const std::string& property : properties_of(taken)) {
+    ++of_scene[property];
+    ++of_all[property];
+  }
+  return taken;
+}
+
+}  // namespace
+
+std::size_t SuitePlan::cells() const noexcept {
+  std::size_t count = 0;
+  for (const SuiteScene& scene : scenes) count += scene.cells.size();
+  return count;
+}
+
+std::vector<SuiteCell> every_cell() {
+  std::vector<std::string> trajectories{"jump"};
+  for (const char* shape : moving) {
+    for (const char* speed : speeds) trajectories.push_back(fmt::format("{}:speed={}", shape, speed));
+  }
+  std::vector<SuiteCell> cells;
+  for (const std::string& trajectory : trajectories) {
+    for (const workload::Query query : workload::all_queries) {
+      for (const std::string reach : reaches) {
+        if (reach == "inf" && query != workload::Query::nearest) continue;
+        cells.push_back({trajectory, query, reach});
+      }
+    }
+  }
+  return cells;
+}
+
+std::vector<std::string> suite_meshes(std::uint64_t triangles) {
+  const std::array sizes{triangles, triangles / 3, 2 * triangles, triangles / 6};
+  std::vector<std::string> meshes;
+  for (const scenes::SceneInfo& scene : scenes::scenes()) {
+    if (scene.name == "bunny" && scene.available) meshes.emplace_back("bunny");
+    if (scene.name.starts_with("dragon") && scene.available) meshes.emplace_back("dragon:3");
+  }
+  for (const char* file : files) {
+    std::error_code ignored;
+    if (std::filesystem::exists(file, ignored)) meshes.emplace_back(file);
+  }
+  std::size_t next = 0;
+  for (const scenes::SizedScene& scene : scenes::sized_scenes()) {
+    const std::string_view form = scene.form;
+    const std::string_view kind = form.substr(0, form.find(':'));
+    const std::uint64_t size =
+        kind == slow_kind ? std::min(triangles, slow_kind_triangles) : sizes[next++ % sizes.size()];
+    meshes.push_back(fmt::format("{}:{}", kind, std::max(size, scene.min_triangles)));
+  }
+  meshes.push_back(fmt::format("soup:{}", 2 * triangles));
+  for (const char* scene : {"icosphere:5", "torus:400x8", "thin-plate", "sliver-fan"})
+    meshes.emplace_back(scene);
+  return meshes;
+}
+
+SuitePlan make_plan(const std::vector<std::string>& meshes, std::size_t cells_each, std::uint64_t seed,
+                    bool cold) {
+  support::Random random(seed);
+  SuitePlan plan;
+  std::vector<std::vector<SuiteCell>> left;
+  std::vector<Counts> of_scene(meshes.size());
+  Counts of_all;
+  for (const std::string& mesh : meshes) {
+    plan.scenes.push_back({mesh, {}});
+    left.push_back(every_cell());
+    random.shuffle(left.back());  // decides between cells whose properties came up equally often
+  }
+  for (std::size_t round = 0; round < cells_each; ++round) {
+    for (std::size_t i = 0; i < meshes.size() && !left[i].empty(); ++i)
+      plan.scenes[i].cells.push_back(take_rarest(left[i], of_scene[i], of_all));
+  }
+  for (SuiteScene& scene : plan.scenes) scene.cells.back().cold = cold;
+  return plan;
+}
+
+}  // namespace touchmark::bench::experiments::suite
