@@ -34,6 +34,7 @@ SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters,
       bounds_(mesh.bounds()),
       certified_(options.certified),
       lazy_(options.lazy),
+      threads_(options.threads),
       ids_(mesh.triangle_ids()) {
   if (!searchable_) {
     parts_.triangles = touchmark::prepare(mesh);
@@ -41,7 +42,7 @@ SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters,
   }
   frame_ = FilterFrame::around(mesh.bounds());
   radius_ = frame_.radius() * frame_.unit();
-  parts_ = spheres::build_tree(mesh, clusters, frame_);
+  parts_ = spheres::build_tree(mesh, clusters, frame_, threads_);
   measure_leaves();
   fill_distances();
 }
