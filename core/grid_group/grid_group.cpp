@@ -86,7 +86,7 @@ std::optional<Contact> GridGroup::look_for_nearest(const Probe& probe, double re
   return contact;
 }
 
-std::optional<Impact> GridGroup::first_hit(const Sweep& sweep, Session& session) const noexcept {
+std::optional<Impact> GridGroup::look_for_impact(const Sweep& sweep, Session& session) const noexcept {
   if (!(sweep.radius >= 0)) return std::nullopt;
   if (const auto* direct = std::get_if<grid::DirectGrid>(&form_)) {
     session.question = {LastQuestion::Query::sweep, sweep.radius};

@@ -72,7 +72,12 @@ class GridGroup {
     if (is_clear(probe.center, reach, session)) return std::nullopt;
     return look_for_nearest(probe, reach, session);
   }
-  std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept;
+  /// A ball that holds both ends of a path holds all of it.
+  std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept {
+    if (is_clear(sweep.from, sweep.radius, session) && is_clear(sweep.to, sweep.radius, session))
+      return std::nullopt;
+    return look_for_impact(sweep, session);
+  }
 
   /// Direct: asks the last question again where the point was, unless that is known to be clear. The next
   /// query then finds its data and its code in the caches, best when this is called just before the device is
@@ -97,6 +102,7 @@ class GridGroup {
   }
   bool look_for_touch(const Probe& probe, Session& session) const noexcept;
   std::optional<Contact> look_for_nearest(const Probe& probe, double reach, Session& session) const noexcept;
+  std::optional<Impact> look_for_impact(const Sweep& sweep, Session& session) const noexcept;
 
   Options options_;
   Connectivity connectivity_;

@@ -56,7 +56,7 @@ std::optional<Contact> SphereCluster::look_for_nearest(const Probe& probe, doubl
   return tree_.nearest(probe.center, reach, session.memory, session.work);
 }
 
-std::optional<Impact> SphereCluster::first_hit(const Sweep& sweep, Session& session) const noexcept {
+std::optional<Impact> SphereCluster::look_for_impact(const Sweep& sweep, Session& session) const noexcept {
   if (!(sweep.radius >= 0)) return std::nullopt;
   if (!options_.precise) return fast_.first_hit(sweep, session.work);
   if (options_.lookup == Lookup::scan) return scan_.first_hit(sweep, session.work);

@@ -61,7 +61,10 @@ class SphereCluster {
     if (tree_.is_clear(probe.center, reach, session.memory)) return std::nullopt;
     return look_for_nearest(probe, reach, session);
   }
-  std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept;
+  std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept {
+    if (tree_.is_clear(sweep, session.memory)) return std::nullopt;
+    return look_for_impact(sweep, session);
+  }
 
   /// With a tree: lists, after `nearest`, the leaves near the point for a next tick that moves no farther
   /// than twice as far as this one, and asks the last question again, where the point will be if it goes on
@@ -85,6 +88,7 @@ class SphereCluster {
  private:
   bool look_for_touch(const Probe& probe, Session& session) const noexcept;
   std::optional<Contact> look_for_nearest(const Probe& probe, double reach, Session& session) const noexcept;
+  std::optional<Impact> look_for_impact(const Sweep& sweep, Session& session) const noexcept;
 
   Options options_;
   Connectivity connectivity_;

@@ -60,6 +60,10 @@ class SphereTree {
     const double margin = memory.lower - reach;
     return memory.epoch == epoch_ && margin > 0 && (center - memory.center).squaredNorm() < margin * margin;
   }
+  /// The same of a path: a ball that holds both its ends holds all of it.
+  bool is_clear(const Sweep& sweep, const Memory& memory) const noexcept {
+    return is_clear(sweep.from, sweep.radius, memory) && is_clear(sweep.to, sweep.radius, memory);
+  }
   // All look, even where it is known to be clear. A radius or reach must be at least 0.
   bool touches(const Probe& probe, Memory& memory, Work& work) const noexcept;
   std::optional<Contact> nearest(const Vec3& center, double reach, Memory& memory, Work& work) const noexcept;

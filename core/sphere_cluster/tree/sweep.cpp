@@ -53,9 +53,9 @@ std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, 
     if (start.exhausted) return fallback().first_hit(sweep, work);
     if (start.contact) return Impact{0, *start.contact};
   }
+  if (is_clear(sweep, memory)) return std::nullopt;
   const double length = (sweep.to - sweep.from).norm();
   const double reach = padded_sweep_radius(sweep, largest_difference(bounds_, sweep));
-  if (is_clear(sweep.from, reach + length, memory)) return std::nullopt;
   const std::uint64_t budget = remaining(work_limit(), work.total() - before);
   FirstTouch first(sweep);
   const bool done = length <= longest_in_leaf_radii * mean_leaf_radius_
