@@ -70,14 +70,15 @@ Eigen::Vector3f central_point(const PointList& points) noexcept {
   return best;
 }
 
-}  // namespace
+Eigen::Vector3f direction_of(const Vec3& v) noexcept {
+  const double length = v.norm();
+  return length > 0 ? Eigen::Vector3f((v / length).cast<float>()) : Eigen::Vector3f::UnitZ();
+}
 
-BoundingCylinder bound_points(const PointList& points, const Vec3& mean_normal) noexcept {
-  const double length = mean_normal.norm();
-  const Eigen::Vector3f normal =
-      length > 0 ? Eigen::Vector3f((mean_normal / length).cast<float>()) : Eigen::Vector3f::UnitZ();
-  const Point4 axis = broadcast_point(normal);
-  Eigen::Vector3f center = central_point(points);
+/// Returns the cylinder along this unit axis, through nearly this point.
+BoundingCylinder bound_along(const Eigen::Vector3f& direction, Eigen::Vector3f center,
+                             const PointList& points) noexcept {
+  const Point4 axis = broadcast_point(direction);
   Point4 from = broadcast_point(center);
   Lanes low = broadcast(infinity), high = broadcast(-infinity);
   for (const Point4& p : points.fours()) {
@@ -85,7 +86,7 @@ BoundingCylinder bound_points(const PointList& points, const Vec3& mean_normal) 
     low = simd::min(low, along);
     high = simd::max(high, along);
   }
-  center += 0.5F * (simd::reduce_min(low) + simd::reduce_max(high)) * normal;
+  center += 0.5F * (simd::reduce_min(low) + simd::reduce_max(high)) * direction;
   from = broadcast_point(center);
   Lanes max_along = {}, max_across = {};
   for (const Point4& p : points.fours()) {
@@ -99,7 +100,38 @@ BoundingCylinder bound_points(const PointList& points, const Vec3& mean_normal) 
   // more.
   const float half = simd::reduce_max(max_along), radius = std::sqrt(simd::reduce_max(max_across));
   const float pad = 0x1p-20F * (half + radius) + 0x1p-22F;
-  return {center, radius + pad, normal, half + pad};
+  return {center, radius + pad, direction, half + pad};
+}
+
+/// Proportional to the volume of what is within `margin` of the cylinder, but for its rounded rims.
+float volume_within(const BoundingCylinder& bound, float margin) noexcept {
+  const float across = bound.radius + margin;
+  return across * across * (bound.half + margin);
+}
+
+/// A surface that covers less of its bound's disc than this part is looked at more closely.
+constexpr double least_cover = 0.3;
+/// From how far off bounds are compared, in parts of the first one's size.
+constexpr float comparing_margin = 0.05F;
+/// Of so many points one longer look is worth its time.
+constexpr std::size_t max_compared = 4096;
+
+}  // namespace
+
+BoundingCylinder bound_points(const PointList& points, const Facing& facing) noexcept {
+  const Eigen::Vector3f center = central_point(points);
+  BoundingCylinder best = bound_along(direction_of(facing.sum), center, points);
+  const double disc = 3.14 * static_cast<double>(best.radius) * static_cast<double>(best.radius);
+  // Only the side that faces along the axis covers the disc: a closed plate has two, which cancel.
+  if (facing.sum.norm() >= 2 * least_cover * disc || points.size() > max_compared) return best;
+  const float margin = comparing_margin * (best.radius + best.half);
+  const Eigen::Vector3f end = farthest_from(center, points).point;
+  const Eigen::Vector3f other_end = farthest_from(end, points).point;
+  for (const Vec3& axis : {facing.largest, Vec3((other_end - end).cast<double>())}) {
+    const BoundingCylinder bound = bound_along(direction_of(axis), center, points);
+    if (volume_within(bound, margin) < volume_within(best, margin)) best = bound;
+  }
+  return best;
 }
 
 }  // namespace touchmark::spheres

@@ -27,7 +27,7 @@ struct TreeRef {
 
 /// Up to eight children, each bounded by a cylinder: the points within `radius` of the axis through the
 /// centre along `normal`, and within `half` of the centre along it. A patch of a surface is as flat as a
-/// coin, and fills such a cylinder better than a sphere.
+/// coin or as long as a rod, and fills such a cylinder better than a sphere.
 struct alignas(64) TreeNode {
   float x[tree_width], y[tree_width], z[tree_width], radius[tree_width];
   float normal_x[tree_width], normal_y[tree_width], normal_z[tree_width], half[tree_width];

@@ -29,12 +29,12 @@ class BoundOfTriangles {
       v[k] = frame_.to_frame(mesh_.vertices()[vertex]);
       if (std::exchange(added_[vertex], bounds_) != bounds_) points_.add(v[k]);
     }
-    normal_ += (v[1] - v[0]).cross(v[2] - v[0]);
+    facing_.add((v[1] - v[0]).cross(v[2] - v[0]));
   }
   BoundingCylinder bound() {
-    const BoundingCylinder found = bound_points(points_, normal_);
+    const BoundingCylinder found = bound_points(points_, facing_);
     points_.clear();
-    normal_ = Vec3::Zero();
+    facing_ = {};
     ++bounds_;
     return found;
   }
@@ -46,7 +46,7 @@ class BoundOfTriangles {
   std::vector<std::uint32_t> added_;
   std::uint32_t bounds_ = 1;
   PointList points_;
-  Vec3 normal_ = Vec3::Zero();
+  Facing facing_;
 };
 
 inline void set_child(TreeNode& node, std::size_t i, const BoundingCylinder& bound) noexcept {
