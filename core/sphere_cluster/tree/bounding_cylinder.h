@@ -1,5 +1,5 @@
-/// The bounding volume of a child: a cylinder across its triangles where they are as flat as a coin, and along
-/// them where they are long.
+/// The bounding volume of a child: a cylinder across its triangles where they are as flat as a coin, and
+/// along them where they are long.
 #pragma once
 
 #include <cstddef>
@@ -56,7 +56,8 @@ class PointList {
   std::size_t size_ = 0;
 };
 
-/// Which ways the triangles at some points face, in the tree's frame. Normals are twice a triangle's area long.
+/// Which ways the triangles at some points face, in the tree's frame. Normals are twice a triangle's area
+/// long.
 struct Facing {
   Vec3 sum = Vec3::Zero();      ///< of all normals: twice the area times the mean normal
   Vec3 largest = Vec3::Zero();  ///< the normal of the largest triangle
@@ -69,8 +70,8 @@ struct Facing {
 
 /// Returns a cylinder that certainly holds every point as it was before it was rounded. Its axis runs through
 /// nearly the centre of the smallest sphere, along the mean normal. Where the triangles fill little of that,
-/// as they do if they are long, or face both ways as those of a thin plate, it may run along the normal of the
-/// largest one or between the points farthest apart, whichever gives the smaller volume. There must be at
+/// as they do if they are long, or face both ways as those of a thin plate, it may run along the normal of
+/// the largest one or between the points farthest apart, whichever gives the smaller volume. There must be at
 /// least one point; coordinates are below 2.
 BoundingCylinder bound_points(const PointList& points, const Facing& facing) noexcept;
 

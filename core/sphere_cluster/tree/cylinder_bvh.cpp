@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/search/certified_nearest.h"
+#include "core/sphere_cluster/tree/bounding_boxes.h"
 #include "core/sphere_cluster/tree/builder.h"
 #include "core/sphere_cluster/tree/search.h"  // IWYU pragma: keep
 #include "core/sphere_cluster/tree/visitors.h"
@@ -25,6 +26,12 @@ constexpr double far_in_leaf_radii = 1;
 /// The next tick may be this much longer than the last one and still need no refill.
 constexpr float ticks_prepared = 2;
 
+/// A box's is half its diagonal: about the radius of the coin that it holds.
+double radius_of_leaf(const spheres::TreeNode& node, std::size_t child, bool boxes) noexcept {
+  const Vec3 half(double{node.half[child]}, double{node.radius[child]}, double{node.normal_x[child]});
+  return boxes ? half.norm() : half.y();
+}
+
 }  // namespace
 
 SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters, const Options& options)
@@ -42,6 +49,7 @@ SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters,
   frame_ = FilterFrame::around(mesh.bounds());
   radius_ = frame_.radius() * frame_.unit();
   parts_ = spheres::build_tree(mesh, clusters, frame_);
+  spheres::choose_bounds(parts_, frame_);
   measure_leaves();
   fill_distances();
 }
@@ -50,7 +58,7 @@ void SphereTree::measure_leaves() noexcept {
   double sum = 0;
   for (const spheres::TreeNode& node : parts_.nodes)
     for (std::size_t i = 0; i < spheres::tree_width; ++i)
-      if (node.child[i].is_block()) sum += node.radius[i];
+      if (node.child[i].is_block()) sum += radius_of_leaf(node, i, parts_.boxes);
   const double mean = sum / static_cast<double>(parts_.blocks.size());
   mean_leaf_radius_ = mean / frame_.scale();
   parts_.far = static_cast<float>(far_in_leaf_radii * far_in_leaf_radii * mean * mean);

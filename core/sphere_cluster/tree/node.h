@@ -27,7 +27,8 @@ struct TreeRef {
 
 /// Up to eight children, each bounded by a cylinder: the points within `radius` of the axis through the
 /// centre along `normal`, and within `half` of the centre along it. A patch of a surface is as flat as a
-/// coin or as long as a rod, and fills such a cylinder better than a sphere.
+/// coin or as long as a rod, and fills such a cylinder better than a sphere. In a tree of boxes (TreeParts)
+/// `half`, `radius` and `normal_x` are half the extents along x, y and z, and the rest says nothing.
 struct alignas(64) TreeNode {
   float x[tree_width], y[tree_width], z[tree_width], radius[tree_width];
   float normal_x[tree_width], normal_y[tree_width], normal_z[tree_width], half[tree_width];
@@ -51,6 +52,7 @@ struct TreeParts {
   std::vector<TreeNode> nodes;  ///< the root comes first
   std::vector<TriangleBlock> blocks;
   std::vector<PreparedTriangle> triangles;  ///< in the order of the blocks
+  bool boxes = false;                       ///< true: children are bounded by boxes instead of cylinders
   /// From so far on, squared, a closer look at corners pays: many triangles are nearly as near.
   float far = std::numeric_limits<float>::infinity();
 };

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/sphere_cluster/tree/bounding_boxes.h"
 #include "core/sphere_cluster/tree/node_writer.h"
 
 namespace touchmark::spheres {
@@ -62,7 +63,8 @@ class Refit {
       if (node.half[i] < 0) continue;  // nothing is there
       const TreeRef child = node.child[i];
       const Below below = child.is_block() ? below_block(child.index()) : nodes_[child.index()];
-      if (below.moved) set_child(node, i, bound_of(below));
+      if (below.moved && !parts_.boxes) set_child(node, i, bound_of(below));
+      if (below.moved && parts_.boxes) set_child(node, i, box_below(parts_, child, frame_));
       all = {std::min(all.begin, below.begin), std::max(all.end, below.end), all.moved || below.moved};
     }
   }

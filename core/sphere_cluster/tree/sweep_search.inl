@@ -28,31 +28,44 @@ inline Wide least_magnitude(Wide a, Wide b) noexcept {
   return a * b > 0 ? min(max(a, -a), max(b, -b)) : Wide{};
 }
 
+/// Returns true where what is `at` a coordinate of the path at its start and changes by `rise` a length comes
+/// within `limit` of 0 between two lengths.
+inline WideBits comes_within(Wide limit, Wide at, Wide rise, Wide begin, Wide end) noexcept {
+  return least_magnitude(at + begin * rise, at + end * rise) <= limit;
+}
+
 /// Returns those children that the ball may reach into before `until`, as bits. Such a child's ball is within
-/// reach of the path, and on that stretch the path comes within reach of its slab.
-inline unsigned children_on(const TreeNode& node, const PathLanes& path, float until,
+/// reach of the path, and on that stretch the path comes within reach of its slab, or of all three of its box.
+inline unsigned children_on(bool boxes, const TreeNode& node, const PathLanes& path, float until,
                             Stretches& stretches) noexcept {
   unsigned found = 0;
   for (std::size_t at = 0; at < tree_width; at += lanes) {
     const Wide x = path.x - load(node.x + at), y = path.y - load(node.y + at), z = path.z - load(node.z + at);
     const Wide half = load(node.half + at), across = load(node.radius + at);
-    const Wide radius = square_root(across * across + half * half) * rounded_up + path.reach;
+    const Wide third = boxes ? load(node.normal_x + at) : Wide{};
+    const Wide radius =
+        square_root(across * across + half * half + third * third) * rounded_up + path.reach;
     const Wide along = -(x * path.direction_x + y * path.direction_y + z * path.direction_z);
     const Wide nearest = min(max(along, Wide{}), Wide{} + until);
     const Wide off_x = x + nearest * path.direction_x, off_y = y + nearest * path.direction_y,
                off_z = z + nearest * path.direction_z;
     const Wide begin = min(max(along - radius, Wide{}), Wide{} + until);
     const Wide end = min(max(along + radius, Wide{}), Wide{} + until);
-    const Wide normal_x = load(node.normal_x + at), normal_y = load(node.normal_y + at),
-               normal_z = load(node.normal_z + at);
-    const Wide height = x * normal_x + y * normal_y + z * normal_z;
-    const Wide rise =
-        path.direction_x * normal_x + path.direction_y * normal_y + path.direction_z * normal_z;
-    const Wide least = least_magnitude(height + begin * rise, height + end * rise);
+    WideBits near = off_x * off_x + off_y * off_y + off_z * off_z <= radius * radius;
+    if (boxes) {
+      near &= comes_within(half + path.reach, x, path.direction_x, begin, end) &
+              comes_within(across + path.reach, y, path.direction_y, begin, end) &
+              comes_within(third + path.reach, z, path.direction_z, begin, end);
+    } else {
+      const Wide normal_x = load(node.normal_x + at), normal_y = load(node.normal_y + at),
+                 normal_z = load(node.normal_z + at);
+      const Wide height = x * normal_x + y * normal_y + z * normal_z;
+      const Wide rise =
+          path.direction_x * normal_x + path.direction_y * normal_y + path.direction_z * normal_z;
+      near &= comes_within(half + path.reach, height, rise, begin, end);
+    }
     store(stretches.begin.data() + at, begin);
     store(stretches.end.data() + at, end);
-    const WideBits near =
-        (off_x * off_x + off_y * off_y + off_z * off_z <= radius * radius) & (least - half <= path.reach);
     found |= to_bits(near) << at;
   }
   return found;
@@ -109,7 +122,7 @@ template <class Visitor>
     }
     const TreeNode& node = tree.nodes[index];
     Stretches stretches;
-    unsigned near = children_on(node, lanes_of_path, until, stretches);
+    unsigned near = children_on(tree.boxes, node, lanes_of_path, until, stretches);
     visitor.work.spheres += tree_width;
     const std::size_t base = count;
     while (near != 0) {

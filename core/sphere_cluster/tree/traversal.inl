@@ -15,10 +15,20 @@ struct Point {
   Wide x, y, z, plane_error;
 };
 
+/// Lower bounds of the squared distances to the children's bounding boxes.
+template <class Children>
+inline Wide box_bounds(const Children& node, std::size_t at, const Point& p) noexcept {
+  const Wide x = p.x - load(node.x + at), y = p.y - load(node.y + at), z = p.z - load(node.z + at);
+  const Wide beyond_x = max(max(x, -x) - load(node.half + at) - p.plane_error, Wide{});
+  const Wide beyond_y = max(max(y, -y) - load(node.radius + at) - p.plane_error, Wide{});
+  const Wide beyond_z = max(max(z, -z) - load(node.normal_x + at) - p.plane_error, Wide{});
+  return beyond_x * beyond_x + beyond_y * beyond_y + beyond_z * beyond_z;
+}
+
 /// Lower bounds of the squared distances to the children's bounding cylinders. The height over the slab and
 /// the excess beyond the radius are orthogonal, so their squares add up.
 template <class Children>
-inline Wide child_bounds(const Children& node, std::size_t at, const Point& p) noexcept {
+inline Wide cylinder_bounds(const Children& node, std::size_t at, const Point& p) noexcept {
   const Wide x = p.x - load(node.x + at), y = p.y - load(node.y + at), z = p.z - load(node.z + at);
   const Wide along =
       x * load(node.normal_x + at) + y * load(node.normal_y + at) + z * load(node.normal_z + at);
@@ -27,6 +37,11 @@ inline Wide child_bounds(const Children& node, std::size_t at, const Point& p) n
   const Wide height = max(max(along, -along) - load(node.half + at) - p.plane_error, Wide{});
   const Wide excess = max(across - load(node.radius + at) - p.plane_error, Wide{});
   return height * height + excess * excess;
+}
+
+template <class Children>
+inline Wide child_bounds(bool boxes, const Children& node, std::size_t at, const Point& p) noexcept {
+  return boxes ? box_bounds(node, at, p) : cylinder_bounds(node, at, p);
 }
 
 /// A plane of each triangle: its normal, and its value at the point.
@@ -235,7 +250,7 @@ template <class Visitor>
     alignas(64) std::array<float, tree_width> bound;
     unsigned near = within(
         [&](std::size_t at) {
-          const Wide bounds = child_bounds(node, at, p);
+          const Wide bounds = child_bounds(tree.boxes, node, at, p);
           store(bound.data() + at, bounds);
           return bounds;
         },
@@ -278,7 +293,7 @@ inline bool refill(const TreeParts& tree, const FilterPoint& point, std::uint64_
   for (std::size_t next = 0; next < count; ++next) {
     if (work.spheres > budget || count + tree_width > stack.size()) return false;
     const TreeNode& node = tree.nodes[stack[next]];
-    const unsigned near = within([&](std::size_t at) { return child_bounds(node, at, p); }, limit, unseen);
+    const unsigned near = within([&](std::size_t at) { return child_bounds(tree.boxes, node, at, p); }, limit, unseen);
     work.spheres += tree_width;
     const unsigned blocks = near & blocks_of(node);
     for (unsigned deeper = near & ~blocks; deeper != 0;) {
@@ -372,7 +387,7 @@ float search_cached(const TreeParts& tree, const FilterPoint& point, const LeafC
   std::size_t block_count = 0;
   for (std::uint32_t first = 0; first < cache.count; first += tree_width) {
     const unsigned near =
-        within([&](std::size_t at) { return child_bounds(cache, first + at, p); }, limit, unseen);
+        within([&](std::size_t at) { return child_bounds(tree.boxes, cache, first + at, p); }, limit, unseen);
     compress(blocks.data() + block_count, cache.child + first, near);
     block_count += static_cast<std::size_t>(std::popcount(near));
     visitor.work.spheres += tree_width;

@@ -1,0 +1,74 @@
+// The boxes of a hierarchy: which meshes get them, and that they hold what is below them.
+#include "core/sphere_cluster/tree/bounding_boxes.h"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "bench/scenes/scenes.h"
+#include "core/sphere_cluster/clustering.h"
+#include "core/sphere_cluster/tree/builder.h"
+
+namespace touchmark::spheres {
+namespace {
+
+struct Tree {
+  TriangleMesh mesh;
+  FilterFrame frame;
+  TreeParts parts;
+
+  explicit Tree(const std::string& scene)
+      : mesh(bench::scenes::load_scene(scene)), frame(FilterFrame::around(mesh.bounds())) {
+    parts = build_tree(mesh, cluster_spheres(mesh, 0, VisitOrder::breadth_first), frame);
+    choose_bounds(parts, frame);
+  }
+};
+
+/// Returns how many corners below this node are outside the box of a child that they are below.
+std::size_t corners_outside(const Tree& tree, std::uint32_t at) {
+  const TreeNode& node = tree.parts.nodes[at];
+  std::size_t outside = 0;
+  for (std::size_t i = 0; i < tree_width; ++i) {
+    if (node.half[i] < 0) continue;
+    const Vec3 center(double{node.x[i]}, double{node.y[i]}, double{node.z[i]});
+    const Vec3 half(double{node.half[i]}, double{node.radius[i]}, double{node.normal_x[i]});
+    const auto check = [&](auto&& self, TreeRef child) -> void {
+      if (!child.is_block()) {
+        const TreeNode& below = tree.parts.nodes[child.index()];
+        for (std::size_t k = 0; k < tree_width; ++k)
+          if (!(below.half[k] < 0)) self(self, below.child[k]);
+        return;
+      }
+      for (std::size_t k = 0; k < tree_width; ++k) {
+        const std::size_t slot = std::size_t{child.index()} * tree_width + k;
+        if (slot >= tree.parts.triangles.size()) break;
+        for (const Vec3& corner : tree.parts.triangles[slot].corner)
+          if (((tree.frame.to_frame(corner) - center).cwiseAbs() - half).maxCoeff() > 0) ++outside;
+      }
+    };
+    check(check, node.child[i]);
+  }
+  return outside;
+}
+
+TEST(BoundingBoxes, HoldEveryTriangleBelowThem) {
+  for (const char* scene : {"fins:2000", "boxes:2000@offset=1e6", "truss:2000@scale=1e-6", "thin-plate"}) {
+    const Tree tree(scene);
+    ASSERT_TRUE(tree.parts.boxes) << scene;
+    std::size_t outside = 0;
+    for (std::uint32_t at = 0; at < tree.parts.nodes.size(); ++at) outside += corners_outside(tree, at);
+    EXPECT_EQ(outside, 0U) << scene;
+  }
+}
+
+TEST(BoundingBoxes, AreForWhatFillsThem) {
+  EXPECT_TRUE(Tree("voxels:2000").parts.boxes);
+  EXPECT_FALSE(Tree("icosphere:4").parts.boxes);
+  EXPECT_FALSE(Tree("sliver-fan").parts.boxes);
+}
+
+}  // namespace
+}  // namespace touchmark::spheres
