@@ -113,7 +113,7 @@ float volume_within(const BoundingCylinder& bound, float margin) noexcept {
 constexpr double least_cover = 0.3;
 /// From how far off bounds are compared, in parts of the first one's size.
 constexpr float comparing_margin = 0.05F;
-/// Of so many points one longer look is worth its time.
+/// With more points than this a closer look takes too long.
 constexpr std::size_t max_compared = 4096;
 
 }  // namespace

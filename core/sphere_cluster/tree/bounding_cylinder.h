@@ -59,7 +59,7 @@ class PointList {
 /// Which ways the triangles at some points face, in the tree's frame. Normals are twice a triangle's area
 /// long.
 struct Facing {
-  Vec3 sum = Vec3::Zero();      ///< of all normals: twice the area times the mean normal
+  Vec3 sum = Vec3::Zero();      ///< the sum of all normals: along the mean one
   Vec3 largest = Vec3::Zero();  ///< the normal of the largest triangle
 
   void add(const Vec3& normal) noexcept {

@@ -60,7 +60,7 @@ class SphereTree {
     const double margin = memory.lower - reach;
     return memory.epoch == epoch_ && margin > 0 && (center - memory.center).squaredNorm() < margin * margin;
   }
-  /// The same of a path: a ball that holds both its ends holds all of it.
+  /// Is that known of a whole path? A ball that holds both its ends holds all of it.
   bool is_clear(const Sweep& sweep, const Memory& memory) const noexcept {
     return is_clear(sweep.from, sweep.radius, memory) && is_clear(sweep.to, sweep.radius, memory);
   }

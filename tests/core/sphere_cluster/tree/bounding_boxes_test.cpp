@@ -1,7 +1,6 @@
 // The boxes of a hierarchy: which meshes get them, and that they hold what is below them.
 #include "core/sphere_cluster/tree/bounding_boxes.h"
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <string>
