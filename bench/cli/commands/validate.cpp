@@ -12,6 +12,7 @@
 
 #include "bench/cli/program.h"
 #include "bench/experiments/choose/choose_check.h"
+#include "bench/experiments/proxy/proxy_check.h"
 #include "bench/experiments/servo/servo_check.h"
 #include "bench/experiments/stress/stress_check.h"
 #include "bench/experiments/suite/suite_check.h"
@@ -23,6 +24,7 @@
 namespace touchmark::bench::cli {
 
 namespace choose = experiments::choose;
+namespace proxy = experiments::proxy;
 namespace servo = experiments::servo;
 namespace stress = experiments::stress;
 namespace suite = experiments::suite;
@@ -78,14 +80,15 @@ std::string check_json(const std::string& path, validation::Faults& faults) {
 bool is_stress_csv(const fs::path& path) { return path.filename() == "stress.csv"; }
 bool is_servo_csv(const fs::path& path) { return path.filename() == "servo.csv"; }
 bool is_choose_csv(const fs::path& path) { return path.filename() == "choose.csv"; }
+bool is_proxy_csv(const fs::path& path) { return path.filename() == "proxy.csv"; }
 bool is_suite_csv(const fs::path& path) { return path.filename() == "suite.csv"; }
 
-/// The run.json beside a results.csv, stress.csv, servo.csv, choose.csv or suite.csv; its own faults are
-/// reported where it is checked itself.
+/// The run.json beside a results.csv, stress.csv, servo.csv, choose.csv, suite.csv or proxy.csv; its own
+/// faults are reported where it is checked itself.
 std::optional<validation::LocatedJson> run_next_to(const fs::path& path) {
   const fs::path run_path = path.parent_path() / "run.json";
   if ((path.filename() != "results.csv" && !is_stress_csv(path) && !is_servo_csv(path) &&
-       !is_choose_csv(path) && !is_suite_csv(path)) ||
+       !is_choose_csv(path) && !is_suite_csv(path) && !is_proxy_csv(path)) ||
       !fs::exists(run_path))
     return std::nullopt;
   validation::Faults reported_elsewhere;
@@ -123,6 +126,10 @@ std::string check_csv(const std::string& path, validation::Faults& faults) {
     suite::check_suite(table, run_json, faults);
     return fmt::format("suite, {} rows", table.records.size());
   }
+  if (is_proxy_csv(path)) {
+    proxy::check_proxy(table, run_json, faults);
+    return fmt::format("proxy, {} rows", table.records.size());
+  }
   const bool results =
       fs::path(path).filename() == "results.csv" || table.has("run_id") || table.has("answers_checksum");
   if (results) validation::check_results(table, run_json, faults);
@@ -152,11 +159,11 @@ void add_validate(CLI::App& program, ProgramContext& context) {
   const auto paths = std::make_shared<std::vector<std::string>>();
   CLI::App* command = program.add_subcommand("validate", "check recorded results: CSV files and run.json");
   command
-      ->add_option(
-          "path", *paths,
-          "results.csv, stress.csv, servo.csv, choose.csv, suite.csv, run.json, or folders that hold some; "
-          "other CSV files are "
-          "checked for their form")
+      ->add_option("path", *paths,
+                   "results.csv, stress.csv, servo.csv, choose.csv, suite.csv, proxy.csv, run.json, or "
+                   "folders that hold some; "
+                   "other CSV files are "
+                   "checked for their form")
       ->type_name("FILE|DIR")
       ->required();
   command->footer(

@@ -1,0 +1,243 @@
+/// `touchmark proxy`: which proxy crosses a surface, and how often? Every way is replayed by the exact
+/// oracle.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "bench/cli/program.h"
+#include "bench/experiments/proxy/proxy_csv.h"
+#include "bench/experiments/proxy/proxy_report.h"
+#include "bench/experiments/proxy/proxy_run.h"
+#include "bench/experiments/proxy/proxy_trace.h"
+#include "bench/results/results_folder.h"
+#include "bench/scenes/scenes.h"
+#include "bench/support/atomic_file.h"
+#include "bench/support/denormals.h"
+#include "bench/support/interrupt.h"
+#include "bench/support/length.h"
+#include "bench/support/numbers.h"
+#include "bench/support/progress.h"
+#include "bench/support/standard_output.h"
+#include "bench/trajectories/trajectories.h"
+
+namespace touchmark::bench::cli {
+
+namespace proxy = experiments::proxy;
+
+namespace {
+
+constexpr std::uint64_t max_ticks = 1'000'000'000'000;
+
+struct ProxyOptions {
+  std::vector<std::string> methods, families;
+  std::string ticks, seed = "1", detector = "sphere-cluster";
+  std::string mesh, trajectory, radius = "0.5%", trace, out;
+  std::string stiffness = "1000", friction = "0", damping = "0";
+};
+
+std::uint64_t checked_count(const char* option, const std::string& text, std::uint64_t least,
+                            std::uint64_t most) {
+  const std::optional<std::uint64_t> count = support::parse_count(text);
+  if (!count || *count < least || *count > most)
+    throw std::invalid_argument(
+        fmt::format("{} \"{}\" is not a whole number from {} to {}", option, text, least, most));
+  return *count;
+}
+
+double checked_number(const char* option, const std::string& text) {
+  const std::optional<double> value = support::parse_number(text);
+  if (!value || !(*value >= 0) || !std::isfinite(*value))
+    throw std::invalid_argument(fmt::format("{} \"{}\" is not a finite number of 0 or more", option, text));
+  return *value;
+}
+
+/// "MU" for both coefficients, or "STATIC,DYNAMIC".
+std::array<double, 2> checked_friction(const std::string& text) {
+  const std::size_t comma = text.find(',');
+  const double at_rest = checked_number("--friction", text.substr(0, comma));
+  return {at_rest,
+          comma == std::string::npos ? at_rest : checked_number("--friction", text.substr(comma + 1))};
+}
+
+proxy::ProxyRequest request_of(const ProxyOptions& options, const contestants::Roster& roster) {
+  proxy::ProxyRequest request;
+  for (const std::string& name : options.families) request.families.push_back(&proxy::family_named(name));
+  if (request.families.empty()) {
+    for (const proxy::Family& family : proxy::families()) request.families.push_back(&family);
+  }
+  for (const std::string& name : options.methods) request.methods.push_back(proxy::method_named(name));
+  if (request.methods.empty()) request.methods = proxy::all_methods(roster);
+  request.ticks = checked_count("--ticks", options.ticks.empty() ? "100000" : options.ticks, 1, max_ticks);
+  request.seed = checked_count("--seed", options.seed, 0, UINT32_MAX);
+  request.detector = options.detector;
+  const std::array<double, 2> friction = checked_friction(options.friction);
+  request.coupling.stiffness = checked_number("--stiffness", options.stiffness);
+  request.coupling.static_friction = friction[0];
+  request.coupling.dynamic_friction = friction[1];
+  request.coupling.damping = checked_number("--damping", options.damping);
+  return request;
+}
+
+/// The user's own mesh and motion. The proxy starts at the first goal.
+proxy::Course course_of(const ProxyOptions& options, std::uint64_t seed) {
+  TriangleMesh mesh = scenes::load_mesh(options.mesh, false);
+  const std::optional<support::Length> length = support::parse_length(options.radius);
+  if (!length || !std::isfinite(length->value))
+    throw std::invalid_argument(
+        fmt::format("--radius \"{}\" is not a finite length of 0 or more", options.radius));
+  trajectories::TrajectoryOptions motion;
+  if (!options.ticks.empty()) motion.steps = checked_count("--ticks", options.ticks, 1, max_ticks);
+  motion.seed = seed;
+  motion.radius = length->in_mesh_units(mesh);
+  trajectories::Trajectory trajectory = trajectories::make_trajectory(options.trajectory, mesh, motion);
+  const Vec3 start = trajectory.positions.front();
+  return {trajectory.name, std::move(mesh), motion.radius, 0, start, std::move(trajectory.positions)};
+}
+
+class ProxyCommand {
+ public:
+  ProxyCommand(const ProgramContext& context, const ProxyOptions& options)
+      : options_(options),
+        run_(context.roster, request_of(options, context.roster)),
+        description_(results::begun_run(context.argc, context.argv)) {
+    if (options.mesh.empty() != options.trajectory.empty())
+      throw std::invalid_argument("--mesh and --trajectory go together");
+    if (!options.trace.empty() && (options.mesh.empty() || options.methods.size() != 1))
+      throw std::invalid_argument("--trace needs one --method, a --mesh and a --trajectory");
+    if (!options.mesh.empty() && !options.families.empty())
+      throw std::invalid_argument("--family and --mesh exclude one another");
+    if (!options.out.empty()) folder_.emplace(options.out);
+    description_.flushed_to_zero = support::restore_denormals();
+    description_.seed = run_.request().seed;
+    description_.effort = {0, 0, 0, 0};
+  }
+
+  int run();
+
+ private:
+  void run_own_course();
+  void report();
+
+  const ProxyOptions& options_;
+  proxy::ProxyRun run_;
+  std::optional<results::ResultsFolder> folder_;
+  results::RunDescription description_;
+  support::ProgressLine progress_;
+};
+
+void ProxyCommand::run_own_course() {
+  const proxy::Course course = course_of(options_, run_.request().seed);
+  proxy::ProxyTrace trace;
+  std::optional<support::AtomicFile> file;
+  proxy::Seen seen;
+  if (!options_.trace.empty()) {
+    file.emplace(options_.trace);
+    seen = [&](std::size_t tick, const proxy::Step& step, std::int64_t ns) {
+      trace.add(tick, course.goals[tick], step, ns);
+    };
+  }
+  run_.run_course_of(
+      options_.mesh, course, [&](const std::string& what) { progress_.show(what); }, seen);
+  if (!file) return;
+  file->write(trace.text());
+  file->commit();
+}
+
+void ProxyCommand::report() {
+  progress_.clear();
+  const std::string faults = proxy::proxy_faults(run_.scores());
+  support::StandardOutput().write(proxy::proxy_table(run_.scores()) + (faults.empty() ? "" : "\n" + faults));
+  if (!folder_) return;
+  folder_->write_file("proxy.csv", proxy::proxy_csv(description_.run_id, run_.scores()));
+  folder_->write_file("run.json", proxy::proxy_json(description_, run_));
+}
+
+int ProxyCommand::run() {
+  support::watch_for_interrupts();
+  try {
+    if (options_.mesh.empty())
+      run_.run([&](const std::string& what) { progress_.show(what); });
+    else
+      run_own_course();
+  } catch (const support::Interrupted&) {
+    description_.finished = false;
+    report();
+    fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", run_.scores().size());
+    return support::exit_interrupted;
+  }
+  report();
+  const bool broken = std::any_of(run_.scores().begin(), run_.scores().end(),
+                                  [](const proxy::Score& score) { return score.broken(); });
+  return broken ? support::exit_check_failed : support::exit_done;
+}
+
+std::string lists() {
+  std::string list = "Methods:\n";
+  for (const proxy::MethodInfo& method : proxy::methods()) {
+    list += fmt::format("  {:<20}{}\n", method.name, method.meaning);
+    for (const proxy::MethodOption& option : method.options)
+      list += fmt::format("    {}={}: {}\n", option.key, option.default_value, option.meaning);
+  }
+  list += "Families:\n";
+  for (const proxy::Family& family : proxy::families())
+    list += fmt::format("  {:<20}{}\n", family.name, family.meaning);
+  return list;
+}
+
+void add_coupling(CLI::App& command, ProxyOptions& options) {
+  const auto option = [&](const char* name, std::string& value, const char* what, const char* type) {
+    command.add_option(name, value, what)->type_name(type)->capture_default_str();
+  };
+  option("--stiffness", options.stiffness, "of the spring between proxy and device, mesh units being metres",
+         "N/m");
+  option("--friction", options.friction, "coefficients, static and dynamic, or one for both", "MU[,MU]");
+  option("--damping", options.damping, "against the device's velocity while in contact", "NS/M");
+}
+
+}  // namespace
+
+void add_proxy(CLI::App& program, ProgramContext& context) {
+  const auto options = std::make_shared<ProxyOptions>();
+  CLI::App* command = program.add_subcommand(
+      "proxy", "which haptic proxy crosses the surface? every way is replayed by the exact oracle");
+  const auto repeatable = [&](const char* name, std::vector<std::string>& values, const char* what,
+                              const char* type) {
+    command->add_option(name, values, what)->type_name(type)->expected(1)->take_all();
+  };
+  const auto option = [&](const char* name, std::string& value, const char* what, const char* type) {
+    return command->add_option(name, value, what)->type_name(type);
+  };
+  repeatable("--method", options->methods,
+             "one of those below, as NAME[:key=value,...]; repeatable; default: all", "M");
+  repeatable("--family", options->families, "one of those below; repeatable; default: all", "F");
+  option("--ticks", options->ticks,
+         "of all families together, about; default: 100000; with --mesh at most so many", "N");
+  option("--seed", options->seed, "of all meshes and motions", "N")->capture_default_str();
+  option("--detector", options->detector, "which of ours answers `certified`", "D")->capture_default_str();
+  option("--mesh", options->mesh, "instead of families: a scene or a file, with --trajectory", "MESH");
+  option("--trajectory", options->trajectory, "a name (touchmark list) or a motion file: the goals", "T");
+  option("--radius", options->radius, "the ball's, with --mesh; mesh units or % of the box diagonal",
+         "LENGTH")
+      ->capture_default_str();
+  option("--trace", options->trace, "with --mesh and one method: file for the way, one row a straight piece",
+         "FILE");
+  add_coupling(*command, *options);
+  option("--out", options->out, "folder for proxy.csv and run.json; scripts/plot draws them", "DIR");
+  command->footer(
+      lists() +
+      "Exit status 1 if `certified` crossed the surface or came nearer to it than the radius.\n"
+      "Example: touchmark proxy --method god-object --method virtual-proxy --family cracks --ticks "
+      "20000 --out results/today\n");
+  command->final_callback([options, &context] { context.status = ProxyCommand(context, *options).run(); });
+}
+
+}  // namespace touchmark::bench::cli

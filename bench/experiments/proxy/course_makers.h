@@ -1,0 +1,65 @@
+/// What the families' makers share. Makers are listed in families.cpp.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bench/experiments/proxy/course.h"
+#include "bench/experiments/proxy/motion.h"
+#include "bench/scenes/surface_builder.h"
+#include "bench/support/random.h"
+
+namespace touchmark::bench::experiments::proxy {
+
+/// The usual size of a scene: as of what fits under a haptic device, in metres.
+inline constexpr double scene_size = 0.1;
+
+/// An orthonormal frame, its columns any directions.
+struct Frame {
+  Vec3 x, y, z;
+
+  Vec3 operator()(const Vec3& v) const { return v.x() * x + v.y() * y + v.z() * z; }
+};
+inline constexpr auto upright = [] { return Frame{Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()}; };
+Frame any_frame(support::Random& random);
+
+TriangleMesh placed(const TriangleMesh& mesh, double scale, const Frame& frame);
+
+/// The ticks of each of so many courses.
+inline std::size_t share_of(std::size_t ticks, std::size_t courses) {
+  return std::max<std::size_t>(ticks / courses, 50);
+}
+
+/// Every other course is of a bare point, the others of a ball of this share of the size.
+inline double radius_of(std::size_t course, double size, double share = 0.03) {
+  return course % 2 == 0 ? share * size : 0;
+}
+
+/// A course that explores the mesh from outside its box.
+Course exploring(std::string name, TriangleMesh mesh, double radius, std::uint64_t seed, std::size_t ticks);
+
+std::vector<Course> thin_plates(std::uint64_t seed, std::size_t ticks);
+std::vector<Course> wedges_inside(std::uint64_t seed, std::size_t ticks);
+std::vector<Course> wedges_outside(std::uint64_t seed, std::size_t ticks);
+std::vector<Course> corners(std::uint64_t seed, std::size_t ticks);
+std::vector<Course> rooms(std::uint64_t seed, std::size_t ticks);
+std::vector<Course> saddles(std::uint64_t seed, std::size_t ticks);
+std::vector<Course> convex_edges(std::uint64_t seed, std::size_t ticks);
+std::vector<Course> cracks(std::uint64_t seed, std::size_t ticks);
+std::vector<Course> needle_fans(std::uint64_t seed, std::size_t ticks);
+std::vector<Course> t_junctions(std::uint64_t seed, std::size_t ticks);
+std::vector<Course> holes(std::uint64_t seed, std::size_t ticks);
+std::vector<Course> self_intersections(std::uint64_t seed, std::size_t ticks);
+std::vector<Course> doubled_faces(std::uint64_t seed, std::size_t ticks);
+std::vector<Course> scaled_meshes(std::uint64_t seed, std::size_t ticks);
+std::vector<Course> stabs(std::uint64_t seed, std::size_t ticks);
+std::vector<Course> rest_inside(std::uint64_t seed, std::size_t ticks);
+std::vector<Course> circles(std::uint64_t seed, std::size_t ticks);
+std::vector<Course> tremors(std::uint64_t seed, std::size_t ticks);
+std::vector<Course> friction(std::uint64_t seed, std::size_t ticks);
+std::vector<Course> deforming(std::uint64_t seed, std::size_t ticks);
+
+}  // namespace touchmark::bench::experiments::proxy

@@ -1,0 +1,54 @@
+#include <array>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "bench/experiments/proxy/course_makers.h"
+#include "bench/support/did_you_mean.h"
+
+namespace touchmark::bench::experiments::proxy {
+namespace {
+
+// One line a family.
+constexpr std::array list{
+    Family{"thin-plates", "plates from a centimetre down to one ulp thick, stabbed and pressed",
+           &thin_plates},
+    Family{"wedges-inside", "grooves of 1 to 179 degrees, the ball in them", &wedges_inside},
+    Family{"wedges-outside", "blades of 1 to 179 degrees", &wedges_outside},
+    Family{"corners", "three planes that meet in any directions, the ball between them", &corners},
+    Family{"rooms", "boxes from inside, the goal outside beyond faces, edges and corners", &rooms},
+    Family{"saddles", "saddles, coarse and fine", &saddles},
+    Family{"convex-edges", "cubes and icospheres slid over", &convex_edges},
+    Family{"cracks", "plates side by side with a crack of one ulp up to an edge's length", &cracks},
+    Family{"needle-fans", "fans of needles, needles and caps", &needle_fans},
+    Family{"t-junctions", "coarse squares beside fine ones, their vertices on edges only to rounding",
+           &t_junctions},
+    Family{"holes", "surfaces with a tenth of their triangles missing", &holes},
+    Family{"self-intersections", "solids that pass through one another, and a soup", &self_intersections},
+    Family{"doubled-faces", "triangles three times, and degenerate ones", &doubled_faces},
+    Family{"scaled", "the same bumpy ball from 1 cm to 10 m", &scaled_meshes},
+    Family{"stabs", "straight through solids at 100 diagonals a second", &stabs},
+    Family{"rest-inside", "the goal at rest deep inside", &rest_inside},
+    Family{"circles", "the goal circles in and out, always the same way", &circles},
+    Family{"tremor", "a hand's tremor inside and at the surface", &tremors},
+    Family{"friction", "friction of 0.1 to 1", &friction},
+    Family{"deforming", "a surface that changes its shape every ten ticks", &deforming},
+};
+
+}  // namespace
+
+std::span<const Family> families() { return list; }
+
+const Family& family_named(std::string_view name) {
+  std::vector<std::string> names;
+  for (const Family& family : list) {
+    if (family.name == name) return family;
+    names.emplace_back(family.name);
+  }
+  throw std::invalid_argument(
+      fmt::format("unknown family \"{}\"; the nearest names: {}", name, support::near_names(name, names)));
+}
+
+}  // namespace touchmark::bench::experiments::proxy

@@ -1,0 +1,117 @@
+#include "bench/experiments/proxy/proxy_run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "bench/support/interrupt.h"
+
+namespace touchmark::bench::experiments::proxy {
+namespace {
+
+/// A round asks every family so much, so that a campaign that is ended has something of every one.
+constexpr std::size_t ticks_a_round = 4000;
+
+/// One tick that crossed, for the message.
+std::string where(const Course& course, std::size_t tick) {
+  return fmt::format("{}, tick {}", course.name, tick);
+}
+
+}  // namespace
+
+void run_course(const contestants::Roster& roster, const Course& course, const std::vector<Vec3>& optima,
+                const MethodSpec& method, const Coupling& coupling, const std::string& detector, Tally& tally,
+                const Seen& seen) {
+  using Clock = std::chrono::steady_clock;
+  auto oracle = std::make_unique<const WayOracle>(course.mesh);
+  const std::unique_ptr<ProxyMethod> proxy =
+      method.info->make({roster, course.mesh, coupling, method.values, detector});
+  proxy->place(course.start);
+  Judge judge(course, optima, coupling, tally);
+  judge.see(*oracle);
+  Step step;
+  for (std::size_t tick = 0; tick < course.goals.size(); ++tick) {
+    if (course.update_every > 0 && tick > 0 && tick % course.update_every == 0) {
+      const TriangleMesh mesh = course.moved(tick / course.update_every);
+      auto next = std::make_unique<const WayOracle>(mesh);
+      proxy->update(mesh);
+      judge.see(*next);  // which still asks the last one
+      oracle = std::move(next);
+    }
+    const Clock::time_point before = Clock::now();
+    proxy->step(course.goals[tick], step);
+    const std::int64_t ns =
+        std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - before).count();
+    tally.times.add(ns);
+    judge.tick(tick, step);
+    if (seen) seen(tick, step, ns);
+  }
+  tally.work += proxy->work();
+}
+
+ProxyRun::ProxyRun(const contestants::Roster& roster, ProxyRequest request)
+    : roster_(roster), request_(std::move(request)) {}
+
+Score& ProxyRun::score_of(const MethodSpec& method, const std::string& family, bool point) {
+  const auto known = std::find_if(scores_.begin(), scores_.end(), [&](const Score& score) {
+    return score.method == &method && score.family == family && score.point == point;
+  });
+  if (known != scores_.end()) return *known;
+  // Family by family they are run; method by method they are told.
+  const auto after = std::find_if(scores_.begin(), scores_.end(),
+                                  [&](const Score& score) { return score.method > &method; });
+  Score score;
+  score.method = &method;
+  score.family = family;
+  score.point = point;
+  if (method.info->claims) score.detector = request_.detector;
+  return *scores_.insert(after, std::move(score));
+}
+
+void ProxyRun::run_course_of(const std::string& family, const Course& course,
+                             const std::function<void(const std::string&)>& progress, const Seen& seen) {
+  Coupling coupling = request_.coupling;
+  if (course.friction > 0) coupling.static_friction = coupling.dynamic_friction = course.friction;
+  Course points = course;
+  points.radius = 0;
+  const std::vector<Vec3> optima = optima_of(course);
+  const std::vector<Vec3> point_optima = course.radius > 0 ? optima_of(points) : optima;
+  for (const MethodSpec& method : request_.methods) {
+    support::check_for_interrupt();
+    progress(fmt::format("{}, {}: {}", family, course.name, method.text()));
+    const bool as_point = method.info->points_only;
+    coupling.radius = as_point ? 0 : course.radius;
+    Score& score = score_of(method, family, coupling.radius == 0);
+    const std::uint64_t crossings = score.tally.crossings + score.tally.violations;
+    const auto watch = [&](std::size_t tick, const Step& step, std::int64_t ns) {
+      if (method.info->claims && score.first_fault.empty() &&
+          score.tally.crossings + score.tally.violations > crossings)
+        score.first_fault = where(course, tick);
+      if (seen) seen(tick, step, ns);
+    };
+    run_course(roster_, as_point ? points : course,
+               course.friction > 0 ? std::vector<Vec3>()
+               : as_point          ? point_optima
+                                   : optima,
+               method, coupling, request_.detector, score.tally, watch);
+    ++score.courses;
+  }
+}
+
+void ProxyRun::run(const std::function<void(const std::string&)>& progress) {
+  const std::size_t of_each = std::max<std::size_t>(request_.ticks / request_.families.size(), 1);
+  std::size_t left = of_each;
+  for (std::uint64_t round = 0; left > 0; ++round) {
+    const std::size_t some = std::min(left, ticks_a_round);
+    for (const Family* family : request_.families) {
+      for (const Course& course : family->make(request_.seed + round, some))
+        run_course_of(std::string(family->name), course, progress);
+    }
+    left -= some;
+  }
+}
+
+}  // namespace touchmark::bench::experiments::proxy
