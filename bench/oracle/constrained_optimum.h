@@ -1,5 +1,5 @@
-/// Where a ball that may not pass some planes is nearest to its goal: what a proxy in a convex free space is
-/// to reach, to far more digits than doubles have.
+/// The constrained optimum of a ball that may not pass some planes, to far more digits than doubles have:
+/// what a proxy in a convex free space is to reach.
 #pragma once
 
 #include <memory>

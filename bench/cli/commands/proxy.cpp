@@ -71,7 +71,7 @@ std::array<double, 2> checked_friction(const std::string& text) {
 proxy::ProxyRequest request_of(const ProxyOptions& options, const contestants::Roster& roster) {
   proxy::ProxyRequest request;
   for (const std::string& name : options.families) request.families.push_back(&proxy::family_named(name));
-  if (request.families.empty()) {
+  if (request.families.empty() && options.mesh.empty()) {
     for (const proxy::Family& family : proxy::families()) request.families.push_back(&family);
   }
   for (const std::string& name : options.methods) request.methods.push_back(proxy::method_named(name));

@@ -39,8 +39,8 @@ using namespace results::kinds;
 constexpr auto columns = std::to_array<results::Column<Score>>({
     {"schema", [](S) { return std::to_string(proxy_schema); }, always, one, "1."},
     {"run_id", nullptr, always, any_text, "As in run.json."},
-    {"method", [](S score) { return std::string(score.method->info->name); }, always, any_text, "The algorithm."},
-    {"options", [](S score) { return score.method->options; }, optional, any_text, "As they were typed."},
+    {"method", [](S score) { return std::string(score.method.info->name); }, always, any_text, "The algorithm."},
+    {"options", [](S score) { return score.method.options; }, optional, any_text, "As they were typed."},
     {"detector", plain<&Score::detector>, optional, any_text, "Which of ours answers `certified`."},
     {"family", plain<&Score::family>, always, any_text, "As `touchmark proxy --help` lists them, or the mesh."},
     {"probe", [](S score) { return std::string(score.point ? "point" : "ball"); }, always, ball_or_point,

@@ -35,7 +35,7 @@ Tally sum_of(const std::vector<const Score*>& scores) {
 }
 
 auto by_method(const std::vector<Score>& scores) {
-  return support::grouped_by(scores, [](const Score& score) { return score.method->text(); });
+  return support::grouped_by(scores, [](const Score& score) { return score.method.text(); });
 }
 
 std::string crossings_of(const Tally& tally) {
@@ -54,7 +54,7 @@ std::string crossings_table(const std::vector<Score>& scores) {
     for (const auto& [method, of_it] : methods) {
       std::vector<const Score*> both;
       std::copy_if(of_family.begin(), of_family.end(), std::back_inserter(both),
-                   [&, name = method](const Score* one) { return one->method->text() == name; });
+                   [&, name = method](const Score* one) { return one->method.text() == name; });
       line.push_back(both.empty() ? "" : crossings_of(sum_of(both)));
     }
     table.add(line);
@@ -94,7 +94,7 @@ std::string proxy_faults(const std::vector<Score>& scores) {
   std::string text;
   for (const Score& score : scores) {
     if (score.broken())
-      text += fmt::format("{} crossed or came too near in {}: {}\n", score.method->text(), score.family,
+      text += fmt::format("{} crossed or came too near in {}: {}\n", score.method.text(), score.family,
                           score.first_fault);
   }
   return text;

@@ -55,19 +55,20 @@ void run_course(const contestants::Roster& roster, const Course& course, const s
 ProxyRun::ProxyRun(const contestants::Roster& roster, ProxyRequest request)
     : roster_(roster), request_(std::move(request)) {}
 
-Score& ProxyRun::score_of(const MethodSpec& method, const std::string& family, bool point) {
+Score& ProxyRun::score_of(std::size_t place, const std::string& family, bool point) {
   const auto known = std::find_if(scores_.begin(), scores_.end(), [&](const Score& score) {
-    return score.method == &method && score.family == family && score.point == point;
+    return score.place == place && score.family == family && score.point == point;
   });
   if (known != scores_.end()) return *known;
   // Family by family they are run; method by method they are told.
   const auto after = std::find_if(scores_.begin(), scores_.end(),
-                                  [&](const Score& score) { return score.method > &method; });
+                                  [&](const Score& score) { return score.place > place; });
   Score score;
-  score.method = &method;
+  score.method = request_.methods[place];
+  score.place = place;
   score.family = family;
   score.point = point;
-  if (method.info->claims) score.detector = request_.detector;
+  if (score.method.info->claims) score.detector = request_.detector;
   return *scores_.insert(after, std::move(score));
 }
 
@@ -79,12 +80,13 @@ void ProxyRun::run_course_of(const std::string& family, const Course& course,
   points.radius = 0;
   const std::vector<Vec3> optima = optima_of(course);
   const std::vector<Vec3> point_optima = course.radius > 0 ? optima_of(points) : optima;
-  for (const MethodSpec& method : request_.methods) {
+  for (std::size_t place = 0; place < request_.methods.size(); ++place) {
+    const MethodSpec& method = request_.methods[place];
     support::check_for_interrupt();
     progress(fmt::format("{}, {}: {}", family, course.name, method.text()));
     const bool as_point = method.info->points_only;
     coupling.radius = as_point ? 0 : course.radius;
-    Score& score = score_of(method, family, coupling.radius == 0);
+    Score& score = score_of(place, family, coupling.radius == 0);
     const std::uint64_t crossings = score.tally.crossings + score.tally.violations;
     const auto watch = [&](std::size_t tick, const Step& step, std::int64_t ns) {
       if (method.info->claims && score.first_fault.empty() &&

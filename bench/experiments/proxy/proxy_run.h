@@ -25,7 +25,8 @@ struct ProxyRequest {
 
 /// A method and a family, balls and bare points apart.
 struct Score {
-  const MethodSpec* method = nullptr;
+  MethodSpec method;
+  std::size_t place = 0;  ///< the method's, among those asked for
   std::string family;
   bool point = false;  ///< It counts the courses without a radius; else those of a ball.
   std::string detector;
@@ -34,7 +35,7 @@ struct Score {
   std::string
       first_fault;  ///< the course and tick of the first crossing of a method that claims to have none
 
-  bool broken() const { return method->info->claims && tally.crossings + tally.violations > 0; }
+  bool broken() const { return method.info->claims && tally.crossings + tally.violations > 0; }
 };
 
 /// Runs a method over a course. `seen(tick, step, ns)` may look at each tick. Throws what the method's making
@@ -58,7 +59,7 @@ class ProxyRun {
   const ProxyRequest& request() const noexcept { return request_; }
 
  private:
-  Score& score_of(const MethodSpec& method, const std::string& family, bool point);
+  Score& score_of(std::size_t place, const std::string& family, bool point);
 
   const contestants::Roster& roster_;
   ProxyRequest request_;

@@ -1,0 +1,112 @@
+/// The courses of the proxy suite and the published algorithms on them.
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "bench/contestants/roster.h"
+#include "bench/experiments/proxy/proxy_run.h"
+
+namespace touchmark::bench::experiments::proxy {
+namespace {
+
+constexpr std::size_t ticks = 600;
+
+TEST(ProxyCourses, StartWhereTheBallIsFree) {
+  for (const Family& family : families()) {
+    for (std::uint64_t seed = 1; seed < 4; ++seed) {
+      for (const Course& course : family.make(seed, ticks)) {
+        const WayOracle oracle(course.mesh);
+        EXPECT_FALSE(oracle.is_within(course.start, course.start, course.radius))
+            << family.name << ": " << course.name;
+        EXPECT_GE(course.goals.size(), 50U) << family.name << ": " << course.name;
+      }
+    }
+  }
+}
+
+TEST(ProxyCourses, OfEverySeedHaveBallsAndBarePoints) {
+  for (const Family& family : families()) {
+    std::set<bool> kinds;
+    for (const Course& course : family.make(1, ticks)) kinds.insert(course.radius > 0);
+    EXPECT_EQ(kinds.size(), 2U) << family.name;
+  }
+}
+
+TEST(ProxyCourses, AreTheSameForTheSameSeedAndOthersForAnother) {
+  for (const Family& family : families()) {
+    const std::vector<Course> one = family.make(5, ticks), again = family.make(5, ticks),
+                              other = family.make(6, ticks);
+    ASSERT_EQ(one.size(), again.size());
+    bool differs = false;
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      EXPECT_EQ(one[i].goals, again[i].goals) << family.name;
+      differs = differs || one[i].goals != other[i].goals;
+    }
+    EXPECT_TRUE(differs) << family.name;
+  }
+}
+
+TEST(ProxyCourses, KnowTheOptimumOfEveryTickWhereFreeSpaceIsConvex) {
+  for (const char* name : {"thin-plates", "wedges-inside", "corners", "rooms"}) {
+    for (const Course& course : family_named(name).make(2, ticks)) {
+      const std::vector<Vec3> optima = optima_of(course);
+      ASSERT_EQ(optima.size(), course.goals.size()) << name << ": " << course.name;
+      const WayOracle oracle(course.mesh);
+      for (const Vec3& optimum : optima)
+        EXPECT_LE(oracle.shortfall(optimum, course.radius), 1e-15) << name << ": " << course.name;
+    }
+  }
+}
+
+/// Every score of one method over all families.
+std::vector<Score> scores_of(const std::string& method) {
+  ProxyRequest request;
+  for (const Family& family : families()) request.families.push_back(&family);
+  request.methods.push_back(method_named(method));
+  request.ticks = ticks * families().size();
+  ProxyRun run(contestants::roster(), request);
+  run.run([](const std::string&) {});
+  return run.scores();
+}
+
+TEST(ProxyMethods, WithoutAProxyEveryFamilyIsCrossed) {
+  for (const Score& score : scores_of("penalty")) {
+    EXPECT_GT(score.tally.crossings, 0U) << score.family;
+    EXPECT_EQ(score.tally.missed_goals, 0U) << score.family << ": the device is where its goal is";
+    EXPECT_FALSE(score.broken()) << "it does not claim anything";
+  }
+}
+
+TEST(ProxyMethods, RuspinisBallComesTooNearByRoundingOnlyAndNeverPops) {
+  for (const Score& score : scores_of("virtual-proxy")) {
+    if (score.point || score.family == "deforming") continue;
+    EXPECT_EQ(score.tally.pops, 0U) << score.family;
+    EXPECT_LT(score.tally.max_shortfall, 1e-9) << score.family;
+  }
+}
+
+TEST(ProxyMethods, TheGodObjectIsAtTheOptimumOfPlanes) {
+  for (const Score& score : scores_of("god-object")) {
+    if (score.family == "wedges-inside" || score.family == "corners")
+      EXPECT_LT(score.tally.max_optimum_error, 1e-9) << score.family;
+  }
+}
+
+TEST(ProxyMethods, KeepAnEpsilonWhereTheyAreSaidTo) {
+  for (const Score& score : scores_of("finger-proxy")) {
+    if (!score.point && score.family == "corners") EXPECT_EQ(score.tally.violations, 0U);
+  }
+}
+
+TEST(ProxyMethods, RefuseWhatIsNoMethodOrOption) {
+  EXPECT_THROW(method_named("god-objects"), std::invalid_argument);
+  EXPECT_THROW(method_named("penalty:epsilon=1"), std::invalid_argument);
+  EXPECT_THROW(method_named("finger-proxy:epsilon=-1"), std::invalid_argument);
+  EXPECT_EQ(method_named("finger-proxy:epsilon=1e-3").values.number("epsilon"), 1e-3);
+}
+
+}  // namespace
+}  // namespace touchmark::bench::experiments::proxy
