@@ -18,6 +18,7 @@
 #include "bench/experiments/proxy/proxy_report.h"
 #include "bench/experiments/proxy/proxy_run.h"
 #include "bench/experiments/proxy/proxy_trace.h"
+#include "bench/experiments/proxy/stab.h"
 #include "bench/results/results_folder.h"
 #include "bench/scenes/scenes.h"
 #include "bench/support/atomic_file.h"
@@ -107,6 +108,7 @@ class ProxyCommand {
  public:
   ProxyCommand(const ProgramContext& context, const ProxyOptions& options)
       : options_(options),
+        roster_(context.roster),
         run_(context.roster, request_of(options, context.roster)),
         description_(results::begun_run(context.argc, context.argv)) {
     if (options.mesh.empty() != options.trajectory.empty())
@@ -128,6 +130,7 @@ class ProxyCommand {
   void report();
 
   const ProxyOptions& options_;
+  const contestants::Roster& roster_;
   proxy::ProxyRun run_;
   std::optional<results::ResultsFolder> folder_;
   results::RunDescription description_;
@@ -158,6 +161,11 @@ void ProxyCommand::report() {
   support::StandardOutput().write(proxy::proxy_table(run_.scores()) + (faults.empty() ? "" : "\n" + faults));
   if (!folder_) return;
   folder_->write_file("proxy.csv", proxy::proxy_csv(description_.run_id, run_.scores()));
+  if (options_.mesh.empty()) {
+    const proxy::ProxyRequest& request = run_.request();
+    folder_->write_file("stab.csv",
+                        proxy::stab_csv(roster_, request.methods, request.coupling, request.detector));
+  }
   folder_->write_file("run.json", proxy::proxy_json(description_, run_));
 }
 
@@ -231,7 +239,8 @@ void add_proxy(CLI::App& program, ProgramContext& context) {
   option("--trace", options->trace, "with --mesh and one method: file for the way, one row a straight piece",
          "FILE");
   add_coupling(*command, *options);
-  option("--out", options->out, "folder for proxy.csv and run.json; scripts/plot draws them", "DIR");
+  option("--out", options->out, "folder for proxy.csv, stab.csv and run.json; scripts/plot draws them",
+         "DIR");
   command->footer(
       lists() +
       "Exit status 1 if `certified` crossed the surface or came nearer to it than the radius.\n"

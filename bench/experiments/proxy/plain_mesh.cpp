@@ -121,7 +121,9 @@ std::optional<double> meets_face(const Moving& ball, const Triangle& t) {
 std::optional<SweepHit> ball_meets(const Moving& ball, const Triangle& t) {
   const Vec3 start_gap = ball.from - nearest_on_triangle(ball.from, t);
   if (start_gap.squaredNorm() <= ball.radius * ball.radius) {
-    if (!(start_gap.dot(ball.way) < 0)) return std::nullopt;
+    // What slides along it by rounding alone is not stopped.
+    constexpr double sliding = 1e-12;
+    if (!(start_gap.dot(ball.way) < -sliding * start_gap.norm() * ball.way.norm())) return std::nullopt;
     return SweepHit{0, start_gap.normalized(), 0};
   }
   std::optional<double> first = meets_face(ball, t);

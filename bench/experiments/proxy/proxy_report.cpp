@@ -104,6 +104,7 @@ std::string proxy_json(const results::RunDescription& description, const ProxyRu
   using Json = nlohmann::ordered_json;
   Json json = results::run_circumstances(description);
   const ProxyRequest& request = run.request();
+  json["contestants"] = Json::array();  // methods are told below
   json["proxy"] = {{"ticks", request.ticks},
                    {"detector", request.detector},
                    {"stiffness_n_per_m", request.coupling.stiffness},

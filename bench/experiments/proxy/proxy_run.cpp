@@ -61,8 +61,8 @@ Score& ProxyRun::score_of(std::size_t place, const std::string& family, bool poi
   });
   if (known != scores_.end()) return *known;
   // Family by family they are run; method by method they are told.
-  const auto after = std::find_if(scores_.begin(), scores_.end(),
-                                  [&](const Score& score) { return score.place > place; });
+  const auto after =
+      std::find_if(scores_.begin(), scores_.end(), [&](const Score& score) { return score.place > place; });
   Score score;
   score.method = request_.methods[place];
   score.place = place;

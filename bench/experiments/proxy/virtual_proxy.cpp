@@ -3,6 +3,7 @@
 // configuration space, there takes the obstacle's plane as a constraint, and goes on to the goal's nearest
 // point behind no constraint, until it comes no nearer. The same loop with a skin kept off the surface is
 // what programs build from the sweeps of physics engines, so those run here, too.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -38,6 +39,7 @@ void SweepAndSlide::step(const Vec3& goal, Step& step) {
   step.begin(position_);
   std::array<Plane, max_planes> planes;
   std::size_t count = 0;
+  const bool has_friction = coupling_.static_friction > 0 || coupling_.dynamic_friction > 0;
   for (int round = 0; round < rounds_ && count < max_planes; ++round) {
     Vec3 target = nearest_outside(goal, {planes.data(), count}, position_);
     if (count > 0) target = held_by_friction(position_, target, goal, coupling_);
@@ -48,7 +50,9 @@ void SweepAndSlide::step(const Vec3& goal, Step& step) {
     if (!hit) {
       position_ = target;
       step.go(target);
-      break;
+      if (count == 0 || has_friction) break;
+      count = 0;  // the next round finds those planes again that it is still on
+      continue;
     }
     const double short_of = std::max(hit->fraction - skin_ / length, 0.0);
     position_ += short_of * way;
@@ -56,8 +60,8 @@ void SweepAndSlide::step(const Vec3& goal, Step& step) {
     planes[count++] = {hit->normal, hit->normal.dot(position_)};
   }
   if (!position_.allFinite()) step.status = Status::no_answer;
-  step.contacts = count;
-  if (count > 0 && step.status == Status::free) {
+  step.contacts = position_ == goal ? 0 : std::max<std::size_t>(count, 1);
+  if (step.contacts > 0 && step.status == Status::free) {
     step.status = Status::in_contact;
     step.force = spring_force(position_, goal, goal_before_, coupling_);
   }

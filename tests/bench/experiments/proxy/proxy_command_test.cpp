@@ -1,0 +1,121 @@
+/// `touchmark proxy` as a user runs it.
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "bench/experiments/proxy/proxy_csv.h"
+#include "tests/bench/cli/run_touchmark.h"
+#include "tests/temporary_folder.h"
+
+namespace touchmark::bench::cli {
+namespace {
+
+std::vector<std::vector<std::string>> table_in(const std::string& path) {
+  std::vector<std::vector<std::string>> rows;
+  std::istringstream lines(content_of(path));
+  for (std::string line; std::getline(lines, line);) {
+    std::vector<std::string>& row = rows.emplace_back();
+    std::istringstream fields(line + ",");
+    for (std::string field; std::getline(fields, field, ',');) row.push_back(field);
+  }
+  return rows;
+}
+
+std::size_t column_index(const std::string& column) {
+  const auto columns = results::names_of(experiments::proxy::proxy_columns());
+  return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), column) - columns.begin());
+}
+
+TEST(ProxyCommand, CountsCrossingsAndItsFilesAreValid) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      run_touchmark({"proxy", "--method", "penalty", "--method", "virtual-proxy", "--family", "stabs",
+                     "--ticks", "400", "--seed", "3", "--out", folder.file("out")});
+  EXPECT_EQ(outcome.status, 0) << "neither claims never to cross\n" << outcome.out << outcome.err;
+  const auto rows = table_in(folder.file("out/proxy.csv"));
+  ASSERT_EQ(rows.size(), 5U) << "two methods, balls and points apart";
+  EXPECT_EQ(rows[0], results::names_of(experiments::proxy::proxy_columns()));
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    EXPECT_EQ(rows[i][column_index("method")], i <= 2 ? "penalty" : "virtual-proxy");
+    EXPECT_EQ(rows[i][column_index("ticks")], "200");
+    if (i <= 2) EXPECT_GT(std::stoi(rows[i][column_index("crossings")]), 0);
+  }
+  EXPECT_NE(content_of(folder.file("out/stab.csv")).find("surface,0"), std::string::npos);
+  const Outcome valid = run_touchmark({"validate", folder.file("out")});
+  EXPECT_EQ(valid.status, 0) << valid.out << valid.err;
+  EXPECT_NE(valid.out.find("proxy, 4 rows"), std::string::npos) << valid.out;
+}
+
+TEST(ProxyCommand, CountsTheSameAgain) {
+  const auto counted = [](const std::string& path) {
+    auto rows = table_in(path);
+    for (auto& row : rows) {
+      row.resize(column_index("p50_ns"));
+      row.erase(row.begin() + 1);  // the run's id
+    }
+    return rows;
+  };
+  const TemporaryFolder folder;
+  for (const char* name : {"one", "two"})
+    EXPECT_EQ(run_touchmark({"proxy", "--method", "finger-proxy", "--family", "cracks", "--ticks", "500",
+                             "--out", folder.file(name)})
+                  .status,
+              0);
+  EXPECT_EQ(counted(folder.file("one/proxy.csv")), counted(folder.file("two/proxy.csv")));
+}
+
+TEST(ProxyCommand, TracesEveryPieceOfEveryStep) {
+  const TemporaryFolder folder;
+  folder.file("motion.csv", "x,y,z\n0,0,2\n0.125,0,0.1\n0.125,0,0.1\n0,0,2\n");
+  const Outcome outcome =
+      run_touchmark({"proxy", "--method", "virtual-proxy", "--mesh", "cube", "--trajectory",
+                     folder.file("motion.csv"), "--radius", "0.25", "--trace", folder.file("trace.csv")});
+  EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  const auto rows = table_in(folder.file("trace.csv"));
+  ASSERT_GE(rows.size(), 5U);
+  const std::vector<std::string> header{"step",    "segment", "goal_x",  "goal_y",   "goal_z",
+                                        "proxy_x", "proxy_y", "proxy_z", "contacts", "force_x",
+                                        "force_y", "force_z", "ns"};
+  EXPECT_EQ(rows[0], header);
+  std::size_t steps = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    ASSERT_EQ(rows[i].size(), header.size());
+    const bool last = i + 1 == rows.size() || rows[i + 1][0] != rows[i][0];
+    EXPECT_EQ(rows[i][8].empty(), !last);
+    EXPECT_EQ(rows[i][12].empty(), !last);
+    if (!last) continue;
+    EXPECT_EQ(rows[i][0], std::to_string(steps++))
+        << "each step has a last piece, also where the proxy rests";
+    const double force = std::atof(rows[i][11].c_str());
+    if (steps == 1 || steps == 4) {
+      EXPECT_EQ(rows[i][8], "0");
+      EXPECT_EQ(rows[i][11], "") << "free";
+    } else {
+      EXPECT_EQ(rows[i][8], "1");
+      EXPECT_NEAR(std::atof(rows[i][7].c_str()), 0.75, 1e-12)
+          << "the cube's face is at half, the ball a quarter off";
+      EXPECT_NEAR(force, 1000 * 0.65, 1e-9) << "stiffness times proxy less goal";
+    }
+  }
+  EXPECT_EQ(steps, 4U);
+}
+
+TEST(ProxyCommand, NamesWhatIsWrong) {
+  expect_bad_input({"proxy", "--method", "god-objekt"}, {"god-objekt", "god-object"});
+  expect_bad_input({"proxy", "--family", "needles"}, {"needles", "needle-fans"});
+  expect_bad_input({"proxy", "--ticks", "none"}, {"--ticks", "none"});
+  expect_bad_input({"proxy", "--stiffness", "-1"}, {"--stiffness", "-1"});
+  expect_bad_input({"proxy", "--friction", "0.5,x"}, {"--friction", "x"});
+  expect_bad_input({"proxy", "--mesh", "cube"}, {"--mesh", "--trajectory"});
+  expect_bad_input({"proxy", "--trace", "t.csv"}, {"--trace", "--method"});
+  expect_bad_input({"proxy", "--method", "finger-proxy:epsilon=far"}, {"epsilon", "far"});
+  expect_bad_input({"proxy", "--method", "virtual-proxy:queries=fcl", "--family", "stabs", "--ticks", "100"},
+                   {"fcl", "sweep"});
+}
+
+}  // namespace
+}  // namespace touchmark::bench::cli
