@@ -6,7 +6,7 @@ namespace touchmark::bench::experiments::proxy {
 namespace {
 
 /// Below it two unit normals count as parallel: a few roundings of their product.
-constexpr double parallel = 1e-13;
+constexpr double parallel = 1e-15;
 
 }  // namespace
 

@@ -63,12 +63,19 @@ std::optional<double> segment_meets(const Vec3& from, const Vec3& to, const Tria
 
 namespace {
 
+/// A ball that comes in at less than this angle only grazes an edge or corner: it would sink in by half the
+/// angle's square of its radius. Without it a ball that slides over the edge between two faces of one plane
+/// stops there.
+constexpr double grazing = 1e-6;
+/// What touches and moves in at less than this angle slides.
+constexpr double sliding = 1e-7;
+
 /// Returns where a f^2 + 2 b f + c falls through zero in [0, 1]; 0 where it already is below, which only
 /// rounding can make so of what does not touch at the start.
-std::optional<double> first_root(double a, double b, double c) {
+std::optional<double> first_root(double a, double b, double c, double radius) {
   if (!(a > 0) || !(b < 0)) return std::nullopt;
   const double discriminant = b * b - a * c;
-  if (discriminant < 0) return std::nullopt;
+  if (!(discriminant > grazing * grazing * a * radius * radius)) return std::nullopt;
   const double fraction = std::max((-b - std::sqrt(discriminant)) / a, 0.0);
   if (!(fraction <= 1)) return std::nullopt;
   return fraction;
@@ -83,7 +90,8 @@ struct Moving {
 
 std::optional<double> meets_ball(const Moving& ball, const Vec3& corner) {
   const Vec3 m = ball.from - corner;
-  return first_root(ball.way.squaredNorm(), m.dot(ball.way), m.squaredNorm() - ball.radius * ball.radius);
+  return first_root(ball.way.squaredNorm(), m.dot(ball.way), m.squaredNorm() - ball.radius * ball.radius,
+                    ball.radius);
 }
 
 std::optional<double> meets_cylinder(const Moving& ball, const Vec3& a, const Vec3& b) {
@@ -92,8 +100,8 @@ std::optional<double> meets_cylinder(const Moving& ball, const Vec3& a, const Ve
   if (!(length > 0)) return std::nullopt;
   const Vec3 way = ball.way - (ball.way.dot(edge) / length) * edge,
              across = m - (m.dot(edge) / length) * edge;
-  const std::optional<double> fraction =
-      first_root(way.squaredNorm(), across.dot(way), across.squaredNorm() - ball.radius * ball.radius);
+  const std::optional<double> fraction = first_root(
+      way.squaredNorm(), across.dot(way), across.squaredNorm() - ball.radius * ball.radius, ball.radius);
   if (!fraction) return std::nullopt;
   const double along = (ball.at(*fraction) - a).dot(edge);
   return along >= 0 && along <= length ? fraction : std::nullopt;
@@ -107,7 +115,7 @@ std::optional<double> meets_face(const Moving& ball, const Triangle& t) {
   double height = normal.dot(ball.from - t[0]);
   if (height < 0) height = -height, normal = -normal;
   const double sinking = -normal.dot(ball.way);
-  if (!(sinking > 0)) return std::nullopt;
+  if (!(sinking > sliding * ball.way.norm())) return std::nullopt;
   const double fraction = std::max((height - ball.radius) / sinking, 0.0);
   if (!(fraction <= 1)) return std::nullopt;
   const Vec3 center = ball.at(fraction), foot = center - normal.dot(center - t[0]) * normal;
@@ -121,8 +129,6 @@ std::optional<double> meets_face(const Moving& ball, const Triangle& t) {
 std::optional<SweepHit> ball_meets(const Moving& ball, const Triangle& t) {
   const Vec3 start_gap = ball.from - nearest_on_triangle(ball.from, t);
   if (start_gap.squaredNorm() <= ball.radius * ball.radius) {
-    // What slides along it by rounding alone is not stopped.
-    constexpr double sliding = 1e-12;
     if (!(start_gap.dot(ball.way) < -sliding * start_gap.norm() * ball.way.norm())) return std::nullopt;
     return SweepHit{0, start_gap.normalized(), 0};
   }

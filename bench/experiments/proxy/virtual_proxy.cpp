@@ -26,7 +26,11 @@ class SweepAndSlide final : public ProxyMethod {
   std::uint64_t work() const override { return sweeper_->work(); }
 
  private:
-  static constexpr std::size_t max_planes = 6;
+  static constexpr std::size_t max_planes = 10;
+  static constexpr double no_way = 0x1p-46;  ///< a share of the coordinates: less is their rounding
+  static constexpr double same_direction = 1e-7;
+
+  static void add(const Plane& plane, std::array<Plane, max_planes>& planes, std::size_t& count);
 
   std::unique_ptr<Sweeper> sweeper_;
   Coupling coupling_;
@@ -34,6 +38,14 @@ class SweepAndSlide final : public ProxyMethod {
   int rounds_;
   Vec3 position_ = Vec3::Zero(), goal_before_ = Vec3::Zero();
 };
+
+/// A plane of an earlier one's direction takes its place: both would be parallel to rounding.
+void SweepAndSlide::add(const Plane& plane, std::array<Plane, max_planes>& planes, std::size_t& count) {
+  std::size_t place = 0;
+  while (place < count && (planes[place].normal - plane.normal).norm() > same_direction) ++place;
+  planes[place] = plane;
+  count = std::max(count, place + 1);
+}
 
 void SweepAndSlide::step(const Vec3& goal, Step& step) {
   step.begin(position_);
@@ -45,7 +57,7 @@ void SweepAndSlide::step(const Vec3& goal, Step& step) {
     if (count > 0) target = held_by_friction(position_, target, goal, coupling_);
     const Vec3 way = target - position_;
     const double length = way.norm();
-    if (!(length > 0)) break;
+    if (!(length > no_way * (position_.norm() + goal.norm()))) break;
     const std::optional<SweepHit> hit = sweeper_->first_hit(position_, target, coupling_.radius);
     if (!hit) {
       position_ = target;
@@ -57,7 +69,7 @@ void SweepAndSlide::step(const Vec3& goal, Step& step) {
     const double short_of = std::max(hit->fraction - skin_ / length, 0.0);
     position_ += short_of * way;
     step.go(position_);
-    planes[count++] = {hit->normal, hit->normal.dot(position_)};
+    add({hit->normal, hit->normal.dot(position_)}, planes, count);
   }
   if (!position_.allFinite()) step.status = Status::no_answer;
   step.contacts = position_ == goal ? 0 : std::max<std::size_t>(count, 1);
@@ -68,7 +80,7 @@ void SweepAndSlide::step(const Vec3& goal, Step& step) {
   goal_before_ = goal;
 }
 
-constexpr int ruspini_rounds = 10;
+constexpr int ruspini_rounds = 20;
 /// Bullet's btKinematicCharacterController, the loop that its users begin with, slides ten times.
 constexpr int engine_rounds = 10;
 
