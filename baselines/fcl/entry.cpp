@@ -1,5 +1,6 @@
 #include "bench/contestants/entry.h"
 
+#include "baselines/fcl/fcl_ccd.h"
 #include "baselines/fcl/fcl_detector.h"
 #include "bench/contestants/rival_options.h"
 
@@ -27,8 +28,16 @@ ContestantInfo fcl_entry() {
   info.options = {
       choice("bv", volumes, "the hierarchy's bounding volume"),
       choice("method", methods, "collide: as most programs use it; distance: best first, bounded"),
-      choice("narrow", narrows, "exact: this project's kernel on the triangles FCL reaches"), query_option()};
+      choice("narrow", narrows, "exact: this project's kernel on the triangles FCL reaches"),
+      query_option(),
+      {"ccd",
+       OptionKind::count,
+       {},
+       "0",
+       "sweeps alone, for touchmark proxy: FCL's continuous collision with so many poses; its default is "
+       "10"}};
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
+    if (values.count("ccd") > 0) return contestant<baselines::FclCcd>(mesh, {values.count("ccd")});
     return contestant<FclDetector>(mesh, {chosen(values, "bv", volumes), chosen(values, "method", methods),
                                           chosen(values, "narrow", narrows), asking(values)});
   };

@@ -49,6 +49,14 @@ const std::vector<MethodInfo>& list() {
        false,
        false,
        &engine_sweep_method},
+      {"fcl-ccd",
+       "FCL's continuous collision, sliding as programs do",
+       {{"queries", "fcl:ccd=10", "the contestant that sweeps"},
+        {"skin", "1e-4", "kept off the surface, m", true}},
+       "fcl",
+       false,
+       false,
+       &engine_sweep_method},
   };
   return all;
 }
