@@ -51,11 +51,11 @@ struct FclCcd::Model {
     const fcl::Contactd* deepest = nullptr;
     for (std::size_t i = 0; i < result.numContacts(); ++i) {
       const fcl::Contactd& one = result.getContact(i);
-      if (deepest == nullptr || one.penetration_depth > deepest->penetration_depth) deepest = &one;
+      if (deepest == nullptr || one.penetration_depth < deepest->penetration_depth) deepest = &one;
     }
     if (deepest == nullptr) return std::nullopt;
-    // FCL's normal points from the first object to the second: from the mesh to the ball.
-    const double distance = std::max(ball.radius - deepest->penetration_depth, 0.0);
+    // FCL's normal points from the first object to the second, from the mesh to the ball; depth is negative.
+    const double distance = std::max(ball.radius + deepest->penetration_depth, 0.0);
     return Contact{center - distance * deepest->normal, deepest->normal, distance,
                    ids[static_cast<std::size_t>(deepest->b1)]};
   }

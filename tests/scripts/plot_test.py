@@ -177,6 +177,21 @@ class Plot(unittest.TestCase):
                      "180 of them at the edge"):
             self.assertIn(text, picture)
 
+    def test_draws_proxies_by_families_and_their_stab(self):
+        (self.directory / "proxy.csv").write_text(
+            "method,options,family,probe,ticks,crossings,pops,violations\n"
+            "penalty,,cracks,ball,1000,20,20,30\npenalty,,cracks,point,1000,7,0,0\n"
+            "finger-proxy,epsilon=1e-3,cracks,ball,1000,0,0,0\nvirtual-proxy,,stabs,ball,1000,0,0,3\n", encoding="utf-8")
+        (self.directory / "stab.csv").write_text(
+            "method,step,goal_x,goal_z,proxy_x,proxy_z\nsurface,0,,,0,0\nsurface,1,,,0.01,0\nsurface,2,,,0,0.01\n"
+            "penalty,0,0,0.02,0,0.02\npenalty,1,0,-0.01,0,-0.01\n", encoding="utf-8")
+        done = self.plot()
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(self.pictures(), ["proxy.png", "proxy.svg", "stab.png", "stab.svg"])
+        picture = (self.directory / "plots" / "proxy.svg").read_text(encoding="utf-8")
+        for text in ("finger-proxy:epsilon=1e-3, ball", "cracks", "<!-- 20k -->", "<!-- 7k -->", "<!-- &lt;r -->", "4,000 ticks"):
+            self.assertIn(text, picture)
+
     def test_draws_a_paced_loop_as_ticks_later_than_a_time(self):
         (self.directory / "servo_histogram.csv").write_text(
             "schema,detector,options,trajectory,loop,time,up_to_ns,ticks\n1,grid-group,,slide,detector,latency,20000,999\n"

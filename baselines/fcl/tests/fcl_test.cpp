@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "baselines/fcl/fcl_ccd.h"
 #include "baselines/fcl/fcl_detector.h"
 #include "core/brute_force/brute_force.h"
 #include "tests/baselines/asking.h"
@@ -21,6 +22,7 @@ using Method = FclDetector::Method;
 using Narrow = FclDetector::Narrow;
 
 static_assert(AnswersTouches<FclDetector> && AnswersNearest<FclDetector>);
+static_assert(AnswersSweep<FclCcd> && !AnswersTouches<FclCcd> && !AnswersNearest<FclCcd>);
 static_assert(!AnswersSweep<FclDetector>, "FCL's continuous collision does not work; see README.md");
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -312,6 +314,36 @@ TEST_P(EveryFcl, AskingTheBoxAndTheLastTriangleFirstChangesNoAnswer) {
   expect_asking_changes_no_answer<FclDetector>(bumps(12), GetParam());
   expect_asking_changes_no_answer<FclDetector>(soup(120, 4), GetParam());
   expect_asking_to_save_work<FclDetector>(GetParam());
+}
+
+/// The square |x|, |y| <= 1 at z = 0.
+TriangleMesh square() {
+  return {{Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(1, 1, 0), Vec3(-1, 1, 0)}, {{0, 1, 2}, {0, 2, 3}}};
+}
+
+TEST(FclCcd, StopsAtTheLastSampleBeforeContact) {
+  const FclCcd detector = FclCcd::build(square(), {11});
+  FclCcd::Session session;
+  // Samples are a tenth apart; the ball of 0.35 touches from z = 0.35 on, the eighth sample is at 0.3.
+  const std::optional<Impact> impact =
+      detector.first_hit({Vec3(0.2, 0.1, 1), Vec3(0.2, 0.1, 0), 0.35}, session);
+  ASSERT_TRUE(impact.has_value());
+  EXPECT_NEAR(impact->fraction, 0.6, 1e-12);
+  EXPECT_NEAR(impact->contact.normal.z(), 1, 1e-9);
+}
+
+TEST(FclCcd, SeesNothingBetweenTwoSamples) {
+  const FclCcd detector = FclCcd::build(square(), {11});
+  FclCcd::Session session;
+  EXPECT_FALSE(detector.first_hit({Vec3(0.2, 0.1, 1), Vec3(0.2, 0.1, -0.9), 0.01}, session).has_value());
+}
+
+TEST(FclCcd, FollowsItsMesh) {
+  FclCcd detector = FclCcd::build(square(), {11});
+  detector.update(square().transformed(1, Vec3(0, 0, -5)));
+  FclCcd::Session session;
+  EXPECT_FALSE(detector.first_hit({Vec3(0.2, 0.1, 1), Vec3(0.2, 0.1, 0), 0.35}, session).has_value());
+  EXPECT_TRUE(detector.first_hit({Vec3(0.2, 0.1, -4), Vec3(0.2, 0.1, -5), 0.35}, session).has_value());
 }
 
 }  // namespace

@@ -230,7 +230,8 @@ void add_proxy(CLI::App& program, ProgramContext& context) {
   option("--ticks", options->ticks,
          "of all families together, about; default: 100000; with --mesh at most so many", "N");
   option("--seed", options->seed, "of all meshes and motions", "N")->capture_default_str();
-  option("--detector", options->detector, "which of ours answers `certified`", "D")->capture_default_str();
+  option("--detector", options->detector, "which of ours answers methods that claim never to cross", "D")
+      ->capture_default_str();
   option("--mesh", options->mesh, "instead of families: a scene or a file, with --trajectory", "MESH");
   option("--trajectory", options->trajectory, "a name (touchmark list) or a motion file: the goals", "T");
   option("--radius", options->radius, "the ball's, with --mesh; mesh units or % of the box diagonal",
@@ -243,7 +244,7 @@ void add_proxy(CLI::App& program, ProgramContext& context) {
          "DIR");
   command->footer(
       lists() +
-      "Exit status 1 if `certified` crossed the surface or came nearer to it than the radius.\n"
+      "Exit status 1 if a method that claims never to cross crossed, or came nearer than the radius.\n"
       "Example: touchmark proxy --method god-object --method virtual-proxy --family cracks --ticks "
       "20000 --out results/today\n");
   command->final_callback([options, &context] { context.status = ProxyCommand(context, *options).run(); });

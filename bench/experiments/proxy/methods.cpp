@@ -57,6 +57,13 @@ const std::vector<MethodInfo>& list() {
        false,
        false,
        &engine_sweep_method},
+      {"exact-slide",
+       "virtual-proxy over ours, no piece gone before its sweep is exactly free",
+       {},
+       "",
+       false,
+       true,
+       &exact_slide_method},
   };
   return all;
 }

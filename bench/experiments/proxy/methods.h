@@ -32,7 +32,7 @@ struct MethodRequest {
   const TriangleMesh& mesh;
   const Coupling& coupling;
   const MethodOptions& options;
-  const std::string& detector;  ///< ours, that `certified` asks
+  const std::string& detector;  ///< one of ours, asked by those that claim never to cross
 };
 
 using MakeMethod = std::unique_ptr<ProxyMethod> (*)(const MethodRequest& request);
@@ -77,6 +77,7 @@ std::unique_ptr<ProxyMethod> penalty_method(const MethodRequest& request);
 std::unique_ptr<ProxyMethod> god_object_method(const MethodRequest& request);
 std::unique_ptr<ProxyMethod> virtual_proxy_method(const MethodRequest& request);
 std::unique_ptr<ProxyMethod> finger_proxy_method(const MethodRequest& request);
+std::unique_ptr<ProxyMethod> exact_slide_method(const MethodRequest& request);
 std::unique_ptr<ProxyMethod> engine_sweep_method(const MethodRequest& request);
 
 }  // namespace touchmark::bench::experiments::proxy

@@ -41,7 +41,7 @@ constexpr auto columns = std::to_array<results::Column<Score>>({
     {"run_id", nullptr, always, any_text, "As in run.json."},
     {"method", [](S score) { return std::string(score.method.info->name); }, always, any_text, "The algorithm."},
     {"options", [](S score) { return score.method.options; }, optional, any_text, "As they were typed."},
-    {"detector", plain<&Score::detector>, optional, any_text, "Which of ours answers `certified`."},
+    {"detector", plain<&Score::detector>, optional, any_text, "Which of ours answers a method that claims never to cross."},
     {"family", plain<&Score::family>, always, any_text, "As `touchmark proxy --help` lists them, or the mesh."},
     {"probe", [](S score) { return std::string(score.point ? "point" : "ball"); }, always, ball_or_point,
      "`ball`: the courses of this family with a radius; `point`: those without."},

@@ -62,11 +62,12 @@ TEST(ProxyCourses, KnowTheOptimumOfEveryTickWhereFreeSpaceIsConvex) {
 }
 
 /// Every score of one method over all families.
-std::vector<Score> scores_of(const std::string& method) {
+std::vector<Score> scores_of(const std::string& method, const std::string& detector = "sphere-cluster") {
   ProxyRequest request;
   for (const Family& family : families()) request.families.push_back(&family);
   request.methods.push_back(method_named(method));
   request.ticks = ticks * families().size();
+  request.detector = detector;
   ProxyRun run(contestants::roster(), request);
   run.run([](const std::string&) {});
   return run.scores();
@@ -93,6 +94,25 @@ TEST(ProxyMethods, TheGodObjectIsAtTheOptimumOfPlanes) {
     if (score.family == "wedges-inside" || score.family == "corners")
       EXPECT_LT(score.tally.max_optimum_error, 1e-9) << score.family;
   }
+}
+
+TEST(ProxyMethods, OverExactSweepsNothingIsCrossedWithAnyDetector) {
+  for (const char* detector : {"brute-force", "aabb-tree", "grid-group", "sphere-cluster"}) {
+    for (const Score& score : scores_of("exact-slide", detector)) {
+      EXPECT_TRUE(score.method.info->claims);
+      EXPECT_FALSE(score.broken()) << detector << ", " << score.family << ": " << score.first_fault;
+      EXPECT_EQ(score.tally.violations, 0U) << detector << ", " << score.family;
+      EXPECT_LT(score.tally.max_optimum_error, 1e-10) << detector << ", " << score.family;
+    }
+  }
+}
+
+TEST(ProxyMethods, OverFclsSamplesThinPlatesAreJumpedThrough) {
+  std::uint64_t pops = 0;
+  for (const Score& score : scores_of("fcl-ccd")) {
+    if (!score.point && (score.family == "thin-plates" || score.family == "stabs")) pops += score.tally.pops;
+  }
+  EXPECT_GT(pops, 0U) << "ten poses along a sweep see nothing between them";
 }
 
 TEST(ProxyMethods, KeepAnEpsilonWhereTheyAreSaidTo) {
