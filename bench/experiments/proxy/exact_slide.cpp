@@ -20,11 +20,15 @@ class ExactSlide final : public ProxyMethod {
   ExactSlide(std::unique_ptr<Sweeper> sweeper, const TriangleMesh& mesh, const Coupling& coupling)
       : sweeper_(std::move(sweeper)), mesh_(mesh), coupling_(coupling) {}
 
-  void place(const Vec3& position) override { position_ = goal_before_ = position; }
+  void place(const Vec3& position) override {
+    position_ = goal_before_ = position;
+    may_touch_ = true;
+  }
   void step(const Vec3& goal, Step& step) override;
   void update(const TriangleMesh& mesh) override {
     sweeper_->update(mesh);
     mesh_ = mesh;
+    may_touch_ = true;
   }
   std::uint64_t work() const override { return sweeper_->work(); }
 
@@ -40,6 +44,8 @@ class ExactSlide final : public ProxyMethod {
   /// Goes as far towards what was hit as is surely free; stays where that is nowhere.
   void approach(const Vec3& target, double fraction, Step& step);
   void add(const Vec3& normal, double lift);
+  /// Slides towards the goal; returns how many planes held it.
+  std::size_t slide(const Vec3& goal, double lift, Step& step);
 
   std::unique_ptr<Sweeper> sweeper_;
   TriangleMesh mesh_;
@@ -47,6 +53,7 @@ class ExactSlide final : public ProxyMethod {
   Vec3 position_ = Vec3::Zero(), goal_before_ = Vec3::Zero();
   std::array<Plane, max_planes> planes_;
   std::size_t count_ = 0;
+  bool may_touch_ = true;  ///< it was put there, or the surface has moved
 };
 
 /// A bare point that stands on a face to rounding is nowhere from its contact: there the face tells the
@@ -90,16 +97,14 @@ void ExactSlide::add(const Vec3& normal, double lift) {
   if (count_ < max_planes) planes_[count_++] = {normal, normal.dot(position_)};
 }
 
-void ExactSlide::step(const Vec3& goal, Step& step) {
-  step.begin(position_);
-  count_ = 0;
+std::size_t ExactSlide::slide(const Vec3& goal, double lift, Step& step) {
   const bool has_friction = coupling_.static_friction > 0 || coupling_.dynamic_friction > 0;
-  const double lift = rounding * (position_.norm() + goal.norm() + coupling_.radius);
   std::size_t contacts = 0;
+  count_ = 0;
   for (int round = 0; round < rounds; ++round) {
     Vec3 target = nearest_outside(goal, {planes_.data(), count_}, position_);
     if (count_ > 0) target = held_by_friction(position_, target, goal, coupling_);
-    if (target == position_ || (count_ > 0 && !((target - position_).norm() > 64 * lift))) break;
+    if (target == position_ || (count_ > 0 && !((target - position_).norm() > lift))) break;
     const std::optional<SweepHit> hit = hit_to(target);
     if (!hit) {
       position_ = target;
@@ -111,12 +116,27 @@ void ExactSlide::step(const Vec3& goal, Step& step) {
     }
     const Vec3 normal = normal_of(*hit, target);
     approach(target, hit->fraction, step);
-    add(normal, lift * (1 << round));
+    add(normal, rounding * (1 << round) * (position_.norm() + goal.norm() + coupling_.radius));
     contacts = std::max(contacts, count_);
   }
-  step.contacts = position_ == goal ? 0 : std::max<std::size_t>(contacts, 1);
-  if (step.contacts > 0) {
-    step.status = Status::in_contact;
+  return contacts;
+}
+
+/// A tick that comes no nearer to its goal than rounding is not gone, so that a resting goal lets the proxy
+/// rest.
+void ExactSlide::step(const Vec3& goal, Step& step) {
+  step.begin(position_);
+  const Vec3 start = position_;
+  may_touch_ = may_touch_ && hit_to(position_).has_value();
+  const double lift = 64 * rounding * (position_.norm() + goal.norm() + coupling_.radius);
+  const std::size_t contacts = slide(goal, lift, step);
+  if (position_ != goal && !((position_ - goal).norm() < (start - goal).norm() - lift)) {
+    position_ = start;
+    step.way.resize(1);
+  }
+  if (position_ != goal) {
+    step.contacts = std::max<std::size_t>(contacts, 1);
+    step.status = may_touch_ ? Status::stuck : Status::in_contact;
     step.force = spring_force(position_, goal, goal_before_, coupling_);
   }
   goal_before_ = goal;
