@@ -88,7 +88,8 @@ proxy::ProxyRequest request_of(const ProxyOptions& options, const contestants::R
   return request;
 }
 
-/// The user's own mesh and motion. The proxy starts at the first goal.
+/// The user's own mesh and motion. The proxy starts at the first goal that is free; where none is, at the
+/// first.
 proxy::Course course_of(const ProxyOptions& options, std::uint64_t seed) {
   TriangleMesh mesh = scenes::load_mesh(options.mesh, false);
   const std::optional<support::Length> length = support::parse_length(options.radius);
@@ -100,7 +101,11 @@ proxy::Course course_of(const ProxyOptions& options, std::uint64_t seed) {
   motion.seed = seed;
   motion.radius = length->in_mesh_units(mesh);
   trajectories::Trajectory trajectory = trajectories::make_trajectory(options.trajectory, mesh, motion);
-  const Vec3 start = trajectory.positions.front();
+  const proxy::WayOracle oracle(mesh);
+  const auto free =
+      std::find_if(trajectory.positions.begin(), trajectory.positions.end(),
+                   [&](const Vec3& goal) { return !oracle.is_within(goal, goal, motion.radius); });
+  const Vec3 start = free != trajectory.positions.end() ? *free : trajectory.positions.front();
   return {trajectory.name, std::move(mesh), motion.radius, 0, start, std::move(trajectory.positions)};
 }
 
