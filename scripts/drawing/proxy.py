@@ -37,7 +37,7 @@ def read(path):
 def per_million(count, ticks):
     """At most four characters."""
     value = 1e6 * count / ticks
-    return f"{value:.0f}" if value < 1000 else f"{value / 1000:.2g}k" if value < 100_000 else f"{value / 1000:.0f}k"
+    return f"{value:.0f}" if value < 1000 else f"{value / 1000:.2g}k" if value < 99_500 else f"{value / 1000:.0f}k"
 
 
 def colour_and_text(row):
