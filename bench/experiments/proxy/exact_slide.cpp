@@ -37,9 +37,10 @@ class ExactSlide final : public ProxyMethod {
   static constexpr int rounds = 12, retreats = 6;
   static constexpr double rounding = 0x1p-50;  ///< a share of the coordinates
 
-  std::optional<SweepHit> hit_to(const Vec3& to) {
-    return sweeper_->first_hit(position_, to, coupling_.radius);
-  }
+  std::optional<SweepHit> hit_to(const Vec3& to) { return sweeper_->first_hit(position_, to, kept_); }
+  /// Chooses the distance that this tick keeps: the radius, or where that is not free the largest of a few
+  /// shares of it that is. Returns false where the position is on the surface itself.
+  bool choose_kept();
   Vec3 normal_of(const SweepHit& hit, const Vec3& target) const;
   /// Goes as far towards what was hit as is surely free; stays where that is nowhere.
   void approach(const Vec3& target, double fraction, Step& step);
@@ -53,13 +54,25 @@ class ExactSlide final : public ProxyMethod {
   Vec3 position_ = Vec3::Zero(), goal_before_ = Vec3::Zero();
   std::array<Plane, max_planes> planes_;
   std::size_t count_ = 0;
+  double kept_ = 0;        ///< at least so far off it stays in this tick
   bool may_touch_ = true;  ///< it was put there, or the surface has moved
 };
+
+bool ExactSlide::choose_kept() {
+  kept_ = coupling_.radius;
+  if (!may_touch_) return true;
+  may_touch_ = hit_to(position_).has_value();
+  for (int eighths = 7; hit_to(position_); --eighths) {
+    if (!(kept_ > 0)) return false;
+    kept_ = eighths > 0 ? coupling_.radius * eighths / 8 : 0;
+  }
+  return true;
+}
 
 /// A bare point that stands on a face to rounding is nowhere from its contact: there the face tells the
 /// normal.
 Vec3 ExactSlide::normal_of(const SweepHit& hit, const Vec3& target) const {
-  if (coupling_.radius > 0) return hit.normal;
+  if (kept_ > 0) return hit.normal;
   std::size_t index = hit.triangle;
   if (!mesh_.ids().empty())
     index = static_cast<std::size_t>(std::lower_bound(mesh_.ids().begin(), mesh_.ids().end(), hit.triangle) -
@@ -127,18 +140,19 @@ std::size_t ExactSlide::slide(const Vec3& goal, double lift, Step& step) {
 void ExactSlide::step(const Vec3& goal, Step& step) {
   step.begin(position_);
   const Vec3 start = position_;
-  may_touch_ = may_touch_ && hit_to(position_).has_value();
+  const bool is_off = choose_kept();
   const double lift = 64 * rounding * (position_.norm() + goal.norm() + coupling_.radius);
-  const std::size_t contacts = slide(goal, lift, step);
+  const std::size_t contacts = is_off ? slide(goal, lift, step) : 0;
   if (position_ != goal && !((position_ - goal).norm() < (start - goal).norm() - lift)) {
     position_ = start;
     step.way.resize(1);
   }
   if (position_ != goal) {
     step.contacts = std::max<std::size_t>(contacts, 1);
-    step.status = may_touch_ ? Status::stuck : Status::in_contact;
+    step.status = Status::in_contact;
     step.force = spring_force(position_, goal, goal_before_, coupling_);
   }
+  if (may_touch_) step.status = Status::stuck;
   goal_before_ = goal;
 }
 

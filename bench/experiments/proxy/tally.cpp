@@ -80,6 +80,7 @@ void Judge::judge_way(const Step& step, const Vec3& goal) {
     if (radius == 0 || nearer) crossed = crossed || oracle_->meets(from, to);
   }
   if (excused_) {
+    if (radius > 0 && crossed && !oracle_->meets(position_, position_)) ++tally_.crossings;
     excused_ = violates(step.position());
     return;
   }

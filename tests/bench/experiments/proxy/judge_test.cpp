@@ -179,6 +179,24 @@ TEST(ProxyJudge, DoesNotHoldTheSurfacesOwnMotionAgainstTheProxy) {
   EXPECT_EQ(tally.violations, 1U) << "once it is off again, it is its own doing";
 }
 
+TEST(ProxyJudge, CountsABallThatGoesThroughTheSurfaceThatWasMovedOntoIt) {
+  Trial trial = over(sheet(), 0.25, Vec3(0, 0, 0.5), {});
+  Tally tally;
+  const WayOracle before(trial.course.mesh);
+  const WayOracle after(trial.course.mesh.transformed(1, Vec3(0, 0, 0.375)));
+  const std::vector<Vec3> none;
+  trial.course.goals.assign(1, Vec3(0, 0, -1));
+  Judge judge(trial.course, none, trial.coupling, tally);
+  judge.see(before);
+  judge.see(after);
+  Step step;
+  step.begin(trial.course.start);
+  step.go(Vec3(0, 0, 0.25));
+  judge.tick(0, step);
+  EXPECT_EQ(tally.crossings, 1U);
+  EXPECT_EQ(tally.violations, 0U);
+}
+
 TEST(ProxyJudge, SumsTheEnergyOfAClosedTurn) {
   Trial trial = over(sheet(), 0, Vec3(0, 0, 1), {});
   trial.course.loop = 2;

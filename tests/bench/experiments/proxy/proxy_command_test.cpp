@@ -120,6 +120,20 @@ TEST(ProxyCommand, StartsAtTheFirstGoalThatIsFree) {
     EXPECT_GT(std::atof(rows[i][7].c_str()), 0.75) << "never inside";
 }
 
+TEST(ProxyCommand, CertifiedLeavesASurfaceThatItWasPutTooNearTo) {
+  const TemporaryFolder folder;
+  folder.file("motion.csv", "x,y,z\n0,0,0.625\n0,0,0.6\n0,0,0.625\n0,0,0.7\n");
+  const Outcome outcome =
+      run_touchmark({"proxy", "--method", "certified", "--mesh", "cube", "--trajectory",
+                     folder.file("motion.csv"), "--radius", "0.25", "--trace", folder.file("trace.csv")});
+  EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  const auto rows = table_in(folder.file("trace.csv"));
+  ASSERT_GE(rows.size(), 5U);
+  // At the start an eighth of a unit is free below it, three eighths of the radius are kept: 0.09375.
+  for (std::size_t i = 1; i < rows.size(); ++i) EXPECT_GT(std::atof(rows[i][7].c_str()), 0.59375);
+  EXPECT_EQ(rows.back()[7], "0.7") << "its way there is free of the distance that it keeps";
+}
+
 TEST(ProxyCommand, CertifiedCrossesNothingOverAScenesOwnMotion) {
   for (const char* mesh : {"torus:20x10", "sliver-fan", "cube"}) {
     for (const char* radius : {"0", "1%"}) {
