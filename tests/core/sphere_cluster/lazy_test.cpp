@@ -26,8 +26,9 @@ TEST_F(LazyDistances, AnswerManyThreadsAtOnce) { expect_right_answers_in_threads
 TEST_F(LazyDistances, AreSampledWithBoundedWorkInAQuery) {
   const SphereCluster detector = SphereCluster::build(mesh_, lazy);
   SphereCluster::Session session, session_of_whole;
-  constexpr std::uint64_t most_in_samples = 512;  // of thousands of triangles
-  ASSERT_GT(mesh_.size(), 5 * most_in_samples);
+  // The samples about one place are searched without a limit; none of them may see much of the mesh.
+  const std::uint64_t most_in_samples = mesh_.size() / 4;
+  ASSERT_LE(most_in_samples, 1024u);
   for (const test::Question& question : all_) {
     const std::uint64_t before = session.work.total(), before_of_whole = session_of_whole.work.total();
     detector.nearest({question.center, 0}, question.reach, session);
@@ -54,7 +55,7 @@ TEST_F(LazyDistances, AreSampledOnceAndThenServe) {
   EXPECT_GT(first, whole);
   EXPECT_LT(third, first);
   // Of the eight samples about a place, those of cubes that nothing was asked in stay untaken.
-  EXPECT_LE(static_cast<double>(third), 1.15 * static_cast<double>(whole));
+  EXPECT_LE(static_cast<double>(third), 1.25 * static_cast<double>(whole));
 }
 
 TEST_F(LazyDistances, AreSampledAnewWhereTheMeshHasMoved) {
