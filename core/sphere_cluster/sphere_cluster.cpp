@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/search/parallel.h"
+
 namespace touchmark {
 
 SphereCluster SphereCluster::build(const TriangleMesh& mesh, const Options& options) {
@@ -16,6 +18,7 @@ SphereCluster SphereCluster::build(const TriangleMesh& mesh, const Options& opti
     throw std::invalid_argument("sphere-cluster: certified=false is for lookup=tree with precise=true");
   if (!has_tree && options.construction == Construction::lazy)
     throw std::invalid_argument("sphere-cluster: build=lazy is for lookup=tree with precise=true");
+  const unsigned threads = threads_to_use(options.threads, "sphere-cluster");
   SphereCluster detector;
   detector.options_ = options;
   detector.connectivity_ = Connectivity(mesh);
@@ -28,7 +31,7 @@ SphereCluster SphereCluster::build(const TriangleMesh& mesh, const Options& opti
   } else {
     detector.tree_ =
         SphereTree(mesh, detector.clusters_,
-                   {options.widest, options.certified, options.construction == Construction::lazy});
+                   {options.widest, options.certified, options.construction == Construction::lazy, threads});
   }
   return detector;
 }

@@ -36,6 +36,7 @@ class SphereCluster {
     bool certified = true;       ///< false, tree only: as doubles have it, to measure what certainty costs
     Simd widest = Simd::avx512;  ///< tree: forgo wider instructions than these; the same bits
     Construction construction = Construction::whole;
+    unsigned threads = 1;  ///< tree: build it, at most 256; 0: as many as there are processors; the same bits
   };
   /// What one haptic point remembers between ticks.
   struct Session {
@@ -46,6 +47,7 @@ class SphereCluster {
 
   /// Throws std::invalid_argument for a clustering distance that is negative, infinite or not a number; and
   /// with a scan or the fast level for certified = false, where nothing is certified, and for lazy making.
+  /// Throws it for too many threads, too.
   static SphereCluster build(const TriangleMesh& mesh, const Options& options);
   static SphereCluster build(const TriangleMesh& mesh) { return build(mesh, Options()); }
 

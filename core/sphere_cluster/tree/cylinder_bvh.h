@@ -44,6 +44,7 @@ class SphereTree {
     Simd widest = Simd::avx512;  ///< no wider instructions; what the processor lacks is not used
     bool certified = true;       ///< false: contact as doubles have it
     bool lazy = false;           ///< distances are sampled by the first queries that want them
+    unsigned threads = 1;        ///< build it, at least 1; the same bits
   };
 
   SphereTree() = default;
@@ -116,7 +117,7 @@ class SphereTree {
   void fill_distances();
   void refill_distances(const spheres::MovedTriangles& moved);
   struct Sampling {
-    std::uint64_t budget;    ///< work, of all samples together
+    std::uint64_t budget;    ///< work, of all these samples together
     std::uint32_t near = 0;  ///< a triangle near the last point, and so perhaps the next
     Work work{};
   };
@@ -124,6 +125,7 @@ class SphereTree {
   /// when that is too much work.
   DistanceField::Interval sample(const Vec3& position, double max_distance,
                                  Sampling& sampling) const noexcept;
+  auto sampler() const noexcept;
 
   // Visitors: see search.h.
   template <class Visitor>
@@ -151,6 +153,7 @@ class SphereTree {
   double mean_leaf_radius_ = 0;  ///< the mean radius of a block
   spheres::TreeParts parts_;
   bool lazy_ = false;
+  unsigned threads_ = 1;
   DistanceField distances_;
   TriangleIds ids_;
 };
