@@ -54,6 +54,7 @@ void DistanceField::fill_rows(std::size_t first, std::size_t end, DistanceAt& di
 /// neighbour, so short that there is one for every thread.
 template <class Sampler, class IsWanted>
 void DistanceField::fill_cubes(const Sampler& sampler, const IsWanted& is_wanted, unsigned threads) {
+  if (coarse_.size() == 0) return;
   constexpr std::size_t cubes_a_part = 512;
   const std::size_t rows = std::size_t{coarse_.count(1)} * coarse_.count(2);
   in_ranges(rows, 1 + cubes_a_part / coarse_.count(0), threads, [&](std::size_t first, std::size_t end) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -115,6 +116,17 @@ TYPED_TEST(BuildThreads, ServeMeshesOfATriangleOrTwo) {
     options.threads = 3;
     expect_same(look_at(TypeParam::build(mesh, options), mesh.bounds()), expected, std::to_string(count));
   }
+}
+
+TYPED_TEST(BuildThreads, ServeAMeshTooFarFromZeroForSamples) {
+  const TriangleMesh near = test::plate(30);
+  std::vector<Vec3> vertices(near.vertices().begin(), near.vertices().end());
+  for (Vec3& vertex : vertices) vertex += Vec3(1e9, 1e9, 1e9);
+  const TriangleMesh mesh(std::move(vertices), {near.triangles().begin(), near.triangles().end()});
+  typename TypeParam::Options options;
+  const Seen expected = look_at(TypeParam::build(mesh, options), mesh.bounds());
+  options.threads = 2;
+  expect_same(look_at(TypeParam::build(mesh, options), mesh.bounds()), expected, "far from zero");
 }
 
 TYPED_TEST(BuildThreads, MayNotBeTooMany) {
