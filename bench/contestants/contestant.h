@@ -19,6 +19,7 @@
 #include "bench/workload/steps.h"
 #include "core/detector.h"
 #include "core/mesh_update.h"
+#include "core/search/nearest_many.h"
 
 namespace touchmark::bench::contestants {
 
@@ -83,6 +84,10 @@ class Contestant {
   /// Asks the steps that the pacer names, each clocked. Prepares once the pacer has let it go, before the
   /// clock is read: where a loop prepares just before it reads its device.
   virtual void replay_paced(const workload::QueryTrace& trace, StepPacer& pacer) noexcept = 0;
+  /// Asks nearest_many, with what it keeps from call to call until forget(). Needs answers(Query::nearest).
+  /// Throws what that throws.
+  virtual void nearest_many(std::span<const Vec3> points, double reach,
+                            std::span<std::optional<Contact>> answers, const ManyOptions& options) = 0;
   /// Returns true if the detector prepares after each step. That is in all other times, and in the work.
   virtual bool prepares() const noexcept = 0;
 };
@@ -96,6 +101,15 @@ std::vector<workload::Query> queries_of() {
   if constexpr (AnswersSweep<D>) queries.push_back(workload::Query::sweep);
   return queries;
 }
+
+template <Detector D>
+struct SessionsOfMany {
+  struct Type {};
+};
+template <AnswersNearest D>
+struct SessionsOfMany<D> {
+  using Type = ManySessions<D>;
+};
 
 /// Whether a detector's `prepare` is called after each answer.
 enum class Prefetch { off, on };
@@ -125,7 +139,12 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
     if constexpr (BuildsLazily<D>) return detector_->builds_lazily();
     return false;
   }
-  void forget() override { session_.emplace(); }
+  void forget() override {
+    session_.emplace();
+    if constexpr (AnswersNearest<D>) {
+      if (many_) many_->forget();
+    }
+  }
   bool updates() const noexcept override { return Updates<D>; }
   void update([[maybe_unused]] const TriangleMesh& mesh) override {
     if constexpr (Updates<D>) detector_->update(mesh);
@@ -200,6 +219,17 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
     });
   }
 
+  void nearest_many([[maybe_unused]] std::span<const Vec3> points, [[maybe_unused]] double reach,
+                    [[maybe_unused]] std::span<std::optional<Contact>> answers,
+                    [[maybe_unused]] const ManyOptions& options) override {
+    if constexpr (AnswersNearest<D>) {
+      if (!many_) many_ = std::make_unique<ManySessions<D>>();
+      touchmark::nearest_many(*detector_, points, reach, answers, *many_, options);
+    } else {
+      assert(!"the detector must answer nearest");
+    }
+  }
+
   bool prepares() const noexcept override { return prefetch == Prefetch::on; }
 
  private:
@@ -241,6 +271,8 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
   }
 
   std::shared_ptr<D> detector_;
+  /// Those of nearest_many, if it was asked and the detector answers that.
+  std::unique_ptr<typename SessionsOfMany<D>::Type> many_;
   std::optional<typename D::Session> session_;  // engaged always; optional so that any session can be renewed
 };
 
