@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "bench/contestants/build_notes.h"
-#include "bench/contestants/contestant.h"
 #include "bench/contestants/contestant_info.h"
+#include "bench/contestants/contestant_of.h"
 #include "bench/scenes/displaced.h"
 #include "core/search/parallel.h"
 #include "core/sign/signed_detector.h"

@@ -9,15 +9,9 @@
 
 #include "core/probe.h"
 #include "core/search/curve_order.h"
+#include "core/search/many_options.h"
 
 namespace touchmark {
-
-/// The order in which many points are asked. Answers do not depend on it.
-enum class AskOrder : std::uint8_t {
-  automatic,  ///< along a space-filling curve, unless consecutive points are near each other already
-  as_given,
-  curve  ///< along a space-filling curve
-};
 
 /// A plan is made anew for each call, of what is known of the last one. The order is cut into stretches, each
 /// with a session of its own, as many for any number of threads.
@@ -31,19 +25,19 @@ class AskPlan {
   AskPlan& operator=(const AskPlan&) = delete;
   ~AskPlan() = default;
 
-  /// Of at most 2^32 - 1 points, else throws std::invalid_argument. Points are followed from call to call
-  /// where there are no more of them than `max_followed`: if they are nearer to where they were in the last
-  /// call than to their neighbours in the order, each has a session of its own.
+  /// Takes at most 2^32 - 1 points, else throws std::invalid_argument. Points are followed from call to
+  /// call where there are no more of them than `max_followed`: if they are nearer to where they were in the
+  /// last call than to their neighbours in the order, each has a memory of its own.
   void make(std::span<const Vec3> points, AskOrder order, std::size_t max_followed);
   /// Knows nothing of the last call.
   void forget() noexcept { last_.clear(); }
 
-  /// Where the points are that are asked one after the other; empty: as they are given.
+  /// Returns the indices of the points in the order in which they are asked; empty: as they are given.
   std::span<const std::uint32_t> indices() const noexcept { return indices_; }
-  /// Does each point have a session of its own, that of its index?
+  /// Does each point have a memory of its own, that of its place in the order?
   bool is_followed() const noexcept { return followed_; }
-  /// Where points share sessions, so many consecutive ones do: enough to make up for the first of them, which
-  /// knows nothing, and so many that there are few sessions.
+  /// Returns how many consecutive points share a session where they do: enough to make up for the first of
+  /// them, which knows nothing, and so many that there are few sessions.
   static std::size_t stretch_length(std::size_t points) noexcept {
     constexpr std::size_t least = 256, most_stretches = 256;
     return std::max(least, (points + most_stretches - 1) / most_stretches);

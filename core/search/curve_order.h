@@ -18,7 +18,7 @@ class CurveOrder {
   /// Sorts so many points, at most 2^32 - 1. Those with a coordinate that is not finite come last. Allocates
   /// only for more points than ever before.
   void sort(std::span<const Vec3> points);
-  /// Where each point of the order is among those that were sorted.
+  /// Returns, in the order, the index that each point had among those that were sorted.
   std::span<const std::uint32_t> indices() const noexcept { return indices_; }
 
  private:
@@ -30,15 +30,15 @@ class CurveOrder {
   std::vector<std::uint32_t> indices_;
 };
 
-/// How far it is from one point to the next, on average, in the order of the indices, or as the points lie
-/// where there are none. A sample, without the steps that are not finite; 0 of none.
+/// Returns how far it is from one point to the next, on average, in the order of the indices, or as the
+/// points lie where there are none. A sample, without the steps that are not finite; 0 of none.
 double mean_step(std::span<const Vec3> points, std::span<const std::uint32_t> indices = {}) noexcept;
 
-/// How far the points have moved, on average: likewise. Both are as many.
+/// Returns how far the points have moved, on average, likewise. Both spans have the same size.
 double mean_move(std::span<const Vec3> from, std::span<const Vec3> to) noexcept;
 
-/// Is it as short a step from point to point, as they lie, as if they lay evenly on a surface as large as
-/// their box, or nearly so?
+/// Returns true if the step from point to point, as they lie, is as short as if they lay evenly on a surface
+/// as large as their box, or nearly so.
 bool is_coherent(std::span<const Vec3> points) noexcept;
 
 }  // namespace touchmark

@@ -16,8 +16,8 @@ namespace touchmark {
 inline constexpr unsigned max_threads = 256;
 
 /// Returns how many threads are asked for, where 0 stands for one a processor. Throws std::invalid_argument,
-/// naming the detector, for more than max_threads.
-unsigned threads_to_use(unsigned asked, const char* detector);
+/// naming who was asked, for more than max_threads.
+unsigned threads_to_use(unsigned asked, const char* who);
 
 /// Calls work(thread, piece) once for every piece below `count`, from at most so many threads at a time, of
 /// which the caller's is number 0. Lower pieces are begun first. Where some throw, the rest is not begun, and

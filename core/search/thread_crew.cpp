@@ -49,7 +49,7 @@ struct ThreadCrew::Crew {
   bool is_open = false;    ///< may others join the call?
   std::uint64_t call = 0;  ///< its number
   std::size_t wanted = 0;  ///< threads besides the caller's
-  std::size_t busy = 0;    ///< of these, how many take parts
+  std::size_t busy = 0;    ///< how many of these take parts now
   Function function = nullptr;
   const void* work = nullptr;
   std::size_t parts = 0;
@@ -60,10 +60,6 @@ ThreadCrew::ThreadCrew() noexcept = default;
 ThreadCrew::ThreadCrew(ThreadCrew&&) noexcept = default;
 ThreadCrew& ThreadCrew::operator=(ThreadCrew&&) noexcept = default;
 ThreadCrew::~ThreadCrew() = default;
-
-std::size_t ThreadCrew::of_the_machine() noexcept {
-  return std::max<std::size_t>(std::thread::hardware_concurrency(), 1);
-}
 
 void ThreadCrew::reserve(std::size_t threads) {
   if (threads <= 1) return;

@@ -14,8 +14,6 @@ class ThreadCrew {
   ThreadCrew& operator=(ThreadCrew&&) noexcept;
   ~ThreadCrew();
 
-  /// How many threads the machine runs at once, at least 1.
-  static std::size_t of_the_machine() noexcept;
   /// Has so many threads at hand, the caller's one of them. Throws std::system_error where one cannot be
   /// started, and std::bad_alloc.
   void reserve(std::size_t threads);

@@ -59,6 +59,14 @@ std::optional<Contact> SphereCluster::look_for_nearest(const Probe& probe, doubl
   return tree_.nearest(probe.center, reach, session.memory, session.work);
 }
 
+std::optional<Contact> SphereCluster::look_for_nearest(const Probe& probe, double reach,
+                                                       FollowedPoint& followed, Work& work) const noexcept {
+  if (!(reach >= 0)) return std::nullopt;
+  if (!options_.precise) return fast_.nearest(probe.center, reach, work);
+  if (options_.lookup == Lookup::scan) return scan_.nearest(probe.center, reach, work);
+  return tree_.nearest(probe.center, reach, followed, work);
+}
+
 std::optional<Impact> SphereCluster::look_for_impact(const Sweep& sweep, Session& session) const noexcept {
   if (!(sweep.radius >= 0)) return std::nullopt;
   if (!options_.precise) return fast_.first_hit(sweep, session.work);

@@ -18,6 +18,7 @@
 #include "bench/support/interrupt.h"
 #include "bench/support/progress.h"
 #include "bench/support/standard_output.h"
+#include "core/search/parallel.h"
 
 namespace touchmark::bench::cli {
 
@@ -78,7 +79,8 @@ ManySettings checked(const ManyCommandOptions& options, const contestants::Roste
       if (!order)
         throw std::invalid_argument(
             fmt::format("--order \"{}\" is not one of as-given, automatic, curve", name));
-      settings.options.push_back({papers::checked_number("--threads", threads, 1, 1024, 1), *order});
+      settings.options.push_back(
+          {static_cast<unsigned>(papers::checked_number("--threads", threads, 1, max_threads, 1)), *order});
     }
   }
   settings.sizes = {papers::checked_number("--points", options.points, 1, most, quick ? 10'000 : 100'000),

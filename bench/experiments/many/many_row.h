@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "core/search/ask_plan.h"
+#include "bench/results/column.h"
+#include "core/search/many_options.h"
 
 namespace touchmark::bench::experiments::many {
 
@@ -19,10 +21,10 @@ struct ManyRow {
   std::string mesh;
   std::size_t triangles = 0;
   std::string kind;
-  std::size_t points = 0;  ///< of a call
+  std::size_t points = 0;  ///< a call's
   std::size_t calls = 0;
   double reach = 0;  ///< mesh units
-  std::size_t threads = 1;
+  unsigned threads = 1;
   AskOrder order = AskOrder::automatic;
   std::size_t rounds = 0;
   double ns_per_point = 0;                  ///< median of the rounds
@@ -37,6 +39,9 @@ struct ManyRow {
 std::string_view name_of(AskOrder order) noexcept;
 /// Nothing for another name.
 std::optional<AskOrder> order_named(std::string_view name) noexcept;
+
+/// The columns of many.csv, schema 1. Columns are only ever appended.
+std::span<const results::Column<ManyRow>> many_columns();
 
 std::string many_csv(const std::vector<ManyRow>& rows);
 std::string many_table(const std::vector<ManyRow>& rows);

@@ -35,7 +35,7 @@ bool same_bits(const std::optional<Contact>& a, const std::optional<Contact>& b)
 /// does not count.
 class Clock {
  public:
-  explicit Clock(std::size_t threads) : threads_(threads) {}
+  explicit Clock(unsigned threads) : threads_(threads) {}
   double ns() const {
     const double elapsed = std::chrono::duration<double, std::nano>(Steady::now() - start_).count();
     return threads_ == 1 ? std::min(elapsed, support::processor_ns() - processor_start_) : elapsed;
@@ -43,7 +43,7 @@ class Clock {
 
  private:
   using Steady = std::chrono::steady_clock;
-  std::size_t threads_;
+  unsigned threads_;
   double processor_start_ = support::processor_ns();
   Steady::time_point start_ = Steady::now();
 };

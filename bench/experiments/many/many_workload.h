@@ -25,9 +25,9 @@ std::string_view name_of(Kind kind) noexcept;
 std::optional<Kind> kind_named(std::string_view name) noexcept;
 
 struct WorkloadSizes {
-  std::size_t points = 100'000;      ///< of a call, coherent or not
-  std::size_t shell_points = 1'000;  ///< of a pointshell
-  std::size_t ticks = 200;           ///< of a pointshell
+  std::size_t points = 100'000;      ///< a call's, coherent or not
+  std::size_t shell_points = 1'000;  ///< a pointshell's
+  std::size_t ticks = 200;           ///< calls of a pointshell
 };
 
 struct Workload {

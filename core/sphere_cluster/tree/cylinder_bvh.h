@@ -19,6 +19,7 @@
 #include "core/search/plane_filter.h"
 #include "core/simd/dispatch.h"
 #include "core/sphere_cluster/clustering.h"
+#include "core/sphere_cluster/tree/followed_point.h"
 #include "core/sphere_cluster/tree/leaf_cache.h"
 #include "core/sphere_cluster/tree/node.h"
 
@@ -65,9 +66,18 @@ class SphereTree {
   bool is_clear(const Sweep& sweep, const Memory& memory) const noexcept {
     return is_clear(sweep.from, sweep.radius, memory) && is_clear(sweep.to, sweep.radius, memory);
   }
+  /// Is that known of one of many points?
+  bool is_clear(const Vec3& center, double reach, const spheres::FollowedPoint& list) const noexcept {
+    const double margin = list.covered - reach;
+    return list.epoch == epoch_ && list.count == 0 && margin > 0 &&
+           (center - list.center).squaredNorm() < margin * margin;
+  }
   // All look, even where it is known to be clear. A radius or reach must be at least 0.
   bool touches(const Probe& probe, Memory& memory, Work& work) const noexcept;
   std::optional<Contact> nearest(const Vec3& center, double reach, Memory& memory, Work& work) const noexcept;
+  /// Answers of one of many points, of which little is remembered.
+  std::optional<Contact> nearest(const Vec3& center, double reach, spheres::FollowedPoint& list,
+                                 Work& work) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, Memory& memory, Work& work) const noexcept;
   /// Refills the cache for the next query where the point is near, and asks the question ahead, where the
   /// point will be if it goes on as it moved, unless that is known to be clear.
@@ -104,6 +114,17 @@ class SphereTree {
   };
   WithinBudget nearest_within_budget(const Vec3& center, double reach, Memory& memory,
                                      Work& work) const noexcept;
+  template <class Visitor>
+  bool search_listed(double reach, double error, const spheres::FollowedPoint& list,
+                     Visitor& visitor) const noexcept;
+  template <class Visitor>
+  bool list_anew(const FilterPoint& point, double reach, double error, spheres::FollowedPoint& list,
+                 Visitor& visitor) const noexcept;
+  bool is_sampled_clear(const FilterPoint& point, const Vec3& center, double reach,
+                        spheres::FollowedPoint& list) const noexcept;
+  template <class Visitor>
+  std::optional<Contact> contact_found(const Visitor& visitor, const Vec3& center, double reach, double error,
+                                       Work& work) const noexcept;
   LinearScan fallback() const noexcept { return {parts_.triangles, bounds_, ids_, certified_}; }
   std::uint64_t work_limit() const noexcept { return work_budget(parts_.triangles.size()); }
   std::optional<Contact> nearest_without(const Vec3& center, double reach, Work& work) const noexcept;

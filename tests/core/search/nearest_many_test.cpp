@@ -1,5 +1,5 @@
 /// Many points asked at once are answered as they are one by one, in whatever order, from however many
-/// threads, and whatever was asked before.
+/// threads (std::thread, in core/search/thread_crew.cpp), and whatever was asked before.
 #include "core/search/nearest_many.h"
 
 #include <array>
@@ -82,7 +82,7 @@ void expect_as_one_by_one(const D& detector, const char* name) {
   const Points few = scattered(700, 1), many = scattered(2100, 2);
   for (const double reach : {0.03, infinity}) {
     for (const AskOrder order : orders) {
-      for (const std::size_t threads : {1, 2, 3}) {
+      for (const unsigned threads : {1U, 2U, 3U}) {
         ManySessions<D> sessions;
         for (const Points& points :
              {few, few, moved(few, Vec3(0.001, 0, 0)), moved(few, Vec3(0, 0.4, 0)), many}) {
@@ -113,7 +113,7 @@ TEST(NearestMany, AsksMorePointsThanAreFollowed) {
   const auto detector = SphereCluster::build(test::sheet(40));
   const Points points = scattered(ManySessions<SphereCluster>::max_followed + 1, 3);
   const Answers expected = one_by_one(detector, points, 0.03);
-  for (const std::size_t threads : {1, 3}) {
+  for (const unsigned threads : {1U, 3U}) {
     ManySessions<SphereCluster> sessions;
     for (int call = 0; call < 2; ++call) {
       Answers answers(points.size());
@@ -204,7 +204,7 @@ TEST(NearestMany, LooksAtTheSameForAnyNumberOfThreads) {
   const auto detector = SphereCluster::build(test::sheet(20));
   const Points points = scattered(3000, 7);
   std::vector<std::uint64_t> work;
-  for (const std::size_t threads : {1, 2, 3}) {
+  for (const unsigned threads : {1U, 2U, 3U}) {
     ManySessions<SphereCluster> sessions;
     Answers answers(points.size());
     nearest_many(detector, points, 0.05, answers, sessions, {threads, AskOrder::automatic});
