@@ -118,7 +118,7 @@ class SphereTree {
   WithinBudget nearest_within_budget(const Vec3& center, double reach, Memory& memory,
                                      Work& work) const noexcept;
   template <class Visitor>
-  bool search_listed(double reach, double error, const spheres::FollowedPoint& list,
+  bool search_listed(double reach, double error, spheres::FollowedPoint& list,
                      Visitor& visitor) const noexcept;
   template <class Visitor>
   bool list_anew(const FilterPoint& point, double reach, double error, spheres::FollowedPoint& list,

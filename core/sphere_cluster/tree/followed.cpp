@@ -1,6 +1,7 @@
 // The nearest triangle of one of many points, of which little is remembered (followed_point.h). A query looks
-// at those listed near the point, nearest first, as far as they can be nearest now. A list that does not
-// cover what can be is made anew by a search from the root.
+// at those listed near the point that can be nearest now: bounds of their distances shrink by what the point
+// moves, and are refreshed by each look. A list that does not cover what can be is made anew by a search from
+// the root.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -22,6 +23,20 @@ constexpr double listed_margin = 1;
 double distance_of_best(const NearestVisitor& visitor) noexcept {
   return std::sqrt(visitor.candidates.best().squared_distance);
 }
+
+/// Tells what was found of the triangle it was shown.
+struct RefreshingVisitor {
+  NearestVisitor& nearest;
+  const Vec3& center = nearest.center;
+  Work& work = nearest.work;
+  double found = 0;  ///< its distance
+
+  static constexpr bool accepts(std::uint32_t) noexcept { return true; }
+  void update(std::uint32_t at, const Offset& offset) noexcept {
+    found = std::sqrt(offset.squared);
+    nearest.update(at, offset);
+  }
+};
 
 /// Lists the nearest of all triangles that it is shown, as far as there is room and within the margin.
 struct ListingVisitor {
@@ -71,22 +86,39 @@ struct ListingVisitor {
 
 }  // namespace
 
-/// Shows the visitor those listed that may be nearest. Returns true if nothing else can be: then nothing that
-/// was not shown is within the least distance, or the reach, and four times the error.
+/// Shows the visitor those listed that may be nearest, and takes the point along. Returns true if nothing
+/// else can be nearest: then nothing that was not shown is within the least distance, or the reach, and the
+/// error.
 template <class Visitor>
-bool SphereTree::search_listed(double reach, double error, const FollowedPoint& list,
+bool SphereTree::search_listed(double reach, double error, FollowedPoint& list,
                                Visitor& visitor) const noexcept {
-  const double moved = (visitor.center - list.center).norm() * (1 + 0x1p-40) + 4 * error;
-  const double covered = list.covered - moved;
+  const double moved = (visitor.center - list.center).norm() * (1 + 0x1p-40) + error;
+  list.covered -= moved;
+  list.center = visitor.center;
+  const auto moved_in_frame = static_cast<float>(moved * frame_.scale() * (1 + 0x1p-20));
+  for (float& distance : list.distance) distance = distance * (1 - 0x1p-22F) - moved_in_frame;
+  const auto limit_within = [&](double distance) {
+    const double in_frame = (distance + 4 * error) * frame_.scale() * (1 + 0x1p-20);
+    return static_cast<float>(std::min(in_frame, static_cast<double>(spheres::farthest)));
+  };
+  float limit = limit_within(reach);
   double farthest = reach;
-  for (std::uint32_t i = 0; i < list.count; ++i) {
-    const double least = static_cast<double>(list.distance[i]) * frame_.unit() - moved;
-    if (least > farthest) break;
-    if (!(least < covered)) return false;
-    visit(list.slot[i], visitor);
-    farthest = std::min(reach, distance_of_best(visitor));
-  }
-  return farthest < covered;
+  const auto look_at = [&](std::uint32_t i) {
+    if (list.distance[i] > limit) return;
+    RefreshingVisitor refreshing{visitor};
+    visit(list.slot[i], refreshing);
+    list.distance[i] = frame_.to_frame_rounded_down(refreshing.found - error);
+    if (!(refreshing.found < farthest)) return;
+    farthest = refreshing.found;
+    limit = limit_within(farthest);
+    list.nearest = i;
+  };
+  // What was nearest the last time is often nearer than the others can be.
+  const std::uint32_t first = list.nearest;
+  if (list.count > 0) look_at(first);
+  for (std::uint32_t i = 0; i < list.count; ++i)
+    if (i != first) look_at(i);
+  return farthest + 4 * error < list.covered;
 }
 
 /// Shows the visitor all that may be nearest, and lists what is near. Returns false where that is too much
@@ -97,7 +129,7 @@ bool SphereTree::list_anew(const FilterPoint& point, double reach, double error,
   const double margin = listed_margin * mean_leaf_radius_;
   const double sampled = static_cast<double>(distances_.upper_bound(point)) * frame_.unit();
   const double farthest = std::min(reach, sampled) + error + margin;
-  list.count = 0;
+  list.count = list.nearest = 0;
   list.epoch = {};
   ListingVisitor listing{visitor, list, reach, margin, visitor.center, frame_.limit(farthest * farthest)};
   const float unseen = traverse(point, listing, work_limit());
@@ -121,7 +153,7 @@ bool SphereTree::is_sampled_clear(const FilterPoint& point, const Vec3& center, 
   list.epoch = epoch_;
   list.center = center;
   list.covered = clearance;
-  list.count = 0;
+  list.count = list.nearest = 0;
   return true;
 }
 

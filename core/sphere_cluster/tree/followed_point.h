@@ -14,9 +14,10 @@ struct alignas(64) FollowedPoint {
   static constexpr std::uint32_t capacity = 10;
 
   Epoch epoch;                 ///< the structure that this is about
-  Vec3 center = Vec3::Zero();  ///< the point when the list was made
+  Vec3 center = Vec3::Zero();  ///< the point when it was asked last
   double covered = 0;          ///< no triangle that is not listed is nearer to the centre; mesh units
   std::uint32_t count = 0;
+  std::uint32_t nearest = 0;  ///< the place of the nearest
   std::uint32_t slot[capacity];
   float
       distance[capacity];  ///< at most those of the listed triangles from the centre, in the frame; ascending
