@@ -41,7 +41,7 @@ class CertifiedField {
   };
 
   /// Throws what the exact detector's build throws, and std::invalid_argument for an error or a band that is
-  /// not a finite number of 0 or more, too many threads, or an error that takes too much memory.
+  /// not a number of 0 or more, too many threads, or an error that takes too much memory.
   static CertifiedField build(const TriangleMesh& mesh, const Options& options) {
     const field::Division division = field::checked_division(options, mesh.diagonal());
     CertifiedField built(Exact::build(mesh, options.exact));

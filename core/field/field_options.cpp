@@ -1,6 +1,5 @@
 #include "core/field/field_options.h"
 
-#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -13,9 +12,9 @@ namespace touchmark::field {
 namespace {
 
 double checked_length(double length, const char* name, double otherwise) {
-  if (!(length >= 0 && std::isfinite(length)))
+  if (!(length >= 0))
     throw std::invalid_argument(std::string("field: ") + name + " is " + std::to_string(length) +
-                                ", not a finite number of 0 or more");
+                                ", not a number of 0 or more");
   return length > 0 ? length : otherwise;
 }
 

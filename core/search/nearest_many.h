@@ -59,7 +59,7 @@ class ManySessions {
  public:
   /// Points are followed from call to call, each with a memory of its own, where there are no more than this.
   static constexpr std::size_t max_followed = std::min<std::size_t>(
-      (std::size_t{1} << 23) / (FollowsPoints<D> ? sizeof(FollowedPoint) : sizeof(Session)), 65536);
+      (std::size_t{1} << 24) / (FollowsPoints<D> ? sizeof(FollowedPoint) : sizeof(Session)), 16384);
 
   /// Forgets all points, and keeps memory and threads. Necessary only before another detector is asked that
   /// does not tell its own sessions from others: ours do, also after they were built anew or updated.

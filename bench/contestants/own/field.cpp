@@ -11,7 +11,7 @@ ContestantInfo field_entry() {
   info.name = "field";
   info.rank = 45;
   info.summary = "a sampled distance field whose error is proved, over sphere-cluster";
-  info.accuracy = "approximate, within error; answers=exact: exact";
+  info.accuracy = "approximate; answers=exact: exact";
   info.queries = queries_of<Field>();
   info.options = {
       in_code({"error", OptionKind::length, {}, "0.1%", "no answer is off by more"}, "error"),
@@ -19,14 +19,14 @@ ContestantInfo field_entry() {
       in_code(choice("answers", answers,
                      "field: from memory alone; exact: sphere-cluster's, of what may be within reach"),
               "refines"),
-      threads_option()};
+      threads_option(), side_option()};
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
     Field::Options options;
     options.error = values.length("error", mesh);
     options.band = values.length("band", mesh);
     options.refines = chosen(values, "answers", answers);
     options.threads = options.exact.threads = threads_of(values);
-    return contestant<Field>(mesh, options);
+    return contestant<Field>(mesh, options, values);
   };
   info.forms = {.verified = {"error=1%", "error=1%,answers=exact"},
                 .frontier = {"error=0.1%", "error=0.3%", "error=1%"},

@@ -34,7 +34,7 @@ void expect_walks_alike(const SphereCluster& detector, const test::NamedMesh& sc
   test::Random random(seed);
   SphereCluster::FollowedPoint followed;
   Work work;
-  for (int walk = 0; walk < 6; ++walk) {
+  for (int walk = 0; walk < 3; ++walk) {
     Vec3 at = test::random_point(scene, random);
     for (int tick = 0; tick < 30; ++tick) {
       at += random.vector(step * scene.size);
