@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -73,6 +74,7 @@ class Measurement {
   std::vector<double> in_ns(std::span<const std::uint64_t> ticks) const;
   void expect_verified_answers(const workers::Timed& timed);
   void judge(ground_truth::GroundTruths& truths, ground_truth::GroundTruths* rounded);
+  void log(std::span<const workload::Answer> answers, const std::vector<oracle::Charge>& charges);
 
   const workers::SharedArena& arena_;
   const Effort& effort_;
@@ -93,6 +95,7 @@ class Measurement {
   std::vector<std::vector<double>> latencies_ns_;
   std::vector<std::vector<double>> prepared_ns_;
   std::vector<double> cold_l2_ns_, cold_ns_, floor_l2_ns_, floor_ns_;
+  std::shared_ptr<StepLog> log_;
   std::vector<workload::Checksum>
       answer_checksums_;  // of the verified answers, where caches are to be emptied
 };
