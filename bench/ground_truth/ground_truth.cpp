@@ -100,8 +100,8 @@ std::vector<StepTruth> GroundTruths::known(workload::Query query) const {
     if (!step.known) continue;
     const oracle::GroundTruth& truth = probes_.truths[i];
     const Probe& probe = probes_.questions[i];
-    step.found = oracle_.within(truth, probe.center,
-                                query == workload::Query::touches ? probe.radius : reaches_[i]);
+    step.found =
+        oracle_.within(truth, probe.center, query == workload::Query::touches ? probe.radius : reaches_[i]);
     step.distance = truth.defined ? truth.high : std::numeric_limits<double>::infinity();
     step.point = truth.point;
     if (truth.defined) step.triangle = oracle_.mesh().id(truth.triangle);

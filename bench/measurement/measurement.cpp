@@ -182,19 +182,10 @@ void Measurement::judge(ground_truth::GroundTruths& truths, ground_truth::Ground
   std::vector<oracle::Charge> charges;
   row_.counts = truths.judge(task_.query, ranges_, answers, *row_.accuracy, {}, &row_.wrong,
                              logged ? &charges : nullptr);
-  if (logged) log(answers, charges);
+  if (logged)
+    log_ = std::make_shared<StepLog>(log_of(ranges_, answers, arena_.buffers().work(row_.steps), charges));
   if (rounded != nullptr)
     row_.rounded_scene_counts = rounded->judge(task_.query, ranges_, answers, *row_.accuracy);
-}
-
-void Measurement::log(std::span<const workload::Answer> answers, const std::vector<oracle::Charge>& charges) {
-  const std::span<const std::uint64_t> work = arena_.buffers().work(row_.steps);
-  log_ = std::make_shared<StepLog>(StepLog{ranges_,
-                                           {answers.begin(), answers.end()},
-                                           {work.begin(), work.end()},
-                                           std::vector<std::uint8_t>(answers.size()),
-                                           {}});
-  for (const oracle::Charge& one : charges) log_->charged[one.step] = kinds_of(one.counts);
 }
 
 void Measurement::expect_verified_answers(const workers::Timed& timed) {

@@ -74,7 +74,6 @@ class Measurement {
   std::vector<double> in_ns(std::span<const std::uint64_t> ticks) const;
   void expect_verified_answers(const workers::Timed& timed);
   void judge(ground_truth::GroundTruths& truths, ground_truth::GroundTruths* rounded);
-  void log(std::span<const workload::Answer> answers, const std::vector<oracle::Charge>& charges);
 
   const workers::SharedArena& arena_;
   const Effort& effort_;

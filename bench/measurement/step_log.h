@@ -24,16 +24,6 @@ enum ChargeKind : std::uint8_t {
   charged_side = 128
 };
 
-/// Returns the bits of what one answer is charged with.
-inline std::uint8_t kinds_of(const oracle::ErrorCounts& one) noexcept {
-  const auto bit = [](std::uint64_t count, ChargeKind kind) { return count > 0 ? kind : 0; };
-  return static_cast<std::uint8_t>(
-      bit(one.missed, charged_missed) | bit(one.false_contacts, charged_false_contact) |
-      bit(one.wrong_triangle, charged_triangle) | bit(one.beyond_bound, charged_distance) |
-      bit(one.wrong_point, charged_point) | bit(one.wrong_normal, charged_normal) |
-      bit(one.malformed, charged_malformed) | bit(one.wrong_side, charged_side));
-}
-
 /// The lists hold the ranges' steps one after the other.
 struct StepLog {
   std::vector<workload::StepRange> ranges;  ///< ascending
@@ -42,5 +32,10 @@ struct StepLog {
   std::vector<std::uint8_t> charged;  ///< ChargeKind bits; 0: right, or within what is claimed
   std::vector<double> ns;             ///< as the percentiles of the row see them; empty until it was timed
 };
+
+/// Returns the log of a contestant that was verified and not yet timed. `charges` are by their places among
+/// the answers.
+StepLog log_of(const std::vector<workload::StepRange>& ranges, std::span<const workload::Answer> answers,
+               std::span<const std::uint64_t> work, const std::vector<oracle::Charge>& charges);
 
 }  // namespace touchmark::bench::measurement

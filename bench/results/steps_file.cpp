@@ -46,11 +46,12 @@ class Grid {
   }
   void append(const Vec3& point, std::vector<std::uint16_t> (&axes)[3]) const {
     for (int axis = 0; axis < 3; ++axis) {
-      const double extent = high_[axis] / 2 - low_[axis] / 2;  // halves, since the whole may be beyond doubles
+      const double extent =
+          high_[axis] / 2 - low_[axis] / 2;  // halves, since the whole may be beyond doubles
       const double share = extent > 0 ? (point[axis] / 2 - low_[axis] / 2) / extent : 0;
-      axes[axis].push_back(
-          point.allFinite() ? static_cast<std::uint16_t>(std::lround(cells * std::clamp(share, 0.0, 1.0)))
-                            : nowhere);
+      axes[axis].push_back(point.allFinite()
+                               ? static_cast<std::uint16_t>(std::lround(cells * std::clamp(share, 0.0, 1.0)))
+                               : nowhere);
     }
   }
   Json low() const { return json_of(low_); }
@@ -150,19 +151,19 @@ Json StepsFile::mesh_json() {
     }
   }
   const Aabb& bounds = mesh.bounds();
-  return {{"name", workload_.mesh_name},
-          {"triangles", mesh.size()},
-          {"diagonal", mesh.diagonal()},
-          {"low", json_of(bounds.min)},
-          {"high", json_of(bounds.max)},
-          {"drawn",
-           {{"triangles", drawn.triangles.size()},
-            {"low", grid.low()},
-            {"high", grid.high()},
-            {"vertices", axes(vertices)},
-            {"corners", json_of(packer_.add(std::span<const std::uint32_t>(corners), true))}}},
-          {"near",
-           {{"ids", block(ids)}, {"corners", block(near_corners)}, {"vertices", block(near_vertices)}}}};
+  return {
+      {"name", workload_.mesh_name},
+      {"triangles", mesh.size()},
+      {"diagonal", mesh.diagonal()},
+      {"low", json_of(bounds.min)},
+      {"high", json_of(bounds.max)},
+      {"drawn",
+       {{"triangles", drawn.triangles.size()},
+        {"low", grid.low()},
+        {"high", grid.high()},
+        {"vertices", axes(vertices)},
+        {"corners", json_of(packer_.add(std::span<const std::uint32_t>(corners), true))}}},
+      {"near", {{"ids", block(ids)}, {"corners", block(near_corners)}, {"vertices", block(near_vertices)}}}};
 }
 
 Json StepsFile::trace_json(std::size_t trace, const std::vector<const ResultRow*>& rows) {

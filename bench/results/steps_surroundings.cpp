@@ -14,10 +14,9 @@ std::vector<std::size_t> slowest_steps(const measurement::StepLog& log, std::siz
   std::vector<std::size_t> places(log.ns.size());
   std::iota(places.begin(), places.end(), 0);
   const std::size_t kept = std::min(count, places.size());
-  std::partial_sort(places.begin(), places.begin() + static_cast<std::ptrdiff_t>(kept), places.end(),
-                    [&](std::size_t a, std::size_t b) {
-                      return log.ns[a] != log.ns[b] ? log.ns[a] > log.ns[b] : a < b;
-                    });
+  std::partial_sort(
+      places.begin(), places.begin() + static_cast<std::ptrdiff_t>(kept), places.end(),
+      [&](std::size_t a, std::size_t b) { return log.ns[a] != log.ns[b] ? log.ns[a] > log.ns[b] : a < b; });
   places.resize(kept);
   for (std::size_t& place : places) place = workload::step_at(log.ranges, place);
   return places;

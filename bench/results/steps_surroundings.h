@@ -42,7 +42,8 @@ class Surroundings {
   const TriangleMesh& mesh_;
   std::size_t looked_at_ = 0;
   std::vector<std::uint32_t> chosen_;
-  std::vector<std::uint32_t> places_;  ///< of each triangle of the mesh in chosen_, from 1; 0: not chosen
+  std::vector<std::uint32_t>
+      places_;  ///< a triangle of the mesh each: its place in chosen_, from 1; 0: not chosen
 };
 
 }  // namespace touchmark::bench::results

@@ -13,8 +13,7 @@ class Clusters {
   Clusters(const Aabb& bounds, double cell) : low_(bounds.min), cell_(cell) {}
 
   std::uint32_t of(const Vec3& vertex) {
-    const auto [found, fresh] =
-        numbers_.try_emplace(key(vertex), static_cast<std::uint32_t>(sums_.size()));
+    const auto [found, fresh] = numbers_.try_emplace(key(vertex), static_cast<std::uint32_t>(sums_.size()));
     if (fresh) {
       sums_.push_back(Vec3::Zero());
       counts_.push_back(0);
@@ -87,7 +86,8 @@ DrawnMesh drawn_mesh(const TriangleMesh& mesh, std::size_t max_triangles) {
   for (int i = 0; i < attempts; ++i) {
     DrawnMesh drawn = clustered(mesh, mesh.diagonal() / cells);
     if (drawn.triangles.size() <= max_triangles) return drawn;
-    cells *= 0.97 * std::sqrt(static_cast<double>(max_triangles) / static_cast<double>(drawn.triangles.size()));
+    cells *=
+        0.97 * std::sqrt(static_cast<double>(max_triangles) / static_cast<double>(drawn.triangles.size()));
   }
   return {};
 }

@@ -34,9 +34,9 @@ PackedBlock BlockPacker::add(std::span<const double> items) {
 PackedBlock BlockPacker::add_planes(const std::string& planes, std::size_t item_bytes, bool delta) {
   uLongf size = compressBound(static_cast<uLong>(planes.size()));
   std::string packed(size, '\0');
-  const int status = compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
-                               reinterpret_cast<const Bytef*>(planes.data()),
-                               static_cast<uLong>(planes.size()), Z_DEFAULT_COMPRESSION);
+  const int status =
+      compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(planes.data()),
+                static_cast<uLong>(planes.size()), Z_DEFAULT_COMPRESSION);
   if (status != Z_OK) throw std::bad_alloc();  // the room is enough, so nothing else can be missing
   const PackedBlock block{bytes_.size(), size, planes.size() / item_bytes, item_bytes, false, delta};
   bytes_.append(packed, 0, size);

@@ -12,13 +12,13 @@
 
 namespace touchmark::bench::support {
 
-/// Where a block is, and what it holds.
+/// A block: its place in the file, and its items.
 struct PackedBlock {
   std::size_t offset = 0;  ///< bytes from the first block's begin
   std::size_t bytes = 0;   ///< compressed
   std::size_t items = 0;
   std::size_t item_bytes = 1;
-  bool real = false;  ///< doubles, not integers
+  bool real = false;   ///< doubles, not integers
   bool delta = false;  ///< each item is stored less the one before it
 };
 

@@ -66,7 +66,8 @@ measurement::Effort effort_for(const BenchOptions& options, const BenchmarkFlags
   }
   if (options.cache_lines)
     effort.line_samples = options.quick ? measurement::quick_line_samples : measurement::usual_line_samples;
-  if (!options.out.empty() || !options.steps_out.empty()) effort.max_logged_steps = results::max_steps_in_file;
+  if (!options.out.empty() || !options.steps_out.empty())
+    effort.max_logged_steps = results::max_steps_in_file;
   if (flags.min_time_s) effort.repetition_ns = *flags.min_time_s * 1e9;
   return effort;
 }
@@ -270,7 +271,8 @@ void add_bench(CLI::App& program, ProgramContext& context) {
       program.add_subcommand("bench", "verify and time contestants on identical trajectories");
   add_selectors(*command, options->selectors);
   add_unit(*command, options->selectors.unit);
-  command->add_option("--out", options->out, "folder for results.csv, run.json and steps.bin")->type_name("DIR");
+  command->add_option("--out", options->out, "folder for results.csv, run.json and steps.bin")
+      ->type_name("DIR");
   command->add_option("--steps-out", options->steps_out, "also each step as CSV: time, answer and work")
       ->type_name("FILE");
   command

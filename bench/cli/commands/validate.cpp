@@ -45,8 +45,8 @@ std::vector<std::string> files_below(const std::string& folder) {
   try {
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
       const fs::path& path = entry.path();
-      if (entry.is_regular_file() && (path.extension() == ".csv" || path.filename() == "run.json" ||
-                                      path.filename() == "steps.bin")) {
+      if (entry.is_regular_file() &&
+          (path.extension() == ".csv" || path.filename() == "run.json" || path.filename() == "steps.bin")) {
         files.push_back(path.string());
       }
     }
@@ -175,13 +175,15 @@ int validate(const std::vector<std::string>& paths) {
 
 void add_validate(CLI::App& program, ProgramContext& context) {
   const auto paths = std::make_shared<std::vector<std::string>>();
-  CLI::App* command = program.add_subcommand("validate", "check recorded results: CSV files, run.json and steps.bin");
+  CLI::App* command =
+      program.add_subcommand("validate", "check recorded results: CSV files, run.json and steps.bin");
   command
-      ->add_option("path", *paths,
-                   "results.csv, stress.csv, servo.csv, choose.csv, suite.csv, proxy.csv, run.json, steps.bin, or "
-                   "folders that hold some; "
-                   "other CSV files are "
-                   "checked for their form")
+      ->add_option(
+          "path", *paths,
+          "results.csv, stress.csv, servo.csv, choose.csv, suite.csv, proxy.csv, run.json, steps.bin, or "
+          "folders that hold some; "
+          "other CSV files are "
+          "checked for their form")
       ->type_name("FILE|DIR")
       ->required();
   command->footer(

@@ -103,8 +103,9 @@ class StepsCheck {
     const std::string_view digits = std::string_view(type).substr(1);
     const std::size_t bits = digits == "8" ? 8 : digits == "16" ? 16 : digits == "32" ? 32 : 64;
     const Json& delta = member(json, "delta");
-    const support::PackedBlock block{count(json, "offset"), count(json, "bytes"), count(json, "items"),
-                                     bits / 8, type[0] == 'f', delta.is_boolean() && delta.get<bool>()};
+    const support::PackedBlock block{count(json, "offset"), count(json, "bytes"),
+                                     count(json, "items"),  bits / 8,
+                                     type[0] == 'f',        delta.is_boolean() && delta.get<bool>()};
     const std::optional<std::string> planes = support::unpacked(blocks_, block);
     if (!planes) throw Damage{name, "is a damaged block"};
     if (bits == 64) return std::vector<std::uint32_t>(block.items);
@@ -211,7 +212,8 @@ class StepsCheck {
                            "ns at most, where results.csv has " + results_->field(record, "ns_max")});
       return;
     }
-    faults_.push_back({path_, 0, fmt::format("{} on {}", key[0], key[2]), key[1], "has no row in results.csv"});
+    faults_.push_back(
+        {path_, 0, fmt::format("{} on {}", key[0], key[2]), key[1], "has no row in results.csv"});
   }
 
   /// Rows that were timed and are not too long are in the file.
