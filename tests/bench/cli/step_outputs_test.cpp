@@ -1,5 +1,5 @@
-/// steps.bin and --steps-out of `touchmark bench`, from the outside: what they hold agrees with results.csv, and
-/// `touchmark validate` sees where it does not.
+/// steps.bin and --steps-out of `touchmark bench`, from the outside: what they hold agrees with results.csv,
+/// and `touchmark validate` sees where it does not.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -84,7 +84,8 @@ TEST_F(StepOutputs, TheCsvHasARowAStepAndContestantWithTheLargestTimeOfTheResult
   }
   for (const auto& row : rows_of(results())) {
     EXPECT_EQ(count.at(row.at("detector")), steps);
-    EXPECT_NEAR(largest.at(row.at("detector")), std::stod(row.at("ns_max")), 1e-5 * std::stod(row.at("ns_max")));
+    EXPECT_NEAR(largest.at(row.at("detector")), std::stod(row.at("ns_max")),
+                1e-5 * std::stod(row.at("ns_max")));
   }
 }
 
@@ -120,16 +121,17 @@ TEST_F(StepOutputs, ARunThatBeginsTakesAwayTheStepsOfTheOneBefore) {
   const TemporaryFolder folder;
   folder.file("steps.bin", "of an earlier run");
   const Outcome outcome =
-      run_touchmark({"bench", "--mesh", "cube", "--quick", "--steps", "5", "--trajectory", "slide", "--detector",
-                     "aabb-tree", "--out", folder.path(), "--benchmark_min_time=0.001"});
+      run_touchmark({"bench", "--mesh", "cube", "--quick", "--steps", "5", "--trajectory", "slide",
+                     "--detector", "aabb-tree", "--out", folder.path(), "--benchmark_min_time=0.001"});
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_EQ(run_touchmark({"validate", folder.path()}).status, 0);
 }
 
 TEST_F(StepOutputs, AFullDiskIsToldOfAndNoFileIsLeft) {
   const TemporaryFolder folder;
-  const Outcome outcome = run_touchmark({"bench", "--mesh", "cube", "--quick", "--steps", "5", "--trajectory", "slide", "--detector",
-                     "aabb-tree", "--steps-out", "/dev/full", "--benchmark_min_time=0.001"});
+  const Outcome outcome =
+      run_touchmark({"bench", "--mesh", "cube", "--quick", "--steps", "5", "--trajectory", "slide",
+                     "--detector", "aabb-tree", "--steps-out", "/dev/full", "--benchmark_min_time=0.001"});
   EXPECT_EQ(outcome.status, 3) << outcome.err;
   EXPECT_NE(outcome.err.find("cannot write /dev/full"), std::string::npos) << outcome.err;
 }
