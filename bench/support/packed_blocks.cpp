@@ -22,6 +22,15 @@ PackedBlock BlockPacker::add_integers(std::span<const T> items, bool delta) {
   return add_planes(planes, sizeof(T), delta);
 }
 
+PackedBlock BlockPacker::add(std::span<const std::uint8_t> items) { return add_integers(items, false); }
+PackedBlock BlockPacker::add(std::span<const std::uint16_t> items, bool delta) {
+  return add_integers(items, delta);
+}
+PackedBlock BlockPacker::add(std::span<const std::uint32_t> items, bool delta) {
+  return add_integers(items, delta);
+}
+PackedBlock BlockPacker::add(std::span<const std::uint64_t> items) { return add_integers(items, false); }
+
 PackedBlock BlockPacker::add(std::span<const double> items) {
   std::vector<std::uint64_t> bits;
   bits.reserve(items.size());

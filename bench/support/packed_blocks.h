@@ -26,14 +26,10 @@ struct PackedBlock {
 /// high ones, which vary little, compress well.
 class BlockPacker {
  public:
-  PackedBlock add(std::span<const std::uint8_t> items) { return add_integers(items, false); }
-  PackedBlock add(std::span<const std::uint16_t> items, bool delta = false) {
-    return add_integers(items, delta);
-  }
-  PackedBlock add(std::span<const std::uint32_t> items, bool delta = false) {
-    return add_integers(items, delta);
-  }
-  PackedBlock add(std::span<const std::uint64_t> items) { return add_integers(items, false); }
+  PackedBlock add(std::span<const std::uint8_t> items);
+  PackedBlock add(std::span<const std::uint16_t> items, bool delta = false);
+  PackedBlock add(std::span<const std::uint32_t> items, bool delta = false);
+  PackedBlock add(std::span<const std::uint64_t> items);
   PackedBlock add(std::span<const double> items);
 
   /// All blocks.
