@@ -23,8 +23,8 @@ class NearBodies {
   static constexpr std::size_t room = 16;
   struct Entry {
     BodyId id;
-    std::uint32_t slot = 0;  ///< where what is remembered of the body is kept, below `room`
-    double lower = 0;        ///< of the distance when it was last asked for
+    std::uint32_t slot = 0;  ///< the place of what is remembered of the body, below `room`
+    double lower = 0;        ///< bound of the distance when that was last asked for
   };
 
   /// Is every body surely farther than the reach? One comparison, whatever the number of bodies.
@@ -45,8 +45,7 @@ class NearBodies {
     std::uint64_t boxes = 0, bodies = 0;
   };
   Looked list(const Vec3& point, const SceneBodies& bodies) noexcept;
-  /// Of the listed bodies, those that are removed are dropped, and `lower` of the others is as seen from
-  /// there.
+  /// Drops the listed bodies that are removed, and bounds the distances of the others from there.
   void look_again(const Vec3& point, const SceneBodies& bodies) noexcept;
   /// Says how far all bodies are, now that all that was listed was looked at again from there.
   void conclude(const Vec3& point, const SceneBodies& bodies) noexcept;

@@ -141,6 +141,11 @@ class Scene {
  private:
   friend class SharedScene<D>;
   Scene(const Scene&) = default;  // of the same bodies with the same shapes
+  /// Becomes as the other is, from which it differs in these bodies and in shapes that were added.
+  void follow(const Scene& other, std::span<const std::uint32_t> changed) {
+    bodies_.follow(other.bodies_, changed);
+    shapes_ = other.shapes_;
+  }
 
   /// The detector's memory for a body of this slot.
   typename D::Session& session_of(std::size_t slot, std::uint32_t body, Session& session) const noexcept {
