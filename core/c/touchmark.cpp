@@ -8,6 +8,7 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -106,6 +107,7 @@ struct touchmark_detector {
 struct touchmark_session {
   std::shared_ptr<const Held> held;
   std::unique_ptr<NamedDetector::Session> memory;
+  std::vector<touchmark::Contact> contacts = {};  ///< as many as were ever asked for at once
 
   const NamedDetector& detector() const noexcept { return *held->detector; }
 };
@@ -236,6 +238,20 @@ int touchmark_first_hit(touchmark_session* session, const double from[3], const 
     store(found->contact, impact->contact);
   }
   return TOUCHMARK_YES;
+}
+
+int touchmark_contacts(touchmark_session* session, const double center[3], double reach,
+                       touchmark_contact* contacts, size_t capacity, size_t* count) {
+  if (refuses(__func__, session, center, "center", "reach", reach)) return TOUCHMARK_ERROR;
+  if (contacts == nullptr && capacity > 0) return fail_for_null(__func__, "contacts");
+  if (count == nullptr) return fail_for_null(__func__, "count");
+  return guarded(__func__, int{TOUCHMARK_ERROR}, [&] {
+    if (session->contacts.size() < capacity) session->contacts.resize(capacity);
+    const std::span<touchmark::Contact> into(session->contacts.data(), capacity);
+    *count = session->detector().contacts({point(center), 0}, reach, *session->memory, into);
+    for (std::size_t i = 0; i < std::min(*count, capacity); ++i) store(into[i], contacts[i]);
+    return int{*count > 0 ? TOUCHMARK_YES : TOUCHMARK_NO};
+  });
 }
 
 int touchmark_prepare(touchmark_session* session) {

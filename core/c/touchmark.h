@@ -103,6 +103,11 @@ TOUCHMARK_API int touchmark_nearest(touchmark_session* session, const double cen
 /// `impact` is left as it was otherwise, and may be NULL.
 TOUCHMARK_API int touchmark_first_hit(touchmark_session* session, const double from[3], const double to[3],
                                       double radius, touchmark_impact* impact);
+/// Stores a contact for each triangle within `reach`, nearest first, as many as fit into `capacity` of them,
+/// and in `count` how many there are, which may be more. `contacts` may be NULL where the capacity is 0.
+/// Takes memory where the capacity is larger than at any call of this session before.
+TOUCHMARK_API int touchmark_contacts(touchmark_session* session, const double center[3], double reach,
+                                     touchmark_contact* contacts, size_t capacity, size_t* count);
 /// Does ahead what the next query would do first: best right after waking, before the device is read. It
 /// changes no answer. Returns TOUCHMARK_YES or TOUCHMARK_ERROR.
 TOUCHMARK_API int touchmark_prepare(touchmark_session* session);

@@ -33,6 +33,10 @@ class Named final : public NamedDetector {
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept override {
     return detector_.first_hit(sweep, own(session));
   }
+  std::size_t contacts(const Probe& probe, double reach, Session& session,
+                       std::span<Contact> into) const noexcept override {
+    return detector_.contacts(probe, reach, own(session), into);
+  }
   void prepare([[maybe_unused]] Session& session) const noexcept override {
     if constexpr (Prepares<D>) detector_.prepare(own(session));
   }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 
 #include "core/detector.h"
@@ -46,6 +47,8 @@ class NamedDetector {
   virtual std::optional<Contact> nearest(const Probe& probe, double reach,
                                          Session& session) const noexcept = 0;
   virtual std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept = 0;
+  virtual std::size_t contacts(const Probe& probe, double reach, Session& session,
+                               std::span<Contact> into) const noexcept = 0;
   /// Does nothing where the detector prepares nothing.
   virtual void prepare(Session& session) const noexcept = 0;
   virtual std::size_t bytes() const noexcept = 0;

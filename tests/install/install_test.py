@@ -99,7 +99,7 @@ def in_parallel(function, arguments):
 
 def weak_of_the_standard_library(symbol):
     """Is it a template of the standard library or of GCC's, which every C++ library shows?"""
-    return re.match(r"_ZN?K?St|_ZTI|_ZTS|_ZTV|_ZNK?9__gnu_cxx", symbol) is not None
+    return re.match(r"_Z(Z?NK?St|T[ISV])", symbol) is not None
 
 
 def has_fused_instructions():

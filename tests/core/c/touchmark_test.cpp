@@ -1,5 +1,6 @@
 #include "core/c/touchmark.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -86,6 +87,8 @@ class Asked {
   touchmark_session* session_;
 };
 
+void expect_error(const std::string& text) { EXPECT_EQ(touchmark_last_error(), text); }
+
 void expect_equal(const std::optional<touchmark::Contact>& expected, int found,
                   const touchmark_contact& contact) {
   ASSERT_EQ(found, expected ? TOUCHMARK_YES : TOUCHMARK_NO) << touchmark_last_error();
@@ -152,6 +155,40 @@ TEST(CInterface, TellsTheSideOnlyWhereItIsAskedFor) {
   EXPECT_EQ(contact.side, TOUCHMARK_SIDE_UNASKED);
 }
 
+TEST(CInterface, StoresAContactForEachTriangleWithinReachAndSaysHowManyThereAre) {
+  const Arrays arrays = sheet(6);
+  const BruteForce truth = BruteForce::build(cpp_mesh_of(arrays));
+  BruteForce::Session session;
+  const Asked asked(arrays, "grid-group");
+  const Vec3 center(0.4, 0.55, 0.1);
+  std::vector<touchmark::Contact> expected(72);
+  expected.resize(truth.contacts({center, 0}, 0.25, session, expected));
+  ASSERT_GT(expected.size(), 5u);
+  for (const std::size_t capacity : {std::size_t{0}, std::size_t{3}, std::size_t{72}}) {
+    std::vector<touchmark_contact> contacts(capacity);
+    std::size_t count = 0;
+    EXPECT_EQ(touchmark_contacts(asked.session(), center.data(), 0.25,
+                                 capacity == 0 ? nullptr : contacts.data(), capacity, &count),
+              TOUCHMARK_YES);
+    EXPECT_EQ(count, expected.size());
+    for (std::size_t i = 0; i < std::min(count, capacity); ++i)
+      expect_equal(expected[i], TOUCHMARK_YES, contacts[i]);
+  }
+  std::size_t count = 9;
+  const double far_off[3] = {9, 9, 9};
+  EXPECT_EQ(touchmark_contacts(asked.session(), far_off, 0.25, nullptr, 0, &count), TOUCHMARK_NO);
+  EXPECT_EQ(count, 0u);
+  touchmark_contact contact;
+  EXPECT_EQ(touchmark_contacts(asked.session(), far_off, 0.25, nullptr, 1, &count), TOUCHMARK_ERROR);
+  expect_error("touchmark_contacts: contacts is NULL");
+  EXPECT_EQ(touchmark_contacts(asked.session(), far_off, 0.25, &contact, 1, nullptr), TOUCHMARK_ERROR);
+  // More than any memory holds is an error, not a crash.
+  EXPECT_EQ(touchmark_contacts(asked.session(), far_off, 0.25, &contact,
+                               std::numeric_limits<std::size_t>::max(), &count),
+            TOUCHMARK_ERROR);
+  expect_error("out of memory");
+}
+
 TEST(CInterface, FollowsAMeshThatMovesAndRefusesAnother) {
   const Asked asked(unit_triangle);
   const double center[3] = {0.25, 0.25, 2};
@@ -188,8 +225,6 @@ TEST(CInterface, StoresTheBoxOfAMesh) {
   EXPECT_EQ(Vec3(max[0], max[1], max[2]), Vec3(1, 1, 0));
   touchmark_mesh_free(mesh);
 }
-
-void expect_error(const std::string& text) { EXPECT_EQ(touchmark_last_error(), text); }
 
 TEST(CInterface, FailsForNullAndSaysWhichArgument) {
   const Asked asked(unit_triangle);
