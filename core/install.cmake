@@ -40,6 +40,11 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/touchmark-config.cmake
 
 # From where the .pc file lies back to the prefix, so that the whole may be moved.
 file(RELATIVE_PATH touchmark_pc_to_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+# Empty where the C library has threads itself.
+set(touchmark_thread_library)
+if(CMAKE_THREAD_LIBS_INIT)
+  set(touchmark_thread_library " ${CMAKE_THREAD_LIBS_INIT}")
+endif()
 set(touchmark_pc touchmark.pc)
 if(TOUCHMARK_BUILD_C)
   list(APPEND touchmark_pc touchmark-c.pc)
