@@ -81,6 +81,7 @@ class SharedScene {
   }
   /// Shows all changes since the last call at once. Takes no memory and waits for nobody.
   void publish() noexcept {
+    if (is_behind_) return;  // nothing has changed: the other copy is older
     published_.store(1 - published_.load());
     is_behind_ = true;
   }
