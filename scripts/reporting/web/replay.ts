@@ -52,7 +52,7 @@ export class Stage {
     const sun = new THREE.DirectionalLight(0xffffff, 0.75);
     sun.position.set(0.6, 1, 0.8);
     this.scene.add(sun);
-    this.surface = new THREE.Mesh(this.surfaceGeometry(), new THREE.MeshLambertMaterial({ color: 0xb8bcc4, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1, transparent: true, opacity: 1 }));
+    this.surface = new THREE.Mesh(this.surfaceGeometry(), new THREE.MeshLambertMaterial({ color: 0xb8bcc4, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }));
     this.probe = new THREE.Mesh(new THREE.SphereBufferGeometry(1, 32, 20), new THREE.MeshLambertMaterial({ color: 0x2f7fd0, transparent: true, opacity: 0.45, depthWrite: false }));
     this.contact = new THREE.Mesh(new THREE.SphereBufferGeometry(1, 16, 12), new THREE.MeshBasicMaterial({ color: 0xd01c1c, depthTest: false }));
     this.normal = new THREE.ArrowHelper(new THREE.Vector3(0, 1, 0), new THREE.Vector3(), 0.05, 0xd01c1c);
@@ -165,7 +165,6 @@ export class Stage {
   private showNear(trace: Trace, noted: number | undefined, step: number): void {
     for (const old of [this.near, this.nearEdges, this.nearest]) if (old) { this.scene.remove(old); old.geometry.dispose(); }
     this.near = this.nearEdges = this.nearest = null;
-    (this.surface.material as THREE.Material).opacity = 1;
     if (noted === undefined) return;
     const corners: number[] = [], edges: number[] = [], nearest: number[] = [];
     for (const triangle of trace.near(noted)) {
@@ -183,11 +182,9 @@ export class Stage {
     };
     const solid = geometry(corners);
     solid.computeVertexNormals();
-    this.near = new THREE.Mesh(solid, new THREE.MeshLambertMaterial({ color: 0xe8d9b0, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -1 }));
-    this.nearEdges = new THREE.LineSegments(geometry(edges), new THREE.LineBasicMaterial({ color: 0x5b4a1e }));
-    this.nearest = new THREE.Mesh(geometry(nearest), new THREE.MeshBasicMaterial({ color: 0xe07b00, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -2 }));
-    // The coarse surface would hide what is around the probe.
-    (this.surface.material as THREE.Material).opacity = 0.55;
+    this.near = new THREE.Mesh(solid, new THREE.MeshLambertMaterial({ color: 0xe8d9b0, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: -8, polygonOffsetUnits: -400 }));  // before the coarse surface, which would hide it
+    this.nearEdges = new THREE.LineSegments(geometry(edges), new THREE.LineBasicMaterial({ color: 0x5b4a1e, depthTest: false }));
+    this.nearest = new THREE.Mesh(geometry(nearest), new THREE.MeshBasicMaterial({ color: 0xe07b00, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: -9, polygonOffsetUnits: -500 }));
     this.scene.add(this.near, this.nearEdges, this.nearest);
   }
 
