@@ -185,9 +185,10 @@ void add_validate(CLI::App& program, ProgramContext& context) {
   CLI::App* command =
       program.add_subcommand("validate", "check recorded results: CSV files, run.json and steps.bin");
   command
-      ->add_option("path", *paths,
-                   "results.csv, stress.csv, servo.csv, choose.csv, suite.csv, proxy.csv, many.csv, "
-                   "run.json, steps.bin, or folders that hold some; other CSV files are checked for their form")
+      ->add_option(
+          "path", *paths,
+          "results.csv, stress.csv, servo.csv, choose.csv, suite.csv, proxy.csv, many.csv, "
+          "run.json, steps.bin, or folders that hold some; other CSV files are checked for their form")
       ->type_name("FILE|DIR")
       ->required();
   command->footer(
