@@ -51,7 +51,7 @@ TEST(PackedBlocks, NothingComesOfABlockThatIsDamagedOrLies) {
   const std::string bytes = packer.bytes();
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     std::string damaged = bytes;
-    damaged[i] = static_cast<char>(damaged[i] ^ 0x10);
+    damaged[i] = static_cast<char>(~damaged[i]);
     EXPECT_NE(unpacked(damaged, block), unpacked(bytes, block)) << i;
   }
   PackedBlock longer = block, beyond = block, huge = block;
