@@ -27,7 +27,7 @@ void NearBodies::add(const Entry& entry) noexcept {
   entries_[at] = entry;
 }
 
-NearBodies::Looked NearBodies::list(const Vec3& point, const SceneBodies& bodies) noexcept {
+NearBodies::Looked NearBodies::list(const Vec3& point, double reach, const SceneBodies& bodies) noexcept {
   const std::array<Entry, room> before = entries_;
   const std::size_t count_before = count_;
   count_ = 0;
@@ -54,19 +54,50 @@ NearBodies::Looked NearBodies::list(const Vec3& point, const SceneBodies& bodies
     entry.slot = static_cast<std::uint32_t>(std::find(taken.begin(), taken.end(), false) - taken.begin());
     taken[entry.slot] = true;
   }
+  part(point, reach, bodies);
   return looked;
 }
 
-void NearBodies::look_again(const Vec3& point, const SceneBodies& bodies) noexcept {
-  const auto end = std::remove_if(entries_.begin(), entries_.begin() + static_cast<std::ptrdiff_t>(count_),
-                                  [&](const Entry& entry) { return !bodies.has(entry.id); });
-  count_ = static_cast<std::size_t>(end - entries_.begin());
-  for (Entry& entry : listed()) entry.lower = lower_distance(bodies, entry.id.index, point);
+void NearBodies::part(const Vec3& point, double reach, const SceneBodies& bodies) noexcept {
+  // A quarter of the way to the farthest of them leaves the last ones alone for a while, and keeps the first
+  // few.
+  double farthest = 0;
+  for (const Entry& entry : listed()) farthest = std::max(farthest, entry.lower);
+  const double limit = reach + std::max(0.0, 0.25 * (farthest - reach));
+  const auto end = entries_.begin() + static_cast<std::ptrdiff_t>(count_);
+  const auto last =
+      std::partition(entries_.begin(), end, [&](const Entry& entry) { return !(entry.lower > limit); });
+  near_count_ = static_cast<std::size_t>(last - entries_.begin());
+  double lower = std::numeric_limits<double>::infinity();
+  for (const Entry& entry : listed().subspan(near_count_)) lower = std::min(lower, entry.lower);
+  listed_last_ = Clearance::at(point, lower, bodies);
+}
+
+std::size_t NearBodies::look_again(const Vec3& point, double reach, const SceneBodies& bodies) noexcept {
+  const bool is_parted = listed_last_.clears(point, reach, bodies);
+  const auto begin = entries_.begin(), end = begin + static_cast<std::ptrdiff_t>(count_);
+  const auto removed = [&](const Entry& entry) { return !bodies.has(entry.id); };
+  if (is_parted) {
+    const auto near_end = begin + static_cast<std::ptrdiff_t>(near_count_);
+    const auto kept = std::remove_if(begin, near_end, removed);
+    count_ -= static_cast<std::size_t>(near_end - kept);
+    std::move(near_end, end, kept);
+    near_count_ = static_cast<std::size_t>(kept - begin);
+  } else {
+    count_ = static_cast<std::size_t>(std::remove_if(begin, end, removed) - begin);
+    near_count_ = count_;
+  }
+  for (Entry& entry : listed().first(near_count_))
+    entry.lower = lower_distance(bodies, entry.id.index, point);
+  const std::size_t looked = near_count_;
+  if (!is_parted) part(point, reach, bodies);
+  return looked;
 }
 
 void NearBodies::conclude(const Vec3& point, const SceneBodies& bodies) noexcept {
   double lower = others_.is_about(bodies) ? others_.remaining(point, bodies) : 0;
-  for (const Entry& entry : listed()) lower = std::min(lower, entry.lower);
+  lower = std::min(lower, listed_last_.is_about(bodies) ? listed_last_.remaining(point, bodies) : 0);
+  for (const Entry& entry : near()) lower = std::min(lower, entry.lower);
   all_ = Clearance::at(point, lower, bodies);
 }
 

@@ -37,6 +37,8 @@ class NearBodies {
   }
   std::span<Entry> listed() noexcept { return {entries_.data(), count_}; }
   std::span<const Entry> listed() const noexcept { return {entries_.data(), count_}; }
+  /// Those of them that were looked at last; the others are beyond the reach.
+  std::span<const Entry> near() const noexcept { return {entries_.data(), near_count_}; }
   /// Returns the slot of a body, or `room` for one that is not listed.
   std::size_t slot_of(const BodyId& id) const noexcept;
 
@@ -44,18 +46,23 @@ class NearBodies {
   struct Looked {
     std::uint64_t boxes = 0, bodies = 0;
   };
-  Looked list(const Vec3& point, const SceneBodies& bodies) noexcept;
-  /// Drops the listed bodies that are removed, and bounds the distances of the others from there.
-  void look_again(const Vec3& point, const SceneBodies& bodies) noexcept;
+  Looked list(const Vec3& point, double reach, const SceneBodies& bodies) noexcept;
+  /// Drops the listed bodies that are removed, and bounds the distances of the others from there; but not of
+  /// those that are listed last and surely beyond the reach. Returns how many it looked at.
+  std::size_t look_again(const Vec3& point, double reach, const SceneBodies& bodies) noexcept;
   /// Says how far all bodies are, now that all that was listed was looked at again from there.
   void conclude(const Vec3& point, const SceneBodies& bodies) noexcept;
 
  private:
   void add(const Entry& entry) noexcept;
+  /// Lists first those that may soon be within the reach, and says how far the others are.
+  void part(const Vec3& point, double reach, const SceneBodies& bodies) noexcept;
 
   std::array<Entry, room> entries_;  ///< the nearest first when they were listed
   std::size_t count_ = 0;
+  std::size_t near_count_ = 0;
   Clearance all_;
+  Clearance listed_last_;  ///< about those listed after the near ones
   Clearance others_;
 };
 

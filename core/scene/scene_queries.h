@@ -18,7 +18,7 @@ requires AnswersNearest<D> && AnswersContacts<D>
 template <class Ask>
 void Scene<D>::ask_listed(double length, const double& limit, Session& session, std::span<const BodyId> done,
                           const Ask& ask) const noexcept {
-  for (const NearBodies::Entry& entry : session.near.listed()) {
+  for (const NearBodies::Entry& entry : session.near.near()) {
     if (entry.lower > limit + length || std::ranges::find(done, entry.id) != done.end()) continue;
     this->ask(entry.slot, entry.id.index, session, ask);
   }
@@ -36,14 +36,13 @@ void Scene<D>::ask_near(const Vec3& from, const Vec3& to, const double& limit, S
   // 2. The nearest few as they were last listed.
   std::array<BodyId, NearBodies::room> done;
   std::size_t done_count = 0;
-  near.look_again(from, bodies_);
-  session.work.bodies += near.listed().size();
+  session.work.bodies += near.look_again(from, limit + length, bodies_);
   ask_listed(length, limit, session, {}, ask);
   // 3. The nearest few of now, where others may have come as near.
   if (limit >= 0 && !near.others_are_beyond(from, limit + length, bodies_)) {
-    for (const NearBodies::Entry& entry : near.listed())
+    for (const NearBodies::Entry& entry : near.near())
       if (entry.lower <= limit + length) done[done_count++] = entry.id;
-    const NearBodies::Looked looked = near.list(from, bodies_);
+    const NearBodies::Looked looked = near.list(from, limit + length, bodies_);
     session.work.bodies += looked.bodies;
     session.work.boxes += looked.boxes;
     ask_listed(length, limit, session, std::span(done).first(done_count), ask);
@@ -129,7 +128,7 @@ const noexcept requires AnswersSweep<D> {
 template <Detector D>
 requires AnswersNearest<D> && AnswersContacts<D>
 void Scene<D>::prepare(Session& session) const noexcept requires Prepares<D> {
-  for (const NearBodies::Entry& entry : session.near.listed().first(session.near.listed().empty() ? 0 : 1)) {
+  for (const NearBodies::Entry& entry : session.near.near().first(session.near.near().empty() ? 0 : 1)) {
     auto& asked = session.asked[entry.slot];
     const Shape<D>* shape =
         bodies_.has(entry.id) && asked.epoch == bodies_.epoch() ? shapes_.built(asked.shape) : nullptr;
