@@ -212,8 +212,9 @@ function labelMarks(canvas: CanvasRenderingContext2D, area: Area, marks: { name:
   const taken: Box[] = marks.map(({ at }) => ({ left: at[0] - 6, right: at[0] + 6, top: at[1] - 6, bottom: at[1] + 6 }));
   canvas.font = "12px system-ui, sans-serif";
   for (const { name, at: [x, y] } of marks) {
-    const text = name.length > 40 ? name.slice(0, 39) + "…" : name, width = canvas.measureText(text).width;
-    const left = x + 9 + width < area.x + area.w ? x + 9 : x - 9 - width;
+    const most = Math.min(40, Math.max(10, Math.floor(area.w / 14)));
+    const text = name.length > most ? name.slice(0, most - 1) + "…" : name, width = canvas.measureText(text).width;
+    const left = x + 9 + width < area.x + area.w ? x + 9 : Math.max(area.x, x - 9 - width);
     const place = freePlace(taken, area, left, y, width);
     if (place !== y) {
       canvas.strokeStyle = variable("--line");

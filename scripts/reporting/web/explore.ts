@@ -4,7 +4,7 @@ import { Look, Mesh, Recording, Series, Trace } from "./data";
 import { rampAsCss, Stage } from "./replay";
 import { download, testOf } from "./savetest";
 import { State, View } from "./state";
-import { command, digits, duration, kinds, make, movesLittle } from "./words";
+import { command, digits, duration, kinds, lighter, make, movesLittle } from "./words";
 
 const SPEEDS = [0.01, 0.1, 1];
 const WRONG_AT_ONCE = 50;
@@ -299,9 +299,3 @@ export class Explore {
     this.lists.replaceChildren(...blocks.filter((block): block is HTMLDetailsElement => block !== null));
   }
 }
-
-function lighter(color: string): string {
-  const parts = [1, 3, 5].map((at) => parseInt(color.slice(at, at + 2), 16));
-  return "#" + parts.map((part) => Math.round(part + (255 - part) * 0.5).toString(16).padStart(2, "0")).join("");
-}
-

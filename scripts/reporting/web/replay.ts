@@ -57,6 +57,9 @@ export class Stage {
     this.contact = new THREE.Mesh(new THREE.SphereBufferGeometry(1, 16, 12), new THREE.MeshBasicMaterial({ color: 0xd01c1c, depthTest: false }));
     this.normal = new THREE.ArrowHelper(new THREE.Vector3(0, 1, 0), new THREE.Vector3(), 0.05, 0xd01c1c);
     this.reach = new THREE.Line(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({ color: 0xd01c1c }));
+    this.contact.renderOrder = 4;
+    for (const one of [this.reach, ...this.normal.children]) one.renderOrder = 2;
+    this.probe.renderOrder = 3;
     this.scene.add(this.surface, this.probe, this.contact, this.normal, this.reach);
     new ResizeObserver(() => this.resize()).observe(place);
     this.resize();
@@ -182,9 +185,13 @@ export class Stage {
     };
     const solid = geometry(corners);
     solid.computeVertexNormals();
-    this.near = new THREE.Mesh(solid, new THREE.MeshLambertMaterial({ color: 0xe8d9b0, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: -8, polygonOffsetUnits: -400 }));  // before the coarse surface, which would hide it
-    this.nearEdges = new THREE.LineSegments(geometry(edges), new THREE.LineBasicMaterial({ color: 0x5b4a1e, depthTest: false }));
-    this.nearest = new THREE.Mesh(geometry(nearest), new THREE.MeshBasicMaterial({ color: 0xe07b00, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: -9, polygonOffsetUnits: -500 }));
+    this.near = new THREE.Mesh(solid, new THREE.MeshLambertMaterial({ color: 0xe8d9b0, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }));
+    this.nearEdges = new THREE.LineSegments(geometry(edges), new THREE.LineBasicMaterial({ color: 0x5b4a1e }));
+    this.nearest = new THREE.Mesh(geometry(nearest), new THREE.MeshBasicMaterial({ color: 0xe07b00, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 0.5, polygonOffsetUnits: 0.5 }));
+    // In front of the coarse surface, which is not where the mesh is.
+    this.near.renderOrder = 1;
+    this.near.onBeforeRender = (renderer) => renderer.clearDepth();
+    this.nearEdges.renderOrder = this.nearest.renderOrder = 2;
     this.scene.add(this.near, this.nearEdges, this.nearest);
   }
 

@@ -59,8 +59,10 @@ export const isDark = (): boolean => window.matchMedia("(prefers-color-scheme: d
 export const movesLittle = (): boolean => window.matchMedia("(prefers-reduced-motion: reduce)").matches;
 
 /** A colour of a line on the page's ground: lighter on dark. */
-export function shade(color: string): string {
-  if (!isDark()) return color;
+export function shade(color: string): string { return isDark() ? lighter(color) : color; }
+
+/** Half way to white. */
+export function lighter(color: string): string {
   const parts = [1, 3, 5].map((at) => parseInt(color.slice(at, at + 2), 16));
   return "#" + parts.map((part) => Math.round(part + (255 - part) * 0.5).toString(16).padStart(2, "0")).join("");
 }

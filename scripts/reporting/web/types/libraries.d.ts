@@ -25,7 +25,7 @@ declare module "three" {
     subVectors(a: Vector3, b: Vector3): this;
   }
   export class Color { constructor(color?: string | number); r: number; g: number; b: number; set(color: string | number): this; setHSL(h: number, s: number, l: number): this }
-  export class Object3D { position: Vector3; scale: Vector3; visible: boolean; add(...objects: Object3D[]): this; remove(...objects: Object3D[]): this; children: Object3D[] }
+  export class Object3D { position: Vector3; scale: Vector3; visible: boolean; renderOrder: number; onBeforeRender: (renderer: WebGLRenderer) => void; add(...objects: Object3D[]): this; remove(...objects: Object3D[]): this; children: Object3D[] }
   export class Scene extends Object3D { background: Color | null }
   export class Camera extends Object3D { up: Vector3; lookAt(v: Vector3): void }
   export class PerspectiveCamera extends Camera { constructor(fov: number, aspect: number, near: number, far: number); aspect: number; near: number; far: number; updateProjectionMatrix(): void }
@@ -46,7 +46,7 @@ declare module "three" {
   export class DirectionalLight extends Object3D { constructor(color: number, intensity: number) }
   export class WebGLRenderer {
     constructor(options: object); domElement: HTMLCanvasElement;
-    setPixelRatio(ratio: number): void; setSize(width: number, height: number, style?: boolean): void; render(scene: Scene, camera: Camera): void; dispose(): void;
+    clearDepth(): void; setPixelRatio(ratio: number): void; setSize(width: number, height: number, style?: boolean): void; render(scene: Scene, camera: Camera): void; dispose(): void;
   }
   export const DoubleSide: number;
 }
