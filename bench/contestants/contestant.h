@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cassert>
 #include <chrono>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -97,6 +98,15 @@ std::vector<workload::Query> queries_of() {
   return queries;
 }
 
+/// A detector whose type declares more than it does, as one that is known only once it is loaded: it says
+/// what it answers and whether it updates, and makes the sessions that belong to it.
+template <class D>
+concept KnownOnceBuilt = Detector<D> && requires(const D& detector, workload::Query query) {
+  { detector.answers(query) } -> std::same_as<bool>;
+  { detector.updates() } -> std::same_as<bool>;
+  { detector.session() } -> std::same_as<typename D::Session>;
+};
+
 /// Whether a detector's `prepare` is called after each answer.
 enum class Prefetch { off, on };
 
@@ -104,11 +114,12 @@ template <Detector D, Prefetch prefetch = Prefetch::off>
 requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : public Contestant {
  public:
   explicit ContestantOf(D detector) : ContestantOf(std::make_shared<D>(std::move(detector))) {}
-  explicit ContestantOf(std::shared_ptr<D> detector) : detector_(std::move(detector)) { session_.emplace(); }
+  explicit ContestantOf(std::shared_ptr<D> detector) : detector_(std::move(detector)) { begin_session(); }
 
   std::unique_ptr<Contestant> share() const override { return std::make_unique<ContestantOf>(detector_); }
 
   bool answers(workload::Query query) const noexcept override {
+    if constexpr (KnownOnceBuilt<D>) return detector_->answers(query);
     switch (query) {
       case workload::Query::touches:
         return AnswersTouches<D>;
@@ -125,8 +136,11 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
     if constexpr (BuildsLazily<D>) return detector_->builds_lazily();
     return false;
   }
-  void forget() override { session_.emplace(); }
-  bool updates() const noexcept override { return Updates<D>; }
+  void forget() override { begin_session(); }
+  bool updates() const noexcept override {
+    if constexpr (KnownOnceBuilt<D>) return detector_->updates();
+    return Updates<D>;
+  }
   void update([[maybe_unused]] const TriangleMesh& mesh) override {
     if constexpr (Updates<D>) detector_->update(mesh);
   }
@@ -203,6 +217,13 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
   bool prepares() const noexcept override { return prefetch == Prefetch::on; }
 
  private:
+  void begin_session() {
+    if constexpr (KnownOnceBuilt<D>) {
+      session_.emplace(detector_->session());
+    } else {
+      session_.emplace();
+    }
+  }
   void prepare() noexcept {
     if constexpr (prefetch == Prefetch::on) detector_->prepare(*session_);
   }

@@ -42,9 +42,15 @@ double largest_reach(const std::vector<workload::Step>& trace) {
 Measurement::Measurement(const workload::Workload& workload, const workers::SharedArena& arena,
                          const Effort& effort, workers::ContestantProcess& process, std::size_t trace,
                          workload::Query query, const workload::SamplePlan& plan)
-    : arena_(arena), effort_(effort), process_(process), task_{trace, query, 1}, plan_(plan) {
+    : arena_(arena),
+      effort_(effort),
+      process_(process),
+      busy_before_s_(process.busy_s()),
+      task_{trace, query, 1},
+      plan_(plan) {
   row_.detector = process.spec().name;
   row_.options = process.spec().options;
+  row_.plugin = process.spec().plugin;
   row_.claimed = process.spec().claimed;
   row_.mesh = workload.mesh_name;
   row_.triangles = workload.mesh.size();
@@ -277,6 +283,7 @@ std::vector<double> Measurement::in_ns(std::span<const std::uint64_t> ticks) con
 void Measurement::shut_down() { process_.end(); }
 
 ResultRow Measurement::row() {
+  row_.busy_s = process_.busy_s() - busy_before_s_;
   // What was timed before things went wrong is not a result.
   if (!alive() || repetitions_ns_.empty()) return row_;
   std::size_t samples = 0;
@@ -288,7 +295,10 @@ ResultRow Measurement::row() {
                                      support::median(repetitions_cpu_ns_),
                                      repetitions_ns_.size(),
                                      piece_times().estimate(bootstrap_seed),
-                                     static_cast<double>(interrupted_) / static_cast<double>(samples)};
+                                     static_cast<double>(interrupted_) / static_cast<double>(samples),
+                                     row_.steps * static_cast<std::uint64_t>(passes_ * replays_),
+                                     repetitions_ns_,
+                                     repetitions_cpu_ns_};
   if (!latencies_ns_.empty()) row_.latency = summarize_latency(median_per_step(latencies_ns_), ranges_);
   if (!prepared_ns_.empty()) row_.prepare = summarize_latency(median_per_step(prepared_ns_), ranges_);
   if (!cold_ns_.empty()) {

@@ -62,6 +62,7 @@ touchmark::Vec3 torque(const touchmark::Contact& contact, const touchmark::Vec3&
 """
 
 INCLUDE = re.compile(r'^#include "(touchmark/[^"]+)"', re.M)
+C_HEADERS = {"touchmark/contestant.h"}  # plain C99, and so without demands on C++
 COMPILERS = [compiler for compiler in ("g++", "clang++") if shutil.which(compiler)]
 EIGEN = ["-isystem", "/usr/include/eigen3"]
 FUSED = ["-mfma", "-ffp-contract=fast"]  # as GCC has it with -march=native on most processors
@@ -215,11 +216,30 @@ class Install(unittest.TestCase):
                     flags = ["-std=c++20", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", f"-I{self.include}"]
                     self.assertIsNone(first_error(compiler, *flags, code=code), code)
 
+    def test_a_new_plug_in_needs_the_installed_package_alone(self):
+        program = BUILD / "bin" / "touchmark"
+        if not program.exists():
+            self.skipTest("the program is not built")
+        mine = self.source / "mine"
+        run(program, "new-plugin", mine)
+        build = mine / "build"
+        run("cmake", "-S", mine, "-B", build, "-DCMAKE_BUILD_TYPE=Release", f"-DCMAKE_PREFIX_PATH={self.prefix}",
+            "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Wpedantic -Werror")
+        run("cmake", "--build", build)
+        self.assertNotIn(str(HERE.parents[1]), (build / "CMakeCache.txt").read_text(encoding="utf-8"))
+        out = run(program, "verify", "--mesh", "torus:20x20", "--trajectory", "slide", "--plugin", build / "libmine.so")
+        row = next(line for line in out.splitlines() if line.startswith("mine"))
+        self.assertIn("4000 answers judged exactly", out)
+        self.assertTrue(row.endswith("as claimed"), out)
+
     def headers(self, pattern):
         return sorted(path.relative_to(self.include).as_posix() for path in self.include.glob(pattern))
 
     def public_headers(self):
         return self.headers("touchmark/*.h")
+
+    def headers_of_cpp(self):
+        return [header for header in self.public_headers() if header not in C_HEADERS]
 
     def test_nothing_but_touchmark_is_in_the_include_directory(self):
         self.assertEqual([path.name for path in self.include.iterdir()], ["touchmark"])
@@ -251,6 +271,12 @@ class Install(unittest.TestCase):
         for header, error in in_parallel(compile_alone, headers):
             self.assertIsNone(error, header)
 
+    def test_headers_of_c_compile_as_c99(self):
+        for header in C_HEADERS:
+            source = self.source / "header.c"
+            source.write_text(f"#include <{header}>\nint main(void) {{ return 0; }}\n", encoding="utf-8")
+            run("gcc", "-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror", "-fsyntax-only", "-I", self.include, source)
+
     def test_vectors_have_their_products(self):
         self.assertIsNone(first_error("g++", "-fsyntax-only", "-std=c++20", "-I", str(self.include), code=TORQUE))
 
@@ -260,10 +286,10 @@ class Install(unittest.TestCase):
                                                        code=f"#include <{header}>\n")
         fast = "touchmark needs IEEE 754 arithmetic"
         cases = [("g++", header, ["-fsyntax-only", "-std=c++17"], "touchmark needs C++20")
-                 for header in self.public_headers()]
+                 for header in self.headers_of_cpp()]
         for compiler in COMPILERS:  # to preprocess is quicker and will do here
             cases.append((compiler, "touchmark/probe.h", ["-E", "-std=c++17"], "touchmark needs C++20"))
-            cases += [(compiler, header, ["-E", "-std=c++20", "-ffast-math"], fast) for header in self.public_headers()]
+            cases += [(compiler, header, ["-E", "-std=c++20", "-ffast-math"], fast) for header in self.headers_of_cpp()]
         cases += [("g++", "touchmark/probe.h", ["-E", "-std=c++20", flag], fast)
                   for flag in ("-Ofast", "-ffinite-math-only", "-funsafe-math-optimizations")]
         for header, flags, message, error in in_parallel(refuse, cases):

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "bench/cli/benchmark_flags.h"
+#include "bench/cli/commands/bench_reports.h"
 #include "bench/cli/commands/bench_suite.h"
 #include "bench/cli/program.h"
 #include "bench/cli/repeat_command.h"
@@ -48,6 +49,7 @@ struct BenchOptions {
   bool cache_lines = false;
   bool suite = false;
   std::string cells, minutes;  ///< for the suite alone
+  ReportSelectors reports;
   WorkerSelectors workers;
 };
 
@@ -106,6 +108,7 @@ class BenchRun {
   contestants::Selectors selectors_;
   contestants::CheckedSelectors selection_;
   std::optional<results::ResultsFolder> folder_;
+  BenchReports reports_;
   results::RunDescription description_;
   workload::Workload workload_;
   std::optional<measurement::Comparison> comparison_;
@@ -129,6 +132,7 @@ BenchRun::BenchRun(const ProgramContext& context, const BenchOptions& options, c
     : flags_(flags),
       selectors_(options.selectors),
       selection_(contestants::check(options.selectors, context.roster)),
+      reports_(flags, options.reports),
       description_(results::begun_run(context.argc, context.argv)),
       workload_(workload_for(options, selection_)),
       shows_work_(options.work) {
@@ -195,9 +199,11 @@ void BenchRun::end_trajectory(std::size_t trace) {
   rows_.insert(rows_.end(), rows.begin(), rows.end());
   save_so_far();
   progress_.clear();
-  out_.write(fmt::format("\n{} ({})\n{}{}", workload_.trajectories[trace],
-                         workload::trace_text(workload_, trace), results::timing_table(rows),
-                         results::verdict(rows, comparison_->steadiness().back())));
+  const std::string title =
+      fmt::format("{} ({})", workload_.trajectories[trace], workload::trace_text(workload_, trace));
+  const std::string verdict = results::verdict(rows, comparison_->steadiness().back());
+  reports_.add_trajectory(title, rows, verdict);
+  out_.write(fmt::format("\n{}\n{}{}", title, results::timing_table(rows).text(), verdict));
   const std::string cold = results::cold_table(rows);
   if (!cold.empty()) out_.write('\n' + cold);
   const std::string lines = results::lines_table(rows);
@@ -217,10 +223,13 @@ int BenchRun::run() {
   } catch (const support::Interrupted&) {
     progress_.clear();
     save_so_far();
+    description_.finished = false;
+    reports_.write(description_, rows_);
     fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", kept_);
     return support::exit_interrupted;
   }
   save(true);
+  reports_.write(description_, rows_);
   std::vector<measurement::ResultRow> broken;  // what others err by is in the table
   std::copy_if(rows_.begin(), rows_.end(), std::back_inserter(broken), results::claim_is_broken);
   const std::string failures = results::list_of_failures(broken, faulty_rows_shown);
@@ -250,7 +259,7 @@ void add_suite(CLI::App& command, BenchOptions& options) {
 void expect_options_of_suite(const CLI::App& command) {
   for (const char* const option :
        {"--trajectory", "--query", "--radius", "--reach", "--unit", "--columns", "--motion-scale", "--rate",
-        "--frontier", "--cold", "--cache-lines", "--work"}) {
+        "--frontier", "--cold", "--cache-lines", "--work", "--markdown"}) {
     if (command.count(option) > 0)
       throw std::invalid_argument(fmt::format("{} does not go with --suite", option));
   }
@@ -262,7 +271,7 @@ void add_bench(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<BenchOptions>();
   CLI::App* command =
       program.add_subcommand("bench", "verify and time contestants on identical trajectories");
-  add_selectors(*command, options->selectors);
+  add_selectors(*command, context, options->selectors);
   add_unit(*command, options->selectors.unit);
   command->add_option("--out", options->out, "folder for results.csv and run.json")->type_name("DIR");
   command
@@ -276,11 +285,13 @@ void add_bench(CLI::App& program, ProgramContext& context) {
                     "also how many cache lines a query touches, as valgrind counts them");
   command->add_flag("--quick", options->quick, "fewer steps and repetitions");
   add_suite(*command, *options);
+  add_markdown(*command, options->reports);
   add_worker_selectors(*command, options->workers);
   command->allow_extras();
   command->footer(
       "Any --benchmark_* flag of Google Benchmark may be added: --benchmark_repetitions=9,\n"
-      "--benchmark_min_time=0.2, --benchmark_filter=REGEX on contestant/trajectory.\n"
+      "--benchmark_min_time=0.2, --benchmark_filter=REGEX on contestant/trajectory, and\n"
+      "--benchmark_out=FILE for Google Benchmark's own JSON.\n"
       "Example: touchmark bench --mesh bunny --trajectory slide --detector grid-group --detector "
       "fcl:bv=obbrss "
       "--out results/today\n"
@@ -291,6 +302,7 @@ void add_bench(CLI::App& program, ProgramContext& context) {
     const BenchmarkFlags flags = parse_benchmark_flags(command->remaining());
     if (options->suite) {
       expect_options_of_suite(*command);
+      if (!flags.out.empty()) throw std::invalid_argument("--benchmark_out does not go with --suite");
       context.status = run_suite(context, {options->selectors, options->out, options->cells, options->minutes,
                                            options->quick, options->workers});
       return;
