@@ -13,6 +13,7 @@
 
 #include "bench/contestants/entry.h"
 #include "bench/contestants/plugin_detector.h"
+#include "bench/support/denormals.h"
 #include "core/contestant.h"
 
 namespace touchmark::bench::contestants {
@@ -32,6 +33,9 @@ std::string loader_error() {
 const touchmark_plugin& described_by(const std::string& path) {
   void* const object = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (object == nullptr) refuse(loader_error());
+  // What is compiled with -ffast-math does that to whoever loads it.
+  if (support::restore_denormals())
+    remark("loading it switched denormal numbers off; they were switched on again");
   dlerror();
   void* const symbol = dlsym(object, entry_symbol);
   if (symbol == nullptr)
@@ -73,6 +77,8 @@ OptionInfo option_of(const touchmark_plugin_option& option) {
   constexpr std::array kinds{OptionKind::choice, OptionKind::number, OptionKind::count, OptionKind::length};
   OptionInfo info;
   info.key = checked_word(option.key, "an option's key");
+  if (info.key == side_key || info.key == updated_key)
+    refuse(fmt::format("the option {} is one that the program gives a meaning of its own", info.key));
   if (option.kind < 0 || static_cast<std::size_t>(option.kind) >= kinds.size())
     refuse(fmt::format("the option {} is of kind {}, which is none", info.key, option.kind));
   info.kind = kinds[static_cast<std::size_t>(option.kind)];
@@ -154,7 +160,8 @@ ContestantInfo load_c_plugin(const std::string& path) {
   info.options = options_of(plugin);
   info.plugin = path;
   info.build = [&plugin, own = info.options](const TriangleMesh& mesh, const OptionValues& values) {
-    return contestant<PluginDetector>(mesh, detector_options(plugin, own, mesh, values), values);
+    return std::make_unique<ContestantOf<PluginDetector>>(
+        built<PluginDetector>(mesh, detector_options(plugin, own, mesh, values), values));
   };
   if (plugin.update != nullptr && plugin.nearest != nullptr) info.options.push_back(updated_option());
   expect_readable(info);

@@ -144,8 +144,7 @@ Built Worker::handle(const request::Build& request) {
     reply.refused = std::move(why);
   };
   try {
-    roster_.choose(request);
-    spec_ = roster_->parse(request.contestant);
+    spec_ = roster_.chosen(request);
     reply = built();
   } catch (const std::bad_alloc&) {
     refuse(fmt::format("{}all of it is taken", support::no_memory));

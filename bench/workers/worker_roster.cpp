@@ -13,8 +13,9 @@ void WorkerRoster::ensure_loaded(const std::string& plugin) {
   plugin_.emplace(std::vector{load_(plugin)});
 }
 
-void WorkerRoster::choose(const request::Build& request) {
+contestants::ContestantSpec WorkerRoster::chosen(const request::Build& request) {
   if (!request.plugin.empty()) ensure_loaded(request.plugin);
+  return (**this).parse(request.contestant);
 }
 
 Described WorkerRoster::describe(const std::string& plugin) {

@@ -17,8 +17,8 @@ class WorkerRoster {
   /// Without `load` plug-ins are refused. `own` must outlive it.
   WorkerRoster(const contestants::Roster& own, LoadPlugin load) : own_(own), load_(load) {}
 
-  /// Throws std::exception where the plug-in is none.
-  void choose(const request::Build& request);
+  /// Throws std::exception where the plug-in is none, or the contestant's text names no contestant.
+  contestants::ContestantSpec chosen(const request::Build& request);
   Described describe(const std::string& plugin);
 
   const contestants::Roster& operator*() const noexcept { return plugin_ ? *plugin_ : own_; }

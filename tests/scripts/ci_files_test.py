@@ -233,12 +233,12 @@ class JUnit(Files):
         self.assertTrue(message.startswith("refused: 320 triangles are <too> many & more"), message)
 
     def test_stress(self):
-        self.succeed("stress", "--family", "needles", "--probes", "50", "--detector", "grid-group", "--plugin", HOSTILE,
+        self.succeed("stress", "--family", "ordinary", "--probes", "50", "--detector", "grid-group", "--plugin", HOSTILE,
                      "--junit", self.folder / "s.xml", "--markdown", self.folder / "s.md", status=1)
         found = self.cases_in("s.xml", "stress")
         self.assertEqual({(group, found[group, name][0]) for group, name in found},
                          {("grid-group", "passed"), ("hostile", "failure")})
-        self.assertEqual({name for _, name in found}, {"needles/touches", "needles/nearest"})
+        self.assertEqual({name for _, name in found}, {"ordinary/touches", "ordinary/nearest"})
         self.expect_tables((self.folder / "s.md").read_text(encoding="utf-8"))
 
     def test_gate(self):

@@ -115,7 +115,8 @@ void StressCommand::report(bool finished) {
   const support::Table table = stress::stress_table(run_.scores());
   const std::string legend = stress::stress_legend(run_.scores());
   support::StandardOutput().write(table.text() + legend + (faults.empty() ? "" : "\n" + faults));
-  if (junit_.wanted()) junit_.write(results::junit_xml("touchmark stress", stress::cases_of(run_.scores())));
+  if (finished && junit_.wanted())
+    junit_.write(results::junit_xml("touchmark stress", stress::cases_of(run_.scores())));
   if (markdown_.wanted())
     markdown_.write(fmt::format("## touchmark stress{}\n\n{}{}{}", finished ? "" : " (interrupted)",
                                 table.markdown(), code_block(legend), code_block(faults)));

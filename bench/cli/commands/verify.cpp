@@ -122,7 +122,8 @@ int VerifyRun::report(bool finished) {
   const support::Table table = results::verification_table(rows_);
   const std::string judged = results::judged_answers(rows_);
   support::StandardOutput().write(table.text() + judged + (failures.empty() ? "" : "\n" + failures));
-  if (junit_.wanted()) junit_.write(results::junit_xml("touchmark verify", results::cases_of(rows_)));
+  if (finished && junit_.wanted())
+    junit_.write(results::junit_xml("touchmark verify", results::cases_of(rows_)));
   if (markdown_.wanted())
     markdown_.write(fmt::format("## touchmark verify{}\n\n{}\n{}{}", finished ? "" : " (interrupted)",
                                 table.markdown(), judged, code_block(failures)));

@@ -4,6 +4,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#ifdef __SSE__
+#include <xmmintrin.h>
+#endif
 
 #include "core/contestant.h"
 
@@ -20,6 +23,9 @@ static void hang(void) {
 
 __attribute__((constructor)) static void loaded(void) {
   if (is("crash on load")) abort();
+#ifdef __SSE__
+  if (is("flush to zero")) _mm_setcsr(_mm_getcsr() | 0x8040);
+#endif
 }
 
 static int the_detector;
@@ -86,6 +92,7 @@ static const touchmark_plugin_option options[] = {
 static const touchmark_plugin_option bad_default[] = {
     {"mode", TOUCHMARK_PLUGIN_CHOICE, "idle|lazy", "eager", "one that it does not take"},
 };
+static const touchmark_plugin_option reserved[] = {{"side", TOUCHMARK_PLUGIN_CHOICE, "off|on", "off", "the program's"}};
 static const touchmark_plugin_option bad_kind[] = {{"mode", 9, NULL, "1", "of no kind"}};
 
 TOUCHMARK_PLUGIN_EXPORT const touchmark_plugin* touchmark_plugin_entry(void) {
@@ -94,8 +101,8 @@ TOUCHMARK_PLUGIN_EXPORT const touchmark_plugin* touchmark_plugin_entry(void) {
   plugin.name = is("the name of another") ? "grid-group" : is("a bad name") ? "a:b" : "hostile";
   plugin.summary = "misbehaves";
   plugin.guarantee = is("a bad guarantee") ? "perfect" : is("approximate") ? "approximate" : "exact";
-  plugin.option_count = is("options at NULL") ? 5 : is("a bad default") || is("a bad kind") ? 1 : 2;
-  plugin.options = is("options at NULL") ? NULL : is("a bad default") ? bad_default : is("a bad kind") ? bad_kind : options;
+  plugin.option_count = is("options at NULL") ? 5 : is("a bad default") || is("a bad kind") || is("a reserved key") ? 1 : 2;
+  plugin.options = is("options at NULL") ? NULL : is("a bad default") ? bad_default : is("a bad kind") ? bad_kind : is("a reserved key") ? reserved : options;
   plugin.build = is("no build") ? NULL : build;
   plugin.destroy = destroy;
   plugin.bytes = bytes;

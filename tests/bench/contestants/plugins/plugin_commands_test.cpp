@@ -168,6 +168,7 @@ TEST(Plugin, WhoseDescriptionIsWrongIsRefusedInOneLine) {
                                                         {"options at NULL", "5 options"},
                                                         {"a bad default", "\"eager\""},
                                                         {"a bad kind", "kind 9"},
+                                                        {"a reserved key", "option side"},
                                                         {"no build", "build is NULL"},
                                                         {"no query", "it answers nothing"}}) {
     const Misbehaving now(how);
@@ -197,6 +198,15 @@ TEST(Plugin, ThatFailsLaterHasAStatusAndEndsNothing) {
     EXPECT_TRUE(statuses[1].starts_with(status)) << how << ": " << statuses[1];
   }
 }
+
+#ifdef __SSE__
+TEST(Plugin, ThatSwitchesDenormalsOffIsToldOf) {
+  const Misbehaving now("flush to zero");
+  const Outcome outcome = run_touchmark(on_scene("verify", {"--plugin", hostile}));
+  EXPECT_NE(outcome.err.find("hostile: loading it switched denormal numbers off"), std::string::npos)
+      << outcome.err;
+}
+#endif
 
 TEST(Plugin, ThatAnswersGarbageIsFoundOut) {
   for (const auto& [how, column] :
