@@ -11,6 +11,7 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
+#include "bench/contestants/contestant_of.h"
 #include "bench/contestants/entry.h"
 #include "bench/contestants/plugin_detector.h"
 #include "bench/support/denormals.h"

@@ -48,7 +48,8 @@ Accuracy accuracy_of(const touchmark_plugin& plugin, const void* detector, Guara
 
 }  // namespace
 
-PluginDetector::Session::Session(const touchmark_plugin& plugin, std::shared_ptr<void> detector) {
+PluginDetector::Session::Session(const touchmark_plugin& plugin, std::shared_ptr<void> detector)
+    : begun_(true) {
   if (plugin.create_session == nullptr) return;
   void* const made = plugin.create_session(detector.get());
   if (made == nullptr) throw std::runtime_error("create_session returns NULL");

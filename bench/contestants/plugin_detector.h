@@ -30,10 +30,12 @@ class PluginDetector {
     Session(const touchmark_plugin& plugin, std::shared_ptr<void> detector);
 
     void* get() const noexcept { return session_.get(); }
+    bool is_begun() const noexcept { return begun_; }
     Work work;  ///< stays at zero
 
    private:
     std::shared_ptr<void> session_;
+    bool begun_ = false;  ///< false for one that no detector has made yet: the first query makes it
   };
 
   /// Throws std::invalid_argument with the text of the plug-in's build.
@@ -45,12 +47,12 @@ class PluginDetector {
 
   bool touches(const Probe& probe, Session& session) const noexcept {
     const touchmark_plugin_probe asked = c_probe(probe);
-    return plugin_->touches(detector_.get(), session.get(), &asked) != 0;
+    return plugin_->touches(detector_.get(), begun(session), &asked) != 0;
   }
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept {
     const touchmark_plugin_probe asked = c_probe(probe);
     touchmark_plugin_contact contact{};
-    if (plugin_->nearest(detector_.get(), session.get(), &asked, reach, &contact) == 0) return std::nullopt;
+    if (plugin_->nearest(detector_.get(), begun(session), &asked, reach, &contact) == 0) return std::nullopt;
     return contact_of(contact);
   }
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept {
@@ -58,7 +60,7 @@ class PluginDetector {
                                        {sweep.to.x(), sweep.to.y(), sweep.to.z()},
                                        sweep.radius};
     touchmark_plugin_impact impact{};
-    if (plugin_->first_hit(detector_.get(), session.get(), &asked, &impact) == 0) return std::nullopt;
+    if (plugin_->first_hit(detector_.get(), begun(session), &asked, &impact) == 0) return std::nullopt;
     return Impact{impact.fraction, contact_of(impact.contact)};
   }
 
@@ -71,6 +73,10 @@ class PluginDetector {
   PluginDetector(const touchmark_plugin& plugin, const TriangleMesh& mesh, std::shared_ptr<void> detector,
                  Guarantee claimed);
 
+  void* begun(Session& session) const noexcept {
+    if (!session.is_begun()) session = this->session();
+    return session.get();
+  }
   static touchmark_plugin_probe c_probe(const Probe& probe) noexcept {
     return {{probe.center.x(), probe.center.y(), probe.center.z()}, probe.radius};
   }
