@@ -25,16 +25,11 @@ double median_absolute_deviation(std::vector<double> values) {
   return support::median(values);
 }
 
-double largest_radius(const std::vector<workload::Step>& trace) {
-  double largest = 0;
-  for (const workload::Step& step : trace) largest = std::max(largest, step.probe.radius);
-  return largest;
-}
-
-double largest_reach(const std::vector<workload::Step>& trace) {
-  double largest = 0;
-  for (const workload::Step& step : trace) largest = std::max(largest, step.reach);
-  return largest;
+template <class Length>
+double largest(const std::vector<workload::Step>& trace, const Length& length_of) {
+  double most = 0;
+  for (const workload::Step& step : trace) most = std::max(most, length_of(step));
+  return most;
 }
 
 }  // namespace
@@ -56,8 +51,8 @@ Measurement::Measurement(const workload::Workload& workload, const workers::Shar
   row_.triangles = workload.mesh.size();
   row_.trajectory = workload.trajectories[trace];
   row_.query = query;
-  row_.radius = largest_radius(workload.traces[trace]);
-  row_.reach = largest_reach(workload.traces[trace]);
+  row_.radius = largest(workload.traces[trace], [](const workload::Step& step) { return step.probe.radius; });
+  row_.reach = largest(workload.traces[trace], [](const workload::Step& step) { return step.reach; });
 }
 
 /// A worker that fails gives the row its status.
@@ -184,7 +179,12 @@ void Measurement::judge(ground_truth::GroundTruths& truths, ground_truth::Ground
     return;
   }
   row_.decisions_checksum = decisions_checksum_of(task_.query, answers, *row_.accuracy);
-  row_.counts = truths.judge(task_.query, ranges_, answers, *row_.accuracy, {}, &row_.wrong);
+  const bool logged = row_.steps <= effort_.max_logged_steps;
+  std::vector<oracle::Charge> charges;
+  row_.counts = truths.judge(task_.query, ranges_, answers, *row_.accuracy, {}, &row_.wrong,
+                             logged ? &charges : nullptr);
+  if (logged)
+    log_ = std::make_shared<StepLog>(log_of(ranges_, answers, arena_.buffers().work(row_.steps), charges));
   if (rounded != nullptr)
     row_.rounded_scene_counts = rounded->judge(task_.query, ranges_, answers, *row_.accuracy);
 }
@@ -299,7 +299,12 @@ ResultRow Measurement::row() {
                                      row_.steps * static_cast<std::uint64_t>(passes_ * replays_),
                                      repetitions_ns_,
                                      repetitions_cpu_ns_};
-  if (!latencies_ns_.empty()) row_.latency = summarize_latency(median_per_step(latencies_ns_), ranges_);
+  if (!latencies_ns_.empty()) {
+    std::vector<double> steps_ns = median_per_step(latencies_ns_);
+    row_.latency = summarize_latency(steps_ns, ranges_);
+    if (log_ != nullptr) log_->ns = std::move(steps_ns);
+  }
+  row_.log = log_;
   if (!prepared_ns_.empty()) row_.prepare = summarize_latency(median_per_step(prepared_ns_), ranges_);
   if (!cold_ns_.empty()) {
     row_.cold_l2 = summarize_cold(cold_l2_ns_);
