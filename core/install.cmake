@@ -22,6 +22,13 @@ endfunction()
 
 touchmark_install(core)
 
+# What a plug-in is built with: touchmark/contestant.h, in C or any language that reads it.
+add_library(touchmark_contestant INTERFACE)
+add_library(touchmark::contestant ALIAS touchmark_contestant)
+set_target_properties(touchmark_contestant PROPERTIES EXPORT_NAME contestant)
+target_include_directories(touchmark_contestant INTERFACE $<BUILD_INTERFACE:${touchmark_include}>)
+install(TARGETS touchmark_contestant EXPORT touchmark-core INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+
 if(NOT PROJECT_IS_TOP_LEVEL)
   touchmark_write_headers(${CMAKE_CURRENT_SOURCE_DIR} ${touchmark_include} ${touchmark_public_headers})
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${touchmark_written_headers})

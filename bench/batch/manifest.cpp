@@ -12,6 +12,7 @@
 #include "bench/results/validation/located_json.h"
 #include "bench/scenes/scenes.h"
 #include "bench/support/numbers.h"
+#include "bench/support/text_file.h"
 #include "bench/trajectories/trajectories.h"
 #include "bench/workload/content_hash.h"
 #include "bench/workload/query_name.h"
@@ -30,6 +31,10 @@ constexpr const char* manifest_form = R"({
     "schema": {"const": 1},
     "version": {"type": "string"},
     "effort": {"enum": ["full", "quick", "accuracy"]},
+    "plugins": {"type": "array", "items": {
+      "type": "object", "required": ["file", "fnv1a"],
+      "properties": {"file": {"type": "string", "minLength": 1},
+                     "fnv1a": {"type": "string", "pattern": "^[0-9a-f]{16}$"}}}},
     "scenes": {"type": "array", "minItems": 1, "items": {
       "type": "object",
       "required": ["mesh", "normalize", "mesh_fnv1a", "trajectory", "course_fnv1a", "steps", "seed", "radius", "reach",
@@ -107,7 +112,10 @@ SweepScene scene_of(const nlohmann::json& json) {
 std::string Manifest::json() const {
   Json all = Json::array();
   for (const SweepScene& scene : scenes) all.push_back(json_of(scene));
-  const Json json{{"schema", manifest_schema}, {"version", version}, {"effort", effort}, {"scenes", all}};
+  Json json{{"schema", manifest_schema}, {"version", version}, {"effort", effort}};
+  for (const SweepPlugin& plugin : plugins)
+    json["plugins"].push_back({{"file", plugin.file}, {"fnv1a", support::hex(plugin.hash)}});
+  json["scenes"] = all;
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
@@ -117,7 +125,9 @@ Manifest Manifest::read(const std::string& path) {
   const std::optional<validation::LocatedJson> document = validation::read_located_json(path, faults);
   if (document) form.check(path, *document, faults);
   if (!faults.empty()) throw std::invalid_argument(validation::line_of(faults.front()));
-  Manifest manifest{document->value.at("version"), document->value.at("effort"), {}};
+  Manifest manifest{document->value.at("version"), document->value.at("effort"), {}, {}};
+  for (const nlohmann::json& plugin : document->value.value("plugins", nlohmann::json::array()))
+    manifest.plugins.push_back({plugin.at("file"), hash_in(plugin.at("fnv1a"))});
   for (const nlohmann::json& scene : document->value.at("scenes")) manifest.scenes.push_back(scene_of(scene));
   return manifest;
 }
@@ -126,6 +136,17 @@ std::size_t Manifest::jobs() const noexcept {
   std::size_t count = 0;
   for (const SweepScene& scene : scenes) count += scene.jobs.size();
   return count;
+}
+
+SweepPlugin plugin_of(const std::string& file) {
+  workload::ContentHash hash;
+  hash.add(support::read_text_file(file));
+  return {file, hash.value()};
+}
+
+std::string identity_of(const contestants::ContestantSpec& contestant) {
+  if (contestant.plugin.empty()) return contestant.text();
+  return contestant.text() + "@" + support::hex(plugin_of(contestant.plugin).hash);
 }
 
 std::string job_id(const SweepScene& scene, const std::string& detector, const std::string& effort,

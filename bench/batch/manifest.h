@@ -35,10 +35,17 @@ struct SweepScene {
   contestants::MotionSelectors motion = {};  ///< as --columns, --motion-scale and --rate take it
 };
 
+/// A contestant that is none of the program's own.
+struct SweepPlugin {
+  std::string file;  ///< as --plugin takes it
+  std::uint64_t hash = 0;
+};
+
 struct Manifest {
   std::string version;  ///< the version of the program that planned it
   std::string effort;   ///< full, quick or accuracy
   std::vector<SweepScene> scenes;
+  std::vector<SweepPlugin> plugins = {};
 
   std::string json() const;
   /// Throws std::invalid_argument for a file that cannot be read or is no manifest, naming line and value.
@@ -46,8 +53,14 @@ struct Manifest {
   std::size_t jobs() const noexcept;
 };
 
+/// Returns the plug-in of a file with the hash of what is in it now. Throws std::invalid_argument.
+SweepPlugin plugin_of(const std::string& file);
+
+/// Returns what a job is called by: the contestant's text, for a plug-in with the hash of its file.
+std::string identity_of(const contestants::ContestantSpec& contestant);
+
 /// Sixteen hexadecimal digits: a hash of the mesh's and the trace's content, the seed, the query, the
-/// detector, the effort and the version. The same wherever and whenever it is computed.
+/// detector's identity, the effort and the version. The same wherever and whenever it is computed.
 std::string job_id(const SweepScene& scene, const std::string& detector, const std::string& effort,
                    const std::string& version);
 

@@ -61,6 +61,30 @@ std::function<bool(const std::string&)> parse_filter(const std::string& name, co
   }
 }
 
+/// Standard output has tables for people, and CSV files columns of their own, so JSON is the one format that
+/// Google Benchmark's readers are given.
+bool is_of_output(BenchmarkFlags& flags, const std::string& name, const std::string& value) {
+  if (name == "--benchmark_out") {
+    if (value.empty() || value == "true")
+      throw std::invalid_argument("--benchmark_out needs a file: --benchmark_out=FILE");
+    flags.out = value;
+  } else if (name == "--benchmark_out_format") {
+    if (value != "json") {
+      throw std::invalid_argument(
+          fmt::format("--benchmark_out_format \"{}\" is not json; --out DIR writes results.csv", value));
+    }
+  } else if (name == "--benchmark_format") {
+    if (value != "console") {
+      throw std::invalid_argument(fmt::format(
+          "--benchmark_format \"{}\" is not console; --benchmark_out=FILE writes JSON, --out DIR results.csv",
+          value));
+    }
+  } else {
+    return false;
+  }
+  return true;
+}
+
 void take(BenchmarkFlags& flags, const std::string& argument) {
   const auto [name, value] = split_flag(argument);
   if (name == "--benchmark_repetitions") {
@@ -71,8 +95,10 @@ void take(BenchmarkFlags& flags, const std::string& argument) {
     flags.wanted = parse_filter(name, value);
   } else if (name == "--benchmark_list_tests") {
     flags.list_tests = value != "false";
-  } else if (name == "--benchmark_out" || name == "--benchmark_out_format" || name == "--benchmark_format") {
-    throw std::invalid_argument(name + " is not available: results go to --out DIR as results.csv");
+  } else if (name == "--benchmark_report_aggregates_only") {
+    flags.aggregates_only = value != "false";
+  } else if (is_of_output(flags, name, value)) {
+    return;
   } else {
     flags.forwarded.push_back(argument);
   }

@@ -15,6 +15,8 @@ struct BenchmarkFlags {
   std::optional<double> min_time_s;                ///< a repetition lasts at least so long
   std::function<bool(const std::string&)> wanted;  ///< --benchmark_filter on "contestant/trajectory"
   bool list_tests = false;
+  std::string out;               ///< file for Google Benchmark's JSON; empty: none
+  bool aggregates_only = false;  ///< without an entry a repetition there
   std::vector<std::string> forwarded;
 };
 

@@ -13,7 +13,7 @@ namespace touchmark::bench::cli {
 
 /// What commands share. A command sets `status` when it is not exit_done; errors are thrown.
 struct ProgramContext {
-  const contestants::Roster& roster;
+  contestants::Roster roster;  ///< plug-ins are added to it
   int argc = 0;
   char** argv = nullptr;
   int status = support::exit_done;
@@ -39,6 +39,7 @@ void add_gate(CLI::App& program, ProgramContext& context);
 void add_plan(CLI::App& program, ProgramContext& context);
 void add_run(CLI::App& program, ProgramContext& context);
 void add_merge(CLI::App& program, ProgramContext& context);
+void add_new_plugin(CLI::App& program, ProgramContext& context);
 void add_validate(CLI::App& program, ProgramContext& context);
 
 int run_program(int argc, char** argv, const contestants::Roster& roster);

@@ -15,10 +15,10 @@ std::string repeat_command(const contestants::Selectors& selectors, const std::s
   const auto found = std::find(workload.trajectories.begin(), workload.trajectories.end(), row.trajectory);
   if (found == workload.trajectories.end()) return "";
   const auto trace = static_cast<std::size_t>(found - workload.trajectories.begin());
-  std::string command = fmt::format(
-      "touchmark query --mesh {}{} --trajectory {} --detector {} --query {} --radius {}",
-      support::quoted(mesh), selectors.normalize ? " --normalize" : "", support::quoted(trajectories[trace]),
-      support::quoted(row.contestant()), workload::name_of(row.query), support::quoted(selectors.radius));
+  std::string command = fmt::format("touchmark query --mesh {}{} --trajectory {} {} --query {} --radius {}",
+                                    support::quoted(mesh), selectors.normalize ? " --normalize" : "",
+                                    support::quoted(trajectories[trace]), row.as_typed(),
+                                    workload::name_of(row.query), support::quoted(selectors.radius));
   const auto add = [&](const char* option, const std::string& value) {
     if (!value.empty()) command += fmt::format(" {} {}", option, support::quoted(value));
   };

@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "bench/cli/plugin_option.h"
+
 namespace touchmark::bench::cli {
 
 void add_motion_selectors(CLI::App& command, contestants::MotionSelectors& motion) {
@@ -28,7 +30,8 @@ void add_unit(CLI::App& command, std::string& unit) {
       ->type_name("UNIT");
 }
 
-void add_selectors(CLI::App& command, contestants::Selectors& selectors, contestants::Variety variety) {
+void add_selectors(CLI::App& command, ProgramContext& context, contestants::Selectors& selectors,
+                   contestants::Variety variety) {
   CLI::Option* mesh = command.add_option("--mesh", selectors.meshes,
                                          "a scene (touchmark list) or a mesh file; modifiers may follow: "
                                          "bunny@scale=1e-3@offset=1e6");
@@ -51,6 +54,7 @@ void add_selectors(CLI::App& command, contestants::Selectors& selectors, contest
       ->type_name("D")
       ->expected(1)
       ->take_all();
+  add_plugins(command, context, &selectors.detectors);
   command
       .add_option("--query", selectors.query,
                   variety == contestants::Variety::one ? "touches, nearest or sweep"

@@ -11,7 +11,10 @@ class App;
 
 namespace touchmark::bench::cli {
 
-void add_selectors(CLI::App& command, contestants::Selectors& selectors,
+struct ProgramContext;
+
+/// Plug-ins that are named come into the context's roster.
+void add_selectors(CLI::App& command, ProgramContext& context, contestants::Selectors& selectors,
                    contestants::Variety variety = contestants::Variety::one);
 
 /// Adds the options that say how motion files are read.

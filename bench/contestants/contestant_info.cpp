@@ -138,10 +138,23 @@ bool ContestantInfo::answers(workload::Query query) const noexcept {
   return std::find(queries.begin(), queries.end(), query) != queries.end();
 }
 
-Roster::Roster(std::vector<ContestantInfo> contestants) : contestants_(std::move(contestants)) {
+Roster::Roster(std::vector<ContestantInfo> contestants) : contestants_(std::move(contestants)) { sort(); }
+
+void Roster::sort() {
   std::ranges::stable_sort(contestants_, [](const ContestantInfo& a, const ContestantInfo& b) {
     return std::tie(a.rank, a.name) < std::tie(b.rank, b.name);
   });
+}
+
+void Roster::add(ContestantInfo contestant) {
+  for (const ContestantInfo& other : contestants_) {
+    if (other.name != contestant.name) continue;
+    throw std::invalid_argument(
+        fmt::format("its name \"{}\" is taken by {}", other.name,
+                    other.plugin.empty() ? "a contestant of this program" : other.plugin));
+  }
+  contestants_.push_back(std::move(contestant));
+  sort();
 }
 
 const ContestantInfo& Roster::find(const std::string& name) const {
@@ -169,7 +182,8 @@ ContestantSpec Roster::parse(const std::string& text) const {
   }
   OptionValues chosen(std::move(values));
   const std::optional<Guarantee> claimed = claimed_guarantee(contestant.accuracy, chosen);
-  return {contestant.name, fmt::format("{}", fmt::join(in_order, ",")), std::move(chosen), claimed};
+  return {contestant.name, fmt::format("{}", fmt::join(in_order, ",")), std::move(chosen), claimed,
+          contestant.plugin};
 }
 
 std::vector<ContestantSpec> Roster::forms(std::vector<std::string> Forms::*set) const {

@@ -101,6 +101,7 @@ struct ContestantInfo {
 
   Forms forms;
   LibraryClass library = {};
+  std::string plugin = {};  ///< the file that a worker loads for it; empty: built into the worker
 
   bool built() const noexcept { return static_cast<bool>(build); }
   bool answers(workload::Query query) const noexcept;
@@ -112,6 +113,7 @@ struct ContestantSpec {
   std::string options;  ///< "key=value,key=value" in the contestant's own order; empty: all defaults
   OptionValues values;
   std::optional<Guarantee> claimed;  ///< by its entry, so known before it is built; nothing: none
+  std::string plugin = {};           ///< its contestant's
 
   std::string text() const { return options.empty() ? name : name + ":" + options; }
 };
@@ -126,6 +128,8 @@ class Roster {
   explicit Roster(std::vector<ContestantInfo> contestants);
 
   const std::vector<ContestantInfo>& contestants() const noexcept { return contestants_; }
+  /// Throws std::invalid_argument where there is one of its name.
+  void add(ContestantInfo contestant);
   /// Throws std::invalid_argument; an unknown name's message lists the nearest ones.
   const ContestantInfo& find(const std::string& name) const;
   /// `NAME[:key=value,...]`. Throws std::invalid_argument naming the name, key or value that is wrong.
@@ -144,6 +148,8 @@ class Roster {
   std::unique_ptr<Contestant> build(const ContestantSpec& spec, const TriangleMesh& mesh) const;
 
  private:
+  void sort();
+
   std::vector<ContestantInfo> contestants_;
 };
 

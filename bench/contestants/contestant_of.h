@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cassert>
 #include <chrono>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -42,6 +43,15 @@ struct SessionsOfMany<D> {
   using Type = ManySessions<D>;
 };
 
+/// A detector whose type declares more than it does, as one that is known only once it is loaded: it says
+/// what it answers and whether it updates, and makes the sessions that belong to it.
+template <class D>
+concept KnownOnceBuilt = Detector<D> && requires(const D& detector, workload::Query query) {
+  { detector.answers(query) } -> std::same_as<bool>;
+  { detector.updates() } -> std::same_as<bool>;
+  { detector.session() } -> std::same_as<typename D::Session>;
+};
+
 /// Whether a detector's `prepare` is called after each answer.
 enum class Prefetch { off, on };
 
@@ -49,11 +59,12 @@ template <Detector D, Prefetch prefetch = Prefetch::off>
 requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : public Contestant {
  public:
   explicit ContestantOf(D detector) : ContestantOf(std::make_shared<D>(std::move(detector))) {}
-  explicit ContestantOf(std::shared_ptr<D> detector) : detector_(std::move(detector)) { session_.emplace(); }
+  explicit ContestantOf(std::shared_ptr<D> detector) : detector_(std::move(detector)) { begin_session(); }
 
   std::unique_ptr<Contestant> share() const override { return std::make_unique<ContestantOf>(detector_); }
 
   bool answers(workload::Query query) const noexcept override {
+    if constexpr (KnownOnceBuilt<D>) return detector_->answers(query);
     switch (query) {
       case workload::Query::touches:
         return AnswersTouches<D>;
@@ -71,12 +82,15 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
     return false;
   }
   void forget() override {
-    session_.emplace();
+    begin_session();
     if constexpr (AnswersNearest<D>) {
       if (many_) many_->forget();
     }
   }
-  bool updates() const noexcept override { return Updates<D>; }
+  bool updates() const noexcept override {
+    if constexpr (KnownOnceBuilt<D>) return detector_->updates();
+    return Updates<D>;
+  }
   void update([[maybe_unused]] const TriangleMesh& mesh) override {
     if constexpr (Updates<D>) detector_->update(mesh);
   }
@@ -164,6 +178,13 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
   bool prepares() const noexcept override { return prefetch == Prefetch::on; }
 
  private:
+  void begin_session() {
+    if constexpr (KnownOnceBuilt<D>) {
+      session_.emplace(detector_->session());
+    } else {
+      session_.emplace();
+    }
+  }
   void prepare() noexcept {
     if constexpr (prefetch == Prefetch::on) detector_->prepare(*session_);
   }

@@ -25,16 +25,11 @@ double median_absolute_deviation(std::vector<double> values) {
   return support::median(values);
 }
 
-double largest_radius(const std::vector<workload::Step>& trace) {
-  double largest = 0;
-  for (const workload::Step& step : trace) largest = std::max(largest, step.probe.radius);
-  return largest;
-}
-
-double largest_reach(const std::vector<workload::Step>& trace) {
-  double largest = 0;
-  for (const workload::Step& step : trace) largest = std::max(largest, step.reach);
-  return largest;
+template <class Length>
+double largest(const std::vector<workload::Step>& trace, const Length& length_of) {
+  double most = 0;
+  for (const workload::Step& step : trace) most = std::max(most, length_of(step));
+  return most;
 }
 
 }  // namespace
@@ -42,16 +37,22 @@ double largest_reach(const std::vector<workload::Step>& trace) {
 Measurement::Measurement(const workload::Workload& workload, const workers::SharedArena& arena,
                          const Effort& effort, workers::ContestantProcess& process, std::size_t trace,
                          workload::Query query, const workload::SamplePlan& plan)
-    : arena_(arena), effort_(effort), process_(process), task_{trace, query, 1}, plan_(plan) {
+    : arena_(arena),
+      effort_(effort),
+      process_(process),
+      busy_before_s_(process.busy_s()),
+      task_{trace, query, 1},
+      plan_(plan) {
   row_.detector = process.spec().name;
   row_.options = process.spec().options;
+  row_.plugin = process.spec().plugin;
   row_.claimed = process.spec().claimed;
   row_.mesh = workload.mesh_name;
   row_.triangles = workload.mesh.size();
   row_.trajectory = workload.trajectories[trace];
   row_.query = query;
-  row_.radius = largest_radius(workload.traces[trace]);
-  row_.reach = largest_reach(workload.traces[trace]);
+  row_.radius = largest(workload.traces[trace], [](const workload::Step& step) { return step.probe.radius; });
+  row_.reach = largest(workload.traces[trace], [](const workload::Step& step) { return step.reach; });
 }
 
 /// A worker that fails gives the row its status.
@@ -282,6 +283,7 @@ std::vector<double> Measurement::in_ns(std::span<const std::uint64_t> ticks) con
 void Measurement::shut_down() { process_.end(); }
 
 ResultRow Measurement::row() {
+  row_.busy_s = process_.busy_s() - busy_before_s_;
   // What was timed before things went wrong is not a result.
   if (!alive() || repetitions_ns_.empty()) return row_;
   std::size_t samples = 0;
@@ -293,7 +295,10 @@ ResultRow Measurement::row() {
                                      support::median(repetitions_cpu_ns_),
                                      repetitions_ns_.size(),
                                      piece_times().estimate(bootstrap_seed),
-                                     static_cast<double>(interrupted_) / static_cast<double>(samples)};
+                                     static_cast<double>(interrupted_) / static_cast<double>(samples),
+                                     row_.steps * static_cast<std::uint64_t>(passes_ * replays_),
+                                     repetitions_ns_,
+                                     repetitions_cpu_ns_};
   if (!latencies_ns_.empty()) {
     std::vector<double> steps_ns = median_per_step(latencies_ns_);
     row_.latency = summarize_latency(steps_ns, ranges_);

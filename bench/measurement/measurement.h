@@ -78,6 +78,7 @@ class Measurement {
   const workers::SharedArena& arena_;
   const Effort& effort_;
   workers::ContestantProcess& process_;
+  double busy_before_s_;  ///< the process may have served other measurements
   ResultRow row_;
   workers::Task task_;
   const workload::SamplePlan& plan_;

@@ -16,6 +16,7 @@
 #include "bench/measurement/piece_times.h"
 #include "bench/measurement/step_log.h"
 #include "bench/oracle/judge.h"
+#include "bench/support/shell_word.h"
 #include "bench/workers/cache_lines.h"
 #include "bench/workload/answer.h"
 #include "core/detector.h"
@@ -35,8 +36,11 @@ struct ThroughputResult {
   double ns_per_query_first_pass = 0;  ///< fresh session; see Case::first_pass
   double cpu_ns_per_query = 0;         ///< median; without what other processes took of the core
   std::size_t repetitions = 0;
-  UndisturbedTime undisturbed{};  ///< over the whole trajectory; what contestants are ranked by
-  double disturbed_share = 0;     ///< its samples that were interrupted for over a fifth of their time
+  UndisturbedTime undisturbed{};      ///< over the whole trajectory; what contestants are ranked by
+  double disturbed_share = 0;         ///< its samples that were interrupted for over a fifth of their time
+  std::uint64_t queries = 0;          ///< that a repetition asks
+  std::vector<double> each_ns{};      ///< a query's time in each repetition, in their order
+  std::vector<double> each_cpu_ns{};  ///< processor time, likewise
 };
 
 struct WorkResult {
@@ -55,6 +59,7 @@ inline WorkResult summarize_work(std::span<const std::uint64_t> work, const Work
 struct ResultRow {
   std::string detector;
   std::string options;  ///< as written out: "key=value,..."
+  std::string plugin;   ///< the file that has it; empty: one of the program's own
   std::string mesh;
   std::size_t triangles = 0;
   std::string trajectory;
@@ -80,6 +85,7 @@ struct ResultRow {
   std::string repeat;  ///< the command that prints the answer to a step, up to the step's number
   std::shared_ptr<const StepLog> log;  ///< null where none was asked for
   double clock_cost_ns = 0;
+  double busy_s = 0;  ///< that its worker was waited for
   std::optional<double> build_ms;
   std::optional<double> first_answer_ms;  ///< build and first query
   std::optional<std::uint64_t> bytes;
@@ -88,6 +94,11 @@ struct ResultRow {
   std::optional<std::uint64_t> checksum;
   std::optional<std::uint64_t> decisions_checksum;  ///< see decisions_checksum_of
 
+  /// Returns the words that name the contestant on a command line.
+  std::string as_typed() const {
+    const std::string named = "--detector " + support::quoted(contestant());
+    return plugin.empty() ? named : "--plugin " + support::quoted(plugin) + ' ' + named;
+  }
   std::string contestant() const { return options.empty() ? detector : detector + ":" + options; }
   std::optional<Guarantee> claim() const {
     if (accuracy) return accuracy->guarantee;

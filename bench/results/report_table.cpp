@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "bench/support/median.h"
-#include "bench/support/table.h"
 
 namespace touchmark::bench::results {
 namespace {
@@ -97,7 +96,7 @@ std::string disturbance(const measurement::Steadiness& steadiness) {
 
 }  // namespace
 
-std::string timing_table(const std::vector<measurement::ResultRow>& rows) {
+support::Table timing_table(const std::vector<measurement::ResultRow>& rows) {
   const std::string off = fmt::format("off>{:g}", oracle::physical_tolerance);
   support::Table table({"detector", "guarantee", "missed", "false", "triangle", off, "rounding",
                         "point/normal", "ns/query", "95 %", "x fastest", "p99.9 ns", "x least p99.9",
@@ -112,7 +111,7 @@ std::string timing_table(const std::vector<measurement::ResultRow>& rows) {
     cells.push_back(count(row.steps));
     table.add(std::move(cells));
   }
-  return table.text();
+  return table;
 }
 
 std::string verdict(const std::vector<measurement::ResultRow>& rows,

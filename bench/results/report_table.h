@@ -7,11 +7,12 @@
 
 #include "bench/measurement/result_row.h"
 #include "bench/measurement/steadiness.h"
+#include "bench/support/table.h"
 
 namespace touchmark::bench::results {
 
 /// `rows` are those of one trajectory.
-std::string timing_table(const std::vector<measurement::ResultRow>& rows);
+support::Table timing_table(const std::vector<measurement::ResultRow>& rows);
 /// Who is fastest, and who cannot be told from it; whose 99.9 % is least; how disturbed the run was.
 std::string verdict(const std::vector<measurement::ResultRow>& rows,
                     const measurement::Steadiness& steadiness);

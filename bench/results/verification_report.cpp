@@ -10,7 +10,6 @@
 #include "bench/support/available_memory.h"
 #include "bench/support/failures.h"
 #include "bench/support/grouping.h"
-#include "bench/support/table.h"
 #include "bench/workload/query_name.h"
 
 namespace touchmark::bench::results {
@@ -120,7 +119,7 @@ int status_of(const std::vector<Summary>& summaries, bool faulty) {
   return support::exit_inconclusive;
 }
 
-std::string verification_table(const std::vector<measurement::ResultRow>& rows) {
+support::Table verification_table(const std::vector<measurement::ResultRow>& rows) {
   support::Table table({"detector", "guarantee", "answers", "missed", "false", "triangle", "distance",
                         "point", "normal", "side", "no number", "rounding", "unresolved", "error/diag",
                         "unsupported", "refused", "crashed", "timeout", "verdict"});
@@ -135,7 +134,7 @@ std::string verification_table(const std::vector<measurement::ResultRow>& rows) 
                count(one.refusals), count(one.crashes), count(one.timeouts),
                std::string(verdict_on(one.broken, counts.judged))});
   }
-  return table.text() + judged_answers(rows);
+  return table;
 }
 
 std::string list_of_failures(const std::vector<measurement::ResultRow>& rows, std::size_t most) {

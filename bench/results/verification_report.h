@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bench/measurement/result_row.h"
+#include "bench/support/table.h"
 
 namespace touchmark::bench::results {
 
@@ -45,7 +46,7 @@ int status_of(const std::vector<measurement::ResultRow>& rows, bool faulty);
 int status_of(const std::vector<Summary>& summaries, bool faulty);
 
 /// One line a contestant, in the order of first appearance.
-std::string verification_table(const std::vector<measurement::ResultRow>& rows);
+support::Table verification_table(const std::vector<measurement::ResultRow>& rows);
 
 /// One line a row that went wrong in any way, at most `most` of them, then how many more there are. After the
 /// first line of a contestant its first wrong answers, with the commands that repeat them.

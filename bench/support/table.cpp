@@ -9,8 +9,25 @@ namespace touchmark::bench::support {
 
 namespace {
 
+/// What would end a cell or begin a tag of HTML.
+std::string markdown_cell(const std::string& text) {
+  std::string cell;
+  for (const char letter : text) {
+    if (letter == '|') {
+      cell += "\\|";
+    } else if (letter == '<') {
+      cell += "&lt;";
+    } else {
+      cell += letter == '\n' ? ' ' : letter;
+    }
+  }
+  return cell;
+}
+
 std::string markdown_line(const std::vector<std::string>& cells) {
-  return fmt::format("| {} |\n", fmt::join(cells, " | "));
+  std::string line = "|";
+  for (const std::string& cell : cells) line += fmt::format(" {} |", markdown_cell(cell));
+  return line + '\n';
 }
 
 }  // namespace

@@ -86,7 +86,8 @@ void ContestantProcess::mark_failed(std::string status) {
 
 Built ContestantProcess::request_build() {
   asked_ = false;
-  return std::get<Built>(exchange(request::Build{spec_.text()}, arena_.options().build_timeout));
+  return std::get<Built>(
+      exchange(request::Build{spec_.text(), spec_.plugin}, arena_.options().build_timeout));
 }
 
 const Built& ContestantProcess::build() {
@@ -102,7 +103,7 @@ CacheLines ContestantProcess::count_cache_lines(const Task& task, std::size_t sa
   WorkerProcess counted(launch);
   const std::chrono::milliseconds timeout = slower * arena_.options().build_timeout;
   counted.ask(request::Open{arena_.layout(), false}, timeout);
-  const auto built = std::get<Built>(counted.ask(request::Build{spec_.text()}, timeout));
+  const auto built = std::get<Built>(counted.ask(request::Build{spec_.text(), spec_.plugin}, timeout));
   if (!built.refused.empty()) throw WorkerFailure("refused: " + built.refused);
   counted.ask(request::Lines{task, samples}, timeout);
   return counted_lines(folder.counts(), samples);

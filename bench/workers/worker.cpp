@@ -34,6 +34,7 @@
 #include "bench/workers/throughput.h"
 #include "bench/workers/update_timing.h"
 #include "bench/workers/worker_protocol.h"
+#include "bench/workers/worker_roster.h"
 #include "bench/workload/query_name.h"
 #include "bench/workload/sample_steps.h"
 
@@ -47,8 +48,8 @@ std::uint64_t heap_in_use() {
 
 class Worker {
  public:
-  explicit Worker(const contestants::Roster& roster)
-      : roster_(roster),
+  Worker(const contestants::Roster& roster, LoadPlugin load)
+      : roster_(roster, load),
         input_(SharedMemory::attach(worker_input, SharedMemory::Access::read)),
         output_(SharedMemory::attach(worker_output, SharedMemory::Access::write)) {}
 
@@ -56,8 +57,10 @@ class Worker {
     return std::visit(
         [&](const auto& one) -> Reply {
           using Kind = std::decay_t<decltype(one)>;
-          constexpr bool builds = std::is_same_v<Kind, request::Open> || std::is_same_v<Kind, request::Build>;
-          if (!builds && contestant_ == nullptr) throw std::logic_error("nothing is built");
+          constexpr bool before = std::is_same_v<Kind, request::Open> ||
+                                  std::is_same_v<Kind, request::Build> ||
+                                  std::is_same_v<Kind, request::Describe>;
+          if (!before && contestant_ == nullptr) throw std::logic_error("nothing is built");
           return typename Kind::Reply(handle(one));
         },
         request);
@@ -65,6 +68,7 @@ class Worker {
 
  private:
   Opened handle(const request::Open& request);
+  Described handle(const request::Describe& request) { return roster_.describe(request.plugin); }
   Built handle(const request::Build& request);
   Updated handle(const request::Update& request);
   Done handle(const request::Rebuild& request);
@@ -99,7 +103,7 @@ class Worker {
   double timed_build();
   Timed timed_replay(const workload::QueryTrace& trace, const std::vector<workload::StepRange>& ranges);
 
-  const contestants::Roster& roster_;
+  WorkerRoster roster_;
   SharedMemory input_;
   SharedMemory output_;
   WorkloadLayout layout_;
@@ -126,21 +130,21 @@ Opened Worker::handle(const request::Open& request) {
 
 double Worker::timed_build() {
   contestant_.reset();
-  roster_.require_memory_for(*spec_, mesh_->size());
+  roster_->require_memory_for(*spec_, mesh_->size());
   const Clock::time_point start = Clock::now();
-  contestant_ = roster_.build(*spec_, *mesh_);
+  contestant_ = roster_->build(*spec_, *mesh_);
   return ns_since(start);
 }
 
 Built Worker::handle(const request::Build& request) {
   contestants::take_remarks();
-  spec_ = roster_.parse(request.contestant);
   Built reply;
   const auto refuse = [&](std::string why) {
     contestant_.reset();
     reply.refused = std::move(why);
   };
   try {
+    spec_ = roster_.chosen(request);
     reply = built();
   } catch (const std::bad_alloc&) {
     refuse(fmt::format("{}all of it is taken", support::no_memory));
@@ -189,13 +193,14 @@ Timed Worker::timed_replay(const workload::QueryTrace& trace,
 
 Updated Worker::handle(const request::Update& request) {
   if (!contestant_->updates()) return {};
-  return time_updates(*contestant_, roster_, *spec_, read_mesh(input_.bytes(), layout_), request.deformation);
+  return time_updates(*contestant_, *roster_, *spec_, read_mesh(input_.bytes(), layout_),
+                      request.deformation);
 }
 
 Done Worker::handle(const request::Rebuild& request) {
   const TriangleMesh moved = scenes::deformed(read_mesh(input_.bytes(), layout_), request.deformation);
-  roster_.require_memory_for(*spec_, moved.size());
-  contestant_ = roster_.build(*spec_, moved);
+  roster_->require_memory_for(*spec_, moved.size());
+  contestant_ = roster_->build(*spec_, moved);
   return {};
 }
 
@@ -290,7 +295,7 @@ void serve(Worker worker, LineChannel channel) {
 
 }  // namespace
 
-int run_worker(int argc, char** argv, const contestants::Roster& roster) {
+int run_worker(int argc, char** argv, const contestants::Roster& roster, LoadPlugin load) {
   const LineChannel channel(worker_control);
   const auto reply_exhausted = [&](const std::string& what) {
     channel.send(line_of(OutOfResources{what}));
@@ -298,7 +303,7 @@ int run_worker(int argc, char** argv, const contestants::Roster& roster) {
   };
   try {
     initialize_throughput({argv + 1, argv + argc});
-    serve(Worker(roster), LineChannel(worker_control));
+    serve(Worker(roster, load), LineChannel(worker_control));
     return support::exit_done;
   } catch (const std::bad_alloc&) {
     return reply_exhausted("out of memory" + support::memory_limit());

@@ -172,8 +172,9 @@ void WorkerProcess::explain(const Ending& ending) const {
   if (ending.out_of_time)
     throw support::ResourceError(fmt::format("{}: {}", program_, support::time_limit()));
   const std::string how = how_it_ended(ending.status);
-  if (replied_) throw WorkerFailure(how);
-  if (WIFEXITED(ending.status) && WEXITSTATUS(ending.status) == not_loaded) {
+  const bool not_started = WIFEXITED(ending.status) && WEXITSTATUS(ending.status) == not_loaded;
+  if (replied_ || (loads_plugin_ && !not_started)) throw WorkerFailure(how);
+  if (not_started) {
     throw support::ResourceError(
         fmt::format("{} cannot be loaded: a library is missing, or there is too little memory{}", program_,
                     support::memory_limit()));
@@ -184,6 +185,7 @@ void WorkerProcess::explain(const Ending& ending) const {
 
 Reply WorkerProcess::ask(const Request& request, std::chrono::milliseconds timeout) {
   if (process_ <= 0) throw WorkerFailure("ended");
+  loads_plugin_ = std::holds_alternative<request::Describe>(request);
   channel_.send(line_of(request));  // one that is gone may have left a reply that says why
   std::string line;
   const auto deadline = std::chrono::steady_clock::now() + timeout;

@@ -55,6 +55,7 @@ class WorkerProcess {
 
   std::string program_;
   bool replied_ = false;
+  bool loads_plugin_ = false;  ///< so that an end may be the plug-in's, before any reply
   pid_t process_ = -1;
   int control_ = -1;
   LineChannel channel_{-1};

@@ -25,6 +25,10 @@ namespace workload {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(StepRange, begin, end)
 }  // namespace workload
 
+namespace contestants {
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OptionInfo, key, kind, choices, default_value, summary)
+}  // namespace contestants
+
 namespace scenes {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Deformation, share, seed)
 }  // namespace scenes
@@ -39,6 +43,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OutOfResources, what)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Opened, clock_cost_ns, ns_per_tick, flushed_to_zero)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Built, refused, build_ms, bytes, heap_bytes, accuracy, queries, prepares,
                                    builds_lazily, remarks)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Described, refused, name, summary, accuracy, queries, options)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Answered, checksum, work)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Timed, ns_per_query, cpu_ns_per_query, checksum, steady, work, samples,
                                    interrupted)
@@ -52,7 +57,8 @@ static void from_json(const nlohmann::json&, Done&) {}
 
 namespace request {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Open, layout, calibrate_clock)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Build, contestant)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Describe, plugin)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Build, contestant, plugin)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Update, deformation)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Rebuild, deformation)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(First, task)

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bench/contestants/contestant.h"
+#include "bench/contestants/contestant_info.h"
 #include "bench/scenes/deformation.h"
 #include "bench/workers/paced_replay.h"
 #include "bench/workers/shared_workload.h"
@@ -65,6 +66,14 @@ struct Built {
   std::vector<std::string> remarks;
 };
 
+/// What a plug-in says that it is.
+struct Described {
+  std::string refused;  ///< what keeps it from being a contestant; empty: nothing
+  std::string name, summary, accuracy;
+  std::vector<workload::Query> queries;
+  std::vector<contestants::OptionInfo> options;
+};
+
 struct Answered {
   std::uint64_t checksum = 0;
   Work work;  ///< all steps'
@@ -111,10 +120,17 @@ struct Open {
   bool calibrate_clock = true;
 };
 
+/// Comes alone: there is no workload then.
+struct Describe {
+  using Reply = Described;
+  std::string plugin;
+};
+
 /// May come again.
 struct Build {
   using Reply = Built;
   std::string contestant;
+  std::string plugin = {};  ///< the file that the contestant is in; empty: one of the worker's own
 };
 
 /// The detector follows the deformed mesh then. Updates, there and back, and builds of the deformed mesh take
@@ -223,9 +239,9 @@ struct Lines {
 using Request = std::variant<request::Open, request::Build, request::Update, request::Rebuild, request::First,
                              request::Calibrate, request::Answer, request::AnswerAfresh, request::FirstPass,
                              request::Time, request::Sample, request::Latency, request::Servo, request::Cold,
-                             request::Lines>;
+                             request::Lines, request::Describe>;
 using Reply = std::variant<NotStarted, OutOfResources, Done, Opened, Built, Answered, Timed, Updated,
-                           ServoStretch, ColdSamples>;
+                           ServoStretch, ColdSamples, Described>;
 
 // A line is [which of them, {its members}], so that a reply NotStarted is [0,{"error":2}]. Bytes that are not
 // UTF-8, which messages of rivals and file names may hold, are replaced.

@@ -65,7 +65,7 @@ INCLUDE = re.compile(r'^#include "(touchmark/[^"]+)"', re.M)
 COMPILERS = [compiler for compiler in ("g++", "clang++") if shutil.which(compiler)]
 C_COMPILERS = [compiler for compiler in ("gcc", "clang") if shutil.which(compiler)]
 C99 = ["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wundef", "-Werror"]
-IN_C = ["touchmark/touchmark.h"]
+IN_C = ["touchmark/contestant.h", "touchmark/touchmark.h"]
 EIGEN = ["-isystem", "/usr/include/eigen3"]
 FUSED = ["-mfma", "-ffp-contract=fast"]  # as GCC has it with -march=native on most processors
 
@@ -256,6 +256,22 @@ class Install(unittest.TestCase):
                 for compiler in COMPILERS:
                     flags = ["-std=c++20", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", f"-I{self.include}"]
                     self.assertIsNone(first_error(compiler, *flags, code=code), code)
+
+    def test_a_new_plug_in_needs_the_installed_package_alone(self):
+        program = BUILD / "bin" / "touchmark"
+        if not program.exists():
+            self.skipTest("the program is not built")
+        mine = self.source / "mine"
+        run(program, "new-plugin", mine)
+        build = mine / "build"
+        run("cmake", "-S", mine, "-B", build, "-DCMAKE_BUILD_TYPE=Release", f"-DCMAKE_PREFIX_PATH={self.prefix}",
+            "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Wpedantic -Werror")
+        run("cmake", "--build", build)
+        self.assertNotIn(str(HERE.parents[1]), (build / "CMakeCache.txt").read_text(encoding="utf-8"))
+        out = run(program, "verify", "--mesh", "torus:20x20", "--trajectory", "slide", "--plugin", build / "libmine.so")
+        row = next(line for line in out.splitlines() if line.startswith("mine"))
+        self.assertIn("4000 answers judged exactly", out)
+        self.assertTrue(row.endswith("as claimed"), out)
 
     def headers(self, pattern):
         return sorted(path.relative_to(self.include).as_posix() for path in self.include.glob(pattern))

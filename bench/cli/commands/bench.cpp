@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "bench/cli/benchmark_flags.h"
+#include "bench/cli/commands/bench_reports.h"
 #include "bench/cli/commands/bench_suite.h"
 #include "bench/cli/program.h"
 #include "bench/cli/repeat_command.h"
@@ -50,6 +51,7 @@ struct BenchOptions {
   bool cache_lines = false;
   bool suite = false;
   std::string cells, minutes;  ///< for the suite alone
+  ReportSelectors reports;
   WorkerSelectors workers;
 };
 
@@ -110,6 +112,7 @@ class BenchRun {
   contestants::Selectors selectors_;
   contestants::CheckedSelectors selection_;
   std::optional<results::ResultsFolder> folder_;
+  BenchReports reports_;
   std::optional<StepOutputs> step_outputs_;
   results::RunDescription description_;
   workload::Workload workload_;
@@ -133,6 +136,7 @@ BenchRun::BenchRun(const ProgramContext& context, const BenchOptions& options, c
     : flags_(flags),
       selectors_(options.selectors),
       selection_(contestants::check(options.selectors, context.roster)),
+      reports_(flags, options.reports),
       description_(results::begun_run(context.argc, context.argv)),
       workload_(workload_for(options, selection_)),
       shows_work_(options.work) {
@@ -199,9 +203,11 @@ void BenchRun::end_trajectory(std::size_t trace) {
   rows_.insert(rows_.end(), rows.begin(), rows.end());
   save_so_far();
   progress_.clear();
-  out_.write(fmt::format("\n{} ({})\n{}{}", workload_.trajectories[trace],
-                         workload::trace_text(workload_, trace), results::timing_table(rows),
-                         results::verdict(rows, comparison_->steadiness().back())));
+  const std::string title =
+      fmt::format("{} ({})", workload_.trajectories[trace], workload::trace_text(workload_, trace));
+  const std::string verdict = results::verdict(rows, comparison_->steadiness().back());
+  reports_.add_trajectory(title, rows, verdict);
+  out_.write(fmt::format("\n{}\n{}{}", title, results::timing_table(rows).text(), verdict));
   const std::string cold = results::cold_table(rows);
   if (!cold.empty()) out_.write('\n' + cold);
   const std::string lines = results::lines_table(rows);
@@ -223,11 +229,14 @@ int BenchRun::run() {
     std::ranges::move(comparison_->so_far(), std::back_inserter(rows_));
     save(false);
     step_outputs_->write(description_.run_id, workload_, *comparison_, rows_);
+    description_.finished = false;
+    reports_.write(description_, rows_);
     fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", rows_.size());
     return support::exit_interrupted;
   }
   save(true);
   step_outputs_->write(description_.run_id, workload_, *comparison_, rows_);
+  reports_.write(description_, rows_);
   std::vector<measurement::ResultRow> broken;  // what others err by is in the table
   std::copy_if(rows_.begin(), rows_.end(), std::back_inserter(broken), results::claim_is_broken);
   const std::string failures = results::list_of_failures(broken, faulty_rows_shown);
@@ -253,23 +262,13 @@ void add_suite(CLI::App& command, BenchOptions& options) {
       ->needs(suite);
 }
 
-/// Throws std::invalid_argument for an option that the suite chooses itself.
-void expect_options_of_suite(const CLI::App& command) {
-  for (const char* const option :
-       {"--trajectory", "--query", "--radius", "--reach", "--unit", "--columns", "--motion-scale", "--rate",
-        "--frontier", "--steps-out", "--cold", "--cache-lines", "--work"}) {
-    if (command.count(option) > 0)
-      throw std::invalid_argument(fmt::format("{} does not go with --suite", option));
-  }
-}
-
 }  // namespace
 
 void add_bench(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<BenchOptions>();
   CLI::App* command =
       program.add_subcommand("bench", "verify and time contestants on identical trajectories");
-  add_selectors(*command, options->selectors);
+  add_selectors(*command, context, options->selectors);
   add_unit(*command, options->selectors.unit);
   command->add_option("--out", options->out, "folder for results.csv, run.json and steps.bin")
       ->type_name("DIR");
@@ -286,11 +285,13 @@ void add_bench(CLI::App& program, ProgramContext& context) {
                     "also how many cache lines a query touches, as valgrind counts them");
   command->add_flag("--quick", options->quick, "fewer steps and repetitions");
   add_suite(*command, *options);
+  add_markdown(*command, options->reports);
   add_worker_selectors(*command, options->workers);
   command->allow_extras();
   command->footer(
       "Any --benchmark_* flag of Google Benchmark may be added: --benchmark_repetitions=9,\n"
-      "--benchmark_min_time=0.2, --benchmark_filter=REGEX on contestant/trajectory.\n"
+      "--benchmark_min_time=0.2, --benchmark_filter=REGEX on contestant/trajectory, and\n"
+      "--benchmark_out=FILE for Google Benchmark's own JSON.\n"
       "Example: touchmark bench --mesh bunny --trajectory slide --detector grid-group --detector "
       "fcl:bv=obbrss "
       "--out results/today\n"
@@ -301,6 +302,7 @@ void add_bench(CLI::App& program, ProgramContext& context) {
     const BenchmarkFlags flags = parse_benchmark_flags(command->remaining());
     if (options->suite) {
       expect_options_of_suite(*command);
+      if (!flags.out.empty()) throw std::invalid_argument("--benchmark_out does not go with --suite");
       context.status = run_suite(context, {options->selectors, options->out, options->cells, options->minutes,
                                            options->quick, options->workers});
       return;

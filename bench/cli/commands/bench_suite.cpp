@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -275,6 +276,15 @@ int SuiteRun::run() {
 
 int run_suite(const ProgramContext& context, const SuiteOptions& options) {
   return SuiteRun(context, options).run();
+}
+
+void expect_options_of_suite(const CLI::App& command) {
+  for (const char* const option :
+       {"--trajectory", "--query", "--radius", "--reach", "--unit", "--columns", "--motion-scale", "--rate",
+        "--frontier", "--steps-out", "--cold", "--cache-lines", "--work", "--markdown"}) {
+    if (command.count(option) > 0)
+      throw std::invalid_argument(fmt::format("{} does not go with --suite", option));
+  }
 }
 
 }  // namespace touchmark::bench::cli

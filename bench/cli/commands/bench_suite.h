@@ -8,6 +8,10 @@
 #include "bench/contestants/selectors.h"
 #include "bench/measurement/effort.h"
 
+namespace CLI {
+class App;
+}
+
 namespace touchmark::bench::cli {
 
 struct SuiteOptions {
@@ -21,5 +25,8 @@ struct SuiteOptions {
 
 /// An exit status. Throws std::invalid_argument, MeshError or ResourceError.
 int run_suite(const ProgramContext& context, const SuiteOptions& options);
+
+/// Throws std::invalid_argument for an option of `bench` that the suite chooses itself.
+void expect_options_of_suite(const CLI::App& command);
 
 }  // namespace touchmark::bench::cli

@@ -242,7 +242,7 @@ void add_choose(CLI::App& program, ProgramContext& context) {
   options->selectors.motion.rate = "1000";
   CLI::App* command =
       program.add_subcommand("choose", "which detector, with which options, for this part on this machine?");
-  add_selectors(*command, options->selectors);
+  add_selectors(*command, context, options->selectors);
   add_unit(*command, options->selectors.unit);
   command->get_option("--rate")
       ->description("of the servo loop; motion goes by time, so motion files with times are resampled to it")

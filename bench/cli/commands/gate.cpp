@@ -1,5 +1,6 @@
 /// `touchmark gate`: has a detector become slower, against a reference measured in the same run? For the
 /// continuous integration of those who use a detector.
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -10,9 +11,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/cli/commands/gate_options.h"
 #include "bench/cli/program.h"
-#include "bench/cli/selector_options.h"
-#include "bench/cli/worker_options.h"
 #include "bench/regression/gate/baseline.h"
 #include "bench/regression/gate/gate_report.h"
 #include "bench/regression/gate/paired_batch.h"
@@ -22,7 +22,6 @@
 #include "bench/support/atomic_file.h"
 #include "bench/support/denormals.h"
 #include "bench/support/interrupt.h"
-#include "bench/support/length.h"
 #include "bench/support/progress.h"
 #include "bench/support/standard_output.h"
 #include "bench/workload/content_hash.h"
@@ -33,22 +32,6 @@ namespace touchmark::bench::cli {
 namespace gate = regression::gate;
 
 namespace {
-
-struct GateOptions {
-  contestants::Selectors selectors;
-  std::string reference = "aabb-tree", baseline, tolerance = "7%", report;
-  std::size_t rounds = gate::GateEffort{}.rounds;
-  bool write_baseline = false;
-  WorkerSelectors workers;
-};
-
-double checked_tolerance(const std::string& text) {
-  const std::optional<support::Length> tolerance = support::parse_length(text);
-  const double value = tolerance ? (tolerance->percent ? tolerance->value / 100 : tolerance->value) : 0;
-  if (!(value > 0 && value < 1))
-    throw std::invalid_argument(fmt::format("--tolerance \"{}\" is not above 0 and below 100%, as 7%", text));
-  return value;
-}
 
 class Gate {
  public:
@@ -64,7 +47,7 @@ class Gate {
   void check_pair(const gate::GatePair& pair, const gate::BaselineRow& row);
   void write_pair(const gate::GatePair& pair);
   std::string compare_answers(const gate::BaselineRow& row, const gate::GateAnswers& answers) const;
-  void report() const;
+  void report();
 
   const contestants::Roster& roster_;
   const GateOptions& options_;
@@ -78,6 +61,7 @@ class Gate {
   gate::Baseline baseline_;
   support::ProgressLine progress_;
   std::vector<gate::GateLine> lines_;
+  ReportFile junit_, markdown_;
   std::uint64_t judged_ = 0;
   int status_ = support::exit_done;
 };
@@ -124,7 +108,9 @@ Gate::Gate(const contestants::Roster& roster, const GateOptions& options)
       mesh_hash_(workload::hash_of(workload_.mesh)),
       arena_(workload_, workers_for(options)),
       oracle_(workload_.mesh),
-      baseline_(baseline_for(options)) {}
+      baseline_(baseline_for(options)),
+      junit_(options.reports.junit),
+      markdown_(options.reports.markdown) {}
 
 std::vector<gate::GatePair> Gate::pairs() const {
   std::vector<gate::GatePair> pairs;
@@ -198,9 +184,9 @@ void Gate::check_pair(const gate::GatePair& pair, const gate::BaselineRow& row) 
     line.verdict = "FAILED";
   }
   judged_ += batches.judged();
-  const bool failed = line.verdict == "FAILED" || line.verdict == "CHANGED" ||
-                      line.judgement.verdict == gate::Verdict::slower;
-  if (failed) {
+  line.failed = line.verdict == "FAILED" || line.verdict == "CHANGED" ||
+                line.judgement.verdict == gate::Verdict::slower;
+  if (line.failed) {
     status_ = support::exit_check_failed;
   } else if (line.judgement.verdict == gate::Verdict::inconclusive && status_ == support::exit_done) {
     status_ = support::exit_inconclusive;
@@ -236,12 +222,18 @@ void Gate::write_pair(const gate::GatePair& pair) {
   lines_.push_back(std::move(line));
 }
 
-void Gate::report() const {
+void Gate::report() {
+  const std::string title =
+      fmt::format("times over those of {} in the same rounds, on {}; tolerance {:.3g} %\n", reference_.text(),
+                  workload_.mesh_name, 100 * tolerance_);
+  const std::string judged = fmt::format("{} answers judged exactly\n", judged_);
+  const support::Table table = gate::gate_table(lines_);
   support::StandardOutput out;
-  out.write(fmt::format(
-      "times over those of {} in the same rounds, on {}; tolerance {:.3g} %\n{}{} answers judged exactly\n",
-      reference_.text(), workload_.mesh_name, 100 * tolerance_, gate::gate_table(lines_), judged_));
+  out.write(title + table.text() + judged);
   out.finish();
+  if (junit_.wanted()) junit_.write(results::junit_xml("touchmark gate", gate::cases_of(lines_)));
+  if (markdown_.wanted())
+    markdown_.write(fmt::format("## touchmark gate\n\n{}\n{}\n{}", title, table.markdown(), judged));
   if (options_.report.empty()) return;
   support::AtomicFile file(options_.report);
   file.write(gate::gate_csv(lines_, tolerance_));
@@ -258,7 +250,9 @@ int Gate::run() {
   support::restore_denormals();
   try {
     for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const auto start = std::chrono::steady_clock::now();
       options_.write_baseline ? write_pair(pairs[i]) : check_pair(pairs[i], *rows[i]);
+      lines_.back().seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
   } catch (const support::Interrupted&) {
     progress_.clear();
@@ -283,37 +277,13 @@ int Gate::run() {
   return status_;
 }
 
-constexpr const char* gate_footer =
-    R"(Exit status 0: no slower than the baseline, or by less than the tolerance. 1: slower, and a second batch
-agrees; or other answers or more work than in the baseline; or wrong answers. 4: inconclusive, since the
-reference, measured twice in every round, did not measure equal to itself.
-Example: touchmark gate --mesh part.stl --trajectory hand.csv --detector grid-group --baseline gate.csv --write-baseline
-         touchmark gate --mesh part.stl --trajectory hand.csv --detector grid-group --baseline gate.csv
-)";
-
 }  // namespace
 
 void add_gate(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<GateOptions>();
   CLI::App* command = program.add_subcommand(
       "gate", "fail when a detector has become slower, against a reference measured in the same run");
-  add_selectors(*command, options->selectors);
-  command->add_option("--reference", options->reference, "the contestant whose time is the unit")
-      ->type_name("D")
-      ->capture_default_str();
-  command->add_option("--baseline", options->baseline, "CSV file of ratios; it may come from another machine")
-      ->type_name("FILE")
-      ->required();
-  command->add_flag("--write-baseline", options->write_baseline, "measure, and write the rows of --baseline");
-  command->add_option("--tolerance", options->tolerance, "how much slower is not a fault")
-      ->type_name("PERCENT")
-      ->capture_default_str();
-  command->add_option("--rounds", options->rounds, "turns of each contestant in a batch")
-      ->type_name("N")
-      ->capture_default_str();
-  command->add_option("--report", options->report, "CSV file of what was found")->type_name("FILE");
-  add_worker_selectors(*command, options->workers);
-  command->footer(gate_footer);
+  add_gate_options(*command, context, *options);
   command->final_callback([options, &context] { context.status = Gate(context.roster, *options).run(); });
 }
 

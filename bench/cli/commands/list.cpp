@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/cli/plugin_option.h"
 #include "bench/cli/program.h"
 #include "bench/scenes/scenes.h"
 #include "bench/support/standard_output.h"
@@ -57,6 +58,7 @@ std::string list(const contestants::Roster& roster) {
 
 void add_list(CLI::App& program, ProgramContext& context) {
   CLI::App* command = program.add_subcommand("list", "what can be chosen: contestants, scenes, trajectories");
+  add_plugins(*command, context, nullptr);
   command->footer("Example: touchmark list\n");
   command->final_callback([&context] { support::StandardOutput().write(list(context.roster)); });
 }

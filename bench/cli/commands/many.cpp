@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/cli/plugin_option.h"
 #include "bench/cli/program.h"
 #include "bench/experiments/many/many_run.h"
 #include "bench/experiments/papers/paper_options.h"
@@ -163,6 +164,7 @@ void add_many(CLI::App& program, ProgramContext& context) {
                  "a contestant that answers nearest (touchmark list); repeatable; default: our fast ones, "
                  "aabb-tree and embree",
                  "D");
+  add_plugins(*command, context, &options->detectors);
   add_repeatable(*command, "--kind", options->kinds,
                  "coherent, incoherent, pointshell or pointshell-close; repeatable; default: all", "KIND");
   add_repeatable(*command, "--order", options->orders,

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "bench/batch/manifest.h"
+#include "bench/cli/plugin_option.h"
 #include "bench/cli/program.h"
 #include "bench/cli/selector_options.h"
 #include "bench/results/build_info.h"
@@ -24,7 +25,7 @@ namespace touchmark::bench::cli {
 namespace {
 
 struct PlanOptions {
-  std::vector<std::string> meshes, trajectories, detectors, queries, radii, reaches, seeds;
+  std::vector<std::string> meshes, trajectories, detectors, plugins, queries, radii, reaches, seeds;
   std::string steps, effort = "full", out;
   bool normalize = false;
   contestants::MotionSelectors motion;
@@ -56,6 +57,7 @@ class Planner {
     batch::effort_named(options.effort);
     manifest_.version = results::build_info().version;
     manifest_.effort = options.effort;
+    for (const std::string& file : options.plugins) manifest_.plugins.push_back(batch::plugin_of(file));
   }
 
   batch::Manifest plan() {
@@ -127,7 +129,8 @@ void Planner::plan_traces(const std::string& mesh, const TriangleMesh& loaded,
 void Planner::add_scene(batch::SweepScene scene,
                         const std::vector<contestants::ContestantSpec>& contestants) {
   for (const contestants::ContestantSpec& contestant : contestants) {
-    const std::string id = batch::job_id(scene, contestant.text(), manifest_.effort, manifest_.version);
+    const std::string id =
+        batch::job_id(scene, batch::identity_of(contestant), manifest_.effort, manifest_.version);
     if (ids_.insert(id).second) scene.jobs.push_back({id, contestant.text()});
   }
   if (!scene.jobs.empty()) manifest_.scenes.push_back(std::move(scene));
@@ -165,6 +168,7 @@ void add_plan(CLI::App& program, ProgramContext& context) {
   many("--mesh", options->meshes, "a scene (touchmark list) or a mesh file", "MESH");
   many("--trajectory", options->trajectories, "a name (touchmark list) or a motion file, CSV", "T");
   many("--detector", options->detectors, "a contestant (touchmark list); default: those of bench", "D");
+  add_plugins(*command, context, &options->detectors);
   many("--query", options->queries, "touches, nearest, sweep or all; default: nearest", "QUERY");
   many("--radius", options->radii, "the probe's; default: 0.5%", "LENGTH");
   many("--reach", options->reaches, "how far nearest looks; default: the radius", "LENGTH");
@@ -184,7 +188,10 @@ void add_plan(CLI::App& program, ProgramContext& context) {
       "sweep.json\n"
       "         touchmark run --manifest sweep.json --shard 1/1 --out jobs && touchmark merge jobs --out "
       "results.csv\n");
-  command->final_callback([options, &context] { run(context.roster, *options); });
+  command->final_callback([options, command, &context] {
+    options->plugins = plugins_given(*command);
+    run(context.roster, *options);
+  });
 }
 
 }  // namespace touchmark::bench::cli

@@ -144,7 +144,7 @@ void add_query(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<QueryOptions>();
   CLI::App* command =
       program.add_subcommand("query", "one contestant's answer to every step of a trajectory, as CSV");
-  add_selectors(*command, options->selectors);
+  add_selectors(*command, context, options->selectors);
   command->add_option("--csv", options->csv, "where the rows go instead of standard output")
       ->type_name("FILE");
   CLI::Option* step = command->add_option(

@@ -11,6 +11,7 @@
 
 #include "bench/batch/job_file.h"
 #include "bench/batch/manifest.h"
+#include "bench/cli/plugin_option.h"
 #include "bench/cli/program.h"
 #include "bench/cli/worker_options.h"
 #include "bench/measurement/comparison.h"
@@ -51,7 +52,7 @@ Shard checked_shard(const std::string& text) {
 
 class SweepRun {
  public:
-  SweepRun(const ProgramContext& context, const RunOptions& options)
+  SweepRun(ProgramContext& context, const RunOptions& options)
       : context_(context),
         options_(options),
         manifest_(batch::Manifest::read(options.manifest)),
@@ -63,11 +64,13 @@ class SweepRun {
                                               options.manifest, manifest_.version,
                                               results::build_info().version));
     }
+    load_planned_plugins(context);
   }
 
   int run();
 
  private:
+  void load_planned_plugins(ProgramContext& context) const;
   void run_scene(const batch::SweepScene& scene);
   std::vector<contestants::ContestantSpec> missing_of(const batch::SweepScene& scene) const;
   workload::Workload planned_workload(const batch::SweepScene& scene) const;
@@ -83,11 +86,24 @@ class SweepRun {
   std::size_t skipped_ = 0, done_ = 0;
 };
 
+void expect_planned(const std::string& what, const std::string& name, std::uint64_t then, std::uint64_t now) {
+  if (then == now) return;
+  throw std::invalid_argument(fmt::format(
+      "{} \"{}\" is not the one that was planned: fnv1a {:016x}, not {:016x}", what, name, now, then));
+}
+
+void SweepRun::load_planned_plugins(ProgramContext& context) const {
+  for (const batch::SweepPlugin& plugin : manifest_.plugins) {
+    expect_planned("plug-in", plugin.file, plugin.hash, batch::plugin_of(plugin.file).hash);
+    load_plugins(context, {plugin.file});
+  }
+}
+
 std::vector<contestants::ContestantSpec> SweepRun::missing_of(const batch::SweepScene& scene) const {
   std::vector<contestants::ContestantSpec> missing;
   for (const batch::SweepJob& job : scene.jobs) {
     contestants::ContestantSpec spec = context_.roster.parse(job.detector);
-    if (batch::job_id(scene, spec.text(), manifest_.effort, manifest_.version) != job.id) {
+    if (batch::job_id(scene, batch::identity_of(spec), manifest_.effort, manifest_.version) != job.id) {
       throw std::invalid_argument(
           fmt::format("{}: job {} does not have the id of what it describes", options_.manifest, job.id));
     }
@@ -98,13 +114,9 @@ std::vector<contestants::ContestantSpec> SweepRun::missing_of(const batch::Sweep
 
 workload::Workload SweepRun::planned_workload(const batch::SweepScene& scene) const {
   workload::Workload workload = batch::workload_of(scene, context_.roster);
-  const auto expect = [&](const char* what, const std::string& name, std::uint64_t then, std::uint64_t now) {
-    if (then == now) return;
-    throw std::invalid_argument(fmt::format(
-        "{} \"{}\" is not the one that was planned: fnv1a {:016x}, not {:016x}", what, name, now, then));
-  };
-  expect("mesh", scene.mesh, scene.mesh_hash, workload::hash_of(workload.mesh));
-  expect("trajectory", scene.trajectory, scene.trace_hash, workload::hash_of(workload.traces.front()));
+  expect_planned("mesh", scene.mesh, scene.mesh_hash, workload::hash_of(workload.mesh));
+  expect_planned("trajectory", scene.trajectory, scene.trace_hash,
+                 workload::hash_of(workload.traces.front()));
   return workload;
 }
 
@@ -143,7 +155,8 @@ void SweepRun::run_scene(const batch::SweepScene& scene) {
   description.steadiness = comparison.steadiness();
   const auto run = nlohmann::json::parse(results::run_json(description, workload, comparison.contestants()));
   for (const measurement::ResultRow& row : rows) {
-    const std::string id = batch::job_id(scene, row.contestant(), manifest_.effort, manifest_.version);
+    const std::string id = batch::job_id(scene, batch::identity_of(context_.roster.parse(row.contestant())),
+                                         manifest_.effort, manifest_.version);
     const batch::JobResult job{id, results::machine_fingerprint(), run,
                                results::fields_of(results::results_columns(), row, description.run_id)};
     folder_.write_file(batch::job_path("", id), job.json());

@@ -172,7 +172,7 @@ std::vector<measurement::ResultRow> ScaleRun::run_trace(measurement::Comparison&
   std::vector<measurement::ResultRow> rows = comparison.run(trace, description_.query);
   progress_.clear();
   out_.write(fmt::format("\n{}, {} ({})\n{}{}", workload.mesh_name, workload.trajectories[trace],
-                         workload::trace_text(workload, trace), results::timing_table(rows),
+                         workload::trace_text(workload, trace), results::timing_table(rows).text(),
                          results::verdict(rows, comparison.steadiness().back())));
   out_.finish();
   return rows;
@@ -230,7 +230,7 @@ int ScaleRun::run() {
 void add_scale(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<ScaleOptions>();
   CLI::App* command = program.add_subcommand("scale", "how build, memory and query time grow with the mesh");
-  add_selectors(*command, options->selectors);
+  add_selectors(*command, context, options->selectors);
   command->get_option("--mesh")->take_all()->description(
       "noisy-sphere (the default) or soup in each of the sizes, dragon in its resolutions, or a "
       "mesh as it is; repeatable");

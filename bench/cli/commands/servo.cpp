@@ -245,7 +245,7 @@ void add_servo(CLI::App& program, ProgramContext& context) {
   options->selectors.detectors = {"sphere-cluster"};
   CLI::App* command =
       program.add_subcommand("servo", "a paced loop as a device runs it: does a detector hold the rate?");
-  add_selectors(*command, options->selectors);
+  add_selectors(*command, context, options->selectors);
   command->get_option("--detector")->capture_default_str();
   command->get_option("--rate")
       ->description("of the loop; motion goes by time, so motion files with times are resampled to it")

@@ -11,7 +11,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/cli/plugin_option.h"
 #include "bench/cli/program.h"
+#include "bench/cli/report_files.h"
 #include "bench/cli/single_step.h"
 #include "bench/cli/worker_options.h"
 #include "bench/contestants/selectors.h"
@@ -44,6 +46,7 @@ struct StressOptions {
   std::vector<std::string> families;
   std::string probes = "1000";
   std::string out, repeat;
+  ReportSelectors reports;
   WorkerSelectors workers;
 };
 
@@ -86,7 +89,9 @@ class StressCommand {
  public:
   StressCommand(const ProgramContext& context, const StressOptions& options)
       : run_(context.roster, request_of(options, context.roster)),
-        description_(results::begun_run(context.argc, context.argv)) {
+        description_(results::begun_run(context.argc, context.argv)),
+        junit_(options.reports.junit),
+        markdown_(options.reports.markdown) {
     if (!options.out.empty()) folder_.emplace(options.out);
     description_.flushed_to_zero = support::restore_denormals();
     description_.seed = run_.request().seed;
@@ -100,14 +105,21 @@ class StressCommand {
   stress::StressRun run_;
   std::optional<results::ResultsFolder> folder_;
   results::RunDescription description_;
+  ReportFile junit_, markdown_;
   support::ProgressLine progress_;
 };
 
 void StressCommand::report(bool finished) {
   progress_.clear();
   const std::string faults = results::list_of_failures(run_.faults(), faults_shown);
-  support::StandardOutput().write(stress::stress_table(run_.scores()) +
-                                  (faults.empty() ? "" : "\n" + faults));
+  const support::Table table = stress::stress_table(run_.scores());
+  const std::string legend = stress::stress_legend(run_.scores());
+  support::StandardOutput().write(table.text() + legend + (faults.empty() ? "" : "\n" + faults));
+  if (finished && junit_.wanted())
+    junit_.write(results::junit_xml("touchmark stress", stress::cases_of(run_.scores())));
+  if (markdown_.wanted())
+    markdown_.write(fmt::format("## touchmark stress{}\n\n{}{}{}", finished ? "" : " (interrupted)",
+                                table.markdown(), code_block(legend), code_block(faults)));
   if (!folder_) return;
   description_.finished = finished;
   folder_->write_file("stress.csv", stress::stress_csv(description_.run_id, run_.scores()));
@@ -182,6 +194,7 @@ void add_stress(CLI::App& program, ProgramContext& context) {
       "--detector", options->selectors.detectors,
       "a contestant (touchmark list) as NAME[:key=value,...]; repeatable; default: those that verify asks",
       "D");
+  add_plugins(*command, context, &options->selectors.detectors);
   repeatable("--family", options->families, "one of those below; repeatable; default: all", "F");
   command->add_flag("--sweep", options->sweep_too,
                     "ask also for the first touch from each probe to the next, besides touches and nearest");
@@ -197,6 +210,8 @@ void add_stress(CLI::App& program, ProgramContext& context) {
       ->add_option("--repeat", options->repeat,
                    "instead: the one answer that was told as wrong, as a row of touchmark query")
       ->type_name("QUERY/MESH/COURSE/STEP");
+  add_junit(*command, options->reports);
+  add_markdown(*command, options->reports);
   add_worker_selectors(*command, options->workers);
   command->footer(list_of_families() +
                   "Exit status 1 if a contestant that claims exactness is wrong, crashes or does not come "

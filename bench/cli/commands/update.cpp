@@ -131,7 +131,7 @@ void add_update(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<UpdateOptions>();
   CLI::App* command = program.add_subcommand(
       "update", "what it costs that the mesh changes its shape, against building anew");
-  add_selectors(*command, options->selectors);
+  add_selectors(*command, context, options->selectors);
   command
       ->add_option("--shares", options->shares,
                    "of the vertices that move: a dent for less than 100%, a wave through all for 100%")

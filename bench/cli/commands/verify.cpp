@@ -11,9 +11,11 @@
 
 #include "bench/cli/program.h"
 #include "bench/cli/repeat_command.h"
+#include "bench/cli/report_files.h"
 #include "bench/cli/selector_options.h"
 #include "bench/cli/worker_options.h"
 #include "bench/measurement/comparison.h"
+#include "bench/results/junit.h"
 #include "bench/results/results_csv.h"
 #include "bench/results/results_folder.h"
 #include "bench/results/run_json.h"
@@ -36,6 +38,7 @@ constexpr std::size_t failures_shown = 40;
 struct VerifyOptions {
   contestants::Selectors selectors;
   std::string out;
+  ReportSelectors reports;
   WorkerSelectors workers;
 };
 
@@ -65,7 +68,9 @@ class VerifyRun {
       : roster_(roster),
         options_(options),
         selection_(contestants::check(options.selectors, roster, contestants::Variety::many)),
-        workers_(worker_options(options.workers)) {
+        workers_(worker_options(options.workers)),
+        junit_(options.reports.junit),
+        markdown_(options.reports.markdown) {
     workers_.calibrate_clock = false;
     if (!options.out.empty()) folder_.emplace(options.out);
   }
@@ -80,6 +85,7 @@ class VerifyRun {
   VerifyOptions options_;
   contestants::CheckedSelectors selection_;
   workers::WorkerOptions workers_;
+  ReportFile junit_, markdown_;
   std::optional<results::ResultsFolder> folder_;
   support::ProgressLine progress_;
   std::vector<measurement::ResultRow> rows_;
@@ -113,8 +119,14 @@ void VerifyRun::verify_mesh(const std::string& mesh) {
 int VerifyRun::report(bool finished) {
   progress_.clear();
   const std::string failures = results::list_of_failures(rows_, failures_shown);
-  support::StandardOutput().write(results::verification_table(rows_) +
-                                  (failures.empty() ? "" : "\n" + failures));
+  const support::Table table = results::verification_table(rows_);
+  const std::string judged = results::judged_answers(rows_);
+  support::StandardOutput().write(table.text() + judged + (failures.empty() ? "" : "\n" + failures));
+  if (finished && junit_.wanted())
+    junit_.write(results::junit_xml("touchmark verify", results::cases_of(rows_)));
+  if (markdown_.wanted())
+    markdown_.write(fmt::format("## touchmark verify{}\n\n{}\n{}{}", finished ? "" : " (interrupted)",
+                                table.markdown(), judged, code_block(failures)));
   if (folder_) folder_->write(results::results_csv(results::new_run_id(results::system_info()), rows_));
   if (!finished) {
     fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", rows_.size());
@@ -140,8 +152,10 @@ void add_verify(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<VerifyOptions>();
   options->selectors.query = "all";
   CLI::App* command = program.add_subcommand("verify", "check contestants' answers against the exact oracle");
-  add_selectors(*command, options->selectors, contestants::Variety::many);
+  add_selectors(*command, context, options->selectors, contestants::Variety::many);
   command->add_option("--out", options->out, "folder for results.csv")->type_name("DIR");
+  add_junit(*command, options->reports);
+  add_markdown(*command, options->reports);
   add_worker_selectors(*command, options->workers);
   command->footer(
       "Without --mesh: every scene that needs no file, also at an offset of 1e6 and scaled by 1e-6 and 1e6.\n"

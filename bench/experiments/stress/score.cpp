@@ -49,6 +49,7 @@ bool Score::is_of(const measurement::ResultRow& row, const Family& of) const {
 void Score::add(const measurement::ResultRow& row, bool of_another_mesh) {
   meshes += of_another_mesh ? 1 : 0;
   Summary::add(row);
+  busy_s += row.busy_s;
   if (row.counts && row.throughput) {
     ns_ += row.throughput->ns_per_query * static_cast<double>(row.counts->judged);
     timed_ += row.counts->judged;

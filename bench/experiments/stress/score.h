@@ -40,6 +40,7 @@ class Score : public results::Summary {
   const Family* family;
   workload::Query query;
   std::uint64_t meshes = 0;
+  double busy_s = 0;  ///< that its workers were waited for
 
  private:
   double ns_ = 0;

@@ -9,7 +9,6 @@
 #include "bench/results/run_circumstances.h"
 #include "bench/results/verification_report.h"
 #include "bench/support/grouping.h"
-#include "bench/support/table.h"
 #include "bench/workload/query_name.h"
 
 namespace touchmark::bench::experiments::stress {
@@ -60,7 +59,7 @@ std::string sums(const std::vector<Score>& scores) {
 
 }  // namespace
 
-std::string stress_table(const std::vector<Score>& scores) {
+support::Table stress_table(const std::vector<Score>& scores) {
   const auto shown = support::grouped_by(scores, [](const Score& score) { return score.family; });
   std::vector<std::string> header{"contestant"};
   for (std::size_t column = 0; column < shown.size(); ++column) header.push_back(letter(column));
@@ -85,7 +84,12 @@ std::string stress_table(const std::vector<Score>& scores) {
     line.emplace_back(results::verdict_on(broken, judged));
     table.add(line);
   }
-  std::string text = table.text() + '\n';
+  return table;
+}
+
+std::string stress_legend(const std::vector<Score>& scores) {
+  const auto shown = support::grouped_by(scores, [](const Score& score) { return score.family; });
+  std::string text = "\n";
   for (std::size_t column = 0; column < shown.size(); ++column)
     text +=
         fmt::format("{}  {}: {}\n", letter(column), shown[column].first->name, shown[column].first->meaning);
@@ -95,6 +99,25 @@ std::string stress_table(const std::vector<Score>& scores) {
       fmt::format("{:g}", oracle::physical_tolerance) +
       " of the diagonal, . none, R refused, - unsupported, C crashed, T timeout\n";
   return text + sums(scores);
+}
+
+std::vector<results::TestCase> cases_of(const std::vector<Score>& scores) {
+  std::vector<results::TestCase> cases;
+  for (const Score& score : scores) {
+    results::TestCase& one = cases.emplace_back();
+    one.group = score.contestant;
+    one.name = fmt::format("{}/{}", score.family->name, workload::name_of(score.query));
+    one.seconds = score.busy_s;
+    if (score.broken) {
+      one.outcome = results::Outcome::failed;
+      one.message = fmt::format("{}: of {} answers {}", name_of(score.standing()), score.counts.judged,
+                                ground_truth::charges_of(score.counts));
+    } else if (score.counts.judged == 0) {
+      one.outcome = results::Outcome::skipped;
+      one.message = name_of(score.standing());
+    }
+  }
+  return cases;
 }
 
 std::string stress_json(const results::RunDescription& description, const StressRun& run) {

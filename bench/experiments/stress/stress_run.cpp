@@ -9,7 +9,6 @@
 #include "bench/measurement/comparison.h"
 #include "bench/results/verification_report.h"
 #include "bench/support/failures.h"
-#include "bench/support/shell_word.h"
 #include "bench/workload/query_name.h"
 
 namespace touchmark::bench::experiments::stress {
@@ -28,9 +27,9 @@ std::string repeat_command(const Family& family, std::uint64_t seed, std::size_t
                            std::size_t workload_index, const workload::Workload& workload,
                            const measurement::ResultRow& row) {
   const auto trace = std::find(workload.trajectories.begin(), workload.trajectories.end(), row.trajectory);
-  return fmt::format("touchmark stress --family {} --seed {} --probes {} --detector {} --repeat {}/{}/{}/",
-                     family.name, seed, probes, support::quoted(row.contestant()), name_of(row.query),
-                     workload_index, trace - workload.trajectories.begin());
+  return fmt::format("touchmark stress --family {} --seed {} --probes {} {} --repeat {}/{}/{}/", family.name,
+                     seed, probes, row.as_typed(), name_of(row.query), workload_index,
+                     trace - workload.trajectories.begin());
 }
 
 }  // namespace

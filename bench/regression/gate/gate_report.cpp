@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "bench/results/column.h"
-#include "bench/support/table.h"
 
 namespace touchmark::bench::regression::gate {
 namespace {
@@ -32,11 +31,27 @@ std::vector<std::string> cells_of(const GateLine& line) {
 
 }  // namespace
 
-std::string gate_table(const std::vector<GateLine>& lines) {
+support::Table gate_table(const std::vector<GateLine>& lines) {
   support::Table table({"trajectory", "detector", "baseline", "ratio", "interval", "change", "control",
                         "batches", "answers", "verdict"});
   for (const GateLine& line : lines) table.add(cells_of(line));
-  return table.text();
+  return table;
+}
+
+std::vector<results::TestCase> cases_of(const std::vector<GateLine>& lines) {
+  std::vector<results::TestCase> cases;
+  for (const GateLine& line : lines) {
+    results::TestCase& one = cases.emplace_back();
+    one.group = line.key.detector;
+    one.name = fmt::format("{}/{}/{}", line.key.mesh, line.key.trajectory, line.key.query);
+    one.seconds = line.seconds;
+    if (line.failed) one.outcome = results::Outcome::failed;
+    if (line.verdict == name_of(Verdict::inconclusive)) one.outcome = results::Outcome::skipped;
+    if (one.outcome != results::Outcome::passed)
+      one.message = fmt::format("{}, {} against {}; answers: {}", line.verdict, change_in(line),
+                                line.key.reference, line.answers);
+  }
+  return cases;
 }
 
 std::string gate_csv(const std::vector<GateLine>& lines, double tolerance) {

@@ -1,0 +1,56 @@
+#include "bench/cli/commands/gate_options.h"
+
+#include <optional>
+#include <stdexcept>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "bench/cli/program.h"
+#include "bench/cli/selector_options.h"
+#include "bench/support/length.h"
+
+namespace touchmark::bench::cli {
+namespace {
+
+constexpr const char* gate_footer =
+    R"(Exit status 0: no slower than the baseline, or by less than the tolerance. 1: slower, and a second batch
+agrees; or other answers or more work than in the baseline; or wrong answers. 4: inconclusive, since the
+reference, measured twice in every round, did not measure equal to itself.
+Example: touchmark gate --mesh part.stl --trajectory hand.csv --detector grid-group --baseline gate.csv --write-baseline
+         touchmark gate --mesh part.stl --trajectory hand.csv --detector grid-group --baseline gate.csv
+)";
+
+}  // namespace
+
+double checked_tolerance(const std::string& text) {
+  const std::optional<support::Length> tolerance = support::parse_length(text);
+  const double value = tolerance ? (tolerance->percent ? tolerance->value / 100 : tolerance->value) : 0;
+  if (!(value > 0 && value < 1))
+    throw std::invalid_argument(fmt::format("--tolerance \"{}\" is not above 0 and below 100%, as 7%", text));
+  return value;
+}
+
+void add_gate_options(CLI::App& command, ProgramContext& context, GateOptions& options) {
+  add_selectors(command, context, options.selectors);
+  command.add_option("--reference", options.reference, "the contestant whose time is the unit")
+      ->type_name("D")
+      ->capture_default_str();
+  command.add_option("--baseline", options.baseline, "CSV file of ratios; it may come from another machine")
+      ->type_name("FILE")
+      ->required();
+  command.add_flag("--write-baseline", options.write_baseline, "measure, and write the rows of --baseline");
+  command.add_option("--tolerance", options.tolerance, "how much slower is not a fault")
+      ->type_name("PERCENT")
+      ->capture_default_str();
+  command.add_option("--rounds", options.rounds, "turns of each contestant in a batch")
+      ->type_name("N")
+      ->capture_default_str();
+  command.add_option("--report", options.report, "CSV file of what was found")->type_name("FILE");
+  add_junit(command, options.reports);
+  add_markdown(command, options.reports);
+  add_worker_selectors(command, options.workers);
+  command.footer(gate_footer);
+}
+
+}  // namespace touchmark::bench::cli
