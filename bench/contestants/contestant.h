@@ -65,6 +65,12 @@ class Contestant {
   /// The answer to each step of the range and the total work it took; both spans have the range's size.
   virtual void answer(const workload::QueryTrace& trace, workload::StepRange range,
                       std::span<workload::Answer> answers, std::span<std::uint64_t> work) noexcept = 0;
+  // One question at a time, for a loop that goes on from the answer. Nothing where it does not answer that.
+  virtual bool touches(const Probe& probe) noexcept = 0;
+  virtual std::optional<Impact> first_hit(const Sweep& sweep) noexcept = 0;
+  virtual std::size_t contacts(const Probe& probe, double reach, std::span<Contact> into) noexcept = 0;
+  /// Returns true if it answers all three of these, so that a proxy can run on it.
+  virtual bool guides_proxy() const noexcept = 0;
   /// Returns true if it can follow a mesh whose vertices move. Only then may it be asked to; the session
   /// stays.
   virtual bool updates() const noexcept { return false; }
@@ -126,6 +132,22 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
     return false;
   }
   void forget() override { session_.emplace(); }
+  bool touches([[maybe_unused]] const Probe& probe) noexcept override {
+    if constexpr (AnswersTouches<D>) return detector_->touches(probe, *session_);
+    return false;
+  }
+  std::optional<Impact> first_hit([[maybe_unused]] const Sweep& sweep) noexcept override {
+    if constexpr (AnswersSweep<D>) return detector_->first_hit(sweep, *session_);
+    return std::nullopt;
+  }
+  std::size_t contacts([[maybe_unused]] const Probe& probe, [[maybe_unused]] double reach,
+                       [[maybe_unused]] std::span<Contact> into) noexcept override {
+    if constexpr (AnswersContacts<D>) return detector_->contacts(probe, reach, *session_, into);
+    return 0;
+  }
+  bool guides_proxy() const noexcept override {
+    return AnswersTouches<D> && AnswersSweep<D> && AnswersContacts<D>;
+  }
   bool updates() const noexcept override { return Updates<D>; }
   void update([[maybe_unused]] const TriangleMesh& mesh) override {
     if constexpr (Updates<D>) detector_->update(mesh);
