@@ -1,7 +1,8 @@
 #include "core/haptics/contact_planes.h"
 
 #include <algorithm>
-#include <cmath>
+#include <initializer_list>
+#include <limits>
 #include <optional>
 
 namespace touchmark {
@@ -46,17 +47,23 @@ void ContactPlanes::meet(const ContactPlane& plane, double lift) noexcept {
 bool ContactPlanes::try_set(std::span<const std::uint8_t> chosen, std::span<const double> lack, double slack,
                             Vec3& offset) const noexcept {
   std::array<Vec3, max_active> normals;
-  Vec3 lacks = Vec3::Zero();
-  for (std::size_t i = 0; i < chosen.size(); ++i) {
-    normals[i] = planes_[chosen[i]].normal;
-    lacks[static_cast<int>(i)] = lack[chosen[i]];
+  for (std::size_t i = 0; i < chosen.size(); ++i) normals[i] = planes_[chosen[i]].normal;
+  Vec3 push = Vec3::Zero(), tried = Vec3::Zero();
+  // The second pass solves for what the first has left by rounding.
+  for (int pass = 0; pass < 2; ++pass) {
+    Vec3 left = Vec3::Zero();
+    for (std::size_t i = 0; i < chosen.size(); ++i)
+      left[static_cast<int>(i)] = lack[chosen[i]] - normals[i].dot(tried);
+    const std::optional<Vec3> more = multipliers(std::span(normals).first(chosen.size()), left);
+    if (!more) return false;
+    push += *more;
+    for (std::size_t i = 0; i < chosen.size(); ++i) tried += (*more)[static_cast<int>(i)] * normals[i];
   }
-  const std::optional<Vec3> push = multipliers(std::span(normals).first(chosen.size()), lacks);
-  if (!push || push->minCoeff() < 0) return false;
-  Vec3 tried = Vec3::Zero();
-  for (std::size_t i = 0; i < chosen.size(); ++i) tried += (*push)[static_cast<int>(i)] * normals[i];
+  if (push.minCoeff() < 0) return false;
+  // Planes that face one another push hard, and what is left of that is as rounded as they are hard.
+  const double enough = slack + 8 * std::numeric_limits<double>::epsilon() * push.sum();
   for (std::size_t i = 0; i < count_; ++i)
-    if (planes_[i].normal.dot(tried) < lack[i] - slack) return false;
+    if (planes_[i].normal.dot(tried) < lack[i] - enough) return false;
   offset = tried;
   return true;
 }

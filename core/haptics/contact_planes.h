@@ -12,8 +12,8 @@
 
 namespace touchmark {
 
-/// Of a contact: no point of the surface near `anchor` is meant to come nearer to the proxy than a distance
-/// along the normal.
+/// A contact's plane: no point of the surface near `anchor` is meant to come nearer to the proxy than a
+/// distance along the normal.
 struct ContactPlane {
   Vec3 normal = Vec3::Zero();  ///< unit, out of the surface
   Vec3 anchor = Vec3::Zero();  ///< on the surface

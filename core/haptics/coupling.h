@@ -18,10 +18,10 @@ struct Coupling {
   bool has_friction() const noexcept { return static_friction > 0 || dynamic_friction > 0; }
 };
 
-/// Where friction lets the proxy come to on its way to `target`, the optimum without it: a cone about the
-/// spring (W. Harwin and N. Melder, "Improved haptic rendering for multi-finger manipulation using friction
-/// cone based god-objects", Eurohaptics 2002). It sticks at `from` while the way is within the static
-/// coefficient times the depth of the goal, and else stops short of the target by the dynamic one.
+/// Returns where friction lets the proxy come to on its way to `target`, the optimum without it: a cone about
+/// the spring (W. Harwin and N. Melder, "Improved haptic rendering for multi-finger manipulation using
+/// friction cone based god-objects", Eurohaptics 2002). It sticks at `from` while the way is within the
+/// static coefficient times the depth of the goal, and else stops short of the target by the dynamic one.
 Vec3 held_by_friction(const Vec3& from, const Vec3& target, const Vec3& goal,
                       const Coupling& coupling) noexcept;
 

@@ -143,7 +143,7 @@ Vec3 ProxyMotion::met_normal(const Impact& impact, const Vec3& target) const noe
   return face->dot(target - position()) > 0 ? Vec3(-*face) : *face;
 }
 
-/// Where it has moved, the plane may be among those around already.
+/// The plane may be among those around already, if it has moved.
 void ProxyMotion::meet(const Impact& impact, const Vec3& target) noexcept {
   const ContactPlane plane{met_normal(impact, target), impact.contact.point};
   planes_.meet(plane, has_moved_ ? 0 : skin_);

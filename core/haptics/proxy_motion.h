@@ -77,7 +77,7 @@ class ProxyMotion {
   const ProxyState& end() noexcept;
 
   static constexpr int max_retreats = 3;
-  static constexpr std::size_t max_contacts = 16;  ///< of those around, the nearest
+  static constexpr std::size_t max_contacts = 16;  ///< the nearest of those around
 
  private:
   bool is_surely_blocked() const noexcept;

@@ -1,5 +1,5 @@
-// The proxy's promises, each against the oracle's exact arithmetic or geometry that is known: it never comes as
-// near as its radius, reaches what is free, rests, and pushes back as its coupling says.
+// The proxy's promises, each against the oracle's exact arithmetic or geometry that is known: it never comes
+// as near as its radius, reaches what is free, rests, and pushes back as its coupling says.
 #include "core/haptics/proxy.h"
 
 #include <cmath>
@@ -48,8 +48,7 @@ struct Watched {
     EXPECT_EQ(state.way[state.pieces], state.position) << where;
     for (std::size_t i = 0; i < state.pieces; ++i) {
       EXPECT_NE(state.way[i], state.way[i + 1]) << where;
-      EXPECT_FALSE(oracle.segment_within(state.way[i], state.way[i + 1], radius))
-          << where << ", piece " << i;
+      EXPECT_FALSE(oracle.segment_within(state.way[i], state.way[i + 1], radius)) << where << ", piece " << i;
     }
     if (state.position == goal) {
       EXPECT_EQ(state.contacts, 0u) << where;
