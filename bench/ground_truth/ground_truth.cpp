@@ -64,22 +64,49 @@ std::vector<double> GroundTruths::distances(const std::vector<std::size_t>& step
 
 oracle::ErrorCounts GroundTruths::judge(workload::Query query, const std::vector<workload::StepRange>& ranges,
                                         std::span<const workload::Answer> answers, const Accuracy& accuracy,
-                                        const oracle::Reported& reported, std::vector<WrongAnswer>* wrong) {
+                                        const oracle::Reported& reported, std::vector<WrongAnswer>* wrong,
+                                        std::vector<oracle::Charge>* all_charges) {
   query == workload::Query::sweep ? sweeps_.solve(oracle_, ranges) : probes_.solve(oracle_, ranges);
   oracle::ErrorCounts counts;
   if (wrong != nullptr) wrong->clear();
+  const std::size_t kept =
+      all_charges != nullptr ? std::numeric_limits<std::size_t>::max() : wrong_answers_kept;
   std::size_t done = 0;
   for (const workload::StepRange& range : ranges) {
     support::check_for_interrupt();
-    oracle::Charges charges;
+    oracle::Charges charges(kept);
     counts += judge(query, range, answers.subspan(done, range.size()), accuracy, reported, charges);
     for (const oracle::Charge& one : charges.kept()) {
-      if (wrong == nullptr || wrong->size() == wrong_answers_kept) break;
+      if (all_charges != nullptr) all_charges->push_back({done + one.step, one.counts});
+      if (wrong == nullptr || wrong->size() == wrong_answers_kept) continue;
       wrong->push_back(wrong_answer(query, range.begin + one.step, answers[done + one.step], one.counts));
     }
     done += range.size();
   }
   return counts;
+}
+
+std::vector<StepTruth> GroundTruths::known(workload::Query query) const {
+  const bool sweeps = query == workload::Query::sweep;
+  std::vector<StepTruth> steps(reaches_.size());
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    StepTruth& step = steps[i];
+    if (sweeps) {
+      step.known = i < sweeps_.known.size() && sweeps_.known[i];
+      step.found = step.known && sweeps_.truths[i].hit;
+      continue;
+    }
+    step.known = i < probes_.known.size() && probes_.known[i];
+    if (!step.known) continue;
+    const oracle::GroundTruth& truth = probes_.truths[i];
+    const Probe& probe = probes_.questions[i];
+    step.found =
+        oracle_.within(truth, probe.center, query == workload::Query::touches ? probe.radius : reaches_[i]);
+    step.distance = truth.defined ? truth.high : std::numeric_limits<double>::infinity();
+    step.point = truth.point;
+    if (truth.defined) step.triangle = oracle_.mesh().id(truth.triangle);
+  }
+  return steps;
 }
 
 WrongAnswer GroundTruths::wrong_answer(workload::Query query, std::size_t step, const workload::Answer& got,
@@ -120,7 +147,7 @@ oracle::ErrorCounts GroundTruths::judge(workload::Query query, workload::StepRan
   for (std::size_t begin = range.begin, end = begin; begin < range.end; begin = end) {
     while (end < range.end && reaches_[end] == reaches_[begin]) ++end;
     if (end == begin) ++end;  // a reach that is not a number equals nothing
-    oracle::Charges of_this_reach;
+    oracle::Charges of_this_reach(charges.max());
     counts +=
         oracle::judge(oracle_, std::span(probes_.truths).subspan(begin, end - begin), query,
                       std::span(probes_.questions).subspan(begin, end - begin), reaches_[begin],

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "bench/ground_truth/step_truth.h"
 #include "bench/ground_truth/wrong_answer.h"
 #include "bench/oracle/judge.h"
 #include "bench/oracle/oracle.h"
@@ -20,10 +21,15 @@ class GroundTruths {
   GroundTruths(const oracle::Oracle& oracle, std::span<const workload::Step> steps);
 
   /// `answers` to the query are those of the ranges' steps, one after the other. The first of them that are
-  /// charged become `wrong`, unless that is null. Throws Interrupted on Ctrl-C.
+  /// charged become `wrong`, and all of them `charges`, by their places among the answers, unless these are
+  /// null. Throws Interrupted on Ctrl-C.
   oracle::ErrorCounts judge(workload::Query query, const std::vector<workload::StepRange>& ranges,
                             std::span<const workload::Answer> answers, const Accuracy& accuracy,
-                            const oracle::Reported& reported = {}, std::vector<WrongAnswer>* wrong = nullptr);
+                            const oracle::Reported& reported = {}, std::vector<WrongAnswer>* wrong = nullptr,
+                            std::vector<oracle::Charge>* charges = nullptr);
+
+  /// Returns what is known so far, a step each.
+  std::vector<StepTruth> known(workload::Query query) const;
 
   /// How far these steps, ascending, are from the surface; infinite where a coordinate is not finite.
   std::vector<double> distances(const std::vector<std::size_t>& steps);

@@ -90,6 +90,7 @@ Comparison::Comparison(const contestants::Roster& roster, const workload::Worklo
     processes_.emplace_back(arena_, spec, roster.find(spec.name).worker_program(spec.values));
   }
   rounded_scenes_.resize(processes_.size());
+  truths_.resize(workload.traces.size());
 }
 
 void Comparison::skip(const contestants::ContestantSpec& spec, const std::string& status) {
@@ -153,6 +154,7 @@ void Comparison::begin(std::size_t trace, workload::Query query, ground_truth::G
     begun->whose.push_back(i);
   }
   verify(*begun, truths);
+  if (effort_.max_logged_steps > 0) truths_[trace] = truths.known(query);
   add_control(*begun, truths);
   begun->requests = requests_for(begun->interleaved.size(), effort_, support::Random(seed_ + trace));
   measure(*begun, begun->requests.size() / 2);

@@ -69,6 +69,9 @@ class Comparison {
   /// Returns how steady each trace and query was that was timed, in the order of the runs.
   const std::vector<Steadiness>& steadiness() const noexcept { return steadiness_; }
 
+  /// Returns what is true at each step of a trace that was begun, where the effort asks for logs.
+  const std::vector<ground_truth::StepTruth>& truths(std::size_t trace) const { return truths_[trace]; }
+
   /// Returns what the filter left out: pairs of trajectory and contestant.
   const std::vector<std::pair<std::string, std::string>>& left_out() const noexcept { return left_out_; }
 
@@ -107,6 +110,7 @@ class Comparison {
       rounded_scenes_;  ///< a process each
   std::optional<workers::ContestantProcess> control_;
   std::deque<std::unique_ptr<Begun>> begun_;
+  std::vector<std::vector<ground_truth::StepTruth>> truths_;  ///< one list a trace
   std::vector<Steadiness> steadiness_;
   std::vector<std::pair<std::string, std::string>> left_out_;
   Progress progress_ = [](const std::string&, const std::string&) {};

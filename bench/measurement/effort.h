@@ -15,6 +15,7 @@ struct Effort {
   std::size_t cold_samples = 400;      ///< at most so many with all caches emptied
   std::size_t cold_l2_samples = 2000;  ///< at most so many with the second-level cache emptied
   std::size_t line_samples = 0;        ///< queries whose cache lines are counted; 0: none
+  std::size_t max_logged_steps = 0;    ///< Rows of at most so many steps keep a StepLog; 0: none does.
   std::size_t min_cold_samples = 5;    ///< A pass takes so many of either kind, however long they take.
 };
 

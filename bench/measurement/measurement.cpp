@@ -178,7 +178,12 @@ void Measurement::judge(ground_truth::GroundTruths& truths, ground_truth::Ground
     return;
   }
   row_.decisions_checksum = decisions_checksum_of(task_.query, answers, *row_.accuracy);
-  row_.counts = truths.judge(task_.query, ranges_, answers, *row_.accuracy, {}, &row_.wrong);
+  const bool logged = row_.steps <= effort_.max_logged_steps;
+  std::vector<oracle::Charge> charges;
+  row_.counts = truths.judge(task_.query, ranges_, answers, *row_.accuracy, {}, &row_.wrong,
+                             logged ? &charges : nullptr);
+  if (logged)
+    log_ = std::make_shared<StepLog>(log_of(ranges_, answers, arena_.buffers().work(row_.steps), charges));
   if (rounded != nullptr)
     row_.rounded_scene_counts = rounded->judge(task_.query, ranges_, answers, *row_.accuracy);
 }
@@ -289,7 +294,12 @@ ResultRow Measurement::row() {
                                      repetitions_ns_.size(),
                                      piece_times().estimate(bootstrap_seed),
                                      static_cast<double>(interrupted_) / static_cast<double>(samples)};
-  if (!latencies_ns_.empty()) row_.latency = summarize_latency(median_per_step(latencies_ns_), ranges_);
+  if (!latencies_ns_.empty()) {
+    std::vector<double> steps_ns = median_per_step(latencies_ns_);
+    row_.latency = summarize_latency(steps_ns, ranges_);
+    if (log_ != nullptr) log_->ns = std::move(steps_ns);
+  }
+  row_.log = log_;
   if (!prepared_ns_.empty()) row_.prepare = summarize_latency(median_per_step(prepared_ns_), ranges_);
   if (!cold_ns_.empty()) {
     row_.cold_l2 = summarize_cold(cold_l2_ns_);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -93,6 +94,7 @@ class Measurement {
   std::vector<std::vector<double>> latencies_ns_;
   std::vector<std::vector<double>> prepared_ns_;
   std::vector<double> cold_l2_ns_, cold_ns_, floor_l2_ns_, floor_ns_;
+  std::shared_ptr<StepLog> log_;
   std::vector<workload::Checksum>
       answer_checksums_;  // of the verified answers, where caches are to be emptied
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +14,7 @@
 #include "bench/ground_truth/wrong_answer.h"
 #include "bench/measurement/latency.h"
 #include "bench/measurement/piece_times.h"
+#include "bench/measurement/step_log.h"
 #include "bench/oracle/judge.h"
 #include "bench/workers/cache_lines.h"
 #include "bench/workload/answer.h"
@@ -76,6 +78,7 @@ struct ResultRow {
   std::optional<LatencySummary> prepare;           ///< between steps, where the contestant does that
   std::vector<ground_truth::WrongAnswer> wrong;    ///< the first ones of those that were charged
   std::string repeat;  ///< the command that prints the answer to a step, up to the step's number
+  std::shared_ptr<const StepLog> log;  ///< null where none was asked for
   double clock_cost_ns = 0;
   std::optional<double> build_ms;
   std::optional<double> first_answer_ms;  ///< build and first query

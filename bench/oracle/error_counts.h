@@ -73,6 +73,8 @@ class Charges {
   }
   /// Adds the charges of another list of the same answers, whose steps are counted from `first_step`.
   void merge(const Charges& others, std::size_t first_step = 0);
+  /// Returns how many are kept at most.
+  std::size_t max() const noexcept { return max_; }
   const std::vector<Charge>& kept() const noexcept { return kept_; }
 
  private:

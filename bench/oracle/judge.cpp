@@ -17,7 +17,7 @@ ErrorCounts total(std::size_t size, unsigned threads, Charges* charges, const Ju
   std::mutex mutex;
   in_parallel(size, threads, [&](std::size_t begin, std::size_t end) {
     ErrorCounts piece;
-    Charges of_piece;
+    Charges of_piece(charges != nullptr ? charges->max() : 0);
     for (std::size_t i = begin; i < end; ++i) {
       ErrorCounts one;
       judge_one(i, one);

@@ -32,6 +32,14 @@ void ResultsFolder::write(const std::string& results_csv, const std::string& run
   write_file("run.json", run_json);
 }
 
+void ResultsFolder::remove(const std::filesystem::path& name) const {
+  std::error_code error;
+  std::filesystem::remove(path_ / name, error);
+  if (error)
+    throw support::ResourceError(
+        fmt::format("cannot remove {}: {}", (path_ / name).string(), error.message()));
+}
+
 void ResultsFolder::write_file(const std::filesystem::path& name, const std::string& text) const {
   const std::filesystem::path path = path_ / name;
   std::error_code error;

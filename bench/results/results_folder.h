@@ -17,6 +17,8 @@ class ResultsFolder {
   void write(const std::string& results_csv, const std::string& run_json) const;
   /// Any file, by its path inside the folder; folders on the way are created.
   void write_file(const std::filesystem::path& name, const std::string& text) const;
+  /// Removes a file of an earlier run, where there is one.
+  void remove(const std::filesystem::path& name) const;
 
  private:
   std::filesystem::path path_;

@@ -24,7 +24,7 @@ class Scripts(unittest.TestCase):
     def test_all_show_an_example(self):
         for name in ("setup", "build-program", "bench", "test", "dev", "plot", "papers", "plot-papers",
                      "regress", "gate-trials", "record", "sweep-slurm", "check_layers", "docs",
-                     "check_comments", "check_sizes", "history"):
+                     "check_comments", "check_sizes", "history", "report"):
             done = run(SCRIPTS / name, "--help")
             self.assertEqual(done.returncode, 0, name)
             self.assertRegex(done.stdout, "example: ", name)
@@ -32,7 +32,7 @@ class Scripts(unittest.TestCase):
     def test_refuse_what_they_do_not_know(self):
         for name in ("setup", "build-program", "dev", "plot", "papers", "plot-papers", "regress",
                      "gate-trials", "record", "sweep-slurm", "check_layers", "docs", "check_comments",
-                     "check_sizes", "history"):
+                     "check_sizes", "history", "report"):
             self.assertEqual(run(SCRIPTS / name, "--no-such-thing", "x").returncode, 2, name)
 
     def test_bench_forwards_help_to_the_program(self):
@@ -91,9 +91,9 @@ class Setup(unittest.TestCase):
         self.assertLess({"g++", "libopenmesh-dev", "libgtest-dev", "snakemake", "clang", "valgrind"}, packages)
 
     def test_leaves_alone_what_is_there(self):
-        self.assertNotIn("python3-numpy", self.installed_by("bench", installed="python3*"))
+        self.assertNotIn("python3-numpy", self.installed_by("bench", installed="@(python3*|esbuild|libjs-*)"))
         (self.directory / "asked").unlink()
-        self.assertEqual(self.setup_with("report", installed="python3*").returncode, 0)
+        self.assertEqual(self.setup_with("report", installed="@(python3*|esbuild|libjs-*)").returncode, 0)
         self.assertFalse((self.directory / "asked").exists())
 
     def test_says_beforehand_how_much_there_is_and_then_how_far_it_is(self):
@@ -119,7 +119,7 @@ class Setup(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("dpkg: the disk is full\n", done.stderr)
         log, = self.directory.glob("*.log")
-        self.assertIn(f"could not install: python3 python3-matplotlib python3-numpy python3-munkres; see {log}\n", done.stderr)
+        self.assertIn(f"could not install: python3 python3-matplotlib python3-numpy esbuild libjs-three libjs-dygraphs python3-munkres; see {log}\n", done.stderr)
         self.assertIn("dpkg: the disk is full\n", log.read_text(encoding="utf-8"))
 
     def test_counts_what_an_empty_debian_lacks(self):

@@ -17,12 +17,14 @@
 #include "bench/cli/program.h"
 #include "bench/cli/repeat_command.h"
 #include "bench/cli/selector_options.h"
+#include "bench/cli/step_outputs.h"
 #include "bench/cli/worker_options.h"
 #include "bench/measurement/comparison.h"
 #include "bench/results/report_table.h"
 #include "bench/results/results_csv.h"
 #include "bench/results/results_folder.h"
 #include "bench/results/run_json.h"
+#include "bench/results/steps_file.h"
 #include "bench/results/verification_report.h"
 #include "bench/scenes/scenes.h"
 #include "bench/support/denormals.h"
@@ -40,7 +42,7 @@ const std::vector<std::string> default_trajectories{"slide", "slide:speed=0.4%",
 
 struct BenchOptions {
   contestants::Selectors selectors;
-  std::string out;
+  std::string out, steps_out;
   bool quick = false;
   bool frontier = false;
   bool work = false;
@@ -64,6 +66,8 @@ measurement::Effort effort_for(const BenchOptions& options, const BenchmarkFlags
   }
   if (options.cache_lines)
     effort.line_samples = options.quick ? measurement::quick_line_samples : measurement::usual_line_samples;
+  if (!options.out.empty() || !options.steps_out.empty())
+    effort.max_logged_steps = results::max_steps_in_file;
   if (flags.min_time_s) effort.repetition_ns = *flags.min_time_s * 1e9;
   return effort;
 }
@@ -106,6 +110,7 @@ class BenchRun {
   contestants::Selectors selectors_;
   contestants::CheckedSelectors selection_;
   std::optional<results::ResultsFolder> folder_;
+  std::optional<StepOutputs> step_outputs_;
   results::RunDescription description_;
   workload::Workload workload_;
   std::optional<measurement::Comparison> comparison_;
@@ -113,7 +118,6 @@ class BenchRun {
   support::StandardOutput out_;
   bool shows_work_;
   std::vector<measurement::ResultRow> rows_;
-  std::size_t kept_ = 0;  ///< rows that were last saved
 };
 
 workload::Workload workload_for(const BenchOptions& options, const contestants::CheckedSelectors& selection) {
@@ -134,6 +138,7 @@ BenchRun::BenchRun(const ProgramContext& context, const BenchOptions& options, c
       shows_work_(options.work) {
   if (options.cache_lines) workers::require_line_counting();
   if (!options.out.empty() && !flags.list_tests) folder_.emplace(options.out);
+  if (!flags.list_tests) step_outputs_.emplace(folder_ ? &*folder_ : nullptr, options.steps_out);
   description_.flushed_to_zero = support::restore_denormals();
   description_.query = selection_.queries.front();
   description_.seed = selection_.seed;
@@ -175,7 +180,6 @@ void BenchRun::save_so_far() {
   std::vector<measurement::ResultRow> rows = rows_;
   std::ranges::move(comparison_->so_far(), std::back_inserter(rows_));
   save(false);
-  kept_ = rows_.size();
   rows_ = std::move(rows);
 }
 
@@ -216,11 +220,14 @@ int BenchRun::run() {
     run_trajectories();
   } catch (const support::Interrupted&) {
     progress_.clear();
-    save_so_far();
-    fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", kept_);
+    std::ranges::move(comparison_->so_far(), std::back_inserter(rows_));
+    save(false);
+    step_outputs_->write(description_.run_id, workload_, *comparison_, rows_);
+    fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", rows_.size());
     return support::exit_interrupted;
   }
   save(true);
+  step_outputs_->write(description_.run_id, workload_, *comparison_, rows_);
   std::vector<measurement::ResultRow> broken;  // what others err by is in the table
   std::copy_if(rows_.begin(), rows_.end(), std::back_inserter(broken), results::claim_is_broken);
   const std::string failures = results::list_of_failures(broken, faulty_rows_shown);
@@ -250,7 +257,7 @@ void add_suite(CLI::App& command, BenchOptions& options) {
 void expect_options_of_suite(const CLI::App& command) {
   for (const char* const option :
        {"--trajectory", "--query", "--radius", "--reach", "--unit", "--columns", "--motion-scale", "--rate",
-        "--frontier", "--cold", "--cache-lines", "--work"}) {
+        "--frontier", "--steps-out", "--cold", "--cache-lines", "--work"}) {
     if (command.count(option) > 0)
       throw std::invalid_argument(fmt::format("{} does not go with --suite", option));
   }
@@ -264,7 +271,10 @@ void add_bench(CLI::App& program, ProgramContext& context) {
       program.add_subcommand("bench", "verify and time contestants on identical trajectories");
   add_selectors(*command, options->selectors);
   add_unit(*command, options->selectors.unit);
-  command->add_option("--out", options->out, "folder for results.csv and run.json")->type_name("DIR");
+  command->add_option("--out", options->out, "folder for results.csv, run.json and steps.bin")
+      ->type_name("DIR");
+  command->add_option("--steps-out", options->steps_out, "also each step as CSV: time, answer and work")
+      ->type_name("FILE");
   command
       ->add_flag("--frontier", options->frontier,
                  "every contestant over the options that trade accuracy for time (see the plot time_error)")

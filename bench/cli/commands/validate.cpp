@@ -12,6 +12,7 @@
 
 #include "bench/cli/program.h"
 #include "bench/experiments/choose/choose_check.h"
+#include "bench/experiments/many/many_check.h"
 #include "bench/experiments/proxy/proxy_check.h"
 #include "bench/experiments/servo/servo_check.h"
 #include "bench/experiments/stress/stress_check.h"
@@ -19,11 +20,13 @@
 #include "bench/results/validation/located_json.h"
 #include "bench/results/validation/results_check.h"
 #include "bench/results/validation/run_check.h"
+#include "bench/results/validation/steps_check.h"
 #include "bench/support/standard_output.h"
 
 namespace touchmark::bench::cli {
 
 namespace choose = experiments::choose;
+namespace many = experiments::many;
 namespace proxy = experiments::proxy;
 namespace servo = experiments::servo;
 namespace stress = experiments::stress;
@@ -36,13 +39,16 @@ namespace fs = std::filesystem;
 
 bool is_run_json(const fs::path& path) { return path.extension() == ".json"; }
 
-/// The CSV files and run.json files anywhere below, in the order of their names.
+bool is_steps(const fs::path& path) { return path.extension() == ".bin"; }
+
+/// The CSV files, run.json and steps.bin files anywhere below, in the order of their names.
 std::vector<std::string> files_below(const std::string& folder) {
   std::vector<std::string> files;
   try {
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
       const fs::path& path = entry.path();
-      if (entry.is_regular_file() && (path.extension() == ".csv" || path.filename() == "run.json")) {
+      if (entry.is_regular_file() &&
+          (path.extension() == ".csv" || path.filename() == "run.json" || path.filename() == "steps.bin")) {
         files.push_back(path.string());
       }
     }
@@ -80,6 +86,7 @@ std::string check_json(const std::string& path, validation::Faults& faults) {
 bool is_stress_csv(const fs::path& path) { return path.filename() == "stress.csv"; }
 bool is_servo_csv(const fs::path& path) { return path.filename() == "servo.csv"; }
 bool is_choose_csv(const fs::path& path) { return path.filename() == "choose.csv"; }
+bool is_many_csv(const fs::path& path) { return path.filename() == "many.csv"; }
 bool is_proxy_csv(const fs::path& path) { return path.filename() == "proxy.csv"; }
 bool is_suite_csv(const fs::path& path) { return path.filename() == "suite.csv"; }
 
@@ -126,6 +133,10 @@ std::string check_csv(const std::string& path, validation::Faults& faults) {
     suite::check_suite(table, run_json, faults);
     return fmt::format("suite, {} rows", table.records.size());
   }
+  if (is_many_csv(path)) {
+    many::check_many(table, faults);
+    return fmt::format("many, {} rows", table.records.size());
+  }
   if (is_proxy_csv(path)) {
     proxy::check_proxy(table, run_json, faults);
     return fmt::format("proxy, {} rows", table.records.size());
@@ -137,13 +148,27 @@ std::string check_csv(const std::string& path, validation::Faults& faults) {
                      table.records.size());
 }
 
+std::string check_binary(const std::string& path, validation::Faults& faults) {
+  const fs::path beside = fs::path(path).parent_path() / "results.csv";
+  validation::Faults reported_elsewhere;
+  std::optional<validation::CsvTable> results;
+  if (fs::exists(beside)) results = validation::read_csv_table(beside.string(), reported_elsewhere);
+  return validation::check_steps(path, results ? &*results : nullptr, faults);
+}
+
+std::string check_file(const std::string& path, validation::Faults& faults) {
+  if (is_run_json(path)) return check_json(path, faults);
+  if (is_steps(path)) return check_binary(path, faults);
+  return check_csv(path, faults);
+}
+
 int validate(const std::vector<std::string>& paths) {
   support::StandardOutput out;
   std::size_t total = 0;
   const std::vector<std::string> files = files_of(paths);
   for (const std::string& path : files) {
     validation::Faults faults;
-    const std::string kind = is_run_json(path) ? check_json(path, faults) : check_csv(path, faults);
+    const std::string kind = check_file(path, faults);
     for (const validation::Fault& fault : faults) out.write(validation::line_of(fault) + "\n");
     if (faults.empty()) out.write(fmt::format("{}: fine ({})\n", path, kind));
     total += faults.size();
@@ -157,13 +182,13 @@ int validate(const std::vector<std::string>& paths) {
 
 void add_validate(CLI::App& program, ProgramContext& context) {
   const auto paths = std::make_shared<std::vector<std::string>>();
-  CLI::App* command = program.add_subcommand("validate", "check recorded results: CSV files and run.json");
+  CLI::App* command =
+      program.add_subcommand("validate", "check recorded results: CSV files, run.json and steps.bin");
   command
-      ->add_option("path", *paths,
-                   "results.csv, stress.csv, servo.csv, choose.csv, suite.csv, proxy.csv, run.json, or "
-                   "folders that hold some; "
-                   "other CSV files are "
-                   "checked for their form")
+      ->add_option(
+          "path", *paths,
+          "results.csv, stress.csv, servo.csv, choose.csv, suite.csv, proxy.csv, many.csv, "
+          "run.json, steps.bin, or folders that hold some; other CSV files are checked for their form")
       ->type_name("FILE|DIR")
       ->required();
   command->footer(

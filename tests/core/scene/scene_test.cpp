@@ -1,6 +1,9 @@
 #include "core/scene/scene.h"
 
-#include <memory>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -11,6 +14,7 @@ namespace touchmark {
 namespace {
 
 static_assert(Detector<Scene<BruteForce>> && AnswersTouches<Scene<BruteForce>>);
+static_assert(AnswersContacts<Scene<BruteForce>>);
 static_assert(AnswersNearest<Scene<SphereCluster>> && AnswersSweep<Scene<SphereCluster>>);
 
 /// The square |x|, |y| <= 1 in the plane z = 0, seen from above.
@@ -50,6 +54,129 @@ TEST(Scene, FollowsBodiesThatMoveAndForgetsThoseRemoved) {
   EXPECT_THROW(scene.move(body, at(0, 0, 0)), SceneError);
   const BodyId next = scene.add(shape, at(0, 0, 0));
   EXPECT_NE(next, body);
+}
+
+TEST(Scene, GivesTheContactsOfAllBodiesNearestFirst) {
+  Scene<BruteForce> scene;
+  const ShapeId shape = scene.add_shape(Shape<BruteForce>::build(square()));
+  const BodyId near = scene.add(shape, at(0, 0, 1)), far = scene.add(shape, at(0, 0, -2));
+  Scene<BruteForce>::Session session;
+  std::array<BodyContact, 3> into;
+  EXPECT_EQ(scene.contacts_of_bodies({{0, 0, 0}, 0}, 2, session, into), 4u);
+  EXPECT_EQ(into[0].body, near);
+  EXPECT_EQ(into[0].contact.triangle, 0u);
+  EXPECT_EQ(into[1].contact.triangle, 1u);
+  EXPECT_EQ(into[2].body, far);
+  EXPECT_EQ(into[2].contact.distance, 2);
+  EXPECT_EQ(scene.contacts_of_bodies({{0, 0, 0}, 0}, 1.5, session, into), 2u);
+}
+
+TEST(Scene, SeesALongBodyThatOnlyTurns) {
+  Scene<BruteForce> scene;
+  const TriangleMesh rod({{-10, 0, -0.1}, {10, 0, -0.1}, {10, 0, 0.1}}, {{0, 1, 2}});
+  const BodyId body = scene.add(scene.add_shape(Shape<BruteForce>::build(rod)), Pose());
+  Scene<BruteForce>::Session session;
+  const Probe probe{{0, 9, 0}, 0.5};
+  EXPECT_FALSE(scene.touches(probe, session));
+  scene.move(body, pose_of({0, 0, 0}, 1, 0, 0, 1));  // a quarter turn
+  EXPECT_TRUE(scene.touches(probe, session));
+}
+
+TEST(Scene, SeesWhoTeleportsOrAppearsUnderTheProbeAndNotWhoIsGone) {
+  Scene<SphereCluster> scene;
+  const ShapeId shape = scene.add_shape(Shape<SphereCluster>::build(square()));
+  const BodyId far = scene.add(shape, at(0, 0, 50));
+  for (int i = 0; i < 100; ++i) scene.add(shape, at(40 + 3 * i, 0, 0));
+  Scene<SphereCluster>::Session session;
+  const Probe probe{{0, 0, 0.5}, 1};
+  EXPECT_FALSE(scene.touches(probe, session));
+  scene.move(far, at(0, 0, 0));
+  EXPECT_TRUE(scene.touches(probe, session));
+  EXPECT_EQ(scene.nearest_body(probe, 1, session)->body, far);
+  scene.remove(far);
+  EXPECT_FALSE(scene.touches(probe, session));
+  const BodyId added = scene.add(shape, at(0, 0, 1));
+  EXPECT_EQ(scene.nearest_body(probe, 1, session)->body, added);
+}
+
+TEST(Scene, InFreeSpaceLooksAtNoBodyHoweverManyThereAreAndAllMove) {
+  Scene<SphereCluster> scene;
+  const ShapeId shape = scene.add_shape(Shape<SphereCluster>::build(square()));
+  std::vector<BodyId> bodies;
+  for (int i = 0; i < 3000; ++i) bodies.push_back(scene.add(shape, at(20 + 3 * (i % 50), 3 * (i / 50), 0)));
+  Scene<SphereCluster>::Session session;
+  EXPECT_FALSE(scene.touches({{0, 0, 0}, 0.1}, session));
+  const std::uint64_t before = session.work.total();
+  EXPECT_GT(session.work.bodies, 0u);
+  for (int tick = 1; tick <= 100; ++tick) {
+    for (const BodyId& body : bodies) {
+      Pose pose = scene.pose(body);
+      pose.translation.z() += 0.01;
+      scene.move(body, pose);
+    }
+    EXPECT_FALSE(scene.touches({{0.01 * tick, 0, 0}, 0.1}, session));
+  }
+  EXPECT_EQ(session.work.total(), before);
+}
+
+TEST(Scene, OfTenThousandBodiesBuildsTheShapesOfTheTenThatAreNear) {
+  Scene<BruteForce> scene;
+  scene.reserve(10000);
+  int made = 0;
+  for (int i = 0; i < 10000; ++i) {
+    const ShapeId shape = scene.add_shape(ShapeSource<BruteForce>{square().bounds(), [&made] {
+                                                                    ++made;
+                                                                    return Shape<BruteForce>::build(square());
+                                                                  }});
+    scene.add(shape, at(3 * (i % 100), 3 * (i / 100), 0));
+  }
+  Scene<BruteForce>::Session session;
+  // Over a row of ten, each of which comes within 0.5; the next rows stay 1 away.
+  for (int tick = 0; tick <= 270; ++tick) {
+    const Probe probe{{0.1 * tick, 0, 0.3}, 0.5};
+    const int before = made;
+    scene.build_near(probe, 0.2, session);
+    EXPECT_LE(made, before + 1);  // bounded work a tick
+    const int ahead = made;
+    EXPECT_EQ(scene.touches(probe, session), scene.nearest_body(probe, 0.5, session).has_value());
+    EXPECT_EQ(made, ahead);  // and none in a query
+  }
+  EXPECT_EQ(made, 10);
+  EXPECT_EQ(scene.shapes_built(), 10u);
+}
+
+TEST(Scene, LeavesOutABodyWhoseSourceFailsAndSaysSo) {
+  Scene<BruteForce> scene;
+  const auto fail = []() -> Shape<BruteForce> { throw MeshError("no such file"); };
+  scene.add(scene.add_shape(ShapeSource<BruteForce>{square().bounds(), fail}), at(0, 0, 0));
+  Scene<BruteForce>::Session session;
+  EXPECT_EQ(scene.failure(), nullptr);
+  EXPECT_FALSE(scene.touches({{0, 0, 0}, 1}, session));
+  EXPECT_NE(scene.failure(), nullptr);
+  Scene<BruteForce> other;
+  other.add(other.add_shape(ShapeSource<BruteForce>{square().bounds(), fail}), at(0, 0, 0));
+  EXPECT_THROW(other.build_near({{0, 0, 0}, 1}, 1, session), MeshError);
+}
+
+TEST(Scene, TakesAtMostTwoHundredBytesABodyBesideItsShape) {
+  Scene<BruteForce> scene;
+  const ShapeId shape = scene.add_shape(Shape<BruteForce>::build(square()));
+  scene.reserve(100000);
+  for (int i = 0; i < 100000; ++i) scene.add(shape, at(3 * (i % 300), 3 * (i / 300), 0));
+  EXPECT_LE(scene.bytes_of_bodies(), 200u * 100000u);
+  Scene<BruteForce>::Session session;
+  EXPECT_EQ(scene.nearest_body({{450, 450, 2}, 0}, 3, session)->contact.distance, 2);
+  EXPECT_LT(session.work.bodies, 200u);  // of a hundred thousand
+}
+
+TEST(Scene, AnswersNothingToWhatIsNoNumber) {
+  Scene<BruteForce> scene = Scene<BruteForce>::build(square());
+  Scene<BruteForce>::Session session;
+  EXPECT_FALSE(scene.touches({{std::nan(""), 0, 0}, 1}, session));
+  EXPECT_FALSE(scene.touches({{0, 0, 0}, -1}, session));
+  EXPECT_FALSE(scene.nearest({{0, 0, 0}, 0}, std::nan(""), session));
+  EXPECT_FALSE(scene.first_hit({{0, HUGE_VAL, 0}, {0, 0, 0}, 1}, session));
+  EXPECT_TRUE(scene.nearest({{0, 0, 1e300}, 0}, HUGE_VAL, session));
 }
 
 }  // namespace

@@ -1,0 +1,184 @@
+#!/usr/bin/python3
+"""The page of scripts/report in a real browser without network: `scripts/dev page` runs it, since Chromium is too large for
+every CI run. A folder as argument is used in place of a made-up recording."""
+import csv
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "scripts"), str(pathlib.Path(__file__).parent)]
+
+import made_up_steps  # noqa: E402
+from browser import Browser, chromium  # noqa: E402
+from made_up_steps import Contestant  # noqa: E402
+
+CONTESTANTS, STEPS = 20, 20_000
+INTERACTIVE_MS = 2000
+WRONG = range(100, 160)
+
+
+class Page(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        if not chromium():
+            raise RuntimeError("chromium is not installed: scripts/setup page")
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls.temporary.name)
+        names = ["grid-group", "sphere-cluster", "fcl:bv=obb", "libccd+aabb"] + [f"other-{k}" for k in range(CONTESTANTS - 4)]
+        cls.contestants = [Contestant(name, 100 * 1.4 ** k, STEPS, k, WRONG if k == 3 else ()) for k, name in enumerate(names)]
+        made_up_steps.write(cls.folder, cls.contestants, STEPS)
+        subprocess.run([ROOT / "scripts" / "report", cls.folder], check=True, stdout=subprocess.DEVNULL)
+        cls.path = cls.folder / "report.html"
+        with open(cls.folder / "results.csv", newline="", encoding="utf-8") as file:
+            cls.rows = {record["detector"]: record for record in csv.DictReader(file)}
+        cls.browser = Browser()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.close()
+        cls.temporary.cleanup()
+
+    def setUp(self):
+        self.browser.errors.clear()
+        self.browser.requests.clear()
+        self.browser.resize(1300, 1000)
+        self.ready_ms = self.browser.open(self.path)
+        self.addCleanup(self.leave)
+
+    def leave(self):
+        """So that the next address is loaded anew."""
+        self.browser.send("Page.navigate", url="about:blank")
+        self.browser.until("location.href === 'about:blank'")
+
+    def hash(self):
+        return self.browser.run("location.hash")
+
+    def step(self):
+        found = re.search(r"\bstep=(\d+)", self.hash())
+        return int(found[1]) if found else None
+
+    def click(self, selector):
+        x, y, width, height = self.browser.box(selector)
+        self.browser.mouse("mousePressed", x + width / 2, y + height / 2, 1)
+        self.browser.mouse("mouseReleased", x + width / 2, y + height / 2)
+
+    def test_loads_in_time_without_an_error_or_a_request(self):
+        self.assertLess(self.ready_ms, INTERACTIVE_MS * float(os.environ.get("TOUCHMARK_SLOWER", "1")))
+        self.assertEqual(self.browser.errors, [])
+        self.assertEqual([url for url in self.browser.requests if not url.startswith(("file:", "data:", "blob:"))], [])
+
+    def test_sorts_by_any_column_and_back(self):
+        first = "document.querySelector('table.ratios tbody tr').dataset.name"
+        self.assertEqual(self.browser.run(first), "grid-group")
+        self.click("table.ratios thead th:nth-child(2) button")
+        self.click("table.ratios thead th:nth-child(2) button")
+        self.assertEqual(self.browser.run(first), self.contestants[-1].detector)
+        self.assertEqual(self.browser.run("document.querySelector('table.ratios thead th:nth-child(2)').ariaSort"), "descending")
+
+    def test_the_worst_step_has_the_number_of_the_csv(self):
+        self.browser.run("[...document.querySelectorAll('.lists details')].forEach((one) => { one.open = true; })")
+        self.click(".lists button.step[data-name='grid-group']")
+        worst = self.contestants[0].slowest(1)[0]
+        self.assertEqual(self.step(), worst)
+        cells = self.browser.run("[...document.querySelectorAll('.about-step tr.current td')].map((cell) => cell.textContent)")
+        most = float(self.rows["grid-group"]["ns_max"])
+        self.assertEqual(cells[0], f"{most / 1000:.3g} µs")
+        self.assertEqual(cells[-1], "right")
+        self.assertIn(f"--step {worst}", self.browser.run("document.querySelector('.about-step .command code').textContent"))
+
+    def test_dragging_over_the_curves_filters_all_of_them(self):
+        x, y, width, height = self.browser.box(".chart[aria-label^='Time of each step']")
+        self.browser.drag((x + width * 0.3, y + height / 2), (x + width * 0.5, y + height / 2))
+        begin, end = map(int, re.search(r"steps=(\d+)-(\d+)", self.hash()).groups())
+        self.assertLess(begin, end)
+        self.assertLess(end - begin, STEPS / 3)
+        counts = self.browser.run("[...document.querySelectorAll('[aria-label=\"The stretch in numbers\"] tbody tr td:nth-child(2)')].map((cell) => cell.textContent)")
+        self.assertEqual(set(counts), {str(end - begin)})
+
+    def test_an_address_leads_to_the_same_view(self):
+        self.leave()
+        self.browser.open(self.path, "#trajectory=slide&shown=fcl:bv%3Dobb&steps=90-200&step=101&contestant=libccd%2Baabb&color=error")
+        self.assertEqual(self.browser.run("document.querySelector('.about-step h3').textContent"), "Step 101 of slide")
+        self.assertIn("missed", self.browser.run("document.querySelector('.about-step tr.current').textContent"))
+        self.assertEqual(self.browser.run("[...document.querySelectorAll('.swatches input:checked')].map((box) => box.value)"), ["fcl:bv=obb"])
+
+    def test_the_keyboard_steps_plays_and_opens_the_numbers(self):
+        self.browser.run("document.querySelector('.stage').focus()")
+        for key, expected in (("ArrowRight", 1), ("ArrowRight", 2), ("ArrowLeft", 1), ("PageDown", 101)):
+            self.browser.press(key)
+            self.assertEqual(self.step(), expected)
+        self.browser.press(" ", "Space", " ")
+        self.browser.until("Number(/step=(\\d+)/.exec(location.hash)[1]) > 101")
+        self.browser.press(" ", "Space", " ")
+        self.assertEqual(self.browser.run("document.querySelector('.play').textContent"), "Play")
+        self.browser.run("document.querySelector('table.ratios button.pick').focus()")
+        self.browser.press("Enter", "Enter", "\r")
+        self.assertIn("Measure again: touchmark bench", self.browser.until("document.querySelector('#details')?.textContent"))
+        self.browser.press("Escape")
+        self.browser.until("!document.querySelector('#details')")
+
+    def test_scrubbing_moves_the_step(self):
+        self.browser.run("(() => { const one = document.querySelector('.scrub'); one.value = 1234; one.dispatchEvent(new Event('input')); })()")
+        self.assertEqual(self.step(), 1234)
+
+    def test_a_step_is_saved_with_mesh_probe_and_command(self):
+        self.browser.run("URL.createObjectURL = (blob) => { window.saved = blob.text(); return 'blob:none'; }; HTMLAnchorElement.prototype.click = () => {};")
+        self.browser.run("document.querySelector('.lists details[open] button.step').click()")
+        self.browser.run("document.querySelector('button.save').click()")
+        text = self.browser.run("window.saved")
+        self.assertIn("v 0.9 0 0\n", text)
+        self.assertIn("# triangle 0\nf 1 2 3\n", text)
+        self.assertRegex(text, r"--radius 0\.05 --reach 0\.05 --step 0\n\Z")
+        self.assertEqual(subprocess.run(["sh", "-n"], input=text, text=True, check=False).returncode, 0)
+
+    def test_nothing_runs_over_the_edge_at_any_width_or_text_size(self):
+        for width in (360, 600, 1000, 1300, 2560):
+            for size in ("100%", "200%"):
+                self.browser.resize(width, 900)
+                self.browser.run(f"document.documentElement.style.fontSize = '{size}'")
+                over = self.browser.run("document.documentElement.scrollWidth - document.documentElement.clientWidth")
+                self.assertLessEqual(over, 0, f"{width} px, text at {size}: {self.widest()}")
+
+    def widest(self):
+        return self.browser.run("[...document.querySelectorAll('main *')].filter((one) => one.getBoundingClientRect().right > innerWidth + 1 && !one.closest('.scroll'))"
+                                ".map((one) => one.tagName + '.' + one.className).slice(0, 5).join(' ')")
+
+    def test_every_control_has_a_name_and_a_place_in_the_order_of_tabs(self):
+        nameless = self.browser.run("""[...document.querySelectorAll('button, input, select, [role=region], [role=application], [role=img]')]
+            .filter((one) => one.getClientRects().length && !(one.ariaLabel || one.textContent.trim() || one.labels?.length || one.title)).map((one) => one.outerHTML.slice(0, 80))""")
+        self.assertEqual(nameless, [])
+        self.assertEqual(self.browser.run("[...document.querySelectorAll('button, input, select')].filter((one) => one.tabIndex < 0).length"), 0)
+
+    def test_text_has_contrast_in_light_and_dark(self):
+        for scheme in ("light", "dark"):
+            self.browser.prefer(prefers_color_scheme=scheme)
+            worst = self.browser.run(CONTRAST)
+            self.assertEqual(worst, [], scheme)
+        self.browser.prefer()
+
+
+# Every text against the ground behind it: 4.5 to 1, as WCAG's AA demands.
+CONTRAST = """(() => {
+  const parsed = (text) => { const found = text.match(/[\\d.]+/g).map(Number); return found.length < 4 ? [...found, 1] : found; };
+  const light = (color) => { const [r, g, b] = color.slice(0, 3).map((one) => { one /= 255; return one <= 0.03928 ? one / 12.92 : ((one + 0.055) / 1.055) ** 2.4; }); return 0.2126 * r + 0.7152 * g + 0.0722 * b; };
+  const ground = (one) => { for (; one; one = one.parentElement) { const color = parsed(getComputedStyle(one).backgroundColor); if (color[3] === 1) return color; } return matchMedia('(prefers-color-scheme: dark)').matches ? [20, 23, 26, 1] : [255, 255, 255, 1]; };
+  const bad = new Set();
+  for (const one of document.querySelectorAll('header *, main *')) {
+    if (![...one.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim())) continue;
+    if (one.tagName === 'OPTION' || !one.getClientRects().length) continue;
+    const [a, b] = [light(parsed(getComputedStyle(one).color)), light(ground(one))].sort((x, y) => y - x);
+    const ratio = (a + 0.05) / (b + 0.05);
+    if (ratio < 4.5) bad.add(`${one.tagName}.${one.className} ${ratio.toFixed(2)}`);
+  }
+  return [...bad];
+})()"""
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,183 @@
+#!/usr/bin/python3
+"""scripts/report on made-up recordings: what it reads, how large the page is, what the page asks for, and what it does without
+the interactive parts."""
+import base64
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+
+sys.dont_write_bytecode = True
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "scripts"), str(pathlib.Path(__file__).parent)]
+
+import made_up_steps  # noqa: E402
+from made_up_steps import Contestant  # noqa: E402
+from reporting import parts, words  # noqa: E402
+from reporting.recording import Recording  # noqa: E402
+from reporting.steps_file import Damaged, StepsFile, times_of  # noqa: E402
+
+REPORT = ROOT / "scripts" / "report"
+BUDGET = 3_000_000
+
+
+def can_build():
+    try:
+        parts.built()
+    except parts.Missing:
+        return False
+    return True
+
+
+class InFolder(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name) / "run"
+        self.folder.mkdir()
+
+    def write(self, steps=300, **wrong):
+        contestants = [Contestant("grid-group", 100, steps, 1), Contestant("fcl:bv=obb", 2000, steps, 2, **wrong)]
+        made_up_steps.write(self.folder, contestants, steps)
+        return contestants
+
+    def report(self, *arguments, **environment):
+        return subprocess.run([REPORT, *(arguments or [self.folder])], capture_output=True, text=True, check=False,
+                              env={**os.environ, **environment})
+
+    def page(self, **environment):
+        done = self.report(**environment)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return (self.folder / "report.html").read_text(encoding="utf-8")
+
+
+class ReadingSteps(InFolder):
+    def test_times_are_what_was_written_and_their_ends_exact(self):
+        one = self.write()[0]
+        file = StepsFile(self.folder / "steps.bin")
+        times = times_of(file, file.traces[0]["contestants"][0]["ns"])
+        self.assertEqual(times.max(), max(one.ns))
+        self.assertEqual(times.min(), min(one.ns))
+        for read, written in zip(times, one.ns):
+            self.assertAlmostEqual(read / written, 1, delta=1e-4)
+
+    def test_answers_work_and_charges_are_what_was_written(self):
+        one = self.write(wrong=[7, 9])[1]
+        file = StepsFile(self.folder / "steps.bin")
+        row = file.traces[0]["contestants"][1]
+        self.assertEqual(list(file.block(row["work"])), one.work)
+        self.assertEqual([step for step, kinds in enumerate(file.block(row["charged"])) if kinds], [7, 9])
+
+    def test_a_damaged_file_is_told_of_and_the_page_made_without_it(self):
+        self.write()
+        path = self.folder / "steps.bin"
+        whole = path.read_bytes()
+        for damaged in (b"", b"TMSTEPS\n", b"TMSTEPT\n" + whole[8:], whole[:8] + b"\2" + whole[9:], whole[:40], b"TMSTEPS\n" + b"\xff" * 100):
+            path.write_bytes(damaged)
+            with self.assertRaises(Damaged):
+                StepsFile(path)
+            self.assertIn("There is no replay", self.page())
+
+    def test_a_block_that_was_cut_off_is_one_line_and_no_page(self):
+        self.write()
+        path = self.folder / "steps.bin"
+        path.write_bytes(path.read_bytes()[:-400])
+        if not can_build():
+            self.skipTest("without esbuild no page reads blocks")
+        done = self.report()
+        self.assertEqual((done.returncode, done.stderr), (2, f"report: {path}: a block is damaged\n"))
+        self.assertFalse((self.folder / "report.html").exists())
+
+    def test_steps_of_another_run_are_left_out(self):
+        self.write()
+        results = self.folder / "results.csv"
+        results.write_text(results.read_text(encoding="utf-8").replace(made_up_steps.RUN_ID, "another"), encoding="utf-8")
+        self.assertIn("steps.bin is of another run", self.page())
+
+
+class Page(InFolder):
+    def test_says_who_is_fastest_who_holds_which_rate_and_who_is_wrong(self):
+        self.write(steps=1000, wrong=range(10))
+        sentences = words.verdict(Recording(self.folder))
+        self.assertIn("grid-group</strong> is the fastest that was never wrong in 1,000 checked steps", sentences[0])
+        self.assertIn("2 held 1 kHz at every warm step, 2 held 4 kHz and 2 held 10 kHz", sentences[1])
+        self.assertEqual(sentences[2], "Wrong: fcl:bv=obb at 1 % of the steps.")
+
+    def test_a_slowest_step_that_is_the_period_holds_and_one_above_does_not(self):
+        self.assertIn("holds 1, 4 and 10 kHz", words.holding("It", 100_000))
+        self.assertIn("holds 1 and 4 kHz", words.holding("It", 100_001))
+        self.assertIn("too long for 1 kHz", words.holding("It", 1_000_001))
+
+    def test_asks_the_network_for_nothing(self):
+        self.write()
+        page = self.page()
+        # What a browser would fetch; addresses in comments and in XML namespaces are none of it.
+        self.assertEqual(re.findall(r"""<(?:script|img|link|iframe|source)[^>]*\b(?:src|href)=(?!["']?(?:data:|#))[^ >]+""", page), [])
+        self.assertEqual(re.findall(r"url\((?!\s*['\"]?data:)\s*['\"]?[a-z]+:", page), [])
+        self.assertEqual(re.findall(r"@import", page), [])
+        self.assertIn("default-src 'none'", page)
+
+    def test_names_from_files_cannot_become_elements(self):
+        self.write()
+        results = self.folder / "results.csv"
+        results.write_text(results.read_text(encoding="utf-8").replace("ball", "</script><b>x"), encoding="utf-8")
+        self.assertNotIn("</script><b>", self.page())
+
+    def test_twenty_contestants_with_20000_steps_stay_within_the_budget(self):
+        if not can_build():
+            self.skipTest("the interactive parts cannot be built here")
+        steps = 20_000
+        made_up_steps.write(self.folder, [Contestant(f"detector-{k}", 50 * 1.5 ** k, steps, k) for k in range(20)], steps)
+        page = self.page()
+        self.assertLess(len(page.encode()), BUDGET)
+        arrays = re.search(r'<script type="application/octet-stream" id="arrays">([^<]*)</script>', page)[1]
+        data = json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', page)[1])
+        stream = zlib.decompress(base64.b64decode(arrays))
+        offset, items, kind, delta = data["recordings"][0]["replay"]["traces"][0]["contestants"][19]["ns"]
+        self.assertEqual((items, kind, delta), (steps, "u8", 0))
+        self.assertGreaterEqual(len(stream), offset + items)
+
+    def test_without_the_interactive_parts_there_are_pictures_and_a_reason(self):
+        self.write()
+        subprocess.run([ROOT / "scripts" / "plot", self.folder], check=True, capture_output=True)
+        page = self.page(TOUCHMARK_JAVASCRIPT="/nowhere", XDG_CACHE_HOME=str(self.folder / "cache"))
+        self.assertIn("The interactive parts of this page are missing", page)
+        self.assertIn("scripts/setup report", page)
+        self.assertIn('src="data:image/png;base64,', page)
+        self.assertNotIn("<script", page)
+        self.assertIn("grid-group", page)
+
+    def test_a_folder_without_steps_has_a_page_that_says_so(self):
+        self.write()
+        (self.folder / "steps.bin").unlink()
+        self.assertIn("This folder has no steps.bin", self.page())
+
+    def test_two_recordings_are_compared(self):
+        self.write()
+        other = self.folder.with_name("after")
+        other.mkdir()
+        made_up_steps.write(other, [Contestant("grid-group", 50, 300, 1)], 300)
+        done = self.report(self.folder, other, "--out", self.folder / "both.html")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        page = (self.folder / "both.html").read_text(encoding="utf-8")
+        self.assertIn("after against run", page)
+        self.assertIn('data-v="0.5"', page)
+
+    def test_a_folder_without_results_is_refused_in_one_line(self):
+        done = self.report()
+        self.assertEqual(done.returncode, 2)
+        self.assertRegex(done.stderr, r"\Areport: .*: no results\.csv in it, nor one of .*\n\Z")
+
+    def test_a_page_that_cannot_be_written_is_told_of_and_leaves_nothing(self):
+        self.write()
+        done = self.report(self.folder, "--out", self.folder / "missing" / "page.html")
+        self.assertEqual(done.returncode, 3)
+        self.assertRegex(done.stderr, r"cannot write .*: No such file")
+
+
+unittest.main()
