@@ -87,6 +87,22 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
       if (many_) many_->forget();
     }
   }
+  bool guides_proxy() const noexcept override {
+    return AnswersTouches<D> && AnswersSweep<D> && AnswersContacts<D>;
+  }
+  bool touches([[maybe_unused]] const Probe& probe) noexcept override {
+    if constexpr (AnswersTouches<D>) return detector_->touches(probe, *session_);
+    return false;
+  }
+  std::optional<Impact> first_hit([[maybe_unused]] const Sweep& sweep) noexcept override {
+    if constexpr (AnswersSweep<D>) return detector_->first_hit(sweep, *session_);
+    return std::nullopt;
+  }
+  std::size_t contacts([[maybe_unused]] const Probe& probe, [[maybe_unused]] double reach,
+                       [[maybe_unused]] std::span<Contact> into) noexcept override {
+    if constexpr (AnswersContacts<D>) return detector_->contacts(probe, reach, *session_, into);
+    return 0;
+  }
   bool updates() const noexcept override {
     if constexpr (KnownOnceBuilt<D>) return detector_->updates();
     return Updates<D>;
