@@ -8,6 +8,9 @@ namespace {
 
 /// A tick tries so often; what is still left is for the next one.
 constexpr int max_rounds = 16;
+/// Where planes say all, one slide is enough. On a ball's own curve each comes nearer by a share: after so
+/// many in a row the rest is left to the next tick.
+constexpr int max_slides = 3;
 /// A goal that has been the same for so many ticks has been followed as far as it will be.
 constexpr int ticks_to_settle = 8;
 
@@ -55,7 +58,7 @@ bool ProxyMotion::begin(const Vec3& goal) noexcept {
   size_ = largest(position()) + mesh_size_ + coupling_.radius;
   skin_ = 0x1p-43 * size_ + 0x1p-48 * largest(goal);
   last_slide_ = 0;
-  rounds_ = 0;
+  rounds_ = slides_ = 0;
   has_slid_ = false;
   return true;
 }
@@ -74,7 +77,9 @@ bool ProxyMotion::is_surely_blocked() const noexcept {
 
 std::optional<Vec3> ProxyMotion::next_target() noexcept {
   if (rounds_ == 0 && !planes_.empty() && !is_surely_blocked()) planes_.clear();
-  if (has_slid_ || rounds_++ == max_rounds || state_.pieces == ProxyState::max_pieces) return std::nullopt;
+  if (has_slid_ || slides_ == max_slides || rounds_++ == max_rounds ||
+      state_.pieces == ProxyState::max_pieces)
+    return std::nullopt;
   Vec3 target = planes_.nearest_to(goal_, position(), kept_ + skin_, skin_ / 8);
   if (!planes_.empty() && coupling_.has_friction()) {
     target = held_by_friction(position(), target, goal_, coupling_);
@@ -88,6 +93,7 @@ std::optional<Vec3> ProxyMotion::next_target() noexcept {
 void ProxyMotion::go(const Vec3& to) noexcept {
   if (to == position()) return;
   last_slide_ = planes_.empty() ? 0 : (to - position()).norm();
+  if (!planes_.empty()) ++slides_;
   state_.position = state_.way[++state_.pieces] = to;
   has_moved_ = true;
 }
@@ -148,6 +154,7 @@ void ProxyMotion::meet(const Impact& impact, const Vec3& target) noexcept {
   const ContactPlane plane{met_normal(impact, target), impact.contact.point};
   planes_.meet(plane, has_moved_ ? 0 : skin_);
   has_slid_ = false;
+  slides_ = 0;
 }
 
 /// After a slide, so far that what it has come off by stays in sight: on a curve of the ball's own radius, or
