@@ -53,6 +53,7 @@ inline WorkResult summarize_work(std::span<const std::uint64_t> work, const Work
 struct ResultRow {
   std::string detector;
   std::string options;  ///< as written out: "key=value,..."
+  std::string choice;   ///< options that it chose for itself, as one could have typed them; empty: none
   std::string mesh;
   std::size_t triangles = 0;
   std::string trajectory;
@@ -86,6 +87,10 @@ struct ResultRow {
   std::optional<std::uint64_t> decisions_checksum;  ///< see decisions_checksum_of
 
   std::string contestant() const { return options.empty() ? detector : detector + ":" + options; }
+  /// Returns the options with those that it chose for itself.
+  std::string all_options() const {
+    return options.empty() || choice.empty() ? options + choice : options + ',' + choice;
+  }
   std::optional<Guarantee> claim() const {
     if (accuracy) return accuracy->guarantee;
     return claimed;

@@ -134,6 +134,7 @@ double Worker::timed_build() {
 
 Built Worker::handle(const request::Build& request) {
   contestants::take_remarks();
+  contestants::take_choice();
   spec_ = roster_.parse(request.contestant);
   Built reply;
   const auto refuse = [&](std::string why) {
@@ -153,6 +154,7 @@ Built Worker::handle(const request::Build& request) {
     refuse(error.what());
   }
   reply.remarks = contestants::take_remarks();
+  reply.choice = contestants::take_choice();
   return reply;
 }
 
