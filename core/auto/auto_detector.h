@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <utility>
 #include <variant>
 
@@ -46,6 +47,11 @@ class AutoDetector {
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept {
     return ask<std::optional<Impact>>(
         session, [&](const auto& form, auto& own) { return form.first_hit(sweep, own); });
+  }
+  std::size_t contacts(const Probe& probe, double reach, Session& session,
+                       std::span<Contact> into) const noexcept {
+    return ask<std::size_t>(
+        session, [&](const auto& form, auto& own) { return form.contacts(probe, reach, own, into); });
   }
   /// See the concept Prepares; the plain tree of boxes has nothing to prepare.
   void prepare(Session& session) const noexcept {
