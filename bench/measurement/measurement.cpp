@@ -69,6 +69,7 @@ void Measurement::attempt(Action action) {
 void Measurement::begin() {
   const workers::Built& built = process_.build();
   row_.accuracy = built.accuracy;
+  row_.choice = built.choice;
   row_.build_ms = built.build_ms;
   row_.bytes = built.bytes;
   row_.heap_bytes = built.heap_bytes;
