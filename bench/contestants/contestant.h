@@ -85,6 +85,12 @@ class Contestant {
   virtual void replay_paced(const workload::QueryTrace& trace, StepPacer& pacer) noexcept = 0;
   /// Returns true if the detector prepares after each step. That is in all other times, and in the work.
   virtual bool prepares() const noexcept = 0;
+  /// Moves the bodies of a scene to where they are at a step. The loops above do so before each query, which
+  /// is quick where the step before was the last one; elsewhere it may take its time, so do it before a clock
+  /// is read.
+  virtual void stand_at(const workload::QueryTrace& trace, std::size_t step) noexcept {
+    static_cast<void>(trace), static_cast<void>(step);
+  }
 };
 
 /// What a type of detector declares.
@@ -97,6 +103,15 @@ std::vector<workload::Query> queries_of() {
   return queries;
 }
 
+/// A detector over a scene: `stand_at` moves the bodies to where they are at a step of a schedule, and the
+/// session says which body the last answer is about.
+template <class D>
+concept StandsInSchedules = requires(D& detector, const bodies::ScheduleView* schedule,
+                                     const typename D::Session& session) {
+  detector.stand_at(schedule, std::size_t{});
+  { session.body } -> std::same_as<const std::uint32_t&>;
+};
+
 /// Whether a detector's `prepare` is called after each answer.
 enum class Prefetch { off, on };
 
@@ -107,6 +122,9 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
   explicit ContestantOf(std::shared_ptr<D> detector) : detector_(std::move(detector)) { session_.emplace(); }
 
   std::unique_ptr<Contestant> share() const override { return std::make_unique<ContestantOf>(detector_); }
+  void stand_at(const workload::QueryTrace& trace, std::size_t step) noexcept override {
+    if constexpr (StandsInSchedules<D>) detector_->stand_at(trace.schedule, step);
+  }
 
   bool answers(workload::Query query) const noexcept override {
     switch (query) {
@@ -137,6 +155,7 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
     assert(answers.size() == range.size() && work.size() == range.size());
     with_query(trace.query, [&](auto ask) {
       for (std::size_t i = 0; i < range.size(); ++i) {
+        stand(trace, range.begin + i);
         const std::uint64_t before = session_->work.total();
         answers[i] = ask(trace.steps, range.begin + i);
         prepare();
@@ -150,6 +169,7 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
     with_query(trace.query, [&](auto ask) {
       workload::Checksum sum = checksum;
       for (std::size_t i = range.begin; i < range.end; ++i) {
+        stand(trace, i);
         sum.add(ask(trace.steps, i));
         prepare();
       }
@@ -166,6 +186,10 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
       workload::Checksum sum = checksum;
       std::uint64_t before = TickClock::now();
       for (std::size_t i = 0; i < range.size(); ++i) {
+        if constexpr (StandsInSchedules<D>) {
+          stand(trace, range.begin + i);  // poses are published outside the tick
+          before = TickClock::now();
+        }
         sum.add(ask(trace.steps, range.begin + i));
         const std::uint64_t after = TickClock::now();
         ticks[i] = after - before;
@@ -188,6 +212,7 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
         prepare();
         if constexpr (prefetch == Prefetch::on) seen = session_->work;
         // A device's position has just been read: no query waits for it.
+        stand(trace, *step);
         const std::array<workload::Step, 2> from_to{trace.steps[*step > 0 ? *step - 1 : 0],
                                                     trace.steps[*step]};
         std::atomic_signal_fence(std::memory_order_seq_cst);  // read, and not later
@@ -203,6 +228,15 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
   bool prepares() const noexcept override { return prefetch == Prefetch::on; }
 
  private:
+  void stand([[maybe_unused]] const workload::QueryTrace& trace,
+             [[maybe_unused]] std::size_t step) noexcept {
+    if constexpr (StandsInSchedules<D>) detector_->stand_at(trace.schedule, step);
+  }
+  static workload::Answer about_body(workload::Answer answer,
+                                     [[maybe_unused]] const typename D::Session& session) noexcept {
+    if constexpr (StandsInSchedules<D>) answer.body = answer.found != 0 ? session.body : 0;
+    return answer;
+  }
   void prepare() noexcept {
     if constexpr (prefetch == Prefetch::on) detector_->prepare(*session_);
   }
@@ -215,7 +249,7 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
         return visit([&detector = *detector_, &session = *session_](Steps steps, std::size_t i) noexcept {
           workload::Answer answer;
           answer.found = detector.touches(steps[i].probe, session) ? 1 : 0;
-          return answer;
+          return about_body(answer, session);
         });
       }
     }
@@ -223,7 +257,7 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
       if (query == workload::Query::nearest) {
         return visit([&detector = *detector_, &session = *session_](Steps steps, std::size_t i) noexcept {
           const std::optional<Contact> contact = detector.nearest(steps[i].probe, steps[i].reach, session);
-          return contact ? workload::Answer::of(*contact) : workload::Answer{};
+          return contact ? about_body(workload::Answer::of(*contact), session) : workload::Answer{};
         });
       }
     }
@@ -233,7 +267,8 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
           const Probe& now = steps[i].probe;
           const Sweep sweep{steps[i > 0 ? i - 1 : 0].probe.center, now.center, now.radius};
           const std::optional<Impact> impact = detector.first_hit(sweep, session);
-          return impact ? workload::Answer::of(impact->contact, impact->fraction) : workload::Answer{};
+          return impact ? about_body(workload::Answer::of(impact->contact, impact->fraction), session)
+                        : workload::Answer{};
         });
       }
     }

@@ -45,6 +45,12 @@ std::uint64_t heap_in_use() {
   return info.uordblks + info.hblkhd;
 }
 
+std::size_t triangles_in(const bodies::PlacedScene& scene) {
+  std::size_t sum = 0;
+  for (const auto& shape : scene.shapes) sum += shape->size();
+  return sum;
+}
+
 class Worker {
  public:
   explicit Worker(const contestants::Roster& roster)
@@ -89,7 +95,11 @@ class Worker {
     return {};
   }
 
-  workload::QueryTrace trace_of(const Task& task) const { return {task.query, traces_.at(task.trace)}; }
+  workload::QueryTrace trace_of(const Task& task) const {
+    return {task.query, traces_.at(task.trace),
+            layout_.bodies > 0 ? &schedules_.at(task.trace) : nullptr};
+  }
+  void read_shapes();
   std::vector<workload::StepRange> ranges_of(const Task& task) const {
     return task.ranges.empty() ? workload::sample_steps(traces_.at(task.trace).size(), task.steps)
                                : task.ranges;
@@ -105,7 +115,9 @@ class Worker {
   WorkloadLayout layout_;
   std::optional<OutputBuffers> buffers_;
   std::optional<TriangleMesh> mesh_;
+  std::optional<bodies::PlacedScene> scene_;  // in place of a mesh
   std::vector<std::vector<workload::Step>> traces_;
+  std::vector<bodies::ScheduleView> schedules_;
   std::optional<contestants::ContestantSpec> spec_;
   std::unique_ptr<contestants::Contestant> contestant_;
 };
@@ -114,8 +126,9 @@ Opened Worker::handle(const request::Open& request) {
   Opened opened;
   opened.flushed_to_zero = support::restore_denormals();
   layout_ = request.layout;
-  mesh_ = read_mesh(input_.bytes(), layout_);
+  read_shapes();
   traces_ = read_traces(input_.bytes(), layout_);
+  schedules_ = read_schedules(input_.bytes(), layout_);
   buffers_.emplace(output_.bytes(), layout_.output_steps());
   const contestants::ClockCalibration clock =
       request.calibrate_clock ? contestants::calibrate_clock() : contestants::ClockCalibration{};
@@ -124,11 +137,19 @@ Opened Worker::handle(const request::Open& request) {
   return opened;
 }
 
+void Worker::read_shapes() {
+  if (layout_.bodies > 0) {
+    scene_ = read_scene(input_.bytes(), layout_);
+  } else {
+    mesh_ = read_mesh(input_.bytes(), layout_);
+  }
+}
+
 double Worker::timed_build() {
   contestant_.reset();
-  roster_.require_memory_for(*spec_, mesh_->size());
+  roster_.require_memory_for(*spec_, layout_.bodies > 0 ? triangles_in(*scene_) : mesh_->size());
   const Clock::time_point start = Clock::now();
-  contestant_ = roster_.build(*spec_, *mesh_);
+  contestant_ = layout_.bodies > 0 ? roster_.build(*spec_, *scene_) : roster_.build(*spec_, *mesh_);
   return ns_since(start);
 }
 
@@ -157,7 +178,7 @@ Built Worker::handle(const request::Build& request) {
 }
 
 Built Worker::built() {
-  if (!mesh_) mesh_ = read_mesh(input_.bytes(), layout_);
+  if (!mesh_ && !scene_) read_shapes();
   Built built;
   const std::uint64_t heap_before = heap_in_use();
   std::vector<double> times_ns{timed_build()};
@@ -168,6 +189,7 @@ Built Worker::built() {
   while (times_ns.size() < 5 && times_ns.front() < short_build_ns) times_ns.push_back(timed_build());
   built.build_ms = support::median(times_ns) / 1e6;
   mesh_.reset();  // detectors hold copies of what they need
+  scene_.reset();
   built.bytes = contestant_->bytes();
   built.accuracy = contestant_->accuracy();
   for (const workload::Query query : workload::all_queries) {
@@ -188,7 +210,7 @@ Timed Worker::timed_replay(const workload::QueryTrace& trace,
 }
 
 Updated Worker::handle(const request::Update& request) {
-  if (!contestant_->updates()) return {};
+  if (!contestant_->updates() || layout_.bodies > 0) return {};
   return time_updates(*contestant_, roster_, *spec_, read_mesh(input_.bytes(), layout_), request.deformation);
 }
 
