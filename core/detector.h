@@ -1,4 +1,4 @@
-/// What a detector is: a value, immutable once built, that answers some of three queries. A detector that
+/// What a detector is: a value, immutable once built, that answers some of four queries. A detector that
 /// cannot answer a query does not declare it.
 #pragma once
 
@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "core/probe.h"
 #include "core/triangle_mesh.h"
@@ -101,6 +102,18 @@ template <class D>
 concept AnswersSweep = Detector<D> &&
     requires(const D& detector, const Sweep& sweep, typename D::Session& session) {
   { detector.first_hit(sweep, session) } noexcept -> std::same_as<std::optional<Impact>>;
+};
+
+/// One contact for each triangle whose distance to the centre is at most `reach` (which may be infinite),
+/// nearest first; of those at the same distance the one that comes first in the mesh. Writes as many as fit
+/// into `into`, and returns how many there are. probe.radius plays no part. Triangles are told apart by their
+/// place in the mesh: those that a file cut from one polygon have a contact each, and its id in common. Where
+/// `decides_exactly`, exact distances decide what is within the reach and which comes first, also where their
+/// doubles are equal; the first contact is that of `nearest`.
+template <class D>
+concept AnswersContacts = Detector<D> && requires(const D& detector, const Probe& probe, double reach,
+                                                  typename D::Session& session, std::span<Contact> into) {
+  { detector.contacts(probe, reach, session, into) } noexcept -> std::same_as<std::size_t>;
 };
 
 /// `prepare` does ahead what the next query would else have to do first, and brings what that needs into the

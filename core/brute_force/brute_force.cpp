@@ -31,6 +31,11 @@ std::optional<Impact> BruteForce::first_hit(const Sweep& sweep, Session& session
   return scan().first_hit(sweep, session.work);
 }
 
+std::size_t BruteForce::contacts(const Probe& probe, double reach, Session& session,
+                                 std::span<Contact> into) const noexcept {
+  return scan().contacts(probe.center, reach, into, session.work);
+}
+
 std::size_t BruteForce::bytes() const noexcept {
   return triangles_.capacity() * sizeof(PreparedTriangle) + ids_.bytes();
 }

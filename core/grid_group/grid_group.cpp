@@ -99,6 +99,19 @@ std::optional<Impact> GridGroup::look_for_impact(const Sweep& sweep, Session& se
   return impact;
 }
 
+std::size_t GridGroup::look_for_contacts(const Probe& probe, double reach, Session& session,
+                                         std::span<Contact> into) const noexcept {
+  if (!(reach >= 0)) return 0;
+  if (const auto* direct = std::get_if<grid::DirectGrid>(&form_))
+    return direct->contacts(probe.center, reach, session.memory, into, session.work);
+  if (const auto* scan = std::get_if<grid::ScanGrid>(&form_))
+    return scan->contacts(probe.center, reach, into, session.work);
+  BruteForce::Session plain;
+  const std::size_t count = std::get_if<BruteForce>(&form_)->contacts(probe, reach, plain, into);
+  session.work += plain.work;
+  return count;
+}
+
 void GridGroup::prepare(Session& session) const noexcept {
   if (const auto* direct = std::get_if<grid::DirectGrid>(&form_))
     direct->prepare(session.question, session.memory, session.work);

@@ -18,6 +18,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <variant>
 
 #include "core/brute_force/brute_force.h"
@@ -79,6 +80,11 @@ class GridGroup {
     return look_for_impact(sweep, session);
   }
 
+  std::size_t contacts(const Probe& probe, double reach, Session& session,
+                       std::span<Contact> into) const noexcept {
+    return is_clear(probe.center, reach, session) ? 0 : look_for_contacts(probe, reach, session, into);
+  }
+
   /// Direct: asks the last question again where the point was, unless that is known to be clear. The next
   /// query then finds its data and its code in the caches, best when this is called just before the device is
   /// read. Work is bounded as a query's is.
@@ -103,6 +109,8 @@ class GridGroup {
   bool look_for_touch(const Probe& probe, Session& session) const noexcept;
   std::optional<Contact> look_for_nearest(const Probe& probe, double reach, Session& session) const noexcept;
   std::optional<Impact> look_for_impact(const Sweep& sweep, Session& session) const noexcept;
+  std::size_t look_for_contacts(const Probe& probe, double reach, Session& session,
+                                std::span<Contact> into) const noexcept;
 
   Options options_;
   Connectivity connectivity_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/search/certified_nearest.h"
+#include "core/search/contacts_within.h"
 
 namespace touchmark {
 
@@ -33,6 +34,15 @@ std::optional<Impact> LinearScan::first_hit(const Sweep& sweep, Work& work) cons
   if (!(sweep.radius >= 0)) return std::nullopt;
   return impact_of(first_touch(sweep, work), triangles, ids, is_certified,
                    [&](double reach) { return nearest(sweep.from, reach, work); });
+}
+
+std::size_t LinearScan::contacts(const Vec3& center, double reach, std::span<Contact> into,
+                                 Work& work) const noexcept {
+  if (!(reach >= 0) || !center.allFinite()) return 0;
+  ContactsWithin found({triangles, bounds, ids, center, reach, into, is_certified});
+  for (std::uint32_t slot = 0; slot < triangles.size(); ++slot) found.consider(slot, work);
+  work.triangles += std::isinf(found.error()) ? 2 * triangles.size() : triangles.size();
+  return found.finish(work);
 }
 
 FirstTouch LinearScan::first_touch(const Sweep& sweep, Work& work) const noexcept {

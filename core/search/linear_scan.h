@@ -6,6 +6,7 @@
 /// published scans end with these only for numbers that their own arithmetic cannot hold.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -46,6 +47,7 @@ struct LinearScan {
   bool touches(const Probe& probe, Work& work) const noexcept;
   std::optional<Contact> nearest(const Vec3& center, double reach, Work& work) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, Work& work) const noexcept;
+  std::size_t contacts(const Vec3& center, double reach, std::span<Contact> into, Work& work) const noexcept;
   /// Looks at all for the first touch.
   FirstTouch first_touch(const Sweep& sweep, Work& work) const noexcept;
 

@@ -2,9 +2,11 @@
 /// the side costs comes on top, once for each contact.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "core/detector.h"
@@ -57,6 +59,17 @@ class Signed {
           sides_.side(position_at(sweep, impact->fraction), impact->contact, approximate, session.counted);
     }
     return impact;
+  }
+
+  /// The side is that of the centre, the same for all.
+  std::size_t contacts(const Probe& probe, double reach, Session& session,
+                       std::span<Contact> into) const noexcept requires AnswersContacts<D> {
+    const std::size_t count = detector_.contacts(probe, reach, session, into);
+    const std::span<Contact> written = into.first(std::min(count, into.size()));
+    if (written.empty()) return count;
+    const Side side = sides_.side(probe.center, written.front(), detector_.accuracy(), session.counted);
+    for (Contact& contact : written) contact.side = side;
+    return count;
   }
 
   void prepare(Session& session) const noexcept requires Prepares<D> { detector_.prepare(session); }

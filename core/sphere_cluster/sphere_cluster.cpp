@@ -64,6 +64,14 @@ std::optional<Impact> SphereCluster::look_for_impact(const Sweep& sweep, Session
   return tree_.first_hit(sweep, session.memory, session.work);
 }
 
+std::size_t SphereCluster::look_for_contacts(const Probe& probe, double reach, Session& session,
+                                             std::span<Contact> into) const noexcept {
+  if (!(reach >= 0)) return 0;
+  if (!options_.precise) return fast_.contacts(probe.center, reach, into, session.work);
+  if (options_.lookup == Lookup::scan) return scan_.contacts(probe.center, reach, into, session.work);
+  return tree_.contacts(probe.center, reach, session.memory, into, session.work);
+}
+
 Accuracy SphereCluster::accuracy() const noexcept {
   if (options_.precise) return options_.certified ? certified : uncertified;
   return {Guarantee::conservative, kernel_relative_error, fast_.error_bound()};

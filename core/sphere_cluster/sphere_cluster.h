@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 
 #include "core/detector.h"
 #include "core/mesh_update.h"
@@ -66,6 +67,12 @@ class SphereCluster {
     return look_for_impact(sweep, session);
   }
 
+  std::size_t contacts(const Probe& probe, double reach, Session& session,
+                       std::span<Contact> into) const noexcept {
+    if (tree_.is_clear(probe.center, reach, session.memory)) return 0;
+    return look_for_contacts(probe, reach, session, into);
+  }
+
   /// With a tree: lists, after `nearest`, the leaves near the point for a next tick that moves no farther
   /// than twice as far as this one, and asks the last question again, where the point will be if it goes on
   /// as it moved. The next query then finds its data and its code in the caches, best when this is called
@@ -89,6 +96,8 @@ class SphereCluster {
   bool look_for_touch(const Probe& probe, Session& session) const noexcept;
   std::optional<Contact> look_for_nearest(const Probe& probe, double reach, Session& session) const noexcept;
   std::optional<Impact> look_for_impact(const Sweep& sweep, Session& session) const noexcept;
+  std::size_t look_for_contacts(const Probe& probe, double reach, Session& session,
+                                std::span<Contact> into) const noexcept;
 
   Options options_;
   Connectivity connectivity_;

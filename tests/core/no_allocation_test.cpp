@@ -1,4 +1,5 @@
 /// Queries take no memory: every allocation of the process is counted here, and a query must not add to them.
+#include <array>
 #include <cstddef>
 #include <cstdlib>
 #include <new>
@@ -6,6 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include "core/aabb_tree/aabb_tree.h"
+#include "core/brute_force/brute_force.h"
+#include "core/grid_group/grid_group.h"
+#include "core/sphere_cluster/sphere_cluster.h"
 #include "tests/core/query_pass.h"
 #include "tests/own_forms.h"
 
@@ -54,6 +59,26 @@ TEST(NoAllocation, CountsAllocations) {
 
 TEST(NoAllocation, InAnyFormOfOurDetectors) {
   for (const bench::contestants::ContestantSpec& spec : own_forms()) expect_no_allocation(spec);
+}
+
+template <class D>
+void expect_contacts_take_nothing() {
+  const D detector = D::build(test::sheet(20));
+  typename D::Session session;
+  std::array<Contact, 8> room;
+  const std::size_t before = allocations;
+  std::size_t contacts = 0;
+  for (int i = 0; i < 200; ++i)
+    contacts += detector.contacts({{i / 200.0, 0.4, 0.05}, 0}, 0.1, session, room);
+  EXPECT_EQ(allocations, before);
+  EXPECT_GT(contacts, 400u);
+}
+
+TEST(NoAllocation, WhereAllContactsAreAsked) {
+  expect_contacts_take_nothing<BruteForce>();
+  expect_contacts_take_nothing<AabbTree>();
+  expect_contacts_take_nothing<GridGroup>();
+  expect_contacts_take_nothing<SphereCluster>();
 }
 
 TEST(NoAllocation, WhereTheSideIsAsked) {

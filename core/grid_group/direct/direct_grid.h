@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/detector.h"
@@ -59,6 +60,9 @@ class DirectGrid {
   std::optional<Contact> nearest(const Vec3& center, double reach, DirectMemory& memory,
                                  Work& work) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, DirectMemory& memory, Work& work) const noexcept;
+
+  std::size_t contacts(const Vec3& center, double reach, DirectMemory& memory, std::span<Contact> into,
+                       Work& work) const noexcept;
 
   /// Asks the question again where the point was, unless that is known to be clear.
   void prepare(const LastQuestion& question, DirectMemory& memory, Work& work) const noexcept {

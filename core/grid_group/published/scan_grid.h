@@ -42,6 +42,11 @@ class ScanGrid {
   std::optional<Contact> nearest(const Vec3& center, double reach, Work& work) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, Work& work) const noexcept;
 
+  /// Looks at every triangle once, as the paper's members may be in many groups.
+  std::size_t contacts(const Vec3& center, double reach, std::span<Contact> into, Work& work) const noexcept {
+    return fallback().contacts(center, reach, into, work);
+  }
+
   std::size_t bytes() const noexcept;
   std::size_t groups() const noexcept { return first_member_.size() - 1; }
   double cell() const noexcept { return cell_; }

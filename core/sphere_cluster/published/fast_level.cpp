@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/geometry/sphere_triangle_sweep.h"
+#include "core/search/contacts_within.h"
 #include "core/sphere_cluster/search_bounds.h"
 
 namespace touchmark {
@@ -103,6 +104,28 @@ std::optional<Impact> FastLevel::first_hit(const Sweep& sweep, Work& work) const
   work.spheres += spheres_.size();
   if (hit == spheres_.size()) return std::nullopt;
   return Impact{first, contact_with(hit, position_at(sweep, first))};
+}
+
+/// Meanwhile a contact has the gap for its distance, and the sphere for its triangle.
+std::size_t FastLevel::contacts(const Vec3& center, double reach, std::span<Contact> into,
+                                Work& work) const noexcept {
+  if (!center.allFinite()) return 0;
+  const auto is_before = [](const Contact& a, const Contact& b) {
+    return a.distance < b.distance || (a.distance == b.distance && a.triangle < b.triangle);
+  };
+  std::size_t count = 0;
+  for_each_within(reach, center, [&](std::size_t sphere) noexcept {
+    const double gap_here = gap(sphere, center);
+    if (!(gap_here <= reach)) return false;
+    const Contact contact{.distance = gap_here, .triangle = static_cast<TriangleId>(sphere)};
+    keep_first(into, count++, contact, is_before);
+    return false;
+  });
+  work.spheres += spheres_.size();
+  const std::span<Contact> kept = into.first(std::min(count, into.size()));
+  std::sort(kept.begin(), kept.end(), is_before);
+  for (Contact& contact : kept) contact = contact_with(contact.triangle, center);
+  return count;
 }
 
 std::size_t FastLevel::bytes() const noexcept {

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/detector.h"
@@ -25,6 +26,8 @@ class FastLevel {
   bool touches(const Probe& probe, Work& work) const noexcept;
   std::optional<Contact> nearest(const Vec3& center, double reach, Work& work) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, Work& work) const noexcept;
+  /// One contact for each sphere within the reach, in the order of `nearest`.
+  std::size_t contacts(const Vec3& center, double reach, std::span<Contact> into, Work& work) const noexcept;
   /// True distance minus reported distance lies between 0 and this, up to kernel_relative_error: a sphere
   /// holds its triangles and is centred on one of them. The largest radius plus the rounding of a centroid.
   double error_bound() const noexcept { return error_bound_; }

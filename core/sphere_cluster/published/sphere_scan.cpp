@@ -6,6 +6,7 @@
 #include "core/geometry/sweep_box.h"
 #include "core/search/certified_nearest.h"
 #include "core/search/closest_candidates.h"
+#include "core/search/contacts_within.h"
 #include "core/search/first_touch.h"
 #include "core/sphere_cluster/search_bounds.h"
 
@@ -93,6 +94,20 @@ std::optional<Impact> SphereScan::first_hit(const Sweep& sweep, Work& work) cons
                ? contact_on(triangles_[at_start.at()], sweep.from, ids_[at_start.best().index])
                : nearest(sweep.from, within, work);
   });
+}
+
+std::size_t SphereScan::contacts(const Vec3& center, double reach, std::span<Contact> into,
+                                 Work& work) const noexcept {
+  if (!center.allFinite()) return 0;
+  ContactsWithin found({triangles_, bounds_, ids_, center, reach, into});
+  if (std::isinf(found.error())) return fallback().contacts(center, reach, into, work);
+  for_each_met(center, reach + found.error(), [&](std::size_t sphere) noexcept {
+    for (std::uint32_t i = first_[sphere]; i < first_[sphere + 1]; ++i) found.consider(i, work);
+    work.triangles += first_[sphere + 1] - first_[sphere];
+    return false;
+  });
+  work.spheres += spheres_.size();
+  return found.finish(work);
 }
 
 std::size_t SphereScan::bytes() const noexcept {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/aabb.h"
@@ -28,6 +29,7 @@ class SphereScan {
   bool touches(const Probe& probe, Work& work) const noexcept;
   std::optional<Contact> nearest(const Vec3& center, double reach, Work& work) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, Work& work) const noexcept;
+  std::size_t contacts(const Vec3& center, double reach, std::span<Contact> into, Work& work) const noexcept;
   std::size_t bytes() const noexcept;
 
  private:

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/aabb.h"
@@ -68,6 +69,8 @@ class SphereTree {
   bool touches(const Probe& probe, Memory& memory, Work& work) const noexcept;
   std::optional<Contact> nearest(const Vec3& center, double reach, Memory& memory, Work& work) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, Memory& memory, Work& work) const noexcept;
+  std::size_t contacts(const Vec3& center, double reach, Memory& memory, std::span<Contact> into,
+                       Work& work) const noexcept;
   /// Refills the cache for the next query where the point is near, and asks the question ahead, where the
   /// point will be if it goes on as it moved, unless that is known to be clear.
   void prepare(const LastQuestion& question, Memory& memory, Work& work) const noexcept;

@@ -1,0 +1,76 @@
+#include "core/scene/pose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <string>
+
+namespace touchmark {
+namespace {
+
+constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
+
+/// With enough digits to tell 1 from what is off by rounding.
+std::string text(double number) {
+  std::ostringstream out;
+  out.precision(17);
+  out << number;
+  return out.str();
+}
+
+Eigen::Matrix3d off_identity(const Eigen::Matrix3d& rotation) noexcept {
+  return rotation.transpose() * rotation - Eigen::Matrix3d::Identity();
+}
+
+/// Throws, naming what is wrong with the pose.
+[[noreturn]] void refuse(const Pose& pose) {
+  if (!pose.rotation.allFinite()) throw PoseError("the rotation has a number that is not finite");
+  if (!pose.translation.allFinite()) throw PoseError("the translation has a number that is not finite");
+  const Eigen::Matrix3d off = off_identity(pose.rotation);
+  Eigen::Index row = 0, column = 0;
+  off.cwiseAbs().maxCoeff(&row, &column);
+  if (!(rigid_error(pose.rotation) <= max_rigid_error)) {
+    if (row == column)
+      throw PoseError("the pose scales: column " + std::to_string(row) + " of its rotation is " +
+                      text(pose.rotation.col(row).norm()) + " long, not 1");
+    throw PoseError("the pose shears: columns " + std::to_string(std::min(row, column)) + " and " +
+                    std::to_string(std::max(row, column)) + " of its rotation have the product " +
+                    text(off(row, column)) + ", not 0");
+  }
+  throw PoseError("the pose reflects: its rotation's determinant is " + text(pose.rotation.determinant()) +
+                  ", not 1");
+}
+
+}  // namespace
+
+Pose pose_of(const Vec3& position, double w, double x, double y, double z) {
+  constexpr double least = 0x1p-500;
+  const double n = w * w + x * x + y * y + z * z;
+  if (!position.allFinite()) throw PoseError("the position is not finite");
+  if (!(n >= least && std::isfinite(n)))
+    throw PoseError("the quaternion's squared length is " + text(n) + ", which gives no rotation");
+  const double s = 2 / n;
+  Pose pose;
+  pose.translation = position;
+  pose.rotation << 1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y),  //
+      s * (x * y + w * z), 1 - s * (x * x + z * z), s * (y * z - w * x),               //
+      s * (x * z - w * y), s * (y * z + w * x), 1 - s * (x * x + y * y);
+  return pose;
+}
+
+double rigid_error(const Eigen::Matrix3d& rotation) noexcept {
+  // The singular values' squares are within the norm of this of 1, and so are they themselves. Frobenius'
+  // norm is no less; each entry is off by 3 products, 2 sums and a difference of numbers below 2.
+  return 1.01 * off_identity(rotation).norm() + 32 * unit_roundoff;
+}
+
+double expect_rigid(const Pose& pose) {
+  const double error = rigid_error(pose.rotation);
+  // The determinant is within a few roundings of 1 or -1 then. What is not a number is not less either.
+  if (error <= max_rigid_error && pose.rotation.determinant() > 0 && pose.translation.allFinite())
+    return error;
+  refuse(pose);
+}
+
+}  // namespace touchmark

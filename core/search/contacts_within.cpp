@@ -1,0 +1,82 @@
+#include "core/search/contacts_within.h"
+
+#include <cmath>
+#include <optional>
+
+#include "core/exact/distance_predicates.h"
+#include "core/geometry/distance_error.h"
+#include "core/search/certified_nearest.h"
+#include "core/search/shared_feature.h"
+
+namespace touchmark {
+
+ContactsWithin::ContactsWithin(const ContactsQuestion& question) noexcept
+    : question_(question),
+      error_(question.decides_exactly ? distance_error(question.bounds, question.center) : 0),
+      is_scaled_(std::isinf(error_)),
+      scale_(is_scaled_ ? unit_for(largest_difference(question.bounds, question.center)) : 1),
+      point_(scale_ * question.center),
+      reach_(scale_ * question.reach),
+      is_within_(question.center, question.reach, error_) {
+  const Aabb& bounds = question.bounds;
+  if (is_scaled_) error_ = distance_error({scale_ * bounds.min, scale_ * bounds.max}, point_);
+}
+
+double ContactsWithin::distance_to(const PreparedTriangle& triangle) const noexcept {
+  return std::sqrt(squared_distance(is_scaled_ ? scaled(triangle, scale_) : triangle, point_));
+}
+
+bool ContactsWithin::is_within(const PreparedTriangle& triangle, double distance, Work& work) noexcept {
+  if (!question_.decides_exactly) return distance <= question_.reach;
+  if (!is_scaled_) return is_within_(triangle, distance, work.exact_decisions);
+  if (std::abs(distance - reach_) > error_) return distance < reach_;
+  ++work.exact_decisions;
+  return within_exactly(triangle.corner, question_.center, question_.reach);
+}
+
+/// Meanwhile a contact has the triangle's slot for its id, and the computed distance in this unit.
+bool ContactsWithin::is_before(const Contact& a, const Contact& b) const noexcept {
+  if (a.triangle == b.triangle) return false;
+  const PreparedTriangle &first = question_.triangles[a.triangle], &other = question_.triangles[b.triangle];
+  if (std::abs(a.distance - b.distance) > error_) return a.distance < b.distance;
+  if (!question_.decides_exactly)
+    return Candidate{a.distance, first.index} < Candidate{b.distance, other.index};
+  if (!is_scaled_ && surely_share_nearest(first, other, question_.center)) return first.index < other.index;
+  NearestOfTies both(question_.center);
+  both.consider(first);
+  both.consider(other);
+  exact_decisions_ += both.exact_decisions();
+  return both.nearest() == &first;
+}
+
+void ContactsWithin::consider(std::uint32_t slot, Work& work) noexcept {
+  const PreparedTriangle& triangle = question_.triangles[slot];
+  const double distance = distance_to(triangle);
+  if (!is_within(triangle, distance, work)) return;
+  const Contact contact{.distance = distance, .triangle = slot};
+  keep_first(question_.into, count_++, contact,
+             [this](const Contact& a, const Contact& b) { return is_before(a, b); });
+}
+
+/// These are the bits that `nearest` gives of the nearest triangle.
+Contact ContactsWithin::contact_on_slot(std::uint32_t slot, double distance) noexcept {
+  const PreparedTriangle& triangle = question_.triangles[slot];
+  if (question_.decides_exactly && (is_scaled_ || !is_certain(distance, question_.reach, error_))) {
+    NearestOfTies only(question_.center);
+    only.consider(triangle);
+    const std::optional<Contact> contact = only.contact(question_.reach, error(), question_.ids);
+    exact_decisions_ += only.exact_decisions();
+    if (contact) return *contact;
+  }
+  return contact_on(triangle, question_.center, question_.ids[triangle.index]);
+}
+
+std::size_t ContactsWithin::finish(Work& work) noexcept {
+  const std::span<Contact> kept = question_.into.first(std::min(count_, question_.into.size()));
+  std::sort(kept.begin(), kept.end(), [this](const Contact& a, const Contact& b) { return is_before(a, b); });
+  for (Contact& contact : kept) contact = contact_on_slot(contact.triangle, contact.distance);
+  work.exact_decisions += exact_decisions_;
+  return count_;
+}
+
+}  // namespace touchmark

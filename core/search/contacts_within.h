@@ -1,0 +1,80 @@
+/// The triangles within a reach, nearest first: what `contacts` answers, whoever finds the triangles.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "core/aabb.h"
+#include "core/detector.h"
+#include "core/geometry/point_triangle.h"
+#include "core/probe.h"
+#include "core/search/nearest_of_ties.h"
+#include "core/triangle_ids.h"
+
+namespace touchmark {
+
+/// Keeps in `into` the first of all contacts shown, of which this is the one after `count` others. They are
+/// in no order; where there is no more room, as a heap, the last on top.
+template <class IsBefore>
+void keep_first(std::span<Contact> into, std::size_t count, const Contact& contact,
+                const IsBefore& is_before) noexcept {
+  if (count < into.size()) {
+    into[count] = contact;
+    if (count + 1 == into.size()) std::make_heap(into.begin(), into.end(), is_before);
+  } else if (!into.empty() && is_before(contact, into.front())) {
+    std::pop_heap(into.begin(), into.end(), is_before);
+    into.back() = contact;
+    std::push_heap(into.begin(), into.end(), is_before);
+  }
+}
+
+/// What a search asks about, and where its triangles are; all of it outlives the search.
+struct ContactsQuestion {
+  std::span<const PreparedTriangle> triangles;
+  const Aabb& bounds;  ///< hold the triangles
+  const TriangleIds& ids;
+  const Vec3& center;           ///< finite
+  double reach;                 ///< at least 0
+  std::span<Contact> into;      ///< room for the nearest
+  bool decides_exactly = true;  ///< false: as doubles have it
+};
+
+/// Decides which triangles are within the reach, counts them, and keeps the nearest. A search shows each
+/// triangle whose computed distance is at most the reach and the error, once, in any order.
+///
+/// Every decision is that of the exact distances, where it is asked to decide exactly: doubles settle most
+/// (docs/exactness.md, E2 and E9), and nearest_of_ties.h the rest. So each contact is the same bits whoever
+/// finds it.
+class ContactsWithin {
+ public:
+  explicit ContactsWithin(const ContactsQuestion& question) noexcept;
+
+  /// Bounds the error of a computed distance; infinite where every triangle is to be shown.
+  double error() const noexcept { return is_scaled_ ? infinite : error_; }
+  void consider(std::uint32_t slot, Work& work) noexcept;
+  /// Returns how many triangles are within the reach; the nearest are in their order then.
+  std::size_t finish(Work& work) noexcept;
+
+ private:
+  static constexpr double infinite = std::numeric_limits<double>::infinity();
+
+  double distance_to(const PreparedTriangle& triangle) const noexcept;
+  bool is_within(const PreparedTriangle& triangle, double distance, Work& work) noexcept;
+  bool is_before(const Contact& a, const Contact& b) const noexcept;
+  Contact contact_on_slot(std::uint32_t slot, double distance) noexcept;
+
+  ContactsQuestion question_;
+  double error_ = 0;
+  bool is_scaled_ = false;  ///< fourth powers of the differences do not fit: distances are in another unit
+  double scale_ = 1;        ///< a power of two
+  Vec3 point_;              ///< the centre in that unit
+  double reach_;            ///< likewise
+  WithinRadius is_within_;
+  std::size_t count_ = 0;
+  mutable std::uint64_t exact_decisions_ = 0;
+};
+
+}  // namespace touchmark

@@ -1,0 +1,52 @@
+/// All triangles within a reach, through the hierarchy.
+#include <cmath>
+#include <limits>
+
+#include "core/search/contacts_within.h"
+#include "core/sphere_cluster/tree/cylinder_bvh.h"
+#include "core/sphere_cluster/tree/search.h"  // IWYU pragma: keep
+
+namespace touchmark {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Shows every triangle within a limit that stays.
+struct ContactsVisitor {
+  ContactsWithin& found;
+  const Vec3& center;
+  float limit;
+  Work work{};
+
+  /// Never: the distance is measured where it is decided.
+  bool accepts(std::uint32_t at) noexcept {
+    found.consider(at, work);
+    return false;
+  }
+  void update(std::uint32_t, const Offset&) noexcept {}
+};
+
+}  // namespace
+
+std::size_t SphereTree::contacts(const Vec3& center, double reach, Memory& memory, std::span<Contact> into,
+                                 Work& work) const noexcept {
+  claim(memory);
+  const FilterPoint point = frame_.point(center);
+  if (!can_search(point)) return fallback().contacts(center, reach, into, work);
+  const double clearance = static_cast<double>(distances_.lower_bound(point)) * frame_.unit();
+  if (clearance > reach) {
+    remember_touch(center, clearance, infinity, memory);
+    return 0;
+  }
+  ContactsWithin found({parts_.triangles, bounds_, ids_, center, reach, into, certified_});
+  if (std::isinf(found.error())) return fallback().contacts(center, reach, into, work);
+  const double farthest = reach + frame_.kernel_error(point.plane_error);
+  ContactsVisitor visitor{found, center, frame_.limit(farthest * farthest)};
+  traverse(point, visitor, any_work);
+  work += visitor.work;
+  const std::size_t count = found.finish(work);
+  if (count == 0) remember_touch(center, reach - clearance_pad(point), infinity, memory);
+  return count;
+}
+
+}  // namespace touchmark
