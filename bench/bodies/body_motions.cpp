@@ -101,10 +101,8 @@ std::optional<BodyMotion> generated_motion(const std::string& name, const BodySc
   std::iota(motion.moving.begin(), motion.moving.end(), 0U);
   std::vector<Placement> starts;
   for (const Body& body : scene.bodies) starts.push_back(body.start);
-  motion.at = [shared = std::make_shared<const std::vector<Placement>>(std::move(starts)),
-               move = kind->move](std::uint32_t body, double time_s) {
-    return move((*shared)[body], body, time_s);
-  };
+  motion.at = [shared = std::make_shared<const std::vector<Placement>>(std::move(starts)), move = kind->move](
+                  std::uint32_t body, double time_s) { return move((*shared)[body], body, time_s); };
   return motion;
 }
 

@@ -1,5 +1,5 @@
-/// How the bodies of generated scenes move: kinds as in Broadmark (Serpa and Rodrigues, 2020), in closed form,
-/// so that a time has one pose whatever was asked before.
+/// How the bodies of generated scenes move: kinds as in Broadmark (Serpa and Rodrigues, 2020), in closed
+/// form, so that a time has one pose whatever was asked before.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,5 @@
-/// Where a body is as files write it: a position and a quaternion. core/scene/pose.h makes a matrix of it.
+/// The place of a body as files write it: a position and a quaternion. core/scene/pose.h makes a matrix of
+/// it.
 #pragma once
 
 #include <algorithm>
@@ -23,8 +24,8 @@ inline double dot(const Quaternion& a, const Quaternion& b) noexcept {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
 }
 
-/// A quaternion whose squares are doubles: itself, or where they would leave that range divided by the largest
-/// of its numbers. It must be finite and not zero.
+/// A quaternion whose squares are doubles: itself, or where they would leave that range divided by the
+/// largest of its numbers. It must be finite and not zero.
 inline Quaternion in_range(Quaternion q) noexcept {
   constexpr double least = 0x1p-200, most = 0x1p200;
   double largest = 0;

@@ -18,8 +18,7 @@
 namespace touchmark::bench::bodies {
 namespace {
 
-constexpr std::array<std::string_view, 9> columns{"time_s", "body", "x",  "y", "z",
-                                                  "qw",     "qx",   "qy", "qz"};
+constexpr std::array<std::string_view, 9> columns{"time_s", "body", "x", "y", "z", "qw", "qx", "qy", "qz"};
 constexpr std::size_t time_column = 0, body_column = 1, first_position = 2, first_orientation = 5;
 
 struct Row {
@@ -87,8 +86,7 @@ class PoseReader {
 
   void add_row() {
     if (fields_.size() != columns.size()) {
-      throw file_.error(
-          fmt::format("the row has {} fields, the header {}", fields_.size(), columns.size()));
+      throw file_.error(fmt::format("the row has {} fields, the header {}", fields_.size(), columns.size()));
     }
     Row row;
     row.time_s = number(time_column);

@@ -29,7 +29,8 @@ class KeysOnce {
     if (event == Json::parse_event_t::object_start) seen_.emplace_back();
     if (event == Json::parse_event_t::object_end) seen_.pop_back();
     if (event == Json::parse_event_t::key && !seen_.back().insert(parsed.get<std::string>()).second)
-      throw std::invalid_argument(fmt::format("an object has the key \"{}\" twice", parsed.get<std::string>()));
+      throw std::invalid_argument(
+          fmt::format("an object has the key \"{}\" twice", parsed.get<std::string>()));
     return true;
   }
 
@@ -40,9 +41,8 @@ class KeysOnce {
 Json parsed(const std::string& text) {
   try {
     KeysOnce once;
-    return Json::parse(text, [&](int depth, Json::parse_event_t event, Json& value) {
-      return once(depth, event, value);
-    });
+    return Json::parse(
+        text, [&](int depth, Json::parse_event_t event, Json& value) { return once(depth, event, value); });
   } catch (const Json::exception& error) {
     throw std::invalid_argument(fmt::format("is not JSON: {}", error.what()));
   }
@@ -52,9 +52,9 @@ void expect_keys(const Json& object, std::span<const std::string_view> keys) {
   if (!object.is_object()) throw std::invalid_argument("is not an object");
   for (const auto& [key, value] : object.items()) {
     if (std::ranges::find(keys, key) == keys.end()) {
-      throw std::invalid_argument(fmt::format(
-          "unknown key \"{}\"; did you mean {}?", key,
-          support::near_names(key, std::vector<std::string>(keys.begin(), keys.end()))));
+      throw std::invalid_argument(
+          fmt::format("unknown key \"{}\"; did you mean {}?", key,
+                      support::near_names(key, std::vector<std::string>(keys.begin(), keys.end()))));
     }
   }
   for (const std::string_view key : keys) {

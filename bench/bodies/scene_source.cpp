@@ -34,9 +34,8 @@ BodyScene read_node_tree(const std::string& path) {
   for (const NodeTree::Node& node : tree.nodes) {
     // The file's matrix is in single precision: a quaternion's is orthonormal to the last digits.
     const Eigen::Quaterniond turn(node.rotation);
-    scene.bodies.push_back({unused(node.name, names),
-                            node.mesh,
-                            {node.translation, {turn.w(), turn.x(), turn.y(), turn.z()}}});
+    scene.bodies.push_back(
+        {unused(node.name, names), node.mesh, {node.translation, {turn.w(), turn.x(), turn.y(), turn.z()}}});
   }
   return scene;
 }
@@ -52,9 +51,10 @@ void expect_a_file(const std::string& what) {
   if (looks_like_a_path || std::filesystem::exists(what, ignored)) return;
   std::vector<std::string> known;
   for (const BodySceneInfo& scene : body_scenes()) known.push_back(scene.name);
-  throw std::invalid_argument(fmt::format("scene \"{}\": no generated scene and no file has this name; "
-                                          "did you mean {}?",
-                                          what, support::near_names(what.substr(0, what.find(':')), known)));
+  throw std::invalid_argument(
+      fmt::format("scene \"{}\": no generated scene and no file has this name; "
+                  "did you mean {}?",
+                  what, support::near_names(what.substr(0, what.find(':')), known)));
 }
 
 GeneratedScene load_unmoved(const std::string& what) {
@@ -62,7 +62,8 @@ GeneratedScene load_unmoved(const std::string& what) {
   expect_a_file(what);
   const std::filesystem::path path(what);
   GeneratedScene loaded;
-  loaded.scene = lower_case(path.extension().string()) == ".json" ? read_scene_json(what) : read_node_tree(what);
+  loaded.scene =
+      lower_case(path.extension().string()) == ".json" ? read_scene_json(what) : read_node_tree(what);
   loaded.scene.name = path.filename().string();
   return loaded;
 }

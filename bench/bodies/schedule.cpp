@@ -6,24 +6,6 @@
 
 namespace touchmark::bench::bodies {
 
-BodyMove BodyMove::of(std::uint32_t body, const Pose& pose) {
-  BodyMove move;
-  move.body = body;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) move.rotation[3 * row + column] = pose.rotation(row, column);
-    move.translation[row] = pose.translation[row];
-  }
-  return move;
-}
-
-Pose BodyMove::pose() const noexcept {
-  Pose pose;
-  pose.rotation << rotation[0], rotation[1], rotation[2], rotation[3], rotation[4], rotation[5], rotation[6],
-      rotation[7], rotation[8];
-  pose.translation << translation[0], translation[1], translation[2];
-  return pose;
-}
-
 Schedule schedule_of(const BodyMotion& motion, std::span<const double> times_s) {
   Schedule schedule;
   if (motion.moving.empty()) return schedule;

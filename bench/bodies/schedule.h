@@ -1,4 +1,4 @@
-/// Where bodies are at each step of a trajectory, worked out ahead, so that nothing of it is in a tick.
+/// The places of bodies at each step of a trajectory, worked out ahead, so that nothing of it is in a tick.
 #pragma once
 
 #include <cstddef>
@@ -18,8 +18,22 @@ struct BodyMove {
   double rotation[9] = {};  ///< a row after the other
   double translation[3] = {};
 
-  static BodyMove of(std::uint32_t body, const Pose& pose);
-  Pose pose() const noexcept;
+  static BodyMove of(std::uint32_t body, const Pose& pose) noexcept {
+    BodyMove move;
+    move.body = body;
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 3; ++column) move.rotation[3 * row + column] = pose.rotation(row, column);
+      move.translation[row] = pose.translation[row];
+    }
+    return move;
+  }
+  Pose pose() const noexcept {
+    Pose pose;
+    pose.rotation << rotation[0], rotation[1], rotation[2], rotation[3], rotation[4], rotation[5],
+        rotation[6], rotation[7], rotation[8];
+    pose.translation << translation[0], translation[1], translation[2];
+    return pose;
+  }
 };
 static_assert(std::is_trivially_copyable_v<BodyMove> && sizeof(BodyMove) == 104);
 
@@ -72,7 +86,8 @@ class ScheduleFollower {
       while (schedule->at(begin).size() < all) --begin;
     }
     for (; begin <= step; ++begin) {
-      for (const BodyMove& move : schedule->at(begin)) place(static_cast<std::uint32_t>(move.body), move.pose());
+      for (const BodyMove& move : schedule->at(begin))
+        place(static_cast<std::uint32_t>(move.body), move.pose());
     }
     step_ = step;
   }
@@ -95,6 +110,7 @@ struct PlacedScene {
   };
   std::vector<std::shared_ptr<const TriangleMesh>> shapes;
   std::vector<PlacedBody> bodies;
+  bool moves = false;  ///< some body is asked to move
 };
 
 /// Throws PoseError.

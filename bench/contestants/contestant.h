@@ -228,8 +228,7 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
   bool prepares() const noexcept override { return prefetch == Prefetch::on; }
 
  private:
-  void stand([[maybe_unused]] const workload::QueryTrace& trace,
-             [[maybe_unused]] std::size_t step) noexcept {
+  void stand([[maybe_unused]] const workload::QueryTrace& trace, [[maybe_unused]] std::size_t step) noexcept {
     if constexpr (StandsInSchedules<D>) detector_->stand_at(trace.schedule, step);
   }
   static workload::Answer about_body(workload::Answer answer,

@@ -91,7 +91,7 @@ struct ContestantInfo {
   std::vector<OptionInfo> options;
   /// Throws std::invalid_argument or MeshError for options or a mesh it refuses. Empty: not built in.
   BuildContestant build;
-  BuildSceneContestant build_scene = {};  ///< the same over a scene of bodies; empty: there is no such one
+  BuildSceneContestant build_scene = {};  ///< builds one over a scene of bodies; empty: it takes none
   /// What it surely takes, and so must be there before it is built.
   std::function<double(const OptionValues&)> bytes_per_triangle = [](const OptionValues&) {
     return support::min_bytes_per_triangle;

@@ -32,8 +32,8 @@ class OwnScene {
   std::optional<BodyContact> nearest_body(const Probe& probe, double reach, Session& session) const noexcept {
     return scene_.nearest_body(probe, reach, session);
   }
-  std::optional<BodyImpact> first_hit_body(const Sweep& sweep, Session& session) const noexcept
-      requires AnswersSweep<D> {
+  std::optional<BodyImpact> first_hit_body(const Sweep& sweep,
+                                           Session& session) const noexcept requires AnswersSweep<D> {
     return scene_.first_hit_body(sweep, session);
   }
   std::size_t bytes() const noexcept { return scene_.bytes(); }
@@ -48,9 +48,8 @@ template <Detector D>
 BuildSceneContestant build_own_scene(OptionsOf<D> options) {
   return [options = std::move(options)](const bodies::PlacedScene& placed, const OptionValues& values) {
     expect_options_of_scenes(values);
-    return scene_contestant(placed, [&](const bodies::PlacedScene& one) {
-      return OwnScene<D>(one, values, options);
-    });
+    return scene_contestant(
+        placed, [&](const bodies::PlacedScene& one) { return OwnScene<D>(one, values, options); });
   };
 }
 

@@ -47,7 +47,7 @@ class ScenePlayer {
     std::function<S(const bodies::PlacedScene&)> make;
   };
   struct Session : S::Session {
-    std::uint32_t body = 0;  ///< of the last answer that found one
+    std::uint32_t body = 0;  ///< the one that the last contact is on
   };
 
   ScenePlayer(const bodies::PlacedScene& placed, const Options& options) : scene_(options.make(placed)) {
@@ -74,8 +74,8 @@ class ScenePlayer {
     session.body = found->body.index;
     return found->contact;
   }
-  std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept
-      requires SweepsScene<S> {
+  std::optional<Impact> first_hit(const Sweep& sweep,
+                                  Session& session) const noexcept requires SweepsScene<S> {
     const std::optional<BodyImpact> found = scene_.first_hit_body(sweep, session);
     if (!found) return std::nullopt;
     session.body = found->body.index;
@@ -94,7 +94,8 @@ class ScenePlayer {
 /// Throws std::invalid_argument for options that are of one mesh.
 inline void expect_options_of_scenes(const OptionValues& values) {
   if (asks_for_side(values)) throw std::invalid_argument("a scene of bodies tells no side");
-  if (is_updated(values)) throw std::invalid_argument("updated=true is of one mesh, not of a scene of bodies");
+  if (is_updated(values))
+    throw std::invalid_argument("updated=true is of one mesh, not of a scene of bodies");
   const auto prepare = values.all().find("prepare");
   if (prepare != values.all().end() && prepare->second == "true")
     throw std::invalid_argument("prepare=true is of one mesh, not of a scene of bodies");

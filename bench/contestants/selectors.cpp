@@ -56,7 +56,8 @@ std::optional<support::LengthUnit> checked_unit(const std::string& text) {
 
 void check_scene(const Selectors& selectors) {
   if (selectors.scene.empty()) {
-    if (!selectors.poses.empty()) throw std::invalid_argument("--poses are of bodies, and there is no --scene");
+    if (!selectors.poses.empty())
+      throw std::invalid_argument("--poses are of bodies, and there is no --scene");
     return;
   }
   if (!selectors.meshes.empty())
@@ -82,7 +83,7 @@ CheckedSelectors check(const Selectors& selectors, const Roster& roster, Variety
   selection.seed = checked_seed(selectors.seed);
   for (const std::string& text : selectors.detectors) selection.contestants.push_back(roster.parse(text));
   if (selection.contestants.empty()) {
-    selection.contestants = !selectors.scene.empty()        ? roster.forms(&Forms::scenes)
+    selection.contestants = !selectors.scene.empty()  ? roster.forms(&Forms::scenes)
                             : variety == Variety::one ? roster.default_set()
                                                       : roster.thorough_set();
   }

@@ -12,8 +12,8 @@ namespace touchmark::bench::results {
 
 /// Which columns there are beside those of all queries.
 struct AnswerColumns {
-  bool side = false;                            ///< of a contestant that is asked for it
-  const bodies::BodyScene* bodies = nullptr;  ///< of a scene: the body's name
+  bool side = false;                          ///< a contestant was asked for it
+  const bodies::BodyScene* bodies = nullptr;  ///< a scene, whose bodies are named; null: no such column
 };
 
 /// Returns the header with its line end. All queries have these columns; `sweep` appends the fraction of the

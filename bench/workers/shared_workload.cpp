@@ -50,7 +50,7 @@ std::size_t mesh_bytes(std::size_t vertices, std::size_t triangles, std::size_t 
   return vertices * 3 * sizeof(double) + triangles * 3 * sizeof(std::uint32_t) + ids * sizeof(TriangleId);
 }
 
-/// Of the mesh, or of all shapes.
+/// Returns the bytes of the mesh, or of all shapes.
 std::size_t mesh_bytes(const WorkloadLayout& layout) noexcept {
   std::size_t bytes = mesh_bytes(layout.vertices, layout.triangles, layout.ids);
   for (const auto& [vertices, triangles, ids] : layout.shapes) bytes += mesh_bytes(vertices, triangles, ids);
@@ -63,7 +63,8 @@ std::size_t step_bytes(const WorkloadLayout& layout) noexcept {
   return bytes;
 }
 
-/// Where the bodies begin. They and the schedules are numbers of eight bytes, and are read where they lie.
+/// Returns where the bodies begin. They and the schedules are numbers of eight bytes, and are read where they
+/// lie.
 std::size_t bodies_begin(const WorkloadLayout& layout) noexcept {
   constexpr std::size_t aligned = alignof(bodies::BodyMove);
   return (mesh_bytes(layout) + step_bytes(layout) + aligned - 1) / aligned * aligned;
@@ -193,6 +194,7 @@ bodies::PlacedScene read_scene(std::span<const std::byte> input, const WorkloadL
     const auto shape = static_cast<std::uint32_t>(placed.get<std::uint64_t>());
     scene.bodies.push_back({shape, placed.get<bodies::BodyMove>().pose()});
   }
+  scene.moves = std::ranges::any_of(layout.trace_moves, [](std::size_t moves) { return moves > 0; });
   return scene;
 }
 

@@ -18,18 +18,18 @@
 
 namespace touchmark::bench::workers {
 
-/// The sizes of what lies one after the other in the input: vertices, corners, ids, then each trace's steps. Of
-/// a scene it is each shape's vertices, corners and ids; then, after the steps, the bodies, and each trace's
-/// schedule.
+/// The sizes of what lies one after the other in the input: vertices, corners, ids, then each trace's steps.
+/// Of a scene it is each shape's vertices, corners and ids; then, after the steps, the bodies, and each
+/// trace's schedule.
 struct WorkloadLayout {
   std::size_t vertices = 0;
   std::size_t triangles = 0;
   std::size_t ids = 0;
   std::vector<std::size_t> trace_steps;
-  std::vector<std::array<std::size_t, 3>> shapes;  ///< of a scene: vertices, triangles and ids of each
-  std::size_t bodies = 0;                          ///< of a scene; else 0
-  std::vector<std::size_t> trace_moves;            ///< of a scene one a trace; 0: nothing moves
-  std::size_t min_output_steps = 0;  ///< the output has room for more than the longest trace
+  std::vector<std::array<std::size_t, 3>> shapes;  ///< vertices, triangles and ids of each of a scene
+  std::size_t bodies = 0;                          ///< how many a scene has; 0: it is a mesh
+  std::vector<std::size_t> trace_moves;            ///< one a trace of a scene; 0: nothing moves
+  std::size_t min_output_steps = 0;                ///< the output has room for more than the longest trace
 
   std::size_t input_bytes() const noexcept;
   /// How many steps the output has room for.

@@ -27,6 +27,7 @@
 #include "bench/support/system_limit.h"
 #include "bench/workers/cache_lines.h"
 #include "bench/workers/cold_replay.h"
+#include "bench/workers/geometry.h"
 #include "bench/workers/line_channel.h"
 #include "bench/workers/servo_stretch.h"
 #include "bench/workers/shared_memory.h"
@@ -43,12 +44,6 @@ namespace {
 std::uint64_t heap_in_use() {
   const struct mallinfo2 info = mallinfo2();
   return info.uordblks + info.hblkhd;
-}
-
-std::size_t triangles_in(const bodies::PlacedScene& scene) {
-  std::size_t sum = 0;
-  for (const auto& shape : scene.shapes) sum += shape->size();
-  return sum;
 }
 
 class Worker {
@@ -96,10 +91,8 @@ class Worker {
   }
 
   workload::QueryTrace trace_of(const Task& task) const {
-    return {task.query, traces_.at(task.trace),
-            layout_.bodies > 0 ? &schedules_.at(task.trace) : nullptr};
+    return {task.query, traces_.at(task.trace), layout_.bodies > 0 ? &schedules_.at(task.trace) : nullptr};
   }
-  void read_shapes();
   std::vector<workload::StepRange> ranges_of(const Task& task) const {
     return task.ranges.empty() ? workload::sample_steps(traces_.at(task.trace).size(), task.steps)
                                : task.ranges;
@@ -114,8 +107,7 @@ class Worker {
   SharedMemory output_;
   WorkloadLayout layout_;
   std::optional<OutputBuffers> buffers_;
-  std::optional<TriangleMesh> mesh_;
-  std::optional<bodies::PlacedScene> scene_;  // in place of a mesh
+  std::optional<Geometry> geometry_;
   std::vector<std::vector<workload::Step>> traces_;
   std::vector<bodies::ScheduleView> schedules_;
   std::optional<contestants::ContestantSpec> spec_;
@@ -126,7 +118,7 @@ Opened Worker::handle(const request::Open& request) {
   Opened opened;
   opened.flushed_to_zero = support::restore_denormals();
   layout_ = request.layout;
-  read_shapes();
+  geometry_.emplace(input_.bytes(), layout_);
   traces_ = read_traces(input_.bytes(), layout_);
   schedules_ = read_schedules(input_.bytes(), layout_);
   buffers_.emplace(output_.bytes(), layout_.output_steps());
@@ -137,19 +129,11 @@ Opened Worker::handle(const request::Open& request) {
   return opened;
 }
 
-void Worker::read_shapes() {
-  if (layout_.bodies > 0) {
-    scene_ = read_scene(input_.bytes(), layout_);
-  } else {
-    mesh_ = read_mesh(input_.bytes(), layout_);
-  }
-}
-
 double Worker::timed_build() {
   contestant_.reset();
-  roster_.require_memory_for(*spec_, layout_.bodies > 0 ? triangles_in(*scene_) : mesh_->size());
+  roster_.require_memory_for(*spec_, geometry_->triangles());
   const Clock::time_point start = Clock::now();
-  contestant_ = layout_.bodies > 0 ? roster_.build(*spec_, *scene_) : roster_.build(*spec_, *mesh_);
+  contestant_ = geometry_->build(roster_, *spec_);
   return ns_since(start);
 }
 
@@ -178,7 +162,7 @@ Built Worker::handle(const request::Build& request) {
 }
 
 Built Worker::built() {
-  if (!mesh_ && !scene_) read_shapes();
+  if (!geometry_) geometry_.emplace(input_.bytes(), layout_);
   Built built;
   const std::uint64_t heap_before = heap_in_use();
   std::vector<double> times_ns{timed_build()};
@@ -188,8 +172,7 @@ Built Worker::built() {
   constexpr double short_build_ns = 20e6;
   while (times_ns.size() < 5 && times_ns.front() < short_build_ns) times_ns.push_back(timed_build());
   built.build_ms = support::median(times_ns) / 1e6;
-  mesh_.reset();  // detectors hold copies of what they need
-  scene_.reset();
+  geometry_.reset();  // detectors hold copies of what they need
   built.bytes = contestant_->bytes();
   built.accuracy = contestant_->accuracy();
   for (const workload::Query query : workload::all_queries) {

@@ -28,7 +28,7 @@ struct StepRange {
 struct QueryTrace {
   Query query = Query::nearest;
   std::span<const Step> steps;
-  const bodies::ScheduleView* schedule = nullptr;  ///< of a scene whose bodies move
+  const bodies::ScheduleView* schedule = nullptr;  ///< a scene's; null: a mesh
 };
 
 }  // namespace touchmark::bench::workload

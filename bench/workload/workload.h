@@ -23,16 +23,16 @@ struct Pace {
 };
 
 struct Workload {
-  std::string mesh_name;  ///< or the scene's
-  TriangleMesh mesh;      ///< of a scene the one that its built-in trajectories were made on
+  std::string mesh_name;        ///< the scene's where there is one
+  TriangleMesh mesh;            ///< a scene's is the one that its built-in trajectories were made on
   double radius = 0;            ///< mesh units; of the trajectories that bring none of their own
   std::optional<double> reach;  ///< mesh units; nothing: each probe's radius
   std::vector<std::string> trajectories;
-  std::vector<std::vector<Step>> traces;                   ///< one a trajectory
-  std::vector<Pace> motions = {};                          ///< one a trajectory, or none
-  std::optional<support::LengthUnit> unit = std::nullopt;  ///< nothing: unknown
+  std::vector<std::vector<Step>> traces;                     ///< one a trajectory
+  std::vector<Pace> motions = {};                            ///< one a trajectory, or none
+  std::optional<support::LengthUnit> unit = std::nullopt;    ///< nothing: unknown
   std::shared_ptr<const bodies::BodyScene> scene = nullptr;  ///< null: the mesh alone, which stands
-  std::vector<bodies::Schedule> schedules = {};              ///< of a scene one a trajectory
+  std::vector<bodies::Schedule> schedules = {};              ///< one a trajectory of a scene
 
   std::size_t triangles() const noexcept { return scene ? scene->triangles() : mesh.size(); }
 };
@@ -42,7 +42,7 @@ struct Workload {
 Workload make_workload(std::string mesh_name, TriangleMesh mesh, const Selection& selection,
                        const std::vector<std::string>& trajectories, std::size_t default_steps);
 
-/// The same over a scene of bodies. Percentages are of the box of all bodies at the start. A built-in
+/// Makes a workload over a scene of bodies. Percentages are of the box of all bodies at the start. A built-in
 /// trajectory is made over the scene as it stands at the start (over its first bodies, where all together
 /// have more than two million triangles), and each position is then carried along by the body that is
 /// nearest to it there: what touches a body keeps touching it. A file's positions are where it says. A step's

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <Eigen/LU>
-
 #include <assimp/Importer.hpp>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>

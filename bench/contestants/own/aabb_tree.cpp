@@ -34,7 +34,8 @@ ContestantInfo aabb_tree_entry() {
     return contestant<AabbTree>(mesh, {leaf_size, chosen(values, "certified", yes_or_no)}, values);
   };
   info.build_scene = [=](const bodies::PlacedScene& scene, const OptionValues& values) {
-    if (in_floats(values)) throw std::invalid_argument("precision=float is of one mesh, not of a scene of bodies");
+    if (in_floats(values))
+      throw std::invalid_argument("precision=float is of one mesh, not of a scene of bodies");
     return build_own_scene<AabbTree>([](const TriangleMesh&, const OptionValues& chosen_values) {
       return AabbTree::Options{chosen_values.count("leaf_size"),
                                chosen(chosen_values, "certified", yes_or_no)};
