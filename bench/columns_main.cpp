@@ -1,9 +1,10 @@
-/// Prints the columns of results.csv, or of suite.csv or proxy.csv where "suite" or "proxy" is the argument,
-/// as the table that scripts/docs puts into docs/reference/results-csv.md.
+/// Prints the columns of results.csv, or of suite.csv, proxy.csv or many.csv where "suite", "proxy" or "many"
+/// is the argument, as the table that scripts/docs puts into docs/reference/results-csv.md.
 #include <string_view>
 
 #include <fmt/format.h>
 
+#include "bench/experiments/many/many_row.h"
 #include "bench/experiments/proxy/proxy_csv.h"
 #include "bench/experiments/suite/suite_csv.h"
 #include "bench/results/results_csv.h"
@@ -50,6 +51,8 @@ int main(int argc, char** argv) {
   const std::string_view of = argc > 1 ? argv[1] : "";
   if (of == "suite") {
     print_table(touchmark::bench::experiments::suite::suite_columns());
+  } else if (of == "many") {
+    print_table(touchmark::bench::experiments::many::many_columns());
   } else if (of == "proxy") {
     print_table(touchmark::bench::experiments::proxy::proxy_columns());
   } else {

@@ -1,4 +1,4 @@
-# Installs touchmark::core, and touchmark::mesh_io where it is built, for find_package and for pkg-config. Headers are
+# Installs touchmark::core, and touchmark::mesh_io and touchmark::c where they are built, for find_package and for pkg-config. Headers are
 # included as core/... here and as touchmark/... by users: #include <touchmark/grid_group.h>
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -40,5 +40,16 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/touchmark-config.cmake
 
 # From where the .pc file lies back to the prefix, so that the whole may be moved.
 file(RELATIVE_PATH touchmark_pc_to_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
-configure_file(touchmark.pc.in touchmark.pc @ONLY)
-install(FILES ${CMAKE_CURRENT_BINARY_DIR}/touchmark.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+# Empty where the C library has threads itself.
+set(touchmark_thread_library)
+if(CMAKE_THREAD_LIBS_INIT)
+  set(touchmark_thread_library " ${CMAKE_THREAD_LIBS_INIT}")
+endif()
+set(touchmark_pc touchmark.pc)
+if(TOUCHMARK_BUILD_C)
+  list(APPEND touchmark_pc touchmark-c.pc)
+endif()
+foreach(file ${touchmark_pc})
+  configure_file(${file}.in ${file} @ONLY)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${file} DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endforeach()

@@ -16,7 +16,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "bench/contestants/contestant.h"
+#include "bench/contestants/contestant_of.h"
 #include "bench/contestants/roster.h"
 #include "bench/oracle/judge.h"
 #include "core/brute_force/brute_force.h"

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "bench/contestants/contestant_of.h"
 #include "bench/experiments/stress/corner_case_sweeps.h"
 #include "bench/experiments/stress/near_ties.h"
 #include "bench/oracle/judge.h"

@@ -26,8 +26,9 @@ using AddCommand = void (*)(CLI::App& program, ProgramContext& context);
 
 // One line a command.
 constexpr AddCommand commands[] = {
-    add_bench, add_servo, add_choose, add_verify, add_stress, add_scale, add_update, add_proxy, add_list,
-    add_mesh,  add_query, add_paper,  add_tune,   add_gate,   add_plan,  add_run,    add_merge, add_validate,
+    add_bench, add_servo, add_choose, add_verify, add_stress,   add_scale, add_update,
+    add_proxy, add_many,  add_list,   add_mesh,   add_query,    add_paper, add_tune,
+    add_gate,  add_plan,  add_run,    add_merge,  add_validate,
 };
 
 /// One line whatever the library or a file put into it.

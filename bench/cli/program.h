@@ -29,6 +29,7 @@ void add_servo(CLI::App& program, ProgramContext& context);
 void add_choose(CLI::App& program, ProgramContext& context);
 void add_update(CLI::App& program, ProgramContext& context);
 void add_proxy(CLI::App& program, ProgramContext& context);
+void add_many(CLI::App& program, ProgramContext& context);
 void add_list(CLI::App& program, ProgramContext& context);
 void add_mesh(CLI::App& program, ProgramContext& context);
 void add_query(CLI::App& program, ProgramContext& context);

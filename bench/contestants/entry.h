@@ -7,15 +7,17 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "bench/contestants/build_notes.h"
-#include "bench/contestants/contestant.h"
 #include "bench/contestants/contestant_info.h"
+#include "bench/contestants/contestant_of.h"
 #include "bench/scenes/displaced.h"
+#include "core/search/parallel.h"
 #include "core/sign/signed_detector.h"
 
 namespace touchmark::bench::contestants {
@@ -92,6 +94,16 @@ std::unique_ptr<Contestant> contestant(const TriangleMesh& mesh, const typename 
                                : with(built<D>(mesh, options, values));
 }
 
+/// Returns how many threads are to build it. Throws std::invalid_argument for more than there may be.
+inline unsigned threads_of(const OptionValues& values) {
+  const std::size_t threads = values.count("threads");
+  if (threads > max_threads) {
+    throw std::invalid_argument("threads is " + std::to_string(threads) + ", more than " +
+                                std::to_string(max_threads));
+  }
+  return static_cast<unsigned>(threads);
+}
+
 /// A choice's names with what they stand for. The first one is the default.
 template <class Value>
 using Names = std::vector<std::pair<std::string, Value>>;
@@ -120,6 +132,15 @@ inline OptionInfo in_code(OptionInfo option, const std::string& member, const st
 
 inline const Names<bool> yes_or_no{{"true", true}, {"false", false}};
 inline const Names<bool> no_or_yes{{"false", false}, {"true", true}};
+
+inline OptionInfo threads_option() {
+  return in_code({"threads",
+                  OptionKind::count,
+                  {},
+                  "1",
+                  "threads that build it, 256 at most; 0: one a processor; the same bits with any number"},
+                 "threads");
+}
 
 inline OptionInfo certified_option() {
   return in_code(

@@ -6,20 +6,16 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/aabb_tree/builder.h"
 #include "core/geometry/sweep_box.h"
 #include "core/search/certified_nearest.h"
 #include "core/search/closest_candidates.h"
+#include "core/search/parallel.h"
 
 namespace touchmark {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-double half_area(const Aabb& box) noexcept {
-  if (box.empty()) return 0;
-  const Vec3 e = box.extent();
-  return e.x() * e.y() + e.y() * e.z() + e.z() * e.x();
-}
 
 /// Returns AabbTree::lower_bound, inside the loops that ask it of every box.
 [[gnu::always_inline]] inline double bound_below(const Aabb& box, const Vec3& center, double pad) noexcept {
@@ -34,134 +30,17 @@ struct StackEntry {
 
 }  // namespace
 
-/// Splits top down where the sum of area times triangles is least over sixteen planes an axis (MacDonald &
-/// Booth, "Heuristics for ray tracing using space subdivision", 1990).
-class AabbTree::Builder {
- public:
-  Builder(AabbTree& tree, std::size_t leaf_size) : tree_(tree), leaf_size_(leaf_size) {
-    for (const PreparedTriangle& triangle : tree.triangles_) {
-      Item item;
-      for (const Vec3& corner : triangle.corner) item.box.extend(corner);
-      item.center = item.box.center();
-      item.triangle = triangle.index;
-      items_.push_back(item);
-    }
-  }
-
-  void build() {
-    tree_.nodes_.reserve(items_.size());
-    tree_.nodes_.emplace_back();
-    split(0, 0, items_.size(), 0);
-    tree_.nodes_.shrink_to_fit();
-    std::vector<PreparedTriangle> ordered;
-    ordered.reserve(items_.size());
-    for (const Item& item : items_) ordered.push_back(tree_.triangles_[item.triangle]);
-    tree_.triangles_ = std::move(ordered);
-  }
-
- private:
-  struct Item {
-    Aabb box;
-    Vec3 center;
-    std::uint32_t triangle;
-  };
-  static constexpr std::size_t bins = 16;
-
-  void split(std::uint32_t node, std::size_t begin, std::size_t end, std::size_t level) {
-    Aabb box, centers;
-    for (std::size_t i = begin; i < end; ++i) {
-      box.extend(items_[i].box);
-      centers.extend(items_[i].center);
-    }
-    tree_.nodes_[node].box = box;
-    if (end - begin <= leaf_size_) {
-      tree_.nodes_[node].first = static_cast<std::uint32_t>(begin);
-      tree_.nodes_[node].count = static_cast<std::uint32_t>(end - begin);
-      return;
-    }
-    std::size_t middle = level < halving_level ? partition_by_area(begin, end, centers) : begin;
-    if (middle == begin || middle == end) middle = halve(begin, end, centers);
-    const auto child = static_cast<std::uint32_t>(tree_.nodes_.size());
-    tree_.nodes_[node].first = child;
-    tree_.nodes_.resize(child + 2);
-    split(child, begin, middle, level + 1);
-    split(child + 1, middle, end, level + 1);
-  }
-
-  std::size_t partition_by_area(std::size_t begin, std::size_t end, const Aabb& centers) {
-    double least = infinity;
-    int best_axis = 0;
-    std::size_t best_plane = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      std::array<Aabb, bins> box;
-      std::array<std::size_t, bins> count{};
-      for (std::size_t i = begin; i < end; ++i) {
-        const std::size_t bin = bin_of(items_[i], axis, centers);
-        box[bin].extend(items_[i].box);
-        ++count[bin];
-      }
-      std::array<double, bins> right_cost{};
-      Aabb right;
-      std::size_t right_count = 0;
-      for (std::size_t plane = bins - 1; plane > 0; --plane) {
-        right.extend(box[plane]);
-        right_count += count[plane];
-        right_cost[plane] = half_area(right) * static_cast<double>(right_count);
-      }
-      Aabb left;
-      std::size_t left_count = 0;
-      for (std::size_t plane = 1; plane < bins; ++plane) {
-        left.extend(box[plane - 1]);
-        left_count += count[plane - 1];
-        const double cost = half_area(left) * static_cast<double>(left_count) + right_cost[plane];
-        if (left_count == 0 || left_count == end - begin || !(cost < least)) continue;
-        least = cost;
-        best_axis = axis;
-        best_plane = plane;
-      }
-    }
-    const auto middle =
-        std::partition(items_.begin() + static_cast<std::ptrdiff_t>(begin),
-                       items_.begin() + static_cast<std::ptrdiff_t>(end),
-                       [&](const Item& item) { return bin_of(item, best_axis, centers) < best_plane; });
-    return static_cast<std::size_t>(middle - items_.begin());
-  }
-
-  std::size_t halve(std::size_t begin, std::size_t end, const Aabb& centers) {
-    int axis = 0;
-    centers.extent().maxCoeff(&axis);
-    const std::size_t middle = begin + (end - begin) / 2;
-    std::nth_element(items_.begin() + static_cast<std::ptrdiff_t>(begin),
-                     items_.begin() + static_cast<std::ptrdiff_t>(middle),
-                     items_.begin() + static_cast<std::ptrdiff_t>(end), [axis](const Item& a, const Item& b) {
-                       return a.center[axis] < b.center[axis] ||
-                              (a.center[axis] == b.center[axis] && a.triangle < b.triangle);
-                     });
-    return middle;
-  }
-
-  static std::size_t bin_of(const Item& item, int axis, const Aabb& centers) noexcept {
-    const double extent = centers.max[axis] - centers.min[axis];
-    const double where = (item.center[axis] - centers.min[axis]) / extent * static_cast<double>(bins);
-    return where >= 0 ? std::min(static_cast<std::size_t>(where), bins - 1) : 0;  // no extent: all in one
-  }
-
-  AabbTree& tree_;
-  std::size_t leaf_size_;
-  std::vector<Item> items_;
-};
-
 AabbTree AabbTree::build(const TriangleMesh& mesh, const Options& options) {
   if (options.leaf_size < 1 || options.leaf_size > 255) {
     throw std::invalid_argument("the leaf size must be 1 to 255, not " + std::to_string(options.leaf_size));
   }
+  const unsigned threads = threads_to_use(options.threads, "aabb-tree");
   AabbTree tree;
   tree.options_ = options;
   tree.connectivity_ = Connectivity(mesh);
   tree.certified_ = options.certified;
-  tree.triangles_ = prepare(mesh);
   tree.ids_ = mesh.triangle_ids();
-  Builder(tree, options.leaf_size).build();
+  Builder(mesh, options.leaf_size, threads).build(tree);
   return tree;
 }
 

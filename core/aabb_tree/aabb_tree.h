@@ -28,6 +28,7 @@ class AabbTree {
   struct Options {
     std::size_t leaf_size = 4;  ///< triangles a leaf holds at most, 1 to 255
     bool certified = true;      ///< false: as doubles have it, to measure what certainty costs
+    unsigned threads = 1;       ///< build it, at most 256; 0: as many as there are processors; the same bits
   };
   /// What one haptic point remembers between ticks.
   struct Session {
@@ -38,7 +39,7 @@ class AabbTree {
   };
   static constexpr std::uint32_t no_triangle = std::numeric_limits<std::uint32_t>::max();
 
-  /// Throws std::invalid_argument for a leaf size out of range.
+  /// Throws std::invalid_argument for a leaf size out of range, or too many threads.
   static AabbTree build(const TriangleMesh& mesh, const Options& options);
   static AabbTree build(const TriangleMesh& mesh) { return build(mesh, Options()); }
   /// See the concept Updates. The boxes follow their triangles; where they would make queries dearer by more

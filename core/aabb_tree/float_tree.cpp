@@ -31,8 +31,9 @@ FloatTree FloatTree::build(const TriangleMesh& mesh, const Options& options) {
   std::vector<Vec3> stored;
   for (const Vec3& vertex : mesh.vertices()) stored.push_back(tree.frame_.into(vertex).cast<double>());
   // Boxes of floats are floats.
-  const AabbTree exact = AabbTree::build(
-      {std::move(stored), {mesh.triangles().begin(), mesh.triangles().end()}}, {options.leaf_size});
+  const AabbTree exact =
+      AabbTree::build({std::move(stored), {mesh.triangles().begin(), mesh.triangles().end()}},
+                      {.leaf_size = options.leaf_size, .threads = options.threads});
   for (const AabbTree::Node& node : exact.nodes_)
     tree.nodes_.push_back({node.box.min.cast<float>(), node.box.max.cast<float>(), node.first, node.count});
   for (const PreparedTriangle& t : exact.triangles_) {

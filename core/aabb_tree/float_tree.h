@@ -35,6 +35,7 @@ class FloatTree {
   /// What `build` may be told.
   struct Options {
     std::size_t leaf_size = 4;  ///< as in AabbTree
+    unsigned threads = 1;       ///< as in AabbTree
   };
   /// What one haptic point remembers between ticks.
   struct Session {

@@ -3,6 +3,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/search/parallel.h"
+
 namespace touchmark {
 namespace {
 
@@ -35,6 +37,7 @@ TriangleMesh first_triangle(const TriangleMesh& mesh) {
 
 GridGroup GridGroup::build(const TriangleMesh& mesh, const Options& options) {
   check(options);
+  const unsigned threads = threads_to_use(options.threads, "grid-group");
   GridGroup detector;
   detector.options_ = options;
   detector.connectivity_ = Connectivity(mesh);
@@ -47,7 +50,7 @@ GridGroup GridGroup::build(const TriangleMesh& mesh, const Options& options) {
   } else {
     detector.form_ =
         grid::DirectGrid::build(mesh, {options.cell, options.bytes_per_triangle, options.certified,
-                                       options.construction == Construction::lazy});
+                                       options.construction == Construction::lazy, threads});
   }
   return detector;
 }

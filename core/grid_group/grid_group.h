@@ -49,6 +49,8 @@ class GridGroup {
         400;                ///< direct: what the structure may take, mesh copy included (200 at least)
     bool certified = true;  ///< false, direct only: as doubles have it, to measure what certainty costs
     Construction construction = Construction::whole;
+    unsigned threads =
+        1;  ///< direct: build it, at most 256; 0: as many as there are processors; the same bits
   };
   /// What one haptic point remembers between ticks.
   struct Session {
@@ -57,7 +59,8 @@ class GridGroup {
     grid::DirectMemory memory;
   };
 
-  /// Throws std::invalid_argument for a negative or NaN cell, a budget below 200, or an uncertified scan.
+  /// Throws std::invalid_argument for a negative or NaN cell, a budget below 200, an uncertified scan, or too
+  /// many threads.
   static GridGroup build(const TriangleMesh& mesh, const Options& options);
   static GridGroup build(const TriangleMesh& mesh) { return build(mesh, Options()); }
 

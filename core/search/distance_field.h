@@ -46,11 +46,13 @@ class DistanceField {
   /// did.
   static std::uint64_t max_work(std::size_t triangles) noexcept { return 1024 * std::uint64_t{triangles}; }
 
-  /// distance_at(position, max_distance) bounds the distance at a point of the frame, which is at most the
-  /// second, each bound within 2^-23. Where it gives up, by a negative one, so does the rest of the grid:
-  /// nothing is known there.
-  template <class DistanceAt>
-  void fill(const DistanceAt& distance_at);
+  /// Fills part after part, each by a function of its own: distance_at = sampler(share), `share` being the
+  /// part's of the grid. distance_at(position, max_distance) bounds the distance at a point of the frame,
+  /// which is at most the second, each bound within 2^-23. Where it gives up, by a negative one, so does the
+  /// rest of the part: nothing is known there. Positions follow one another closely. Several threads, each
+  /// with a function of its own, find the same as one. These two are in distance_field_filling.h.
+  template <class Sampler>
+  void fill(const Sampler& sampler, unsigned threads);
   /// Leaves all of that to sample_near.
   void fill_lazily();
   bool is_lazy() const noexcept { return !unsampled_.empty(); }
@@ -62,8 +64,8 @@ class DistanceField {
   /// After a part of the mesh has moved, within the lattice's box: fills anew, or leaves it to sample_near as
   /// before, where that can have been nearest or can be. `moved`, in the frame, hold what moved as it was and
   /// as it is.
-  template <class DistanceAt>
-  void refill(const DistanceAt& distance_at, std::span<const Aabb> moved);
+  template <class Sampler>
+  void refill(const Sampler& sampler, std::span<const Aabb> moved, unsigned threads);
 
   bool empty() const noexcept { return fine_steps_.empty(); }
   /// Is a mesh of this box within the lattice's?
@@ -81,6 +83,7 @@ class DistanceField {
 
  private:
   using Step = std::uint8_t;
+  using Cube = std::array<std::uint32_t, 3>;
   using SharedBytes = std::vector<SharedValue<std::uint8_t>>;
   static constexpr Step max_steps = 255;
   static constexpr std::uint8_t all_eighths = 255;
@@ -116,12 +119,15 @@ class DistanceField {
     return steps == max_steps ? std::numeric_limits<double>::infinity()
                               : static_cast<double>(steps) * static_cast<double>(step_);
   }
+  template <class Sampler, class IsWanted>
+  void fill_cubes(const Sampler& sampler, const IsWanted& is_wanted, unsigned threads);
   template <class DistanceAt, class IsWanted>
-  void fill_cubes(const DistanceAt& distance_at, const IsWanted& is_wanted);
+  void fill_rows(std::size_t first, std::size_t end, DistanceAt& distance_at, const IsWanted& is_wanted);
+  template <class DistanceAt>
+  double fill_cube(const Cube& cube, double max_distance, DistanceAt& distance_at) const;
   /// What a sample in the middle of a coarse cube says of it and, where that is far, of its eighths: x, y, z
   /// say which it is.
   void keep(std::uint32_t x, std::uint32_t y, std::uint32_t z, const Interval& distance) const noexcept;
-  using Cube = std::array<std::uint32_t, 3>;
   /// Which fine cube an eighth of a coarse one is.
   static Cube eighth_of(std::uint32_t x, std::uint32_t y, std::uint32_t z, std::uint32_t eighth) noexcept {
     return {2 * x + (eighth & 1), 2 * y + (eighth >> 1 & 1), 2 * z + (eighth >> 2)};
@@ -178,46 +184,6 @@ inline void DistanceField::keep(std::uint32_t x, std::uint32_t y, std::uint32_t 
   for (std::uint32_t eighth = 0; eighth < 8; ++eighth) keep_fine(eighth_of(x, y, z, eighth), lower);
 }
 
-template <class DistanceAt, class IsWanted>
-void DistanceField::fill_cubes(const DistanceAt& distance_at, const IsWanted& is_wanted) {
-  const double to_next = coarse_.edge() + sample_pad;
-  double before = std::numeric_limits<double>::infinity();
-  // To and fro, so that each cube is next to the one before.
-  bool back = false;
-  for (std::uint32_t z = 0; z < coarse_.count(2); ++z) {
-    for (std::uint32_t row = 0; row < coarse_.count(1); ++row, back = !back) {
-      const std::uint32_t y = z % 2 == 0 ? row : coarse_.count(1) - 1 - row;
-      for (std::uint32_t position = 0; position < coarse_.count(0); ++position) {
-        const std::uint32_t x = back ? coarse_.count(0) - 1 - position : position;
-        const std::uint32_t cube = coarse_.index(x, y, z);
-        if (!is_wanted(cube)) {
-          before = upper_bound_at(cube);
-          continue;
-        }
-        const Interval distance = distance_at(middle(coarse_, x, y, z), before + to_next);
-        if (distance.lower < 0) return;
-        before = distance.upper;
-        keep(x, y, z, distance);
-        if (is_far(distance.lower)) continue;
-        for (std::uint32_t eighth = 0; eighth < 8; ++eighth) {
-          const Cube cube_of_eighth = eighth_of(x, y, z, eighth);
-          const Vec3 middle_of_eighth =
-              middle(fine_, cube_of_eighth[0], cube_of_eighth[1], cube_of_eighth[2]);
-          const double lower = distance_at(middle_of_eighth, distance.upper + to_eighth()).lower;
-          keep_fine(cube_of_eighth, steps_in(lower));
-        }
-      }
-    }
-  }
-}
-
-template <class DistanceAt>
-void DistanceField::fill(const DistanceAt& distance_at) {
-  coarse_steps_ = SharedBytes(coarse_.size(), max_steps);
-  fine_steps_ = SharedBytes(fine_.size(), 0);
-  fill_cubes(distance_at, [](std::uint32_t) { return true; });
-}
-
 inline void DistanceField::fill_lazily() {
   coarse_steps_ = SharedBytes(coarse_.size(), max_steps);
   fine_steps_ = SharedBytes(fine_.size(), 0);
@@ -247,26 +213,6 @@ bool DistanceField::sample_near(const FilterPoint& p, const DistanceAt& distance
   if (lower < 0) return false;
   keep_fine({i, j, k}, steps_in(lower));
   return true;
-}
-
-/// Bounds from below and from above stay true where all that moved was and is farther than the mesh was: of
-/// the middle, and padded for the path there and back of its eighths.
-template <class DistanceAt>
-void DistanceField::refill(const DistanceAt& distance_at, std::span<const Aabb> moved) {
-  std::vector<bool> changed(coarse_.size(), false);
-  for (std::uint32_t z = 0; z < coarse_.count(2); ++z) {
-    for (std::uint32_t y = 0; y < coarse_.count(1); ++y) {
-      for (std::uint32_t x = 0; x < coarse_.count(0); ++x) {
-        const std::uint32_t cube = coarse_.index(x, y, z);
-        if (!any_within(moved, middle(coarse_, x, y, z), upper_bound_at(cube) + 2 * to_eighth())) continue;
-        changed[cube] = true;
-        coarse_steps_[cube].store(max_steps);
-        for (std::uint32_t eighth = 0; eighth < 8; ++eighth) keep_fine(eighth_of(x, y, z, eighth), 0);
-        if (is_lazy()) unsampled_[cube].store(all_eighths);
-      }
-    }
-  }
-  if (!is_lazy()) fill_cubes(distance_at, [&](std::uint32_t cube) { return changed[cube]; });
 }
 
 }  // namespace touchmark

@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/search/parallel.h"
+
 namespace touchmark {
 
 SphereCluster SphereCluster::build(const TriangleMesh& mesh, const Options& options) {
@@ -16,6 +18,7 @@ SphereCluster SphereCluster::build(const TriangleMesh& mesh, const Options& opti
     throw std::invalid_argument("sphere-cluster: certified=false is for lookup=tree with precise=true");
   if (!has_tree && options.construction == Construction::lazy)
     throw std::invalid_argument("sphere-cluster: build=lazy is for lookup=tree with precise=true");
+  const unsigned threads = threads_to_use(options.threads, "sphere-cluster");
   SphereCluster detector;
   detector.options_ = options;
   detector.connectivity_ = Connectivity(mesh);
@@ -28,7 +31,7 @@ SphereCluster SphereCluster::build(const TriangleMesh& mesh, const Options& opti
   } else {
     detector.tree_ =
         SphereTree(mesh, detector.clusters_,
-                   {options.widest, options.certified, options.construction == Construction::lazy});
+                   {options.widest, options.certified, options.construction == Construction::lazy, threads});
   }
   return detector;
 }
@@ -54,6 +57,14 @@ std::optional<Contact> SphereCluster::look_for_nearest(const Probe& probe, doubl
   if (options_.lookup == Lookup::scan) return scan_.nearest(probe.center, reach, session.work);
   session.question = {LastQuestion::Query::nearest, reach};
   return tree_.nearest(probe.center, reach, session.memory, session.work);
+}
+
+std::optional<Contact> SphereCluster::look_for_nearest(const Probe& probe, double reach,
+                                                       FollowedPoint& followed, Work& work) const noexcept {
+  if (!(reach >= 0)) return std::nullopt;
+  if (!options_.precise) return fast_.nearest(probe.center, reach, work);
+  if (options_.lookup == Lookup::scan) return scan_.nearest(probe.center, reach, work);
+  return tree_.nearest(probe.center, reach, followed, work);
 }
 
 std::optional<Impact> SphereCluster::look_for_impact(const Sweep& sweep, Session& session) const noexcept {

@@ -37,6 +37,7 @@ class SphereCluster {
     bool certified = true;       ///< false, tree only: as doubles have it, to measure what certainty costs
     Simd widest = Simd::avx512;  ///< tree: forgo wider instructions than these; the same bits
     Construction construction = Construction::whole;
+    unsigned threads = 1;  ///< tree: build it, at most 256; 0: as many as there are processors; the same bits
   };
   /// What one haptic point remembers between ticks.
   struct Session {
@@ -45,8 +46,12 @@ class SphereCluster {
     SphereTree::Memory memory;
   };
 
+  /// What is remembered of one of many points, in two cache lines.
+  using FollowedPoint = spheres::FollowedPoint;
+
   /// Throws std::invalid_argument for a clustering distance that is negative, infinite or not a number; and
   /// with a scan or the fast level for certified = false, where nothing is certified, and for lazy making.
+  /// Throws it for too many threads, too.
   static SphereCluster build(const TriangleMesh& mesh, const Options& options);
   static SphereCluster build(const TriangleMesh& mesh) { return build(mesh, Options()); }
 
@@ -61,6 +66,12 @@ class SphereCluster {
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept {
     if (tree_.is_clear(probe.center, reach, session.memory)) return std::nullopt;
     return look_for_nearest(probe, reach, session);
+  }
+  /// Answers likewise for one of many points that are asked again and again. See the concept FollowsPoints.
+  std::optional<Contact> nearest(const Probe& probe, double reach, FollowedPoint& followed,
+                                 Work& work) const noexcept {
+    if (tree_.is_clear(probe.center, reach, followed)) return std::nullopt;
+    return look_for_nearest(probe, reach, followed, work);
   }
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept {
     if (tree_.is_clear(sweep, session.memory)) return std::nullopt;
@@ -95,6 +106,8 @@ class SphereCluster {
  private:
   bool look_for_touch(const Probe& probe, Session& session) const noexcept;
   std::optional<Contact> look_for_nearest(const Probe& probe, double reach, Session& session) const noexcept;
+  std::optional<Contact> look_for_nearest(const Probe& probe, double reach, FollowedPoint& followed,
+                                          Work& work) const noexcept;
   std::optional<Impact> look_for_impact(const Sweep& sweep, Session& session) const noexcept;
   std::size_t look_for_contacts(const Probe& probe, double reach, Session& session,
                                 std::span<Contact> into) const noexcept;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <new>
+#include <optional>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -10,6 +11,7 @@
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
 #include "core/grid_group/grid_group.h"
+#include "core/search/nearest_many.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 #include "tests/core/query_pass.h"
 #include "tests/own_forms.h"
@@ -59,6 +61,25 @@ TEST(NoAllocation, CountsAllocations) {
 
 TEST(NoAllocation, InAnyFormOfOurDetectors) {
   for (const bench::contestants::ContestantSpec& spec : own_forms()) expect_no_allocation(spec);
+}
+
+TEST(NoAllocation, InLaterCallsForAsManyPoints) {
+  const auto detector = SphereCluster::build(test::sheet(20));
+  std::vector<Vec3> points;
+  for (std::uint32_t i = 0; i < 1000; ++i) points.emplace_back(i * 149 % 1000 / 1e3, i % 31 / 31.0, 0.05);
+  std::vector<std::optional<Contact>> answers(points.size());
+  ManySessions<SphereCluster> sessions;
+  const auto ask = [&] {
+    nearest_many(detector, points, 0.2, answers, sessions, {2, AskOrder::automatic});
+    for (Vec3& point : points) point.x() += 1e-4;
+  };
+  ask();
+  const std::size_t before = allocations;
+  for (int tick = 0; tick < 10; ++tick) ask();
+  for (Vec3& point : points) point = Vec3(point.y(), point.x(), point.z() / 2);  // an order of its own
+  ask();
+  EXPECT_EQ(allocations, before);
+  EXPECT_TRUE(answers[0]);
 }
 
 template <class D>

@@ -14,6 +14,7 @@
 #include <touchmark/float_tree.h>
 #include <touchmark/grid_group.h>
 #include <touchmark/mesh_measures.h>
+#include <touchmark/nearest_many.h>
 #include <touchmark/signed_detector.h>
 #include <touchmark/sphere_cluster.h>
 #include <touchmark/subdivision.h>
@@ -108,6 +109,9 @@ void ask(const char* name, const D& detector) {
       if (i % 10 == 9) hash.add(detector.first_hit(Sweep{way[i - 9], way[i], 0.03125}, session));
     }
   }
+  std::vector<std::optional<Contact>> answers(way.size());
+  touchmark::nearest_many(detector, way, 0.125, answers, {2, touchmark::AskOrder::curve});
+  for (const std::optional<Contact>& answer : answers) hash.add(answer);
   hash.print(name);
 }
 

@@ -63,6 +63,9 @@ touchmark::Vec3 torque(const touchmark::Contact& contact, const touchmark::Vec3&
 
 INCLUDE = re.compile(r'^#include "(touchmark/[^"]+)"', re.M)
 COMPILERS = [compiler for compiler in ("g++", "clang++") if shutil.which(compiler)]
+C_COMPILERS = [compiler for compiler in ("gcc", "clang") if shutil.which(compiler)]
+C99 = ["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wundef", "-Werror"]
+IN_C = ["touchmark/touchmark.h"]
 EIGEN = ["-isystem", "/usr/include/eigen3"]
 FUSED = ["-mfma", "-ffp-contract=fast"]  # as GCC has it with -march=native on most processors
 
@@ -81,9 +84,9 @@ def run(*command, **options):
     return done.stdout
 
 
-def first_error(compiler, *flags, code):
+def first_error(compiler, *flags, code, language="c++"):
     """The first line of what the compiler finds wrong; nothing where it is content."""
-    done = subprocess.run([compiler, *flags, *EIGEN, "-x", "c++", "-", "-o", "/dev/null"], input=code,
+    done = subprocess.run([compiler, *flags, *EIGEN, "-x", language, "-", "-o", "/dev/null"], input=code,
                           capture_output=True, text=True, check=False)
     errors = [line for line in done.stderr.splitlines() if "error" in line]
     return errors[0] if done.returncode != 0 else None
@@ -92,6 +95,11 @@ def first_error(compiler, *flags, code):
 def in_parallel(function, arguments):
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         return list(pool.map(lambda argument: function(*argument), arguments))
+
+
+def weak_of_the_standard_library(symbol):
+    """Is it a template of the standard library or of GCC's, which every C++ library shows?"""
+    return re.match(r"_Z(Z?NK?St|T[ISV])", symbol) is not None
 
 
 def has_fused_instructions():
@@ -160,14 +168,48 @@ class Install(unittest.TestCase):
 
     def test_the_examples_print_what_the_pages_say(self):
         docs = HERE.parents[1] / "docs"
-        pages = "".join((docs / name).read_text(encoding="utf-8") for name in ("library.md", "real-time.md"))
+        pages = "".join((docs / name).read_text(encoding="utf-8") for name in ("library.md", "real-time.md", "c.md"))
         promised = dict(re.findall(r"`(\w+)` prints:\n\n```text\n(.*?)```", pages, re.S))
-        self.assertEqual(sorted(promised), sorted(path.stem for path in (docs / "examples").glob("*.cpp")))
+        self.assertEqual(sorted(promised), sorted(path.stem for path in (docs / "examples").glob("*.c*")))
         build = self.source / "examples"
         run("cmake", "-S", docs / "examples", "-B", build, f"-DCMAKE_PREFIX_PATH={self.prefix}")
         run("cmake", "--build", build)
         for name, output in promised.items():
             self.assertEqual(run(build / name), output, name)
+
+    def test_the_example_in_c_builds_as_c99_without_cmake(self):
+        page = (HERE.parents[1] / "docs" / "c.md").read_text(encoding="utf-8")
+        promised = re.search(r"`ball_in_c` prints:\n\n```text\n(.*?)```", page, re.S)[1]
+        pc = self.find("touchmark-c.pc")
+        flags = run("pkg-config", "--cflags", "--libs", "touchmark-c",
+                    env={**os.environ, "PKG_CONFIG_PATH": str(pc.parent)}).split()
+        for compiler in C_COMPILERS:
+            program = self.source / f"ball_with_{compiler}"
+            run(compiler, *C99, HERE.parents[1] / "docs" / "examples" / "ball_in_c.c", *flags, "-o", program)
+            self.assertEqual(run(program, env={**os.environ, "LD_LIBRARY_PATH": str(pc.parents[1])}), promised)
+
+    def test_a_project_in_c_alone_needs_no_other_language(self):
+        source = self.source / "in_c"
+        source.mkdir()
+        (source / "CMakeLists.txt").write_text(
+            "cmake_minimum_required(VERSION 3.25)\nproject(in_c LANGUAGES C)\n"
+            "find_package(touchmark REQUIRED COMPONENTS c)\nadd_executable(in_c in_c.c)\n"
+            "target_link_libraries(in_c PRIVATE touchmark::c)\n", encoding="utf-8")
+        (source / "in_c.c").write_text("#include <touchmark/touchmark.h>\n"
+                                       "int main(void) { return touchmark_version()[0] == 0; }\n", encoding="utf-8")
+        build = source / "build"
+        run("cmake", "-S", source, "-B", build, *self.package[:1])
+        run("cmake", "--build", build)
+        run(build / "in_c")
+        self.assertNotIn("Eigen3_DIR", (build / "CMakeCache.txt").read_text(encoding="utf-8"))
+
+    def test_the_library_for_c_shows_nothing_but_its_functions(self):
+        declared = set(re.findall(r"^TOUCHMARK_API [^(]*?(touchmark_\w+)\(",
+                                  (self.include / "touchmark" / "touchmark.h").read_text(encoding="utf-8"), re.M))
+        symbols = run("nm", "-D", "--defined-only", self.find("libtouchmark_c.so")).splitlines()
+        shown = {line.split()[-1] for line in symbols}
+        self.assertEqual({name for name in shown if not weak_of_the_standard_library(name)}, declared)
+        self.assertGreater(len(declared), 10)
 
     def test_a_program_that_reads_files_asks_for_mesh_io(self):
         source = self.source / "reader"
@@ -221,12 +263,15 @@ class Install(unittest.TestCase):
     def public_headers(self):
         return self.headers("touchmark/*.h")
 
+    def cpp_headers(self):
+        return [header for header in self.public_headers() if header not in IN_C]
+
     def test_nothing_but_touchmark_is_in_the_include_directory(self):
         self.assertEqual([path.name for path in self.include.iterdir()], ["touchmark"])
         self.assertEqual(self.headers("**/*"), sorted(self.headers("**/*.h") + [
             path.relative_to(self.include).as_posix() for path in self.include.rglob("*") if path.is_dir()]))
         for name in ["aabb_tree", "brute_force", "detector", "grid_group", "mesh_io", "mesh_update", "probe",
-                     "signed_detector", "sphere_cluster", "subdivision", "triangle_mesh"]:
+                     "signed_detector", "sphere_cluster", "subdivision", "touchmark", "triangle_mesh"]:
             self.assertIn(f"touchmark/{name}.h", self.public_headers())
 
     def test_every_installed_header_is_reached_from_a_public_one(self):
@@ -251,6 +296,12 @@ class Install(unittest.TestCase):
         for header, error in in_parallel(compile_alone, headers):
             self.assertIsNone(error, header)
 
+    def test_headers_of_c_compile_alone_as_c(self):
+        for header in IN_C:
+            for compiler in C_COMPILERS:
+                self.assertIsNone(first_error(compiler, *C99, "-fsyntax-only", "-I", str(self.include), language="c",
+                                              code=f"#include <{header}>\n"), (compiler, header))
+
     def test_vectors_have_their_products(self):
         self.assertIsNone(first_error("g++", "-fsyntax-only", "-std=c++20", "-I", str(self.include), code=TORQUE))
 
@@ -260,10 +311,10 @@ class Install(unittest.TestCase):
                                                        code=f"#include <{header}>\n")
         fast = "touchmark needs IEEE 754 arithmetic"
         cases = [("g++", header, ["-fsyntax-only", "-std=c++17"], "touchmark needs C++20")
-                 for header in self.public_headers()]
+                 for header in self.cpp_headers()]
         for compiler in COMPILERS:  # to preprocess is quicker and will do here
             cases.append((compiler, "touchmark/probe.h", ["-E", "-std=c++17"], "touchmark needs C++20"))
-            cases += [(compiler, header, ["-E", "-std=c++20", "-ffast-math"], fast) for header in self.public_headers()]
+            cases += [(compiler, header, ["-E", "-std=c++20", "-ffast-math"], fast) for header in self.cpp_headers()]
         cases += [("g++", "touchmark/probe.h", ["-E", "-std=c++20", flag], fast)
                   for flag in ("-Ofast", "-ffinite-math-only", "-funsafe-math-optimizations")]
         for header, flags, message, error in in_parallel(refuse, cases):

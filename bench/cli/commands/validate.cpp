@@ -12,6 +12,7 @@
 
 #include "bench/cli/program.h"
 #include "bench/experiments/choose/choose_check.h"
+#include "bench/experiments/many/many_check.h"
 #include "bench/experiments/proxy/proxy_check.h"
 #include "bench/experiments/servo/servo_check.h"
 #include "bench/experiments/stress/stress_check.h"
@@ -24,6 +25,7 @@
 namespace touchmark::bench::cli {
 
 namespace choose = experiments::choose;
+namespace many = experiments::many;
 namespace proxy = experiments::proxy;
 namespace servo = experiments::servo;
 namespace stress = experiments::stress;
@@ -80,6 +82,7 @@ std::string check_json(const std::string& path, validation::Faults& faults) {
 bool is_stress_csv(const fs::path& path) { return path.filename() == "stress.csv"; }
 bool is_servo_csv(const fs::path& path) { return path.filename() == "servo.csv"; }
 bool is_choose_csv(const fs::path& path) { return path.filename() == "choose.csv"; }
+bool is_many_csv(const fs::path& path) { return path.filename() == "many.csv"; }
 bool is_proxy_csv(const fs::path& path) { return path.filename() == "proxy.csv"; }
 bool is_suite_csv(const fs::path& path) { return path.filename() == "suite.csv"; }
 
@@ -126,6 +129,10 @@ std::string check_csv(const std::string& path, validation::Faults& faults) {
     suite::check_suite(table, run_json, faults);
     return fmt::format("suite, {} rows", table.records.size());
   }
+  if (is_many_csv(path)) {
+    many::check_many(table, faults);
+    return fmt::format("many, {} rows", table.records.size());
+  }
   if (is_proxy_csv(path)) {
     proxy::check_proxy(table, run_json, faults);
     return fmt::format("proxy, {} rows", table.records.size());
@@ -160,10 +167,8 @@ void add_validate(CLI::App& program, ProgramContext& context) {
   CLI::App* command = program.add_subcommand("validate", "check recorded results: CSV files and run.json");
   command
       ->add_option("path", *paths,
-                   "results.csv, stress.csv, servo.csv, choose.csv, suite.csv, proxy.csv, run.json, or "
-                   "folders that hold some; "
-                   "other CSV files are "
-                   "checked for their form")
+                   "results.csv, stress.csv, servo.csv, choose.csv, suite.csv, proxy.csv, many.csv, "
+                   "run.json, or folders that hold some; other CSV files are checked for their form")
       ->type_name("FILE|DIR")
       ->required();
   command->footer(

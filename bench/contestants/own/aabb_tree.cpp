@@ -24,14 +24,18 @@ ContestantInfo aabb_tree_entry() {
       choice("precision", precisions,
              "float: mesh, boxes, kernel and distances in single precision; touches and nearest, "
              "no side, nothing certified"),
-      certified_option(), updated_option(), side_option()};
+      certified_option(),
+      threads_option(),
+      updated_option(),
+      side_option()};
   info.build = [=](const TriangleMesh& mesh, const OptionValues& values) {
     const std::size_t leaf_size = values.count("leaf_size");
+    const unsigned threads = threads_of(values);
     if (in_floats(values)) {
       if (asks_for_side(values)) throw std::invalid_argument("aabb-tree: precision=float tells no side");
-      return contestant<FloatTree>(mesh, {leaf_size});
+      return contestant<FloatTree>(mesh, {leaf_size, threads});
     }
-    return contestant<AabbTree>(mesh, {leaf_size, chosen(values, "certified", yes_or_no)}, values);
+    return contestant<AabbTree>(mesh, {leaf_size, chosen(values, "certified", yes_or_no), threads}, values);
   };
   info.build_scene = [=](const bodies::PlacedScene& scene, const OptionValues& values) {
     if (in_floats(values))
@@ -54,7 +58,7 @@ ContestantInfo aabb_tree_entry() {
                 .scaled = {""},
                 .updated = {""},
                 .scenes = {""},
-                .tested = {"leaf_size=1"}};
+                .tested = {"leaf_size=1", "threads=2"}};
   return info;
 }
 

@@ -68,6 +68,7 @@ std::vector<OptionInfo> options() {
               "construction", "GridGroup::Construction"),
       choice("prepare", no_or_yes,
              "true: ask the last question again in the idle rest of a tick, clocked apart; direct"),
+      threads_option(),
       updated_option(),
       side_option()};
 }
@@ -81,6 +82,7 @@ GridGroup::Options options_of(const TriangleMesh& mesh, const OptionValues& valu
   options.bytes_per_triangle = values.number("bytes_per_triangle");
   options.certified = chosen(values, "certified", yes_or_no);
   options.construction = chosen(values, "build", constructions());
+  options.threads = threads_of(values);
   return options;
 }
 
@@ -108,8 +110,8 @@ ContestantInfo grid_group_entry() {
   };
   info.library = {"grid_group", "GridGroup"};
   info.forms = {.compared = {"lookup=scan", "lookup=scan,shape=sphere", ""},
-                .verified = {"cell=1%", "lookup=scan,shape=centered-sphere", "build=lazy", "prepare=true",
-                             "updated=true", "build=lazy,updated=true"},
+                .verified = {"cell=1%", "lookup=scan,shape=centered-sphere", "build=lazy", "threads=2",
+                             "prepare=true", "updated=true", "build=lazy,updated=true"},
                 .frontier = {"", "certified=false", "cell=0.5%", "cell=4%"},
                 .scaled = {""},
                 .chosen = {"bytes_per_triangle=300", "prepare=true"},

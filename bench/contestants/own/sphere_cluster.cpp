@@ -47,6 +47,7 @@ std::vector<OptionInfo> options() {
           "true: list triangles for the next step and ask ahead in the idle rest of a tick, clocked apart"),
       in_code(choice("simd", widths(), "tree: no wider instructions than these, nor than the processor's"),
               "widest", "Simd"),
+      threads_option(),
       updated_option(),
       side_option()};
 }
@@ -59,6 +60,7 @@ SphereCluster::Options options_of(const TriangleMesh& mesh, const OptionValues& 
   options.certified = chosen(values, "certified", yes_or_no);
   options.widest = chosen(values, "simd", widths());
   options.construction = chosen(values, "build", constructions());
+  options.threads = threads_of(values);
   return options;
 }
 
@@ -80,19 +82,19 @@ ContestantInfo sphere_cluster_entry() {
   };
   info.build_scene = build_own_scene<SphereCluster>(&options_of);
   info.library = {"sphere_cluster", "SphereCluster"};
-  info.forms = {
-      .compared = {"lookup=scan", "lookup=scan,precise=false", ""},
-      .verified = {"clustering=2%", "build=lazy", "prepare=true", "updated=true", "build=lazy,updated=true",
-                   "lookup=scan,clustering=2%", "lookup=scan,clustering=2%,precise=false"},
-      .frontier = {"", "certified=false", "clustering=2%", "precise=false", "clustering=0.5%,precise=false",
-                   "clustering=1%,precise=false", "clustering=2%,precise=false",
-                   "clustering=5%,precise=false"},
-      .scaled = {""},
-      .chosen = {"prepare=true"},
-      .updated = {""},
-      .suite = {""},
-      .scenes = {""},
-      .tested = {"simd=portable", "simd=avx2"}};
+  info.forms = {.compared = {"lookup=scan", "lookup=scan,precise=false", ""},
+                .verified = {"clustering=2%", "build=lazy", "threads=2", "prepare=true", "updated=true",
+                             "build=lazy,updated=true", "lookup=scan,clustering=2%",
+                             "lookup=scan,clustering=2%,precise=false"},
+                .frontier = {"", "certified=false", "clustering=2%", "precise=false",
+                             "clustering=0.5%,precise=false", "clustering=1%,precise=false",
+                             "clustering=2%,precise=false", "clustering=5%,precise=false"},
+                .scaled = {""},
+                .chosen = {"prepare=true"},
+                .updated = {""},
+                .suite = {""},
+                .scenes = {""},
+                .tested = {"simd=portable", "simd=avx2"}};
   return info;
 }
 

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "bench/contestants/contestant_of.h"
 #include "bench/experiments/papers/paper_trace.h"
 #include "bench/support/failures.h"
 #include "bench/support/interrupt.h"

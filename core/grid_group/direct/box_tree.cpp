@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/search/parallel.h"
+
 namespace touchmark::grid {
 namespace {
 
@@ -42,11 +44,18 @@ FloatBox box_of(const PreparedTriangle& triangle, const FilterFrame& frame) noex
   return box;
 }
 
-std::vector<FloatBox> block_boxes(const TriangleStore& store) {
+std::vector<FloatBox> block_boxes(const TriangleStore& store, unsigned threads) {
+  constexpr std::size_t blocks_a_piece = 128;
   std::vector<FloatBox> boxes(store.planes.size() / TriangleStore::block_size);
-  for (std::uint32_t i = 0; i < store.size(); ++i)
-    boxes[i / TriangleStore::block_size].extend(box_of(store.exact[i], store.frame));
-  for (FloatBox& box : boxes) box.round_outward();
+  in_ranges(boxes.size(), blocks_a_piece, threads, [&](std::size_t first, std::size_t end) {
+    for (std::size_t block = first; block < end; ++block) {
+      const std::size_t slot = block * TriangleStore::block_size;
+      for (std::size_t i = slot; i < std::min<std::size_t>(slot + TriangleStore::block_size, store.size());
+           ++i)
+        boxes[block].extend(box_of(store.exact[i], store.frame));
+      boxes[block].round_outward();
+    }
+  });
   return boxes;
 }
 
@@ -64,8 +73,8 @@ EightBoxes node_over(const std::vector<FloatBox>& children, std::size_t first) n
 
 }  // namespace
 
-BoxTree::BoxTree(const TriangleStore& store) {
-  std::vector<FloatBox> children = block_boxes(store);
+BoxTree::BoxTree(const TriangleStore& store, unsigned threads) {
+  std::vector<FloatBox> children = block_boxes(store, threads);
   do {
     first_.push_back(nodes_.size());
     std::vector<FloatBox> parents((children.size() + arity - 1) / arity);

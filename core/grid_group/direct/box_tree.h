@@ -24,7 +24,7 @@ class BoxTree {
   static constexpr std::uint32_t arity = 8;
 
   BoxTree() = default;
-  explicit BoxTree(const TriangleStore& store);
+  explicit BoxTree(const TriangleStore& store, unsigned threads = 1);
 
   /// Level 0's nodes have blocks as children, level k's those of level k - 1; the last level is one node.
   std::size_t levels() const noexcept { return first_.size(); }

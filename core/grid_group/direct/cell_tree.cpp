@@ -6,8 +6,15 @@
 #include <Eigen/Geometry>
 
 #include "core/grid_group/direct/nearest_search.h"
+#include "core/search/parallel.h"
 
 namespace touchmark::grid {
+namespace {
+
+/// So many that they are worth handing out.
+constexpr std::size_t cells_a_piece = 64;
+
+}  // namespace
 
 CellTree::Leaf CellTree::nearest_to(const TriangleStore& store, const BoxTree& tree, const Vec3& middle,
                                     std::uint32_t hint, std::uint64_t budget, Work& work) const noexcept {
@@ -101,11 +108,19 @@ class CellTreeBuilder {
     const double edge = std::ldexp(2 * cells_.half_, -static_cast<int>(level));
     cells_.smallest_edge_ = edge;
     std::vector<Open> next;
-    for (const Open& cell : open) {
-      // Where leaves are built lazily, what the parent knows tells which cells are such leaves.
-      const bool inherited =
-          options_.lazy && level >= cells_.top_levels_ && !needs_children(cell.inherited, edge);
-      const CellTree::Leaf leaf = inherited ? cell.inherited : nearest_to(cell);
+    std::vector<CellTree::Leaf> leaves(open.size());
+    // Where leaves are built lazily, what the parent knows tells which cells are such leaves.
+    const auto inherits = [&](const Open& cell) {
+      return options_.lazy && level >= cells_.top_levels_ && !needs_children(cell.inherited, edge);
+    };
+    in_ranges(open.size(), cells_a_piece, options_.threads, [&](std::size_t first, std::size_t end) {
+      for (std::size_t i = first; i < end; ++i)
+        leaves[i] = inherits(open[i]) ? open[i].inherited : nearest_to(open[i]);
+    });
+    for (std::size_t at = 0; at < open.size(); ++at) {
+      const Open& cell = open[at];
+      const CellTree::Leaf& leaf = leaves[at];
+      const bool inherited = inherits(cell);
       if (level < cells_.top_levels_ ||
           (!inherited && needs_children(leaf, edge) && has_bytes_for_children(next.size()))) {
         const auto node = static_cast<std::uint32_t>(cells_.links_.size());
@@ -169,13 +184,14 @@ class CellTreeBuilder {
   CellTree cells_;
 };
 
-void CellTree::update(const TriangleStore& store, const BoxTree& tree, const std::vector<Aabb>& moved) {
+void CellTree::update(const TriangleStore& store, const BoxTree& tree, const std::vector<Aabb>& moved,
+                      unsigned threads) {
   struct Open {
     Vec3 middle;
     std::uint32_t link;
     double quarter;  ///< a quarter of the cell's edge
   };
-  std::vector<Open> open = {{Vec3::Zero(), links_[root_], 0.5 * half_}};
+  std::vector<Open> open = {{Vec3::Zero(), links_[root_], 0.5 * half_}}, changed;
   while (!open.empty()) {
     const Open cell = open.back();
     open.pop_back();
@@ -188,13 +204,19 @@ void CellTree::update(const TriangleStore& store, const BoxTree& tree, const std
     }
     const std::uint32_t number = cell.link & ~is_leaf;
     const Leaf leaf = leaves_[number].load();
-    if (!any_within(moved, cell.middle, upper_bound(static_cast<double>(leaf.distance)))) continue;
-    Work unreported;
-    const bool is_lazy = !states_.empty();
-    leaves_[number].store(is_lazy ? Leaf{leaf.slot, 0}
-                                  : nearest_to(store, tree, cell.middle, leaf.slot, any_work, unreported));
-    if (is_lazy) states_[number] = LazyState::unbuilt();
+    if (any_within(moved, cell.middle, upper_bound(static_cast<double>(leaf.distance))))
+      changed.push_back(cell);
   }
+  in_ranges(changed.size(), cells_a_piece, threads, [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
+      const std::uint32_t number = changed[i].link & ~is_leaf, slot = leaves_[number].load().slot;
+      Work unreported;
+      const bool is_lazy = !states_.empty();
+      leaves_[number].store(is_lazy ? Leaf{slot, 0}
+                                    : nearest_to(store, tree, changed[i].middle, slot, any_work, unreported));
+      if (is_lazy) states_[number] = LazyState::unbuilt();
+    }
+  });
 }
 
 CellTree CellTree::build(const TriangleStore& store, const BoxTree& tree, const CellOptions& options) {

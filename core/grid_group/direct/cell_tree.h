@@ -22,6 +22,7 @@ struct CellOptions {
   double smallest = 0;  ///< edge, in the frame; 0: as the triangles are
   std::size_t max_bytes = 0;
   bool lazy = false;  ///< leaves hold what their parents know, until built
+  unsigned threads = 1;
 };
 
 /// The triangle nearest to a cell's middle, and how far it is: what a query starts from.
@@ -37,7 +38,8 @@ class CellTree {
 
   /// After the triangles in these boxes of the frame moved within them: looks anew for what is nearest to the
   /// cells that one of them can have been or be nearest to. The cells stay.
-  void update(const TriangleStore& store, const BoxTree& tree, const std::vector<Aabb>& moved);
+  void update(const TriangleStore& store, const BoxTree& tree, const std::vector<Aabb>& moved,
+              unsigned threads = 1);
 
   bool holds(const Vec3& in_frame) const noexcept {
     return std::abs(in_frame.x()) < half_ && std::abs(in_frame.y()) < half_ && std::abs(in_frame.z()) < half_;

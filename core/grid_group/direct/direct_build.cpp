@@ -5,6 +5,7 @@
 #include "core/grid_group/direct/direct_grid.h"
 #include "core/grid_group/direct/group_builder.h"
 #include "core/grid_group/direct/nearest_search.h"
+#include "core/search/distance_field_filling.h"
 
 namespace touchmark::grid {
 namespace {
@@ -32,17 +33,18 @@ DirectGrid DirectGrid::build(const TriangleMesh& mesh, const DirectOptions& opti
   grid.epoch_ = Epoch::next();
   grid.certified_ = options.certified;
   grid.bounds_ = mesh.bounds();
-  grid.store_ = TriangleStore::build(mesh);
-  grid.tree_ = BoxTree(grid.store_);
+  grid.threads_ = options.threads;
+  grid.store_ = TriangleStore::build(mesh, options.threads);
+  grid.tree_ = BoxTree(grid.store_, options.threads);
   const FilterFrame& frame = grid.store_.frame;
   grid.max_bytes_ = bytes_for(mesh, options.bytes_per_triangle);
   const auto left = [&] { return grid.max_bytes_ - std::min(grid.max_bytes_, grid.bytes()); };
 
-  grid.cells_ =
-      CellTree::build(grid.store_, grid.tree_, {options.cell * frame.scale(), left() / 4, options.lazy});
+  grid.cells_ = CellTree::build(grid.store_, grid.tree_,
+                                {options.cell * frame.scale(), left() / 4, options.lazy, options.threads});
   if (!options.lazy && left() >= DistanceField::max_bytes(mesh.size())) grid.fill_distances();
   grid.exclusion_margin_ = exclusion_margin_for(mesh, frame);
-  GroupBuilder builder(grid.store_, grid.tree_, grid.exclusion_margin_, left());
+  GroupBuilder builder(grid.store_, grid.tree_, grid.exclusion_margin_, left(), options.threads);
   grid.groups_ = options.lazy ? builder.unbuilt() : builder.build();
   grid.coarsened_ = grid.cells_.coarsened() || builder.ran_out();
   return grid;
@@ -54,13 +56,13 @@ bool DirectGrid::update(const TriangleMesh& mesh) {
   bounds_ = mesh.bounds();
   const std::vector<Aabb> moved = store_.move(mesh);
   if (moved.empty()) return true;
-  tree_ = BoxTree(store_);
-  cells_.update(store_, tree_, moved);
+  tree_ = BoxTree(store_, threads_);
+  cells_.update(store_, tree_, moved, threads_);
   refill_distances(moved);
   // The old groups make room for the new ones.
   const std::size_t taken = bytes() - groups_.bytes();
   exclusion_margin_ = exclusion_margin_for(mesh, store_.frame);
-  GroupBuilder builder(store_, tree_, exclusion_margin_, max_bytes_ - std::min(max_bytes_, taken));
+  GroupBuilder builder(store_, tree_, exclusion_margin_, max_bytes_ - std::min(max_bytes_, taken), threads_);
   groups_ = builder.rebuild(groups_, moved);
   coarsened_ = coarsened_ || builder.ran_out();
   return true;
@@ -90,19 +92,26 @@ DistanceField::Interval DirectGrid::sample(const Vec3& in_frame, double max_dist
   return {std::min(distance, reach), std::min(distance, max_distance)};
 }
 
+/// Returns what makes a function that takes samples with its share of the work that all may be.
+auto DirectGrid::sampler() const noexcept {
+  return [this](double share) {
+    const auto all = static_cast<double>(DistanceField::max_work(store_.size()));
+    return [this, left = static_cast<std::uint64_t>(share * all)](const Vec3& position,
+                                                                  double max_distance) mutable {
+      return sample(position, max_distance, left);
+    };
+  };
+}
+
 void DirectGrid::fill_distances() {
   distances_ = DistanceField::around(store_.frame, bounds_, store_.size());
-  std::uint64_t left = DistanceField::max_work(store_.size());
-  distances_.fill(
-      [&](const Vec3& position, double max_distance) { return sample(position, max_distance, left); });
+  distances_.fill(sampler(), threads_);
 }
 
 void DirectGrid::refill_distances(const std::vector<Aabb>& moved) {
   if (distances_.empty()) return;
   if (!distances_.holds(store_.frame, bounds_)) return fill_distances();
-  std::uint64_t left = DistanceField::max_work(store_.size());
-  distances_.refill(
-      [&](const Vec3& position, double max_distance) { return sample(position, max_distance, left); }, moved);
+  distances_.refill(sampler(), moved, threads_);
 }
 
 void DirectGrid::build_missing(std::uint32_t near, std::uint32_t start, const Vec3& center,

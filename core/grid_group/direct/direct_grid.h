@@ -28,6 +28,7 @@ struct DirectOptions {
   double bytes_per_triangle = 400;  ///< the whole structure
   bool certified = true;            ///< false: as doubles have it
   bool lazy = false;                ///< groups are made by the first queries that miss them, one a query
+  unsigned threads = 1;             ///< build it, at least 1; the same bits
 };
 
 /// What one haptic point remembers between ticks. The bounds are padded by the kernel's error wherever they
@@ -187,6 +188,7 @@ class DirectGrid {
   void refill_distances(const std::vector<Aabb>& moved);
   DistanceField::Interval sample(const Vec3& in_frame, double max_distance,
                                  std::uint64_t& left) const noexcept;
+  auto sampler() const noexcept;
   LinearScan fallback() const noexcept { return {store_.exact, bounds_, store_.ids, certified_}; }
 
   Epoch epoch_;
@@ -198,6 +200,7 @@ class DirectGrid {
   DistanceField distances_;      ///< empty where there is no room for it, or construction is lazy
   double exclusion_margin_ = 0;  ///< see GroupFinder
   std::size_t max_bytes_ = 0;
+  unsigned threads_ = 1;
   bool coarsened_ = false;
   bool certified_ = true;
 };

@@ -16,11 +16,12 @@ class GroupBuilder {
   /// `exclusion_margin`: see GroupFinder. No more than `max_bytes` are taken; triangles that come too late
   /// get no members.
   GroupBuilder(const TriangleStore& store, const BoxTree& tree, double exclusion_margin,
-               std::size_t max_bytes)
+               std::size_t max_bytes, unsigned threads)
       : store_(store),
+        tree_(tree),
         exclusion_margin_(exclusion_margin),
         max_bytes_(max_bytes),
-        finder_(store, tree, exclusion_margin, {.sharing = 0.2}) {}
+        threads_(threads) {}
 
   Groups build();
   /// None yet, and room for them.
@@ -32,14 +33,29 @@ class GroupBuilder {
   bool ran_out() const noexcept { return ran_out_; }
 
  private:
-  void start();
-  void add(std::uint32_t slot, const GroupFinder::Found& found);
+  /// Groups of slots that follow one another, found but not stored yet.
+  struct Piece {
+    struct Found {
+      std::uint32_t slot;
+      std::uint32_t first, count;  ///< members
+      float height, margin;
+    };
+    std::vector<Found> groups;
+    std::vector<std::uint32_t> members;  ///< with the copies behind each group's
+
+    void add(std::uint32_t slot, const GroupFinder::Found& found);
+  };
+
+  template <class FindOrKeep>
+  Groups make(const FindOrKeep& find_or_keep);
+  void store(const Piece& piece);
   bool changes(std::uint32_t slot, const std::vector<Aabb>& moved) const noexcept;
 
   const TriangleStore& store_;
+  const BoxTree& tree_;
   double exclusion_margin_;
   std::size_t max_bytes_;
-  GroupFinder finder_;
+  unsigned threads_;
   Groups groups_;
   bool ran_out_ = false;
 };

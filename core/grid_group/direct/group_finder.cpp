@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include "core/simd/lanes.h"
@@ -24,26 +26,60 @@ static_assert(first_height * shrinking * shrinking * shrinking * shrinking < min
 // into 5.5.
 static_assert(growth <= 0.3 && first_height <= 1 && GroupFinder::reach_in_radii >= 6);
 
+bool can_shrink(double height, const FaceFrame& face_frame) noexcept {
+  return shrinking * height >= min_height * face_frame.size;
+}
+
 Lanes load(const float* from) noexcept {
   Lanes lanes;
   std::memcpy(&lanes, from, sizeof lanes);
   return lanes;
 }
 
-bool are_disjoint(const EightBoxes& boxes, std::size_t child, const Aabb& box) noexcept {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const int axis = static_cast<int>(k);
-    if (static_cast<double>(boxes.min[k][child / 4][child % 4]) > box.max[axis] ||
-        static_cast<double>(boxes.max[k][child / 4][child % 4]) < box.min[axis])
-      return true;
+/// A box rounded inwards: to compare its sides with other floats is to compare those of the box itself.
+struct FloatBounds {
+  explicit FloatBounds(const Aabb& box) noexcept {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double low = box.min[static_cast<int>(k)], high = box.max[static_cast<int>(k)];
+      min[k] = static_cast<float>(low);
+      if (static_cast<double>(min[k]) < low) min[k] = std::nextafter(min[k], infinity);
+      max[k] = static_cast<float>(high);
+      if (static_cast<double>(max[k]) > high) max[k] = std::nextafter(max[k], -infinity);
+    }
   }
-  return false;
+
+  std::array<float, 3> min, max;
+};
+
+/// Bit i is set for a child whose box is not apart from this one.
+unsigned children_in(const EightBoxes& boxes, const FloatBounds& box) noexcept {
+  unsigned apart = 0;
+  for (std::size_t half = 0; half < 2; ++half) {
+    LaneBits lanes{};
+    for (std::size_t k = 0; k < 3; ++k)
+      lanes |= (boxes.min[k][half] > box.max[k]) | (boxes.max[k][half] < box.min[k]);
+    apart |= to_bits(lanes) << (4 * half);
+  }
+  return ~apart & 0xffU;
 }
 
-bool reaches(const TriangleBall& ball, const Aabb& box) noexcept {
-  const double radius = static_cast<double>(ball.radius) * (1 + 0x1p-20) + 0x1p-20;
-  return box.padded(radius).contains(
-      Vec3(static_cast<double>(ball.x), static_cast<double>(ball.y), static_cast<double>(ball.z)));
+/// Bit i is set for a ball that reaches into the box, as do those of all triangles that do.
+unsigned balls_in(std::span<const TriangleBall, 4> balls, const FloatBounds& box) noexcept {
+  const Lanes a = load(&balls[0].x), b = load(&balls[1].x), c = load(&balls[2].x), d = load(&balls[3].x);
+  const Lanes ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
+  const Lanes ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
+  const Lanes cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5);
+  const Lanes cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+  const std::array<Lanes, 3> center = {__builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5),
+                                       __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7),
+                                       __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5)};
+  // Coordinates are below 4: their roundings, those of the ball and of the box inwards are below 2^-20.
+  const Lanes radius = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7) * (1 + 0x1p-20F) + 0x1p-19F;
+  LaneBits apart{};
+  for (std::size_t k = 0; k < 3; ++k)
+    apart |= (center[k] + radius < box.min[k]) | (center[k] - radius > box.max[k]);
+  return ~to_bits(apart) & 0xfU;
 }
 
 }  // namespace
@@ -79,8 +115,8 @@ double GroupFinder::find_members(const FaceFrame& face_frame) noexcept {
   }
   member_count_ = 0;
   if (!gather(box.padded(highest.farthest() + exclusion_margin_))) return 0;
-  select_members(highest);
-  while (member_count_ > Groups::many_members && shrinking * height >= min_height * face_frame.size) {
+  if (!select_members(face_frame, highest)) return 0;
+  while (member_count_ > Groups::many_members && can_shrink(height, face_frame)) {
     height *= shrinking;
     const Prism lower(face_frame, growth, height, exclusion_margin_, store_.frame);
     // What a higher prism can do without, a lower one can.
@@ -94,8 +130,10 @@ double GroupFinder::find_members(const FaceFrame& face_frame) noexcept {
   return height;
 }
 
-void GroupFinder::select_members(const Prism& prism) noexcept {
+/// Returns false, without members, once there are certainly too many even in the lowest prism.
+bool GroupFinder::select_members(const FaceFrame& face_frame, const Prism& prism) noexcept {
   work_.triangles += near_count_;
+  std::size_t asked_at = Groups::max_members + 8;
   for (std::size_t at = 0; at < near_count_; at += 4) {
     unsigned left =
         prism.balls_left(load(&near_x_[at]), load(&near_y_[at]), load(&near_z_[at]), load(&near_radius_[at]));
@@ -105,7 +143,27 @@ void GroupFinder::select_members(const Prism& prism) noexcept {
       const std::uint32_t slot = near_[i];
       if (!prism.excludes(store_.planes[slot], store_.balls[slot])) members_[member_count_++] = slot;
     }
+    if (member_count_ < asked_at) continue;
+    if (is_too_dense(face_frame)) {
+      member_count_ = 0;
+      return false;
+    }
+    asked_at = 2 * member_count_;
   }
+  return true;
+}
+
+/// Do more of the members belong to the lowest prism than a group may have?
+bool GroupFinder::is_too_dense(const FaceFrame& face_frame) noexcept {
+  double height = first_height * face_frame.size;
+  while (can_shrink(height, face_frame)) height *= shrinking;
+  const Prism lowest(face_frame, growth, height, exclusion_margin_, store_.frame);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < member_count_ && count <= Groups::max_members; ++i) {
+    ++work_.triangles;
+    if (!lowest.excludes(store_.planes[members_[i]], store_.balls[members_[i]])) ++count;
+  }
+  return count > Groups::max_members;
 }
 
 /// Makes near_ hold every triangle that reaches into the box, or says that they are too many.
@@ -131,6 +189,7 @@ bool GroupFinder::gather_blocks(const Aabb& box) noexcept {
   struct Node {
     std::uint32_t level, index;
   };
+  const FloatBounds bounds(box);
   near_count_ = 0;
   // As in BoxStack: seven siblings a level, and the last level's eight.
   std::array<Node, 8 * 11> stack;
@@ -143,17 +202,20 @@ bool GroupFinder::gather_blocks(const Aabb& box) noexcept {
     boxes_seen += BoxTree::arity;
     work_.boxes += BoxTree::arity;
     if (boxes_seen > effort_.max_boxes) return false;
-    for (std::uint32_t i = 0; i < BoxTree::arity; ++i) {
-      if (are_disjoint(boxes, i, box)) continue;
-      const std::uint32_t child = node.index * BoxTree::arity + i;
+    for (unsigned left = children_in(boxes, bounds); left != 0; left &= left - 1) {
+      const std::uint32_t child =
+          node.index * BoxTree::arity + static_cast<std::uint32_t>(std::countr_zero(left));
       if (node.level > 0) {
         stack[count++] = {node.level - 1, child};
         continue;
       }
       const std::uint32_t first = child * TriangleStore::block_size;
       for (std::uint32_t slot = first; slot < std::min(first + TriangleStore::block_size, store_.size());
-           ++slot)
-        if (reaches(store_.balls[slot], box)) near_[near_count_++] = slot;
+           slot += 4) {
+        for (unsigned in = balls_in(std::span(store_.balls).subspan(slot).first<4>(), bounds); in != 0;
+             in &= in - 1)
+          near_[near_count_++] = slot + static_cast<std::uint32_t>(std::countr_zero(in));
+      }
       if (near_count_ > std::min<std::uint64_t>(max_near, effort_.max_near)) return false;
     }
   }

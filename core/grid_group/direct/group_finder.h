@@ -25,7 +25,7 @@ class GroupFinder {
     std::uint64_t max_near = ~std::uint64_t{0};   ///< are gathered, likewise
   };
   /// Each triangle gathered is looked at no more often than this.
-  static constexpr std::uint64_t max_looks = 4;
+  static constexpr std::uint64_t max_looks = 6;
 
   /// `exclusion_margin`: by how much, in the frame, a triangle must lose to be left out.
   GroupFinder(const TriangleStore& store, const BoxTree& tree, double exclusion_margin,
@@ -55,7 +55,8 @@ class GroupFinder {
   double find_members(const FaceFrame& face_frame) noexcept;
   bool gather(const Aabb& box) noexcept;
   bool gather_blocks(const Aabb& box) noexcept;
-  void select_members(const Prism& prism) noexcept;
+  bool select_members(const FaceFrame& face_frame, const Prism& prism) noexcept;
+  bool is_too_dense(const FaceFrame& face_frame) noexcept;
 
   const TriangleStore& store_;
   const BoxTree& tree_;

@@ -6,8 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include <Eigen/Geometry>
+
+#include "core/search/parallel.h"
 
 namespace touchmark::grid {
 namespace {
@@ -18,13 +21,18 @@ struct Middle {
   std::uint32_t triangle;
 };
 
-std::vector<Middle> middles_of(const TriangleMesh& mesh, const FilterFrame& frame) {
+/// Pieces of work so long that they are worth handing out.
+constexpr std::size_t triangles_a_piece = 1024;
+
+std::vector<Middle> middles_of(const TriangleMesh& mesh, const FilterFrame& frame, unsigned threads) {
   std::vector<Middle> middles(mesh.size());
-  for (std::uint32_t i = 0; i < mesh.size(); ++i) {
-    Vec3 sum = Vec3::Zero();
-    for (int k = 0; k < 3; ++k) sum += frame.to_frame(mesh.corner(i, k));
-    middles[i] = {sum.cast<float>(), i};
-  }
+  in_ranges(mesh.size(), triangles_a_piece, threads, [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
+      Vec3 sum = Vec3::Zero();
+      for (int k = 0; k < 3; ++k) sum += frame.to_frame(mesh.corner(i, k));
+      middles[i] = {sum.cast<float>(), static_cast<std::uint32_t>(i)};
+    }
+  });
   return middles;
 }
 
@@ -39,19 +47,24 @@ int longest_side(std::span<const Middle> middles) {
   return side;
 }
 
-/// Halves until a block is left. The first half is a power of two of blocks, so that the boxes of a hierarchy
-/// with eight children a node fall on halves of halves of halves.
+/// The first half is a power of two of blocks, so that the boxes of a hierarchy with eight children a node
+/// fall on halves of halves of halves.
+std::pair<std::span<Middle>, std::span<Middle>> halve(std::span<Middle> middles) {
+  const std::size_t half = std::bit_ceil(middles.size()) / 2;
+  const int side = longest_side(middles);
+  std::nth_element(middles.begin(), middles.begin() + static_cast<std::ptrdiff_t>(half), middles.end(),
+                   [side](const Middle& a, const Middle& b) {
+                     return a.at[side] < b.at[side] || (a.at[side] == b.at[side] && a.triangle < b.triangle);
+                   });
+  return {middles.first(half), middles.subspan(half)};
+}
+
+/// Halves until a block is left.
 void arrange(std::span<Middle> middles) {
   while (middles.size() > TriangleStore::block_size) {
-    const std::size_t half = std::bit_ceil(middles.size()) / 2;
-    const int side = longest_side(middles);
-    std::nth_element(middles.begin(), middles.begin() + static_cast<std::ptrdiff_t>(half), middles.end(),
-                     [side](const Middle& a, const Middle& b) {
-                       return a.at[side] < b.at[side] ||
-                              (a.at[side] == b.at[side] && a.triangle < b.triangle);
-                     });
-    arrange(middles.first(half));
-    middles = middles.subspan(half);
+    const auto [first, second] = halve(middles);
+    arrange(first);
+    middles = second;
   }
   // Whatever order the library left them in.
   std::sort(middles.begin(), middles.end(),
@@ -85,23 +98,24 @@ TriangleBall ball_around(const PreparedTriangle& triangle, const FilterFrame& fr
 
 }  // namespace
 
-TriangleStore TriangleStore::build(const TriangleMesh& mesh) {
+TriangleStore TriangleStore::build(const TriangleMesh& mesh, unsigned threads) {
   TriangleStore store;
   store.frame = FilterFrame::around(mesh.bounds());
   store.fourth_powers_fit = store.frame.scale() > 0x1p-200 && store.frame.scale() < 0x1p200;
-  std::vector<Middle> middles = middles_of(mesh, store.frame);
-  arrange(middles);
+  std::vector<Middle> middles = middles_of(mesh, store.frame, threads);
+  split_in_parallel(std::span(middles), threads, halve, arrange);
 
-  store.exact.reserve(mesh.size());
-  store.balls.reserve(mesh.size());
+  store.exact.resize(mesh.size());
   const std::size_t whole = (mesh.size() + block_size - 1) / block_size * block_size;
-  store.planes.reserve(whole);
-  for (const Middle& middle : middles) {
-    store.exact.push_back(prepare(mesh, middle.triangle));
-    store.planes.push_back(planes_of(store.exact.back(), store.frame));
-    store.balls.push_back(ball_around(store.exact.back(), store.frame));
-  }
   store.planes.resize(whole, infinitely_far());
+  store.balls.resize(whole, {std::numeric_limits<float>::infinity(), 0, 0, 0});
+  in_ranges(mesh.size(), triangles_a_piece, threads, [&](std::size_t first, std::size_t end) {
+    for (std::size_t slot = first; slot < end; ++slot) {
+      store.exact[slot] = prepare(mesh, middles[slot].triangle);
+      store.planes[slot] = planes_of(store.exact[slot], store.frame);
+      store.balls[slot] = ball_around(store.exact[slot], store.frame);
+    }
+  });
   store.ids = mesh.triangle_ids();
   return store;
 }

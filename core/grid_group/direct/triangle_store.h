@@ -35,8 +35,8 @@ inline Lanes beyond_ball(const TriangleBall& ball, Lanes x, Lanes y, Lanes z, La
 }
 
 /// Slots are positions in an order that halves the mesh again and again across its longest side;
-/// `exact[slot].index` is the position in the mesh. `planes` is filled up to whole blocks with triangles
-/// infinitely far away, which have no `exact`.
+/// `exact[slot].index` is the position in the mesh. `planes` and `balls` are filled up to whole blocks with
+/// triangles infinitely far away, which have no `exact`.
 struct TriangleStore {
   static constexpr std::uint32_t block_size = 8;
 
@@ -48,7 +48,7 @@ struct TriangleStore {
   TriangleIds ids;
 
   /// The mesh's box must fit (FilterFrame::fits).
-  static TriangleStore build(const TriangleMesh& mesh);
+  static TriangleStore build(const TriangleMesh& mesh, unsigned threads = 1);
   /// The mesh's same triangles where they are now, in the frame as it is; slots stay. Returns boxes, in the
   /// frame, each of which holds some triangles that moved, as they were and as they are.
   std::vector<Aabb> move(const TriangleMesh& mesh);

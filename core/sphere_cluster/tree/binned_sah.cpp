@@ -6,6 +6,7 @@
 #include <iterator>
 #include <limits>
 
+#include "core/search/parallel.h"
 #include "core/sphere_cluster/tree/node.h"
 
 namespace touchmark::spheres {
@@ -46,17 +47,31 @@ struct Bin {
 }  // namespace
 
 TriangleSplitter::TriangleSplitter(const TriangleMesh& mesh, const SphereClusters& clusters,
-                                   const FilterFrame& frame) {
+                                   const FilterFrame& frame, unsigned threads)
+    : items_(mesh.size()),
+      scratch_(mesh.size()),
+      cluster_keys_(clusters.size() < mesh.size() ? clusters.size() : 0),
+      splits_((mesh.size() + tree_width - 1) / tree_width - 1) {
+  constexpr std::size_t clusters_a_piece = 1024;
+  in_ranges(clusters.size(), clusters_a_piece, threads,
+            [&](std::size_t first, std::size_t end) { add_items(mesh, clusters, frame, first, end); });
+  split_in_parallel(
+      all(), threads, [this](const TriangleRange& range) { return split(range); },
+      [this](const TriangleRange& range) { split_to_blocks(range); });
+}
+
+/// Adds the triangles of clusters [first, end), at the places of their cluster.
+void TriangleSplitter::add_items(const TriangleMesh& mesh, const SphereClusters& clusters,
+                                 const FilterFrame& frame, std::size_t first, std::size_t end) {
   const auto local = [&](const Vec3& point) {
     const Vec3 p = frame.to_frame(point);
     return std::array{static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
   };
-  items_.reserve(mesh.size());
-  const bool clustered = clusters.size() < mesh.size();
-  for (std::uint32_t cluster = 0; cluster < clusters.size(); ++cluster) {
-    if (clustered) {
+  Item* to = items_.data() + clusters.first[first];
+  for (auto cluster = static_cast<std::uint32_t>(first); cluster < end; ++cluster) {
+    if (!cluster_keys_.empty()) {
       const std::array<float, 3> center = local(clusters.spheres[cluster].center);
-      cluster_keys_.push_back(2 * Lanes{center[0], center[1], center[2], 0});
+      cluster_keys_[cluster] = 2 * Lanes{center[0], center[1], center[2], 0};
     }
     for (const std::uint32_t triangle : clusters.triangles_of(cluster)) {
       const std::array<float, 3> a = local(mesh.corner(triangle, 0)), b = local(mesh.corner(triangle, 1)),
@@ -66,10 +81,9 @@ TriangleSplitter::TriangleSplitter(const TriangleMesh& mesh, const SphereCluster
         item.min[k] = std::min({a[k], b[k], c[k]});
         item.max[k] = std::max({a[k], b[k], c[k]});
       }
-      items_.push_back(item);
+      *to++ = item;
     }
   }
-  scratch_.resize(items_.size());
 }
 
 TriangleSplitter::Box TriangleSplitter::box_of(const Item& item) noexcept {
@@ -94,20 +108,22 @@ float TriangleSplitter::key_of(const Item& item, Key key, int axis) const noexce
   return item.min[static_cast<std::size_t>(axis)] + item.max[static_cast<std::size_t>(axis)];
 }
 
-float TriangleSplitter::area(const TriangleRange& range) const noexcept {
+TriangleSplitter::Bounds TriangleSplitter::bounds_of(const TriangleRange& range) const noexcept {
   Box all = box_of(items_[range.begin]);
+  Box middles{all.min + all.max, all.min + all.max};
   for (std::uint32_t i = range.begin + 1; i < range.end; ++i) {
     const Box box = box_of(items_[i]);
+    const Lanes middle = box.min + box.max;
     all = {simd::min(all.min, box.min), simd::max(all.max, box.max)};
+    middles = {simd::min(middles.min, middle), simd::max(middles.max, middle)};
   }
-  return half_area(all.min, all.max);
+  return {all, middles};
 }
 
-/// Returns the box of the keys.
-TriangleSplitter::Box TriangleSplitter::key_bounds(const TriangleRange& range, Key key) const noexcept {
-  Box all{key_of(items_[range.begin], key), key_of(items_[range.begin], key)};
+TriangleSplitter::Box TriangleSplitter::cluster_bounds(const TriangleRange& range) const noexcept {
+  Box all{cluster_keys_[items_[range.begin].cluster], cluster_keys_[items_[range.begin].cluster]};
   for (std::uint32_t i = range.begin + 1; i < range.end; ++i) {
-    const Lanes at = key_of(items_[i], key);
+    const Lanes at = cluster_keys_[items_[i].cluster];
     all = {simd::min(all.min, at), simd::max(all.max, at)};
   }
   return all;
@@ -150,7 +166,7 @@ void TriangleSplitter::partition_at(const TriangleRange& range, std::uint32_t po
   const float origin = bins.origin[cut.axis], scale = bins.scale[cut.axis];
   // As bins_of has it: what is in the last bin is beyond every cut, so nothing needs to be put there.
   const auto first_bin_right = static_cast<float>(cut.bin);
-  Item *left = items_.data() + range.begin, *right = scratch_.data();
+  Item *left = items_.data() + range.begin, *right = scratch_.data() + range.begin;
   // Each to both sides, and kept on one: which one it is, no branch predictor knows.
   for (std::uint32_t i = range.begin; i < range.end; ++i) {
     const Item item = items_[i];
@@ -160,7 +176,7 @@ void TriangleSplitter::partition_at(const TriangleRange& range, std::uint32_t po
     left += is_left;
     right += !is_left;
   }
-  std::copy(scratch_.data(), right, left);
+  std::copy(scratch_.data() + range.begin, right, left);
   const auto found = static_cast<std::uint32_t>(left - items_.data());
   const auto less = [&](const Item& a, const Item& b) {
     const float x = key_of(a, key, cut.axis), y = key_of(b, key, cut.axis);
@@ -188,11 +204,15 @@ std::pair<TriangleRange, TriangleRange> TriangleSplitter::split(const TriangleRa
     const Lanes extent = box.max - box.min;
     return extent[0] > 0 || extent[1] > 0 || extent[2] > 0;
   };
-  Key key = cluster_keys_.empty() ? Key::triangle : Key::cluster;
-  Box box = key_bounds(range, key);
-  if (key == Key::cluster && !has_extent(box)) {
-    key = Key::triangle;
-    box = key_bounds(range, key);
+  const Bounds bounds = bounds_of(range);
+  Key key = Key::triangle;
+  Box box = bounds.middles;
+  if (!cluster_keys_.empty()) {
+    const Box of_clusters = cluster_bounds(range);
+    if (has_extent(of_clusters)) {
+      key = Key::cluster;
+      box = of_clusters;
+    }
   }
   const Lanes extent = box.max - box.min;
   // A little less than whole bins, so that the last number is in the last bin.
@@ -213,7 +233,23 @@ std::pair<TriangleRange, TriangleRange> TriangleSplitter::split(const TriangleRa
     const int longer = extent[1] > extent[0] ? 1 : 0;
     halve(range, position, key, extent[2] > extent[longer] ? 2 : longer);
   }
-  return {{range.begin, position, range.depth + 1}, {position, range.end, range.depth + 1}};
+  splits_[range.number] = {half_area(bounds.all.min, bounds.all.max), position};
+  return halves(range);
+}
+
+void TriangleSplitter::split_to_blocks(const TriangleRange& range) {
+  if (range.size() <= tree_width) return;
+  const auto [left, right] = split(range);
+  split_to_blocks(left);
+  split_to_blocks(right);
+}
+
+std::pair<TriangleRange, TriangleRange> TriangleSplitter::halves(const TriangleRange& range) const noexcept {
+  const std::uint32_t middle = splits_[range.number].middle;
+  // As many splits as blocks, less one, are on the left.
+  const std::uint32_t blocks = (middle - range.begin) / tree_width;
+  return {{range.begin, middle, range.depth + 1, range.number + 1},
+          {middle, range.end, range.depth + 1, range.number + blocks}};
 }
 
 }  // namespace touchmark::spheres

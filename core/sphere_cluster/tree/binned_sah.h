@@ -16,12 +16,14 @@ namespace touchmark::spheres {
 
 /// Triangles [begin, end) of the splitter's order, after `depth` splits.
 struct TriangleRange {
-  std::uint32_t begin, end;
-  std::uint32_t depth;
+  std::uint32_t begin = 0, end = 0;
+  std::uint32_t depth = 0;
+  std::uint32_t number = 0;  ///< the split's, parents before their children
 
   std::uint32_t size() const noexcept { return end - begin; }
 };
 
+/// Puts triangles in an order in which they are split again and again, until each range is a block.
 class TriangleSplitter {
  public:
   /// After this many splits ranges are halved.
@@ -29,14 +31,17 @@ class TriangleSplitter {
   /// So no range of 2^32 triangles is deeper.
   static constexpr std::uint32_t deepest = max_uneven_splits + 32;
 
-  TriangleSplitter(const TriangleMesh& mesh, const SphereClusters& clusters, const FilterFrame& frame);
+  TriangleSplitter(const TriangleMesh& mesh, const SphereClusters& clusters, const FilterFrame& frame,
+                   unsigned threads);
 
+  TriangleRange all() const noexcept { return {0, static_cast<std::uint32_t>(items_.size()), 0, 0}; }
   /// The mesh's triangle at a position in the order.
   std::uint32_t triangle(std::uint32_t position) const noexcept { return items_[position].triangle; }
+  // Of `all` and what it is split into. The range must hold more than one block.
   /// Returns half of the area of the range's box, a measure of how often a search looks into it.
-  float area(const TriangleRange& range) const noexcept;
-  /// The left part holds whole blocks. The range must hold more than one block.
-  std::pair<TriangleRange, TriangleRange> split(const TriangleRange& range);
+  float area(const TriangleRange& range) const noexcept { return splits_[range.number].area; }
+  /// The left part holds whole blocks.
+  std::pair<TriangleRange, TriangleRange> halves(const TriangleRange& range) const noexcept;
 
  private:
   /// In the frame; the last lane is 0.
@@ -63,10 +68,24 @@ class TriangleSplitter {
     Lanes origin, scale;
   };
 
+  struct Split {
+    float area;
+    std::uint32_t middle;  ///< the first triangle of the right part
+  };
+  /// What a range lies in, and the boxes' middles, times two.
+  struct Bounds {
+    Box all, middles;
+  };
+
+  void add_items(const TriangleMesh& mesh, const SphereClusters& clusters, const FilterFrame& frame,
+                 std::size_t first, std::size_t end);
+  std::pair<TriangleRange, TriangleRange> split(const TriangleRange& range);
+  void split_to_blocks(const TriangleRange& range);
+  Bounds bounds_of(const TriangleRange& range) const noexcept;
   static Box box_of(const Item& item) noexcept;
   Lanes key_of(const Item& item, Key key) const noexcept;
   float key_of(const Item& item, Key key, int axis) const noexcept;
-  Box key_bounds(const TriangleRange& range, Key key) const noexcept;
+  Box cluster_bounds(const TriangleRange& range) const noexcept;
   std::optional<Cut> cheapest_cut(const TriangleRange& range, Key key, const Bins& bins) const noexcept;
   void partition_at(const TriangleRange& range, std::uint32_t position, Key key, const Bins& bins,
                     const Cut& cut);
@@ -75,6 +94,7 @@ class TriangleSplitter {
   std::vector<Item> items_;
   std::vector<Item> scratch_;        ///< room for as many
   std::vector<Lanes> cluster_keys_;  ///< empty when every triangle is its own cluster
+  std::vector<Split> splits_;        ///< by number; one less than there are blocks
 };
 
 }  // namespace touchmark::spheres

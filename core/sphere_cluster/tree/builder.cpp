@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
+#include <vector>
 
+#include "core/search/parallel.h"
 #include "core/sphere_cluster/tree/binned_sah.h"
 #include "core/sphere_cluster/tree/node_writer.h"
 
@@ -12,33 +15,39 @@ namespace {
 
 class Builder {
  public:
-  Builder(const TriangleMesh& mesh, const SphereClusters& clusters, const FilterFrame& frame)
-      : mesh_(mesh), frame_(frame), splitter_(mesh, clusters, frame), bound_(mesh, frame) {}
+  Builder(const TriangleMesh& mesh, const SphereClusters& clusters, const FilterFrame& frame,
+          unsigned threads)
+      : mesh_(mesh), frame_(frame), threads_(threads), splitter_(mesh, clusters, frame, threads) {}
 
   TreeParts build() {
-    TreeParts parts;
-    parts_ = &parts;
-    const auto count = static_cast<std::uint32_t>(mesh_.size());
-    parts.triangles.reserve(mesh_.size());
-    parts.blocks.reserve(mesh_.size() / tree_width + 1);
-    add_node({0, count, 0});
-    parts.nodes.shrink_to_fit();
-    return parts;
+    add_node(splitter_.all());
+    parts_.nodes.shrink_to_fit();
+    bound_children();
+    add_blocks();
+    return std::move(parts_);
   }
 
  private:
+  /// A child whose bound is still to be found.
+  struct Child {
+    std::uint32_t node, i;
+    std::uint32_t begin, end;  ///< triangles of the splitter's order
+  };
+
   std::uint32_t add_node(TriangleRange range) {
-    const auto index = static_cast<std::uint32_t>(parts_->nodes.size());
-    parts_->nodes.emplace_back();
+    const auto index = static_cast<std::uint32_t>(parts_.nodes.size());
+    parts_.nodes.emplace_back();
     std::array<TriangleRange, tree_width> children;
     const std::size_t count = split_into(range, children);
-    for (std::size_t i = count; i < tree_width; ++i) parts_->nodes[index].clear(i);
+    for (std::size_t i = count; i < tree_width; ++i) parts_.nodes[index].clear(i);
+    for (std::uint32_t i = 0; i < count; ++i)
+      children_.push_back({index, i, children[i].begin, children[i].end});
     for (std::size_t i = 0; i < count; ++i) {
-      set_child(parts_->nodes[index], i, bound(children[i]));
+      // Blocks are in the splitter's order, and begin where one would if all were full.
       const TreeRef child = children[i].size() <= tree_width
-                                ? TreeRef{add_block(children[i]) | TreeRef::block_bit}
+                                ? TreeRef{children[i].begin / tree_width | TreeRef::block_bit}
                                 : TreeRef{add_node(children[i])};
-      parts_->nodes[index].child[i] = child;
+      parts_.nodes[index].child[i] = child;
     }
     return index;
   }
@@ -58,7 +67,7 @@ class Builder {
       for (std::size_t i = 0; i < count; ++i)
         if (children[i].size() > tree_width && (widest == count || area[i] > area[widest])) widest = i;
       if (widest == count) break;
-      const auto [left, right] = splitter_.split(children[widest]);
+      const auto [left, right] = splitter_.halves(children[widest]);
       children[widest] = left;
       children[count] = right;
       area[widest] = area_of(left);
@@ -71,34 +80,62 @@ class Builder {
     return count;
   }
 
-  BoundingCylinder bound(const TriangleRange& range) {
-    for (std::uint32_t i = range.begin; i < range.end; ++i) bound_.add(splitter_.triangle(i));
-    return bound_.bound();
+  void bound_children() {
+    std::vector<std::size_t> first;  // child of each piece of the work
+    constexpr std::uint32_t triangles_a_piece = 2048;
+    std::uint32_t triangles = triangles_a_piece;
+    for (std::size_t i = 0; i < children_.size(); ++i) {
+      if (triangles >= triangles_a_piece) {
+        first.push_back(i);
+        triangles = 0;
+      }
+      triangles += children_[i].end - children_[i].begin;
+    }
+    const std::size_t pieces = first.size();
+    first.push_back(children_.size());
+    std::vector<BoundOfTriangles> bounds(std::min<std::size_t>(threads_, pieces), {mesh_, frame_});
+    in_parallel(pieces, threads_, [&](unsigned thread, std::size_t piece) {
+      BoundOfTriangles& bound = bounds[thread];
+      for (std::size_t child = first[piece]; child < first[piece + 1]; ++child) {
+        const auto& [node, i, begin, end] = children_[child];
+        for (std::uint32_t at = begin; at < end; ++at) bound.add(splitter_.triangle(at));
+        set_child(parts_.nodes[node], i, bound.bound());
+      }
+    });
   }
 
-  std::uint32_t add_block(const TriangleRange& range) {
-    const auto index = static_cast<std::uint32_t>(parts_->blocks.size());
-    TriangleBlock block{};
+  void add_blocks() {
+    constexpr std::size_t blocks_a_piece = 64;
+    parts_.triangles.resize(mesh_.size());
+    parts_.blocks.resize((mesh_.size() + tree_width - 1) / tree_width);
+    in_ranges(parts_.blocks.size(), blocks_a_piece, threads_, [&](std::size_t first, std::size_t end) {
+      for (std::size_t block = first; block < end; ++block) set_block(block);
+    });
+  }
+
+  void set_block(std::size_t index) noexcept {
+    TriangleBlock& block = parts_.blocks[index];
     std::fill(std::begin(block.offset[0]), std::end(block.offset[0]), std::numeric_limits<float>::max());
-    for (std::uint32_t i = 0; i < range.size(); ++i) {
-      parts_->triangles.push_back(prepare(mesh_, splitter_.triangle(range.begin + i)));
-      set_triangle(block, i, planes_of(parts_->triangles.back(), frame_));
+    const std::size_t first = index * tree_width, end = std::min(first + tree_width, mesh_.size());
+    for (std::size_t at = first; at < end; ++at) {
+      parts_.triangles[at] = prepare(mesh_, splitter_.triangle(static_cast<std::uint32_t>(at)));
+      set_triangle(block, at - first, planes_of(parts_.triangles[at], frame_));
     }
-    parts_->blocks.push_back(block);
-    return index;
   }
 
   const TriangleMesh& mesh_;
   const FilterFrame& frame_;
+  unsigned threads_;
   TriangleSplitter splitter_;
-  TreeParts* parts_ = nullptr;
-  BoundOfTriangles bound_;
+  TreeParts parts_;
+  std::vector<Child> children_;  ///< parents before their children
 };
 
 }  // namespace
 
-TreeParts build_tree(const TriangleMesh& mesh, const SphereClusters& clusters, const FilterFrame& frame) {
-  return Builder(mesh, clusters, frame).build();
+TreeParts build_tree(const TriangleMesh& mesh, const SphereClusters& clusters, const FilterFrame& frame,
+                     unsigned threads) {
+  return Builder(mesh, clusters, frame, threads).build();
 }
 
 }  // namespace touchmark::spheres

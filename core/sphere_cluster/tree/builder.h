@@ -10,6 +10,8 @@
 namespace touchmark::spheres {
 
 /// Triangles of a cluster stay together until everything else has been split. The frame must fit the mesh.
-TreeParts build_tree(const TriangleMesh& mesh, const SphereClusters& clusters, const FilterFrame& frame);
+/// The same bits with any number of threads.
+TreeParts build_tree(const TriangleMesh& mesh, const SphereClusters& clusters, const FilterFrame& frame,
+                     unsigned threads);
 
 }  // namespace touchmark::spheres

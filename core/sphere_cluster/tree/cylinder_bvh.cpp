@@ -41,6 +41,7 @@ SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters,
       bounds_(mesh.bounds()),
       certified_(options.certified),
       lazy_(options.lazy),
+      threads_(options.threads),
       ids_(mesh.triangle_ids()) {
   if (!searchable_) {
     parts_.triangles = touchmark::prepare(mesh);
@@ -48,7 +49,7 @@ SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters,
   }
   frame_ = FilterFrame::around(mesh.bounds());
   radius_ = frame_.radius() * frame_.unit();
-  parts_ = spheres::build_tree(mesh, clusters, frame_);
+  parts_ = spheres::build_tree(mesh, clusters, frame_, threads_);
   spheres::choose_bounds(parts_, frame_);
   measure_leaves();
   fill_distances();

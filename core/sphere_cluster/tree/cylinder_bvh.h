@@ -20,6 +20,7 @@
 #include "core/search/plane_filter.h"
 #include "core/simd/dispatch.h"
 #include "core/sphere_cluster/clustering.h"
+#include "core/sphere_cluster/tree/followed_point.h"
 #include "core/sphere_cluster/tree/leaf_cache.h"
 #include "core/sphere_cluster/tree/node.h"
 
@@ -45,6 +46,7 @@ class SphereTree {
     Simd widest = Simd::avx512;  ///< no wider instructions; what the processor lacks is not used
     bool certified = true;       ///< false: contact as doubles have it
     bool lazy = false;           ///< distances are sampled by the first queries that want them
+    unsigned threads = 1;        ///< build it, at least 1; the same bits
   };
 
   SphereTree() = default;
@@ -65,9 +67,18 @@ class SphereTree {
   bool is_clear(const Sweep& sweep, const Memory& memory) const noexcept {
     return is_clear(sweep.from, sweep.radius, memory) && is_clear(sweep.to, sweep.radius, memory);
   }
+  /// Is that known of one of many points?
+  bool is_clear(const Vec3& center, double reach, const spheres::FollowedPoint& list) const noexcept {
+    const double margin = list.covered - reach;
+    return list.epoch == epoch_ && list.count == 0 && margin > 0 &&
+           (center - list.center).squaredNorm() < margin * margin;
+  }
   // All look, even where it is known to be clear. A radius or reach must be at least 0.
   bool touches(const Probe& probe, Memory& memory, Work& work) const noexcept;
   std::optional<Contact> nearest(const Vec3& center, double reach, Memory& memory, Work& work) const noexcept;
+  /// Answers of one of many points, of which little is remembered.
+  std::optional<Contact> nearest(const Vec3& center, double reach, spheres::FollowedPoint& list,
+                                 Work& work) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, Memory& memory, Work& work) const noexcept;
   std::size_t contacts(const Vec3& center, double reach, Memory& memory, std::span<Contact> into,
                        Work& work) const noexcept;
@@ -106,6 +117,17 @@ class SphereTree {
   };
   WithinBudget nearest_within_budget(const Vec3& center, double reach, Memory& memory,
                                      Work& work) const noexcept;
+  template <class Visitor>
+  bool search_listed(double reach, double error, spheres::FollowedPoint& list,
+                     Visitor& visitor) const noexcept;
+  template <class Visitor>
+  bool list_anew(const FilterPoint& point, double reach, double error, spheres::FollowedPoint& list,
+                 Visitor& visitor) const noexcept;
+  bool is_sampled_clear(const FilterPoint& point, const Vec3& center, double reach,
+                        spheres::FollowedPoint& list) const noexcept;
+  template <class Visitor>
+  std::optional<Contact> contact_found(const Visitor& visitor, const Vec3& center, double reach, double error,
+                                       Work& work) const noexcept;
   LinearScan fallback() const noexcept { return {parts_.triangles, bounds_, ids_, certified_}; }
   std::uint64_t work_limit() const noexcept { return work_budget(parts_.triangles.size()); }
   std::optional<Contact> nearest_without(const Vec3& center, double reach, Work& work) const noexcept;
@@ -119,7 +141,7 @@ class SphereTree {
   void fill_distances();
   void refill_distances(const spheres::MovedTriangles& moved);
   struct Sampling {
-    std::uint64_t budget;    ///< work, of all samples together
+    std::uint64_t budget;    ///< work, of all these samples together
     std::uint32_t near = 0;  ///< a triangle near the last point, and so perhaps the next
     Work work{};
   };
@@ -127,6 +149,7 @@ class SphereTree {
   /// when that is too much work.
   DistanceField::Interval sample(const Vec3& position, double max_distance,
                                  Sampling& sampling) const noexcept;
+  auto sampler() const noexcept;
 
   // Visitors: see search.h.
   template <class Visitor>
@@ -154,6 +177,7 @@ class SphereTree {
   double mean_leaf_radius_ = 0;  ///< the mean radius of a block
   spheres::TreeParts parts_;
   bool lazy_ = false;
+  unsigned threads_ = 1;
   DistanceField distances_;
   TriangleIds ids_;
 };

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/search/distance_field_filling.h"
 #include "core/sphere_cluster/tree/cylinder_bvh.h"
 #include "core/sphere_cluster/tree/refit.h"
 #include "core/sphere_cluster/tree/search.h"  // IWYU pragma: keep
@@ -49,12 +50,22 @@ DistanceField::Interval SphereTree::sample(const Vec3& position, double max_dist
   return {std::min<double>(std::sqrt(unseen), found), std::min(found, max_distance)};
 }
 
+/// Returns what makes a function that takes samples one after the other, near the last one, with its share of
+/// the work that all may be.
+auto SphereTree::sampler() const noexcept {
+  return [this](double share) {
+    const auto all = static_cast<double>(DistanceField::max_work(parts_.triangles.size()));
+    return [this, sampling = Sampling{static_cast<std::uint64_t>(share * all)}](const Vec3& position,
+                                                                                double max_distance) mutable {
+      return sample(position, max_distance, sampling);
+    };
+  };
+}
+
 void SphereTree::fill_distances() {
   distances_ = DistanceField::around(frame_, bounds_, parts_.triangles.size());
   if (lazy_) return distances_.fill_lazily();
-  Sampling sampling{DistanceField::max_work(parts_.triangles.size())};
-  distances_.fill(
-      [&](const Vec3& position, double max_distance) { return sample(position, max_distance, sampling); });
+  distances_.fill(sampler(), threads_);
 }
 
 void SphereTree::refill_distances(const spheres::MovedTriangles& moved) {
@@ -63,10 +74,7 @@ void SphereTree::refill_distances(const spheres::MovedTriangles& moved) {
     return fill_distances();
   std::vector<Aabb> boxes;
   for (const Aabb& one : moved.boxes) boxes.push_back(frame_.to_frame(one));
-  Sampling sampling{DistanceField::max_work(parts_.triangles.size())};
-  distances_.refill(
-      [&](const Vec3& position, double max_distance) { return sample(position, max_distance, sampling); },
-      boxes);
+  distances_.refill(sampler(), boxes, threads_);
 }
 
 bool SphereTree::update(const TriangleMesh& mesh) {

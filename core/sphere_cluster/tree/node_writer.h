@@ -16,7 +16,7 @@
 
 namespace touchmark::spheres {
 
-/// Bounds the triangles added since the last bound(). To be kept: it keeps its memory.
+/// Bounds the triangles added since the last bound(). To be kept, one a thread: it keeps its memory.
 class BoundOfTriangles {
  public:
   BoundOfTriangles(const TriangleMesh& mesh, const FilterFrame& frame)

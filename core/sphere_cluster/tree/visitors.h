@@ -96,7 +96,8 @@ struct TouchVisitor {
 };
 
 /// Keeps the first of those that doubles left open which is within the radius, if there is one.
-[[gnu::cold, gnu::noinline]] void decide_open(TouchVisitor& visitor, double error, Work& work) noexcept {
+[[maybe_unused, gnu::cold, gnu::noinline]] void decide_open(TouchVisitor& visitor, double error,
+                                                            Work& work) noexcept {
   WithinRadius is_within(visitor.center, visitor.radius, error);
   const std::size_t count = std::min<std::size_t>(visitor.open_count, visitor.open.size());
   for (std::size_t i = 0; i < count && visitor.kept_at == nowhere; ++i) {

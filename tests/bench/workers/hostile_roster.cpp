@@ -15,6 +15,7 @@
 
 #include <unistd.h>
 
+#include "bench/contestants/contestant_of.h"
 #include "core/brute_force/brute_force.h"
 #include "core/grid_group/grid_group.h"
 

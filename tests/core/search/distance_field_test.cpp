@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/brute_force/brute_force.h"
+#include "core/search/distance_field_filling.h"
 #include "tests/core/sphere_cluster/test_meshes.h"
 
 namespace touchmark {
@@ -36,12 +37,13 @@ struct Grid {
       : brute(BruteForce::build(mesh, {})), frame(FilterFrame::around(mesh.bounds())) {
     const Vec3 low = frame.to_frame(mesh.bounds().min), high = frame.to_frame(mesh.bounds().max);
     grid = DistanceField(low.cast<float>(), high.cast<float>(), mesh.size());
-    grid.fill([&](const Vec3& place, double most) {
-      if (samples++ == most_samples) return DistanceField::Interval{-1, -1};
+    const auto distance_at = [&](const Vec3& place, double most) {
+      if (samples++ >= most_samples) return DistanceField::Interval{-1, -1};
       const double distance = frame.scale() * distance_to(brute, frame.origin() + place / frame.scale());
       EXPECT_LE(distance, most);
       return DistanceField::Interval{least * distance, distance};
-    });
+    };
+    grid.fill([&](double) { return distance_at; }, 1);
   }
   double distance(const Vec3& in_frame) const {
     return frame.scale() * distance_to(brute, frame.origin() + in_frame / frame.scale());

@@ -1,0 +1,190 @@
+/// `touchmark many`: many points asked at once, against Embree asked for the same points in the same order.
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "bench/cli/program.h"
+#include "bench/experiments/many/many_run.h"
+#include "bench/experiments/papers/paper_options.h"
+#include "bench/results/results_folder.h"
+#include "bench/results/system_info.h"
+#include "bench/scenes/scenes.h"
+#include "bench/support/denormals.h"
+#include "bench/support/interrupt.h"
+#include "bench/support/progress.h"
+#include "bench/support/standard_output.h"
+#include "core/search/parallel.h"
+
+namespace touchmark::bench::cli {
+
+namespace many = experiments::many;
+namespace papers = experiments::papers;
+
+namespace {
+
+struct ManyCommandOptions {
+  std::string mesh, reach = "0.5%", points, shell_points, ticks, rounds, seed = "1", out;
+  std::vector<std::string> detectors, kinds, threads, orders;
+  bool normalize = false, quick = false;
+};
+
+struct ManySettings {
+  std::vector<contestants::ContestantSpec> contestants;
+  std::vector<many::Kind> kinds;
+  std::vector<ManyOptions> options;
+  many::WorkloadSizes sizes;
+  std::size_t rounds = 0;
+  std::uint64_t seed = 0;
+};
+
+std::vector<std::string> or_else(const std::vector<std::string>& chosen, std::vector<std::string> otherwise) {
+  return chosen.empty() ? otherwise : chosen;
+}
+
+/// Without --detector our fast exact ones, the reference, and Embree where it is built in.
+std::vector<contestants::ContestantSpec> checked_contestants(const std::vector<std::string>& names,
+                                                             const contestants::Roster& roster) {
+  std::vector<contestants::ContestantSpec> specs;
+  for (const std::string& name : names) specs.push_back(roster.parse(name));
+  if (!specs.empty()) return specs;
+  for (const contestants::ContestantInfo& info : roster.contestants()) {
+    if (info.built() && (info.name == "sphere-cluster" || info.name == "grid-group" ||
+                         info.name == "aabb-tree" || info.name == "embree"))
+      specs.push_back(roster.parse(info.name));
+  }
+  return specs;
+}
+
+ManySettings checked(const ManyCommandOptions& options, const contestants::Roster& roster) {
+  constexpr std::size_t most = 100'000'000;
+  const bool quick = options.quick;
+  ManySettings settings;
+  settings.contestants = checked_contestants(options.detectors, roster);
+  for (const std::string& name :
+       or_else(options.kinds, {"coherent", "incoherent", "pointshell", "pointshell-close"})) {
+    const std::optional<many::Kind> kind = many::kind_named(name);
+    if (!kind)
+      throw std::invalid_argument(fmt::format(
+          "--kind \"{}\" is not one of coherent, incoherent, pointshell, pointshell-close", name));
+    settings.kinds.push_back(*kind);
+  }
+  for (const std::string& threads : or_else(options.threads, {"1"})) {
+    for (const std::string& name : or_else(options.orders, {"as-given", "automatic"})) {
+      const std::optional<AskOrder> order = many::order_named(name);
+      if (!order)
+        throw std::invalid_argument(
+            fmt::format("--order \"{}\" is not one of as-given, automatic, curve", name));
+      settings.options.push_back(
+          {static_cast<unsigned>(papers::checked_number("--threads", threads, 1, max_threads, 1)), *order});
+    }
+  }
+  settings.sizes = {papers::checked_number("--points", options.points, 1, most, quick ? 10'000 : 100'000),
+                    papers::checked_number("--shell-points", options.shell_points, 1, most, 1'000),
+                    papers::checked_number("--ticks", options.ticks, 1, 1'000'000, quick ? 20 : 200)};
+  settings.rounds = papers::checked_number("--rounds", options.rounds, 1, 1'000, quick ? 3 : 11);
+  settings.seed = papers::checked_seed(options.seed);
+  return settings;
+}
+
+int run_many(const ProgramContext& context, const ManyCommandOptions& options) {
+  const ManySettings settings = checked(options, context.roster);
+  const support::Length reach_text = papers::checked_finite_length("--reach", options.reach);
+  const std::string name = options.mesh.empty() ? scenes::default_scene() : options.mesh;
+  std::optional<results::ResultsFolder> folder;
+  if (!options.out.empty()) folder.emplace(options.out);
+  support::restore_denormals();
+  support::ProgressLine progress;
+  progress.show(fmt::format("{}: building", name));
+  const TriangleMesh mesh = scenes::load_mesh(name, options.normalize);
+  const double reach = reach_text.in_mesh_units(mesh);
+  many::ManyRun run(context.roster, settings.contestants, results::without_directories(name), mesh);
+  support::watch_for_interrupts();
+  std::vector<many::ManyRow> rows;
+  int status = support::exit_done;
+  try {
+    for (const many::Kind kind : settings.kinds) {
+      progress.show(fmt::format("{}, {}: making the points", name, many::name_of(kind)));
+      run.take(many::make_workload(kind, mesh, reach, settings.sizes, settings.seed));
+      for (const ManyOptions& how : settings.options) {
+        const std::vector<many::ManyRow> more =
+            run.run(how, settings.rounds, settings.seed, [&](const std::string& contestant) {
+              progress.show(fmt::format("{}, {}: {}", name, many::name_of(kind), contestant));
+            });
+        rows.insert(rows.end(), more.begin(), more.end());
+      }
+    }
+  } catch (const support::Interrupted&) {
+    status = support::exit_interrupted;
+    progress.clear();
+    fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", rows.size());
+  }
+  progress.clear();
+  support::StandardOutput out;
+  out.write(many::many_table(rows));
+  if (folder) folder->write_file("many.csv", many::many_csv(rows));
+  out.finish();
+  for (const many::ManyRow& row : rows) {
+    if (row.differing == 0) continue;
+    if (status == support::exit_done) status = support::exit_check_failed;
+    fmt::print(stderr, "touchmark: {}, {}: {} answers differ from those of aabb-tree\n", row.contestant(),
+               row.kind, row.differing);
+  }
+  return status;
+}
+
+void add_repeatable(CLI::App& command, const char* name, std::vector<std::string>& values, const char* what,
+                    const char* type) {
+  command.add_option(name, values, what)->type_name(type)->expected(1)->take_all();
+}
+
+void add_sizes(CLI::App& command, ManyCommandOptions& options) {
+  command.add_option("--points", options.points, "of a call, coherent or not; default: 100000")
+      ->type_name("N");
+  command.add_option("--shell-points", options.shell_points, "of a pointshell; default: 1000")
+      ->type_name("N");
+  command.add_option("--ticks", options.ticks, "calls of a pointshell; default: 200")->type_name("N");
+  command.add_option("--rounds", options.rounds, "that are timed; default: 11")->type_name("N");
+}
+
+}  // namespace
+
+void add_many(CLI::App& program, ProgramContext& context) {
+  const auto options = std::make_shared<ManyCommandOptions>();
+  CLI::App* command =
+      program.add_subcommand("many", "many points asked at once: a scan, or a pointshell each tick");
+  command->add_option("--mesh", options->mesh, "a scene (touchmark list) or a mesh file")->type_name("MESH");
+  command->add_flag("--normalize", options->normalize, "scale to box diagonal 1 about the origin");
+  add_repeatable(*command, "--detector", options->detectors,
+                 "a contestant that answers nearest (touchmark list); repeatable; default: our fast ones, "
+                 "aabb-tree and embree",
+                 "D");
+  add_repeatable(*command, "--kind", options->kinds,
+                 "coherent, incoherent, pointshell or pointshell-close; repeatable; default: all", "KIND");
+  add_repeatable(*command, "--order", options->orders,
+                 "as-given, automatic or curve; repeatable; default: the first two", "ORDER");
+  add_repeatable(*command, "--threads", options->threads, "repeatable; default: 1", "N");
+  command->add_option("--reach", options->reach, "mesh units or % of the box diagonal")
+      ->type_name("LENGTH")
+      ->capture_default_str();
+  add_sizes(*command, *options);
+  command->add_option("--seed", options->seed, "of the points and of the order of measuring")
+      ->type_name("N")
+      ->capture_default_str();
+  command->add_option("--out", options->out, "folder for many.csv")->type_name("DIR");
+  command->add_flag("--quick", options->quick, "fewer points, ticks and rounds");
+  command->footer(
+      "coherent: a slide along the surface. incoherent: random places within reach. pointshell: points of a\n"
+      "body that turns and comes down on the mesh. pointshell-close: all within reach, shaken. All "
+      "contestants\n"
+      "are asked by nearest_many for the same points in the same order, in turns, in this process: one that\n"
+      "crashes ends the command. Exit status 1 if answers differ from those of aabb-tree asked one by one.\n"
+      "Example: touchmark many --mesh bunny --threads 1 --threads 2 --out out/many\n");
+  command->final_callback([options, &context] { context.status = run_many(context, *options); });
+}
+
+}  // namespace touchmark::bench::cli

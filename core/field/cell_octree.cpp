@@ -1,0 +1,211 @@
+#include "core/field/cell_octree.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "core/search/parallel.h"
+
+namespace touchmark::field {
+namespace {
+
+/// Distances at the corners of a cube: bits 0 to 2 of the index say on which side, along x, y and z.
+using Corners = std::array<double, 8>;
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double half_diagonal = 0.8660254037844387;  // of a cube of edge 1, rounded up
+constexpr std::uint32_t max_lattice = 32;             // cubes along the longest axis
+constexpr double max_places = 0x1p28;                 // smallest cubes along the longest axis
+
+bool is_side(std::size_t corner, std::size_t axis) noexcept { return (corner >> axis & 1) != 0; }
+
+}  // namespace
+
+/// Divides one cube of the lattice after the other.
+class CellOctree::Divider {
+ public:
+  Divider(const CellOctree& octree, const Division& division, double diagonal,
+          std::atomic<std::size_t>& entries)
+      : octree_(octree),
+        division_(division),
+        squared_pad_(4 * diagonal * octree.slop_ + 64 * epsilon * diagonal * diagonal),
+        entries_(entries) {}
+
+  Tree divide(const Place& at, const Corners& distance, const Sampler& sample) const {
+    Tree tree;
+    tree.entries.push_back(0);
+    divide(tree, 0, at, octree_.depth_, distance, sample);
+    return tree;
+  }
+
+ private:
+  void divide(Tree& tree, std::size_t entry, const Place& at, std::uint32_t level, const Corners& distance,
+              const Sampler& sample) const {
+    const double edge = std::ldexp(octree_.unit_, static_cast<int>(level));
+    const Sample middle = sample(octree_.position(at) + Vec3::Constant(0.5 * edge));
+    const double radius = half_diagonal * edge + octree_.slop_;
+    if (middle.distance - radius > division_.band) {
+      tree.entries[entry] = leaf_bit | far;
+      ++tree.leaves;
+      return;
+    }
+    const double error = error_in(at, level, distance, middle, radius);
+    if (level == 0 || error <= division_.error) {
+      tree.entries[entry] = leaf_bit | middle.triangle;
+      tree.error = std::max(tree.error, error);
+      ++tree.leaves;
+      return;
+    }
+    divide_further(tree, entry, at, level, distance, middle.distance, sample);
+  }
+
+  /// Bounds how much farther the middle's triangle can be than the nearest, anywhere in the cube. Neither of
+  /// the two bounds is always the smaller: distances change by no more than the point moves, and see the
+  /// class.
+  double error_in(const Place& at, std::uint32_t level, const Corners& distance, const Sample& middle,
+                  double radius) const noexcept {
+    double squares = 0;  // of the distance to the triangle less those of the true one, at most
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+      const Vec3 there = octree_.position(corner_of(at, level, corner));
+      squares =
+          std::max(squares, (there - middle.nearest).squaredNorm() - distance[corner] * distance[corner]);
+    }
+    squares += squared_pad_;
+    const double least = std::max(middle.distance - radius, 0.0);
+    const double by_squares = squares / (std::sqrt(least * least + squares) + least);
+    return std::min(by_squares, 2 * radius) + 2 * octree_.slop_;
+  }
+
+  /// The eight children have their corners among 27 places, of which eight and the middle are known.
+  void divide_further(Tree& tree, std::size_t entry, const Place& at, std::uint32_t level,
+                      const Corners& distance, double in_middle, const Sampler& sample) const {
+    std::array<double, 27> known;
+    for (std::uint32_t i = 0; i < 27; ++i) {
+      const Place part{i % 3, i / 3 % 3, i / 9};
+      const bool is_corner = part[0] != 1 && part[1] != 1 && part[2] != 1;
+      Place there = at;
+      for (std::size_t axis = 0; axis < 3; ++axis) there[axis] += part[axis] << (level - 1);
+      if (is_corner) {
+        known[i] = distance[part[0] / 2 + part[1] / 2 * 2 + part[2] / 2 * 4];
+      } else {
+        known[i] = i == 13 ? in_middle : sample(octree_.position(there)).distance;
+      }
+    }
+    const std::size_t first = tree.entries.size();
+    if (sizeof(std::uint32_t) * (entries_ += 8) > division_.bytes)
+      throw std::invalid_argument("field: an error of " + std::to_string(division_.error) +
+                                  " takes more than " + std::to_string(division_.bytes >> 20) + " MiB");
+    tree.entries.resize(first + 8);
+    tree.entries[entry] = static_cast<std::uint32_t>(first);
+    for (std::size_t child = 0; child < 8; ++child) {
+      Corners corners;
+      for (std::size_t corner = 0; corner < 8; ++corner) {
+        std::size_t i = 0;
+        for (std::size_t axis = 0, stride = 1; axis < 3; ++axis, stride *= 3)
+          i += stride * ((is_side(child, axis) ? 1U : 0U) + (is_side(corner, axis) ? 1U : 0U));
+        corners[corner] = known[i];
+      }
+      divide(tree, first + child, corner_of(at, level - 1, child), level - 1, corners, sample);
+    }
+  }
+
+  static Place corner_of(const Place& at, std::uint32_t level, std::size_t corner) noexcept {
+    Place place = at;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (is_side(corner, axis)) place[axis] += 1U << level;
+    return place;
+  }
+
+  const CellOctree& octree_;
+  const Division& division_;
+  double squared_pad_;
+  std::atomic<std::size_t>& entries_;
+};
+
+/// The lattice goes beyond the mesh's box by the band, and its smallest cube is so small that no triangle
+/// that is nearest in its middle is wrong by more than the error anywhere in it.
+bool CellOctree::choose_lattice(const Aabb& bounds, const Division& division) noexcept {
+  const Aabb box = bounds.padded(division.band);
+  const double largest = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
+  const double extent = box.extent().maxCoeff();
+  slop_ = 16 * epsilon * largest;
+  unit_ = (division.error - 8 * slop_) / (2.001 * half_diagonal);
+  constexpr double smallest_square = 1e-140, largest_square = 1e140;
+  if (!(unit_ > 64 * slop_ && unit_ > smallest_square && extent < largest_square &&
+        extent < max_places * unit_))
+    return false;
+  origin_ = box.min;
+  const auto places = static_cast<std::uint32_t>(extent / unit_) + 1;
+  depth_ = 0;
+  while ((places >> depth_) + 1 > max_lattice) ++depth_;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    counts_[axis] = (static_cast<std::uint32_t>(box.extent()[static_cast<int>(axis)] / unit_) >> depth_) + 1;
+    end_[axis] = static_cast<double>(counts_[axis] << depth_);
+  }
+  places_per_length_ = 1 / unit_;
+  return true;
+}
+
+/// Returns the distances at the corners of the lattice's cubes.
+std::vector<double> CellOctree::sample_lattice(const Division& division,
+                                               std::vector<Sampler>& samplers) const {
+  const std::size_t across = counts_[0] + 1, rows = counts_[1] + 1, planes = counts_[2] + 1;
+  std::vector<double> distances(across * rows * planes);
+  in_parallel(rows * planes, division.threads, [&](unsigned thread, std::size_t row) {
+    for (std::size_t x = 0; x < across; ++x) {
+      const Place at{static_cast<std::uint32_t>(x << depth_),
+                     static_cast<std::uint32_t>(row % rows << depth_),
+                     static_cast<std::uint32_t>(row / rows << depth_)};
+      distances[row * across + x] = samplers[thread](position(at)).distance;
+    }
+  });
+  return distances;
+}
+
+CellOctree::CellOctree(const Aabb& bounds, const Division& division,
+                       const std::function<Sampler()>& make_sampler) {
+  if (!choose_lattice(bounds, division)) return;
+  std::vector<Sampler> samplers;
+  for (unsigned i = 0; i < division.threads; ++i) samplers.push_back(make_sampler());
+  const std::vector<double> distances = sample_lattice(division, samplers);
+  const std::size_t across = counts_[0] + 1, rows = counts_[1] + 1;
+  std::vector<Tree> trees(std::size_t{counts_[0]} * counts_[1] * counts_[2]);
+  std::atomic<std::size_t> entries = trees.size();
+  const Divider divider(*this, division, bounds.padded(division.band).extent().norm(), entries);
+  in_parallel(trees.size(), division.threads, [&](unsigned thread, std::size_t i) {
+    const std::size_t x = i % counts_[0], y = i / counts_[0] % counts_[1], z = i / counts_[0] / counts_[1];
+    Corners corners;
+    for (std::size_t corner = 0; corner < 8; ++corner)
+      corners[corner] =
+          distances[((z + (corner >> 2)) * rows + y + (corner >> 1 & 1)) * across + x + (corner & 1)];
+    const Place at{static_cast<std::uint32_t>(x << depth_), static_cast<std::uint32_t>(y << depth_),
+                   static_cast<std::uint32_t>(z << depth_)};
+    trees[i] = divider.divide(at, corners, samplers[thread]);
+  });
+  append(trees);
+}
+
+/// Puts the trees behind one another, behind the lattice: there children are by their place among all.
+void CellOctree::append(const std::vector<Tree>& trees) {
+  std::size_t size = trees.size();
+  for (const Tree& tree : trees) size += tree.entries.size() - 1;
+  entries_.resize(size);
+  std::size_t end = trees.size();
+  for (std::size_t i = 0; i < trees.size(); ++i) {
+    const Tree& tree = trees[i];
+    const auto moved = [&](std::uint32_t entry) {
+      return (entry & leaf_bit) != 0 ? entry : entry + static_cast<std::uint32_t>(end) - 1;
+    };
+    entries_[i] = moved(tree.entries[0]);
+    for (std::size_t k = 1; k < tree.entries.size(); ++k) entries_[end + k - 1] = moved(tree.entries[k]);
+    end += tree.entries.size() - 1;
+    error_ = std::max(error_, tree.error);
+    leaves_ += tree.leaves;
+  }
+}
+
+}  // namespace touchmark::field

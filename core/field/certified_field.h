@@ -1,0 +1,156 @@
+/// A sampled distance field with a certificate: it answers from memory alone, by one look at a triangle, and
+/// is never wrong by more than was asked for. Elsewhere, or where that is asked for, an exact detector
+/// answers.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/detector.h"
+#include "core/field/cell_octree.h"
+#include "core/field/field_options.h"
+#include "core/geometry/point_triangle.h"
+#include "core/search/parallel.h"
+#include "core/triangle_mesh.h"
+
+namespace touchmark {
+
+/// The field over an exact detector; satisfies AnswersTouches and AnswersNearest.
+template <AnswersNearest Exact>
+class CertifiedField {
+ public:
+  /// What `build` may be told.
+  struct Options : FieldOptions {
+    typename Exact::Options exact = {};
+  };
+  /// What one haptic point remembers between ticks.
+  struct Session {
+    Work work;
+    field::CellOctree::Leaf leaf;
+    Vec3 center = Vec3::Zero();
+    double clear = 0;  ///< no triangle is nearer to that center
+    typename Exact::Session exact;
+  };
+
+  /// Throws what the exact detector's build throws, and std::invalid_argument for an error or a band that is
+  /// not a number of 0 or more, too many threads, or an error that takes too much memory.
+  static CertifiedField build(const TriangleMesh& mesh, const Options& options) {
+    const field::Division division = field::checked_division(options, mesh.diagonal());
+    CertifiedField built(Exact::build(mesh, options.exact));
+    built.refines_ = options.refines;
+    built.band_ = division.band;
+    built.ids_ = mesh.triangle_ids();
+    built.triangles_ = prepare(mesh);
+    built.octree_ = field::CellOctree(mesh.bounds(), division, [&] { return built.sampler(mesh); });
+    return built;
+  }
+  static CertifiedField build(const TriangleMesh& mesh) { return build(mesh, Options()); }
+
+  bool touches(const Probe& probe, Session& session) const noexcept {
+    if (!(probe.radius >= 0)) return false;
+    const Found found = find(probe.center, probe.radius, session);
+    if (!found.ask_exact) return found.triangle != nullptr;
+    return ask(session, [&](auto& exact) { return exact_->touches(probe, exact); });
+  }
+  std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept {
+    if (!(reach >= 0)) return std::nullopt;
+    const Found found = find(probe.center, reach, session);
+    if (found.ask_exact)
+      return ask(session, [&](auto& exact) { return exact_->nearest(probe, reach, exact); });
+    if (found.triangle == nullptr) return std::nullopt;
+    return contact_at(*found.triangle, probe.center, found.offset, ids_[found.triangle->index]);
+  }
+
+  /// Returns the detector that answers exactly, to be asked with a session of its own.
+  const Exact& exact() const noexcept { return *exact_; }
+  /// Returns how far an answer may be off, as it was proved when the field was built.
+  double error() const noexcept { return octree_.error(); }
+
+  std::size_t bytes() const noexcept {
+    return exact_->bytes() + octree_.bytes() + triangles_.capacity() * sizeof(PreparedTriangle) +
+           ids_.bytes();
+  }
+  Accuracy accuracy() const noexcept {
+    if (refines_) return exact_->accuracy();
+    return {Guarantee::approximate, kernel_relative_error, octree_.error()};
+  }
+
+ private:
+  explicit CertifiedField(Exact exact) : exact_(std::make_unique<Exact>(std::move(exact))) {}
+
+  /// What the field says: nothing within the reach, a triangle, or that the exact detector is to be asked.
+  struct Found {
+    const PreparedTriangle* triangle = nullptr;
+    Offset offset{};
+    bool ask_exact = false;
+  };
+
+  Found find(const Vec3& center, double reach, Session& session) const noexcept {
+    const double margin = session.clear - reach;
+    if (margin > 0 && (center - session.center).squaredNorm() < margin * margin) return {};
+    if (octree_.empty()) return {.ask_exact = true};
+    const std::optional<field::CellOctree::Place> place = octree_.place_of(center);
+    if (place && !session.leaf.holds(*place)) {
+      ++session.work.cells;
+      session.leaf = octree_.leaf_at(*place);
+    }
+    if (!place || session.leaf.triangle == field::CellOctree::far) {
+      if (!center.allFinite() || reach >= band_) return {.ask_exact = true};
+      return clear_by(band_, center, session);
+    }
+    const PreparedTriangle& triangle = triangles_[session.leaf.triangle];
+    ++session.work.triangles;
+    const Offset offset = field::offset_from(triangle, center);
+    const double distance = std::sqrt(offset.squared);
+    if (distance - octree_.error() > reach) return clear_by(distance - octree_.error(), center, session);
+    if (refines_) return {.ask_exact = true};
+    return distance <= reach ? Found{&triangle, offset} : Found{};
+  }
+  static Found clear_by(double distance, const Vec3& center, Session& session) noexcept {
+    session.center = center;
+    session.clear = distance * (1 - 0x1p-40);
+    return {};
+  }
+  template <class Question>
+  auto ask(Session& session, const Question& question) const noexcept {
+    session.exact.work = {};
+    const auto answer = question(session.exact);
+    session.work += session.exact.work;
+    return answer;
+  }
+
+  field::Sampler sampler(const TriangleMesh& mesh) const {
+    return [this, &mesh, session = std::make_shared<typename Exact::Session>()](const Vec3& point) {
+      const std::optional<Contact> contact =
+          exact_->nearest({point, 0}, std::numeric_limits<double>::infinity(), *session);
+      return field::Sample{contact->distance, contact->point, triangle_of(mesh, *contact, point)};
+    };
+  }
+  /// Returns which of the triangles of the contact's id it is on.
+  std::uint32_t triangle_of(const TriangleMesh& mesh, const Contact& contact,
+                            const Vec3& point) const noexcept {
+    if (mesh.ids().empty()) return contact.triangle;
+    const auto [first, last] = std::ranges::equal_range(mesh.ids(), contact.triangle);
+    const auto begin = static_cast<std::size_t>(first - mesh.ids().begin());
+    return nearest_as_computed(std::span(triangles_).subspan(begin, static_cast<std::size_t>(last - first)),
+                               point)
+        .candidate.index;
+  }
+
+  std::unique_ptr<Exact> exact_;  ///< stays where it is when the field moves
+  field::CellOctree octree_;
+  std::vector<PreparedTriangle> triangles_;  ///< in the mesh's order
+  TriangleIds ids_;
+  double band_ = 0;
+  bool refines_ = false;
+};
+
+}  // namespace touchmark

@@ -1,0 +1,59 @@
+"""Builds the wheel: setuptools packs it, and CMake compiles the native part with the flags of the rest of the project."""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import shutil
+
+import pybind11
+import setuptools
+import setuptools.build_meta
+from setuptools.command.build_ext import build_ext
+
+ROOT = pathlib.Path(__file__).resolve().parents[1]
+
+
+def version():
+    text = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
+    return re.search(r"project\(touchmark VERSION (\d+\.\d+\.\d+)", text)[1]
+
+
+class BuildWithCMake(build_ext):
+    """Has CMake build the module and put it where setuptools looks for it."""
+
+    def build_extension(self, ext):
+        made = pathlib.Path(self.get_ext_fullpath(ext.name)).resolve()
+        folder = pathlib.Path(self.build_temp).resolve()
+        folder.mkdir(parents=True, exist_ok=True)
+        options = ["-DCMAKE_BUILD_TYPE=Release", "-DTOUCHMARK_BUILD_PYTHON=ON", f"-DPython_EXECUTABLE={sys.executable}",
+                   f"-Dpybind11_DIR={pybind11.get_cmake_dir()}", f"-DTOUCHMARK_PYTHON_FOLDER={made.parent}"]
+        options += [f"-DTOUCHMARK_BUILD_{part}=OFF" for part in ("BENCH", "TESTS", "MESH_IO", "C")]
+        if shutil.which("ninja"):
+            options += ["-G", "Ninja"]
+        subprocess.run(["cmake", "-S", str(ROOT), "-B", str(folder), *options], check=True)
+        subprocess.run(["cmake", "--build", str(folder), "--target", "touchmark_python", "--parallel",
+                        os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count()))], check=True)
+
+
+class Backend(setuptools.build_meta._BuildMetaBackend):  # as setuptools' own pages have it
+    def run_setup(self, setup_script="setup.py"):
+        build = ROOT / "build" / "wheel"
+        build.mkdir(parents=True, exist_ok=True)
+        setuptools.setup(
+            version=version(),
+            packages=["touchmark"],
+            package_dir={"touchmark": "python/touchmark"},
+            package_data={"touchmark": ["py.typed", "*.pyi"]},
+            ext_modules=[setuptools.Extension("touchmark._native", sources=[])],
+            cmdclass={"build_ext": BuildWithCMake},
+            options={"build": {"build_base": str(build)}, "egg_info": {"egg_base": str(build)}},
+        )
+
+
+_backend = Backend()
+build_wheel = _backend.build_wheel
+build_sdist = _backend.build_sdist
+get_requires_for_build_wheel = _backend.get_requires_for_build_wheel
+get_requires_for_build_sdist = _backend.get_requires_for_build_sdist
+prepare_metadata_for_build_wheel = _backend.prepare_metadata_for_build_wheel

@@ -1,0 +1,276 @@
+"""Exact collision detectors for haptic loops: closest points, contacts and sweeps against a triangle mesh.
+
+    >>> import numpy as np, touchmark
+    >>> mesh = touchmark.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    >>> detector = touchmark.GridGroup(mesh)
+    >>> detector.nearest([[0.25, 0.25, 2.0]]).distance
+    array([2.])
+
+Lengths are in the mesh's own units. Points are arrays of the shape (n, 3); float64 in C order is used where it lies, other
+real numbers are converted, and what is no real number is refused. Whatever is wrong raises ValueError, which names it.
+
+A batch runs without the interpreter's lock, so other Python threads go on; `threads=` divides it among several. Points are
+asked in their order: where each is near to the one before it, a query is cheaper. The answers do not depend on the order,
+nor on the threads.
+"""
+from __future__ import annotations
+
+import enum
+from typing import Any, NamedTuple, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _native
+
+__all__ = ["AabbTree", "BruteForce", "Detector", "FirstHit", "GridGroup", "Mesh", "Nearest", "Side", "SphereCluster"]
+__version__: str = _native.version
+
+Length = Union[float, str]
+"""A number in mesh units, or a text such as "0.5%", in percent of the mesh's box diagonal."""
+
+
+class Side(enum.IntEnum):
+    """Where a point is. Inside is behind the faces, whose corners run counter-clockwise seen from outside."""
+
+    OUTSIDE = 1
+    INSIDE = 2
+    ON_SURFACE = 3
+    UNDECIDED = 4  # the mesh does not say: it has openings there, or neighbours that are turned against each other
+
+
+class Nearest(NamedTuple):
+    """The nearest points of the mesh, an entry a point asked for."""
+
+    found: npt.NDArray[np.bool_]
+    """Is the mesh within the reach?"""
+    distance: npt.NDArray[np.float64]
+    """From the point asked for to `point`; infinity where nothing is found."""
+    point: npt.NDArray[np.float64]
+    """On the mesh, (n, 3); not-a-number where nothing is found."""
+    normal: npt.NDArray[np.float64]
+    """Unit, from `point` to the point asked for, (n, 3); the face's normal where both coincide."""
+    triangle: npt.NDArray[np.int64]
+    """Row of `faces`; the lowest of those equally near; -1 where nothing is found."""
+
+
+class FirstHit(NamedTuple):
+    """The first touches of balls on straight ways, an entry a way."""
+
+    found: npt.NDArray[np.bool_]
+    """Does the ball touch the mesh on its way?"""
+    fraction: npt.NDArray[np.float64]
+    """Of the way, 0 to 1, rounded down; 0 where and only where it touches at the start; infinity where it never does."""
+    distance: npt.NDArray[np.float64]
+    """From the centre there to `point`."""
+    point: npt.NDArray[np.float64]
+    """On the mesh, nearest to the centre there, (n, 3)."""
+    normal: npt.NDArray[np.float64]
+    """Unit, from `point` to the centre there, (n, 3)."""
+    triangle: npt.NDArray[np.int64]
+    """Row of `faces`; -1 where nothing is hit."""
+
+
+def _real(name: str, value: Any) -> npt.NDArray[Any]:
+    try:
+        array = np.asarray(value)
+    except ValueError:  # rows of different lengths
+        raise ValueError(f"{name} is no rectangular array of numbers") from None
+    if array.size == 0 and not isinstance(value, np.ndarray):
+        return array.astype(np.float64)
+    if array.dtype.kind not in "iuf" or array.dtype.itemsize > 8:
+        raise ValueError(f"{name} holds {array.dtype}; it must hold real numbers of at most 64 bits")
+    return array
+
+
+def _rows_of_three(name: str, value: Any) -> npt.NDArray[Any]:
+    array = _real(name, value)
+    if array.size == 0 and array.ndim == 1:
+        array = array.reshape(0, 3)
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise ValueError(f"{name} has the shape {array.shape}; it must be (n, 3)")
+    return array
+
+
+def _doubles(array: npt.NDArray[Any]) -> npt.NDArray[np.float64]:
+    return np.require(array, np.float64, ["C", "A"])
+
+
+def _points(name: str, value: Any) -> npt.NDArray[np.float64]:
+    return _doubles(_rows_of_three(name, value))
+
+
+def _sizes(name: str, value: Any, count: int) -> npt.NDArray[np.float64]:
+    array = _real(name, value)
+    if array.ndim > 1 or (array.ndim == 1 and len(array) != count):
+        raise ValueError(f"{name} has the shape {array.shape}; it must be one number, or ({count},): one for each point")
+    return _doubles(np.atleast_1d(array)) if array.size else np.zeros(1)
+
+
+def _faces(value: Any) -> npt.NDArray[np.uint32]:
+    array = _rows_of_three("faces", value)
+    if array.size == 0:
+        return array.astype(np.uint32)
+    if array.dtype.kind == "f":
+        raise ValueError(f"faces holds {array.dtype}; it must hold whole numbers")
+    if array.dtype.kind == "i" or array.dtype.itemsize == 8:
+        bad = (array < 0) | (array > 2**32 - 1)
+        if bad.any():
+            row, column = np.argwhere(bad)[0]
+            raise ValueError(f"faces[{row}, {column}] is {array[row, column]}; it must name a row of vertices")
+    return np.require(array, np.uint32, ["C", "A"])
+
+
+def _threads(value: int) -> int:
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < 0:
+        raise ValueError(f"threads is {value!r}; it must be a whole number, and 0 means one a processor")
+    return int(value)
+
+
+class Mesh:
+    """Triangles in double precision, checked and copied. Degenerate ones are kept: they are segments or points.
+
+    vertices: (n, 3) real and finite. faces: (m, 3) whole numbers, rows of vertices, counter-clockwise seen from outside.
+    """
+
+    __slots__ = ("_native",)
+
+    def __init__(self, vertices: npt.ArrayLike, faces: npt.ArrayLike) -> None:
+        self._native = _native.Mesh(_points("vertices", vertices), _faces(faces))
+
+    @property
+    def vertices(self) -> npt.NDArray[np.float64]:
+        """The mesh's own vertices, (n, 3), without a copy; they cannot be written to."""
+        return self._native.vertices()
+
+    @property
+    def faces(self) -> npt.NDArray[np.uint32]:
+        """The mesh's own triangles, (m, 3), without a copy; they cannot be written to."""
+        return self._native.faces()
+
+    @property
+    def bounds(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        """The least and the greatest corner of the box of all vertices that triangles use."""
+        return self._native.bounds()
+
+    def __len__(self) -> int:
+        """The number of triangles."""
+        return len(self.faces)
+
+    def __repr__(self) -> str:
+        return f"<touchmark.Mesh: {len(self.vertices)} vertices, {len(self)} triangles>"
+
+
+class Detector:
+    """What all detectors can be asked. Constant once built; may be asked by several Python threads at once."""
+
+    __slots__ = ("_mesh", "_native")
+    _name = ""
+
+    def __init__(self, mesh: Mesh, **options: object) -> None:
+        if not self._name:
+            raise TypeError("touchmark.Detector is what detectors have in common: build a GridGroup or a SphereCluster")
+        if not isinstance(mesh, Mesh):
+            raise TypeError(f"{type(self).__name__} is built of a touchmark.Mesh, not of {type(mesh).__name__}")
+        self._mesh = mesh
+        texts = (f"{key}={_text(value)}" for key, value in options.items())
+        self._native = _native.Detector(mesh._native, f"{self._name}:{','.join(texts)}")
+
+    @property
+    def mesh(self) -> Mesh:
+        """The mesh that it was built of."""
+        return self._mesh
+
+    @property
+    def nbytes(self) -> int:
+        """The memory that the search structure takes, in bytes."""
+        return self._native.bytes()
+
+    def nearest(self, points: npt.ArrayLike, reach: npt.ArrayLike = np.inf, *, threads: int = 1) -> Nearest:
+        """The nearest point of the mesh for each of the points, if it is within `reach`: one number, or one a point.
+
+        A point with a coordinate that is not a number finds nothing. threads: 0 means one a processor.
+        """
+        asked = _points("points", points)
+        return Nearest(*self._native.nearest(asked, _sizes("reach", reach, len(asked)), _threads(threads)))
+
+    def touches(self, points: npt.ArrayLike, radius: npt.ArrayLike = 0.0, *, threads: int = 1) -> npt.NDArray[np.bool_]:
+        """Is the mesh within `radius` of each point? Contact is closed: a distance of exactly the radius touches."""
+        asked = _points("points", points)
+        return self._native.touches(asked, _sizes("radius", radius, len(asked)), _threads(threads))
+
+    def first_hit(self, starts: npt.ArrayLike, ends: npt.ArrayLike, radius: npt.ArrayLike = 0.0, *,
+                  threads: int = 1) -> FirstHit:
+        """The first touch of a ball of that radius, 0 for a bare point, that moves straight from start to end, for each."""
+        asked = _points("starts", starts)
+        found = self._native.first_hit(asked, _points("ends", ends), _sizes("radius", radius, len(asked)), _threads(threads))
+        return FirstHit(*found)
+
+    def side(self, points: npt.ArrayLike, *, threads: int = 1) -> npt.NDArray[np.int8]:
+        """Inside or outside, a `Side` for each point. What this needs of the mesh is found when it is first asked for."""
+        return self._native.side(_points("points", points), _threads(threads))
+
+    def __repr__(self) -> str:
+        return f"<touchmark.{type(self).__name__}: {len(self._mesh)} triangles, {self.nbytes} bytes>"
+
+
+def _text(value: object) -> str:
+    if isinstance(value, (bool, np.bool_)):
+        return "true" if value else "false"
+    if isinstance(value, (float, np.floating)):
+        return repr(float(value))
+    return str(value)
+
+
+class GridGroup(Detector):
+    """Triangles in groups about uniform cells, after Park & Jang 2018. The fast exact form, unless told otherwise.
+
+    lookup: "direct", or "scan", the form as published. shape: of the groups of a scan: "cube", "sphere",
+    "centered-sphere". cell: edge of a cell; 0: chosen. groups: a scan with cell=0 aims at so many. bytes_per_triangle: what a
+    direct one may take. certified: False decides as doubles have it. build: "whole", or "lazy": by the first queries.
+    """
+
+    __slots__ = ()
+    _name = "grid-group"
+
+    def __init__(self, mesh: Mesh, *, lookup: str = "direct", shape: str = "cube", cell: Length = 0.0, groups: int = 0,
+                 bytes_per_triangle: float = 400.0, certified: bool = True, build: str = "whole") -> None:
+        super().__init__(mesh, lookup=lookup, shape=shape, cell=cell, groups=groups,
+                         bytes_per_triangle=bytes_per_triangle, certified=certified, build=build)
+
+
+class SphereCluster(Detector):
+    """Triangles in clustered bounding spheres, after Choi & Sung 2017. The fast exact form, unless told otherwise.
+
+    clustering: distance between centroids that share a sphere; 0: a sphere each. lookup: "tree", or "scan", the form as
+    published. precise: False, the published fast level alone: spheres answer, contacts come early. certified: False decides
+    as doubles have it. build: "whole", or "lazy": by the first queries. simd: "avx512", "avx2" or "portable": none wider.
+    """
+
+    __slots__ = ()
+    _name = "sphere-cluster"
+
+    def __init__(self, mesh: Mesh, *, clustering: Length = 0.0, lookup: str = "tree", precise: bool = True,
+                 certified: bool = True, build: str = "whole", simd: str = "avx512") -> None:
+        super().__init__(mesh, clustering=clustering, lookup=lookup, precise=precise, certified=certified, build=build,
+                         simd=simd)
+
+
+class AabbTree(Detector):
+    """A plain binary tree of boxes: the reference. leaf_size: triangles a leaf holds at most, 1 to 255."""
+
+    __slots__ = ()
+    _name = "aabb-tree"
+
+    def __init__(self, mesh: Mesh, *, leaf_size: int = 4, certified: bool = True) -> None:
+        super().__init__(mesh, leaf_size=leaf_size, certified=certified)
+
+
+class BruteForce(Detector):
+    """Every triangle, every time: slow, and what the exact forms of the others equal bit for bit."""
+
+    __slots__ = ()
+    _name = "brute-force"
+
+    def __init__(self, mesh: Mesh) -> None:
+        super().__init__(mesh)

@@ -1,0 +1,213 @@
+/// A certified field is wrong by no more than it says: the truth is brute force, which shares no tree and no
+/// sample with it.
+#include "core/field/certified_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "bench/workload/answer.h"
+#include "core/brute_force/brute_force.h"
+#include "core/sphere_cluster/sphere_cluster.h"
+#include "tests/core/sphere_cluster/test_meshes.h"
+
+namespace touchmark {
+namespace {
+
+using Field = CertifiedField<SphereCluster>;
+using bench::workload::Answer;
+
+static_assert(AnswersTouches<Field> && AnswersNearest<Field>);
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Field::Options with(double error, double band, bool refines = false) {
+  Field::Options options;
+  options.error = error;
+  options.band = band;
+  options.refines = refines;
+  return options;
+}
+
+bool same_bits(const std::optional<Contact>& a, const std::optional<Contact>& b) {
+  const Answer left = a ? Answer::of(*a) : Answer{}, right = b ? Answer::of(*b) : Answer{};
+  return std::memcmp(&left, &right, sizeof left) == 0;
+}
+
+/// A needle that stands on a plate, thinner than any cube: samples at corners do not see it.
+TriangleMesh plate_with_needle() {
+  std::vector<Vec3> vertices = {{-1, -1, 0}, {1, -1, 0},      {1, 1, 0},
+                                {-1, 1, 0},  {0.21, 0.17, 0}, {0.2101, 0.17, 0}};
+  vertices.emplace_back(0.2137, 0.1741, 0.4);
+  return {std::move(vertices), {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}}};
+}
+
+std::vector<test::NamedMesh> scenes() {
+  std::vector<test::NamedMesh> scenes = test::test_meshes();
+  scenes.push_back({"plate with needle", plate_with_needle(), 1.2});
+  const Vec3 far = Vec3::Constant(0x1p44);
+  scenes.push_back({"very far off", test::soup(100, 0.3, 2).transformed(1, far), 1.3, far});
+  return scenes;
+}
+
+/// On the surface, about it, and as far as the band.
+std::vector<Vec3> points_near(const test::NamedMesh& scene, double band, test::Random& random) {
+  std::vector<Vec3> points;
+  for (int i = 0; i < 60; ++i) {
+    const Vec3 near = test::random_point(scene, random);
+    points.push_back(near);
+    points.push_back(near + random.vector(band));
+    points.push_back(near + random.vector(0.05 * band));
+  }
+  return points;
+}
+
+TEST(CertifiedField, IsNeverWrongByMoreThanItsError) {
+  test::Random random(1);
+  for (const test::NamedMesh& scene : scenes()) {
+    const double diagonal = scene.mesh.diagonal();
+    const double error = 0.03 * diagonal, band = 0.1 * diagonal;
+    if (!(diagonal > 1e-100 && diagonal < 1e100)) continue;  // there brute force loses digits, too
+    const auto field = Field::build(scene.mesh, with(error, band));
+    EXPECT_LE(field.accuracy().absolute, error) << scene.name;
+    const auto truth = BruteForce::build(scene.mesh);
+    Field::Session session;
+    BruteForce::Session other;
+    for (const Vec3& point : points_near(scene, band, random)) {
+      const double reach = 0.99 * band, rounding = 1e-12 * (diagonal + point.norm());
+      const auto right = truth.nearest({point, 0}, infinity, other);
+      const auto answer = field.nearest({point, 0}, reach, session);
+      if (answer) {
+        EXPECT_GE(answer->distance, right->distance - rounding) << scene.name;
+        EXPECT_LE(answer->distance, right->distance + field.error() + rounding) << scene.name;
+        EXPECT_NEAR((point - answer->point).norm(), answer->distance, rounding) << scene.name;
+      } else {
+        EXPECT_GT(right->distance + field.error() + rounding, reach) << scene.name;
+      }
+      for (const double radius :
+           {right->distance * (1 - 1e-9) - rounding, right->distance + field.error() + rounding}) {
+        if (radius < 0 || radius >= band) continue;
+        EXPECT_EQ(field.touches({point, radius}, session), radius > right->distance) << scene.name;
+      }
+    }
+  }
+}
+
+TEST(CertifiedField, NamesAPointOfTheTriangleThatItNames) {
+  const TriangleMesh mesh = test::bumpy_sphere(16, 0.05, 1);
+  const auto field = Field::build(mesh, with(0.05, 0.3));
+  Field::Session session;
+  test::Random random(2);
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 point = 1.02 * random.vector(1).normalized();
+    const auto answer = field.nearest({point, 0}, 0.25, session);
+    ASSERT_TRUE(answer);
+    const Contact alone = contact_on(prepare(mesh, answer->triangle), point, answer->triangle);
+    EXPECT_TRUE(same_bits(answer, alone));
+  }
+}
+
+TEST(CertifiedField, AnswersAsIfItHadNoSession) {
+  const TriangleMesh mesh = test::soup(200, 0.3, 3);
+  for (const bool refines : {false, true}) {
+    const auto field = Field::build(mesh, with(0.05, 0.3, refines));
+    Field::Session kept;
+    test::Random random(4);
+    Vec3 at = Vec3::Zero();
+    for (int i = 0; i < 3000; ++i) {
+      at = i % 100 == 0 ? Vec3(random.vector(1.4)) : Vec3(at + random.vector(0.01));
+      const double reach = i % 3 == 0 ? 0.02 : 0.29;
+      Field::Session fresh;
+      ASSERT_TRUE(same_bits(field.nearest({at, 0}, reach, kept), field.nearest({at, 0}, reach, fresh))) << i;
+      ASSERT_EQ(field.touches({at, reach}, kept), field.touches({at, reach}, fresh)) << i;
+    }
+  }
+}
+
+/// Ids that polygons share: it finds the triangle of the polygon.
+TriangleMesh with_shared_ids(const TriangleMesh& mesh) {
+  std::vector<TriangleId> ids;
+  for (std::uint32_t i = 0; i < mesh.size(); ++i) ids.push_back(7 + i / 2);
+  return {{mesh.vertices().begin(), mesh.vertices().end()},
+          {mesh.triangles().begin(), mesh.triangles().end()},
+          std::move(ids)};
+}
+
+TEST(CertifiedField, IsExactWhereThatIsAskedForAndBeyondTheBand) {
+  const TriangleMesh mesh = with_shared_ids(test::soup(200, 0.3, 5));
+  const auto field = Field::build(mesh, with(0.05, 0.2)),
+             refining = Field::build(mesh, with(0.05, 0.2, true));
+  EXPECT_TRUE(refining.accuracy().names_exactly);
+  EXPECT_EQ(field.accuracy().guarantee, Guarantee::approximate);
+  Field::Session session, other;
+  test::Random random(6);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 point = random.vector(2);
+    SphereCluster::Session exact;
+    for (const double reach : {0.01, 0.1, 0.5, infinity}) {
+      const auto right = field.exact().nearest({point, 0}, reach, exact);
+      ASSERT_TRUE(same_bits(refining.nearest({point, 0}, reach, session), right)) << i << ", " << reach;
+      if (reach > 0.2 && right && right->distance > 0.2 + 0.1) {
+        ASSERT_TRUE(same_bits(field.nearest({point, 0}, reach, other), right)) << i << ", " << reach;
+      }
+    }
+  }
+}
+
+TEST(CertifiedField, IsTheSameOfAnyNumberOfThreads) {
+  const TriangleMesh mesh = test::bumpy_sphere(12, 0.05, 7);
+  Field::Options options = with(0.05, 0.2);
+  const auto one = Field::build(mesh, options);
+  options.threads = 3;
+  const auto three = Field::build(mesh, options);
+  EXPECT_EQ(one.bytes(), three.bytes());
+  EXPECT_EQ(one.error(), three.error());
+  test::Random random(8);
+  Field::Session session, other;
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 point = random.vector(1.2);
+    ASSERT_TRUE(same_bits(one.nearest({point, 0}, 0.19, session), three.nearest({point, 0}, 0.19, other)))
+        << i;
+  }
+}
+
+TEST(CertifiedField, AnswersNothingToWhatIsNotANumber) {
+  const auto field = Field::build(test::plate(4), with(0.05, 0.2));
+  Field::Session session;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const double reach : {0.1, infinity}) {
+    EXPECT_FALSE(field.nearest({Vec3(nan, 0, 0), 0}, reach, session));
+    EXPECT_FALSE(field.nearest({Vec3(0, infinity, 0), 0}, reach, session));
+    EXPECT_FALSE(field.touches({Vec3(0, 0, nan), reach}, session));
+  }
+  EXPECT_FALSE(field.nearest({Vec3::Zero(), 0}, nan, session));
+  EXPECT_FALSE(field.touches({Vec3::Zero(), -1}, session));
+}
+
+TEST(CertifiedField, RefusesLengthsThatMakeNoSense) {
+  const TriangleMesh mesh = test::plate(2);
+  const auto expect_refused = [&](const Field::Options& options, const std::string& name) {
+    try {
+      Field::build(mesh, options);
+      ADD_FAILURE() << name << ": it was built";
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+    }
+  };
+  expect_refused(with(-1, 0.1), "error is -1");
+  expect_refused(with(0.1, std::numeric_limits<double>::quiet_NaN()), "band is ");
+  Field::Options options;
+  options.threads = 257;
+  expect_refused(options, "threads is 257");
+}
+
+}  // namespace
+}  // namespace touchmark
