@@ -53,14 +53,16 @@ struct Work {
   std::uint64_t boxes = 0;            ///< bounding boxes tested
   std::uint64_t triangles = 0;        ///< triangles tested, by the full kernel or by a filter before it
   std::uint64_t exact_decisions = 0;  ///< how often doubles did not decide; not in the total
+  std::uint64_t bodies = 0;           ///< bodies of a scene whose bounds were looked at
 
-  std::uint64_t total() const noexcept { return cells + spheres + boxes + triangles; }
+  std::uint64_t total() const noexcept { return cells + spheres + boxes + triangles + bodies; }
   Work& operator+=(const Work& other) noexcept {
     cells += other.cells;
     spheres += other.spheres;
     boxes += other.boxes;
     triangles += other.triangles;
     exact_decisions += other.exact_decisions;
+    bodies += other.bodies;
     return *this;
   }
 };

@@ -22,8 +22,12 @@ namespace touchmark::bench::contestants {
 
 /// Returns what was looked at between two readings of a session's counters.
 inline Work work_between(const Work& before, const Work& after) noexcept {
-  return {after.cells - before.cells, after.spheres - before.spheres, after.boxes - before.boxes,
-          after.triangles - before.triangles, after.exact_decisions - before.exact_decisions};
+  return {after.cells - before.cells,
+          after.spheres - before.spheres,
+          after.boxes - before.boxes,
+          after.triangles - before.triangles,
+          after.exact_decisions - before.exact_decisions,
+          after.bodies - before.bodies};
 }
 
 /// Says which step is asked next and when, and takes what came of it: a loop that waits for the time of a

@@ -73,4 +73,10 @@ double expect_rigid(const Pose& pose) {
   refuse(pose);
 }
 
+Vec3 image(const Pose& pose, const Vec3& point) noexcept { return pose.rotation * point + pose.translation; }
+
+Vec3 in_frame(const Pose& pose, const Vec3& point) noexcept {
+  return pose.rotation.transpose() * (point - pose.translation);
+}
+
 }  // namespace touchmark

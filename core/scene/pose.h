@@ -1,4 +1,4 @@
-/// Where a body is: a rotation and a translation, twelve stored doubles.
+/// The place of a body: a rotation and a translation, twelve stored doubles.
 ///
 /// The image of a body's point x is rotation * x + translation, in exact arithmetic on the doubles as they
 /// are stored; nothing is normalised behind the caller's back. Names what is refused.
@@ -53,12 +53,8 @@ double rigid_error(const Eigen::Matrix3d& rotation) noexcept;
 double expect_rigid(const Pose& pose);
 
 /// The image of a body's point, rounded.
-inline Vec3 image(const Pose& pose, const Vec3& point) noexcept {
-  return pose.rotation * point + pose.translation;
-}
+Vec3 image(const Pose& pose, const Vec3& point) noexcept;
 /// A scene's point as the body sees it, rounded: by the transpose of the rotation.
-inline Vec3 in_frame(const Pose& pose, const Vec3& point) noexcept {
-  return pose.rotation.transpose() * (point - pose.translation);
-}
+Vec3 in_frame(const Pose& pose, const Vec3& point) noexcept;
 
 }  // namespace touchmark

@@ -1,37 +1,63 @@
-/// Many bodies that move, asked as one: each a shape in a pose.
+/// Many bodies that move, asked as one: each a shape in a pose. docs/scene.md describes it.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <limits>
 #include <optional>
 #include <span>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "core/detector.h"
 #include "core/scene/body.h"
+#include "core/scene/body_query.h"
+#include "core/scene/body_sweep.h"
+#include "core/scene/near_bodies.h"
 #include "core/scene/pose.h"
+#include "core/scene/scene_bodies.h"
 #include "core/scene/shape.h"
+#include "core/scene/shape_table.h"
 
 namespace touchmark {
 
-/// A scene of bodies whose shapes are detectors D; satisfies Detector and the queries that D answers.
-/// Bodies are added, moved and removed between queries, never meanwhile.
 template <Detector D>
+requires AnswersNearest<D> && AnswersContacts<D>
+class SharedScene;
+
+/// What the answers of a scene keep to: the bound of a distance, exact decisions and names.
+inline constexpr Accuracy posed_certified = {
+    Guarantee::exact, 32 * (std::numeric_limits<double>::epsilon() / 2), 0, true, true};
+
+/// A scene of bodies whose shapes are exact detectors D; satisfies Detector and every query.
+///
+/// Contact, the nearest body and its nearest triangle are decided for the exact images of the stored
+/// triangles under the stored poses. Shapes and bodies are added, moved and removed between queries, never
+/// meanwhile: shared_scene.h is for threads.
+template <Detector D>
+requires AnswersNearest<D> && AnswersContacts<D>
 class Scene {
  public:
   using Options = typename D::Options;
   /// What one haptic point remembers between ticks.
   struct Session {
     Work work;
-    std::array<typename D::Session, 1> sessions;
+    NearBodies near;
+    struct Asked {
+      Epoch epoch;
+      std::uint32_t shape = PlacedBody::no_shape;
+      typename D::Session session;
+    };
+    std::array<Asked, NearBodies::room + 1> asked;  ///< by slot; the last is for bodies that are not listed
   };
 
   Scene() = default;
+  Scene(Scene&&) noexcept = default;
+  Scene& operator=(Scene&&) noexcept = default;
+  Scene& operator=(const Scene&) = delete;
+  ~Scene() = default;
+
   /// A scene of one body, which stands where the mesh is.
   static Scene build(const TriangleMesh& mesh, const Options& options) {
     Scene scene;
@@ -40,154 +66,120 @@ class Scene {
   }
   static Scene build(const TriangleMesh& mesh) { return build(mesh, Options()); }
 
-  /// Any number of bodies may have it.
+  /// Any number of bodies may have it. Throws SceneError for a shape that lacks its detector or its mesh, or
+  /// whose detector is not exact.
   ShapeId add_shape(Shape<D> shape) {
-    shapes_.push_back({{}, std::move(shape)});
-    return {static_cast<std::uint32_t>(shapes_.size() - 1)};
+    const Aabb bounds = shape.mesh ? shape.mesh->bounds() : Aabb();
+    shape = ShapeTable<D>::checked(std::move(shape), bounds);
+    const ShapeId id = bodies_.add_shape(bounds);
+    shapes_.add(std::move(shape));
+    return id;
   }
-  /// The shape is made when it is first needed.
+  /// The shape is made when it is first needed: see build_near. Throws SceneError for bounds that are empty
+  /// or not finite.
   ShapeId add_shape(ShapeSource<D> source) {
-    shapes_.push_back({std::move(source), {}});
-    return {static_cast<std::uint32_t>(shapes_.size() - 1)};
+    const ShapeId id = bodies_.add_shape(source.bounds);
+    shapes_.add(std::move(source));
+    return id;
   }
-
-  /// Throws PoseError for a pose that is not rigid, SceneError for a shape of another scene.
-  BodyId add(ShapeId shape, const Pose& pose) {
-    if (shape.index >= shapes_.size())
-      throw SceneError("there is no shape " + std::to_string(shape.index) + " of " +
-                       std::to_string(shapes_.size()));
-    expect_rigid(pose);
-    std::uint32_t index = 0;
-    if (free_.empty()) {
-      index = static_cast<std::uint32_t>(bodies_.size());
-      bodies_.emplace_back();
-    } else {
-      index = free_.back();
-      free_.pop_back();
-    }
-    Body& body = bodies_[index];
-    body.pose = pose;
-    body.shape = shape.index;
-    body.exists = true;
-    ++count_;
-    return {index, body.generation};
-  }
-  /// Throws PoseError and SceneError.
-  void move(BodyId id, const Pose& pose) {
-    expect_rigid(pose);
-    expect(id).pose = pose;
-  }
+  /// Throws PoseError for a pose that is not rigid, SceneError for a shape that does not exist.
+  BodyId add(ShapeId shape, const Pose& pose) { return bodies_.add(shape, pose); }
+  /// Throws PoseError, and SceneError for a body that does not exist.
+  void move(BodyId id, const Pose& pose) { bodies_.move(id, pose); }
   /// Throws SceneError.
-  void remove(BodyId id) {
-    Body& body = expect(id);
-    body.exists = false;
-    ++body.generation;
-    --count_;
-    free_.push_back(id.index);
-    std::ranges::sort(free_, std::greater<>());
-  }
+  void remove(BodyId id) { bodies_.remove(id); }
+  /// Takes the memory for so many bodies ahead.
+  void reserve(std::size_t bodies) { bodies_.reserve(bodies); }
+
   /// Is it a body of the scene, and not removed?
-  bool has(BodyId id) const noexcept {
-    return id.index < bodies_.size() && bodies_[id.index].exists &&
-           bodies_[id.index].generation == id.generation;
-  }
+  bool has(BodyId id) const noexcept { return bodies_.has(id); }
   /// Throws SceneError.
-  const Pose& pose(BodyId id) const { return expect(id).pose; }
-  std::size_t size() const noexcept { return count_; }
+  const Pose& pose(BodyId id) const { return bodies_.expect(id).pose; }
+  /// Returns how many bodies there are.
+  std::size_t size() const noexcept { return bodies_.size(); }
+  /// Returns how many shapes are built.
+  std::size_t shapes_built() const noexcept { return shapes_.count_built(); }
 
-  bool touches(const Probe& probe, Session& session) const noexcept requires AnswersNearest<D> {
-    return nearest_body(probe, probe.radius, session).has_value();
-  }
-  std::optional<Contact> nearest(const Probe& probe, double reach,
-                                 Session& session) const noexcept requires AnswersNearest<D> {
+  /// Makes at most one shape: of the bodies within `distance` of the probe's surface, by their bounds, the
+  /// nearest one whose shape is not built. Returns whether it made one. A query that needs a shape makes it,
+  /// which takes its time and memory; who calls this between ticks, with a distance that no probe goes in a
+  /// few of them, never has that happen. Throws what a source throws.
+  bool build_near(const Probe& probe, double distance, Session& session) const;
+  /// What a source threw when a query needed its shape, or null. Such bodies are left out of answers.
+  std::exception_ptr failure() const noexcept { return shapes_.failure(); }
+
+  /// Is a body at most probe.radius away?
+  bool touches(const Probe& probe, Session& session) const noexcept;
+  /// See nearest_body.
+  std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept {
     const std::optional<BodyContact> found = nearest_body(probe, reach, session);
     return found ? std::optional(found->contact) : std::nullopt;
   }
+  /// See first_hit_body.
   std::optional<Impact> first_hit(const Sweep& sweep,
                                   Session& session) const noexcept requires AnswersSweep<D> {
     const std::optional<BodyImpact> found = first_hit_body(sweep, session);
     return found ? std::optional(found->impact) : std::nullopt;
   }
 
-  /// The contact of the nearest triangle of all bodies: of several as far the lowest body's lowest triangle.
-  std::optional<BodyContact> nearest_body(const Probe& probe, double reach,
-                                          Session& session) const noexcept requires AnswersNearest<D> {
-    std::optional<BodyContact> best;
-    for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
-      const Body& body = bodies_[i];
-      if (!body.exists) continue;
-      typename D::Session fresh;
-      const Probe seen{in_frame(body.pose, probe.center), probe.radius};
-      std::optional<Contact> found = shape(body).detector->nearest(seen, reach, fresh);
-      session.work += fresh.work;
-      if (found && (!best || found->distance < best->contact.distance))
-        best = {{i, body.generation}, in_scene(body.pose, *found)};
-    }
-    return best;
-  }
-  /// The first touch of the probe on its way, the bodies standing as they are.
+  /// The contact of the nearest triangle of all bodies, or nothing beyond the reach; of several at the same
+  /// distance the lowest body's lowest triangle.
+  std::optional<BodyContact> nearest_body(const Probe& probe, double reach, Session& session) const noexcept;
+  /// The first touch of the probe on its way, the bodies standing where they are; of several at once the
+  /// lowest body's.
   std::optional<BodyImpact> first_hit_body(const Sweep& sweep,
-                                           Session& session) const noexcept requires AnswersSweep<D> {
-    std::optional<BodyImpact> best;
-    for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
-      const Body& body = bodies_[i];
-      if (!body.exists) continue;
-      typename D::Session fresh;
-      const Sweep seen{in_frame(body.pose, sweep.from), in_frame(body.pose, sweep.to), sweep.radius};
-      std::optional<Impact> found = shape(body).detector->first_hit(seen, fresh);
-      session.work += fresh.work;
-      if (!found || (best && !(found->fraction < best->impact.fraction))) continue;
-      best = {{i, body.generation}, {found->fraction, in_scene(body.pose, found->contact)}};
-    }
-    return best;
-  }
+                                           Session& session) const noexcept requires AnswersSweep<D>;
 
-  std::size_t bytes() const noexcept {
-    std::size_t bytes = bodies_.capacity() * sizeof(Body);
-    for (const Made& made : shapes_)
-      if (made.shape.detector) bytes += made.shape.detector->bytes();
-    return bytes;
-  }
-  Accuracy accuracy() const noexcept {
-    for (const Made& made : shapes_)
-      if (made.shape.detector) return made.shape.detector->accuracy();
-    return uncertified;
-  }
+  /// Prepares what was asked last of the nearest body.
+  void prepare(Session& session) const noexcept requires Prepares<D>;
+
+  std::size_t bytes() const noexcept { return bodies_.bytes() + shapes_.bytes(); }
+  /// Returns what the bodies take beside their shapes.
+  std::size_t bytes_of_bodies() const noexcept { return bodies_.bytes(); }
+  Accuracy accuracy() const noexcept { return posed_certified; }
 
  private:
-  struct Body {
-    Pose pose;
-    std::uint32_t shape = 0;
-    std::uint32_t generation = 0;
-    bool exists = false;
-  };
-  struct Made {
-    ShapeSource<D> source;
-    mutable Shape<D> shape;
-  };
-
-  const Body& expect(BodyId id) const {
-    if (!has(id))
-      throw SceneError("there is no body " + std::to_string(id.index) + " of generation " +
-                       std::to_string(id.generation));
-    return bodies_[id.index];
-  }
-  Body& expect(BodyId id) { return const_cast<Body&>(std::as_const(*this).expect(id)); }
-  const Shape<D>& shape(const Body& body) const noexcept {
-    const Made& made = shapes_[body.shape];
-    if (!made.shape.detector) made.shape = made.source.make();
-    return made.shape;
-  }
-  static Contact in_scene(const Pose& pose, Contact contact) noexcept {
-    contact.point = image(pose, contact.point);
-    contact.normal = (pose.rotation * contact.normal).eval();
-    return contact;
+  friend class SharedScene<D>;
+  Scene(const Scene&) = default;  // of the same bodies with the same shapes
+  /// Becomes as the other is, from which it differs in these bodies and in shapes that were added.
+  void follow(const Scene& other, std::span<const std::uint32_t> changed) {
+    bodies_.follow(other.bodies_, changed);
+    shapes_ = other.shapes_;
   }
 
-  std::vector<Made> shapes_;
-  std::vector<Body> bodies_;
-  std::vector<std::uint32_t> free_;
-  std::size_t count_ = 0;
+  /// The detector's memory for a body of this slot.
+  typename D::Session& session_of(std::size_t slot, std::uint32_t body, Session& session) const noexcept {
+    auto& asked = session.asked[slot];
+    const std::uint32_t shape = bodies_[body].shape;
+    if (asked.shape != shape || asked.epoch != bodies_.epoch()) {
+      asked.session = {};
+      asked.shape = shape;
+      asked.epoch = bodies_.epoch();
+    }
+    return asked.session;
+  }
+  template <class Ask>
+  void ask(std::size_t slot, std::uint32_t body, Session& session, const Ask& ask) const noexcept {
+    const Shape<D>* shape = shapes_.needed(bodies_[body].shape);
+    if (shape == nullptr) return;
+    typename D::Session& own = session_of(slot, body, session);
+    ask(*shape, body, own);
+    session.work += own.work;
+    own.work = {};
+  }
+  template <class Ask>
+  void ask_listed(double length, const double& limit, Session& session, std::span<const BodyId> done,
+                  const Ask& ask) const noexcept;
+  /// Calls ask(shape, body, detector session) for every body that can be within the limit of the way from
+  /// `from` to `to`, which ask may lower.
+  template <class Ask>
+  void ask_near(const Vec3& from, const Vec3& to, const double& limit, Session& session,
+                const Ask& ask) const noexcept;
+
+  SceneBodies bodies_;
+  ShapeTable<D> shapes_;
 };
 
 }  // namespace touchmark
+
+#include "core/scene/scene_queries.h"  // IWYU pragma: export

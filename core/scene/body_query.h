@@ -1,0 +1,124 @@
+/// One body asked about one point: its detector answers in the body's frame to within a bound, and what that
+/// leaves open is decided on the images of its stored triangles. docs/exactness.md, E27, E28 and E30.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "core/detector.h"
+#include "core/scene/nearest_image.h"
+#include "core/scene/scene_bodies.h"
+#include "core/scene/seen_body.h"
+#include "core/scene/shape.h"
+
+namespace touchmark {
+
+/// What a distance that a detector of this accuracy reports may be off by for a point there.
+double distance_error(const Accuracy& accuracy, const Aabb& bounds, const Vec3& center) noexcept;
+
+/// Everything named here outlives it.
+template <Detector D>
+class BodyQuery {
+ public:
+  BodyQuery(const Shape<D>& shape, const PlacedBody& placed, std::uint32_t body, const Vec3& point,
+            typename D::Session& session) noexcept
+      : shape_(shape),
+        body_(body),
+        session_(session),
+        seen_(placed.pose, double{placed.rigid}, point),
+        error_(distance_error(shape.detector->accuracy(), shape.mesh->bounds(), seen_.center())) {}
+
+  const SeenBody& seen() const noexcept { return seen_; }
+
+  /// What is known of the distance to the body, or nothing where that surely exceeds the reach.
+  std::optional<DistanceInterval> distance(double reach) const noexcept {
+    const std::optional<Contact> found =
+        shape_.detector->nearest({seen_.center(), 0}, seen_.reach_in_frame(reach, error_), session_);
+    if (!found) return std::nullopt;
+    const DistanceInterval distance = seen_.in_scene(found->distance, error_);
+    return distance.lower > reach ? std::nullopt : std::optional(distance);
+  }
+
+  /// Shows all triangles that can be the nearest of the scene, where that is within the limit.
+  void nearest(NearestImage& nearest, double limit, Work& work) const noexcept {
+    const std::optional<DistanceInterval> known = distance(limit);
+    if (!known) return;
+    for_each_within(std::min(limit, known->upper), [&](const ImageCandidate& candidate) {
+      nearest.consider(candidate, work.exact_decisions);
+      return false;
+    });
+  }
+
+  bool touches(double radius, Work& work) const noexcept {
+    const std::optional<DistanceInterval> known = distance(radius);
+    if (!known) return false;
+    if (known->upper <= radius) return true;
+    return for_each_within(radius, [&](const ImageCandidate& candidate) {
+      return is_within(candidate, seen_.point(), radius, work.exact_decisions);
+    });
+  }
+
+  /// Calls visit(candidate) for all triangles whose images can be within the reach, and for some more, until
+  /// one returns true. Returns whether one did.
+  template <class Visit>
+  bool for_each_within(double reach, const Visit& visit) const noexcept {
+    const SeenCorners corners(seen_);
+    std::array<Contact, 32> contacts;
+    const std::size_t count = shape_.detector->contacts(
+        {seen_.center(), 0}, seen_.reach_in_frame(reach, error_), session_, contacts);
+    if (count > contacts.size()) return for_each_of_all(corners, visit);
+    for (const Contact& contact : std::span(contacts).first(count)) {
+      const auto [begin, end] = triangles_of(contact.triangle);
+      for (std::uint32_t i = begin; i < end; ++i) {
+        ImageCandidate candidate = this->candidate(corners, i);
+        if (end - begin == 1) candidate.distance = seen_.in_scene(contact.distance, error_);
+        if (visit(candidate)) return true;
+      }
+    }
+    return false;
+  }
+
+  /// Returns the places in the mesh of the triangles with this id, of which there is one at least.
+  std::pair<std::uint32_t, std::uint32_t> triangles_of(TriangleId id) const noexcept {
+    const std::span<const TriangleId> ids = shape_.mesh->ids();
+    if (ids.empty()) return {id, id + 1};
+    const auto range = std::ranges::equal_range(ids, id);
+    return {static_cast<std::uint32_t>(range.begin() - ids.begin()),
+            static_cast<std::uint32_t>(range.end() - ids.begin())};
+  }
+  ImageCandidate candidate(const SeenCorners& corners, std::uint32_t triangle) const noexcept {
+    const TriangleMesh& mesh = *shape_.mesh;
+    ImageCandidate result;
+    result.body = body_;
+    result.triangle = triangle;
+    result.id = mesh.id(triangle);
+    result.posed = {{mesh.corner(triangle, 0), mesh.corner(triangle, 1), mesh.corner(triangle, 2)},
+                    &seen_.pose()};
+    result.seen = corners(result.posed.corner);
+    result.distance = distance_to(result.seen);
+    return result;
+  }
+
+ private:
+  template <class Visit>
+  bool for_each_of_all(const SeenCorners& corners, const Visit& visit) const noexcept {
+    session_.work.triangles += shape_.mesh->size();
+    for (std::uint32_t i = 0; i < shape_.mesh->size(); ++i)
+      if (visit(candidate(corners, i))) return true;
+    return false;
+  }
+
+  const Shape<D>& shape_;
+  std::uint32_t body_;
+  typename D::Session& session_;
+  SeenBody seen_;
+  double error_;
+};
+
+}  // namespace touchmark

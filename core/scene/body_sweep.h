@@ -1,0 +1,104 @@
+/// One body asked about a way: whether the probe touches it there is decided for the images of its stored
+/// triangles; the fraction is never late, and early by a bound. docs/exactness.md, E30.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "core/detector.h"
+#include "core/geometry/point_triangle.h"
+#include "core/probe.h"
+#include "core/scene/body_query.h"
+#include "core/scene/posed_predicates.h"
+#include "core/scene/scene_bodies.h"
+#include "core/scene/seen_body.h"
+#include "core/scene/shape.h"
+
+namespace touchmark {
+
+/// The contact of a probe that has gone this far on its way with the image. The position is not rounded
+/// first.
+Contact contact_on_way(const ImageCandidate& seen_from_start, const Sweep& sweep, double fraction) noexcept;
+
+/// A ball that holds all that can come within the radius of the way.
+struct Around {
+  Vec3 center;
+  double reach;
+};
+Around around_way(const Sweep& sweep, double error) noexcept;
+/// Returns the length of the way, rounded up.
+double path_length(const Vec3& from, const Vec3& to) noexcept;
+
+/// Everything named here outlives it. The sweep is finite, its radius at least 0.
+template <Detector D>
+requires AnswersSweep<D>
+class BodySweep {
+ public:
+  BodySweep(const Shape<D>& shape, const PlacedBody& placed, std::uint32_t body, const Sweep& sweep,
+            typename D::Session& session) noexcept
+      : shape_(shape),
+        sweep_(sweep),
+        session_(session),
+        from_(shape, placed, body, sweep.from, session),
+        to_(placed.pose, double{placed.rigid}, sweep.to),
+        placed_(placed),
+        body_(body) {}
+
+  /// The first touch, its fraction 0 where the probe may touch at the start; or nothing.
+  std::optional<Impact> first_hit(Work& work) const noexcept {
+    // Along the way the image of the point in the body's frame is off by no more than at an end.
+    const SeenBody& farther = from_.seen().residue() > to_.residue() ? from_.seen() : to_;
+    const Accuracy accuracy = shape_.detector->accuracy();
+    const Aabb& bounds = shape_.mesh->bounds();
+    const double error = std::max(distance_error(accuracy, bounds, from_.seen().center()),
+                                  distance_error(accuracy, bounds, to_.center()));
+    const Sweep wider = in_frame(farther.reach_in_frame(sweep_.radius, error));
+    const std::optional<Impact> hit = shape_.detector->first_hit(wider, session_);
+    if (!hit) return std::nullopt;
+    // Of an image at the radius the distance in the frame is no less than this.
+    const double inner = farther.surely_within(sweep_.radius, error);
+    if (!(inner >= 0 && shape_.detector->first_hit(in_frame(inner), session_)) && !comes_within(error, work))
+      return std::nullopt;
+    const SeenCorners corners(from_.seen());
+    return Impact{hit->fraction, contact(*hit, corners)};
+  }
+
+ private:
+  Sweep in_frame(double radius) const noexcept { return {from_.seen().center(), to_.center(), radius}; }
+
+  /// Does the way come within the radius of an image? Exact.
+  bool comes_within(double error, Work& work) const noexcept {
+    const Around around = around_way(sweep_, error);
+    const BodyQuery<D> query(shape_, placed_, body_, around.center, session_);
+    return query.for_each_within(around.reach, [&](const ImageCandidate& candidate) {
+      if (candidate.distance.lower > around.reach) return false;
+      ++work.exact_decisions;
+      return path_within_exactly(candidate.posed, sweep_.from, sweep_.to, 1, sweep_.radius);
+    });
+  }
+
+  /// On the triangle that the detector names; of a polygon's the one that is nearest there.
+  Contact contact(const Impact& hit, const SeenCorners& corners) const noexcept {
+    std::optional<Contact> nearest;
+    const auto [begin, end] = from_.triangles_of(hit.contact.triangle);
+    for (std::uint32_t i = begin; i < end; ++i) {
+      const Contact contact = contact_on_way(from_.candidate(corners, i), sweep_, hit.fraction);
+      if (!nearest || contact.distance < nearest->distance) nearest = contact;
+    }
+    return *nearest;
+  }
+
+  const Shape<D>& shape_;
+  const Sweep& sweep_;
+  typename D::Session& session_;
+  BodyQuery<D> from_;
+  SeenBody to_;
+  const PlacedBody& placed_;
+  std::uint32_t body_;
+};
+
+}  // namespace touchmark

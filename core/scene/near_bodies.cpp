@@ -1,0 +1,73 @@
+#include "core/scene/near_bodies.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/scene/seen_body.h"
+
+namespace touchmark {
+
+double lower_distance(const SceneBodies& bodies, std::uint32_t body, const Vec3& point) noexcept {
+  const PlacedBody& placed = bodies[body];
+  const SeenBody seen(placed.pose, double{placed.rigid}, point);
+  const double distance = std::sqrt(bodies.bounds_of(placed).squared_distance(seen.center()));
+  const double lower = seen.in_scene(distance, 4 * std::numeric_limits<double>::epsilon() * distance).lower;
+  return lower > 0 ? lower : 0;  // also of what is not a number
+}
+
+std::size_t NearBodies::slot_of(const BodyId& id) const noexcept {
+  for (const Entry& entry : listed())
+    if (entry.id == id) return entry.slot;
+  return room;
+}
+
+void NearBodies::add(const Entry& entry) noexcept {
+  std::size_t at = count_ < room ? count_++ : room - 1;
+  for (; at > 0 && entries_[at - 1].lower > entry.lower; --at) entries_[at] = entries_[at - 1];
+  entries_[at] = entry;
+}
+
+NearBodies::Looked NearBodies::list(const Vec3& point, const SceneBodies& bodies) noexcept {
+  const std::array<Entry, room> before = entries_;
+  const std::size_t count_before = count_;
+  count_ = 0;
+  Looked looked;
+  const auto farthest = [&] {
+    return count_ < room ? std::numeric_limits<double>::infinity() : entries_[room - 1].lower;
+  };
+  looked.boxes = bodies.tree().for_each_within({point, point}, farthest(), [&](std::uint32_t body) {
+    ++looked.bodies;
+    const double lower = lower_distance(bodies, body, point);
+    if (lower < farthest()) add({bodies.id(body), room, lower});
+    return farthest();
+  });
+  others_ = Clearance::at(point, farthest(), bodies);
+  // Who was listed before keeps its slot.
+  std::array<bool, room> taken{};
+  for (Entry& entry : listed()) {
+    for (std::size_t i = 0; i < count_before; ++i)
+      if (before[i].id == entry.id) entry.slot = before[i].slot;
+    if (entry.slot < room) taken[entry.slot] = true;
+  }
+  for (Entry& entry : listed()) {
+    if (entry.slot < room) continue;
+    entry.slot = static_cast<std::uint32_t>(std::find(taken.begin(), taken.end(), false) - taken.begin());
+    taken[entry.slot] = true;
+  }
+  return looked;
+}
+
+void NearBodies::look_again(const Vec3& point, const SceneBodies& bodies) noexcept {
+  const auto end = std::remove_if(entries_.begin(), entries_.begin() + static_cast<std::ptrdiff_t>(count_),
+                                  [&](const Entry& entry) { return !bodies.has(entry.id); });
+  count_ = static_cast<std::size_t>(end - entries_.begin());
+  for (Entry& entry : listed()) entry.lower = lower_distance(bodies, entry.id.index, point);
+}
+
+void NearBodies::conclude(const Vec3& point, const SceneBodies& bodies) noexcept {
+  double lower = others_.is_about(bodies) ? others_.remaining(point, bodies) : 0;
+  for (const Entry& entry : listed()) lower = std::min(lower, entry.lower);
+  all_ = Clearance::at(point, lower, bodies);
+}
+
+}  // namespace touchmark

@@ -1,0 +1,62 @@
+/// What one haptic point knows of the bodies of a scene: the nearest few by name, and how far all others are.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "core/probe.h"
+#include "core/scene/body.h"
+#include "core/scene/clearance.h"
+#include "core/scene/scene_bodies.h"
+
+namespace touchmark {
+
+/// Returns what the distance of the point to the body's image cannot fall below, by the bounds of its shape.
+double lower_distance(const SceneBodies& bodies, std::uint32_t body, const Vec3& point) noexcept;
+
+/// Forgetting it changes the cost of the next answer, never the answer.
+class NearBodies {
+ public:
+  static constexpr std::size_t room = 16;
+  struct Entry {
+    BodyId id;
+    std::uint32_t slot = 0;  ///< the place of what is remembered of the body, below `room`
+    double lower = 0;        ///< bound of the distance when that was last asked for
+  };
+
+  /// Is every body surely farther than the reach? One comparison, whatever the number of bodies.
+  bool all_are_beyond(const Vec3& point, double reach, const SceneBodies& bodies) const noexcept {
+    return all_.clears(point, reach, bodies);
+  }
+  /// Are those that are not listed?
+  bool others_are_beyond(const Vec3& point, double reach, const SceneBodies& bodies) const noexcept {
+    return others_.clears(point, reach, bodies);
+  }
+  std::span<Entry> listed() noexcept { return {entries_.data(), count_}; }
+  std::span<const Entry> listed() const noexcept { return {entries_.data(), count_}; }
+  /// Returns the slot of a body, or `room` for one that is not listed.
+  std::size_t slot_of(const BodyId& id) const noexcept;
+
+  /// Lists the bodies nearest to the point by their bounds. Returns how many boxes and bodies it looked at.
+  struct Looked {
+    std::uint64_t boxes = 0, bodies = 0;
+  };
+  Looked list(const Vec3& point, const SceneBodies& bodies) noexcept;
+  /// Drops the listed bodies that are removed, and bounds the distances of the others from there.
+  void look_again(const Vec3& point, const SceneBodies& bodies) noexcept;
+  /// Says how far all bodies are, now that all that was listed was looked at again from there.
+  void conclude(const Vec3& point, const SceneBodies& bodies) noexcept;
+
+ private:
+  void add(const Entry& entry) noexcept;
+
+  std::array<Entry, room> entries_;  ///< the nearest first when they were listed
+  std::size_t count_ = 0;
+  Clearance all_;
+  Clearance others_;
+};
+
+}  // namespace touchmark

@@ -1,0 +1,95 @@
+#include "core/scene/nearest_image.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "core/geometry/distance_error.h"
+#include "core/geometry/point_triangle.h"
+
+namespace touchmark {
+namespace {
+
+constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
+
+/// Whole numbers say it all; the contact of a point on the image has the face's normal, turned as it is.
+Contact exact_contact(const ImageCandidate& candidate, const Vec3& point) noexcept {
+  const ClosestPoint closest = closest_point_exactly(candidate.posed, point);
+  Contact contact;
+  contact.triangle = candidate.id;
+  contact.distance = closest.distance.rounded();
+  contact.point = point - closest.offset;
+  contact.normal = closest.direction;
+  if (closest.direction.isZero()) {
+    const TriangleCorners& corner = candidate.posed.corner;
+    const Vec3 normal = face_normal(prepare(corner[0], corner[1], corner[2], candidate.triangle));
+    contact.normal = (candidate.posed.pose->rotation * normal).normalized();
+  }
+  return contact;
+}
+
+}  // namespace
+
+std::weak_ordering NearestImage::compare(const ImageCandidate& a, const ImageCandidate& b,
+                                         std::uint64_t& exact_decisions) const noexcept {
+  if (a.distance.upper < b.distance.lower) return std::weak_ordering::less;
+  if (a.distance.lower > b.distance.upper) return std::weak_ordering::greater;
+  const bool one_pose = a.posed.pose == b.posed.pose || *a.posed.pose == *b.posed.pose;
+  if (one_pose && surely_tied(a.posed.corner, a.seen, b.posed.corner, b.seen))
+    return std::weak_ordering::equivalent;
+  ++exact_decisions;
+  return compare_exactly(a.posed, b.posed, point_);
+}
+
+void NearestImage::consider(const ImageCandidate& candidate, std::uint64_t& exact_decisions) noexcept {
+  const auto place = [](const ImageCandidate& c) { return std::tuple(c.body, c.id, c.triangle); };
+  if (best_) {
+    if (candidate.body == best_->body && candidate.triangle == best_->triangle) return;
+    const std::weak_ordering order = compare(candidate, *best_, exact_decisions);
+    if (order > 0 || (order == 0 && place(candidate) > place(*best_))) return;
+  }
+  best_ = candidate;
+}
+
+std::optional<Contact> NearestImage::contact(double reach, std::uint64_t& exact_decisions) const noexcept {
+  if (!best_ || !is_within(*best_, point_, reach, exact_decisions)) return std::nullopt;
+  return contact_on_image(*best_, point_, exact_decisions);
+}
+
+DistanceInterval distance_to(const SeenTriangle& seen) noexcept {
+  if (!fourth_powers_fit(seen.largest)) return {};
+  const PreparedTriangle prepared = prepare(seen.corner[0], seen.corner[1], seen.corner[2], 0);
+  const double distance = std::sqrt(squared_distance(prepared, Vec3::Zero()));
+  const double error = distance_error(seen.largest) + seen.error;
+  return {distance - error, distance + error};
+}
+
+bool is_within(const ImageCandidate& candidate, const Vec3& point, double radius,
+               std::uint64_t& exact_decisions) noexcept {
+  if (candidate.distance.upper <= radius) return true;
+  if (candidate.distance.lower > radius) return false;
+  ++exact_decisions;
+  return within_exactly(candidate.posed, point, radius);
+}
+
+Contact contact_on_image(const ImageCandidate& candidate, const Vec3& point,
+                         std::uint64_t& exact_decisions) noexcept {
+  const TriangleCorners& corner = candidate.seen.corner;
+  double largest = 0;
+  for (const Vec3& w : corner) largest = std::max(largest, w.cwiseAbs().maxCoeff());
+  if (fourth_powers_fit(largest) && candidate.seen.error <= 15 * unit_roundoff * largest) {
+    const PreparedTriangle prepared = prepare(corner[0], corner[1], corner[2], candidate.triangle);
+    const Vec3 origin = Vec3::Zero();
+    // From there on the kernel's distance is within 16 u M: docs/exactness.md, E5.
+    if (std::sqrt(squared_distance(prepared, origin)) > distance_error(largest)) {
+      Contact contact = contact_on(prepared, origin, candidate.id);
+      contact.point += point;
+      return contact;
+    }
+  }
+  ++exact_decisions;
+  return exact_contact(candidate, point);
+}
+
+}  // namespace touchmark

@@ -1,0 +1,39 @@
+/// Distances to the images of triangles under poses, of the numbers as they are stored: nothing rounds.
+///
+/// A corner's image is rotation * x + translation, a polynomial of degree 2 in stored doubles, so that the
+/// decisions are those of core/exact/exact_closest_point.h at twice the degree. No memory is taken. A call
+/// takes ten microseconds or more: it is for what doubles leave open.
+#pragma once
+
+#include <compare>
+
+#include "core/exact/distance_predicates.h"
+#include "core/exact/feature.h"
+#include "core/probe.h"
+#include "core/scene/pose.h"
+
+namespace touchmark {
+
+/// A triangle of a body: its stored corners, and where the body is. The pose outlives it.
+struct PosedTriangle {
+  TriangleCorners corner;
+  const Pose* pose = nullptr;
+};
+
+/// Is the distance to the image at most the radius? Exact. False when a coordinate is not finite or the
+/// radius not at least 0; the radius may be infinite.
+bool within_exactly(const PosedTriangle& triangle, const Vec3& point, double radius) noexcept;
+
+/// Does the part of the path up to and with `fraction`, a multiple of 2^-53 in [0, 1], come within the radius
+/// of the image? Exact, and false as above.
+bool path_within_exactly(const PosedTriangle& triangle, const Vec3& from, const Vec3& to, double fraction,
+                         double radius) noexcept;
+
+/// How the distances to two images compare. Exact, for finite numbers.
+std::strong_ordering compare_exactly(const PosedTriangle& a, const PosedTriangle& b,
+                                     const Vec3& point) noexcept;
+
+/// The nearest point of the image, rounded at the end as core/exact/distance_predicates.h says.
+ClosestPoint closest_point_exactly(const PosedTriangle& triangle, const Vec3& point) noexcept;
+
+}  // namespace touchmark

@@ -1,0 +1,165 @@
+#include "core/scene/scene_bodies.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+#include <utility>
+
+namespace touchmark {
+namespace {
+
+constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+float raised_to_float(double x) noexcept {
+  return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity());
+}
+
+double sum_rounded_up(double a, double b) noexcept { return std::nextafter(a + b, infinity); }
+
+}  // namespace
+
+ShapeId SceneBodies::add_shape(const Aabb& bounds) {
+  const auto index = static_cast<std::uint32_t>(shapes_.size());
+  if (bounds.empty() || !bounds.min.allFinite() || !bounds.max.allFinite())
+    throw SceneError("shape " + std::to_string(index) + " has no finite bounds");
+  ShapeBounds shape{bounds, bounds.center(), {}, 0};
+  // Both differences count, since the centre is rounded.
+  shape.half = (bounds.max - shape.center).cwiseMax(shape.center - bounds.min) * (1 + 4 * unit_roundoff);
+  shape.radius = shape.half.norm() * (1 + 4 * unit_roundoff);
+  shapes_.push_back(shape);
+  return {index};
+}
+
+BodyId SceneBodies::add(ShapeId shape, const Pose& pose) {
+  if (shape.index >= shapes_.size())
+    throw SceneError("there is no shape " + std::to_string(shape.index) + ": the scene has " +
+                     std::to_string(shapes_.size()));
+  const double rigid = expect_rigid(pose);
+  std::uint32_t index = 0;
+  if (free_.empty()) {
+    index = static_cast<std::uint32_t>(bodies_.size());
+    bodies_.emplace_back();
+    free_.reserve(bodies_.capacity());  // so that remove takes no memory
+  } else {
+    std::ranges::pop_heap(free_, std::greater<>());
+    index = free_.back();
+    free_.pop_back();
+  }
+  PlacedBody& body = bodies_[index];
+  body.pose = pose;
+  body.rigid = raised_to_float(rigid);
+  body.shape = shape.index;
+  body.moved_in_span = 0;
+  const ShapeBounds& bounds = shapes_[shape.index];
+  tree_.insert(index, bounds_in_scene(bounds, pose), 0.05 * bounds.radius);
+  ++count_;
+  ++additions_;
+  return {index, body.generation};
+}
+
+void SceneBodies::move(BodyId id, const Pose& pose) {
+  expect(id);
+  PlacedBody& body = bodies_[id.index];
+  const double rigid = expect_rigid(pose);
+  const ShapeBounds& shape = shapes_[body.shape];
+  const double motion = motion_between(shape, body.pose, pose);
+  body.pose = pose;
+  body.rigid = raised_to_float(rigid);
+  count_motion(body, motion);
+  const Aabb bounds = bounds_in_scene(shape, pose);
+  if (tree_.holds(id.index, bounds)) return;
+  // Room for some more moves like this one, but not for a jump's.
+  const double margin = 0.05 * shape.radius + std::min(16 * motion, 2 * shape.radius);
+  tree_.remove(id.index);
+  tree_.insert(id.index, bounds, margin);
+}
+
+void SceneBodies::remove(BodyId id) {
+  expect(id);
+  PlacedBody& body = bodies_[id.index];
+  tree_.remove(id.index);
+  body.shape = PlacedBody::no_shape;
+  ++body.generation;
+  --count_;
+  free_.push_back(id.index);
+  std::ranges::push_heap(free_, std::greater<>());
+}
+
+void SceneBodies::reserve(std::size_t bodies) {
+  bodies_.reserve(bodies);
+  free_.reserve(bodies);
+  tree_.reserve(bodies);
+}
+
+void SceneBodies::follow(const SceneBodies& other, std::span<const std::uint32_t> changed) {
+  shapes_.insert(shapes_.end(), other.shapes_.begin() + static_cast<std::ptrdiff_t>(shapes_.size()),
+                 other.shapes_.end());
+  if (bodies_.size() < other.bodies_.size()) bodies_.resize(other.bodies_.size());
+  for (const std::uint32_t index : changed) {
+    PlacedBody& own = bodies_[index];
+    const PlacedBody& theirs = other.bodies_[index];
+    const bool was = own.shape != PlacedBody::no_shape, is = theirs.shape != PlacedBody::no_shape;
+    const bool stays = was && is && tree_.is_as_in(index, other.tree_);
+    if (was && !stays) tree_.remove(index);
+    if (is && !stays) tree_.insert_as_in(index, other.tree_);
+    own = theirs;
+  }
+  if (free_ != other.free_) free_ = other.free_;
+  count_ = other.count_;
+  additions_ = other.additions_;
+  motion_ = other.motion_;
+  motion_before_span_ = other.motion_before_span_;
+  span_ = other.span_;
+}
+
+bool SceneBodies::has(BodyId id) const noexcept {
+  return id.index < bodies_.size() && bodies_[id.index].shape != PlacedBody::no_shape &&
+         bodies_[id.index].generation == id.generation;
+}
+
+const PlacedBody& SceneBodies::expect(BodyId id) const {
+  if (!has(id))
+    throw SceneError("there is no body " + std::to_string(id.index) + " of generation " +
+                     std::to_string(id.generation));
+  return bodies_[id.index];
+}
+
+std::size_t SceneBodies::bytes() const noexcept {
+  return shapes_.capacity() * sizeof(ShapeBounds) + bodies_.capacity() * sizeof(PlacedBody) +
+         free_.capacity() * sizeof(std::uint32_t) + tree_.bytes();
+}
+
+/// The images of the box: its centre's, and as far in each direction as the rotation takes its half extents.
+Aabb SceneBodies::bounds_in_scene(const ShapeBounds& shape, const Pose& pose) const noexcept {
+  const Vec3 center = image(pose, shape.center);
+  const Vec3 half = pose.rotation.cwiseAbs() * shape.half;
+  const Vec3 rounding =
+      8 * unit_roundoff *
+      (pose.rotation.cwiseAbs() * shape.center.cwiseAbs() + pose.translation.cwiseAbs() + half);
+  return {center - half - rounding, center + half + rounding};
+}
+
+/// A point x of the ball about c moves by R' x + t' - R x - t = (R' - R) (x - c) + (R' - R) c + t' - t.
+double SceneBodies::motion_between(const ShapeBounds& shape, const Pose& from,
+                                   const Pose& to) const noexcept {
+  const Eigen::Matrix3d turn = to.rotation - from.rotation;
+  const Vec3 shift = to.translation - from.translation;
+  const Vec3 of_center = turn * shape.center + shift;
+  // Each difference is off by one rounding of itself, the product by three and the sum by one of its terms.
+  const double rounding =
+      8 * unit_roundoff * (turn.norm() * (shape.center.norm() + shape.radius) + shift.norm());
+  return (of_center.norm() + turn.norm() * shape.radius) * (1 + 16 * unit_roundoff) + rounding;
+}
+
+void SceneBodies::count_motion(PlacedBody& body, double motion) noexcept {
+  if (body.moved_in_span == span_) {
+    ++span_;
+    motion_before_span_ = motion_;
+  }
+  body.moved_in_span = span_;
+  motion_ = std::max(motion_, sum_rounded_up(motion_before_span_, motion));
+}
+
+}  // namespace touchmark

@@ -1,0 +1,87 @@
+/// Which bodies a scene has and where they are: what is the same for every kind of shape.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "core/aabb.h"
+#include "core/scene/body.h"
+#include "core/scene/body_tree.h"
+#include "core/scene/pose.h"
+#include "core/search/epoch.h"
+
+namespace touchmark {
+
+/// One body of a scene.
+struct PlacedBody {
+  static constexpr std::uint32_t no_shape = std::numeric_limits<std::uint32_t>::max();
+
+  Pose pose;
+  float rigid = 0;                  ///< at least rigid_error(pose.rotation)
+  std::uint32_t shape = no_shape;   ///< no_shape: there is no such body
+  std::uint32_t generation = 0;     ///< how many bodies had this index before
+  std::uint32_t moved_in_span = 0;  ///< the last span of moves in which it was moved: see SceneBodies::motion
+};
+
+class SceneBodies {
+ public:
+  /// Adds a shape whose mesh is within these bounds. Throws SceneError for bounds that are empty or not
+  /// finite.
+  ShapeId add_shape(const Aabb& bounds);
+  /// Throws SceneError for a shape that does not exist, PoseError for a pose that is not rigid.
+  BodyId add(ShapeId shape, const Pose& pose);
+  /// Throws SceneError for a body that does not exist, PoseError.
+  void move(BodyId id, const Pose& pose);
+  /// Throws SceneError.
+  void remove(BodyId id);
+  void reserve(std::size_t bodies);
+  /// Becomes as the other is, from which it differs in these bodies and in shapes that were added.
+  void follow(const SceneBodies& other, std::span<const std::uint32_t> changed);
+
+  bool has(BodyId id) const noexcept;
+  /// Throws SceneError.
+  const PlacedBody& expect(BodyId id) const;
+  const PlacedBody& operator[](std::uint32_t index) const noexcept { return bodies_[index]; }
+  BodyId id(std::uint32_t index) const noexcept { return {index, bodies_[index].generation}; }
+  const Aabb& bounds_of(const PlacedBody& body) const noexcept { return shapes_[body.shape].bounds; }
+  std::size_t size() const noexcept { return count_; }
+  std::size_t shapes() const noexcept { return shapes_.size(); }
+  const BodyTree& tree() const noexcept { return tree_; }
+  std::size_t bytes() const noexcept;
+
+  /// Grows with the moves: between two readings no point of any body has moved by more than the difference.
+  /// Moves count together in spans in which no body is moved twice, and of a span only the widest counts.
+  double motion() const noexcept { return motion_; }
+  /// How many bodies were ever added.
+  std::uint64_t additions() const noexcept { return additions_; }
+  /// Tells scenes apart.
+  const Epoch& epoch() const noexcept { return epoch_; }
+
+ private:
+  struct ShapeBounds {
+    Aabb bounds;
+    Vec3 center, half;
+    double radius = 0;  ///< a ball so large about the centre holds the bounds
+  };
+
+  Aabb bounds_in_scene(const ShapeBounds& shape, const Pose& pose) const noexcept;
+  /// Bounds how far any point of the shape moves.
+  double motion_between(const ShapeBounds& shape, const Pose& from, const Pose& to) const noexcept;
+  void count_motion(PlacedBody& body, double motion) noexcept;
+
+  std::vector<ShapeBounds> shapes_;
+  std::vector<PlacedBody> bodies_;
+  std::vector<std::uint32_t> free_;  ///< a heap, the lowest on top
+  BodyTree tree_;
+  std::size_t count_ = 0;
+  std::uint64_t additions_ = 0;
+  double motion_ = 0;
+  double motion_before_span_ = 0;
+  std::uint32_t span_ = 1;
+  Epoch epoch_ = Epoch::next();
+};
+
+}  // namespace touchmark

@@ -1,0 +1,167 @@
+/// The queries of a scene: docs/scene.md describes their stages. Included by scene.h.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "core/scene/scene.h"
+
+namespace touchmark {
+
+template <Detector D>
+requires AnswersNearest<D> && AnswersContacts<D>
+template <class Ask>
+void Scene<D>::ask_listed(double length, const double& limit, Session& session, std::span<const BodyId> done,
+                          const Ask& ask) const noexcept {
+  for (const NearBodies::Entry& entry : session.near.listed()) {
+    if (entry.lower > limit + length || std::ranges::find(done, entry.id) != done.end()) continue;
+    this->ask(entry.slot, entry.id.index, session, ask);
+  }
+}
+
+template <Detector D>
+requires AnswersNearest<D> && AnswersContacts<D>
+template <class Ask>
+void Scene<D>::ask_near(const Vec3& from, const Vec3& to, const double& limit, Session& session,
+                        const Ask& ask) const noexcept {
+  NearBodies& near = session.near;
+  const double length = path_length(from, to);
+  // 1. Free space: every body is surely farther.
+  if (near.all_are_beyond(from, limit + length, bodies_)) return;
+  // 2. The nearest few as they were last listed.
+  std::array<BodyId, NearBodies::room> done;
+  std::size_t done_count = 0;
+  near.look_again(from, bodies_);
+  session.work.bodies += near.listed().size();
+  ask_listed(length, limit, session, {}, ask);
+  // 3. The nearest few of now, where others may have come as near.
+  if (limit >= 0 && !near.others_are_beyond(from, limit + length, bodies_)) {
+    for (const NearBodies::Entry& entry : near.listed())
+      if (entry.lower <= limit + length) done[done_count++] = entry.id;
+    const NearBodies::Looked looked = near.list(from, bodies_);
+    session.work.bodies += looked.bodies;
+    session.work.boxes += looked.boxes;
+    ask_listed(length, limit, session, std::span(done).first(done_count), ask);
+  }
+  // 4. All, where those are not all that are near.
+  if (limit >= 0 && !near.others_are_beyond(from, limit + length, bodies_)) {
+    Aabb region;
+    region.extend(from);
+    region.extend(to);
+    session.work.boxes += bodies_.tree().for_each_within(region, limit, [&](std::uint32_t body) {
+      if (near.slot_of(bodies_.id(body)) == NearBodies::room) {
+        ++session.work.bodies;
+        if (lower_distance(bodies_, body, from) <= limit + length)
+          this->ask(NearBodies::room, body, session, ask);
+      }
+      return limit;
+    });
+  }
+  near.conclude(from, bodies_);
+}
+
+template <Detector D>
+requires AnswersNearest<D> && AnswersContacts<D>
+bool Scene<D>::touches(const Probe& probe, Session& session) const noexcept {
+  if (!(probe.radius >= 0) || !probe.center.allFinite()) return false;
+  bool touching = false;
+  double limit = probe.radius;
+  ask_near(probe.center, probe.center, limit, session,
+           [&](const Shape<D>& shape, std::uint32_t body, typename D::Session& own) {
+             const BodyQuery<D> query(shape, bodies_[body], body, probe.center, own);
+             if (touching || !query.touches(probe.radius, session.work)) return;
+             touching = true;
+             limit = -std::numeric_limits<double>::infinity();
+           });
+  return touching;
+}
+
+template <Detector D>
+requires AnswersNearest<D> && AnswersContacts<D> std::optional<BodyContact> Scene<D>::nearest_body(
+    const Probe& probe, double reach, Session& session)
+const noexcept {
+  if (!(reach >= 0) || !probe.center.allFinite()) return std::nullopt;
+  NearestImage nearest(probe.center);
+  double limit = reach;
+  ask_near(probe.center, probe.center, limit, session,
+           [&](const Shape<D>& shape, std::uint32_t body, typename D::Session& own) {
+             const BodyQuery<D> query(shape, bodies_[body], body, probe.center, own);
+             query.nearest(nearest, limit, session.work);
+             limit = std::min(limit, nearest.upper());
+           });
+  const std::optional<Contact> contact = nearest.contact(reach, session.work.exact_decisions);
+  if (!contact) return std::nullopt;
+  return BodyContact{bodies_.id(nearest.best()->body), *contact};
+}
+
+template <Detector D>
+requires AnswersNearest<D> && AnswersContacts<D> std::optional<BodyImpact> Scene<D>::first_hit_body(
+    const Sweep& sweep, Session& session)
+const noexcept requires AnswersSweep<D> {
+  if (!(sweep.radius >= 0) || !sweep.from.allFinite() || !sweep.to.allFinite()) return std::nullopt;
+  std::optional<Impact> first;
+  std::uint32_t whose = 0;
+  const double limit = sweep.radius;
+  ask_near(sweep.from, sweep.to, limit, session,
+           [&](const Shape<D>& shape, std::uint32_t body, typename D::Session& own) {
+             const BodySweep<D> query(shape, bodies_[body], body, sweep, own);
+             const std::optional<Impact> hit = query.first_hit(session.work);
+             if (!hit || (first && (hit->fraction > first->fraction ||
+                                    (hit->fraction == first->fraction && body > whose))))
+               return;
+             first = hit;
+             whose = body;
+           });
+  if (!first) return std::nullopt;
+  if (first->fraction == 0) {
+    if (const auto start = nearest_body({sweep.from, sweep.radius}, sweep.radius, session))
+      return BodyImpact{start->body, {0, start->contact}};
+    first->fraction = std::numeric_limits<double>::denorm_min();
+  }
+  return BodyImpact{bodies_.id(whose), *first};
+}
+
+template <Detector D>
+requires AnswersNearest<D> && AnswersContacts<D>
+void Scene<D>::prepare(Session& session) const noexcept requires Prepares<D> {
+  for (const NearBodies::Entry& entry : session.near.listed().first(session.near.listed().empty() ? 0 : 1)) {
+    auto& asked = session.asked[entry.slot];
+    const Shape<D>* shape =
+        bodies_.has(entry.id) && asked.epoch == bodies_.epoch() ? shapes_.built(asked.shape) : nullptr;
+    if (shape == nullptr || asked.shape != bodies_[entry.id.index].shape) return;
+    shape->detector->prepare(asked.session);
+    session.work += asked.session.work;
+    asked.session.work = {};
+  }
+}
+
+template <Detector D>
+requires AnswersNearest<D> && AnswersContacts<D>
+bool Scene<D>::build_near(const Probe& probe, double distance, Session& session) const {
+  const double reach = probe.radius + distance;
+  if (!(reach >= 0) || !probe.center.allFinite()) return false;
+  double limit = reach;
+  std::uint32_t found = PlacedBody::no_shape;
+  session.work.boxes +=
+      bodies_.tree().for_each_within({probe.center, probe.center}, limit, [&](std::uint32_t body) {
+        const std::uint32_t shape = bodies_[body].shape;
+        ++session.work.bodies;
+        if (shapes_.built(shape) != nullptr || shapes_.has_failed(shape)) return limit;
+        const double lower = lower_distance(bodies_, body, probe.center);
+        if (lower <= limit) {
+          limit = lower;
+          found = shape;
+        }
+        return limit;
+      });
+  if (found == PlacedBody::no_shape) return false;
+  shapes_.make(found);
+  return true;
+}
+
+}  // namespace touchmark
