@@ -123,6 +123,7 @@ Timed sample_throughput(contestants::Contestant& contestant, const workload::Que
   const auto pass = [&] {
     workload::Checksum checksum;
     for (const workload::StepRange& range : ranges) {
+      contestant.stand_at(trace, range.begin);
       const SampleClock clock;
       for (std::int64_t i = 0; i < replays; ++i) {
         if (i > 0) answers.add(std::exchange(checksum, workload::Checksum()));

@@ -35,7 +35,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Deformation, share, seed)
 
 namespace workers {
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WorkloadLayout, vertices, triangles, ids, trace_steps, min_output_steps)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WorkloadLayout, vertices, triangles, ids, trace_steps, shapes, bodies,
+                                   trace_moves, min_output_steps)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Pace, rate_hz, work_us, first_tick, overrun_ticks)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Task, trace, query, steps, ranges)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(NotStarted, error)

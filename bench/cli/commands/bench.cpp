@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/bodies/scene_source.h"
 #include "bench/cli/benchmark_flags.h"
 #include "bench/cli/commands/bench_reports.h"
 #include "bench/cli/commands/bench_suite.h"
@@ -125,11 +126,16 @@ class BenchRun {
 
 workload::Workload workload_for(const BenchOptions& options, const contestants::CheckedSelectors& selection) {
   const contestants::Selectors& selectors = options.selectors;
+  const std::vector<std::string>& named =
+      selectors.trajectories.empty() ? default_trajectories : selectors.trajectories;
+  const std::size_t steps = options.quick ? 5000 : 20000;
+  if (!selectors.scene.empty()) {
+    return workload::make_scene_workload(bodies::load_body_scene(selectors.scene, selectors.poses), selection,
+                                         named, steps);
+  }
   const std::string mesh = mesh_of(selectors);
-  return workload::make_workload(
-      results::without_directories(mesh), scenes::load_mesh(mesh, selectors.normalize), selection,
-      selectors.trajectories.empty() ? default_trajectories : selectors.trajectories,
-      options.quick ? 5000 : 20000);
+  return workload::make_workload(results::without_directories(mesh),
+                                 scenes::load_mesh(mesh, selectors.normalize), selection, named, steps);
 }
 
 BenchRun::BenchRun(const ProgramContext& context, const BenchOptions& options, const BenchmarkFlags& flags)
@@ -218,8 +224,10 @@ void BenchRun::end_trajectory(std::size_t trace) {
 
 int BenchRun::run() {
   support::watch_for_interrupts();
-  out_.write(fmt::format("{}: {} triangles, {} within {}, radius {}\n", workload_.mesh_name,
-                         workload_.mesh.size(), workload::name_of(description_.query),
+  const std::string bodies =
+      workload_.scene ? fmt::format("{} bodies, ", workload_.scene->bodies.size()) : "";
+  out_.write(fmt::format("{}: {}{} triangles, {} within {}, radius {}\n", workload_.mesh_name, bodies,
+                         workload_.triangles(), workload::name_of(description_.query),
                          workload::length_text(workload_, workload_.reach.value_or(workload_.radius)),
                          workload::length_text(workload_, workload_.radius)));
   try {
@@ -269,6 +277,7 @@ void add_bench(CLI::App& program, ProgramContext& context) {
   CLI::App* command =
       program.add_subcommand("bench", "verify and time contestants on identical trajectories");
   add_selectors(*command, context, options->selectors);
+  add_scene_selectors(*command, options->selectors);
   add_unit(*command, options->selectors.unit);
   command->add_option("--out", options->out, "folder for results.csv, run.json and steps.bin")
       ->type_name("DIR");
@@ -297,6 +306,7 @@ void add_bench(CLI::App& program, ProgramContext& context) {
       "--out results/today\n"
       "         touchmark bench --mesh part.stl --unit mm --trajectory hand.csv --motion-scale 1000 --rate "
       "1000\n"
+      "         touchmark bench --scene heap:1000:motion=all --radius 0.1%\n"
       "         touchmark bench --suite --quick --out results/suite\n");
   command->final_callback([options, command, &context] {
     const BenchmarkFlags flags = parse_benchmark_flags(command->remaining());

@@ -279,9 +279,9 @@ int run_suite(const ProgramContext& context, const SuiteOptions& options) {
 }
 
 void expect_options_of_suite(const CLI::App& command) {
-  for (const char* const option :
-       {"--trajectory", "--query", "--radius", "--reach", "--unit", "--columns", "--motion-scale", "--rate",
-        "--frontier", "--steps-out", "--cold", "--cache-lines", "--work", "--markdown"}) {
+  for (const char* const option : {"--scene", "--poses", "--trajectory", "--query", "--radius", "--reach",
+                                   "--unit", "--columns", "--motion-scale", "--rate", "--frontier",
+                                   "--steps-out", "--cold", "--cache-lines", "--work", "--markdown"}) {
     if (command.count(option) > 0)
       throw std::invalid_argument(fmt::format("{} does not go with --suite", option));
   }
