@@ -140,4 +140,23 @@ Timed sample_throughput(contestants::Contestant& contestant, const workload::Que
   return result;
 }
 
+Timed clock_steps(contestants::Contestant& contestant, const workload::QueryTrace& trace,
+                  const std::vector<workload::StepRange>& ranges, OutputBuffers& buffers) {
+  const std::span<std::uint64_t> ticks = buffers.ticks(workload::steps_in(ranges));
+  const std::span<std::uint64_t> prepare_ticks = buffers.prepare_ticks(ticks.size());
+  // No page fault inside a timed step.
+  std::fill(ticks.begin(), ticks.end(), 0);
+  std::fill(prepare_ticks.begin(), prepare_ticks.end(), 0);
+  workload::Checksum checksum;
+  std::size_t done = 0;
+  const auto start = std::chrono::steady_clock::now();
+  for (const workload::StepRange& range : ranges) {
+    contestant.replay_clocked(trace, range, checksum, ticks.subspan(done, range.size()),
+                              prepare_ticks.subspan(done, range.size()));
+    done += range.size();
+  }
+  const std::chrono::duration<double, std::nano> elapsed = std::chrono::steady_clock::now() - start;
+  return Timed{elapsed.count() / static_cast<double>(done), 0, checksum.value(), true, {}};
+}
+
 }  // namespace touchmark::bench::workers

@@ -275,22 +275,7 @@ Timed Worker::handle(const request::Sample& request) {
 }
 
 Timed Worker::handle(const request::Latency& request) {
-  const workload::QueryTrace trace = trace_of(request.task);
-  const std::vector<workload::StepRange> ranges = ranges_of(request.task);
-  const std::span<std::uint64_t> ticks = buffers_->ticks(workload::steps_in(ranges));
-  const std::span<std::uint64_t> prepare_ticks = buffers_->prepare_ticks(ticks.size());
-  // No page fault inside a timed step.
-  std::fill(ticks.begin(), ticks.end(), 0);
-  std::fill(prepare_ticks.begin(), prepare_ticks.end(), 0);
-  workload::Checksum checksum;
-  std::size_t done = 0;
-  const Clock::time_point start = Clock::now();
-  for (const workload::StepRange& range : ranges) {
-    contestant_->replay_clocked(trace, range, checksum, ticks.subspan(done, range.size()),
-                                prepare_ticks.subspan(done, range.size()));
-    done += range.size();
-  }
-  return Timed{ns_since(start) / static_cast<double>(done), 0, checksum.value(), true, {}};
+  return clock_steps(*contestant_, trace_of(request.task), ranges_of(request.task), *buffers_);
 }
 
 void serve(Worker worker, LineChannel channel) {

@@ -9,6 +9,7 @@
 #include "bench/support/available_memory.h"
 #include "bench/support/progress.h"
 #include "bench/trajectories/trajectories.h"
+#include "bench/workload/query_name.h"
 #include "bench/workload/trace.h"
 
 namespace touchmark::bench::workload {
@@ -104,6 +105,14 @@ Workload make_workload(std::string mesh_name, TriangleMesh mesh, const Selection
 std::string length_text(const Workload& workload, double length) {
   return workload.unit ? fmt::format("{:.6g} {}", length, workload.unit->name)
                        : fmt::format("{:.6g}", length);
+}
+
+std::string question_text(const Workload& workload, Query query) {
+  const std::string bodies = workload.scene ? fmt::format("{} bodies, ", workload.scene->bodies.size()) : "";
+  return fmt::format("{}: {}{} triangles, {} within {}, radius {}", workload.mesh_name, bodies,
+                     workload.triangles(), name_of(query),
+                     length_text(workload, workload.reach.value_or(workload.radius)),
+                     length_text(workload, workload.radius));
 }
 
 std::string trace_text(const Workload& workload, std::size_t trace) {

@@ -53,6 +53,10 @@ Workload make_scene_workload(bodies::GeneratedScene scene, const Selection& sele
 /// A length of the workload as reports write it: with its unit where that is known.
 std::string length_text(const Workload& workload, double length);
 
+/// What reports begin with: "bunny: 69666 triangles, nearest within 0.01, radius 0.01", with the bodies of a
+/// scene.
+std::string question_text(const Workload& workload, Query query);
+
 /// What reports say of a trajectory beside its name: "20000 steps", its times and, where the unit is known,
 /// its speed.
 std::string trace_text(const Workload& workload, std::size_t trace);

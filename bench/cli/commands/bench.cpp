@@ -93,16 +93,18 @@ class BenchRun {
   void end_trajectory(std::size_t trace);
   void save_so_far();
   void save(bool finished) const;
+  /// Writes every file that the run was asked for.
+  void leave(bool finished);
   bool wanted(const std::string& trajectory, const std::string& contestant) const {
     return flags_.wanted(contestant + "/" + trajectory);
   }
 
   std::size_t wanted_rows() const {
     std::size_t rows = 0;
-    for (const std::string& trajectory : workload_.trajectories)
-      rows += static_cast<std::size_t>(std::ranges::count_if(
-          selection_.contestants,
-          [&](const contestants::ContestantSpec& spec) { return wanted(trajectory, spec.text()); }));
+    for (const std::string& trajectory : workload_.trajectories) {
+      for (const contestants::ContestantSpec& spec : selection_.contestants)
+        rows += wanted(trajectory, spec.text()) ? 1 : 0;
+    }
     return rows;
   }
   const std::vector<std::string>& named() const {
@@ -185,6 +187,13 @@ void BenchRun::save(bool finished) const {
                  results::run_json(description, workload_, comparison_->contestants()));
 }
 
+void BenchRun::leave(bool finished) {
+  save(finished);
+  step_outputs_->write(description_.run_id, workload_, *comparison_, rows_);
+  description_.finished = finished;
+  reports_.write(description_, rows_);
+}
+
 /// What has been timed in part counts as well, should it end here.
 void BenchRun::save_so_far() {
   std::vector<measurement::ResultRow> rows = rows_;
@@ -224,27 +233,17 @@ void BenchRun::end_trajectory(std::size_t trace) {
 
 int BenchRun::run() {
   support::watch_for_interrupts();
-  const std::string bodies =
-      workload_.scene ? fmt::format("{} bodies, ", workload_.scene->bodies.size()) : "";
-  out_.write(fmt::format("{}: {}{} triangles, {} within {}, radius {}\n", workload_.mesh_name, bodies,
-                         workload_.triangles(), workload::name_of(description_.query),
-                         workload::length_text(workload_, workload_.reach.value_or(workload_.radius)),
-                         workload::length_text(workload_, workload_.radius)));
+  out_.write(workload::question_text(workload_, description_.query) + '\n');
   try {
     run_trajectories();
   } catch (const support::Interrupted&) {
     progress_.clear();
     std::ranges::move(comparison_->so_far(), std::back_inserter(rows_));
-    save(false);
-    step_outputs_->write(description_.run_id, workload_, *comparison_, rows_);
-    description_.finished = false;
-    reports_.write(description_, rows_);
+    leave(false);
     fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", rows_.size());
     return support::exit_interrupted;
   }
-  save(true);
-  step_outputs_->write(description_.run_id, workload_, *comparison_, rows_);
-  reports_.write(description_, rows_);
+  leave(true);
   std::vector<measurement::ResultRow> broken;  // what others err by is in the table
   std::copy_if(rows_.begin(), rows_.end(), std::back_inserter(broken), results::claim_is_broken);
   const std::string failures = results::list_of_failures(broken, faulty_rows_shown);
@@ -253,21 +252,6 @@ int BenchRun::run() {
   const bool faulty =
       results::print_faults(rows_, [](const measurement::ResultRow& row) { return row.trajectory; });
   return rows_.empty() ? support::exit_done : results::status_of(rows_, faulty);
-}
-
-void add_suite(CLI::App& command, BenchOptions& options) {
-  CLI::Option* const suite = command.add_flag("--suite", options.suite,
-                                              "a score over many scenes, motions, speeds, queries and "
-                                              "reaches instead; with --mesh on that mesh alone");
-  command
-      .add_option("--cells", options.cells, "of the suite: how many a scene, or all; default: 12, quick 2")
-      ->type_name("N")
-      ->needs(suite);
-  command
-      .add_option("--minutes", options.minutes,
-                  "of the suite: what does not fit is left out and said so; default: 15, quick 1.5")
-      ->type_name("M")
-      ->needs(suite);
 }
 
 }  // namespace
@@ -293,7 +277,7 @@ void add_bench(CLI::App& program, ProgramContext& context) {
   command->add_flag("--cache-lines", options->cache_lines,
                     "also how many cache lines a query touches, as valgrind counts them");
   command->add_flag("--quick", options->quick, "fewer steps and repetitions");
-  add_suite(*command, *options);
+  add_suite(*command, options->suite, options->cells, options->minutes);
   add_markdown(*command, options->reports);
   add_worker_selectors(*command, options->workers);
   command->allow_extras();
@@ -302,8 +286,7 @@ void add_bench(CLI::App& program, ProgramContext& context) {
       "--benchmark_min_time=0.2, --benchmark_filter=REGEX on contestant/trajectory, and\n"
       "--benchmark_out=FILE for Google Benchmark's own JSON.\n"
       "Example: touchmark bench --mesh bunny --trajectory slide --detector grid-group --detector "
-      "fcl:bv=obbrss "
-      "--out results/today\n"
+      "fcl:bv=obbrss --out results/today\n"
       "         touchmark bench --mesh part.stl --unit mm --trajectory hand.csv --motion-scale 1000 --rate "
       "1000\n"
       "         touchmark bench --scene heap:1000:motion=all --radius 0.1%\n"
