@@ -8,8 +8,8 @@ namespace {
 
 /// A tick tries so often; what is still left is for the next one.
 constexpr int max_rounds = 16;
-/// One slide is enough where planes say all. On a ball's own curve each comes nearer by a share: after so
-/// many in a row the rest is left to the next tick.
+/// One slide is enough on planes. On a curve of the ball's own each comes nearer by a share: what so many in
+/// a row have not reached is left to the next tick.
 constexpr int max_slides = 3;
 /// A goal that has been the same for so many ticks has been followed as far as it will be.
 constexpr int ticks_to_settle = 8;
