@@ -18,6 +18,15 @@ inline const bench::contestants::Roster& own_roster() {
   return ours;
 }
 
+/// Returns those that can be asked for the side, in their default form.
+inline std::vector<bench::contestants::ContestantSpec> own_forms_with_side() {
+  std::vector<bench::contestants::ContestantSpec> specs;
+  for (const bench::contestants::ContestantInfo& info : own_roster().contestants()) {
+    if (!info.scenes_only) specs.push_back(own_roster().parse(info.name + ":side=on"));
+  }
+  return specs;
+}
+
 /// Returns every form that `bench` and `verify` ask, and those that only tests do. Brute force comes first.
 inline std::vector<bench::contestants::ContestantSpec> own_forms() {
   std::vector<bench::contestants::ContestantSpec> specs = own_roster().thorough_set();

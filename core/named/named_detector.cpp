@@ -1,6 +1,9 @@
 #include "core/named/named_detector.h"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -69,6 +72,13 @@ std::unique_ptr<NamedDetector> built(const TriangleMesh& mesh, const typename D:
   return std::make_unique<Named<D>>(D::build(mesh, options));
 }
 
+/// A number that does not fit is more than any detector takes, and is refused by it.
+void read_threads(OptionText& text, unsigned& threads) {
+  std::size_t count = threads;
+  text.read_count("threads", count);
+  threads = static_cast<unsigned>(std::min<std::size_t>(count, std::numeric_limits<unsigned>::max()));
+}
+
 std::unique_ptr<NamedDetector> brute_force(const TriangleMesh& mesh, OptionText& text) {
   return built<BruteForce>(mesh, {}, text);
 }
@@ -77,6 +87,7 @@ std::unique_ptr<NamedDetector> aabb_tree(const TriangleMesh& mesh, OptionText& t
   AabbTree::Options options;
   text.read_count("leaf_size", options.leaf_size);
   text.read_choice("certified", yes_or_no, options.certified);
+  read_threads(text, options.threads);
   return built<AabbTree>(mesh, options, text);
 }
 
@@ -96,6 +107,7 @@ std::unique_ptr<NamedDetector> grid_group(const TriangleMesh& mesh, OptionText& 
   text.read_number("bytes_per_triangle", options.bytes_per_triangle);
   text.read_choice("certified", yes_or_no, options.certified);
   text.read_choice("build", builds, options.construction);
+  read_threads(text, options.threads);
   return built<GridGroup>(mesh, options, text);
 }
 
@@ -113,6 +125,7 @@ std::unique_ptr<NamedDetector> sphere_cluster(const TriangleMesh& mesh, OptionTe
   text.read_choice("certified", yes_or_no, options.certified);
   text.read_choice("build", builds, options.construction);
   text.read_choice("simd", widths, options.widest);
+  read_threads(text, options.threads);
   return built<SphereCluster>(mesh, options, text);
 }
 

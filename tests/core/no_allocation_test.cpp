@@ -103,8 +103,7 @@ TEST(NoAllocation, WhereAllContactsAreAsked) {
 }
 
 TEST(NoAllocation, WhereTheSideIsAsked) {
-  for (const bench::contestants::ContestantInfo& info : own_roster().contestants())
-    expect_no_allocation(own_roster().parse(info.name + ":side=on"));
+  for (const bench::contestants::ContestantSpec& spec : own_forms_with_side()) expect_no_allocation(spec);
 }
 
 }  // namespace

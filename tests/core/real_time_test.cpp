@@ -82,8 +82,7 @@ TEST(RealTime, InAnyFormOfOurDetectors) {
 }
 
 TEST(RealTime, WhereTheSideIsAsked) {
-  for (const bench::contestants::ContestantInfo& info : own_roster().contestants())
-    expect_real_time(own_roster().parse(info.name + ":side=on"));
+  for (const bench::contestants::ContestantSpec& spec : own_forms_with_side()) expect_real_time(spec);
 }
 
 }  // namespace

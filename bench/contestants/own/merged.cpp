@@ -23,6 +23,7 @@ ContestantInfo merged_entry() {
   info.accuracy = "exact";
   info.queries = queries_of<SphereCluster>();
   info.options = {of_option()};
+  info.scenes_only = true;
   info.build = [](const TriangleMesh&, const OptionValues&) -> std::unique_ptr<Contestant> {
     throw std::invalid_argument("it is of scenes of bodies: --scene");
   };
