@@ -134,9 +134,9 @@ bool CellOctree::choose_lattice(const Aabb& bounds, const Division& division) no
   const double extent = box.extent().maxCoeff();
   slop_ = 16 * epsilon * largest;
   unit_ = (division.error - 8 * slop_) / (2.001 * half_diagonal);
-  constexpr double smallest_square = 1e-140, largest_square = 1e140;
-  if (!(unit_ > 64 * slop_ && unit_ > smallest_square && extent < largest_square &&
-        extent < max_places * unit_))
+  // There squares of lengths are doubles, and the kernel's bound holds.
+  constexpr double shortest = 0x1p-100, longest = 0x1p200;
+  if (!(unit_ > 64 * slop_ && unit_ > shortest && extent < longest && extent < max_places * unit_))
     return false;
   origin_ = box.min;
   const auto places = static_cast<std::uint32_t>(extent / unit_) + 1;

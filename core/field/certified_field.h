@@ -23,7 +23,8 @@
 
 namespace touchmark {
 
-/// The field over an exact detector; satisfies AnswersTouches and AnswersNearest.
+/// The field over an exact detector; satisfies AnswersTouches and AnswersNearest, and AnswersSweep where that
+/// does.
 template <AnswersNearest Exact>
 class CertifiedField {
  public:
@@ -67,6 +68,12 @@ class CertifiedField {
       return ask(session, [&](auto& exact) { return exact_->nearest(probe, reach, exact); });
     if (found.triangle == nullptr) return std::nullopt;
     return contact_at(*found.triangle, probe.center, found.offset, ids_[found.triangle->index]);
+  }
+
+  /// Sweeps are the exact detector's.
+  std::optional<Impact> first_hit(const Sweep& sweep,
+                                  Session& session) const noexcept requires AnswersSweep<Exact> {
+    return ask(session, [&](auto& exact) { return exact_->first_hit(sweep, exact); });
   }
 
   /// Returns the detector that answers exactly, to be asked with a session of its own.

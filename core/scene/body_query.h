@@ -73,8 +73,13 @@ class BodyQuery {
     const std::size_t count = shape_.detector->contacts(
         {seen_.center(), 0}, seen_.reach_in_frame(reach, error_), session_, contacts);
     if (count > contacts.size()) return for_each_of_all(corners, visit);
-    for (const Contact& contact : std::span(contacts).first(count)) {
+    for (std::size_t k = 0; k < count; ++k) {
+      const Contact& contact = contacts[k];
       const auto [begin, end] = triangles_of(contact.triangle);
+      // The triangles of one polygon come together, once.
+      if (end - begin > 1 && std::any_of(contacts.begin(), contacts.begin() + static_cast<std::ptrdiff_t>(k),
+                                         [&](const Contact& c) { return c.triangle == contact.triangle; }))
+        continue;
       for (std::uint32_t i = begin; i < end; ++i) {
         ImageCandidate candidate = this->candidate(corners, i);
         if (end - begin == 1) candidate.distance = seen_.in_scene(contact.distance, error_);

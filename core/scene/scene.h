@@ -130,6 +130,15 @@ class Scene {
   std::optional<BodyImpact> first_hit_body(const Sweep& sweep,
                                            Session& session) const noexcept requires AnswersSweep<D>;
 
+  /// One contact for each triangle of a body whose distance is at most the reach, which is decided exactly;
+  /// by the distances told, then the lowest body, then the lowest triangle. Writes the first of them into
+  /// `into` and returns how many there are.
+  std::size_t contacts_of_bodies(const Probe& probe, double reach, Session& session,
+                                 std::span<BodyContact> into) const noexcept;
+  /// As contacts_of_bodies, without the bodies; of several as far the lowest triangle.
+  std::size_t contacts(const Probe& probe, double reach, Session& session,
+                       std::span<Contact> into) const noexcept;
+
   /// Prepares what was asked last of the nearest body.
   void prepare(Session& session) const noexcept requires Prepares<D>;
 
@@ -175,6 +184,11 @@ class Scene {
   template <class Ask>
   void ask_near(const Vec3& from, const Vec3& to, const double& limit, Session& session,
                 const Ask& ask) const noexcept;
+
+  /// Calls found(body, contact) for each triangle within the reach.
+  template <class Found>
+  void for_each_contact(const Probe& probe, double reach, Session& session,
+                        const Found& found) const noexcept;
 
   SceneBodies bodies_;
   ShapeTable<D> shapes_;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <tuple>
 
 #include "core/scene/scene.h"
 
@@ -123,6 +124,80 @@ const noexcept requires AnswersSweep<D> {
     first->fraction = std::numeric_limits<double>::denorm_min();
   }
   return BodyImpact{bodies_.id(whose), *first};
+}
+
+/// Keeps the first of all that are shown, and sorts them at the end. What is equal in every number may be
+/// either.
+template <class Answer>
+class FirstOfContacts {
+ public:
+  explicit FirstOfContacts(std::span<Answer> into) noexcept : into_(into) {}
+
+  void add(const Answer& answer) noexcept {
+    if (count_ < into_.size()) {
+      into_[count_] = answer;
+    } else if (!into_.empty()) {
+      const auto last = std::ranges::max_element(into_, is_before);
+      if (is_before(answer, *last)) *last = answer;
+    }
+    ++count_;
+  }
+  std::size_t finish() noexcept {
+    std::ranges::sort(into_.first(std::min(count_, into_.size())), is_before);
+    return count_;
+  }
+
+ private:
+  static auto key(const Contact& c) noexcept {
+    return std::tuple(c.distance, std::uint32_t{0}, c.triangle, c.point.x(), c.point.y(), c.point.z());
+  }
+  static auto key(const BodyContact& b) noexcept {
+    const Contact& c = b.contact;
+    return std::tuple(c.distance, b.body.index, c.triangle, c.point.x(), c.point.y(), c.point.z());
+  }
+  static bool is_before(const Answer& a, const Answer& b) noexcept { return key(a) < key(b); }
+
+  std::span<Answer> into_;
+  std::size_t count_ = 0;
+};
+
+template <Detector D>
+requires AnswersNearest<D> && AnswersContacts<D>
+template <class Found>
+void Scene<D>::for_each_contact(const Probe& probe, double reach, Session& session,
+                                const Found& found) const noexcept {
+  if (!(reach >= 0) || !probe.center.allFinite()) return;
+  ask_near(probe.center, probe.center, reach, session,
+           [&](const Shape<D>& shape, std::uint32_t body, typename D::Session& own) {
+             const BodyQuery<D> query(shape, bodies_[body], body, probe.center, own);
+             query.for_each_within(reach, [&](const ImageCandidate& candidate) {
+               if (is_within(candidate, probe.center, reach, session.work.exact_decisions))
+                 found(body, contact_on_image(candidate, probe.center, session.work.exact_decisions));
+               return false;
+             });
+           });
+}
+
+template <Detector D>
+requires AnswersNearest<D> && AnswersContacts<D> std::size_t Scene<D>::contacts_of_bodies(
+    const Probe& probe, double reach, Session& session, std::span<BodyContact> into)
+const noexcept {
+  FirstOfContacts<BodyContact> first(into);
+  for_each_contact(probe, reach, session, [&](std::uint32_t body, const Contact& contact) {
+    first.add({bodies_.id(body), contact});
+  });
+  return first.finish();
+}
+
+template <Detector D>
+requires AnswersNearest<D> && AnswersContacts<D> std::size_t Scene<D>::contacts(const Probe& probe,
+                                                                                double reach,
+                                                                                Session& session,
+                                                                                std::span<Contact> into)
+const noexcept {
+  FirstOfContacts<Contact> first(into);
+  for_each_contact(probe, reach, session, [&](std::uint32_t, const Contact& contact) { first.add(contact); });
+  return first.finish();
 }
 
 template <Detector D>

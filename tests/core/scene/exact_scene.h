@@ -156,6 +156,18 @@ inline std::optional<Nearest> nearest(const std::vector<Body>& bodies, const Vec
   return best;
 }
 
+/// Returns how many triangles are within the radius. Exact.
+inline std::size_t count_within(const std::vector<Body>& bodies, const Vec3& point, double radius) {
+  const Point p = exactly(point);
+  std::size_t count = 0;
+  for (const Body& body : bodies)
+    for (std::size_t i = 0; i < body.mesh->size(); ++i)
+      if (!(lower_bound(body, i, point) > static_cast<long double>(radius)) &&
+          squared_distance(triangle_of(body, i), p) <= Number(radius) * Number(radius))
+        ++count;
+  return count;
+}
+
 /// Is some triangle within the radius of the way as far as this fraction? The point there is not rounded.
 inline bool comes_within(const std::vector<Body>& bodies, const Vec3& from, const Vec3& to, double fraction,
                          const Number& radius) {

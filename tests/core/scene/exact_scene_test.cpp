@@ -127,6 +127,10 @@ struct Twin {
       typename Scene<D>::Session fresh;
       EXPECT_EQ(scene.touches({point, radius}, session), within) << radius - distance;
       EXPECT_EQ(scene.touches({point, radius}, fresh), within);
+      if (asked % 3 == 0) {
+        EXPECT_EQ(scene.contacts({point, 0}, radius, session, {}),
+                  exact_scene::count_within(bodies, point, radius));
+      }
       const auto near = scene.nearest_body({point, 0}, radius, session);
       ASSERT_EQ(near.has_value(), within);
       if (near) {

@@ -1,5 +1,6 @@
 #include "core/scene/scene.h"
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -13,6 +14,7 @@ namespace touchmark {
 namespace {
 
 static_assert(Detector<Scene<BruteForce>> && AnswersTouches<Scene<BruteForce>>);
+static_assert(AnswersContacts<Scene<BruteForce>>);
 static_assert(AnswersNearest<Scene<SphereCluster>> && AnswersSweep<Scene<SphereCluster>>);
 
 /// The square |x|, |y| <= 1 in the plane z = 0, seen from above.
@@ -52,6 +54,21 @@ TEST(Scene, FollowsBodiesThatMoveAndForgetsThoseRemoved) {
   EXPECT_THROW(scene.move(body, at(0, 0, 0)), SceneError);
   const BodyId next = scene.add(shape, at(0, 0, 0));
   EXPECT_NE(next, body);
+}
+
+TEST(Scene, GivesTheContactsOfAllBodiesNearestFirst) {
+  Scene<BruteForce> scene;
+  const ShapeId shape = scene.add_shape(Shape<BruteForce>::build(square()));
+  const BodyId near = scene.add(shape, at(0, 0, 1)), far = scene.add(shape, at(0, 0, -2));
+  Scene<BruteForce>::Session session;
+  std::array<BodyContact, 3> into;
+  EXPECT_EQ(scene.contacts_of_bodies({{0, 0, 0}, 0}, 2, session, into), 4u);
+  EXPECT_EQ(into[0].body, near);
+  EXPECT_EQ(into[0].contact.triangle, 0u);
+  EXPECT_EQ(into[1].contact.triangle, 1u);
+  EXPECT_EQ(into[2].body, far);
+  EXPECT_EQ(into[2].contact.distance, 2);
+  EXPECT_EQ(scene.contacts_of_bodies({{0, 0, 0}, 0}, 1.5, session, into), 2u);
 }
 
 TEST(Scene, SeesALongBodyThatOnlyTurns) {
