@@ -2,9 +2,9 @@
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
-import shutil
 
 import pybind11
 import setuptools
@@ -24,7 +24,7 @@ class BuildWithCMake(build_ext):
 
     def build_extension(self, ext):
         made = pathlib.Path(self.get_ext_fullpath(ext.name)).resolve()
-        folder = pathlib.Path(self.build_temp).resolve()
+        folder = ROOT / "build" / "python"  # as deep as those of the presets, so that the compiler's cache is shared
         folder.mkdir(parents=True, exist_ok=True)
         options = ["-DCMAKE_BUILD_TYPE=Release", "-DTOUCHMARK_BUILD_PYTHON=ON", f"-DPython_EXECUTABLE={sys.executable}",
                    f"-Dpybind11_DIR={pybind11.get_cmake_dir()}", f"-DTOUCHMARK_PYTHON_FOLDER={made.parent}"]

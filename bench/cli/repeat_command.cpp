@@ -15,13 +15,17 @@ std::string repeat_command(const contestants::Selectors& selectors, const std::s
   const auto found = std::find(workload.trajectories.begin(), workload.trajectories.end(), row.trajectory);
   if (found == workload.trajectories.end()) return "";
   const auto trace = static_cast<std::size_t>(found - workload.trajectories.begin());
-  std::string command = fmt::format("touchmark query --mesh {}{} --trajectory {} {} --query {} --radius {}",
-                                    support::quoted(mesh), selectors.normalize ? " --normalize" : "",
+  const std::string where =
+      selectors.scene.empty()
+          ? fmt::format("--mesh {}{}", support::quoted(mesh), selectors.normalize ? " --normalize" : "")
+          : fmt::format("--scene {}", support::quoted(selectors.scene));
+  std::string command = fmt::format("touchmark query {} --trajectory {} {} --query {} --radius {}", where,
                                     support::quoted(trajectories[trace]), row.as_typed(),
                                     workload::name_of(row.query), support::quoted(selectors.radius));
   const auto add = [&](const char* option, const std::string& value) {
     if (!value.empty()) command += fmt::format(" {} {}", option, support::quoted(value));
   };
+  add("--poses", selectors.poses);
   add("--reach", selectors.reach);
   add("--columns", selectors.motion.columns);
   add("--motion-scale", selectors.motion.scale);

@@ -24,6 +24,18 @@ void add_motion_selectors(CLI::App& command, contestants::MotionSelectors& motio
       ->type_name("HZ");
 }
 
+void add_scene_selectors(CLI::App& command, contestants::Selectors& selectors) {
+  command
+      .add_option("--scene", selectors.scene,
+                  "bodies in place of --mesh: a name (touchmark list), a .json file or any file with a node "
+                  "tree")
+      ->type_name("SCENE");
+  command
+      .add_option("--poses", selectors.poses,
+                  "how the scene's bodies move: CSV with columns time_s,body,x,y,z,qw,qx,qy,qz")
+      ->type_name("CSV");
+}
+
 void add_unit(CLI::App& command, std::string& unit) {
   command
       .add_option("--unit", unit, "what a mesh unit is, um, mm, cm, m or in: reports then speak of metres")

@@ -17,6 +17,9 @@ struct ProgramContext;
 void add_selectors(CLI::App& command, ProgramContext& context, contestants::Selectors& selectors,
                    contestants::Variety variety = contestants::Variety::one);
 
+/// Adds --scene and --poses, for commands that take scenes of bodies.
+void add_scene_selectors(CLI::App& command, contestants::Selectors& selectors);
+
 /// Adds the options that say how motion files are read.
 void add_motion_selectors(CLI::App& command, contestants::MotionSelectors& motion);
 

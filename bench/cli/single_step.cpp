@@ -54,19 +54,20 @@ std::string rows_of_step(const contestants::Roster& roster, const workload::Work
   until.trajectories = {workload.trajectories[task.trace]};
   until.traces.assign(
       1, std::vector<workload::Step>(trace.begin(), trace.begin() + static_cast<std::ptrdiff_t>(step) + 1));
+  if (workload.scene) until.schedules = {bodies::beginning(workload.schedules[task.trace], step + 1)};
   const workers::Task all{0, task.query, step + 1};
   const workers::SharedArena arena(until, workers);
   workers::ContestantProcess process(arena, spec, roster.find(spec.name).worker_program(spec.values));
-  const bool with_side = contestants::asks_for_side(spec.values);
+  const results::AnswerColumns columns{contestants::asks_for_side(spec.values), workload.scene.get()};
   std::string replayed, fresh;
   try {
     check_it_answers(process.build(), task.query, spec.text());
     process.ask(workers::request::Answer{all});
     results::append_answer_row(replayed, task.query, step, trace[step],
-                               arena.buffers().answers(step + 1)[step], with_side);
+                               arena.buffers().answers(step + 1)[step], columns);
     process.ask(workers::request::AnswerAfresh{all, step});
     results::append_answer_row(fresh, task.query, step, trace[step], arena.buffers().answers(1).front(),
-                               with_side);
+                               columns);
   } catch (const workers::WorkerFailure& failure) {
     explain(failure, spec.text());
   }
@@ -76,7 +77,7 @@ std::string rows_of_step(const contestants::Roster& roster, const workload::Work
                wants_fresh ? "the session replayed from the start" : "a fresh session",
                wants_fresh ? replayed : fresh);
   }
-  return results::answer_header(task.query, with_side) + (wants_fresh ? fresh : replayed);
+  return results::answer_header(task.query, columns) + (wants_fresh ? fresh : replayed);
 }
 
 }  // namespace touchmark::bench::cli

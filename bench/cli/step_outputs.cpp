@@ -16,7 +16,8 @@ StepOutputs::StepOutputs(const results::ResultsFolder* folder, const std::string
 void StepOutputs::write(const std::string& run_id, const workload::Workload& workload,
                         const measurement::Comparison& comparison,
                         const std::vector<measurement::ResultRow>& rows) {
-  if (folder_ != nullptr) {
+  // A page replays one mesh that stands; bodies that move it does not draw.
+  if (folder_ != nullptr && !workload.scene) {
     std::vector<std::vector<ground_truth::StepTruth>> truths;
     for (std::size_t trace = 0; trace < workload.traces.size(); ++trace)
       truths.push_back(comparison.truths(trace));

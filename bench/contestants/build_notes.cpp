@@ -10,10 +10,19 @@ std::vector<std::string>& kept() {
   return remarks;
 }
 
+std::string& last_choice() {
+  static std::string choice;
+  return choice;
+}
+
 }  // namespace
 
 void remark(std::string text) { kept().push_back(std::move(text)); }
 
 std::vector<std::string> take_remarks() { return std::exchange(kept(), {}); }
+
+void note_choice(std::string options) { last_choice() = std::move(options); }
+
+std::string take_choice() { return std::exchange(last_choice(), {}); }
 
 }  // namespace touchmark::bench::contestants

@@ -67,6 +67,16 @@ class Contestant {
   /// The answer to each step of the range and the total work it took; both spans have the range's size.
   virtual void answer(const workload::QueryTrace& trace, workload::StepRange range,
                       std::span<workload::Answer> answers, std::span<std::uint64_t> work) noexcept = 0;
+  /// Returns true if it answers one question at a time, as below: for a loop that goes on from the answer,
+  /// such as a proxy's.
+  virtual bool guides_proxy() const noexcept { return false; }
+  virtual bool touches(const Probe& probe) noexcept { return static_cast<void>(probe), false; }
+  virtual std::optional<Impact> first_hit(const Sweep& sweep) noexcept {
+    return static_cast<void>(sweep), std::nullopt;
+  }
+  virtual std::size_t contacts(const Probe& probe, double reach, std::span<Contact> into) noexcept {
+    return static_cast<void>(probe), static_cast<void>(reach), static_cast<void>(into), 0;
+  }
   /// Returns true if it can follow a mesh whose vertices move. Only then may it be asked to; the session
   /// stays.
   virtual bool updates() const noexcept { return false; }
@@ -91,6 +101,12 @@ class Contestant {
                             std::span<std::optional<Contact>> answers, const ManyOptions& options) = 0;
   /// Returns true if the detector prepares after each step. That is in all other times, and in the work.
   virtual bool prepares() const noexcept = 0;
+  /// Moves the bodies of a scene to where they are at a step. The loops above do so before each query, which
+  /// is quick where the step before was the last one; elsewhere it may take its time, so do it before a clock
+  /// is read.
+  virtual void stand_at(const workload::QueryTrace& trace, std::size_t step) noexcept {
+    static_cast<void>(trace), static_cast<void>(step);
+  }
 };
 
 }  // namespace touchmark::bench::contestants

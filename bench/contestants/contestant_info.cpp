@@ -221,4 +221,14 @@ std::unique_ptr<Contestant> Roster::build(const ContestantSpec& spec, const Tria
   return contestant.build(mesh, spec.values);
 }
 
+std::unique_ptr<Contestant> Roster::build(const ContestantSpec& spec,
+                                          const bodies::PlacedScene& scene) const {
+  const ContestantInfo& contestant = find(spec.name);
+  if (!contestant.built()) throw std::invalid_argument(contestant.name + " is not built into this program");
+  if (!contestant.build_scene)
+    throw std::invalid_argument(
+        "it is of one mesh, and takes no scene of bodies (touchmark list says who does)");
+  return contestant.build_scene(scene, spec.values);
+}
+
 }  // namespace touchmark::bench::contestants

@@ -51,6 +51,10 @@ class OptionValues {
 
 using BuildContestant = std::function<std::unique_ptr<Contestant>(const TriangleMesh&, const OptionValues&)>;
 
+/// Builds a contestant over a scene of bodies.
+using BuildSceneContestant =
+    std::function<std::unique_ptr<Contestant>(const bodies::PlacedScene&, const OptionValues&)>;
+
 /// The program beside this one that most contestants run in.
 inline constexpr const char* default_worker_program = "touchmark-worker";
 
@@ -66,6 +70,7 @@ struct Forms {
   std::vector<std::string> chosen = {};  ///< by `choose` besides
   std::vector<std::string> updated = {};  ///< by `update`
   std::vector<std::string> suite = {};    ///< by `bench --suite`: the fastest ones, exact or not
+  std::vector<std::string> scenes = {};   ///< by commands that are given a scene of bodies
   std::vector<std::string> tested = {};   ///< by no command, but by the tests and the fuzzer besides
 };
 
@@ -86,6 +91,7 @@ struct ContestantInfo {
   std::vector<OptionInfo> options;
   /// Throws std::invalid_argument or MeshError for options or a mesh it refuses. Empty: not built in.
   BuildContestant build;
+  BuildSceneContestant build_scene = {};  ///< builds one over a scene of bodies; empty: it takes none
   /// What it surely takes, and so must be there before it is built.
   std::function<double(const OptionValues&)> bytes_per_triangle = [](const OptionValues&) {
     return support::min_bytes_per_triangle;
@@ -146,6 +152,7 @@ class Roster {
   void require_memory_for(const ContestantSpec& spec, std::size_t triangles) const;
   /// Throws what the contestant's build throws, or std::invalid_argument when it is not built in.
   std::unique_ptr<Contestant> build(const ContestantSpec& spec, const TriangleMesh& mesh) const;
+  std::unique_ptr<Contestant> build(const ContestantSpec& spec, const bodies::PlacedScene& scene) const;
 
  private:
   void sort();

@@ -52,6 +52,15 @@ concept KnownOnceBuilt = Detector<D> && requires(const D& detector, workload::Qu
   { detector.session() } -> std::same_as<typename D::Session>;
 };
 
+/// A detector over a scene: `stand_at` moves the bodies to where they are at a step of a schedule, and the
+/// session says which body the last answer is about.
+template <class D>
+concept StandsInSchedules = requires(D& detector, const bodies::ScheduleView* schedule,
+                                     const typename D::Session& session) {
+  detector.stand_at(schedule, std::size_t{});
+  { session.body } -> std::same_as<const std::uint32_t&>;
+};
+
 /// Whether a detector's `prepare` is called after each answer.
 enum class Prefetch { off, on };
 
@@ -62,6 +71,10 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
   explicit ContestantOf(std::shared_ptr<D> detector) : detector_(std::move(detector)) { begin_session(); }
 
   std::unique_ptr<Contestant> share() const override { return std::make_unique<ContestantOf>(detector_); }
+  void stand_at([[maybe_unused]] const workload::QueryTrace& trace,
+                [[maybe_unused]] std::size_t step) noexcept override {
+    if constexpr (StandsInSchedules<D>) detector_->stand_at(trace.schedule, step);
+  }
 
   bool answers(workload::Query query) const noexcept override {
     if constexpr (KnownOnceBuilt<D>) return detector_->answers(query);
@@ -87,6 +100,22 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
       if (many_) many_->forget();
     }
   }
+  bool guides_proxy() const noexcept override {
+    return AnswersTouches<D> && AnswersSweep<D> && AnswersContacts<D>;
+  }
+  bool touches([[maybe_unused]] const Probe& probe) noexcept override {
+    if constexpr (AnswersTouches<D>) return detector_->touches(probe, *session_);
+    return false;
+  }
+  std::optional<Impact> first_hit([[maybe_unused]] const Sweep& sweep) noexcept override {
+    if constexpr (AnswersSweep<D>) return detector_->first_hit(sweep, *session_);
+    return std::nullopt;
+  }
+  std::size_t contacts([[maybe_unused]] const Probe& probe, [[maybe_unused]] double reach,
+                       [[maybe_unused]] std::span<Contact> into) noexcept override {
+    if constexpr (AnswersContacts<D>) return detector_->contacts(probe, reach, *session_, into);
+    return 0;
+  }
   bool updates() const noexcept override {
     if constexpr (KnownOnceBuilt<D>) return detector_->updates();
     return Updates<D>;
@@ -101,6 +130,7 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
     assert(answers.size() == range.size() && work.size() == range.size());
     with_query(trace.query, [&](auto ask) {
       for (std::size_t i = 0; i < range.size(); ++i) {
+        stand_at(trace, range.begin + i);
         const std::uint64_t before = session_->work.total();
         answers[i] = ask(trace.steps, range.begin + i);
         prepare();
@@ -114,6 +144,7 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
     with_query(trace.query, [&](auto ask) {
       workload::Checksum sum = checksum;
       for (std::size_t i = range.begin; i < range.end; ++i) {
+        stand_at(trace, i);
         sum.add(ask(trace.steps, i));
         prepare();
       }
@@ -130,6 +161,10 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
       workload::Checksum sum = checksum;
       std::uint64_t before = TickClock::now();
       for (std::size_t i = 0; i < range.size(); ++i) {
+        if constexpr (StandsInSchedules<D>) {
+          stand_at(trace, range.begin + i);  // poses are published outside the tick
+          before = TickClock::now();
+        }
         sum.add(ask(trace.steps, range.begin + i));
         const std::uint64_t after = TickClock::now();
         ticks[i] = after - before;
@@ -151,6 +186,7 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
       while (const std::optional<std::size_t> step = pacer.next()) {
         prepare();
         if constexpr (prefetch == Prefetch::on) seen = session_->work;
+        stand_at(trace, *step);
         // A device's position has just been read: no query waits for it.
         const std::array<workload::Step, 2> from_to{trace.steps[*step > 0 ? *step - 1 : 0],
                                                     trace.steps[*step]};
@@ -185,6 +221,11 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
       session_.emplace();
     }
   }
+  static workload::Answer about_body(workload::Answer answer,
+                                     [[maybe_unused]] const typename D::Session& session) noexcept {
+    if constexpr (StandsInSchedules<D>) answer.body = answer.found != 0 ? session.body : 0;
+    return answer;
+  }
   void prepare() noexcept {
     if constexpr (prefetch == Prefetch::on) detector_->prepare(*session_);
   }
@@ -197,7 +238,7 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
         return visit([&detector = *detector_, &session = *session_](Steps steps, std::size_t i) noexcept {
           workload::Answer answer;
           answer.found = detector.touches(steps[i].probe, session) ? 1 : 0;
-          return answer;
+          return about_body(answer, session);
         });
       }
     }
@@ -205,7 +246,7 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
       if (query == workload::Query::nearest) {
         return visit([&detector = *detector_, &session = *session_](Steps steps, std::size_t i) noexcept {
           const std::optional<Contact> contact = detector.nearest(steps[i].probe, steps[i].reach, session);
-          return contact ? workload::Answer::of(*contact) : workload::Answer{};
+          return contact ? about_body(workload::Answer::of(*contact), session) : workload::Answer{};
         });
       }
     }
@@ -215,7 +256,8 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
           const Probe& now = steps[i].probe;
           const Sweep sweep{steps[i > 0 ? i - 1 : 0].probe.center, now.center, now.radius};
           const std::optional<Impact> impact = detector.first_hit(sweep, session);
-          return impact ? workload::Answer::of(impact->contact, impact->fraction) : workload::Answer{};
+          return impact ? about_body(workload::Answer::of(impact->contact, impact->fraction), session)
+                        : workload::Answer{};
         });
       }
     }

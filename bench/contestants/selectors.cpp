@@ -54,7 +54,20 @@ std::optional<support::LengthUnit> checked_unit(const std::string& text) {
   return unit;
 }
 
+void check_scene(const Selectors& selectors) {
+  if (selectors.scene.empty()) {
+    if (!selectors.poses.empty())
+      throw std::invalid_argument("--poses are of bodies, and there is no --scene");
+    return;
+  }
+  if (!selectors.meshes.empty())
+    throw std::invalid_argument(fmt::format("--scene \"{}\" does not go with --mesh", selectors.scene));
+  if (selectors.normalize)
+    throw std::invalid_argument("--normalize is of a mesh, and does not go with --scene");
+}
+
 CheckedSelectors check(const Selectors& selectors, const Roster& roster, Variety variety) {
+  check_scene(selectors);
   CheckedSelectors selection;
   if (variety == Variety::many && selectors.query == "all") {
     selection.queries.assign(workload::all_queries.begin(), workload::all_queries.end());
@@ -70,7 +83,9 @@ CheckedSelectors check(const Selectors& selectors, const Roster& roster, Variety
   selection.seed = checked_seed(selectors.seed);
   for (const std::string& text : selectors.detectors) selection.contestants.push_back(roster.parse(text));
   if (selection.contestants.empty()) {
-    selection.contestants = variety == Variety::one ? roster.default_set() : roster.thorough_set();
+    selection.contestants = !selectors.scene.empty()  ? roster.forms(&Forms::scenes)
+                            : variety == Variety::one ? roster.default_set()
+                                                      : roster.thorough_set();
   }
   return selection;
 }

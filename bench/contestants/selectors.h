@@ -28,6 +28,8 @@ std::optional<support::LengthUnit> checked_unit(const std::string& text);
 struct Selectors {
   std::vector<std::string> meshes;  ///< empty: the command's own choice
   bool normalize = false;
+  std::string scene;  ///< names bodies, in place of a mesh; empty: none
+  std::string poses;  ///< how they move; empty: as the scene says
   std::vector<std::string> trajectories;
   std::vector<std::string> detectors;  ///< empty: the default set
   std::string query = "nearest";       ///< a query; "all" where the command allows it
@@ -41,6 +43,9 @@ struct Selectors {
 
 /// one: of --mesh and --query. many: --mesh is repeatable and --query may be "all".
 enum class Variety { one, many };
+
+/// Throws std::invalid_argument for --scene beside --mesh, and for --poses without --scene.
+void check_scene(const Selectors& selectors);
 
 /// The checked values, and who is asked.
 struct CheckedSelectors : workload::Selection {

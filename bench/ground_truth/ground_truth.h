@@ -15,24 +15,50 @@
 
 namespace touchmark::bench::ground_truth {
 
-class GroundTruths {
+/// What is known of a trace, whatever stands or moves there.
+class TraceTruths {
  public:
-  /// The oracle must outlive it.
-  GroundTruths(const oracle::Oracle& oracle, std::span<const workload::Step> steps);
+  TraceTruths() = default;
+  TraceTruths(const TraceTruths&) = default;
+  TraceTruths(TraceTruths&&) = default;
+  TraceTruths& operator=(const TraceTruths&) = delete;
+  TraceTruths& operator=(TraceTruths&&) = delete;
+  virtual ~TraceTruths() = default;
 
   /// `answers` to the query are those of the ranges' steps, one after the other. The first of them that are
   /// charged become `wrong`, and all of them `charges`, by their places among the answers, unless these are
   /// null. Throws Interrupted on Ctrl-C.
+  virtual oracle::ErrorCounts judge(workload::Query query, const std::vector<workload::StepRange>& ranges,
+                                    std::span<const workload::Answer> answers, const Accuracy& accuracy,
+                                    const oracle::Reported& reported, std::vector<WrongAnswer>* wrong,
+                                    std::vector<oracle::Charge>* charges) = 0;
   oracle::ErrorCounts judge(workload::Query query, const std::vector<workload::StepRange>& ranges,
                             std::span<const workload::Answer> answers, const Accuracy& accuracy,
-                            const oracle::Reported& reported = {}, std::vector<WrongAnswer>* wrong = nullptr,
-                            std::vector<oracle::Charge>* charges = nullptr);
+                            const oracle::Reported& reported = {},
+                            std::vector<WrongAnswer>* wrong = nullptr) {
+    return judge(query, ranges, answers, accuracy, reported, wrong, nullptr);
+  }
 
   /// Returns what is known so far, a step each.
-  std::vector<StepTruth> known(workload::Query query) const;
+  virtual std::vector<StepTruth> known(workload::Query query) const = 0;
 
   /// How far these steps, ascending, are from the surface; infinite where a coordinate is not finite.
-  std::vector<double> distances(const std::vector<std::size_t>& steps);
+  virtual std::vector<double> distances(const std::vector<std::size_t>& steps) = 0;
+};
+
+/// Truths about one mesh.
+class GroundTruths final : public TraceTruths {
+ public:
+  /// The oracle must outlive it.
+  GroundTruths(const oracle::Oracle& oracle, std::span<const workload::Step> steps);
+
+  using TraceTruths::judge;
+  oracle::ErrorCounts judge(workload::Query query, const std::vector<workload::StepRange>& ranges,
+                            std::span<const workload::Answer> answers, const Accuracy& accuracy,
+                            const oracle::Reported& reported, std::vector<WrongAnswer>* wrong,
+                            std::vector<oracle::Charge>* charges) override;
+  std::vector<StepTruth> known(workload::Query query) const override;
+  std::vector<double> distances(const std::vector<std::size_t>& steps) override;
 
  private:
   /// One of each a step.

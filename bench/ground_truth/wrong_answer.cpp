@@ -32,11 +32,17 @@ std::string question(const WrongAnswer& wrong) {
   return "";
 }
 
+/// Bodies are told apart by their number in the scene, from 0.
+std::string of_body(const WrongAnswer& wrong, std::uint32_t body) {
+  return wrong.body ? fmt::format(" of body {}", body) : "";
+}
+
 std::string contact_of(const WrongAnswer& wrong) {
   const oracle::GroundTruth& truth = wrong.truth;
   if (!truth.defined || !wrong.triangle) return "";
-  return fmt::format("{} to triangle {} at {}, normal {}{}", truth.high, *wrong.triangle, text(truth.point),
-                     text(truth.direction), with_side(wrong.side));
+  return fmt::format("{} to triangle {}{} at {}, normal {}{}", truth.high, *wrong.triangle,
+                     of_body(wrong, wrong.body.value_or(0)), text(truth.point), text(truth.direction),
+                     with_side(wrong.side));
 }
 
 std::string expected(const WrongAnswer& wrong) {
@@ -60,7 +66,8 @@ std::string got(const WrongAnswer& wrong) {
   if (wrong.query == workload::Query::touches) return "contact";
   const std::string named =
       answer.triangle == oracle::no_triangle ? "" : fmt::format(" to triangle {}", answer.triangle);
-  const std::string contact = fmt::format("{}{} at {}, normal {}{}", answer.distance, named,
+  const std::string owner = of_body(wrong, answer.body);
+  const std::string contact = fmt::format("{}{}{} at {}, normal {}{}", answer.distance, named, owner,
                                           text(answer.point), text(answer.normal), with_side(answer.side));
   return wrong.query == workload::Query::sweep
              ? fmt::format("a hit at fraction {}: {}", answer.fraction, contact)

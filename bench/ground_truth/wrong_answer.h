@@ -21,6 +21,7 @@ struct WrongAnswer {
   /// where it says none.
   oracle::GroundTruth truth;
   std::optional<TriangleId> triangle;  ///< the id of the truth's
+  std::optional<std::uint32_t> body;   ///< the truth's, in a scene
   bool found = false;                  ///< should be: contact, within reach, a hit
   std::optional<Side> side;            ///< asked for, and on a closed mesh
   workload::Answer got;

@@ -84,8 +84,13 @@ Comparison::Comparison(const contestants::Roster& roster, const workload::Worklo
       workload_(with_room(workload)),
       effort_(effort),
       seed_(seed),
-      arena_(workload, workers, steps_for_cold(effort)),
-      oracle_(workload.mesh) {
+      arena_(workload, workers, steps_for_cold(effort)) {
+  if (workload.scene) {
+    scene_ = placed(*workload.scene);
+    scene_oracle_.emplace(ground_truth::scene_oracle(scene_));
+  } else {
+    oracle_.emplace(workload.mesh);
+  }
   for (const contestants::ContestantSpec& spec : contestants) {
     processes_.emplace_back(arena_, spec, roster.find(spec.name).worker_program(spec.values));
   }
@@ -99,16 +104,21 @@ void Comparison::skip(const contestants::ContestantSpec& spec, const std::string
   }
 }
 
+std::unique_ptr<ground_truth::TraceTruths> Comparison::truths_of(std::size_t trace) {
+  if (oracle_) return std::make_unique<ground_truth::GroundTruths>(*oracle_, workload_.traces[trace]);
+  return std::make_unique<ground_truth::SceneTruths>(
+      *scene_oracle_, scene_, workload_.schedules[trace].view(), workload_.traces[trace]);
+}
+
 std::vector<ResultRow> Comparison::run(std::size_t trace, workload::Query query) {
-  ground_truth::GroundTruths truths(oracle_, workload_.traces[trace]);
-  return run(trace, query, truths);
+  return run(trace, query, *truths_of(trace));
 }
 
 void Comparison::run_all(const std::vector<workload::Query>& queries, std::vector<ResultRow>& rows) {
   for (std::size_t trace = 0; trace < workload_.traces.size(); ++trace) {
-    ground_truth::GroundTruths truths(oracle_, workload_.traces[trace]);
+    const std::unique_ptr<ground_truth::TraceTruths> truths = truths_of(trace);
     for (const workload::Query query : queries) {
-      const std::vector<ResultRow> some = run(trace, query, truths);
+      const std::vector<ResultRow> some = run(trace, query, *truths);
       rows.insert(rows.end(), some.begin(), some.end());
     }
   }
@@ -131,17 +141,14 @@ struct Comparison::Begun {
 Comparison::~Comparison() = default;
 
 std::vector<ResultRow> Comparison::run(std::size_t trace, workload::Query query,
-                                       ground_truth::GroundTruths& truths) {
+                                       ground_truth::TraceTruths& truths) {
   begin(trace, query, truths);
   return end();
 }
 
-void Comparison::begin(std::size_t trace, workload::Query query) {
-  ground_truth::GroundTruths truths(oracle_, workload_.traces[trace]);
-  begin(trace, query, truths);
-}
+void Comparison::begin(std::size_t trace, workload::Query query) { begin(trace, query, *truths_of(trace)); }
 
-void Comparison::begin(std::size_t trace, workload::Query query, ground_truth::GroundTruths& truths) {
+void Comparison::begin(std::size_t trace, workload::Query query, ground_truth::TraceTruths& truths) {
   auto begun = std::make_unique<Begun>(Begun{trace, query, plan_for(trace, truths)});
   const std::string& trajectory = workload_.trajectories[trace];
   for (std::size_t i = 0; i < processes_.size(); ++i) {
@@ -161,7 +168,7 @@ void Comparison::begin(std::size_t trace, workload::Query query, ground_truth::G
   begun_.push_back(std::move(begun));
 }
 
-void Comparison::verify(Begun& begun, ground_truth::GroundTruths& truths) {
+void Comparison::verify(Begun& begun, ground_truth::TraceTruths& truths) {
   for (std::size_t i = 0; i < begun.measurements.size(); ++i) {
     Measurement& one = begun.measurements[i];
     support::check_for_interrupt();
@@ -178,7 +185,7 @@ void Comparison::verify(Begun& begun, ground_truth::GroundTruths& truths) {
   }
 }
 
-void Comparison::add_control(Begun& begun, ground_truth::GroundTruths& truths) {
+void Comparison::add_control(Begun& begun, ground_truth::TraceTruths& truths) {
   begun.controlled = to_control(begun.interleaved);
   if (begun.controlled == nullptr) return;
   begun.control.emplace(workload_, arena_, effort_, *control_, begun.trace, begun.query, begun.plan);
@@ -222,7 +229,7 @@ std::vector<ResultRow> Comparison::rows_of(Begun& begun) {
   return rows;
 }
 
-workload::SamplePlan Comparison::plan_for(std::size_t trace, ground_truth::GroundTruths& truths) const {
+workload::SamplePlan Comparison::plan_for(std::size_t trace, ground_truth::TraceTruths& truths) const {
   const std::vector<workload::Step>& steps = workload_.traces[trace];
   const std::vector<double> distances = truths.distances(workload::telling_steps(steps.size()));
   return {steps.size(), workload::phases_of(steps, distances, workload_.mesh.diagonal()), seed_ + trace};
@@ -244,6 +251,7 @@ Measurement* Comparison::to_control(const std::vector<Measurement*>& measurement
 
 const ground_truth::RoundedScene* Comparison::rounded_scene_of(std::size_t process) {
   std::optional<std::unique_ptr<const ground_truth::RoundedScene>>& rounded = rounded_scenes_[process];
+  if (!oracle_) return nullptr;
   if (!rounded) {
     const contestants::ContestantSpec& spec = processes_[process].spec();
     rounded = rounded_scene(roster_.find(spec.name), spec, workload_.mesh);
@@ -252,7 +260,7 @@ const ground_truth::RoundedScene* Comparison::rounded_scene_of(std::size_t proce
 }
 
 void Comparison::verify(Measurement& one, const ground_truth::RoundedScene* rounded, std::size_t trace,
-                        ground_truth::GroundTruths& truths) {
+                        ground_truth::TraceTruths& truths) {
   if (rounded == nullptr) return one.verify(truths);
   ground_truth::GroundTruths of_rounded(rounded->oracle(), rounded->trace(workload_.traces[trace]));
   one.verify(truths, &of_rounded);

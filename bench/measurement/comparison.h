@@ -12,13 +12,16 @@
 #include <utility>
 #include <vector>
 
+#include "bench/bodies/schedule.h"
 #include "bench/contestants/contestant_info.h"
 #include "bench/ground_truth/ground_truth.h"
 #include "bench/ground_truth/rounded_scene.h"
+#include "bench/ground_truth/scene_truths.h"
 #include "bench/measurement/effort.h"
 #include "bench/measurement/result_row.h"
 #include "bench/measurement/steadiness.h"
 #include "bench/oracle/oracle.h"
+#include "bench/oracle/scene_oracle.h"
 #include "bench/workers/contestant_process.h"
 #include "bench/workload/sample_plan.h"
 #include "bench/workload/workload.h"
@@ -81,19 +84,20 @@ class Comparison {
  private:
   struct Begun;
 
-  std::vector<ResultRow> run(std::size_t trace, workload::Query query, ground_truth::GroundTruths& truths);
-  void begin(std::size_t trace, workload::Query query, ground_truth::GroundTruths& truths);
-  void verify(Begun& begun, ground_truth::GroundTruths& truths);
-  void add_control(Begun& begun, ground_truth::GroundTruths& truths);
+  std::unique_ptr<ground_truth::TraceTruths> truths_of(std::size_t trace);
+  std::vector<ResultRow> run(std::size_t trace, workload::Query query, ground_truth::TraceTruths& truths);
+  void begin(std::size_t trace, workload::Query query, ground_truth::TraceTruths& truths);
+  void verify(Begun& begun, ground_truth::TraceTruths& truths);
+  void add_control(Begun& begun, ground_truth::TraceTruths& truths);
   std::vector<ResultRow> rows_of(Begun& begun);
   /// The scene as that process's library rounds it, made when first asked for; null where it is the given
   /// one.
   const ground_truth::RoundedScene* rounded_scene_of(std::size_t process);
   void verify(class Measurement& one, const ground_truth::RoundedScene* rounded, std::size_t trace,
-              ground_truth::GroundTruths& truths);
+              ground_truth::TraceTruths& truths);
   /// Takes the requests of `begun` up to this one.
   void measure(Begun& begun, std::size_t end);
-  workload::SamplePlan plan_for(std::size_t trace, ground_truth::GroundTruths& truths) const;
+  workload::SamplePlan plan_for(std::size_t trace, ground_truth::TraceTruths& truths) const;
   /// The process that times a contestant once more: that of the trace before, where its contestant still is
   /// among the right ones, or else the fastest one's. Null where there is none.
   class Measurement* to_control(const std::vector<class Measurement*>& measurements);
@@ -104,7 +108,9 @@ class Comparison {
   std::uint64_t seed_;
   Schedule schedule_ = Schedule::interleaved;
   workers::SharedArena arena_;
-  oracle::Oracle oracle_;
+  std::optional<oracle::Oracle> oracle_;             ///< empty for a scene
+  bodies::PlacedScene scene_;                        ///< empty for a mesh
+  std::optional<oracle::SceneOracle> scene_oracle_;  ///< which its truths move
   std::deque<workers::ContestantProcess> processes_;
   std::vector<std::optional<std::unique_ptr<const ground_truth::RoundedScene>>>
       rounded_scenes_;  ///< a process each

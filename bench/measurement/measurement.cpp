@@ -48,7 +48,7 @@ Measurement::Measurement(const workload::Workload& workload, const workers::Shar
   row_.plugin = process.spec().plugin;
   row_.claimed = process.spec().claimed;
   row_.mesh = workload.mesh_name;
-  row_.triangles = workload.mesh.size();
+  row_.triangles = workload.triangles();
   row_.trajectory = workload.trajectories[trace];
   row_.query = query;
   row_.radius = largest(workload.traces[trace], [](const workload::Step& step) { return step.probe.radius; });
@@ -69,6 +69,7 @@ void Measurement::attempt(Action action) {
 void Measurement::begin() {
   const workers::Built& built = process_.build();
   row_.accuracy = built.accuracy;
+  row_.choice = built.choice;
   row_.build_ms = built.build_ms;
   row_.bytes = built.bytes;
   row_.heap_bytes = built.heap_bytes;
@@ -154,7 +155,7 @@ PieceTimes Measurement::piece_times() const {
   return times;
 }
 
-void Measurement::verify(ground_truth::GroundTruths& truths, ground_truth::GroundTruths* rounded) {
+void Measurement::verify(ground_truth::TraceTruths& truths, ground_truth::TraceTruths* rounded) {
   attempt([&] {
     process_.rebuild_if_lazy();
     const workers::Answered answered = process_.ask(request::Answer{task_});
@@ -164,7 +165,7 @@ void Measurement::verify(ground_truth::GroundTruths& truths, ground_truth::Groun
   if (alive()) judge(truths, rounded);
 }
 
-void Measurement::judge(ground_truth::GroundTruths& truths, ground_truth::GroundTruths* rounded) {
+void Measurement::judge(ground_truth::TraceTruths& truths, ground_truth::TraceTruths* rounded) {
   const std::span<const workload::Answer> answers = arena_.buffers().answers(row_.steps);
   workload::Checksum checksum;
   for (const workload::Answer& answer : answers) checksum.add(answer);

@@ -38,7 +38,7 @@ class Measurement {
   void calibrate_like(const Measurement& other);
   /// Has the steps answered and judged, before anything is timed; once more by `rounded`, unless that is
   /// null: the ground truth of the scene as the contestant's library stores it.
-  void verify(ground_truth::GroundTruths& truths, ground_truth::GroundTruths* rounded = nullptr);
+  void verify(ground_truth::TraceTruths& truths, ground_truth::TraceTruths* rounded = nullptr);
 
   /// Times a pass with a fresh session, after others used the caches. A detector that builds lazily is built
   /// anew just before, so that this work is in the time.
@@ -73,7 +73,7 @@ class Measurement {
                          std::vector<double>& ns, std::vector<double>& floor_ns);
   std::vector<double> in_ns(std::span<const std::uint64_t> ticks) const;
   void expect_verified_answers(const workers::Timed& timed);
-  void judge(ground_truth::GroundTruths& truths, ground_truth::GroundTruths* rounded);
+  void judge(ground_truth::TraceTruths& truths, ground_truth::TraceTruths* rounded);
 
   const workers::SharedArena& arena_;
   const Effort& effort_;

@@ -26,15 +26,6 @@ bool well_formed(const workload::Answer& answer, const Reported& reported) noexc
          (!reported.normal || vector(answer.normal).allFinite());
 }
 
-std::pair<std::size_t, std::size_t> positions_of(const TriangleMesh& mesh, TriangleId id) {
-  const auto ids = mesh.ids();
-  if (ids.empty())
-    return {std::min<std::size_t>(id, mesh.size()), std::min(std::size_t{id} + 1, mesh.size())};
-  const auto range = std::equal_range(ids.begin(), ids.end(), id);
-  return {static_cast<std::size_t>(range.first - ids.begin()),
-          static_cast<std::size_t>(range.second - ids.begin())};
-}
-
 Verdict AnswerJudge::threshold(const GroundTruth& truth, const Vec3& center, double limit, bool found) const {
   if (found == oracle_.within(truth, center, limit)) return Verdict::right;
   if (!known_ || !truth.defined || accuracy_.decides_exactly) return Verdict::wrong;
@@ -45,10 +36,9 @@ Verdict AnswerJudge::threshold(const GroundTruth& truth, const Vec3& center, dou
 }
 
 /// The triangles that carry the id and are nearest within the accuracy.
-std::vector<GroundTruth> AnswerJudge::with_id(const GroundTruth& truth, const Vec3& center, TriangleId id,
-                                              double position_error) const {
-  const TriangleMesh& mesh = oracle_.mesh();
-  const auto [begin, end] = positions_of(mesh, id);
+std::vector<GroundTruth> AnswerJudge::with_id(const GroundTruth& truth, const Vec3& center,
+                                              const workload::Answer& answer, double position_error) const {
+  const auto [begin, end] = oracle_.named_by(answer);
   std::vector<GroundTruth> found;
   for (std::size_t i = begin; i < end; ++i) {
     const auto triangle = static_cast<std::uint32_t>(i);
@@ -56,9 +46,7 @@ std::vector<GroundTruth> AnswerJudge::with_id(const GroundTruth& truth, const Ve
       found.push_back(truth);
       continue;
     }
-    double largest = truth.largest_difference;
-    for (const Vec3& v : triangle_of(mesh, triangle))
-      largest = std::max(largest, (v - center).cwiseAbs().maxCoeff());
+    const double largest = std::max(truth.largest_difference, oracle_.largest_difference(center, triangle));
     if (oracle_.within(triangle, center, raised(truth.high + allowed_in_fields(largest) + position_error)))
       found.push_back(oracle_.solve(center, triangle));
   }
@@ -87,7 +75,7 @@ void AnswerJudge::contact(const GroundTruth& truth, const Vec3& center, const wo
   if (!std::isfinite(truth.high)) return;  // beyond all doubles: any answer is
   std::vector<GroundTruth> nearest;
   if (reported_.triangle && answer.triangle != no_triangle) {
-    nearest = with_id(truth, center, answer.triangle, position_error);
+    nearest = with_id(truth, center, answer, position_error);
     if (nearest.empty()) ++counts.wrong_triangle;
   } else {
     nearest = tied(truth, center, position_error);
@@ -113,7 +101,7 @@ void AnswerJudge::contact(const GroundTruth& truth, const Vec3& center, const wo
         4 * unit_roundoff * std::max(point.cwiseAbs().maxCoeff(), center.cwiseAbs().maxCoeff());
     double off = infinity;
     for (const GroundTruth& one : nearest)
-      off = std::min(off, distance_interval(point, triangle_of(oracle_.mesh(), one.triangle)).lo);
+      off = std::min(off, oracle_.distance_bounds(point, one.triangle).lo);
     counts.max_point_error = std::max(counts.max_point_error, off);
     const double nearness = std::abs((center - point).stableNorm() - truth.high);
     if (off > bound + rounding || nearness > bound + rounding) ++counts.wrong_point;

@@ -23,28 +23,19 @@ inline double lowered(double x) noexcept {
 /// Returns true if the reported fields are finite numbers in their range.
 bool well_formed(const workload::Answer& answer, const Reported& reported) noexcept;
 
-/// Returns where the triangles that carry the id begin and end.
-std::pair<std::size_t, std::size_t> positions_of(const TriangleMesh& mesh, TriangleId id);
-
 enum class Verdict { right, unresolved, wrong };
 
-/// Charges single answers about one oracle's mesh by one contestant's declared accuracy.
+/// Charges single answers about one mesh or scene by one contestant's declared accuracy.
 class AnswerJudge {
  public:
-  AnswerJudge(const Oracle& oracle, const Accuracy& accuracy, const Reported& reported)
+  AnswerJudge(const Reference& oracle, const Accuracy& accuracy, const Reported& reported)
       : oracle_(oracle),
         accuracy_(accuracy),
         reported_(reported),
-        known_(std::isfinite(accuracy.relative) && std::isfinite(accuracy.absolute)) {
-    const TriangleMesh& mesh = oracle.mesh();
-    low_ = high_ = mesh.corner(0, 0);
-    for (std::uint32_t i = 0; i < mesh.size(); ++i) {
-      for (const Vec3& v : triangle_of(mesh, i)) {
-        low_ = low_.cwiseMin(v);
-        high_ = high_.cwiseMax(v);
-      }
-    }
-    diagonal_ = (high_ - low_).norm();
+        known_(std::isfinite(accuracy.relative) && std::isfinite(accuracy.absolute)),
+        low_(oracle.bounds().min),
+        high_(oracle.bounds().max),
+        diagonal_((high_ - low_).norm()) {
     tolerance_ = std::isfinite(diagonal_) ? physical_tolerance * diagonal_ : 0;
   }
 
@@ -72,20 +63,20 @@ class AnswerJudge {
     return oracle_.segment_within(from, to, lowered(radius - tolerance)) ||
            (radius >= 0 && radius <= tolerance && oracle_.surely_crosses(from, to, tolerance));
   }
-  double sweep_gap(const Sweep& sweep, TriangleId id) const;
+  double sweep_gap(const Sweep& sweep, const workload::Answer& answer) const;
   void exact_sweep(const SweepGroundTruth& truth, const Sweep& sweep, const workload::Answer& answer,
                    ErrorCounts& counts) const;
   Verdict threshold(const GroundTruth& truth, const Vec3& center, double limit, bool found) const;
   void contact(const GroundTruth& truth, const Vec3& center, const workload::Answer& answer,
                double position_error, ErrorCounts& counts) const;
-  std::vector<GroundTruth> with_id(const GroundTruth& truth, const Vec3& center, TriangleId id,
-                                   double position_error) const;
+  std::vector<GroundTruth> with_id(const GroundTruth& truth, const Vec3& center,
+                                   const workload::Answer& answer, double position_error) const;
   std::vector<GroundTruth> tied(const GroundTruth& truth, const Vec3& center, double position_error) const;
   void note_distance_error(double error, ErrorCounts& counts) const;
   /// Returns true if it names another triangle than the first of the nearest, and claims not to.
   bool is_misnamed(const GroundTruth& truth, const workload::Answer& answer) const {
     if (!accuracy_.names_exactly || !reported_.triangle || !std::isfinite(truth.high)) return false;
-    return answer.triangle != oracle_.mesh().id(truth.triangle);
+    return !oracle_.names_first(truth, answer);
   }
   bool is_wrong(Side said, const Vec3& center) const {
     if (said == Side::unasked || said == Side::undecided) return false;
@@ -93,12 +84,12 @@ class AnswerJudge {
     return side && *side != said;
   }
 
-  const Oracle& oracle_;
+  const Reference& oracle_;
   const Accuracy& accuracy_;
   const Reported& reported_;
   bool known_;
   Vec3 low_, high_;
-  double diagonal_ = 0;
+  double diagonal_;
   double tolerance_ = 0;  ///< physical_tolerance in mesh units; 0 where the diagonal is beyond doubles
 };
 

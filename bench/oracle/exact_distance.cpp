@@ -70,8 +70,10 @@ Foot nearest_on(const std::array<Vector, 3>& w) {
   return best;
 }
 
-std::array<Vector, 3> relative(const Grid& grid, const Vector& origin, const Triangle& t) {
-  return {grid(t[0]) - origin, grid(t[1]) - origin, grid(t[2]) - origin};
+template <class AnyTriangle>
+std::array<Vector, 3> relative(const Grid& grid, const Vector& origin, const AnyTriangle& t) {
+  const std::array<Vector, 3> corners = grid(t);
+  return {corners[0] - origin, corners[1] - origin, corners[2] - origin};
 }
 
 std::size_t bits(const Integer& x) { return mpz_sizeinbase(x.get_mpz_t(), 2); }
@@ -137,12 +139,11 @@ Vec3 absolute_position(const Vector& origin, const Foot& foot, int exponent) {
           coordinate(origin.z, foot.direction.z)};
 }
 
-}  // namespace
-
-ExactNearest nearest_exactly(const Vec3& point, std::span<const Triangle> triangles) {
+template <class AnyTriangle>
+ExactNearest nearest_of(const Vec3& point, std::span<const AnyTriangle> triangles) {
   Grid grid;
   grid.add(point);
-  for (const Triangle& t : triangles) grid.add(t);
+  for (const AnyTriangle& t : triangles) grid.add(t);
   const Vector origin = grid(point);
   ExactNearest nearest;
   Foot best;
@@ -159,7 +160,8 @@ ExactNearest nearest_exactly(const Vec3& point, std::span<const Triangle> triang
   return nearest;
 }
 
-std::strong_ordering compare_distance(const Vec3& point, const Triangle& triangle, double radius) {
+template <class AnyTriangle>
+std::strong_ordering compare(const Vec3& point, const AnyTriangle& triangle, double radius) {
   if (std::isinf(radius)) return std::strong_ordering::less;
   Grid grid;
   grid.add(point);
@@ -168,6 +170,22 @@ std::strong_ordering compare_distance(const Vec3& point, const Triangle& triangl
   const Foot foot = nearest_on(relative(grid, grid(point), triangle));
   const Integer r = grid(radius);
   return exact::order(foot.square.numerator, Integer(r * r * foot.square.denominator));
+}
+
+}  // namespace
+
+ExactNearest nearest_exactly(const Vec3& point, std::span<const Triangle> triangles) {
+  return nearest_of(point, triangles);
+}
+ExactNearest nearest_exactly(const Vec3& point, std::span<const PlacedTriangle> triangles) {
+  return nearest_of(point, triangles);
+}
+
+std::strong_ordering compare_distance(const Vec3& point, const Triangle& triangle, double radius) {
+  return compare(point, triangle, radius);
+}
+std::strong_ordering compare_distance(const Vec3& point, const PlacedTriangle& triangle, double radius) {
+  return compare(point, triangle, radius);
 }
 
 }  // namespace touchmark::bench::oracle

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <climits>
 #include <cmath>
@@ -66,6 +67,14 @@ class Grid {
     for (const Vec3& v : t) add(v);
   }
 
+  /// Takes what the images of the corners are made of: products, and the translation.
+  void add(const PlacedTriangle& t) {
+    for (const Vec3& v : t.corners)
+      for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column) add_product(t.pose->rotation(row, column), v[column]);
+    add(t.pose->translation);
+  }
+
   /// 0 when only zeros were put in.
   int exponent() const { return exponent_ == INT_MAX ? 0 : exponent_; }
 
@@ -75,9 +84,37 @@ class Grid {
     if (parts.mantissa != 0) integer <<= static_cast<mp_bitcnt_t>(parts.exponent - exponent());
     return integer;
   }
+  /// Returns the image of a point.
+  Vector operator()(const Pose& pose, const Vec3& v) const {
+    std::array<Integer, 3> image;
+    for (int row = 0; row < 3; ++row) {
+      Integer& sum = image[static_cast<std::size_t>(row)];
+      sum = (*this)(pose.translation[row]);
+      for (int column = 0; column < 3; ++column) sum += product(pose.rotation(row, column), v[column]);
+    }
+    return {image[0], image[1], image[2]};
+  }
+  std::array<Vector, 3> operator()(const Triangle& t) const {
+    return {(*this)(t[0]), (*this)(t[1]), (*this)(t[2])};
+  }
+  std::array<Vector, 3> operator()(const PlacedTriangle& t) const {
+    return {(*this)(*t.pose, t.corners[0]), (*this)(*t.pose, t.corners[1]), (*this)(*t.pose, t.corners[2])};
+  }
   Vector operator()(const Vec3& v) const { return {(*this)(v.x()), (*this)(v.y()), (*this)(v.z())}; }
 
  private:
+  void add_product(double a, double b) {
+    if (a != 0 && b != 0) exponent_ = std::min(exponent_, parts_of(a).exponent + parts_of(b).exponent);
+  }
+  Integer product(double a, double b) const {
+    if (a == 0 || b == 0) return 0;
+    const Parts left = parts_of(a), right = parts_of(b);
+    Integer integer(static_cast<long>(left.mantissa));
+    integer *= static_cast<long>(right.mantissa);
+    integer <<= static_cast<mp_bitcnt_t>(left.exponent + right.exponent - exponent());
+    return integer;
+  }
+
   int exponent_ = INT_MAX;
 };
 

@@ -90,7 +90,8 @@ std::strong_ordering compare_end(const Configuration& c) {
 
 /// The part of the path as seen from its start, on a grid as much finer as the fraction's last digit asks
 /// for.
-Configuration part_of(const Vec3& from, const Vec3& to, double fraction, const Triangle& triangle,
+template <class AnyTriangle>
+Configuration part_of(const Vec3& from, const Vec3& to, double fraction, const AnyTriangle& triangle,
                       double radius) {
   Grid grid;
   grid.add(from);
@@ -103,20 +104,21 @@ Configuration part_of(const Vec3& from, const Vec3& to, double fraction, const T
   const Vector origin = grid(from);
   const Integer r = fine * grid(radius);
   Configuration c{scaled(part, grid(to) - origin), {}, Integer(r * r)};
-  for (std::size_t i = 0; i < 3; ++i) c.w[i] = scaled(fine, grid(triangle[i]) - origin);
+  const std::array<Vector, 3> corners = grid(triangle);
+  for (std::size_t i = 0; i < 3; ++i) c.w[i] = scaled(fine, corners[i] - origin);
   return c;
 }
 
-}  // namespace
-
-std::strong_ordering compare_distance_on_path(const Vec3& from, const Vec3& to, double fraction,
-                                              const Triangle& triangle, double radius) {
+template <class AnyTriangle>
+std::strong_ordering compare_on_path(const Vec3& from, const Vec3& to, double fraction,
+                                     const AnyTriangle& triangle, double radius) {
   if (std::isinf(radius)) return std::strong_ordering::less;
   return compare_end(part_of(from, to, fraction, triangle, radius));
 }
 
-std::strong_ordering compare_part_distance(const Vec3& from, const Vec3& to, double fraction,
-                                           const Triangle& triangle, double radius) {
+template <class AnyTriangle>
+std::strong_ordering compare_part(const Vec3& from, const Vec3& to, double fraction,
+                                  const AnyTriangle& triangle, double radius) {
   if (std::isinf(radius)) return std::strong_ordering::less;
   const Configuration c = part_of(from, to, fraction, triangle, radius);
   std::strong_ordering least = exact::lesser(compare_distance(from, triangle, radius), compare_end(c));
@@ -128,8 +130,9 @@ std::strong_ordering compare_part_distance(const Vec3& from, const Vec3& to, dou
   return least;
 }
 
-std::strong_ordering compare_segment_distance(const Vec3& from, const Vec3& to, const Triangle& triangle,
-                                              double radius) {
+template <class AnyTriangle>
+std::strong_ordering compare_segment(const Vec3& from, const Vec3& to, const AnyTriangle& triangle,
+                                     double radius) {
   if (std::isinf(radius)) return std::strong_ordering::less;
   std::strong_ordering least =
       exact::lesser(compare_distance(from, triangle, radius), compare_distance(to, triangle, radius));
@@ -141,9 +144,9 @@ std::strong_ordering compare_segment_distance(const Vec3& from, const Vec3& to, 
   grid.add(radius);
   const Vector origin = grid(from);
   const Integer r = grid(radius);
-  const Configuration c{grid(to) - origin,
-                        {grid(triangle[0]) - origin, grid(triangle[1]) - origin, grid(triangle[2]) - origin},
-                        Integer(r * r)};
+  const std::array<Vector, 3> corners = grid(triangle);
+  const Configuration c{
+      grid(to) - origin, {corners[0] - origin, corners[1] - origin, corners[2] - origin}, Integer(r * r)};
   if (cross_through_the_face(c)) return exact::lesser(least, exact::order(Integer(0), c.squared_radius));
   for (std::size_t i = 0; i < 3; ++i) {
     least = exact::lesser(least, compare_corner(c, c.w[i]));
@@ -151,6 +154,35 @@ std::strong_ordering compare_segment_distance(const Vec3& from, const Vec3& to, 
     if (least == std::strong_ordering::less) return least;
   }
   return least;
+}
+
+}  // namespace
+
+std::strong_ordering compare_distance_on_path(const Vec3& from, const Vec3& to, double fraction,
+                                              const Triangle& triangle, double radius) {
+  return compare_on_path(from, to, fraction, triangle, radius);
+}
+std::strong_ordering compare_distance_on_path(const Vec3& from, const Vec3& to, double fraction,
+                                              const PlacedTriangle& triangle, double radius) {
+  return compare_on_path(from, to, fraction, triangle, radius);
+}
+
+std::strong_ordering compare_part_distance(const Vec3& from, const Vec3& to, double fraction,
+                                           const Triangle& triangle, double radius) {
+  return compare_part(from, to, fraction, triangle, radius);
+}
+std::strong_ordering compare_part_distance(const Vec3& from, const Vec3& to, double fraction,
+                                           const PlacedTriangle& triangle, double radius) {
+  return compare_part(from, to, fraction, triangle, radius);
+}
+
+std::strong_ordering compare_segment_distance(const Vec3& from, const Vec3& to, const Triangle& triangle,
+                                              double radius) {
+  return compare_segment(from, to, triangle, radius);
+}
+std::strong_ordering compare_segment_distance(const Vec3& from, const Vec3& to,
+                                              const PlacedTriangle& triangle, double radius) {
+  return compare_segment(from, to, triangle, radius);
 }
 
 }  // namespace touchmark::bench::oracle

@@ -31,6 +31,13 @@ ErrorCounts total(std::size_t size, unsigned threads, Charges* charges, const Ju
   return sum;
 }
 
+Accuracy of_sweeps(Accuracy accuracy) {
+  // max_early_gap, where the path's start is within M of the triangle and the path's coordinates within 2 M.
+  const double least = accuracy.guarantee == Guarantee::exact ? max_early_gap(1, 2) : kernel_relative_error;
+  accuracy.relative = std::max(accuracy.relative, least);
+  return accuracy;
+}
+
 }  // namespace
 
 ErrorCounts judge(const Oracle& oracle, std::span<const GroundTruth> truths, workload::Query query,
@@ -46,14 +53,27 @@ ErrorCounts judge(const Oracle& oracle, std::span<const GroundTruth> truths, wor
 ErrorCounts judge(const Oracle& oracle, std::span<const SweepGroundTruth> truths,
                   std::span<const Sweep> sweeps, std::span<const workload::Answer> answers,
                   const Accuracy& accuracy, const Reported& reported, Charges* charges) {
-  Accuracy of_sweeps = accuracy;
-  // max_early_gap, where the path's start is within M of the triangle and the path's coordinates within 2 M.
-  const double least = accuracy.guarantee == Guarantee::exact ? max_early_gap(1, 2) : kernel_relative_error;
-  of_sweeps.relative = std::max(accuracy.relative, least);
-  const AnswerJudge judge(oracle, of_sweeps, reported);
+  const Accuracy claimed = of_sweeps(accuracy);
+  const AnswerJudge judge(oracle, claimed, reported);
   return total(
       std::min({truths.size(), sweeps.size(), answers.size()}), oracle.threads(), charges,
       [&](std::size_t i, ErrorCounts& counts) { judge.sweep(truths[i], sweeps[i], answers[i], counts); });
+}
+
+ErrorCounts judge_one(const Reference& reference, const GroundTruth& truth, workload::Query query,
+                      const Probe& probe, double reach, const workload::Answer& answer,
+                      const Accuracy& accuracy, const Reported& reported) {
+  ErrorCounts counts;
+  AnswerJudge(reference, accuracy, reported).position(truth, query, probe, reach, answer, counts);
+  return counts;
+}
+
+ErrorCounts judge_one(const Reference& reference, const SweepGroundTruth& truth, const Sweep& sweep,
+                      const workload::Answer& answer, const Accuracy& accuracy, const Reported& reported) {
+  ErrorCounts counts;
+  const Accuracy claimed = of_sweeps(accuracy);
+  AnswerJudge(reference, claimed, reported).sweep(truth, sweep, answer, counts);
+  return counts;
 }
 
 }  // namespace touchmark::bench::oracle

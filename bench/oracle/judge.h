@@ -36,6 +36,14 @@ ErrorCounts judge(const Oracle& oracle, std::span<const GroundTruth> truths, wor
                   std::span<const Probe> probes, double reach, std::span<const workload::Answer> answers,
                   const Accuracy& accuracy, const Reported& reported = {}, Charges* charges = nullptr);
 
+/// Judges one answer to `touches` or `nearest`, or to `sweep`, as the lists are judged.
+ErrorCounts judge_one(const Reference& reference, const GroundTruth& truth, workload::Query query,
+                      const Probe& probe, double reach, const workload::Answer& answer,
+                      const Accuracy& accuracy, const Reported& reported = {});
+ErrorCounts judge_one(const Reference& reference, const SweepGroundTruth& truth, const Sweep& sweep,
+                      const workload::Answer& answer, const Accuracy& accuracy,
+                      const Reported& reported = {});
+
 /// Judges `sweep`. Of a contestant that decides exactly whether it hits is judged without tolerance: the path
 /// comes within the radius or it does not; at fraction 0 it has to touch at the start, at another one it may
 /// not touch before (missed, being late), and there it may be off the radius by no more than max_early_gap

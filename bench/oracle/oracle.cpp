@@ -69,10 +69,21 @@ GroundTruth truth_of(const Vec3& center, std::uint32_t index, const Triangle& tr
           largest_difference(center, triangle)};
 }
 
+/// The box of the corners.
+Box box_of(const TriangleMesh& mesh) {
+  Box box{mesh.corner(0, 0), mesh.corner(0, 0)};
+  for (std::uint32_t i = 0; i < mesh.size(); ++i) {
+    const Box one = oracle::box_of(triangle_of(mesh, i));
+    box = {box.min.cwiseMin(one.min), box.max.cwiseMax(one.max)};
+  }
+  return box;
+}
+
 }  // namespace
 
 struct Oracle::Structure {
   const TriangleMesh* mesh;
+  Box bounds;
   unsigned threads;
   TriangleTree tree;
   mutable std::once_flag sides_asked{};
@@ -127,7 +138,7 @@ GroundTruth Oracle::Structure::nearest(const Vec3& center, std::optional<std::ui
 }
 
 Oracle::Oracle(const TriangleMesh& mesh, unsigned threads)
-    : structure_(new Structure{&mesh,
+    : structure_(new Structure{&mesh, box_of(mesh),
                                threads > 0 ? threads : std::max(1U, std::thread::hardware_concurrency()),
                                TriangleTree(mesh)}) {}
 Oracle::~Oracle() = default;
@@ -168,21 +179,26 @@ GroundTruth Oracle::solve(const Vec3& center, std::uint32_t triangle) const {
   return truth_of(center, triangle, corners, nearest_exactly(center, {&corners, 1}));
 }
 
-SweepGroundTruth Oracle::solve(const Sweep& sweep) const {
-  if (!sweep.from.allFinite() || !sweep.to.allFinite()) return {};
-  const bool touching = segment_within(sweep.from, sweep.from, sweep.radius);
-  return {true, touching || segment_within(sweep.from, sweep.to, sweep.radius), touching};
-}
+SweepGroundTruth Oracle::solve(const Sweep& sweep) const { return truth_of_sweep(*this, sweep); }
 
 bool Oracle::within(const GroundTruth& truth, const Vec3& center, double radius) const {
-  if (!truth.defined || !(radius >= 0)) return false;
-  // Rounding to nearest is monotone, so only equality leaves a doubt, and then `low` tells; unless it is
-  // itself below what it is accurate to, or the result too small for either to be.
-  const bool normal = truth.high > 0x1p-900;
-  if (normal && truth.high != radius) return truth.high < radius;
-  if (normal && std::abs(truth.low) > 0x1p-90 * truth.high) return truth.low < 0;
-  return compare_distance(center, triangle_of(mesh(), truth.triangle), radius) <= 0;
+  const std::optional<bool> told = within_by_digits(truth, radius);
+  return told ? *told : compare_distance(center, triangle_of(mesh(), truth.triangle), radius) <= 0;
 }
+
+std::pair<std::size_t, std::size_t> Oracle::named_by(const workload::Answer& answer) const {
+  return positions_of(mesh(), answer.triangle);
+}
+
+double Oracle::largest_difference(const Vec3& center, std::uint32_t triangle) const {
+  return oracle::largest_difference(center, triangle_of(mesh(), triangle));
+}
+
+Interval Oracle::distance_bounds(const Vec3& point, std::uint32_t triangle) const {
+  return distance_interval(point, triangle_of(mesh(), triangle));
+}
+
+Box Oracle::bounds() const { return structure_->bounds; }
 
 std::optional<Side> Oracle::side(const Vec3& center) const {
   std::call_once(structure_->sides_asked, [&] { structure_->sides.emplace(mesh()); });

@@ -9,36 +9,19 @@
 #include <span>
 #include <vector>
 
+#include "bench/oracle/reference.h"
 #include "bench/oracle/triangle.h"
 #include "core/probe.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::bench::oracle {
 
-/// The truth about one position. It does not depend on radius or reach, so one serves every query there.
-struct GroundTruth {
-  bool defined = false;           ///< false when a coordinate of the centre is not finite: it touches nothing
-  std::uint32_t triangle = 0;     ///< position in the mesh of a nearest triangle; of exact ties the lowest
-  double high = 0;                ///< the distance rounded to nearest; infinite if beyond all doubles
-  double low = 0;                 ///< high + low is the distance to 2^-100 of it
-  Vec3 point = Vec3::Zero();      ///< the nearest point of `triangle`, rounded
-  Vec3 direction = Vec3::Zero();  ///< unit, from `point` to the centre; zero where the distance is exactly 0
-  double largest_difference = 0;  ///< between coordinates of the centre and of the corners of `triangle`
-};
-
-/// The truth about one sweep.
-struct SweepGroundTruth {
-  bool defined = false;            ///< false when a coordinate is not finite: it hits nothing
-  bool hit = false;                ///< the path comes within the radius of the mesh, exactly
-  bool touching_at_start = false;  ///< it already is there at the start, exactly
-};
-
 /// Answers exactly. Constant after construction, and safe to use from many threads. The mesh must outlive it.
-class Oracle {
+class Oracle : public Reference {
  public:
   /// `threads` is how many solve() uses; 0: as many as the machine has.
   explicit Oracle(const TriangleMesh& mesh, unsigned threads = 0);
-  ~Oracle();
+  ~Oracle() override;
   Oracle(Oracle&&) noexcept;
   Oracle& operator=(Oracle&&) noexcept;
 
@@ -46,37 +29,45 @@ class Oracle {
   std::vector<GroundTruth> solve(std::span<const Probe> probes) const;
   std::vector<SweepGroundTruth> solve(std::span<const Sweep> sweeps) const;
 
-  GroundTruth solve(const Vec3& center) const;
+  GroundTruth solve(const Vec3& center) const override;
   SweepGroundTruth solve(const Sweep& sweep) const;
 
   /// Returns true if the distance is at most `radius`. `truth` must be of `center`. Exact; false for a radius
   /// below 0 or NaN.
-  bool within(const GroundTruth& truth, const Vec3& center, double radius) const;
+  bool within(const GroundTruth& truth, const Vec3& center, double radius) const override;
   /// Returns true if the distance from `center` to this one triangle is at most `radius`. Exact likewise.
-  bool within(std::uint32_t triangle, const Vec3& center, double radius) const;
+  bool within(std::uint32_t triangle, const Vec3& center, double radius) const override;
   /// Returns true if the segment comes within `radius` of the mesh. Exact likewise; false when a coordinate
   /// is not finite.
-  bool segment_within(const Vec3& from, const Vec3& to, double radius) const;
+  bool segment_within(const Vec3& from, const Vec3& to, double radius) const override;
 
   /// Returns true if the sweep touches before that fraction of its path, of the points from + fraction (to -
   /// from) as they are, none rounded. Exact likewise; but a ball that slides at the very radius since less
   /// than the fraction's last digit ago is taken to touch there.
-  bool touches_before(const Sweep& sweep, double fraction) const;
+  bool touches_before(const Sweep& sweep, double fraction) const override;
   /// Returns true if the point at that fraction of the path, not rounded, is within `radius` of the mesh.
   /// Exact likewise.
-  bool within_on_path(const Sweep& sweep, double fraction, double radius) const;
+  bool within_on_path(const Sweep& sweep, double fraction, double radius) const override;
 
   /// Returns true if the segment passes through a triangle so well that no displacement of either by less
   /// than `margin` could part them: the ends and the triangle's edges keep more than `margin` away. Exact
   /// likewise. (Through the edge between two triangles is not through either.)
-  bool surely_crosses(const Vec3& from, const Vec3& to, double margin) const;
+  bool surely_crosses(const Vec3& from, const Vec3& to, double margin) const override;
 
   /// The truth about `center` and this one triangle.
-  GroundTruth solve(const Vec3& center, std::uint32_t triangle) const;
+  GroundTruth solve(const Vec3& center, std::uint32_t triangle) const override;
   /// On which side a finite point is; nothing where the mesh is not closed. Looks at every triangle.
-  std::optional<Side> side(const Vec3& center) const;
+  std::optional<Side> side(const Vec3& center) const override;
   /// Every triangle whose distance to `center` is at most `radius`, ascending. Exact.
-  std::vector<std::uint32_t> all_within(const Vec3& center, double radius) const;
+  std::vector<std::uint32_t> all_within(const Vec3& center, double radius) const override;
+
+  std::pair<std::size_t, std::size_t> named_by(const workload::Answer& answer) const override;
+  bool names_first(const GroundTruth& truth, const workload::Answer& answer) const override {
+    return answer.triangle == mesh().id(truth.triangle);
+  }
+  double largest_difference(const Vec3& center, std::uint32_t triangle) const override;
+  Interval distance_bounds(const Vec3& point, std::uint32_t triangle) const override;
+  Box bounds() const override;
 
   const TriangleMesh& mesh() const noexcept;
   unsigned threads() const noexcept;

@@ -48,18 +48,17 @@ void AnswerJudge::sweep(const SweepGroundTruth& truth, const Sweep& sweep, const
     ++counts.missed;
   } else {
     const bool claims_exactness = answer.fraction > 0 && accuracy_.guarantee == Guarantee::exact;
-    const double early = claims_exactness ? sweep_gap(sweep, answer.triangle) : 0;
+    const double early = claims_exactness ? sweep_gap(sweep, answer) : 0;
     contact(there, position, answer, position_error + early, counts);
   }
 }
 
 /// By how much the distance at the fraction told may exceed the radius, of the triangle named.
-double AnswerJudge::sweep_gap(const Sweep& sweep, TriangleId id) const {
+double AnswerJudge::sweep_gap(const Sweep& sweep, const workload::Answer& answer) const {
   double largest = 0;
-  const auto [begin, end] = positions_of(oracle_.mesh(), id);
+  const auto [begin, end] = oracle_.named_by(answer);
   for (std::size_t i = begin; i < end; ++i)
-    for (const Vec3& v : triangle_of(oracle_.mesh(), static_cast<std::uint32_t>(i)))
-      largest = std::max(largest, (sweep.from - v).cwiseAbs().maxCoeff());
+    largest = std::max(largest, oracle_.largest_difference(sweep.from, static_cast<std::uint32_t>(i)));
   return max_early_gap(largest, (sweep.to - sweep.from).cwiseAbs().maxCoeff());
 }
 
@@ -76,7 +75,7 @@ void AnswerJudge::exact_sweep(const SweepGroundTruth& truth, const Sweep& sweep,
     ++(at_start ? counts.false_contacts : counts.missed);
     return;
   }
-  const double early = at_start ? 0 : sweep_gap(sweep, answer.triangle);
+  const double early = at_start ? 0 : sweep_gap(sweep, answer);
   constexpr double first_of_all = std::numeric_limits<double>::denorm_min();  // there is none before it
   if (answer.fraction > first_of_all && oracle_.touches_before(sweep, answer.fraction)) {
     ++counts.missed;

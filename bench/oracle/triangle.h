@@ -5,12 +5,19 @@
 #include <cstdint>
 
 #include "core/probe.h"
+#include "core/scene/pose.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::bench::oracle {
 
 /// Three corners as stored, any of which may coincide or be collinear.
 using Triangle = std::array<Vec3, 3>;
+
+/// A triangle of a body: the image of each corner is rotation * corner + translation, in exact arithmetic.
+struct PlacedTriangle {
+  Triangle corners;
+  const Pose* pose;
+};
 
 inline Triangle triangle_of(const TriangleMesh& mesh, std::uint32_t index) {
   return {mesh.corner(index, 0), mesh.corner(index, 1), mesh.corner(index, 2)};

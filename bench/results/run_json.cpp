@@ -43,11 +43,13 @@ const char* name_of(Simd simd) {
 }
 
 Json mesh_json(const workload::Workload& workload) {
-  return {{"name", workload.mesh_name},
-          {"vertices", workload.mesh.vertices().size()},
-          {"triangles", workload.mesh.size()},
-          {"diagonal", workload.mesh.diagonal()},
-          {"fnv1a", support::hex(workload::hash_of(workload.mesh))}};
+  Json json = {{"name", workload.mesh_name},
+               {"vertices", workload.mesh.vertices().size()},
+               {"triangles", workload.triangles()},
+               {"diagonal", workload.mesh.diagonal()},
+               {"fnv1a", support::hex(workload::hash_of(workload.mesh))}};
+  if (workload.scene) json["bodies"] = workload.scene->bodies.size();
+  return json;
 }
 
 /// A file's own times, and speeds where the unit is known.

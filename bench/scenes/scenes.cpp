@@ -1,5 +1,6 @@
 #include "bench/scenes/scenes.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -288,6 +289,12 @@ std::vector<SceneInfo> scenes() {
   for (const SizedScene& scene : sized_scenes())
     infos.push_back({scene.form, scene.description, scene.example});
   return infos;
+}
+
+bool is_named(const std::string& text) {
+  const std::string name = text.substr(0, text.find_first_of(":@"));
+  const std::vector<SceneInfo> known = scenes();
+  return std::ranges::any_of(known, [&](const SceneInfo& scene) { return name_in(scene.name) == name; });
 }
 
 std::string default_scene() { return has_bunny() ? "bunny" : "icosphere:6"; }

@@ -19,6 +19,9 @@ struct SceneInfo {
 
 std::vector<SceneInfo> scenes();
 
+/// Returns true if the text begins with a scene's name, whatever follows it; else it is a file's path.
+bool is_named(const std::string& text);
+
 /// ${TOUCHMARK_DATA:-${XDG_CACHE_HOME:-~/.cache}/touchmark}, where scripts/setup puts what it fetches.
 std::filesystem::path data_folder();
 

@@ -14,9 +14,9 @@ struct Length {
   double value = 0;
   bool percent = false;
 
-  double in_mesh_units(const TriangleMesh& mesh) const noexcept {
-    return percent ? value / 100 * mesh.diagonal() : value;
-  }
+  double in_mesh_units(const TriangleMesh& mesh) const noexcept { return along(mesh.diagonal()); }
+  /// Returns it where 100 % is that diagonal.
+  double along(double diagonal) const noexcept { return percent ? value / 100 * diagonal : value; }
 };
 
 /// 0 or more, "inf" allowed. Nothing when it is anything else.

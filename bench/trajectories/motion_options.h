@@ -25,6 +25,9 @@ struct MotionOptions {
   std::optional<ChosenColumns> columns;  ///< nothing: by the names that motion_columns.h lists
   double scale = 1;                      ///< factor on the coordinates and on the file's radii, to mesh units
   std::optional<double> rate_hz;         ///< the rate to which the motion is resampled by its times
+  /// The times are those of a scene that moves: rows may lie any time apart, and of a file without times the
+  /// rate is that of its rows.
+  bool of_a_scene = false;
 
   bool are_given() const noexcept { return columns || scale != 1 || rate_hz; }
 };

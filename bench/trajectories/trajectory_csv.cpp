@@ -34,7 +34,8 @@ class MotionReader {
         numbers_(file),
         columns_(read_motion_header(file, options.columns, row_)),
         motion_{path, {}, {}, {}} {
-    if (options.rate_hz && !columns_.time)
+    if (options.of_a_scene && !columns_.time) options_.rate_hz.reset();
+    if (options_.rate_hz && !columns_.time)
       throw file.error("--rate needs times, and the header has no column time_s (or --columns name none)");
   }
 
@@ -51,7 +52,7 @@ class MotionReader {
 
   support::CsvReader& file_;
   std::size_t max_;
-  const MotionOptions& options_;
+  MotionOptions options_;
   NumberReader numbers_;
   std::vector<std::string> row_;  // at first what was read in search of a header
   MotionColumns columns_;
@@ -140,7 +141,7 @@ void MotionReader::check_times() {
     const double steps = max_ == 0 ? ticks : std::min(ticks, static_cast<double>(max_));
     support::require_memory(fmt::format("trajectory {}: {:.0f} steps", motion_.name, steps),
                             bytes_a_tick * steps);
-  } else if (const std::size_t row = first_gap(times)) {
+  } else if (const std::size_t row = options_.of_a_scene ? 0 : first_gap(times)) {
     fail(lines_[row],
          fmt::format("column {}: {:.6g} s after the row before, longer than the usual interval: rows "
                      "are not evenly spaced; --rate HZ resamples them",

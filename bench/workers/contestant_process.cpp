@@ -26,8 +26,8 @@ void pass_on(const std::vector<std::string>& remarks, const std::string& contest
 SharedArena::SharedArena(const workload::Workload& workload, WorkerOptions options,
                          std::size_t min_output_steps)
     : options_(std::move(options)),
-      layout_(layout_of(workload.mesh, workload.traces, min_output_steps)),
-      input_(write_input(workload.mesh, workload.traces)),
+      layout_(layout_of(workload, min_output_steps)),
+      input_(write_input(workload)),
       output_(SharedMemory::create(OutputBuffers::bytes_for(layout_.output_steps()))),
       buffers_(output_.bytes(), layout_.output_steps()) {}
 

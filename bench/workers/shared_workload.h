@@ -2,26 +2,34 @@
 /// workers answer into. Only one worker works at a time, so they share these.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "bench/bodies/schedule.h"
 #include "bench/contestants/contestant.h"
 #include "bench/workers/paced_replay.h"
 #include "bench/workers/shared_memory.h"
 #include "bench/workload/answer.h"
+#include "bench/workload/workload.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::bench::workers {
 
 /// The sizes of what lies one after the other in the input: vertices, corners, ids, then each trace's steps.
+/// Of a scene it is each shape's vertices, corners and ids; then, after the steps, the bodies, and each
+/// trace's schedule.
 struct WorkloadLayout {
   std::size_t vertices = 0;
   std::size_t triangles = 0;
   std::size_t ids = 0;
   std::vector<std::size_t> trace_steps;
-  std::size_t min_output_steps = 0;  ///< the output has room for more than the longest trace
+  std::vector<std::array<std::size_t, 3>> shapes;  ///< vertices, triangles and ids of each of a scene
+  std::size_t bodies = 0;                          ///< how many a scene has; 0: it is a mesh
+  std::vector<std::size_t> trace_moves;            ///< one a trace of a scene; 0: nothing moves
+  std::size_t min_output_steps = 0;                ///< the output has room for more than the longest trace
 
   std::size_t input_bytes() const noexcept;
   /// How many steps the output has room for.
@@ -52,11 +60,14 @@ class OutputBuffers {
 };
 
 /// The program's side: fills the input. Throws ResourceError when memory is short.
-SharedMemory write_input(const TriangleMesh& mesh, const std::vector<std::vector<workload::Step>>& traces);
-WorkloadLayout layout_of(const TriangleMesh& mesh, const std::vector<std::vector<workload::Step>>& traces,
-                         std::size_t min_output_steps = 0);
+SharedMemory write_input(const workload::Workload& workload);
+WorkloadLayout layout_of(const workload::Workload& workload, std::size_t min_output_steps = 0);
 
-/// The worker's side.
+/// The worker's side. read_mesh is of a workload without a scene, read_scene and read_schedules of one with
+/// a scene; the schedules lie where the input does.
+bodies::PlacedScene read_scene(std::span<const std::byte> input, const WorkloadLayout& layout);
+std::vector<bodies::ScheduleView> read_schedules(std::span<const std::byte> input,
+                                                 const WorkloadLayout& layout);
 TriangleMesh read_mesh(std::span<const std::byte> input, const WorkloadLayout& layout);
 std::vector<std::vector<workload::Step>> read_traces(std::span<const std::byte> input,
                                                      const WorkloadLayout& layout);

@@ -123,6 +123,7 @@ Timed sample_throughput(contestants::Contestant& contestant, const workload::Que
   const auto pass = [&] {
     workload::Checksum checksum;
     for (const workload::StepRange& range : ranges) {
+      contestant.stand_at(trace, range.begin);
       const SampleClock clock;
       for (std::int64_t i = 0; i < replays; ++i) {
         if (i > 0) answers.add(std::exchange(checksum, workload::Checksum()));
@@ -137,6 +138,25 @@ Timed sample_throughput(contestants::Contestant& contestant, const workload::Que
   run_passes(pass, passes, static_cast<double>(workload::steps_in(ranges)) * static_cast<double>(replays),
              result);
   return result;
+}
+
+Timed clock_steps(contestants::Contestant& contestant, const workload::QueryTrace& trace,
+                  const std::vector<workload::StepRange>& ranges, OutputBuffers& buffers) {
+  const std::span<std::uint64_t> ticks = buffers.ticks(workload::steps_in(ranges));
+  const std::span<std::uint64_t> prepare_ticks = buffers.prepare_ticks(ticks.size());
+  // No page fault inside a timed step.
+  std::fill(ticks.begin(), ticks.end(), 0);
+  std::fill(prepare_ticks.begin(), prepare_ticks.end(), 0);
+  workload::Checksum checksum;
+  std::size_t done = 0;
+  const auto start = std::chrono::steady_clock::now();
+  for (const workload::StepRange& range : ranges) {
+    contestant.replay_clocked(trace, range, checksum, ticks.subspan(done, range.size()),
+                              prepare_ticks.subspan(done, range.size()));
+    done += range.size();
+  }
+  const std::chrono::duration<double, std::nano> elapsed = std::chrono::steady_clock::now() - start;
+  return Timed{elapsed.count() / static_cast<double>(done), 0, checksum.value(), true, {}};
 }
 
 }  // namespace touchmark::bench::workers

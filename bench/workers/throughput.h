@@ -1,5 +1,5 @@
-/// Throughput by Google Benchmark: how long a query takes when a trajectory is replayed as fast as it goes.
-/// The clock is read between ranges only, never inside the loop over steps. Runs in a worker.
+/// Throughput by Google Benchmark: how long a query takes when a trajectory is replayed as fast as it goes,
+/// with the clock read between ranges only; and the times of single steps. Runs in a worker.
 #pragma once
 
 #include <cstdint>
@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bench/contestants/contestant.h"
+#include "bench/workers/shared_workload.h"
 #include "bench/workers/worker_protocol.h"
 
 namespace touchmark::bench::workers {
@@ -25,5 +26,10 @@ Timed measure_throughput(contestants::Contestant& contestant, const workload::Qu
 Timed sample_throughput(contestants::Contestant& contestant, const workload::QueryTrace& trace,
                         const std::vector<workload::StepRange>& ranges, std::int64_t passes,
                         std::int64_t replays);
+
+/// Replays all ranges once with the clock read at each step. The ticks that steps took, and those that the
+/// detector prepared for, are left in the buffers.
+Timed clock_steps(contestants::Contestant& contestant, const workload::QueryTrace& trace,
+                  const std::vector<workload::StepRange>& ranges, OutputBuffers& buffers);
 
 }  // namespace touchmark::bench::workers

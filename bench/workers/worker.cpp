@@ -27,6 +27,7 @@
 #include "bench/support/system_limit.h"
 #include "bench/workers/cache_lines.h"
 #include "bench/workers/cold_replay.h"
+#include "bench/workers/geometry.h"
 #include "bench/workers/line_channel.h"
 #include "bench/workers/servo_stretch.h"
 #include "bench/workers/shared_memory.h"
@@ -93,7 +94,9 @@ class Worker {
     return {};
   }
 
-  workload::QueryTrace trace_of(const Task& task) const { return {task.query, traces_.at(task.trace)}; }
+  workload::QueryTrace trace_of(const Task& task) const {
+    return {task.query, traces_.at(task.trace), layout_.bodies > 0 ? &schedules_.at(task.trace) : nullptr};
+  }
   std::vector<workload::StepRange> ranges_of(const Task& task) const {
     return task.ranges.empty() ? workload::sample_steps(traces_.at(task.trace).size(), task.steps)
                                : task.ranges;
@@ -108,8 +111,9 @@ class Worker {
   SharedMemory output_;
   WorkloadLayout layout_;
   std::optional<OutputBuffers> buffers_;
-  std::optional<TriangleMesh> mesh_;
+  std::optional<Geometry> geometry_;
   std::vector<std::vector<workload::Step>> traces_;
+  std::vector<bodies::ScheduleView> schedules_;
   std::optional<contestants::ContestantSpec> spec_;
   std::unique_ptr<contestants::Contestant> contestant_;
 };
@@ -118,8 +122,9 @@ Opened Worker::handle(const request::Open& request) {
   Opened opened;
   opened.flushed_to_zero = support::restore_denormals();
   layout_ = request.layout;
-  mesh_ = read_mesh(input_.bytes(), layout_);
+  geometry_.emplace(input_.bytes(), layout_);
   traces_ = read_traces(input_.bytes(), layout_);
+  schedules_ = read_schedules(input_.bytes(), layout_);
   buffers_.emplace(output_.bytes(), layout_.output_steps());
   const contestants::ClockCalibration clock =
       request.calibrate_clock ? contestants::calibrate_clock() : contestants::ClockCalibration{};
@@ -130,14 +135,15 @@ Opened Worker::handle(const request::Open& request) {
 
 double Worker::timed_build() {
   contestant_.reset();
-  roster_->require_memory_for(*spec_, mesh_->size());
+  roster_->require_memory_for(*spec_, geometry_->triangles());
   const Clock::time_point start = Clock::now();
-  contestant_ = roster_->build(*spec_, *mesh_);
+  contestant_ = geometry_->build(*roster_, *spec_);
   return ns_since(start);
 }
 
 Built Worker::handle(const request::Build& request) {
   contestants::take_remarks();
+  contestants::take_choice();
   Built reply;
   const auto refuse = [&](std::string why) {
     contestant_.reset();
@@ -157,11 +163,12 @@ Built Worker::handle(const request::Build& request) {
     refuse(error.what());
   }
   reply.remarks = contestants::take_remarks();
+  reply.choice = contestants::take_choice();
   return reply;
 }
 
 Built Worker::built() {
-  if (!mesh_) mesh_ = read_mesh(input_.bytes(), layout_);
+  if (!geometry_) geometry_.emplace(input_.bytes(), layout_);
   Built built;
   const std::uint64_t heap_before = heap_in_use();
   std::vector<double> times_ns{timed_build()};
@@ -171,7 +178,7 @@ Built Worker::built() {
   constexpr double short_build_ns = 20e6;
   while (times_ns.size() < 5 && times_ns.front() < short_build_ns) times_ns.push_back(timed_build());
   built.build_ms = support::median(times_ns) / 1e6;
-  mesh_.reset();  // detectors hold copies of what they need
+  geometry_.reset();  // detectors hold copies of what they need
   built.bytes = contestant_->bytes();
   built.accuracy = contestant_->accuracy();
   for (const workload::Query query : workload::all_queries) {
@@ -192,7 +199,7 @@ Timed Worker::timed_replay(const workload::QueryTrace& trace,
 }
 
 Updated Worker::handle(const request::Update& request) {
-  if (!contestant_->updates()) return {};
+  if (!contestant_->updates() || layout_.bodies > 0) return {};
   return time_updates(*contestant_, *roster_, *spec_, read_mesh(input_.bytes(), layout_),
                       request.deformation);
 }
@@ -268,22 +275,7 @@ Timed Worker::handle(const request::Sample& request) {
 }
 
 Timed Worker::handle(const request::Latency& request) {
-  const workload::QueryTrace trace = trace_of(request.task);
-  const std::vector<workload::StepRange> ranges = ranges_of(request.task);
-  const std::span<std::uint64_t> ticks = buffers_->ticks(workload::steps_in(ranges));
-  const std::span<std::uint64_t> prepare_ticks = buffers_->prepare_ticks(ticks.size());
-  // No page fault inside a timed step.
-  std::fill(ticks.begin(), ticks.end(), 0);
-  std::fill(prepare_ticks.begin(), prepare_ticks.end(), 0);
-  workload::Checksum checksum;
-  std::size_t done = 0;
-  const Clock::time_point start = Clock::now();
-  for (const workload::StepRange& range : ranges) {
-    contestant_->replay_clocked(trace, range, checksum, ticks.subspan(done, range.size()),
-                                prepare_ticks.subspan(done, range.size()));
-    done += range.size();
-  }
-  return Timed{ns_since(start) / static_cast<double>(done), 0, checksum.value(), true, {}};
+  return clock_steps(*contestant_, trace_of(request.task), ranges_of(request.task), *buffers_);
 }
 
 void serve(Worker worker, LineChannel channel) {

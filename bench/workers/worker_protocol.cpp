@@ -35,14 +35,15 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Deformation, share, seed)
 
 namespace workers {
 
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WorkloadLayout, vertices, triangles, ids, trace_steps, min_output_steps)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WorkloadLayout, vertices, triangles, ids, trace_steps, shapes, bodies,
+                                   trace_moves, min_output_steps)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Pace, rate_hz, work_us, first_tick, overrun_ticks)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Task, trace, query, steps, ranges)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(NotStarted, error)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OutOfResources, what)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Opened, clock_cost_ns, ns_per_tick, flushed_to_zero)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Built, refused, build_ms, bytes, heap_bytes, accuracy, queries, prepares,
-                                   builds_lazily, remarks)
+                                   builds_lazily, remarks, choice)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Described, refused, name, summary, accuracy, queries, options)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Answered, checksum, work)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Timed, ns_per_query, cpu_ns_per_query, checksum, steady, work, samples,

@@ -21,7 +21,8 @@ struct Answer {
   double point[3] = {0, 0, 0};
   double normal[3] = {0, 0, 0};
   Side side = Side::unasked;
-  std::uint8_t unused[7] = {0, 0, 0, 0, 0, 0, 0};
+  std::uint8_t unused[3] = {0, 0, 0};
+  std::uint32_t body = 0;  ///< which of a scene's; 0 where there is one mesh
 
   static Answer of(const Contact& contact, double fraction = 0) {
     return {1,
@@ -30,7 +31,9 @@ struct Answer {
             contact.distance,
             {contact.point.x(), contact.point.y(), contact.point.z()},
             {contact.normal.x(), contact.normal.y(), contact.normal.z()},
-            contact.side};
+            contact.side,
+            {0, 0, 0},
+            0};
   }
 };
 static_assert(std::is_trivially_copyable_v<Answer> && sizeof(Answer) == 80);
@@ -42,7 +45,8 @@ class Checksum {
  public:
   void add(const Answer& answer) noexcept {
     const std::uint64_t said = answer.found + 2 * static_cast<std::uint64_t>(answer.side);
-    value_ = std::rotl(value_, 7) ^ (said * 0x9e3779b97f4a7c15ULL + answer.triangle) ^
+    const std::uint64_t named = (std::uint64_t{answer.body} << 32) + answer.triangle;
+    value_ = std::rotl(value_, 7) ^ (said * 0x9e3779b97f4a7c15ULL + named) ^
              std::bit_cast<std::uint64_t>(answer.distance) ^ std::bit_cast<std::uint64_t>(answer.fraction);
   }
   std::uint64_t value() const noexcept { return value_; }

@@ -9,19 +9,11 @@
 #include "bench/support/available_memory.h"
 #include "bench/support/progress.h"
 #include "bench/trajectories/trajectories.h"
+#include "bench/workload/query_name.h"
+#include "bench/workload/trace.h"
 
 namespace touchmark::bench::workload {
 namespace {
-
-std::vector<Step> trace_along(const trajectories::Trajectory& trajectory, double radius,
-                              std::optional<double> reach) {
-  std::vector<Step> trace(trajectory.size());
-  for (std::size_t i = 0; i < trace.size(); ++i) {
-    trace[i].probe = {trajectory.positions[i], trajectory.radii.empty() ? radius : trajectory.radii[i]};
-    trace[i].reach = reach.value_or(trace[i].probe.radius);
-  }
-  return trace;
-}
 
 /// A recorded trajectory is replayed whole unless --steps says otherwise (0 stands for that).
 std::size_t steps_of(const std::string& name, const Selection& selection, std::size_t default_steps) {
@@ -40,21 +32,6 @@ void require_memory_for(const std::vector<std::string>& trajectories, const Sele
     steps += static_cast<double>(steps_of(name, selection, default_steps));
   support::require_memory(fmt::format("trajectory {}: {:.0f} steps", fmt::join(trajectories, ", "), steps),
                           steps * bytes_a_step);
-}
-
-/// A step is a millisecond where no times say otherwise.
-Pace pace_of(const trajectories::Trajectory& trajectory) {
-  Pace motion{0, 0, trajectory.recorded};
-  double length = 0, duration = 0;
-  for (std::size_t i = 1; i < trajectory.size(); ++i) {
-    const double piece = (trajectory.positions[i] - trajectory.positions[i - 1]).stableNorm();
-    const double time = trajectory.times_s.empty() ? 1e-3 : trajectory.times_s[i] - trajectory.times_s[i - 1];
-    length += piece;
-    duration += time;
-    motion.max_speed = std::max(motion.max_speed, piece / time);
-  }
-  if (duration > 0) motion.mean_speed = length / duration;
-  return motion;
 }
 
 void say_that_rows_are_steps(const trajectories::Trajectory& trajectory) {
@@ -77,6 +54,30 @@ void expect_a_motion_file(const std::vector<std::string>& trajectories,
 }
 
 }  // namespace
+
+std::vector<Step> trace_along(const trajectories::Trajectory& trajectory, double radius,
+                              std::optional<double> reach) {
+  std::vector<Step> trace(trajectory.size());
+  for (std::size_t i = 0; i < trace.size(); ++i) {
+    trace[i].probe = {trajectory.positions[i], trajectory.radii.empty() ? radius : trajectory.radii[i]};
+    trace[i].reach = reach.value_or(trace[i].probe.radius);
+  }
+  return trace;
+}
+
+Pace pace_of(const trajectories::Trajectory& trajectory) {
+  Pace motion{0, 0, trajectory.recorded};
+  double length = 0, duration = 0;
+  for (std::size_t i = 1; i < trajectory.size(); ++i) {
+    const double piece = (trajectory.positions[i] - trajectory.positions[i - 1]).stableNorm();
+    const double time = trajectory.times_s.empty() ? 1e-3 : trajectory.times_s[i] - trajectory.times_s[i - 1];
+    length += piece;
+    duration += time;
+    motion.max_speed = std::max(motion.max_speed, piece / time);
+  }
+  if (duration > 0) motion.mean_speed = length / duration;
+  return motion;
+}
 
 Workload make_workload(std::string mesh_name, TriangleMesh mesh, const Selection& selection,
                        const std::vector<std::string>& trajectories, std::size_t default_steps) {
@@ -104,6 +105,14 @@ Workload make_workload(std::string mesh_name, TriangleMesh mesh, const Selection
 std::string length_text(const Workload& workload, double length) {
   return workload.unit ? fmt::format("{:.6g} {}", length, workload.unit->name)
                        : fmt::format("{:.6g}", length);
+}
+
+std::string question_text(const Workload& workload, Query query) {
+  const std::string bodies = workload.scene ? fmt::format("{} bodies, ", workload.scene->bodies.size()) : "";
+  return fmt::format("{}: {}{} triangles, {} within {}, radius {}", workload.mesh_name, bodies,
+                     workload.triangles(), name_of(query),
+                     length_text(workload, workload.reach.value_or(workload.radius)),
+                     length_text(workload, workload.radius));
 }
 
 std::string trace_text(const Workload& workload, std::size_t trace) {

@@ -6,6 +6,7 @@
 #include <new>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "core/mesh_io/mesh_file.h"
 #include "core/mesh_io/read_with_assimp.h"
@@ -33,6 +34,10 @@ void refuse_cad_files(const std::string& bytes, const std::string& ending) {
   }
 }
 
+bool is_read_here(const std::string& ending) {
+  return ending == ".ply" || ending == ".obj" || ending == ".off" || ending == ".stl";
+}
+
 TriangleMesh read(const std::string& bytes, const std::string& ending) {
   refuse_cad_files(bytes, ending);
   if (ending == ".ply") return mesh_io::read_ply(bytes);
@@ -42,16 +47,37 @@ TriangleMesh read(const std::string& bytes, const std::string& ending) {
   return mesh_io::read_with_assimp(bytes, ending);
 }
 
-}  // namespace
+NodeTree read_tree(const std::filesystem::path& path) {
+  const std::string ending = lower_case_ending(path);
+  const std::string bytes = mesh_io::read_file(path);
+  refuse_cad_files(bytes, ending);
+  if (!is_read_here(ending)) return mesh_io::read_tree_with_assimp(path, ending);
+  NodeTree tree;
+  tree.meshes.push_back(read(bytes, ending));
+  tree.nodes.push_back({path.stem().string(), 0, Eigen::Matrix3d::Identity(), Vec3::Zero()});
+  return tree;
+}
 
-TriangleMesh load_mesh(const std::filesystem::path& path) {
+/// Calls load(), whose errors then name the file.
+template <class Load>
+auto named(const std::filesystem::path& path, const Load& load) {
   try {
-    return read(mesh_io::read_file(path), lower_case_ending(path));
+    return load();
   } catch (const MeshError& error) {
     throw MeshError(path.string() + ": " + error.what());
   } catch (const std::bad_alloc&) {
     throw MeshError(path.string() + ": does not fit in memory");
   }
+}
+
+}  // namespace
+
+TriangleMesh load_mesh(const std::filesystem::path& path) {
+  return named(path, [&] { return read(mesh_io::read_file(path), lower_case_ending(path)); });
+}
+
+NodeTree load_node_tree(const std::filesystem::path& path) {
+  return named(path, [&] { return read_tree(path); });
 }
 
 }  // namespace touchmark

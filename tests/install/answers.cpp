@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <touchmark/aabb_tree.h>
+#include <touchmark/auto_detector.h>
 #include <touchmark/brute_force.h>
 #include <touchmark/clustering.h>
 #include <touchmark/float_tree.h>
@@ -149,6 +150,7 @@ int main() {
   SphereCluster::Options spheres;
   spheres.lookup = SphereCluster::Lookup::scan;
   ask("sphere cluster, scan", SphereCluster::build(mesh, spheres));
+  ask("auto", AutoDetector::build(mesh));
   ask("signed grid group", Signed<GridGroup>::build(mesh));
   ask("signed sphere cluster", Signed<SphereCluster>::build(mesh));
   try {

@@ -74,7 +74,7 @@ FUSED = ["-mfma", "-ffp-contract=fast"]  # as GCC has it with -march=native on m
 # 2^-40 and more of it for rounding.
 FUSED_WITHOUT_HARM = re.compile(r"touchmark::(Aabb::center|grid::DirectMemory::moved_less|"
                                 r"(SphereTree|grid::DirectGrid)::is_clear|"
-                                r"(GridGroup|SphereCluster|Signed<.*>)::(touches|nearest|first_hit|is_clear))\(")
+                                r"(GridGroup|SphereCluster|AutoDetector|Signed<.*>)::(ask|touches|nearest|first_hit|contacts|is_clear))\(")
 
 
 def run(*command, **options):

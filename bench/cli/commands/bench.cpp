@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/bodies/scene_source.h"
 #include "bench/cli/benchmark_flags.h"
 #include "bench/cli/commands/bench_reports.h"
 #include "bench/cli/commands/bench_suite.h"
@@ -92,16 +93,18 @@ class BenchRun {
   void end_trajectory(std::size_t trace);
   void save_so_far();
   void save(bool finished) const;
+  /// Writes every file that the run was asked for.
+  void leave(bool finished);
   bool wanted(const std::string& trajectory, const std::string& contestant) const {
     return flags_.wanted(contestant + "/" + trajectory);
   }
 
   std::size_t wanted_rows() const {
     std::size_t rows = 0;
-    for (const std::string& trajectory : workload_.trajectories)
-      rows += static_cast<std::size_t>(std::ranges::count_if(
-          selection_.contestants,
-          [&](const contestants::ContestantSpec& spec) { return wanted(trajectory, spec.text()); }));
+    for (const std::string& trajectory : workload_.trajectories) {
+      for (const contestants::ContestantSpec& spec : selection_.contestants)
+        rows += wanted(trajectory, spec.text()) ? 1 : 0;
+    }
     return rows;
   }
   const std::vector<std::string>& named() const {
@@ -125,11 +128,16 @@ class BenchRun {
 
 workload::Workload workload_for(const BenchOptions& options, const contestants::CheckedSelectors& selection) {
   const contestants::Selectors& selectors = options.selectors;
+  const std::vector<std::string>& named =
+      selectors.trajectories.empty() ? default_trajectories : selectors.trajectories;
+  const std::size_t steps = options.quick ? 5000 : 20000;
+  if (!selectors.scene.empty()) {
+    return workload::make_scene_workload(bodies::load_body_scene(selectors.scene, selectors.poses), selection,
+                                         named, steps);
+  }
   const std::string mesh = mesh_of(selectors);
-  return workload::make_workload(
-      results::without_directories(mesh), scenes::load_mesh(mesh, selectors.normalize), selection,
-      selectors.trajectories.empty() ? default_trajectories : selectors.trajectories,
-      options.quick ? 5000 : 20000);
+  return workload::make_workload(results::without_directories(mesh),
+                                 scenes::load_mesh(mesh, selectors.normalize), selection, named, steps);
 }
 
 BenchRun::BenchRun(const ProgramContext& context, const BenchOptions& options, const BenchmarkFlags& flags)
@@ -179,6 +187,13 @@ void BenchRun::save(bool finished) const {
                  results::run_json(description, workload_, comparison_->contestants()));
 }
 
+void BenchRun::leave(bool finished) {
+  save(finished);
+  step_outputs_->write(description_.run_id, workload_, *comparison_, rows_);
+  description_.finished = finished;
+  reports_.write(description_, rows_);
+}
+
 /// What has been timed in part counts as well, should it end here.
 void BenchRun::save_so_far() {
   std::vector<measurement::ResultRow> rows = rows_;
@@ -218,25 +233,17 @@ void BenchRun::end_trajectory(std::size_t trace) {
 
 int BenchRun::run() {
   support::watch_for_interrupts();
-  out_.write(fmt::format("{}: {} triangles, {} within {}, radius {}\n", workload_.mesh_name,
-                         workload_.mesh.size(), workload::name_of(description_.query),
-                         workload::length_text(workload_, workload_.reach.value_or(workload_.radius)),
-                         workload::length_text(workload_, workload_.radius)));
+  out_.write(workload::question_text(workload_, description_.query) + '\n');
   try {
     run_trajectories();
   } catch (const support::Interrupted&) {
     progress_.clear();
     std::ranges::move(comparison_->so_far(), std::back_inserter(rows_));
-    save(false);
-    step_outputs_->write(description_.run_id, workload_, *comparison_, rows_);
-    description_.finished = false;
-    reports_.write(description_, rows_);
+    leave(false);
     fmt::print(stderr, "touchmark: interrupted; {} finished rows are kept\n", rows_.size());
     return support::exit_interrupted;
   }
-  save(true);
-  step_outputs_->write(description_.run_id, workload_, *comparison_, rows_);
-  reports_.write(description_, rows_);
+  leave(true);
   std::vector<measurement::ResultRow> broken;  // what others err by is in the table
   std::copy_if(rows_.begin(), rows_.end(), std::back_inserter(broken), results::claim_is_broken);
   const std::string failures = results::list_of_failures(broken, faulty_rows_shown);
@@ -247,21 +254,6 @@ int BenchRun::run() {
   return rows_.empty() ? support::exit_done : results::status_of(rows_, faulty);
 }
 
-void add_suite(CLI::App& command, BenchOptions& options) {
-  CLI::Option* const suite = command.add_flag("--suite", options.suite,
-                                              "a score over many scenes, motions, speeds, queries and "
-                                              "reaches instead; with --mesh on that mesh alone");
-  command
-      .add_option("--cells", options.cells, "of the suite: how many a scene, or all; default: 12, quick 2")
-      ->type_name("N")
-      ->needs(suite);
-  command
-      .add_option("--minutes", options.minutes,
-                  "of the suite: what does not fit is left out and said so; default: 15, quick 1.5")
-      ->type_name("M")
-      ->needs(suite);
-}
-
 }  // namespace
 
 void add_bench(CLI::App& program, ProgramContext& context) {
@@ -269,6 +261,7 @@ void add_bench(CLI::App& program, ProgramContext& context) {
   CLI::App* command =
       program.add_subcommand("bench", "verify and time contestants on identical trajectories");
   add_selectors(*command, context, options->selectors);
+  add_scene_selectors(*command, options->selectors);
   add_unit(*command, options->selectors.unit);
   command->add_option("--out", options->out, "folder for results.csv, run.json and steps.bin")
       ->type_name("DIR");
@@ -284,7 +277,7 @@ void add_bench(CLI::App& program, ProgramContext& context) {
   command->add_flag("--cache-lines", options->cache_lines,
                     "also how many cache lines a query touches, as valgrind counts them");
   command->add_flag("--quick", options->quick, "fewer steps and repetitions");
-  add_suite(*command, *options);
+  add_suite(*command, options->suite, options->cells, options->minutes);
   add_markdown(*command, options->reports);
   add_worker_selectors(*command, options->workers);
   command->allow_extras();
@@ -293,10 +286,10 @@ void add_bench(CLI::App& program, ProgramContext& context) {
       "--benchmark_min_time=0.2, --benchmark_filter=REGEX on contestant/trajectory, and\n"
       "--benchmark_out=FILE for Google Benchmark's own JSON.\n"
       "Example: touchmark bench --mesh bunny --trajectory slide --detector grid-group --detector "
-      "fcl:bv=obbrss "
-      "--out results/today\n"
+      "fcl:bv=obbrss --out results/today\n"
       "         touchmark bench --mesh part.stl --unit mm --trajectory hand.csv --motion-scale 1000 --rate "
       "1000\n"
+      "         touchmark bench --scene heap:1000:motion=all --radius 0.1%\n"
       "         touchmark bench --suite --quick --out results/suite\n");
   command->final_callback([options, command, &context] {
     const BenchmarkFlags flags = parse_benchmark_flags(command->remaining());

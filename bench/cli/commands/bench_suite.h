@@ -26,6 +26,9 @@ struct SuiteOptions {
 /// An exit status. Throws std::invalid_argument, MeshError or ResourceError.
 int run_suite(const ProgramContext& context, const SuiteOptions& options);
 
+/// Adds --suite and the options that go with it alone.
+void add_suite(CLI::App& command, bool& suite, std::string& cells, std::string& minutes);
+
 /// Throws std::invalid_argument for an option of `bench` that the suite chooses itself.
 void expect_options_of_suite(const CLI::App& command);
 

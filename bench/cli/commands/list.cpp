@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/bodies/generated_bodies.h"
 #include "bench/cli/plugin_option.h"
 #include "bench/cli/program.h"
 #include "bench/scenes/scenes.h"
@@ -30,7 +31,8 @@ std::string description_of(const contestants::ContestantInfo& contestant) {
   std::string text = fmt::format("  {}{}\n      {}\n", contestant.name,
                                  contestant.built() ? "" : "  (not built)", contestant.summary);
   if (!contestant.built()) return text;
-  text += fmt::format("      answers {}; {}\n", fmt::join(queries, ", "), contestant.accuracy);
+  text += fmt::format("      answers {}; {}{}\n", fmt::join(queries, ", "), contestant.accuracy,
+                      contestant.build_scene ? "; takes scenes of bodies" : "");
   for (const contestants::OptionInfo& option : contestant.options) text += description_of(option);
   return text;
 }
@@ -44,6 +46,11 @@ std::string list(const contestants::Roster& roster) {
     text += fmt::format("  {:<28}{}{}\n", scene.name, scene.description,
                         scene.available ? "" : "  (not installed)");
   }
+  text += "\nscenes of bodies: --scene NAME[:motion=M], a .json file, or any file with a node tree\n";
+  for (const bodies::BodySceneInfo& scene : bodies::body_scenes())
+    text += fmt::format("  {:<28}{}\n", scene.name, scene.description);
+  for (const bodies::BodySceneInfo& motion : bodies::body_motions())
+    text += fmt::format("  {:<28}{}\n", ":motion=" + motion.name, motion.description);
   text +=
       "\ntrajectories: --trajectory NAME, or a motion file: CSV with columns x,y,z and perhaps time_s, "
       "radius\n";

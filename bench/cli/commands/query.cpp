@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/bodies/scene_source.h"
 #include "bench/cli/program.h"
 #include "bench/cli/selector_options.h"
 #include "bench/cli/single_step.h"
@@ -75,10 +76,14 @@ void check_there_is_one(const contestants::Selectors& selectors) {
 
 workload::Workload workload_for(const contestants::Selectors& selectors,
                                 const contestants::CheckedSelectors& selection) {
-  const std::string mesh = selectors.meshes.empty() ? scenes::default_scene() : selectors.meshes.front();
   const std::vector<std::string> slide{"slide"};
-  return workload::make_workload(mesh, scenes::load_mesh(mesh, selectors.normalize), selection,
-                                 selectors.trajectories.empty() ? slide : selectors.trajectories, 0);
+  const std::vector<std::string>& named = selectors.trajectories.empty() ? slide : selectors.trajectories;
+  if (!selectors.scene.empty()) {
+    return workload::make_scene_workload(bodies::load_body_scene(selectors.scene, selectors.poses), selection,
+                                         named, 0);
+  }
+  const std::string mesh = selectors.meshes.empty() ? scenes::default_scene() : selectors.meshes.front();
+  return workload::make_workload(mesh, scenes::load_mesh(mesh, selectors.normalize), selection, named, 0);
 }
 
 /// A whole trajectory takes a slow contestant its time; there is Ctrl-C, and --timeout where nobody watches.
@@ -90,10 +95,10 @@ workers::WorkerOptions patient(const WorkerSelectors& selectors) {
 }
 
 void write_rows(RowSink& sink, workload::Query query, std::span<const workload::Step> trace,
-                std::span<const workload::Answer> answers, bool with_side) {
-  std::string rows = results::answer_header(query, with_side);
+                std::span<const workload::Answer> answers, const results::AnswerColumns& columns) {
+  std::string rows = results::answer_header(query, columns);
   for (std::size_t i = 0; i < trace.size(); ++i) {
-    results::append_answer_row(rows, query, i, trace[i], answers[i], with_side);
+    results::append_answer_row(rows, query, i, trace[i], answers[i], columns);
     if (rows.size() < block_size) continue;
     support::check_for_interrupt();
     if (!sink.write(rows)) return;
@@ -135,7 +140,7 @@ void run_query(const QueryOptions& options, const contestants::Roster& roster) {
     explain(failure, spec.text());
   }
   write_rows(sink, query, trace, arena.buffers().answers(trace.size()),
-             contestants::asks_for_side(spec.values));
+             {contestants::asks_for_side(spec.values), workload.scene.get()});
 }
 
 }  // namespace
@@ -145,6 +150,7 @@ void add_query(CLI::App& program, ProgramContext& context) {
   CLI::App* command =
       program.add_subcommand("query", "one contestant's answer to every step of a trajectory, as CSV");
   add_selectors(*command, context, options->selectors);
+  add_scene_selectors(*command, options->selectors);
   command->add_option("--csv", options->csv, "where the rows go instead of standard output")
       ->type_name("FILE");
   CLI::Option* step = command->add_option(
@@ -165,6 +171,9 @@ void add_query(CLI::App& program, ProgramContext& context) {
       "         touchmark query --mesh part.stl --trajectory hand.csv --columns x=2,y=3,z=4,time_ms=1 --rate "
       "1000 "
       "--detector grid-group\n"
+      "         touchmark query --scene parts.json --poses parts.csv --detector sphere-cluster --trajectory "
+      "hand.csv\n"
+      "With --scene a last column names the body.\n"
       "With the option side=on (--detector grid-group:side=on) a last column tells inside from outside.\n");
   command->final_callback([options, &context] {
     support::watch_for_interrupts();

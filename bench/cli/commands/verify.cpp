@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/bodies/scene_source.h"
 #include "bench/cli/program.h"
 #include "bench/cli/repeat_command.h"
 #include "bench/cli/report_files.h"
@@ -79,6 +80,8 @@ class VerifyRun {
 
  private:
   void verify_mesh(const std::string& mesh);
+  void verify_scene();
+  void verify_workload(const workload::Workload& workload, const std::string& mesh);
   int report(bool finished);
 
   const contestants::Roster& roster_;
@@ -96,6 +99,17 @@ void VerifyRun::verify_mesh(const std::string& mesh) {
   const workload::Workload workload = workload::make_workload(
       results::without_directories(mesh), scenes::load_mesh(mesh, options_.selectors.normalize), selection_,
       trajectories_for(options_), steps);
+  verify_workload(workload, mesh);
+}
+
+void VerifyRun::verify_scene() {
+  const contestants::Selectors& selectors = options_.selectors;
+  verify_workload(workload::make_scene_workload(bodies::load_body_scene(selectors.scene, selectors.poses),
+                                                selection_, trajectories_for(options_), steps_on_every_scene),
+                  selectors.scene);
+}
+
+void VerifyRun::verify_workload(const workload::Workload& workload, const std::string& mesh) {
   measurement::Comparison comparison(roster_, workload, selection_.contestants, workers_,
                                      measurement::accuracy_effort, selection_.seed);
   comparison.set_progress([&](const std::string& trajectory, const std::string& contestant) {
@@ -139,7 +153,11 @@ int VerifyRun::run() {
   support::watch_for_interrupts();
   support::restore_denormals();
   try {
-    for (const std::string& mesh : meshes_for(options_)) verify_mesh(mesh);
+    if (!options_.selectors.scene.empty()) {
+      verify_scene();
+    } else {
+      for (const std::string& mesh : meshes_for(options_)) verify_mesh(mesh);
+    }
   } catch (const support::Interrupted&) {
     return report(false);
   }
@@ -153,16 +171,20 @@ void add_verify(CLI::App& program, ProgramContext& context) {
   options->selectors.query = "all";
   CLI::App* command = program.add_subcommand("verify", "check contestants' answers against the exact oracle");
   add_selectors(*command, context, options->selectors, contestants::Variety::many);
+  add_scene_selectors(*command, options->selectors);
   command->add_option("--out", options->out, "folder for results.csv")->type_name("DIR");
   add_junit(*command, options->reports);
   add_markdown(*command, options->reports);
   add_worker_selectors(*command, options->workers);
   command->footer(
       "Without --mesh: every scene that needs no file, also at an offset of 1e6 and scaled by 1e-6 and 1e6.\n"
+      "With --scene: 200 steps of each trajectory, unless --steps says otherwise; images of triangles are "
+      "exact.\n"
       "Exit status 1 if a contestant that claims exactness is wrong, crashes or does not come back; 3 if "
       "memory or\n"
       "another limit of the machine kept one from being judged; 4 if nothing was judged.\n"
-      "Example: touchmark verify --mesh bunny --trajectory slide --detector grid-group --radius 0.5%\n");
+      "Example: touchmark verify --mesh bunny --trajectory slide --detector grid-group --radius 0.5%\n"
+      "         touchmark verify --scene heap:100:motion=all\n");
   command->final_callback(
       [options, &context] { context.status = VerifyRun(context.roster, *options).run(); });
 }

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "bench/contestants/entry.h"
+#include "bench/contestants/own_scene.h"
 #include "core/aabb_tree/float_tree.h"
 
 namespace touchmark::bench::contestants {
@@ -36,6 +37,14 @@ ContestantInfo aabb_tree_entry() {
     }
     return contestant<AabbTree>(mesh, {leaf_size, chosen(values, "certified", yes_or_no), threads}, values);
   };
+  info.build_scene = [=](const bodies::PlacedScene& scene, const OptionValues& values) {
+    if (in_floats(values))
+      throw std::invalid_argument("precision=float is of one mesh, not of a scene of bodies");
+    return build_own_scene<AabbTree>([](const TriangleMesh&, const OptionValues& chosen_values) {
+      return AabbTree::Options{chosen_values.count("leaf_size"),
+                               chosen(chosen_values, "certified", yes_or_no)};
+    })(scene, values);
+  };
   info.storage_rounding = [=](const TriangleMesh& mesh,
                               const OptionValues& values) -> std::optional<StorageRounding> {
     if (!in_floats(values)) return std::nullopt;
@@ -48,6 +57,7 @@ ContestantInfo aabb_tree_entry() {
                 .frontier = {"", "certified=false", "precision=float"},
                 .scaled = {""},
                 .updated = {""},
+                .scenes = {""},
                 .tested = {"leaf_size=1", "threads=2"}};
   return info;
 }

@@ -1,6 +1,7 @@
 #include "core/brute_force/brute_force.h"
 
 #include "bench/contestants/entry.h"
+#include "bench/contestants/own_scene.h"
 
 namespace touchmark::bench::contestants {
 
@@ -15,6 +16,8 @@ ContestantInfo brute_force_entry() {
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
     return contestant<BruteForce>(mesh, {}, values);
   };
+  info.build_scene = build_own_scene<BruteForce>(
+      [](const TriangleMesh&, const OptionValues&) { return BruteForce::Options(); });
   info.library = {"brute_force", "BruteForce"};
   info.forms = {.compared = {""}, .chosen = {""}, .updated = {""}};
   return info;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "bench/contestants/entry.h"
+#include "bench/contestants/own_scene.h"
 
 namespace touchmark::bench::contestants {
 
@@ -72,6 +73,19 @@ std::vector<OptionInfo> options() {
       side_option()};
 }
 
+GridGroup::Options options_of(const TriangleMesh& mesh, const OptionValues& values) {
+  GridGroup::Options options;
+  options.lookup = chosen(values, "lookup", lookups());
+  options.shape = chosen(values, "shape", shapes());
+  options.cell = values.length("cell", mesh);
+  options.groups = values.count("groups");
+  options.bytes_per_triangle = values.number("bytes_per_triangle");
+  options.certified = chosen(values, "certified", yes_or_no);
+  options.construction = chosen(values, "build", constructions());
+  options.threads = threads_of(values);
+  return options;
+}
+
 }  // namespace
 
 ContestantInfo grid_group_entry() {
@@ -83,20 +97,13 @@ ContestantInfo grid_group_entry() {
   info.queries = queries_of<GridGroup>();
   info.options = options();
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
-    GridGroup::Options options;
-    options.lookup = chosen(values, "lookup", lookups());
-    options.shape = chosen(values, "shape", shapes());
-    options.cell = values.length("cell", mesh);
-    options.groups = values.count("groups");
-    options.bytes_per_triangle = values.number("bytes_per_triangle");
-    options.certified = chosen(values, "certified", yes_or_no);
-    options.construction = chosen(values, "build", constructions());
-    options.threads = threads_of(values);
+    const GridGroup::Options options = options_of(mesh, values);
     const auto remark = [&](const GridGroup& detector) { return remark_on(detector, options, mesh.size()); };
     return chosen(values, "prepare", no_or_yes)
                ? contestant<GridGroup, Prefetch::on>(mesh, options, values, remark)
                : contestant<GridGroup>(mesh, options, values, remark);
   };
+  info.build_scene = build_own_scene<GridGroup>(&options_of);
   info.bytes_per_triangle = [](const OptionValues& values) {
     return values.text("lookup") == "direct" ? values.number("bytes_per_triangle")
                                              : support::min_bytes_per_triangle;
@@ -109,7 +116,8 @@ ContestantInfo grid_group_entry() {
                 .scaled = {""},
                 .chosen = {"bytes_per_triangle=300", "prepare=true"},
                 .updated = {""},
-                .suite = {""}};
+                .suite = {""},
+                .scenes = {""}};
   return info;
 }
 

@@ -1,6 +1,7 @@
 #include "core/sphere_cluster/sphere_cluster.h"
 
 #include "bench/contestants/entry.h"
+#include "bench/contestants/own_scene.h"
 
 namespace touchmark::bench::contestants {
 
@@ -51,6 +52,18 @@ std::vector<OptionInfo> options() {
       side_option()};
 }
 
+SphereCluster::Options options_of(const TriangleMesh& mesh, const OptionValues& values) {
+  SphereCluster::Options options;
+  options.lookup = chosen(values, "lookup", lookups());
+  options.clustering = values.length("clustering", mesh);
+  options.precise = chosen(values, "precise", yes_or_no);
+  options.certified = chosen(values, "certified", yes_or_no);
+  options.widest = chosen(values, "simd", widths());
+  options.construction = chosen(values, "build", constructions());
+  options.threads = threads_of(values);
+  return options;
+}
+
 }  // namespace
 
 ContestantInfo sphere_cluster_entry() {
@@ -62,18 +75,12 @@ ContestantInfo sphere_cluster_entry() {
   info.queries = queries_of<SphereCluster>();
   info.options = options();
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
-    SphereCluster::Options options;
-    options.lookup = chosen(values, "lookup", lookups());
-    options.clustering = values.length("clustering", mesh);
-    options.precise = chosen(values, "precise", yes_or_no);
-    options.certified = chosen(values, "certified", yes_or_no);
-    options.widest = chosen(values, "simd", widths());
-    options.construction = chosen(values, "build", constructions());
-    options.threads = threads_of(values);
+    const SphereCluster::Options options = options_of(mesh, values);
     return chosen(values, "prepare", no_or_yes)
                ? contestant<SphereCluster, Prefetch::on>(mesh, options, values)
                : contestant<SphereCluster>(mesh, options, values);
   };
+  info.build_scene = build_own_scene<SphereCluster>(&options_of);
   info.library = {"sphere_cluster", "SphereCluster"};
   info.forms = {.compared = {"lookup=scan", "lookup=scan,precise=false", ""},
                 .verified = {"clustering=2%", "build=lazy", "threads=2", "prepare=true", "updated=true",
@@ -86,6 +93,7 @@ ContestantInfo sphere_cluster_entry() {
                 .chosen = {"prepare=true"},
                 .updated = {""},
                 .suite = {""},
+                .scenes = {""},
                 .tested = {"simd=portable", "simd=avx2"}};
   return info;
 }

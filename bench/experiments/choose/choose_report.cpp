@@ -70,10 +70,8 @@ std::string asked_text(const Asked& asked) {
   std::string motions;
   for (const std::string& name : workload.trajectories) motions += (motions.empty() ? "" : ", ") + name;
   const Limits& limits = asked.limits;
-  std::string text = fmt::format("{}: {} triangles, {} within {}, radius {}; motions: {}\n",
-                                 workload.mesh_name, workload.mesh.size(), workload::name_of(asked.query),
-                                 workload::length_text(workload, workload.reach.value_or(workload.radius)),
-                                 workload::length_text(workload, workload.radius), motions);
+  std::string text =
+      fmt::format("{}; motions: {}\n", workload::question_text(workload, asked.query), motions);
   text += fmt::format("a query may take {:g} % of a tick at {:g} Hz: {} us", 100 * limits.share,
                       limits.rate_hz, us(limits.budget_ns()));
   if (limits.max_bytes) text += fmt::format("; a detector may take {} MB", megabytes(*limits.max_bytes));

@@ -84,7 +84,7 @@ void FingerProxy::step(const Vec3& goal, Step& step) {
   step.contacts = position_ == goal ? 0 : touching;
   if (step.contacts > 0) {
     step.status = Status::in_contact;
-    step.force = spring_force(position_, goal, goal_before_, coupling_);
+    step.force = coupling_force(position_, goal, goal_before_, coupling_);
   }
   goal_before_ = goal;
 }

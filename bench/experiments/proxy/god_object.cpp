@@ -129,7 +129,7 @@ void GodObject::step(const Vec3& goal, Step& step) {
   step.contacts = active_.size();
   if (!active_.empty()) {
     step.status = Status::in_contact;
-    step.force = spring_force(position_, goal, goal_before_, coupling_);
+    step.force = coupling_force(position_, goal, goal_before_, coupling_);
   }
   goal_before_ = goal;
 }

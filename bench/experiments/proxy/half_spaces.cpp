@@ -64,16 +64,4 @@ Vec3 nearest_outside(const Vec3& goal, std::span<const Plane> planes, const Vec3
   return best;
 }
 
-Vec3 held_by_friction(const Vec3& from, const Vec3& target, const Vec3& goal, const Coupling& coupling) {
-  if (!(coupling.static_friction > 0) && !(coupling.dynamic_friction > 0)) return target;
-  const double depth = (target - goal).norm(), tangential = (target - from).norm();
-  if (tangential <= coupling.static_friction * depth) return from;
-  const double short_by = coupling.dynamic_friction * depth;
-  return tangential > short_by ? Vec3(target + (from - target) * (short_by / tangential)) : from;
-}
-
-Vec3 spring_force(const Vec3& proxy, const Vec3& goal, const Vec3& goal_before, const Coupling& coupling) {
-  return coupling.stiffness * (proxy - goal) - (coupling.damping / coupling.tick_s) * (goal - goal_before);
-}
-
 }  // namespace touchmark::bench::experiments::proxy

@@ -33,12 +33,4 @@ std::optional<OnPlanes> nearest_on(const Vec3& goal, std::span<const Plane> plan
 /// three; `otherwise` where rounding leaves no set.
 Vec3 nearest_outside(const Vec3& goal, std::span<const Plane> planes, const Vec3& otherwise);
 
-/// Coulomb friction as a cone about the spring (Harwin and Melder 2002): the proxy sticks while the
-/// tangential way to `target` is within the static coefficient times the depth, and else stops short of the
-/// target by the dynamic one.
-Vec3 held_by_friction(const Vec3& from, const Vec3& target, const Vec3& goal, const Coupling& coupling);
-
-/// Returns the force of spring and damper on a device at `goal` whose proxy is held at `proxy`.
-Vec3 spring_force(const Vec3& proxy, const Vec3& goal, const Vec3& goal_before, const Coupling& coupling);
-
 }  // namespace touchmark::bench::experiments::proxy

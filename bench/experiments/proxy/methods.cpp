@@ -63,7 +63,7 @@ const std::vector<MethodInfo>& list() {
        "",
        false,
        true,
-       &exact_slide_method},
+       &certified_method},
   };
   return all;
 }

@@ -77,7 +77,7 @@ std::unique_ptr<ProxyMethod> penalty_method(const MethodRequest& request);
 std::unique_ptr<ProxyMethod> god_object_method(const MethodRequest& request);
 std::unique_ptr<ProxyMethod> virtual_proxy_method(const MethodRequest& request);
 std::unique_ptr<ProxyMethod> finger_proxy_method(const MethodRequest& request);
-std::unique_ptr<ProxyMethod> exact_slide_method(const MethodRequest& request);
+std::unique_ptr<ProxyMethod> certified_method(const MethodRequest& request);
 std::unique_ptr<ProxyMethod> engine_sweep_method(const MethodRequest& request);
 
 }  // namespace touchmark::bench::experiments::proxy

@@ -25,7 +25,7 @@ class Penalty final : public ProxyMethod {
       const Vec3 outwards = (behind ? -1.0 : 1.0) * gap / nearest.distance;
       step.contacts = 1;
       step.status = Status::in_contact;
-      step.force = spring_force(goal + depth * outwards, goal, position_, coupling_);
+      step.force = coupling_force(goal + depth * outwards, goal, position_, coupling_);
     }
     position_ = goal;
   }

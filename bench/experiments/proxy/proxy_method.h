@@ -7,20 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "core/haptics/coupling.h"
 #include "core/probe.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::bench::experiments::proxy {
-
-/// What a haptic program sets. Zero turns a part off.
-struct Coupling {
-  double radius = 0;            ///< the ball's, mesh units; 0: the bare point
-  double stiffness = 1000;      ///< N/m, of the spring between proxy and goal
-  double static_friction = 0;   ///< coefficient
-  double dynamic_friction = 0;  ///< coefficient
-  double damping = 0;           ///< N s/m, against the goal's velocity while in contact
-  double tick_s = 0.001;        ///< one tick of the servo loop
-};
 
 enum class Status : std::uint8_t {
   free,        ///< nothing holds the proxy

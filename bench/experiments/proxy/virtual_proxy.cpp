@@ -75,7 +75,7 @@ void SweepAndSlide::step(const Vec3& goal, Step& step) {
   step.contacts = position_ == goal ? 0 : std::max<std::size_t>(count, 1);
   if (step.contacts > 0 && step.status == Status::free) {
     step.status = Status::in_contact;
-    step.force = spring_force(position_, goal, goal_before_, coupling_);
+    step.force = coupling_force(position_, goal, goal_before_, coupling_);
   }
   goal_before_ = goal;
 }

@@ -8,4 +8,8 @@ TriangleMesh read_with_assimp(std::string_view, const std::string& ending) {
   throw MeshError("the regression gate reads no " + ending);
 }
 
+NodeTree read_tree_with_assimp(const std::filesystem::path&, const std::string& ending) {
+  throw MeshError("the regression gate reads no " + ending);
+}
+
 }  // namespace touchmark::mesh_io

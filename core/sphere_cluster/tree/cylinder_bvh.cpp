@@ -12,9 +12,7 @@
 namespace touchmark {
 namespace {
 
-using spheres::NearestVisitor, spheres::TouchVisitor;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using spheres::NearestVisitor;
 
 /// A point that moves by more of the mean leaf's radius a tick starts anew: it has left the cached leaves
 /// before they are used.
@@ -87,28 +85,13 @@ double SphereTree::clearance_from(float unseen, double shown, double pad) const 
   return std::min(std::sqrt(frame_.squared(unseen)), shown * (1 - 0x1p-40)) - pad;
 }
 
-/// Is nothing within reach, by what was sampled? Then that is what is remembered of the point. It asks the
-/// tight bound where nothing was near, for else something still is, as a rule.
-[[gnu::always_inline]] inline bool SphereTree::rejects_by_distance_field(const FilterPoint& point,
-                                                                         const Vec3& center, double reach,
-                                                                         Memory& memory) const noexcept {
-  double clearance = static_cast<double>(distances_.lower_bound(point)) * frame_.unit();
-  if (!(clearance > reach) && !memory.is_near())
-    clearance = static_cast<double>(distances_.tight_lower_bound(point)) * frame_.unit();
-  if (!(clearance > reach)) return false;
-  memory.center = center;
-  memory.lower = clearance;
-  memory.upper = infinity;
-  return true;
-}
-
 /// Rejects once the point has its samples, two at most, which take no more than half of the work that a query
 /// may take before it looks at every triangle. `budget` is what is left of that.
 bool SphereTree::rejects_once_sampled(const FilterPoint& point, const Vec3& center, double reach,
                                       Memory& memory, std::uint64_t& budget, Work& work) const noexcept {
   // With a reach as long as the mesh no sample helps.
   if (!(reach < radius_)) return false;
-  Sampling sampling{budget / 2, memory.slot};
+  Sampling sampling{work_limit() / 2, memory.slot};
   bool is_known_far = false;
   while (!is_known_far && distances_.sample_near(point, [&](const Vec3& position, double farthest) {
     return sample(position, farthest, sampling);
@@ -156,64 +139,11 @@ bool SphereTree::refill(const Vec3& center, const Vec3& move, float distance, Me
   return true;
 }
 
-bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const noexcept {
-  const Vec3& center = probe.center;
-  const double radius = probe.radius;
-  claim(memory);
-  const FilterPoint point = frame_.point(center);
-  if (!can_search(point)) return nearest_without(center, radius, work).has_value();
-  if (memory.is_near()) {
-    const double moved = (center - memory.center).norm();
-    if ((memory.upper + moved) * (1 + 0x1p-40) + clearance_pad(point) <= radius) return true;
-    // It is still near what it touched, unless it came from elsewhere.
-    if (std::abs(memory.upper - moved) <= radius) {
-      TouchVisitor visitor(parts_, center, radius, frame_.kernel_error(point.plane_error), certified_);
-      visit(memory.slot, visitor);
-      if (visitor.open_count > 0) spheres::decide_open(visitor, frame_.kernel_error(point.plane_error), work);
-      work += visitor.work;
-      if (visitor.kept_at != spheres::nowhere) {
-        remember_touch(center, 0, visitor.least, memory);
-        return true;
-      }
-    }
-  }
-  std::uint64_t budget = work_limit();
-  if (rejects_by_distance_field(point, center, radius, memory) ||
-      (lazy_ && rejects_once_sampled(point, center, radius, memory, budget, work)))
-    return false;
-  const double error = frame_.kernel_error(point.plane_error);
-  TouchVisitor visitor(parts_, center, radius, error, certified_);
-  visitor.limit = frame_.limit((radius + error) * (radius + error));
-  visitor.enough = frame_.to_frame_rounded_down(radius - error);
-  const float unseen = traverse(point, visitor, budget);
-  work += visitor.work;
-  if (visitor.kept_at == spheres::nowhere && visitor.open_count > 0)
-    spheres::decide_open(visitor, error, work);
-  if (unseen == spheres::exhausted || visitor.leaves_too_many_open()) {
-    memory.forget_distance();
-    return fallback().touches(probe, work);
-  }
-  if (visitor.kept_at == spheres::nowhere) {
-    remember_touch(center, clearance_from(unseen, visitor.least, clearance_pad(point)), infinity, memory);
-    return false;
-  }
-  remember_touch(center, 0, visitor.least, memory);
-  memory.slot = visitor.kept_at;
-  return true;
-}
-
-/// Remembers what `touches` found.
-void SphereTree::remember_touch(const Vec3& center, double lower, double upper, Memory& memory) noexcept {
-  memory.move = Vec3::Constant(infinity);
-  memory.center = center;
-  memory.lower = lower;
-  memory.upper = upper;
-}
-
 /// Ends with exhausted() where the work budget is used up. Always inline, so that no contact is copied.
 template <class Exhausted>
 [[gnu::always_inline]] inline std::optional<Contact> SphereTree::search_nearest(
-    const Vec3& center, double reach, Memory& memory, Work& work, const Exhausted& exhausted) const noexcept {
+    const Vec3& center, double reach, Memory& memory, Work& work, std::uint64_t budget,
+    const Exhausted& exhausted) const noexcept {
   claim(memory);
   const FilterPoint point = frame_.point(center);
   if (!can_search(point)) return nearest_without(center, reach, work);
@@ -222,7 +152,6 @@ template <class Exhausted>
     const double moved = (center - memory.center).norm();
     near = moved <= max_move_in_leaf_radii * mean_leaf_radius_ && memory.upper + moved <= reach;
   }
-  std::uint64_t budget = work_limit();
   if (!near && (rejects_by_distance_field(point, center, reach, memory) ||
                 (lazy_ && rejects_once_sampled(point, center, reach, memory, budget, work))))
     return std::nullopt;
@@ -261,13 +190,14 @@ template <class Exhausted>
 
 std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Memory& memory,
                                            Work& work) const noexcept {
-  return search_nearest(center, reach, memory, work, [&] { return fallback().nearest(center, reach, work); });
+  return search_nearest(center, reach, memory, work, nearest_limit(),
+                        [&] { return fallback().nearest(center, reach, work); });
 }
 
 SphereTree::WithinBudget SphereTree::nearest_within_budget(const Vec3& center, double reach, Memory& memory,
                                                            Work& work) const noexcept {
   bool exhausted = false;
-  return {search_nearest(center, reach, memory, work,
+  return {search_nearest(center, reach, memory, work, work_limit(),
                          [&]() -> std::optional<Contact> {
                            exhausted = true;
                            return std::nullopt;

@@ -30,7 +30,8 @@ class FirstTouch;
 
 namespace spheres {
 struct MovedTriangles;
-}
+struct Within;
+}  // namespace spheres
 
 class SphereTree {
  public:
@@ -109,7 +110,7 @@ class SphereTree {
 
   template <class Exhausted>
   std::optional<Contact> search_nearest(const Vec3& center, double reach, Memory& memory, Work& work,
-                                        const Exhausted& exhausted) const noexcept;
+                                        std::uint64_t budget, const Exhausted& exhausted) const noexcept;
   /// The answer of `nearest`, or that the work budget was exhausted before there was one.
   struct WithinBudget {
     std::optional<Contact> contact;
@@ -130,6 +131,13 @@ class SphereTree {
                                        Work& work) const noexcept;
   LinearScan fallback() const noexcept { return {parts_.triangles, bounds_, ids_, certified_}; }
   std::uint64_t work_limit() const noexcept { return work_budget(parts_.triangles.size()); }
+  /// Bounds what a query for the nearest takes. A descent looks at each node and block once at most, and so
+  /// at no more than this, since a node has two children at least; a list is no longer than that. What it
+  /// leaves is for a refill before it.
+  std::uint64_t nearest_limit() const noexcept { return parts_.triangles.size() + work_limit(); }
+  std::uint64_t refill_limit() const noexcept {
+    return remaining(nearest_limit(), spheres::tree_width * (parts_.nodes.size() + parts_.blocks.size()));
+  }
   std::optional<Contact> nearest_without(const Vec3& center, double reach, Work& work) const noexcept;
 
   bool search_middle(const Sweep& sweep, double length, double reach, std::uint64_t budget, FirstTouch& first,
@@ -154,6 +162,8 @@ class SphereTree {
   // Visitors: see search.h.
   template <class Visitor>
   void visit(std::uint32_t at, Visitor& visitor) const noexcept;
+  spheres::Within surely_nearest(std::uint32_t block, const FilterPoint& point) const noexcept;
+  bool touches_again(const FilterPoint& point, const Probe& probe, Memory& memory, Work& work) const noexcept;
   template <class Visitor>
   float traverse(const FilterPoint& point, Visitor& visitor, std::uint64_t budget) const noexcept;
   template <class Visitor>
@@ -163,6 +173,7 @@ class SphereTree {
   float search_cached(const FilterPoint& point, Visitor& visitor, const spheres::LeafCache& cache, float away,
                       std::uint64_t budget) const noexcept;
   bool is_slow(const Vec3& move) const noexcept;
+  bool pays_to_list(float step, float distance) const noexcept;
   void refill_ahead(Memory& memory, Work& work) const noexcept;
   bool refill(const Vec3& center, const Vec3& move, float distance, Memory& memory, std::uint64_t budget,
               Work& work) const noexcept;

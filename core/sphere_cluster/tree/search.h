@@ -24,6 +24,12 @@ template <class Visitor>
                           : spheres::avx2::visit(parts_, at, visitor);
 }
 
+[[gnu::always_inline]] inline spheres::Within SphereTree::surely_nearest(
+    std::uint32_t block, const FilterPoint& point) const noexcept {
+  return simd_ == Simd::portable ? spheres::portable::surely_nearest(parts_.blocks[block], point)
+                                 : spheres::avx2::surely_nearest(parts_.blocks[block], point);
+}
+
 template <class Visitor>
 [[gnu::always_inline]] inline float SphereTree::traverse(const FilterPoint& point, Visitor& visitor,
                                                          std::uint64_t budget) const noexcept {
@@ -42,8 +48,32 @@ inline float SphereTree::displacement(const Vec3& from, const Vec3& to,
   return static_cast<float>(frame_.scale() * (to - from).norm()) + 2 * at.plane_error;
 }
 
-/// Searches the cached leaves when they are all that can be within the limit, and refills the cache when they
-/// are not.
+/// Is nothing within reach, by what was sampled? Then that is what is remembered of the point. It asks the
+/// tight bound where nothing was near, for else something still is, as a rule.
+[[gnu::always_inline]] inline bool SphereTree::rejects_by_distance_field(const FilterPoint& point,
+                                                                         const Vec3& center, double reach,
+                                                                         Memory& memory) const noexcept {
+  double clearance = static_cast<double>(distances_.lower_bound(point)) * frame_.unit();
+  if (!(clearance > reach) && !memory.is_near())
+    clearance = static_cast<double>(distances_.tight_lower_bound(point)) * frame_.unit();
+  if (!(clearance > reach)) return false;
+  memory.center = center;
+  memory.lower = clearance;
+  memory.upper = std::numeric_limits<double>::infinity();
+  return true;
+}
+
+/// Is a list for ticks ahead worth its making, where a tick is so long and the nearest that far? A point that
+/// moves faster leaves it too soon. Far from the mesh a descent costs more, and so a list pays for longer
+/// ticks.
+inline bool SphereTree::pays_to_list(float step, float distance) const noexcept {
+  constexpr float of_leaf_radius = 0.25F, of_distance = 0.1F;
+  return step <=
+         of_leaf_radius * static_cast<float>(frame_.scale() * mean_leaf_radius_) + of_distance * distance;
+}
+
+/// Searches the cached leaves when they are all that can be within the limit. When they are not, it refills
+/// the cache where that pays, else descends.
 template <class Visitor>
 [[gnu::always_inline]] inline float SphereTree::search_near(const FilterPoint& point, Visitor& visitor,
                                                             Memory& memory,
@@ -51,7 +81,9 @@ template <class Visitor>
   const float distance = std::sqrt(visitor.limit) + point.plane_error;
   float away = displacement(memory.cache.center, visitor.center, point);
   if (!(distance + away < memory.cache.covered_radius)) {
-    if (!refill(visitor.center, visitor.center - memory.center, distance, memory, budget, visitor.work))
+    if (!pays_to_list(displacement(memory.center, visitor.center, point), distance) ||
+        !refill(visitor.center, visitor.center - memory.center, distance, memory,
+                std::min(budget, refill_limit()), visitor.work))
       return traverse(point, visitor, budget);
     away = displacement(memory.cache.center, visitor.center, point);
     if (!(distance + away < memory.cache.covered_radius)) return traverse(point, visitor, budget);

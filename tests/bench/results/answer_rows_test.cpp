@@ -48,13 +48,13 @@ TEST(AnswerRows, TheSideComesLastWhereItIsAskedFor) {
   answer.side = Side::inside;
   const workload::Step step{{Vec3::Zero(), 2}, 10};
   std::string rows;
-  append_answer_row(rows, workload::Query::nearest, 7, step, answer, true);
-  append_answer_row(rows, workload::Query::sweep, 7, step, answer, true);
-  append_answer_row(rows, workload::Query::nearest, 7, step, {}, true);
+  append_answer_row(rows, workload::Query::nearest, 7, step, answer, {.side = true});
+  append_answer_row(rows, workload::Query::sweep, 7, step, answer, {.side = true});
+  append_answer_row(rows, workload::Query::nearest, 7, step, {}, {.side = true});
   EXPECT_EQ(rows, "7,1,4,2,1,2,3,0,0.6,-0.8,inside\n7,1,4,2,1,2,3,0,0.6,-0.8,0.25,inside\n7,0,,,,,,,,,\n");
   for (const workload::Query query :
        {workload::Query::touches, workload::Query::nearest, workload::Query::sweep})
-    EXPECT_EQ(answer_header(query, true).substr(answer_header(query).size() - 1), ",side\n");
+    EXPECT_EQ(answer_header(query, {.side = true}).substr(answer_header(query).size() - 1), ",side\n");
 }
 
 TEST(AnswerRows, TouchesTellsNothingElse) {

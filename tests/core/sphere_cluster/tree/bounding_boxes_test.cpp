@@ -21,7 +21,7 @@ struct Tree {
 
   explicit Tree(const std::string& scene)
       : mesh(bench::scenes::load_scene(scene)), frame(FilterFrame::around(mesh.bounds())) {
-    parts = build_tree(mesh, cluster_spheres(mesh, 0, VisitOrder::breadth_first), frame);
+    parts = build_tree(mesh, cluster_spheres(mesh, 0, VisitOrder::breadth_first), frame, 1);
     choose_bounds(parts, frame);
   }
 };

@@ -1,0 +1,56 @@
+/// Our scenes of bodies over our own detectors: core/scene, and what it is compared with.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "bench/contestants/scene_player.h"
+#include "core/scene/scene.h"
+
+namespace touchmark::bench::contestants {
+
+/// core/scene/scene.h.
+template <Detector D>
+class OwnScene {
+ public:
+  using Session = typename Scene<D>::Session;
+
+  OwnScene(const bodies::PlacedScene& placed, const OptionValues& values, const OptionsOf<D>& options) {
+    std::vector<ShapeId> shapes;
+    for (const auto& mesh : placed.shapes) {
+      auto detector = std::make_shared<const D>(D::build(*mesh, options(*mesh, values)));
+      shapes.push_back(scene_.add_shape({std::move(detector), mesh}));
+    }
+    for (const bodies::PlacedScene::PlacedBody& body : placed.bodies)
+      ids_.push_back(scene_.add(shapes[body.shape], body.start));
+  }
+
+  void place(std::uint32_t body, const Pose& pose) { scene_.move(ids_[body], pose); }
+  std::optional<BodyContact> nearest_body(const Probe& probe, double reach, Session& session) const noexcept {
+    return scene_.nearest_body(probe, reach, session);
+  }
+  std::optional<BodyImpact> first_hit_body(const Sweep& sweep,
+                                           Session& session) const noexcept requires AnswersSweep<D> {
+    return scene_.first_hit_body(sweep, session);
+  }
+  std::size_t bytes() const noexcept { return scene_.bytes(); }
+  Accuracy accuracy() const noexcept { return scene_.accuracy(); }
+
+ private:
+  Scene<D> scene_;
+  std::vector<BodyId> ids_;
+};
+
+template <Detector D>
+BuildSceneContestant build_own_scene(OptionsOf<D> options) {
+  return [options = std::move(options)](const bodies::PlacedScene& placed, const OptionValues& values) {
+    expect_options_of_scenes(values);
+    return scene_contestant(
+        placed, [&](const bodies::PlacedScene& one) { return OwnScene<D>(one, values, options); });
+  };
+}
+
+}  // namespace touchmark::bench::contestants

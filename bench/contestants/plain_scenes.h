@@ -1,0 +1,180 @@
+/// Scenes as programs have them without core/scene: every body asked in turn, or all triangles as one mesh.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "bench/contestants/scene_player.h"
+
+namespace touchmark::bench::contestants {
+
+/// What poses in double add to a detector's error: a centre taken into a body's frame and a contact taken
+/// back are rounded by a few roundings of their lengths, and a rotation is off orthonormal by a few.
+inline Accuracy with_poses(Accuracy accuracy, double largest_coordinate) noexcept {
+  constexpr double roundings = 32 * (std::numeric_limits<double>::epsilon() / 2);
+  accuracy.relative += 2 * roundings;
+  accuracy.absolute += roundings * largest_coordinate;
+  accuracy.decides_exactly = accuracy.names_exactly = false;
+  return accuracy;
+}
+
+inline double largest_coordinate(const TriangleMesh& mesh) noexcept {
+  return mesh.bounds().min.cwiseAbs().cwiseMax(mesh.bounds().max.cwiseAbs()).maxCoeff();
+}
+
+/// Asks every body, with a session for each.
+template <Detector D>
+class LoopedScene {
+ public:
+  struct Session {
+    Work work;
+    std::vector<typename D::Session> of_bodies;
+  };
+
+  explicit LoopedScene(const bodies::PlacedScene& placed) {
+    for (const auto& mesh : placed.shapes) {
+      shapes_.push_back(D::build(*mesh, {}));
+      largest_ = std::max(largest_, largest_coordinate(*mesh));
+    }
+    for (const bodies::PlacedScene::PlacedBody& body : placed.bodies) bodies_.push_back(body);
+  }
+
+  void place(std::uint32_t body, const Pose& pose) { bodies_[body].start = pose; }
+
+  std::optional<BodyContact> nearest_body(const Probe& probe, double reach, Session& session) const {
+    std::optional<BodyContact> best;
+    each(session, [&](std::uint32_t i, const Pose& pose, const D& shape, typename D::Session& own) {
+      const double limit = best ? std::min(reach, best->contact.distance) : reach;
+      const Probe seen{in_frame(pose, probe.center), probe.radius};
+      const std::optional<Contact> found = shape.nearest(seen, limit, own);
+      if (found && (!best || found->distance < best->contact.distance))
+        best = BodyContact{{i, 0}, placed_contact(pose, *found)};
+    });
+    return best;
+  }
+  std::optional<BodyImpact> first_hit_body(const Sweep& sweep, Session& session) const {
+    std::optional<BodyImpact> best;
+    each(session, [&](std::uint32_t i, const Pose& pose, const D& shape, typename D::Session& own) {
+      const Sweep seen{in_frame(pose, sweep.from), in_frame(pose, sweep.to), sweep.radius};
+      const std::optional<Impact> found = shape.first_hit(seen, own);
+      if (found && (!best || is_before(*found, best->impact)))
+        best = BodyImpact{{i, 0}, {found->fraction, placed_contact(pose, found->contact)}};
+    });
+    return best;
+  }
+
+  std::size_t bytes() const noexcept {
+    std::size_t sum = bodies_.capacity() * sizeof(bodies_[0]);
+    for (const D& shape : shapes_) sum += shape.bytes();
+    return sum;
+  }
+  Accuracy accuracy() const noexcept { return with_poses(shapes_.front().accuracy(), largest_); }
+
+ private:
+  template <class Visit>
+  void each(Session& session, const Visit& visit) const {
+    session.of_bodies.resize(bodies_.size());
+    for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
+      typename D::Session& own = session.of_bodies[i];
+      const Work before = own.work;
+      visit(i, bodies_[i].start, shapes_[bodies_[i].shape], own);
+      session.work += work_between(before, own.work);
+    }
+  }
+  /// Returns which touch counts: the nearest one of those at the same moment.
+  static bool is_before(const Impact& a, const Impact& b) noexcept {
+    return a.fraction < b.fraction || (a.fraction == b.fraction && a.contact.distance < b.contact.distance);
+  }
+  static Contact placed_contact(const Pose& pose, Contact contact) noexcept {
+    contact.point = image(pose, contact.point);
+    contact.normal = (pose.rotation * contact.normal).eval();
+    return contact;
+  }
+
+  std::vector<D> shapes_;
+  std::vector<bodies::PlacedScene::PlacedBody> bodies_;
+  double largest_ = 0;
+};
+
+/// One detector over the triangles of all bodies, which stand.
+template <Detector D>
+class MergedScene {
+ public:
+  using Session = typename D::Session;
+
+  explicit MergedScene(const bodies::PlacedScene& placed) : MergedScene(placed, merged(placed)) {}
+
+  /// Bodies stand, so this is only told what it knows.
+  void place(std::uint32_t, const Pose&) {}
+  std::optional<BodyContact> nearest_body(const Probe& probe, double reach, Session& session) const noexcept {
+    const std::optional<Contact> found = detector_.nearest(probe, reach, session);
+    return found ? std::optional(owned(*found)) : std::nullopt;
+  }
+  std::optional<BodyImpact> first_hit_body(const Sweep& sweep, Session& session) const noexcept {
+    const std::optional<Impact> found = detector_.first_hit(sweep, session);
+    if (!found) return std::nullopt;
+    const BodyContact contact = owned(found->contact);
+    return BodyImpact{contact.body, {found->fraction, contact.contact}};
+  }
+  std::size_t bytes() const noexcept {
+    return detector_.bytes() + first_.capacity() * sizeof(std::uint32_t) +
+           ids_.capacity() * sizeof(TriangleId);
+  }
+  Accuracy accuracy() const noexcept { return with_poses(detector_.accuracy(), largest_); }
+
+ private:
+  MergedScene(const bodies::PlacedScene& placed, const TriangleMesh& mesh)
+      : detector_(D::build(mesh, {})), largest_(largest_coordinate(mesh)) {
+    std::uint32_t sum = 0;
+    for (const bodies::PlacedScene::PlacedBody& body : placed.bodies) {
+      const TriangleMesh& shape = *placed.shapes[body.shape];
+      first_.push_back(sum);
+      sum += static_cast<std::uint32_t>(shape.size());
+      for (std::size_t i = 0; i < shape.size(); ++i) ids_.push_back(shape.id(i));
+    }
+  }
+
+  static TriangleMesh merged(const bodies::PlacedScene& placed) {
+    if (placed.moves) throw std::invalid_argument("its triangles are one mesh, and the bodies move");
+    std::vector<Vec3> vertices;
+    std::vector<TriangleMesh::Corners> triangles;
+    for (const bodies::PlacedScene::PlacedBody& body : placed.bodies) {
+      const TriangleMesh& shape = *placed.shapes[body.shape];
+      const auto first = static_cast<std::uint32_t>(vertices.size());
+      for (const Vec3& vertex : shape.vertices()) vertices.push_back(image(body.start, vertex));
+      for (const TriangleMesh::Corners& corners : shape.triangles())
+        triangles.push_back({first + corners[0], first + corners[1], first + corners[2]});
+    }
+    return {std::move(vertices), std::move(triangles)};
+  }
+
+  BodyContact owned(Contact contact) const noexcept {
+    const auto after = std::upper_bound(first_.begin(), first_.end(), contact.triangle);
+    const auto body = static_cast<std::uint32_t>(after - first_.begin() - 1);
+    contact.triangle = ids_[contact.triangle];
+    return {{body, 0}, contact};
+  }
+
+  D detector_;
+  double largest_;
+  std::vector<std::uint32_t> first_;  ///< triangle of each body
+  std::vector<TriangleId> ids_;       ///< in its body, of each triangle
+};
+
+/// Which of our detectors they are made of.
+inline OptionInfo of_option() {
+  return {"of",
+          OptionKind::choice,
+          {"sphere-cluster", "grid-group", "aabb-tree"},
+          "sphere-cluster",
+          "the detector, in its default form"};
+}
+
+}  // namespace touchmark::bench::contestants

@@ -1,0 +1,115 @@
+/// Scenes of bodies as detectors, so that they are replayed, timed and judged as those of one mesh are.
+#pragma once
+
+#include <algorithm>
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/bodies/schedule.h"
+#include "bench/contestants/entry.h"
+#include "core/scene/body.h"
+
+namespace touchmark::bench::contestants {
+
+/// What the player plays: a scene whose bodies are numbered as the given one's, from 0. `place` puts a body
+/// elsewhere; queries answer as core/scene/scene.h says.
+template <class S>
+concept PlayableScene = std::movable<S> &&
+    requires(S& scene, const S& asked, std::uint32_t body, const Pose& pose, const Probe& probe, double reach,
+             typename S::Session& session) {
+  requires std::default_initializable<typename S::Session>;
+  { session.work } -> std::same_as<Work&>;
+  { scene.place(body, pose) } -> std::same_as<void>;
+  { asked.nearest_body(probe, reach, session) } -> std::same_as<std::optional<BodyContact>>;
+  { asked.bytes() } -> std::same_as<std::size_t>;
+  { asked.accuracy() } -> std::same_as<Accuracy>;
+};
+
+template <class S>
+concept SweepsScene = PlayableScene<S> &&
+    requires(const S& scene, const Sweep& sweep, typename S::Session& session) {
+  { scene.first_hit_body(sweep, session) } -> std::same_as<std::optional<BodyImpact>>;
+};
+
+template <PlayableScene S>
+class ScenePlayer {
+ public:
+  struct Options {
+    std::function<S(const bodies::PlacedScene&)> make;
+  };
+  struct Session : S::Session {
+    std::uint32_t body = 0;  ///< the one that the last contact is on
+  };
+
+  ScenePlayer(const bodies::PlacedScene& placed, const Options& options) : scene_(options.make(placed)) {
+    for (const bodies::PlacedScene::PlacedBody& body : placed.bodies) starts_.push_back(body.start);
+  }
+  /// Builds a scene of one body, which is the mesh where it stands.
+  static ScenePlayer build(const TriangleMesh& mesh, const Options& options) {
+    return {{{std::make_shared<const TriangleMesh>(mesh)}, {{0, Pose()}}}, options};
+  }
+
+  void stand_at(const bodies::ScheduleView* schedule, std::size_t step) {
+    follower_.stand_at(
+        schedule, step, [&](std::uint32_t body, const Pose& pose) { scene_.place(body, pose); },
+        [&](std::uint32_t body) { return starts_[body]; });
+  }
+
+  /// The contact that decides is told, too: the body of a touch is the nearest one.
+  bool touches(const Probe& probe, Session& session) const noexcept {
+    return nearest(probe, probe.radius, session).has_value();
+  }
+  std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept {
+    const std::optional<BodyContact> found = scene_.nearest_body(probe, reach, session);
+    if (!found) return std::nullopt;
+    session.body = found->body.index;
+    return found->contact;
+  }
+  std::optional<Impact> first_hit(const Sweep& sweep,
+                                  Session& session) const noexcept requires SweepsScene<S> {
+    const std::optional<BodyImpact> found = scene_.first_hit_body(sweep, session);
+    if (!found) return std::nullopt;
+    session.body = found->body.index;
+    return found->impact;
+  }
+
+  std::size_t bytes() const noexcept { return scene_.bytes(); }
+  Accuracy accuracy() const noexcept { return scene_.accuracy(); }
+
+ private:
+  S scene_;
+  std::vector<Pose> starts_;
+  bodies::ScheduleFollower follower_;
+};
+
+/// Throws std::invalid_argument for options that are of one mesh.
+inline void expect_options_of_scenes(const OptionValues& values) {
+  if (asks_for_side(values)) throw std::invalid_argument("a scene of bodies tells no side");
+  if (is_updated(values))
+    throw std::invalid_argument("updated=true is of one mesh, not of a scene of bodies");
+  const auto prepare = values.all().find("prepare");
+  if (prepare != values.all().end() && prepare->second == "true")
+    throw std::invalid_argument("prepare=true is of one mesh, not of a scene of bodies");
+}
+
+/// `make(placed)` returns the scene that is played.
+template <class Make>
+std::unique_ptr<Contestant> scene_contestant(const bodies::PlacedScene& placed, const Make& make) {
+  using Player = ScenePlayer<decltype(make(placed))>;
+  return std::make_unique<ContestantOf<Player>>(Player(placed, {make}));
+}
+
+/// Makes each shape's options of its mesh and of what was chosen.
+template <class D>
+using OptionsOf = std::function<typename D::Options(const TriangleMesh&, const OptionValues&)>;
+
+}  // namespace touchmark::bench::contestants

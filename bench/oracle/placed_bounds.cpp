@@ -1,0 +1,84 @@
+#include "bench/oracle/placed_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bench/oracle/exact_distance.h"
+
+namespace touchmark::bench::oracle {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
+constexpr double smallest = std::numeric_limits<double>::denorm_min();
+
+Interval widened(Interval bounds, double error) noexcept {
+  if (!std::isfinite(error) || std::isnan(bounds.lo) || std::isnan(bounds.hi)) return {0, infinity};
+  return {std::max(0.0, std::nextafter(bounds.lo - error, -infinity)),
+          std::nextafter(bounds.hi + error, infinity)};
+}
+
+bool is_finite(const Triangle& triangle) noexcept {
+  return std::all_of(triangle.begin(), triangle.end(), [](const Vec3& v) { return v.allFinite(); });
+}
+
+}  // namespace
+
+double rigidity(const Eigen::Matrix3d& r) noexcept {
+  double squared = 0;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const double entry = r(0, i) * r(0, j) + r(1, i) * r(1, j) + r(2, i) * r(2, j) - (i == j ? 1.0 : 0.0);
+      squared += entry * entry;
+    }
+  }
+  return 1.01 * std::sqrt(squared) + 64 * unit_roundoff;
+}
+
+LocalPoint local(const Seen& body, const Vec3& point) noexcept {
+  const Vec3 d = point - body.pose.translation;
+  const Eigen::Matrix3d& r = body.pose.rotation;
+  const Vec3 seen(r(0, 0) * d.x() + r(1, 0) * d.y() + r(2, 0) * d.z(),
+                  r(0, 1) * d.x() + r(1, 1) * d.y() + r(2, 1) * d.z(),
+                  r(0, 2) * d.x() + r(1, 2) * d.y() + r(2, 2) * d.z());
+  const double error = (1.1 * body.rigid + 32 * unit_roundoff) * d.stableNorm() + 64 * smallest;
+  return {seen, error};
+}
+
+RoundedImage rounded(const PlacedTriangle& triangle) noexcept {
+  RoundedImage image{{}, 0};
+  const Eigen::Matrix3d& r = triangle.pose->rotation;
+  const Vec3& t = triangle.pose->translation;
+  double largest = t.cwiseAbs().maxCoeff();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3& v = triangle.corners[i];
+    for (int row = 0; row < 3; ++row)
+      image.corners[i][row] = r(row, 0) * v.x() + r(row, 1) * v.y() + r(row, 2) * v.z() + t[row];
+    largest = std::max(largest, 2 * v.cwiseAbs().sum());
+  }
+  // Six roundings a coordinate, of numbers no larger than the sums of these.
+  image.error = 32 * unit_roundoff * largest + 16 * smallest;
+  return image;
+}
+
+Interval bounds_of(const Vec3& point, const PlacedTriangle& triangle) noexcept {
+  const RoundedImage image = rounded(triangle);
+  if (!is_finite(image.corners)) return {0, infinity};
+  return widened(distance_interval(point, image.corners), image.error);
+}
+
+Interval bounds_of(const Vec3& from, const Vec3& to, const PlacedTriangle& triangle) noexcept {
+  const RoundedImage image = rounded(triangle);
+  if (!is_finite(image.corners)) return {0, infinity};
+  return widened(segment_distance_interval(from, to, image.corners), image.error);
+}
+
+bool is_within(const Vec3& from, const Vec3& to, const PlacedTriangle& triangle, double radius) {
+  const Interval distance = bounds_of(from, to, triangle);
+  if (distance.hi <= radius) return true;
+  if (distance.lo > radius) return false;
+  return compare_segment_distance(from, to, triangle, radius) <= 0;
+}
+
+}  // namespace touchmark::bench::oracle

@@ -1,0 +1,40 @@
+/// What a worker's contestants are built of: one mesh, or a scene of bodies.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <variant>
+
+#include "bench/contestants/contestant_info.h"
+#include "bench/workers/shared_workload.h"
+
+namespace touchmark::bench::workers {
+
+class Geometry {
+ public:
+  Geometry(std::span<const std::byte> input, const WorkloadLayout& layout) {
+    if (layout.bodies > 0) {
+      built_of_ = read_scene(input, layout);
+    } else {
+      built_of_.emplace<TriangleMesh>(read_mesh(input, layout));
+    }
+  }
+
+  /// Returns those of the mesh, or of all shapes.
+  std::size_t triangles() const noexcept {
+    if (const auto* const mesh = std::get_if<TriangleMesh>(&built_of_)) return mesh->size();
+    std::size_t sum = 0;
+    for (const auto& shape : std::get<bodies::PlacedScene>(built_of_).shapes) sum += shape->size();
+    return sum;
+  }
+  std::unique_ptr<contestants::Contestant> build(const contestants::Roster& roster,
+                                                 const contestants::ContestantSpec& spec) const {
+    return std::visit([&](const auto& one) { return roster.build(spec, one); }, built_of_);
+  }
+
+ private:
+  std::variant<bodies::PlacedScene, TriangleMesh> built_of_;
+};
+
+}  // namespace touchmark::bench::workers

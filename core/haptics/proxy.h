@@ -1,0 +1,125 @@
+/// A haptic proxy: a ball, or a point, that follows the device's tip and never crosses the surface.
+///
+/// The invariant, decided exactly each tick: every straight piece of its way is farther from the surface than
+/// the radius. A piece is gone only after a detector that decides exactly has said that its sweep meets
+/// nothing; everything else only suggests where to try. docs/proxy.md has the argument and what it leaves
+/// open.
+///
+///   const auto detector = touchmark::SphereCluster::build(mesh);
+///   touchmark::SphereCluster::Session session;
+///   touchmark::Proxy proxy(detector, {.radius = 0.005, .stiffness = 800}, &mesh);
+///   proxy.place(device.position());
+///   for (;;) device.send(proxy.step(device.position(), session).force);
+#pragma once
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "core/detector.h"
+#include "core/haptics/coupling.h"
+#include "core/haptics/proxy_motion.h"
+#include "core/probe.h"
+#include "core/triangle_mesh.h"
+
+namespace touchmark {
+
+// Version 14 takes `noexcept ->` apart.
+// clang-format off
+/// What a proxy asks of a detector, by the concepts of core/detector.h: whether and where the way is free, and
+/// what is around. The invariant needs one that `decides_exactly`.
+template <class D>
+concept GuidesProxy = requires(const D& detector, const Probe& probe, const Sweep& sweep, double reach,
+                               typename D::Session& session, std::span<Contact> into) {
+  { detector.touches(probe, session) } noexcept -> std::same_as<bool>;
+  { detector.first_hit(sweep, session) } noexcept -> std::same_as<std::optional<Impact>>;
+  { detector.contacts(probe, reach, session, into) } noexcept -> std::same_as<std::size_t>;
+};
+// clang-format on
+
+/// One proxy over one detector, which must outlive it. Steps take no memory and are bounded: each asks at
+/// most `max_questions`.
+template <GuidesProxy D>
+class Proxy {
+ public:
+  /// `mesh` is the detector's, for the normals of its faces: a bare point that stands on a face to rounding
+  /// has no other. It must outlive the proxy; null where there is none, or only balls are asked for.
+  explicit Proxy(const D& detector, const Coupling& coupling, const TriangleMesh* mesh = nullptr) noexcept
+      : detector_(&detector), motion_(coupling, mesh) {}
+
+  /// Puts the proxy anywhere and forgets all contacts. Where that is too near to the surface it is `stuck`.
+  void place(const Vec3& position) noexcept { motion_.place(position); }
+  /// To be called after each update of the detector. The proxy stays where it is; where the surface was moved
+  /// onto it, it is `stuck` until it is off, and comes no nearer meanwhile.
+  void surface_moved(const TriangleMesh* mesh = nullptr) noexcept { motion_.surface_moved(mesh); }
+
+  /// One tick: follows the goal as far as the surface lets it. The state is this tick's, and stays where it
+  /// is until the next one.
+  const ProxyState& step(const Vec3& goal, typename D::Session& session) noexcept {
+    if (!motion_.begin(goal)) return motion_.state();
+    if (choose_kept(session)) slide(session);
+    return motion_.end();
+  }
+
+  const ProxyState& state() const noexcept { return motion_.state(); }
+  const Coupling& coupling() const noexcept { return motion_.coupling(); }
+
+ private:
+  bool touches(double distance, typename D::Session& session) const noexcept {
+    return detector_->touches({motion_.position(), distance}, session);
+  }
+  std::optional<Impact> first_hit(const Vec3& to, typename D::Session& session) const noexcept {
+    return detector_->first_hit({motion_.position(), to, motion_.kept()}, session);
+  }
+
+  /// Chooses the distance that this tick keeps: the radius, or where that is not free the largest of a few
+  /// shares of it that is. Returns false on the surface itself.
+  bool choose_kept(typename D::Session& session) noexcept {
+    const double radius = motion_.coupling().radius;
+    motion_.keep(radius);
+    if (!motion_.may_touch()) return true;
+    if (!touches(radius, session)) {
+      motion_.is_off();
+      return true;
+    }
+    for (int eighths = 7; eighths >= 0 && motion_.kept() > 0; --eighths) {
+      motion_.keep(radius * eighths / 8);
+      if (!touches(motion_.kept(), session)) return true;
+    }
+    return false;
+  }
+
+  void slide(typename D::Session& session) noexcept {
+    while (const std::optional<Vec3> target = motion_.next_target()) {
+      const std::optional<Impact> impact = first_hit(*target, session);
+      if (!impact) {
+        motion_.go(*target);
+        if (motion_.is_at_goal()) return;
+        look_around(session);
+        continue;
+      }
+      for (int retreat = 0; retreat < ProxyMotion::max_retreats; ++retreat) {
+        const std::optional<Vec3> to = motion_.approach(*target, *impact, retreat);
+        if (!to) break;
+        if (first_hit(*to, session)) continue;
+        motion_.go(*to);
+        look_around(session);
+        break;
+      }
+      motion_.meet(*impact, *target);
+    }
+  }
+
+  void look_around(typename D::Session& session) noexcept {
+    std::array<Contact, ProxyMotion::max_contacts> around;
+    const std::size_t count = detector_->contacts({motion_.position(), 0}, motion_.look(), session, around);
+    motion_.look_around(std::span(around).first(count < around.size() ? count : around.size()));
+  }
+
+  const D* detector_;
+  ProxyMotion motion_;
+};
+
+}  // namespace touchmark

@@ -1,0 +1,110 @@
+/// What a proxy does between two questions to a detector: where it tries to go, what it makes of what it met,
+/// and what a tick came to. It decides nothing about the surface; core/haptics/proxy.h asks for that.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "core/haptics/contact_planes.h"
+#include "core/haptics/coupling.h"
+#include "core/probe.h"
+#include "core/triangle_mesh.h"
+
+namespace touchmark {
+
+/// How a proxy is.
+enum class ProxyStatus : std::uint8_t {
+  free,        ///< nothing holds it: it is at its goal
+  in_contact,  ///< the surface holds it
+  stuck,      ///< it was put too near to the surface, or the surface was moved onto it, and it is not off yet
+  unanswered  ///< the goal is no number; the proxy stays
+};
+
+/// What one tick came to.
+struct ProxyState {
+  static constexpr std::size_t max_pieces = 24;
+
+  Vec3 position = Vec3::Zero();
+  ProxyStatus status = ProxyStatus::free;
+  std::size_t contacts = 0;  ///< how many planes hold it, 3 at most; at least 1 unless it is free
+  std::array<Vec3, ContactPlanes::max_active> normals;  ///< theirs, unit, out of the surface
+  Vec3 force = Vec3::Zero();                            ///< N, on the device
+  /// The straight pieces of the tick's way: from way[0], where it was, over each to `position`.
+  std::array<Vec3, max_pieces + 1> way;
+  std::size_t pieces = 0;
+};
+
+class ProxyMotion {
+ public:
+  ProxyMotion(const Coupling& coupling, const TriangleMesh* mesh) noexcept;
+
+  void place(const Vec3& position) noexcept;
+  /// Forgets what it knew of the surface, which is now elsewhere.
+  void surface_moved(const TriangleMesh* mesh) noexcept;
+
+  const ProxyState& state() const noexcept { return state_; }
+  const Vec3& position() const noexcept { return state_.position; }
+  const Coupling& coupling() const noexcept { return coupling_; }
+  /// The distance that this tick keeps: more than that it stays off the surface.
+  double kept() const noexcept { return kept_; }
+  void keep(double distance) noexcept { kept_ = distance; }
+  /// It was put there, or the surface has moved: is it off?
+  bool may_touch() const noexcept { return may_touch_; }
+  void is_off() noexcept { may_touch_ = false; }
+
+  /// Begins a tick. Returns false where there is nothing to be found out: the goal and all else are as they
+  /// were when it came to rest, or the goal is no number.
+  bool begin(const Vec3& goal) noexcept;
+  /// Returns where to go next, or nothing where it is as near to the goal as it knows how to come.
+  std::optional<Vec3> next_target() noexcept;
+  /// Goes to a point that is surely free to go to.
+  void go(const Vec3& to) noexcept;
+  bool is_at_goal() const noexcept { return state_.position == goal_; }
+  /// Returns where to go towards a target that something is in the way of: the fraction rounded down, and
+  /// back from there by what lets doubles decide. Each `retreat` is farther back; nothing where that is
+  /// nowhere.
+  std::optional<Vec3> approach(const Vec3& target, const Impact& impact, int retreat) const noexcept;
+  /// Takes the plane of what was met on the way to a target.
+  void meet(const Impact& impact, const Vec3& target) noexcept;
+  /// How far around the position contacts are of interest, as a distance to the surface.
+  double look() const noexcept;
+  /// Takes the planes of the contacts around the position, nearest first, for those before.
+  void look_around(std::span<const Contact> contacts) noexcept;
+  /// Ends a tick. One that came no nearer to its goal is taken back.
+  const ProxyState& end() noexcept;
+
+  static constexpr int max_retreats = 3;
+  static constexpr std::size_t max_contacts = 16;  ///< the nearest of those around
+
+ private:
+  bool is_surely_blocked() const noexcept;
+  std::optional<Vec3> face_normal(TriangleId id) const noexcept;
+  double normal_error(double distance) const noexcept;
+  std::optional<Vec3> normal_at(const Contact& contact) const noexcept;
+  Vec3 met_normal(const Impact& impact, const Vec3& target) const noexcept;
+  bool came_nearer() const noexcept;
+  void note_contacts() noexcept;
+
+  Coupling coupling_;
+  const TriangleMesh* mesh_ = nullptr;
+  double mesh_size_ = 0;  ///< the mesh's largest coordinate
+  ProxyState state_;
+  Vec3 goal_ = Vec3::Zero(), goal_before_ = Vec3::Zero();
+  ContactPlanes planes_;
+  double kept_ = 0;
+  double size_ = 0;        ///< the largest coordinates that take part in this tick's questions
+  double skin_ = 0;        ///< so far off it stays besides, so that doubles decide most questions
+  double last_slide_ = 0;  ///< length of the tick's last piece, if that was along planes
+  int rounds_ = 0;
+  int slides_ = 0;          ///< along planes, since something was met
+  int same_goal_ = 0;       ///< ticks since the goal last changed
+  bool may_touch_ = true;   ///< it was put there, or the surface has moved
+  bool has_moved_ = false;  ///< since the last target was chosen
+  bool has_slid_ = false;   ///< friction allows one slide a tick
+  bool rests_ = false;      ///< the last tick did not move it
+};
+
+}  // namespace touchmark

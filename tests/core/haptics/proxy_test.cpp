@@ -1,0 +1,267 @@
+// The proxy's promises, each against the oracle's exact arithmetic or geometry that is known: it never comes
+// as near as its radius, reaches what is free, rests, and pushes back as its coupling says.
+#include "core/haptics/proxy.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "bench/oracle/oracle.h"
+#include "bench/support/random.h"
+#include "core/aabb_tree/aabb_tree.h"
+#include "core/brute_force/brute_force.h"
+#include "core/grid_group/grid_group.h"
+#include "core/sphere_cluster/sphere_cluster.h"
+#include "tests/bench/oracle/corner_case_meshes.h"
+
+namespace touchmark {
+namespace {
+
+using bench::support::Random;
+
+static_assert(GuidesProxy<BruteForce> && GuidesProxy<AabbTree> && GuidesProxy<GridGroup> &&
+              GuidesProxy<SphereCluster>);
+
+/// A detector with a session, a proxy over it, and the oracle that watches every tick.
+template <class D>
+struct Watched {
+  TriangleMesh mesh;
+  bench::oracle::Oracle oracle;
+  D detector;
+  typename D::Session session;
+  Proxy<D> proxy;
+
+  Watched(TriangleMesh given, const Coupling& coupling)
+      : mesh(std::move(given)), oracle(mesh, 1), detector(D::build(mesh)), proxy(detector, coupling, &mesh) {}
+  Watched(const Watched&) = delete;
+  Watched& operator=(const Watched&) = delete;
+
+  /// One tick; every piece of its way must be free, and what it tells must agree with itself.
+  const ProxyState& follow(const Vec3& goal, const std::string& where) {
+    const double radius = proxy.coupling().radius;
+    const ProxyState before = proxy.state();
+    const ProxyState& state = proxy.step(goal, session);
+    EXPECT_EQ(state.way[0], before.position) << where;
+    EXPECT_EQ(state.way[state.pieces], state.position) << where;
+    for (std::size_t i = 0; i < state.pieces; ++i) {
+      EXPECT_NE(state.way[i], state.way[i + 1]) << where;
+      EXPECT_FALSE(oracle.segment_within(state.way[i], state.way[i + 1], radius)) << where << ", piece " << i;
+    }
+    if (state.position == goal) {
+      EXPECT_EQ(state.contacts, 0u) << where;
+      EXPECT_EQ(state.force, Vec3::Zero()) << where;
+      EXPECT_EQ(state.status, ProxyStatus::free) << where;
+    } else {
+      EXPECT_EQ(state.status, ProxyStatus::in_contact) << where;
+      EXPECT_GE(state.contacts, 1u) << where;
+      EXPECT_LE(state.contacts, 3u) << where;
+      EXPECT_TRUE(oracle.segment_within(before.position, goal, radius)) << where << ": the goal was free";
+    }
+    const double rounding = 1e-12 * ((before.position - goal).norm() + before.position.norm());
+    EXPECT_LE((state.position - goal).norm(), (before.position - goal).norm() + rounding) << where;
+    return state;
+  }
+};
+
+/// A free position off the mesh.
+Vec3 start_of(const TriangleMesh& mesh, double radius) {
+  const Aabb box = mesh.bounds();
+  return box.max + Vec3::Constant(2 * radius + 0.1 * box.diagonal());
+}
+
+/// Goals in and about the mesh: far ones, near ones, small steps, rests, and corners of its triangles.
+template <class D>
+void explore(const TriangleMesh& mesh, double radius, std::uint64_t seed, const std::string& name,
+             Coupling coupling = {}, int ticks = 60) {
+  coupling.radius = radius;
+  Watched<D> watched(mesh, coupling);
+  Random random(seed);
+  const double size = mesh.diagonal();
+  const Vec3 middle = mesh.bounds().center();
+  watched.proxy.place(start_of(mesh, radius));
+  Vec3 goal = watched.proxy.state().position;
+  for (int tick = 0; tick < ticks; ++tick) {
+    switch (random.below(6)) {
+      case 0:
+        goal = middle + 0.7 * size * random.unit() * random.direction();
+        break;
+      case 1:
+        goal = mesh.corner(random.below(mesh.size()), static_cast<int>(random.below(3)));
+        break;
+      case 2:
+        goal = middle + 100 * size * random.direction();
+        break;
+      case 3:
+        break;
+      default:
+        goal += 0.02 * size * random.direction();
+    }
+    watched.follow(goal, name + ", tick " + std::to_string(tick));
+    if (testing::Test::HasFailure()) return;
+  }
+}
+
+TEST(Proxy, NeverComesAsNearAsItsRadiusOnMeshesThatAreHard) {
+  std::uint64_t seed = 1;
+  for (const NamedMesh& named : corner_case_meshes()) {
+    const double size = named.mesh.diagonal();
+    if (!(size < 1e100)) continue;
+    for (const double radius : {0.0, 0.02 * size, 0.5 * size}) {
+      const std::string where = named.name + ", radius " + std::to_string(radius);
+      explore<AabbTree>(named.mesh, radius, ++seed, where + ", aabb tree");
+      explore<GridGroup>(named.mesh, radius, ++seed, where + ", grid group");
+      explore<SphereCluster>(named.mesh, radius, ++seed, where + ", sphere cluster");
+      if (HasFailure()) return;
+    }
+  }
+}
+
+TEST(Proxy, NeverComesAsNearAtOtherScalesAndFarFromTheOrigin) {
+  std::uint64_t seed = 100;
+  const TriangleMesh ball = octasphere(5);
+  for (const double scale : {1e-6, 1.0, 1e6}) {
+    for (const double offset : {0.0, 1e3, 0x1p40}) {
+      const TriangleMesh mesh = ball.transformed(scale, Vec3::Constant(offset));
+      if (scale < 0x1p-40 * offset) continue;  // nothing would be left of its shape
+      for (const double radius : {0.0, 0.05 * scale, 3 * scale})
+        explore<SphereCluster>(mesh, radius, ++seed,
+                               "scale " + std::to_string(scale) + ", offset " + std::to_string(offset));
+      if (HasFailure()) return;
+    }
+  }
+}
+
+TEST(Proxy, WithFrictionAndDampingIsAsSafe) {
+  for (const double friction : {0.2, 1.0, 5.0}) {
+    const Coupling coupling{
+        .stiffness = 500, .static_friction = friction, .dynamic_friction = 0.7 * friction, .damping = 3};
+    explore<GridGroup>(octasphere(6), 0.04, 7, "friction", coupling, 300);
+    explore<BruteForce>(octasphere(3), 0, 8, "friction, point", coupling, 150);
+  }
+}
+
+/// A corner of three planes about the origin, its inside the positive octant, as parts of large triangles.
+TriangleMesh octant(double size) {
+  const double a = size, b = -0.2 * size;
+  return {{{b, b, 0}, {a, b, 0}, {b, a, 0}, {b, 0, b}, {a, 0, b}, {b, 0, a}, {0, b, b}, {0, a, b}, {0, b, a}},
+          {{0, 1, 2}, {3, 5, 4}, {6, 7, 8}}};
+}
+
+template <class D>
+class ProxyOver : public testing::Test {};
+
+using Detectors = testing::Types<BruteForce, AabbTree, GridGroup, SphereCluster>;
+TYPED_TEST_SUITE(ProxyOver, Detectors);
+
+TYPED_TEST(ProxyOver, IsAtTheOptimumOfACornerInTheSameTick) {
+  for (const double radius : {0.0, 0.125}) {
+    Watched<TypeParam> watched(octant(4), {.radius = radius});
+    Random random(3);
+    watched.proxy.place({0.7, 0.7, 0.7});
+    for (int tick = 0; tick < 200; ++tick) {
+      const Vec3 goal = Vec3(random.unit(), random.unit(), random.unit()) - Vec3::Constant(0.5);
+      const ProxyState& state = watched.follow(goal, "tick " + std::to_string(tick));
+      const Vec3 optimum = goal.cwiseMax(radius);
+      EXPECT_LT((state.position - optimum).norm(), 1e-11) << "radius " << radius << ", tick " << tick;
+      EXPECT_EQ(state.contacts, static_cast<std::size_t>((goal.array() < radius).count()));
+      const Vec3 force = 1000 * (state.position - goal);
+      EXPECT_EQ(state.force, state.contacts > 0 ? force : Vec3(Vec3::Zero()));
+      for (std::size_t i = 0; i < state.contacts; ++i)
+        EXPECT_NEAR(state.normals[i].maxCoeff(), 1, 1e-9) << "one of the three planes";
+    }
+  }
+}
+
+TYPED_TEST(ProxyOver, RestsBitForBitWithinTenTicksOfItsGoal) {
+  const TriangleMesh mesh = octasphere(6);
+  for (const double radius : {0.0, 0.3}) {
+    Watched<TypeParam> watched(mesh, {.radius = radius});
+    Random random(4);
+    watched.proxy.place({2, 2, 2});
+    for (int rest = 0; rest < 20; ++rest) {
+      const Vec3 goal = 1.1 * random.unit() * random.direction();
+      for (int tick = 0; tick < 10; ++tick) watched.follow(goal, "approach");
+      const Vec3 at = watched.proxy.state().position;
+      for (int tick = 0; tick < 5; ++tick) EXPECT_EQ(watched.follow(goal, "rest").position, at);
+    }
+  }
+}
+
+TYPED_TEST(ProxyOver, IsStuckWhereItWasPutTooNearAndLeavesWithoutAJump) {
+  Watched<TypeParam> watched(octant(4), {.radius = 0.5});
+  watched.proxy.place({1, 1, 0.25});
+  EXPECT_EQ(watched.proxy.step({1, 1, -1}, watched.session).status, ProxyStatus::stuck);
+  EXPECT_GT(watched.proxy.state().position.z(), 0) << "it comes no nearer";
+  EXPECT_LT((watched.proxy.state().position - Vec3(1, 1, 0.25)).norm(), 0.07) << "an eighth of the radius";
+  const ProxyState& state = watched.proxy.step({1, 1, 0.75}, watched.session);
+  EXPECT_EQ(state.position, Vec3(1, 1, 0.75)) << "it leaves for a goal that is free";
+  EXPECT_EQ(watched.proxy.step({1, 1, 0.75}, watched.session).status, ProxyStatus::free);
+}
+
+TYPED_TEST(ProxyOver, FollowsAnUpdateOfTheMesh) {
+  Watched<TypeParam> watched(octant(4), {.radius = 0.25});
+  watched.proxy.place({1, 1, 1});
+  watched.follow({1, 1, 0}, "before");
+  const TriangleMesh raised = octant(4).transformed(1, {0, 0, 0.125});
+  watched.detector.update(raised);
+  watched.proxy.surface_moved(&raised);
+  const ProxyState stuck = watched.proxy.step({1, 1, 0}, watched.session);
+  EXPECT_EQ(stuck.status, ProxyStatus::stuck) << "the surface was moved onto it";
+  EXPECT_NEAR(stuck.position.z(), 0.25, 0.04);
+  EXPECT_EQ(watched.proxy.step({1, 1, 0.5}, watched.session).position, Vec3(1, 1, 0.5));
+  const ProxyState& again = watched.proxy.step({1, 1, 0}, watched.session);
+  EXPECT_NEAR(again.position.z(), 0.375, 1e-11);
+  EXPECT_GT(again.position.z(), 0.375);
+}
+
+TYPED_TEST(ProxyOver, StaysWhereAGoalIsNoNumber) {
+  Watched<TypeParam> watched(octant(4), {.radius = 0.25});
+  watched.proxy.place({1, 1, 1});
+  watched.follow({1, 1, 0}, "before");
+  const Vec3 at = watched.proxy.state().position;
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const ProxyState& state = watched.proxy.step({nan, 1, 0}, watched.session);
+  EXPECT_EQ(state.status, ProxyStatus::unanswered);
+  EXPECT_EQ(state.position, at);
+  EXPECT_EQ(state.force, Vec3::Zero());
+  EXPECT_EQ(watched.follow({1, 1, 0}, "after").position, at);
+}
+
+TEST(Proxy, SticksWithinItsFrictionConeAndSlidesBeyond) {
+  Watched<SphereCluster> watched(octant(8),
+                                 {.radius = 0.25, .static_friction = 0.5, .dynamic_friction = 0.25});
+  watched.proxy.place({2, 2, 0.5});
+  watched.follow({2, 2, -0.75}, "down");
+  const Vec3 pressed = watched.proxy.state().position;
+  EXPECT_NEAR(pressed.z(), 0.25, 1e-11);
+  EXPECT_EQ(watched.follow({2.45, 2, -0.75}, "within the cone").position, pressed);
+  const ProxyState& slid = watched.follow({3, 2, -0.75}, "beyond it");
+  EXPECT_NEAR(slid.position.x(), 3 - 0.25, 1e-9) << "short of the goal by the dynamic coefficient times 1";
+}
+
+TEST(Proxy, DampsTheGoalsMotionInContactAlone) {
+  Watched<AabbTree> watched(octant(8), {.radius = 0.25, .damping = 2, .tick_s = 0.5});
+  watched.proxy.place({2, 2, 3});
+  EXPECT_EQ(watched.follow({2, 2, 2}, "free").force, Vec3::Zero());
+  watched.follow({2, 2, 0}, "in contact");
+  const ProxyState& state = watched.follow({2, 2, -0.25}, "deeper");
+  EXPECT_NEAR(state.force.z(), 1000 * 0.5 + 2 / 0.5 * 0.25, 1e-6);
+}
+
+TEST(Proxy, IsTheSameForTheSameGoals) {
+  std::vector<Vec3> ways[2];
+  for (std::vector<Vec3>& way : ways) {
+    Watched<GridGroup> watched(octasphere(6), {.radius = 0.05});
+    Random random(9);
+    watched.proxy.place({2, 2, 2});
+    for (int tick = 0; tick < 100; ++tick)
+      way.push_back(watched.follow(1.2 * random.unit() * random.direction(), "").position);
+  }
+  EXPECT_EQ(ways[0], ways[1]);
+}
+
+}  // namespace
+}  // namespace touchmark

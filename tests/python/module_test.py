@@ -1,0 +1,248 @@
+#!/usr/bin/python3
+"""Asks the Python module, and compares with brute force in numpy that shares nothing with it.
+
+usage: PYTHONPATH=FOLDER module_test.py
+"""
+import threading
+import time
+import unittest
+
+import numpy as np
+
+import touchmark
+from touchmark import Side
+
+FORMS = [(touchmark.BruteForce, {}), (touchmark.AabbTree, {"leaf_size": 2}), (touchmark.GridGroup, {}),
+         (touchmark.GridGroup, {"lookup": "scan", "shape": "sphere"}), (touchmark.GridGroup, {"cell": "1%", "build": "lazy"}),
+         (touchmark.SphereCluster, {}), (touchmark.SphereCluster, {"clustering": 0.05, "simd": "portable"}),
+         (touchmark.SphereCluster, {"lookup": "scan"})]
+
+
+def bumpy_sphere(rings, sectors):
+    """A closed mesh of 2 * sectors * (rings - 1) triangles, outside outwards."""
+    random = np.random.default_rng(5)
+    vertices = [[0, 0, 1.0]]
+    for ring in range(1, rings):
+        for sector in range(sectors):
+            polar, round_ = np.pi * ring / rings, 2 * np.pi * sector / sectors
+            radius = random.uniform(0.8, 1.0)
+            vertices.append([radius * np.sin(polar) * np.cos(round_), radius * np.sin(polar) * np.sin(round_),
+                             radius * np.cos(polar)])
+    vertices.append([0, 0, -1.0])
+
+    def at(ring, sector):
+        return 1 + (ring - 1) * sectors + sector % sectors
+    faces = []
+    for sector in range(sectors):
+        faces.append([0, at(1, sector), at(1, sector + 1)])
+        faces.append([len(vertices) - 1, at(rings - 1, sector + 1), at(rings - 1, sector)])
+        for ring in range(1, rings - 1):
+            faces.append([at(ring, sector), at(ring + 1, sector), at(ring + 1, sector + 1)])
+            faces.append([at(ring, sector), at(ring + 1, sector + 1), at(ring, sector + 1)])
+    return np.array(vertices), np.array(faces)
+
+
+def to_segments(points, start, end):
+    """Squared distances (points, segments) by projection, clamped to the ends."""
+    along = end - start
+    share = np.einsum("psk,sk->ps", points[:, None] - start, along) / np.einsum("sk,sk->s", along, along)
+    nearest = start + np.clip(share, 0, 1)[..., None] * along
+    return ((points[:, None] - nearest) ** 2).sum(-1)
+
+
+def distances_by_numpy(vertices, faces, points):
+    """(points, triangles): to the plane where a point's foot is inside, by solving for it, else to the nearest edge."""
+    a, b, c = (vertices[faces[:, k]] for k in range(3))
+    normal = np.cross(b - a, c - a)
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    height = np.einsum("ptk,tk->pt", points[:, None] - a, normal)
+    basis = np.linalg.inv(np.stack([b - a, c - a, normal], axis=-1))
+    u, v = np.moveaxis(np.einsum("tij,ptj->pti", basis, points[:, None] - a), -1, 0)[:2]
+    inside = (u >= 0) & (v >= 0) & (u + v <= 1)
+    edges = np.minimum.reduce([to_segments(points, *ends) for ends in ((a, b), (b, c), (c, a))])
+    return np.sqrt(np.where(inside, height ** 2, edges))
+
+
+VERTICES, FACES = bumpy_sphere(8, 10)
+MESH = touchmark.Mesh(VERTICES, FACES)
+POINTS = np.random.default_rng(11).uniform(-1.3, 1.3, (400, 3))
+TRUTH = distances_by_numpy(VERTICES, FACES, POINTS)
+
+
+class Answers(unittest.TestCase):
+    def test_nearest_is_that_of_numpy(self):
+        for kind, options in FORMS:
+            with self.subTest(kind.__name__, **options):
+                found = kind(MESH, **options).nearest(POINTS)
+                self.assertTrue(found.found.all())
+                np.testing.assert_allclose(found.distance, TRUTH.min(axis=1), rtol=0, atol=1e-14)
+                # The triangle named is as near as the nearest, and point, normal and distance agree with one another.
+                np.testing.assert_allclose(TRUTH[np.arange(len(POINTS)), found.triangle], found.distance, atol=1e-14)
+                np.testing.assert_allclose(np.linalg.norm(POINTS - found.point, axis=1), found.distance, atol=1e-14)
+                np.testing.assert_allclose(found.point + found.normal * found.distance[:, None], POINTS, atol=1e-13)
+
+    def test_a_reach_leaves_out_what_is_farther(self):
+        detector = touchmark.GridGroup(MESH)
+        reaches = np.random.default_rng(2).uniform(0, 0.4, len(POINTS))
+        found = detector.nearest(POINTS, reaches)
+        near = TRUTH.min(axis=1) <= reaches
+        self.assertTrue(0 < near.sum() < len(POINTS))
+        np.testing.assert_array_equal(found.found, near)
+        np.testing.assert_array_equal(found.distance[~near], np.inf)
+        np.testing.assert_array_equal(found.triangle[~near], -1)
+        self.assertTrue(np.isnan(found.point[~near]).all() and np.isnan(found.normal[~near]).all())
+        np.testing.assert_array_equal(detector.touches(POINTS, reaches), near)
+        np.testing.assert_array_equal(detector.touches(POINTS, 0.2), TRUTH.min(axis=1) <= 0.2)
+
+    def test_first_hit_is_where_the_distance_falls_to_the_radius(self):
+        starts, ends = POINTS[:200], POINTS[200:]
+        radius = 0.05
+        ways = np.linspace(0, 1, 401)
+        centers = starts[:, None] + ways[:, None] * (ends - starts)[:, None]
+        along = np.stack([distances_by_numpy(VERTICES, FACES, way).min(axis=1) for way in centers])
+        for kind in (touchmark.GridGroup, touchmark.SphereCluster):
+            with self.subTest(kind.__name__):
+                hit = kind(MESH).first_hit(starts, ends, radius)
+                self.assertTrue(20 < hit.found.sum() < 200)
+                for way, found, fraction, distance in zip(along, hit.found, hit.fraction, hit.distance):
+                    # The distance changes by no more than the way, so samples cannot miss more than half a step.
+                    step = 2.6 * np.sqrt(3) / 400
+                    if not found:
+                        self.assertGreater(way.min(), radius - 1e-12)
+                    else:
+                        before = way[ways < fraction]
+                        self.assertTrue((before > radius - 1e-12).all())
+                        self.assertLess(way[np.searchsorted(ways, fraction, "right") - 1], radius + step)
+                        self.assertAlmostEqual(distance, way[0] if fraction == 0 else radius, places=9)
+
+    def test_sides_are_those_of_the_solid_angle(self):
+        a, b, c = (VERTICES[FACES[:, k]] - POINTS[:, None] for k in range(3))
+        la, lb, lc = (np.linalg.norm(x, axis=-1) for x in (a, b, c))
+        above = np.einsum("ptk,ptk->pt", a, np.cross(b, c))
+        below = la * lb * lc + (a * b).sum(-1) * lc + (b * c).sum(-1) * la + (c * a).sum(-1) * lb
+        winding = np.arctan2(above, below).sum(axis=1) / (2 * np.pi)
+        expected = np.where(winding > 0.5, Side.INSIDE, Side.OUTSIDE)
+        self.assertTrue(50 < (expected == Side.INSIDE).sum() < 350)
+        for kind in (touchmark.GridGroup, touchmark.SphereCluster):
+            np.testing.assert_array_equal(kind(MESH).side(POINTS), expected)
+        self.assertEqual(touchmark.GridGroup(MESH).side(VERTICES[:1])[0], Side.ON_SURFACE)
+        sheet = touchmark.Mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+        self.assertEqual(touchmark.GridGroup(sheet).side([[3, 3, 0.1]])[0], Side.UNDECIDED)
+
+    def test_order_and_threads_change_no_bit(self):
+        points = np.random.default_rng(3).uniform(-1.3, 1.3, (5000, 3))
+        for kind in (touchmark.GridGroup, touchmark.SphereCluster):
+            detector = kind(MESH)
+            once = detector.nearest(points)
+            order = np.random.default_rng(4).permutation(len(points))
+            shuffled = detector.nearest(points[order])
+            for threads in (0, 2, 7):
+                for first, second in zip(once, detector.nearest(points, threads=threads)):
+                    np.testing.assert_array_equal(first, second)
+            for first, second in zip(once, shuffled):
+                np.testing.assert_array_equal(first[order], second)
+
+    def test_far_off_and_tiny_meshes(self):
+        for scale, shift in ((2.0 ** -300, 0), (2.0 ** 300, 0), (1.0, 2.0 ** 40)):
+            # Moved by rounding once, and then what is stored is what is asked.
+            vertices = VERTICES * scale + shift
+            points = POINTS * scale + shift
+            expected = distances_by_numpy((vertices - shift) / scale, FACES, (points - shift) / scale).min(axis=1)
+            found = touchmark.SphereCluster(touchmark.Mesh(vertices, FACES)).nearest(points)
+            np.testing.assert_allclose(found.distance / scale, expected, rtol=1e-9, atol=1e-13)
+
+
+class Arrays(unittest.TestCase):
+    detector = touchmark.GridGroup(MESH)
+
+    def test_any_real_array_is_taken(self):
+        whole = np.array([[0, 0, 2], [1, 1, 1], [2, 0, 0]])
+        expected = self.detector.nearest(whole.astype(float)).distance
+        spread = np.zeros((6, 6))
+        spread[::2, ::2] = whole
+        for value in (whole.tolist(), whole, whole.astype(np.int8), whole.astype(np.uint64), whole.astype(np.float16),
+                      whole.astype(">f8"), np.asfortranarray(whole, float), spread[::2, ::2],
+                      np.frombuffer(b"x" + whole.astype(float).tobytes(), float, 9, 1).reshape(3, 3)):
+            np.testing.assert_array_equal(self.detector.nearest(value).distance, expected)
+
+    def test_what_is_no_real_array_is_refused_by_name(self):
+        good = [[0, 0, 0]]
+        refused = [
+            (lambda: self.detector.nearest([[1j, 0, 0]]), "points holds complex128"),
+            (lambda: self.detector.nearest([["a", "b", "c"]]), "points holds <U1"),
+            (lambda: self.detector.nearest(np.array([[True, False, True]])), "points holds bool"),
+            (lambda: self.detector.nearest(np.zeros((1, 3), np.longdouble)), "points holds float128"),
+            (lambda: self.detector.nearest([0, 0, 0]), r"points has the shape \(3,\)"),
+            (lambda: self.detector.nearest(np.zeros((2, 3, 1))), r"points has the shape \(2, 3, 1\)"),
+            (lambda: self.detector.nearest([[1, 2, 3], [1]]), "points is no rectangular array"),
+            (lambda: self.detector.nearest(good, -1), "reach is -1.0; it must be 0 or more"),
+            (lambda: self.detector.touches(good * 2, [1, np.nan]), r"radius\[1\] is nan; it must be 0 or more"),
+            (lambda: self.detector.touches(good * 3, [1, 2]), r"radius has the shape \(2,\)"),
+            (lambda: self.detector.first_hit(good, good * 2), "starts has 1 points and ends has 2"),
+            (lambda: self.detector.nearest(good, threads=-1), "threads is -1"),
+            (lambda: self.detector.nearest(good, threads=1.5), "threads is 1.5"),
+            (lambda: touchmark.Mesh(VERTICES, FACES.astype(float)), "faces holds float64"),
+            (lambda: touchmark.Mesh(VERTICES, [[0, 1, -1]]), r"faces\[0, 2\] is -1"),
+            (lambda: touchmark.Mesh(VERTICES, [[0, 1, 2 ** 40]]), r"faces\[0, 2\] is 1099511627776"),
+            (lambda: touchmark.Mesh(VERTICES, [[0, 1, 5000]]), f"triangle 0 names vertex 5000 of {len(VERTICES)}"),
+            (lambda: touchmark.Mesh([[0, 0, 0], [1, 0, np.inf]], [[0, 1, 1]]), "vertex 1 is not finite"),
+            (lambda: touchmark.Mesh(VERTICES, np.zeros((0, 3), int)), "the mesh has no triangle"),
+            (lambda: touchmark.GridGroup(MESH, cell="wide"), 'grid-group: cell="wide"'),
+            (lambda: touchmark.GridGroup(MESH, shape="octagon"), "none of cube, sphere, centered-sphere"),
+            (lambda: touchmark.SphereCluster(MESH, clustering=-1.0), 'clustering="-1.0" is not a length'),
+            (lambda: touchmark.AabbTree(MESH, leaf_size=0), "leaf"),
+        ]
+        for call, message in refused:
+            with self.subTest(message), self.assertRaisesRegex(ValueError, message):
+                call()
+        for call in (lambda: touchmark.Detector(MESH), lambda: touchmark.GridGroup(VERTICES)):
+            with self.assertRaises(TypeError):
+                call()
+
+    def test_no_points_give_no_answers(self):
+        for nothing in ([], np.zeros((0, 3))):
+            self.assertEqual(self.detector.nearest(nothing).point.shape, (0, 3))
+            self.assertEqual(self.detector.touches(nothing, 1).shape, (0,))
+            self.assertEqual(self.detector.first_hit(nothing, nothing).fraction.shape, (0,))
+            self.assertEqual(self.detector.side(nothing).shape, (0,))
+
+    def test_a_point_that_is_no_place_finds_nothing(self):
+        found = self.detector.nearest([[np.nan, 0, 0], [0, 0, 2]])
+        np.testing.assert_array_equal(found.found, [False, True])
+
+    def test_the_mesh_is_a_copy_that_cannot_be_written_to(self):
+        vertices = VERTICES.copy()
+        mesh = touchmark.Mesh(vertices, FACES)
+        vertices[:] = 0
+        np.testing.assert_array_equal(mesh.vertices, VERTICES)
+        np.testing.assert_array_equal(mesh.faces, FACES)
+        with self.assertRaises(ValueError):
+            mesh.vertices[0, 0] = 1
+        kept = touchmark.Mesh(VERTICES, FACES).vertices  # outlives the mesh
+        np.testing.assert_array_equal(kept, VERTICES)
+        np.testing.assert_array_equal(mesh.bounds, [VERTICES.min(axis=0), VERTICES.max(axis=0)])
+
+    def test_other_threads_go_on_while_a_batch_runs(self):
+        detector = touchmark.BruteForce(MESH)
+        points = np.tile(POINTS, (100, 1))
+        inside = threading.Event()
+        ticks = []
+
+        def count():
+            inside.wait()
+            while inside.is_set():
+                ticks.append(time.perf_counter())
+                time.sleep(0.001)
+        counter = threading.Thread(target=count)
+        counter.start()
+        inside.set()
+        begin = time.perf_counter()
+        detector.nearest(points)
+        end = time.perf_counter()
+        inside.clear()
+        counter.join()
+        self.assertGreater(sum(begin < tick < end for tick in ticks), 3)
+
+
+if __name__ == "__main__":
+    unittest.main()
