@@ -76,7 +76,8 @@ class PluginDetector {
     if (!session.is_begun()) session = this->session();
     return session.get();
   }
-  /// The same numbers in the same places: copied, a vector load would wait for stores of single numbers.
+  /// Returns the probe where it lies, which has the layout of C: a copy made of single stores would keep a
+  /// vector load waiting.
   static const touchmark_plugin_probe& c_probe(const Probe& probe) noexcept {
     static_assert(sizeof(Probe) == sizeof(touchmark_plugin_probe) &&
                   offsetof(Probe, radius) == offsetof(touchmark_plugin_probe, radius));
