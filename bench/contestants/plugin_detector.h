@@ -46,13 +46,12 @@ class PluginDetector {
   bool updates() const noexcept { return plugin_->update != nullptr; }
 
   bool touches(const Probe& probe, Session& session) const noexcept {
-    const touchmark_plugin_probe asked = c_probe(probe);
-    return plugin_->touches(detector_.get(), begun(session), &asked) != 0;
+    return plugin_->touches(detector_.get(), begun(session), &c_probe(probe)) != 0;
   }
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept {
-    const touchmark_plugin_probe asked = c_probe(probe);
     touchmark_plugin_contact contact{};
-    if (plugin_->nearest(detector_.get(), begun(session), &asked, reach, &contact) == 0) return std::nullopt;
+    if (plugin_->nearest(detector_.get(), begun(session), &c_probe(probe), reach, &contact) == 0)
+      return std::nullopt;
     return contact_of(contact);
   }
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept {
@@ -77,8 +76,12 @@ class PluginDetector {
     if (!session.is_begun()) session = this->session();
     return session.get();
   }
-  static touchmark_plugin_probe c_probe(const Probe& probe) noexcept {
-    return {{probe.center.x(), probe.center.y(), probe.center.z()}, probe.radius};
+  /// Returns the probe where it lies, which has the layout of C: a copy made of single stores would keep a
+  /// vector load waiting.
+  static const touchmark_plugin_probe& c_probe(const Probe& probe) noexcept {
+    static_assert(sizeof(Probe) == sizeof(touchmark_plugin_probe) &&
+                  offsetof(Probe, radius) == offsetof(touchmark_plugin_probe, radius));
+    return reinterpret_cast<const touchmark_plugin_probe&>(probe);
   }
   Contact contact_of(const touchmark_plugin_contact& contact) const noexcept {
     return {{contact.point[0], contact.point[1], contact.point[2]},

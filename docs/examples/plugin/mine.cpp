@@ -66,8 +66,8 @@ int nearest(const void* detector, void*, const touchmark_plugin_probe* probe, do
   }
   if (!(best <= reach)) return 0;
   const auto& [a, b, c] = mine(detector)[contact->triangle];
-  Vec normal = best > 0 ? -1.0 * way : cross(b - a, c - a);
-  if (length(normal) > 0) normal = (1 / length(normal)) * normal;
+  const Vec out = best > 0 ? -1.0 * way : cross(b - a, c - a);  // 0 on a triangle that is a line or a point
+  const Vec normal = length(out) > 0 ? (1 / length(out)) * out : Vec{0, 0, 1};
   const Vec point = center + way;
   std::copy(point.begin(), point.end(), contact->point);
   std::copy(normal.begin(), normal.end(), contact->normal);

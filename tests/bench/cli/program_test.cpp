@@ -213,7 +213,7 @@ TEST(Bench, NamesEachBadArgumentInOneLine) {
   expect_bad_input({"bench", "--benchmark_repetitions=0"}, {"--benchmark_repetitions \"0\""});
   expect_bad_input({"bench", "--benchmark_min_time=x"}, {"--benchmark_min_time \"x\""});
   expect_bad_input({"bench", "--benchmark_filter=("}, {"--benchmark_filter \"(\""});
-  expect_bad_input({"bench", "--benchmark_out=x.json"}, {"--benchmark_out"});
+  expect_bad_input({"bench", "--benchmark_out_format=csv"}, {"--benchmark_out_format", "not json"});
   expect_bad_input({"bench", "--benchmark_nonsense=1"}, {"--benchmark_nonsense=1"});
   expect_bad_input({"verify", "--query", "near"}, {"--query \"near\""});
   expect_bad_input({"list", "--bar"}, {"--bar"});
