@@ -92,7 +92,7 @@ struct ContestantInfo {
   /// Throws std::invalid_argument or MeshError for options or a mesh it refuses. Empty: not built in.
   BuildContestant build;
   BuildSceneContestant build_scene = {};  ///< builds one over a scene of bodies; empty: it takes none
-  bool scenes_only = false;  ///< True if it takes scenes of bodies and refuses a mesh alone.
+  bool scenes_only = false;               ///< True if it takes scenes of bodies and refuses a mesh alone.
   /// What it surely takes, and so must be there before it is built.
   std::function<double(const OptionValues&)> bytes_per_triangle = [](const OptionValues&) {
     return support::min_bytes_per_triangle;
