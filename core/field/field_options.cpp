@@ -21,7 +21,7 @@ double checked_length(double length, const char* name, double otherwise) {
 }  // namespace
 
 Division checked_division(const FieldOptions& options, double diagonal) {
-  constexpr double default_error = 3e-3, default_band = 0.05;  // of the diagonal
+  constexpr double default_error = 0.01, default_band = 0.05;  // of the diagonal
   constexpr std::size_t max_bytes = std::size_t{1} << 30;
   return {checked_length(options.error, "error", default_error * diagonal),
           checked_length(options.band, "band", default_band * diagonal),
