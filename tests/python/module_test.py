@@ -3,6 +3,10 @@
 
 usage: PYTHONPATH=FOLDER module_test.py
 """
+import pathlib
+import subprocess
+import sys
+import tempfile
 import threading
 import time
 import unittest
@@ -242,6 +246,30 @@ class Arrays(unittest.TestCase):
         inside.clear()
         counter.join()
         self.assertGreater(sum(begin < tick < end for tick in ticks), 3)
+
+
+class Examples(unittest.TestCase):
+    """Run as the page says: with a script's own folder before all others where Python looks for modules."""
+
+    def run_example(self, name, *arguments):
+        script = pathlib.Path(__file__).resolve().parents[2] / "python" / "examples" / name
+        done = subprocess.run([sys.executable, script, *arguments], capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def test_the_scan_is_compared_and_drawn(self):
+        with tempfile.TemporaryDirectory() as folder:
+            picture = pathlib.Path(folder, "deviation.png")
+            # The dent is 0.03 deep and the bead 0.015 high, to which noise is added.
+            least, most = map(float, self.run_example("deviation.py", "--out", picture).replace(",", "").split()[2:5:2])
+            self.assertAlmostEqual(least, -0.03, delta=0.004)
+            self.assertAlmostEqual(most, 0.015, delta=0.004)
+            self.assertEqual(picture.read_bytes()[:4], b"\x89PNG")
+
+    def test_throughput_names_all_that_were_asked(self):
+        printed = self.run_example("throughput.py", "--triangles", "500", "--points", "300", "--turns", "1")
+        for name in ("scattered points", "points along a path", "GridGroup", "SphereCluster"):
+            self.assertIn(name, printed)
 
 
 if __name__ == "__main__":
