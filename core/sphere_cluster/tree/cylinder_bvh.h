@@ -30,7 +30,6 @@ class FirstTouch;
 
 namespace spheres {
 struct MovedTriangles;
-struct Within;
 }  // namespace spheres
 
 class SphereTree {
@@ -162,8 +161,6 @@ class SphereTree {
   // Visitors: see search.h.
   template <class Visitor>
   void visit(std::uint32_t at, Visitor& visitor) const noexcept;
-  spheres::Within surely_nearest(std::uint32_t block, const FilterPoint& point) const noexcept;
-  bool touches_again(const FilterPoint& point, const Probe& probe, Memory& memory, Work& work) const noexcept;
   template <class Visitor>
   float traverse(const FilterPoint& point, Visitor& visitor, std::uint64_t budget) const noexcept;
   template <class Visitor>

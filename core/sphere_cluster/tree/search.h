@@ -24,12 +24,6 @@ template <class Visitor>
                           : spheres::avx2::visit(parts_, at, visitor);
 }
 
-[[gnu::always_inline]] inline spheres::Within SphereTree::surely_nearest(
-    std::uint32_t block, const FilterPoint& point) const noexcept {
-  return simd_ == Simd::portable ? spheres::portable::surely_nearest(parts_.blocks[block], point)
-                                 : spheres::avx2::surely_nearest(parts_.blocks[block], point);
-}
-
 template <class Visitor>
 [[gnu::always_inline]] inline float SphereTree::traverse(const FilterPoint& point, Visitor& visitor,
                                                          std::uint64_t budget) const noexcept {

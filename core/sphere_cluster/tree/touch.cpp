@@ -76,29 +76,6 @@ struct TouchVisitor {
 
 }  // namespace
 
-/// Does it touch one of the eight triangles of the block it touched last, or that triangle itself, told more
-/// closely? Where their planes tell, that is a few instructions.
-bool SphereTree::touches_again(const FilterPoint& point, const Probe& probe, Memory& memory,
-                               Work& work) const noexcept {
-  const double error = frame_.kernel_error(point.plane_error);
-  const std::uint32_t block = memory.slot / spheres::tree_width;
-  work.triangles += spheres::tree_width;
-  const spheres::Within within = surely_nearest(block, point);
-  const double farthest = frame_.from_frame_rounded_up(within.distance);
-  if (farthest < probe.radius - error) {
-    memory.slot = block * spheres::tree_width + within.at;
-    remember_touch(probe.center, 0, farthest, memory);
-    return true;
-  }
-  TouchVisitor visitor(parts_, probe.center, probe.radius, error, certified_);
-  visit(memory.slot, visitor);
-  if (visitor.open_count > 0) decide_open(visitor, error, work);
-  work += visitor.work;
-  if (visitor.kept_at == nowhere) return false;
-  remember_touch(probe.center, 0, visitor.least, memory);
-  return true;
-}
-
 bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const noexcept {
   const Vec3& center = probe.center;
   const double radius = probe.radius;
@@ -109,7 +86,16 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
     const double moved = (center - memory.center).norm();
     if ((memory.upper + moved) * (1 + 0x1p-40) + clearance_pad(point) <= radius) return true;
     // It is still near what it touched, unless it came from elsewhere.
-    if (std::abs(memory.upper - moved) <= radius && touches_again(point, probe, memory, work)) return true;
+    if (std::abs(memory.upper - moved) <= radius) {
+      TouchVisitor visitor(parts_, center, radius, frame_.kernel_error(point.plane_error), certified_);
+      visit(memory.slot, visitor);
+      if (visitor.open_count > 0) decide_open(visitor, frame_.kernel_error(point.plane_error), work);
+      work += visitor.work;
+      if (visitor.kept_at != nowhere) {
+        remember_touch(center, 0, visitor.least, memory);
+        return true;
+      }
+    }
   }
   std::uint64_t budget = work_limit();
   if (rejects_by_distance_field(point, center, radius, memory) ||

@@ -39,12 +39,6 @@ struct Path {
   float error;                                  ///< more than all rounding on the path
 };
 
-/// A triangle of a block, and a distance in the tree's frame that it is surely within.
-struct Within {
-  float distance;
-  std::uint32_t at;
-};
-
 /// Returned in place of a bound by a search whose work budget was exhausted.
 inline constexpr float exhausted = -1;
 

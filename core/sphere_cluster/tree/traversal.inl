@@ -130,36 +130,6 @@ inline Point broadcast(const FilterPoint& p) noexcept {
   return {Wide{} + p.x, Wide{} + p.y, Wide{} + p.z, Wide{} + p.plane_error};
 }
 
-/// Returns the triangle of a block that is surely within the least distance, and that, as distance_upper_bound
-/// of core/search/plane_filter.h tells; infinity where it tells nothing of any.
-inline Within surely_nearest(const TriangleBlock& block, const FilterPoint& point) noexcept {
-  const Point p = broadcast(point);
-  const Wide unknown = Wide{} + std::numeric_limits<float>::infinity();
-  alignas(64) std::array<float, tree_width> bound;
-  for (std::size_t at = 0; at < tree_width; at += lanes) {
-    const Wide face = planes_at(block, 0, at, p).value;
-    const Wide height = max(face, -face);
-    std::array<Planes, 3> side;
-    for (std::size_t i = 0; i < 3; ++i) side[i] = planes_at(block, i + 1, at, p);
-    Wide across = unknown;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t j = i == 2 ? 0 : i + 1;
-      const Wide cosine = cosine_between(side[i], side[j]);
-      const Wide squared = off_corner(side[i].value, side[j].value, cosine) / (1 - cosine * cosine);
-      const WideBits is_known = (cosine < 0) & (cosine > sharpest_cosine) & (squared < across);
-      across = is_known ? squared : across;
-    }
-    const Wide to_corner =
-        square_root(height * height + across * corner_excess) + corner_pad * p.plane_error;
-    const Wide excess = max(side[0].value, max(side[1].value, side[2].value));
-    store(bound.data() + at, excess <= -p.plane_error ? height + 2 * p.plane_error : to_corner);
-  }
-  Within least{bound[0], 0};
-  for (std::uint32_t i = 1; i < tree_width; ++i)
-    if (bound[i] < least.distance) least = {bound[i], i};
-  return least;
-}
-
 /// Returns those that are at most the limit, as bits; `unseen` falls to the least of the others. A template,
 /// so that an instruction set's own one goes before it.
 template <class Float>
