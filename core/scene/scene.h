@@ -44,6 +44,7 @@ class Scene {
   struct Session {
     Work work;
     NearBodies near;
+    /// What is remembered of one body: its shape, and the session that asks it.
     struct Asked {
       Epoch epoch;
       std::uint32_t shape = PlacedBody::no_shape;

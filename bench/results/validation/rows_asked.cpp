@@ -68,12 +68,22 @@ std::map<std::string, std::size_t> times_asked(const Json& run) {
   return times;
 }
 
+/// Returns the contestant of a row as it was asked for: without what it chose for itself, which stands last.
+std::string asked_as(const CsvTable& table, const CsvRecord& row,
+                     const std::map<std::string, std::size_t>& asked) {
+  const std::string contestant = contestant_of(table, row);
+  if (asked.contains(contestant)) return contestant;
+  std::size_t chosen = contestant.rfind(":chose=");
+  if (chosen == std::string::npos) chosen = contestant.rfind(",chose=");
+  return contestant.substr(0, chosen);
+}
+
 void check_twice(const CsvTable& table, const Json* run, Faults& faults) {
   std::map<std::string, std::size_t> seen;
   const std::map<std::string, std::size_t> asked = run != nullptr ? times_asked(*run) : decltype(seen){};
   for (const CsvRecord& row : table.records) {
     const std::string key = run != nullptr ? what(table, row) : key_of(row.fields);
-    const auto times = asked.find(contestant_of(table, row));
+    const auto times = asked.find(asked_as(table, row, asked));
     if (++seen[key] <= (times == asked.end() ? 1 : times->second)) continue;
     faults.push_back({table.path, row.line, "detector", contestant_of(table, row), "has this row twice"});
   }
@@ -89,9 +99,10 @@ bool is_left_out(const Json& asked, const std::string& trajectory, const std::st
 void check_missing(const CsvTable& table, const Json& run, Faults& faults) {
   const Json asked = member(run, "asked");
   if (!asked.is_object() || member(run, "finished") != true) return;
+  const std::map<std::string, std::size_t> named = times_asked(run);
   std::map<std::string, std::size_t> found;
   for (const CsvRecord& row : table.records) {
-    ++found[key_of({contestant_of(table, row), table.field(row, "mesh"), table.field(row, "trajectory"),
+    ++found[key_of({asked_as(table, row, named), table.field(row, "mesh"), table.field(row, "trajectory"),
                     table.field(row, "query")})];
   }
   std::vector<std::string> meshes = names_of(member(run, "meshes"));
