@@ -145,7 +145,8 @@ class CertifiedField {
   std::uint32_t triangle_of(const TriangleMesh& mesh, const Contact& contact,
                             const Vec3& point) const noexcept {
     if (mesh.ids().empty()) return contact.triangle;
-    const auto [first, last] = std::ranges::equal_range(mesh.ids(), contact.triangle);
+    const std::span<const TriangleId> ids = mesh.ids();
+    const auto [first, last] = std::equal_range(ids.begin(), ids.end(), contact.triangle);
     const auto begin = static_cast<std::size_t>(first - mesh.ids().begin());
     return nearest_as_computed(std::span(triangles_).subspan(begin, static_cast<std::size_t>(last - first)),
                                point)

@@ -93,9 +93,8 @@ class BodyQuery {
   std::pair<std::uint32_t, std::uint32_t> triangles_of(TriangleId id) const noexcept {
     const std::span<const TriangleId> ids = shape_.mesh->ids();
     if (ids.empty()) return {id, id + 1};
-    const auto range = std::ranges::equal_range(ids, id);
-    return {static_cast<std::uint32_t>(range.begin() - ids.begin()),
-            static_cast<std::uint32_t>(range.end() - ids.begin())};
+    const auto [first, last] = std::equal_range(ids.begin(), ids.end(), id);
+    return {static_cast<std::uint32_t>(first - ids.begin()), static_cast<std::uint32_t>(last - ids.begin())};
   }
   ImageCandidate candidate(const SeenCorners& corners, std::uint32_t triangle) const noexcept {
     const TriangleMesh& mesh = *shape_.mesh;
