@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 #include "core/exact/big_integer.h"
 #include "core/exact/exact_closest_point.h"

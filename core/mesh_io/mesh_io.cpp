@@ -6,7 +6,6 @@
 #include <new>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "core/mesh_io/mesh_file.h"
 #include "core/mesh_io/read_with_assimp.h"

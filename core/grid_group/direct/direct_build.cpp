@@ -5,7 +5,7 @@
 #include "core/grid_group/direct/direct_grid.h"
 #include "core/grid_group/direct/group_builder.h"
 #include "core/grid_group/direct/nearest_search.h"
-#include "core/search/distance_field_filling.h"
+#include "core/search/distance_field_filling.h"  // IWYU pragma: keep
 
 namespace touchmark::grid {
 namespace {

@@ -1,5 +1,4 @@
 /// All triangles within a reach, through the hierarchy of boxes: the groups hold only what can be nearest.
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/search/distance_field_filling.h"
+#include "core/search/distance_field_filling.h"  // IWYU pragma: keep
 #include "core/sphere_cluster/tree/cylinder_bvh.h"
 #include "core/sphere_cluster/tree/refit.h"
 #include "core/sphere_cluster/tree/search.h"  // IWYU pragma: keep
