@@ -36,7 +36,7 @@ struct Sizes {
   double at(std::size_t i) const noexcept { return values[one_for_all ? 0 : i]; }
 };
 
-/// Where contacts are stored, an array a member; a point without one gets false, infinity, not-a-number and
+/// Arrays that take contacts, one a member; a point without a contact gets false, infinity, not-a-number and
 /// -1.
 struct ContactArrays {
   bool* found;

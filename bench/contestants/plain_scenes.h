@@ -8,10 +8,15 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "bench/contestants/scene_player.h"
+#include "core/aabb_tree/aabb_tree.h"
+#include "core/grid_group/grid_group.h"
+#include "core/sphere_cluster/sphere_cluster.h"
 
 namespace touchmark::bench::contestants {
 
@@ -168,13 +173,35 @@ class MergedScene {
   std::vector<TriangleId> ids_;       ///< in its body, of each triangle
 };
 
-/// Which of our detectors they are made of.
-inline OptionInfo of_option() {
-  return {"of",
-          OptionKind::choice,
-          {"sphere-cluster", "grid-group", "aabb-tree"},
-          "sphere-cluster",
-          "the detector, in its default form"};
+/// Returns the entry of such a scene over one of our detectors, which its option `of` names.
+template <template <class> class SceneOf>
+ContestantInfo plain_scene_entry(std::string name, int rank, std::string summary) {
+  ContestantInfo info;
+  info.name = std::move(name);
+  info.rank = rank;
+  info.summary = std::move(summary);
+  info.accuracy = "exact";
+  info.queries = queries_of<SphereCluster>();
+  info.options = {{"of",
+                   OptionKind::choice,
+                   {"sphere-cluster", "grid-group", "aabb-tree"},
+                   "sphere-cluster",
+                   "the detector, in its default form"}};
+  info.scenes_only = true;
+  info.build = [](const TriangleMesh&, const OptionValues&) -> std::unique_ptr<Contestant> {
+    throw std::invalid_argument("it is of scenes of bodies: --scene");
+  };
+  info.build_scene = [](const bodies::PlacedScene& placed, const OptionValues& values) {
+    const auto over = [&]<Detector D>(std::type_identity<D>) {
+      return scene_contestant(placed, [](const bodies::PlacedScene& one) { return SceneOf<D>(one); });
+    };
+    const std::string& of = values.text("of");
+    return of == "grid-group"  ? over(std::type_identity<GridGroup>())
+           : of == "aabb-tree" ? over(std::type_identity<AabbTree>())
+                               : over(std::type_identity<SphereCluster>());
+  };
+  info.forms = {.scenes = {""}};
+  return info;
 }
 
 }  // namespace touchmark::bench::contestants

@@ -19,7 +19,7 @@
 namespace touchmark::bench::workers {
 
 /// The sizes of what lies one after the other in the input: vertices, corners, ids, then each trace's steps.
-/// Of a scene it is each shape's vertices, corners and ids; then, after the steps, the bodies, and each
+/// A scene has each shape's vertices, corners and ids; then, after the steps, the bodies, and each
 /// trace's schedule.
 struct WorkloadLayout {
   std::size_t vertices = 0;

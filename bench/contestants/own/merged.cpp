@@ -1,40 +1,11 @@
-#include <stdexcept>
-
 #include "bench/contestants/plain_scenes.h"
-#include "core/aabb_tree/aabb_tree.h"
-#include "core/grid_group/grid_group.h"
-#include "core/sphere_cluster/sphere_cluster.h"
 
 namespace touchmark::bench::contestants {
-namespace {
-
-template <Detector D>
-std::unique_ptr<Contestant> built_of(const bodies::PlacedScene& placed) {
-  return scene_contestant(placed, [](const bodies::PlacedScene& one) { return MergedScene<D>(one); });
-}
-
-}  // namespace
 
 ContestantInfo merged_entry() {
-  ContestantInfo info;
-  info.name = "merged";
-  info.rank = 45;
-  info.summary = "all triangles of a scene as one mesh, which one of our detectors is built of; bodies stand";
-  info.accuracy = "exact";
-  info.queries = queries_of<SphereCluster>();
-  info.options = {of_option()};
-  info.scenes_only = true;
-  info.build = [](const TriangleMesh&, const OptionValues&) -> std::unique_ptr<Contestant> {
-    throw std::invalid_argument("it is of scenes of bodies: --scene");
-  };
-  info.build_scene = [](const bodies::PlacedScene& placed, const OptionValues& values) {
-    const std::string& of = values.text("of");
-    return of == "grid-group"  ? built_of<GridGroup>(placed)
-           : of == "aabb-tree" ? built_of<AabbTree>(placed)
-                               : built_of<SphereCluster>(placed);
-  };
-  info.forms = {.scenes = {""}};
-  return info;
+  return plain_scene_entry<MergedScene>(
+      "merged", 45,
+      "all triangles of a scene as one mesh, which one of our detectors is built of; bodies stand");
 }
 
 }  // namespace touchmark::bench::contestants

@@ -37,7 +37,7 @@ class TriangleSplitter {
   TriangleRange all() const noexcept { return {0, static_cast<std::uint32_t>(items_.size()), 0, 0}; }
   /// The mesh's triangle at a position in the order.
   std::uint32_t triangle(std::uint32_t position) const noexcept { return items_[position].triangle; }
-  // Of `all` and what it is split into. The range must hold more than one block.
+  // What follows is asked of `all` and what it is split into; the range must hold more than one block.
   /// Returns half of the area of the range's box, a measure of how often a search looks into it.
   float area(const TriangleRange& range) const noexcept { return splits_[range.number].area; }
   /// The left part holds whole blocks.

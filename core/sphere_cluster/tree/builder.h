@@ -10,7 +10,7 @@
 namespace touchmark::spheres {
 
 /// Triangles of a cluster stay together until everything else has been split. The frame must fit the mesh.
-/// The same bits with any number of threads.
+/// Returns the same bits with any number of threads.
 TreeParts build_tree(const TriangleMesh& mesh, const SphereClusters& clusters, const FilterFrame& frame,
                      unsigned threads);
 

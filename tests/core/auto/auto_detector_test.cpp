@@ -31,7 +31,7 @@ TriangleMesh large_soup(std::size_t triangles) {
   return {vertices, corners};
 }
 
-/// The same triangles, some vertices a little elsewhere.
+/// Returns the same triangles with some vertices a little elsewhere.
 TriangleMesh dented(const TriangleMesh& mesh) {
   std::vector<Vec3> vertices(mesh.vertices().begin(), mesh.vertices().end());
   for (std::size_t i = 0; i < vertices.size(); i += 5) vertices[i] *= 0.99;
