@@ -1,10 +1,10 @@
 /// The worker program for plug-ins. It is linked with no detector, so that whatever a plug-in brings with it,
 /// another version of a rival perhaps, meets nothing of its kind.
-#include "bench/contestants/c_plugin.h"
+#include "bench/contestants/plugin_kind.h"
 #include "bench/workers/worker.h"
 
 int main(int argc, char** argv) {
   const touchmark::bench::contestants::Roster nobody({});
   return touchmark::bench::workers::run_worker(argc, argv, nobody,
-                                               touchmark::bench::contestants::load_c_plugin);
+                                               touchmark::bench::contestants::load_plugin);
 }

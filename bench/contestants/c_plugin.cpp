@@ -150,8 +150,9 @@ void expect_readable(const ContestantInfo& info) {
 
 }  // namespace
 
-ContestantInfo load_c_plugin(const std::string& path) {
-  const touchmark_plugin& plugin = described_by(path);
+ContestantInfo load_c_plugin(const std::string& path) { return contestant_of(described_by(path), path); }
+
+ContestantInfo contestant_of(const touchmark_plugin& plugin, const std::string& path) {
   expect_functions(plugin);
   ContestantInfo info;
   info.name = checked_word(plugin.name, "its name");

@@ -8,11 +8,15 @@
 
 #include <fmt/format.h>
 
+#include "bench/contestants/c_plugin.h"
+#include "bench/contestants/python_plugin.h"
+
 namespace touchmark::bench::contestants {
 namespace {
 
 constexpr std::array kinds{
-    PluginKind{".so", "touchmark-worker-plugin", "a shared object"},
+    PluginKind{".so", "touchmark-worker-plugin", "a shared object", load_c_plugin},
+    PluginKind{".py", "touchmark-worker-plugin", "a script in Python", load_python_plugin},
 };
 
 /// libmine.so, and libmine.so.1.2 as well.
@@ -33,5 +37,7 @@ const PluginKind& plugin_kind_of(const std::string& path) {
   for (const PluginKind& kind : kinds) known.push_back(fmt::format("{} ({})", kind.extension, kind.what));
   throw std::invalid_argument(fmt::format("its name ends in none of {}", fmt::join(known, ", ")));
 }
+
+ContestantInfo load_plugin(const std::string& path) { return plugin_kind_of(path).load(path); }
 
 }  // namespace touchmark::bench::contestants

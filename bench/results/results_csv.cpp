@@ -223,7 +223,8 @@ constexpr auto columns = std::to_array<Column<R>>({
     {"malformed", exact<&R::counts, &E::malformed>, judged, whole_number,
      "answers with NaN, infinity or a negative distance in them"},
     {"cpu_ns_per_query", six_digits<&R::throughput, &T::cpu_ns_per_query>, timed, finite,
-     "processor time of a query, without what other processes took of the core"},
+     "processor time of a query, without what other processes took of the core; all of the time where the"
+     " contestant waits, for a thread, process or device of its own"},
     {"answers_checksum", hex<&R::checksum>, judged, checksum,
      "checksum of all answers, in hexadecimal: contestants with the same one answered the same bits"},
     {"cells_mean", work_of<&Work::cells>, optional, finite,

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <utility>
 
 #include <benchmark/benchmark.h>
 
-#include "bench/support/processor_time.h"
+#include "bench/support/own_time.h"
 #include "bench/workload/sample_steps.h"
 
 namespace touchmark::bench::workers {
@@ -49,24 +48,6 @@ class AnswersOfPasses {
   bool first_ = true;
 };
 
-/// Elapsed and processor time from its construction on; reading the second one is outside of the first.
-class SampleClock {
- public:
-  void stop(double passes, Timed& result) const {
-    const Clock::time_point end = Clock::now();
-    const double processor = support::processor_ns() - processor_start_;
-    const double elapsed = std::chrono::duration<double, std::nano>(end - start_).count();
-    constexpr double undisturbed = 1.2;  // elapsed over processor time, at most
-    result.samples.push_back(std::min(elapsed, processor) / passes);
-    result.interrupted += elapsed > undisturbed * processor ? 1 : 0;
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  double processor_start_ = support::processor_ns();
-  Clock::time_point start_ = Clock::now();
-};
-
 /// Runs `pass` so many times, at least once, and fills in the times of a query.
 template <class Pass>
 void run_passes(const Pass& pass, std::int64_t passes, double queries_a_pass, Timed& result) {
@@ -80,9 +61,12 @@ void run_passes(const Pass& pass, std::int64_t passes, double queries_a_pass, Ti
       ->Iterations(std::max<std::int64_t>(passes, 1))
       ->Repetitions(1);
   KeepTimesPerPass reporter;
+  const long waits = support::waits_so_far();
   benchmark::RunSpecifiedBenchmarks(&reporter, nullptr, "^replay");
   result.ns_per_query = reporter.elapsed_ns() / queries_a_pass;
-  result.cpu_ns_per_query = reporter.cpu_ns() / queries_a_pass;
+  // What others do for a contestant that waits for them is not in its own processor time.
+  const bool waited = support::waits_so_far() != waits;
+  result.cpu_ns_per_query = waited ? result.ns_per_query : reporter.cpu_ns() / queries_a_pass;
 }
 
 }  // namespace
@@ -124,12 +108,14 @@ Timed sample_throughput(contestants::Contestant& contestant, const workload::Que
     workload::Checksum checksum;
     for (const workload::StepRange& range : ranges) {
       contestant.stand_at(trace, range.begin);
-      const SampleClock clock;
+      const support::OwnTime clock;
       for (std::int64_t i = 0; i < replays; ++i) {
         if (i > 0) answers.add(std::exchange(checksum, workload::Checksum()));
         contestant.replay(trace, range, checksum);
       }
-      clock.stop(static_cast<double>(replays), result);
+      const support::OwnTime::Taken taken = clock.so_far();
+      result.samples.push_back(taken.ns / static_cast<double>(replays));
+      result.interrupted += taken.interrupted ? 1 : 0;
     }
     answers.add(checksum);
   };

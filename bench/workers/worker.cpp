@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 #include <malloc.h>
 
+#include "bench/contestants/broken.h"
 #include "bench/contestants/build_notes.h"
 #include "bench/contestants/tick_clock.h"
 #include "bench/scenes/deformation.h"
@@ -23,7 +24,7 @@
 #include "bench/support/denormals.h"
 #include "bench/support/failures.h"
 #include "bench/support/median.h"
-#include "bench/support/processor_time.h"
+#include "bench/support/own_time.h"
 #include "bench/support/system_limit.h"
 #include "bench/workers/cache_lines.h"
 #include "bench/workers/cold_replay.h"
@@ -219,11 +220,9 @@ Timed Worker::handle(const request::First& request) {
 Timed Worker::handle(const request::Calibrate& request) {
   const Task& task = request.task;
   if (!task.ranges.empty()) {
-    const double start = support::processor_ns();
+    const support::OwnTime clock;
     Timed timed = timed_replay(trace_of(task), task.ranges);
-    const double processor =
-        (support::processor_ns() - start) / static_cast<double>(workload::steps_in(task.ranges));
-    timed.ns_per_query = std::min(timed.ns_per_query, processor);
+    timed.ns_per_query = clock.so_far().ns / static_cast<double>(workload::steps_in(task.ranges));
     return timed;
   }
   const std::size_t total = traces_.at(task.trace).size();
@@ -278,6 +277,10 @@ Timed Worker::handle(const request::Latency& request) {
   return clock_steps(*contestant_, trace_of(request.task), ranges_of(request.task), *buffers_);
 }
 
+void tell_broken(const std::string& why) noexcept {
+  LineChannel(worker_control).send(line_of(Reply(Broken{why})));
+}
+
 void serve(Worker worker, LineChannel channel) {
   std::string line;
   while (channel.receive(line, std::nullopt, [] {}) == LineChannel::Outcome::line) {
@@ -293,6 +296,7 @@ int run_worker(int argc, char** argv, const contestants::Roster& roster, LoadPlu
     channel.send(line_of(OutOfResources{what}));
     return support::exit_resources;
   };
+  contestants::set_tell_broken(&tell_broken);
   try {
     initialize_throughput({argv + 1, argv + argc});
     serve(Worker(roster, load), LineChannel(worker_control));

@@ -209,6 +209,10 @@ Reply WorkerProcess::ask(const Request& request, std::chrono::milliseconds timeo
     end();
     throw support::ResourceError(fmt::format("{}: {}", program_, exhausted->what));
   }
+  if (const auto* broken = std::get_if<Broken>(&reply)) {
+    end();
+    throw WorkerFailure("crashed:" + broken->why);
+  }
   replied_ = true;
   return reply;
 }

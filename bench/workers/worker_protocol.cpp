@@ -41,6 +41,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Pace, rate_hz, work_us, first_tick, overrun_t
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Task, trace, query, steps, ranges)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(NotStarted, error)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OutOfResources, what)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Broken, why)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Opened, clock_cost_ns, ns_per_tick, flushed_to_zero)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Built, refused, build_ms, bytes, heap_bytes, accuracy, queries, prepares,
                                    builds_lazily, remarks, choice)

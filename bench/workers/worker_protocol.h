@@ -45,6 +45,11 @@ struct OutOfResources {
   std::string what;
 };
 
+/// The contestant cannot answer any more; the worker has ended.
+struct Broken {
+  std::string why;  ///< one line
+};
+
 struct Done {};
 
 /// The worker has read the mesh and the traces.
@@ -242,7 +247,7 @@ using Request = std::variant<request::Open, request::Build, request::Update, req
                              request::Time, request::Sample, request::Latency, request::Servo, request::Cold,
                              request::Lines, request::Describe>;
 using Reply = std::variant<NotStarted, OutOfResources, Done, Opened, Built, Answered, Timed, Updated,
-                           ServoStretch, ColdSamples, Described>;
+                           ServoStretch, ColdSamples, Described, Broken>;
 
 // A line is [which of them, {its members}], so that a reply NotStarted is [0,{"error":2}]. Bytes that are not
 // UTF-8, which messages of rivals and file names may hold, are replaced.

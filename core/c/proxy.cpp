@@ -1,11 +1,10 @@
 // The proxy of core/c/touchmark.h.
 #include "core/haptics/proxy.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <string_view>
+#include <utility>
 
 #include "core/c/handles.h"
 #include "core/c/touchmark.h"

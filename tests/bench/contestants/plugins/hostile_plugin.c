@@ -1,9 +1,11 @@
 /* A plug-in that misbehaves as the environment variable HOSTILE_PLUGIN says. C99, so that the header is seen by
    a C compiler. Without the variable it answers that nothing is anywhere. */
+#define _POSIX_C_SOURCE 199309L
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #ifdef __SSE__
 #include <xmmintrin.h>
 #endif
@@ -66,6 +68,10 @@ static int nearest(const void* detector, void* session, const touchmark_plugin_p
   if (is("crash in a query")) abort();
   if (is("exit in a query")) exit(7);
   if (is("hang in a query")) hang();
+  if (is("sleep in a query")) {
+    const struct timespec while_ = {0, 1000000};
+    nanosleep(&while_, NULL);
+  }
   if (is("answer nothing but NaN")) {
     contact->distance = contact->point[0] = contact->normal[2] = NAN;
     return 1;

@@ -102,6 +102,17 @@ TEST(Plugin, IsTimedOnTheSameAnswers) {
   EXPECT_EQ(valid.status, 0) << valid.out << valid.err;
 }
 
+TEST(Plugin, ThatWaitsIsTimedByTheTimeThatPasses) {
+  const Misbehaving now("sleep in a query");
+  const TemporaryFolder folder;
+  const Outcome outcome = run_touchmark({"bench", "--mesh", "cube", "--trajectory", "slide", "--steps", "20",
+                                         "--plugin", hostile, "--quick", "--benchmark_repetitions=1",
+                                         "--benchmark_min_time=0.001", "--no-cold", "--out", folder.path()});
+  const std::string csv = folder.file("results.csv");
+  for (const char* const column : {"ns_per_query", "cpu_ns_per_query", "ns_p50"})
+    EXPECT_GE(std::stod(column_of(csv, column).at(0)), 1e6) << column << outcome.err;
+}
+
 TEST(Plugin, FollowsAMeshThatMoves) {
   const Outcome outcome =
       run_touchmark({"update", "--mesh", "icosphere:2", "--steps", "50", "--plugin", wrapping});
