@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 #include <stdexcept>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -26,14 +27,16 @@ std::string identity_of(const JobResult& job) {
                      of("flags"));
 }
 
+std::size_t place_of(std::string_view column) {
+  const auto columns = results::results_columns();
+  const auto found = std::ranges::find(columns, column, [](const auto& one) { return one.name; });
+  return static_cast<std::size_t>(found - columns.begin());
+}
+
 std::vector<std::string> sorting_key(const FoundJob& job) {
-  const std::vector<std::string> columns = results::names_of(results::results_columns());
   std::vector<std::string> key;
-  for (const char* name :
-       {"mesh", "trajectory", "query", "radius", "reach", "detector", "options", "run_id"}) {
-    const auto at = std::find(columns.begin(), columns.end(), name) - columns.begin();
-    key.push_back(job.result.fields[static_cast<std::size_t>(at)]);
-  }
+  for (const char* name : {"mesh", "trajectory", "query", "radius", "reach", "detector", "options", "run_id"})
+    key.push_back(job.result.fields[place_of(name)]);
   key.push_back(job.result.id);
   return key;
 }
@@ -75,6 +78,10 @@ void drop_times(FoundJob& job) {
     if (presence == results::Presence::built || presence == results::Presence::timed)
       job.result.fields[i].clear();
   }
+}
+
+void note_source(FoundJob& job) {
+  job.result.fields[place_of("source")] = fmt::format("{} on {}", job.path, job.result.machine);
 }
 
 void expect_one_machine(const std::vector<FoundJob>& jobs) {

@@ -22,6 +22,8 @@ FoundJob found_job(const std::string& path);
 /// Empties the columns that depend on the machine's speed.
 void drop_times(FoundJob& job);
 
+/// Fills in the row's column `source`.
+void note_source(FoundJob& job);
 /// Throws std::invalid_argument, naming both, when jobs that were timed on different machines or by different
 /// builds are among them.
 void expect_one_machine(const std::vector<FoundJob>& jobs);

@@ -303,6 +303,9 @@ constexpr auto columns = std::to_array<Column<R>>({
      "with `--cache-lines`: cache lines of data that a query touches, on average, with what it prepares; "
      "valgrind counts them in samples of the steps, without AVX-512, which it does not know"},
     {"code_lines", six_digits<&R::lines, &N::code>, optional, positive, "cache lines of code, likewise"},
+    {"source", [](Row) { return std::string(); }, optional, any_text,
+     "in what `touchmark merge` writes: the job's file that the row is from, and the code of the machine "
+     "that ran it, as `--machine` takes it"},
 });
 
 }  // namespace

@@ -11,7 +11,7 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PROGRAM = sys.argv.pop(1)
+PROGRAM = str(pathlib.Path(sys.argv.pop(1)).resolve())
 SNAKEMAKE = shutil.which("snakemake", path="/usr/bin:" + os.environ.get("PATH", ""))
 
 
@@ -58,6 +58,27 @@ class Sweep(unittest.TestCase):
         again = self.snakemake()
         self.assertEqual(again.returncode, 0, again.stderr)
         self.assertIn("Nothing to be done", again.stderr + again.stdout)
+
+    @unittest.skipIf(SNAKEMAKE is None, "snakemake is missing (scripts/setup sweeps installs it)")
+    def test_snakemake_goes_on_after_a_killed_shard(self):
+        ids = self.plan("accuracy")
+        wrapper = self.directory / "wrapper"
+        wrapper.write_text(f'#!/bin/bash\nif [[ "$*" == *2/3* ]] && [ ! -e killed ]; then touch killed; kill -9 $$; fi\n'
+                           f'exec "{PROGRAM}" "$@"\n', encoding="utf-8")
+        wrapper.chmod(0o755)
+        program = f"program={wrapper}"
+        killed = self.snakemake(program, "--keep-going")
+        self.assertNotEqual(killed.returncode, 0)
+        before = {path.name: path.stat().st_mtime_ns for path in (self.directory / "out" / "jobs").iterdir()}
+        self.assertTrue(0 < len(before) < len(ids))
+        done = self.snakemake(program)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        after = {path.name: path.stat().st_mtime_ns for path in (self.directory / "out" / "jobs").iterdir()}
+        self.assertEqual(set(after), {f"{i}.json" for i in ids})
+        self.assertEqual({**after, **before}, after)
+        rows = self.rows("out/results.csv")
+        self.assertEqual({row["source"].split(" on ")[0] for row in rows}, {f"out/jobs/{i}.json" for i in ids})
+        self.assertEqual(len(rows), len(ids))
 
     @unittest.skipIf(SNAKEMAKE is None, "snakemake is missing (scripts/setup sweeps installs it)")
     def test_snakemake_times_one_shard_after_the_other(self):

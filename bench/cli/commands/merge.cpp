@@ -65,6 +65,7 @@ void merge(const MergeOptions& options) {
     if (options.accuracy_only || !job.timed) batch::drop_times(job);
   }
   jobs = batch::in_order(std::move(jobs), manifest);
+  for (batch::FoundJob& job : jobs) batch::note_source(job);
   support::AtomicFile file(options.out);
   file.write(support::csv_line(results::names_of(results::results_columns())));
   for (const batch::FoundJob& job : jobs) file.write(support::csv_line(job.result.fields));
