@@ -9,11 +9,12 @@ from . import others, parts, tables, words
 from .packing import Packer, packed
 from .recording import time_of
 from .replay import KINDS_OF_CHARGES, Detail, replay_of, resolution
+from .visits import visits_of
 from .words import escaped
 
 BUDGET = 3_000_000  # bytes of the whole page
 # As much as the budget allows.
-DETAILS = [Detail(*one) for one in ((256, 16), (256, 14), (128, 14), (128, 12), (64, 12), (32, 12), (16, 10))]
+DETAILS = [Detail(*one) for one in ((256, 16), (256, 14), (128, 14), (128, 12), (64, 12), (64, 12, False), (32, 12, False), (16, 10, False))]
 WEB = pathlib.Path(__file__).resolve().parent / "web"
 STYLE, LOADER = WEB / "page.css", WEB / "loader.js"
 DASHES = {"full": [], "none": [7, 4], "left": [2, 3], "bottom": [8, 3, 2, 3], "right": [5, 2, 1, 2], "top": [1, 4]}
@@ -34,7 +35,8 @@ def page_of(recordings):
     for detail in DETAILS:
         text = full_page(recordings, script, style, [detail] * len(recordings))
         if len(text.encode()) <= BUDGET:
-            return text, [] if detail == DETAILS[0] else [f"curves have {detail.levels} levels a time, places {detail.bits} bits, {limit}"]
+            return text, [] if detail == DETAILS[0] else [f"curves have {detail.levels} levels a time, places {detail.bits} bits"
+                                                               + ("" if detail.visits else ", what queries looked at is left out") + f", {limit}"]
     # With several recordings the newest keeps its replay longest.
     for first in range(1, len(recordings) + 1):
         text = full_page(recordings, script, style, [None] * first + [DETAILS[-1]] * (len(recordings) - first))
@@ -148,7 +150,8 @@ def recording_json(recording, packer, detail):
         "contestants": [{"name": name, "color": detectors.colour(name), "dash": DASHES[detectors.filling(name)]}
                         for name in names],
         "rows": [row_json(row, recording) for row in recording.rows],
-        "replay": replay, "resolution": resolution(detail.levels, replay) if replay else 0,
+        "replay": replay, "visits": visits_of(recording.visits, packer) if replay and recording.visits and detail.visits else None,
+        "resolution": resolution(detail.levels, replay) if replay else 0,
     }
 
 

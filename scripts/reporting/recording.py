@@ -6,6 +6,7 @@ from drawing import detectors
 from drawing.results import Unusable, read_about, read_records, unique
 
 from .steps_file import Damaged, StepsFile
+from .visits import Visits
 
 NEEDED = ["detector", "options", "mesh", "trajectory", "query", "status", "steps"]
 OTHERS = ["suite.csv", "proxy.csv", "stab.csv", "servo.csv", "stress.csv", "scaling.csv", "choose.csv"]
@@ -66,7 +67,7 @@ class Recording:
         self.name = self.path.resolve().name
         results = self.path / "results.csv"
         self.others = [self.path / name for name in OTHERS if (self.path / name).is_file()]
-        self.rows, self.remarks, self.steps = [], [], None
+        self.rows, self.remarks, self.steps, self.visits = [], [], None, None
         self.about = read_about(self.path / "run.json")
         if not results.is_file():
             if not self.others:
@@ -97,6 +98,19 @@ class Recording:
         if self.steps.run_id not in run_ids:
             self.remarks.append(f"steps.bin is of another run, {self.steps.run_id}, and is left out.")
             self.steps = None
+        if self.steps is not None and (self.path / "visited.json").is_file():
+            self.read_visits()
+
+    def read_visits(self):
+        try:
+            visits = Visits(self.path / "visited.json")
+        except ValueError as error:
+            self.remarks.append(f"What queries looked at is not shown: {error}.")
+            return
+        if visits.run_id == self.steps.run_id:
+            self.visits = visits
+        else:
+            self.remarks.append(f"visited.json is of another run, {visits.run_id}, and is left out.")
 
     @property
     def contestants(self):
