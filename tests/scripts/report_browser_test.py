@@ -134,7 +134,7 @@ class Page(unittest.TestCase):
         text = self.browser.run("window.saved")
         self.assertIn("v 0.9 0 0\n", text)
         self.assertIn("# triangle 0\nf 1 2 3\n", text)
-        self.assertRegex(text, r"--radius 0\.05 --reach 0\.05 --step 0\n\Z")
+        self.assertIn("--radius 0.05 --reach 0.05 --step 0 | judged", text)
         self.assertEqual(subprocess.run(["sh", "-n"], input=text, text=True, check=False).returncode, 0)
 
     def test_nothing_runs_over_the_edge_at_any_width_or_text_size(self):
@@ -161,6 +161,70 @@ class Page(unittest.TestCase):
             worst = self.browser.run(CONTRAST)
             self.assertEqual(worst, [], scheme)
         self.browser.prefer()
+
+
+class SavedTest(unittest.TestCase):
+    """A real run, whose steps are saved and asked again, as a user would."""
+
+    @classmethod
+    def setUpClass(cls):
+        found = [path for build in ("release", "dev") if (path := ROOT / "build" / build / "bin" / "touchmark").is_file()]
+        if not found:
+            raise RuntimeError("touchmark is not built: scripts/build-program")
+        cls.program = found[0]
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls.temporary.name)
+        subprocess.run([cls.program, "bench", "--quick", "--mesh", "icosphere:3", "--trajectory", "slide", "--steps", "400",
+                        "--detector", "grid-group", "--detector", "libccd+aabb", "--benchmark_min_time=0.001",
+                        "--out", cls.folder], check=True, capture_output=True)
+        subprocess.run([ROOT / "scripts" / "report", cls.folder], check=True, stdout=subprocess.DEVNULL)
+        cls.browser = Browser()
+        cls.browser.open(cls.folder / "report.html")
+        cls.browser.run("URL.createObjectURL = (blob) => { window.saved = blob.text(); return 'blob:none'; }; HTMLAnchorElement.prototype.click = () => {};")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.close()
+        cls.temporary.cleanup()
+
+    def saved(self, name, kind):
+        """The first step of a list, saved: the script, and the page's cells about the contestant there."""
+        self.browser.run(f"document.querySelector('.swatches input[value=\"{name}\"]').checked || document.querySelector('.swatches input[value=\"{name}\"]').click()")
+        self.browser.run(f"document.querySelector('.lists {kind} button.step[data-name=\"{name}\"]').click()")
+        cells = self.browser.run("[...document.querySelectorAll('.about-step tr.current td')].map((cell) => cell.textContent)")
+        self.browser.run("document.querySelector('button.save').click()")
+        return self.browser.run("window.saved"), cells
+
+    def ask(self, script):
+        return subprocess.run(["sh", "-c", script], env={**os.environ, "TOUCHMARK": str(self.program)}, capture_output=True, text=True, check=False)
+
+    def test_the_slowest_step_gives_the_numbers_of_the_page_again(self):
+        script, cells = self.saved("grid-group", "ol")
+        done = self.ask(script)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
+        fields = done.stdout.split(",")
+        self.assertEqual(fields[0], "right: 0")
+        self.assertEqual(cells[4], "right")
+        self.assertEqual(fields[3] or "–", cells[3])  # the distance, to the last digit
+
+    def test_a_wrong_step_is_wrong_again_with_the_same_answer(self):
+        script, cells = self.saved("libccd+aabb", "ul")
+        done = self.ask(script)
+        self.assertEqual((done.returncode, done.stderr), (1, ""), done.stdout)
+        fields = done.stdout.splitlines()[-1].split(",")
+        self.assertRegex(fields[0], r"\Awrong: \d+\Z")
+        self.assertNotEqual(cells[4], "right")
+        self.assertEqual((fields[1], fields[3] or "–"), ("1" if cells[2] == "yes" else "0", cells[3]))
+
+    def test_a_contestant_that_does_not_answer_is_neither_right_nor_wrong(self):
+        script, _ = self.saved("grid-group", "ol")
+        done = subprocess.run(["sh", "-c", script], env={**os.environ, "TOUCHMARK": "false"}, capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+
+    def test_what_a_slow_step_looked_at_is_told(self):
+        self.saved("grid-group", "ol")
+        self.assertRegex(self.browser.run("document.querySelector('.visited').textContent"), r"\Agrid-group: Looked at ")
+        self.assertEqual(self.browser.errors, [])
 
 
 # Every text against the ground behind it: 4.5 to 1, as WCAG's AA demands.

@@ -272,8 +272,8 @@ export class Explore {
     if (visited) nodes.push(visited);
     if (series?.about.repeat) {
       nodes.push(make("p", {}, "Ask again: ", command(series.about.repeat + step)));
-      const test = this.mesh && testOf(this.mesh, trace, step, series.name, series.about.repeat);
-      if (test) nodes.push(make("button", { type: "button", class: "save", onclick: () => download(`step-${step}.sh`, test) }, "Save as test"), make("span", { class: "small" }, " a script with the mesh around the probe and the command"));
+      const test = this.mesh && testOf(this.mesh, trace, step, series);
+      if (test) nodes.push(make("button", { type: "button", class: "save", onclick: () => download(`step-${step}.sh`, test) }, "Save as test"), make("span", { class: "small" }, " a script with the mesh around the probe, the command and the truth"));
     }
     return nodes;
   }
