@@ -9,6 +9,7 @@ from . import others, parts, tables, words
 from .packing import Packer, packed
 from .recording import time_of
 from .replay import KINDS_OF_CHARGES, Detail, replay_of, resolution
+from .steps_file import Damaged
 from .visits import visits_of
 from .words import escaped
 
@@ -109,8 +110,11 @@ def recording_html(recording, number, plain):
         first = recording.rows[0]
         scene = f"{first.fields['mesh']}, {int(first.number('triangles') or 0):,} triangles, {first.query}"
         sentences = "".join(f"<li>{sentence}</li>" for sentence in words.verdict(recording))
-        parts_of_it.append(f'<section class="verdict" aria-label="Verdict"><p class="scene">{escaped(scene)}</p><ul>{sentences}</ul>{remarks}</section>')
-        parts_of_it.append(f'<section aria-label="Ratios"><h2>Who is faster, and how much</h2>{tables.ratio_table(recording, number)}</section>')
+        parts_of_it.append(f'<section class="verdict" aria-label="Verdict"><p class="scene">{escaped(scene)}</p><ul>{sentences}</ul>'
+                           f'<p class="scene">{words.how_measured(recording)}</p>{remarks}</section>')
+        picture = "" if plain else f'<div class="scatter" data-recording="{number}"></div>'
+        parts_of_it.append('<div class="first-look"><section aria-label="Ratios"><h2>Who is faster, and how much</h2>'
+                           f'{tables.ratio_table(recording, number)}</section>{picture}</div>')
         parts_of_it.append(pictures_of(recording) if plain else f'<div class="interactive" data-recording="{number}"></div>')
         parts_of_it.append(f'<section aria-label="Machine"><h2>The machine, and how quiet it was</h2>{tables.machine_list(recording)}</section>')
     for title, html in others.sections_of(recording):
@@ -138,13 +142,18 @@ def comparison_html(recordings):
     with_rows = [one for one in recordings if one.rows]
     pairs = "".join(f"<h3>{escaped(after.name)} against {escaped(before.name)}</h3>{tables.against(before, after)}"
                     for before, after in zip(with_rows, with_rows[1:]))
-    return f'<section aria-label="Comparison"><h2>One recording against the one before</h2>{pairs}</section>' if pairs else ""
+    if not pairs:
+        return ""
+    for one in with_rows:
+        one.common = [name for name in with_rows[0].trajectories if all(name in other.trajectories for other in with_rows)]
+    return (f'<section aria-label="History"><h2>The recordings side by side</h2>{tables.history(with_rows)}</section>'
+            f'<section aria-label="Comparison"><h2>One recording against the one before</h2>{pairs}</section>')
 
 
 def recording_json(recording, packer, detail):
     names = recording.contestants
     detectors.tell_apart(names)
-    replay = replay_of(recording.steps, packer, detail) if recording.steps and detail else None
+    replay = replay_in(recording, packer, detail) if recording.steps and detail else None
     return {
         "name": recording.name, "trajectories": recording.trajectories,
         "contestants": [{"name": name, "color": detectors.colour(name), "dash": DASHES[detectors.filling(name)]}
@@ -153,6 +162,19 @@ def recording_json(recording, packer, detail):
         "replay": replay, "visits": visits_of(recording.visits, packer) if replay and recording.visits and detail.visits else None,
         "resolution": resolution(detail.levels, replay) if replay else 0,
     }
+
+
+def replay_in(recording, packer, detail):
+    """Null where a block turns out to be damaged, which the page then says."""
+    begun = len(packer.parts), packer.size
+    try:
+        return replay_of(recording.steps, packer, detail)
+    except Damaged as damaged:
+        del packer.parts[begun[0]:]
+        packer.size = begun[1]
+        recording.steps = recording.visits = None
+        recording.remarks.append(f"There is no replay: {damaged}.")
+        return None
 
 
 def row_json(row, recording):

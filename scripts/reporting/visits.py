@@ -7,20 +7,26 @@ NUMBERS = {"cells": 6, "groups": 8, "boxes": 7, "cylinders": 9}  # of each
 LEVELS = 65535
 
 
+class Unreadable(Exception):
+    """The file cannot be used; the message is the end of a sentence."""
+
+
 class Visits:
-    """Raises ValueError where the file is not what it should be; the message is the end of a sentence."""
+    """Raises Unreadable."""
 
     def __init__(self, path):
         try:
             content = json.loads(path.read_text(encoding="utf-8"))
-            if content["schema"] != 1:
-                raise ValueError(f"{path} is of version {content['schema']}; this script reads version 1")
-            self.run_id = content["run_id"]
-            self.rows = {(name_of(row), row["trajectory"]): [Step(step) for step in row["steps"]] for row in content["rows"]}
+            version = content["schema"]
+            if version == 1:
+                self.run_id = content["run_id"]
+                self.rows = {(name_of(row), row["trajectory"]): [Step(step) for step in row["steps"]] for row in content["rows"]}
         except OSError as error:
-            raise ValueError(f"{path} cannot be read: {error.strerror}") from None
-        except (KeyError, TypeError, AttributeError, json.JSONDecodeError, UnicodeDecodeError):
-            raise ValueError(f"{path} is not as it should be") from None
+            raise Unreadable(f"{path} cannot be read: {error.strerror}") from None
+        except (KeyError, TypeError, AttributeError, ValueError):
+            raise Unreadable(f"{path} is not as it should be") from None
+        if version != 1:
+            raise Unreadable(f"{path} is of version {version}; this script reads version 1")
 
 
 def name_of(row):
@@ -36,7 +42,7 @@ class Step:
         for kind, width in NUMBERS.items():
             self.kinds[kind] = numpy.array(step.get(kind, []), float).reshape(-1, width)
             if not numpy.isfinite(self.kinds[kind]).all():
-                raise TypeError(kind)
+                raise ValueError(kind)
         self.triangles = numpy.array(step.get("triangles", []), numpy.uint32)
         self.left_out = sum(step.get("left_out", {}).values())
 

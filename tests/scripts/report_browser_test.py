@@ -123,6 +123,19 @@ class Page(unittest.TestCase):
         self.browser.press("Escape")
         self.browser.until("!document.querySelector('#details')")
 
+    def test_cells_tell_their_errors_on_focus_and_on_hover(self):
+        self.browser.run("document.querySelector('table.ratios td[tabindex=\"0\"]').focus()")
+        for key in ("ArrowDown", "ArrowDown", "ArrowDown", "ArrowRight"):
+            self.browser.press(key)
+        self.assertEqual(self.browser.run("document.activeElement.closest('tr').dataset.name"), "libccd+aabb")
+        self.assertIn("60 × missed contact", self.browser.run("document.querySelector('#tip:not([hidden])').textContent"))
+        self.assertEqual(self.browser.run("document.activeElement.getAttribute('aria-describedby')"), "tip")
+        self.browser.press("Escape")
+        self.assertTrue(self.browser.run("document.querySelector('#tip').hidden"))
+        x, y, width, height = self.browser.box("table.ratios tbody tr:nth-child(4) td.errs")
+        self.browser.mouse("mouseMoved", x + width / 2, y + height / 2)
+        self.assertIn("slide: 60 × missed contact", self.browser.until("document.querySelector('#tip:not([hidden])')?.textContent"))
+
     def test_scrubbing_moves_the_step(self):
         self.browser.run("(() => { const one = document.querySelector('.scrub'); one.value = 1234; one.dispatchEvent(new Event('input')); })()")
         self.assertEqual(self.step(), 1234)
@@ -161,6 +174,38 @@ class Page(unittest.TestCase):
             worst = self.browser.run(CONTRAST)
             self.assertEqual(worst, [], scheme)
         self.browser.prefer()
+
+
+class OddNames(unittest.TestCase):
+    """Names from files are text, whatever is in them."""
+
+    NAMES = ["<img src=x onerror=window.hacked=1>", "</script><script>window.hacked=1</script>", "naïve-検出器:größe=½", "a\"b'c\\d`e$(exit 3)", "two\nlines&amp;"]
+
+    def test_neither_page_nor_saved_test_takes_them_for_anything_else(self):
+        with tempfile.TemporaryDirectory() as temporary:
+            folder = pathlib.Path(temporary) / "<b>run & co"
+            folder.mkdir()
+            contestants = [Contestant(name, 100 * 2 ** k, 300, k, range(20, 25) if k == 1 else ()) for k, name in enumerate(self.NAMES)]
+            made_up_steps.write(folder, contestants, 300, trajectory="<i>slide</i>", mesh="<u>ball</u>\nrm -r /")
+            (folder / "stress.csv").write_text("detector,options,family,probes,missed\n<b>x</b>,,<script>window.hacked=1</script>,1,0\n", encoding="utf-8")
+            subprocess.run([ROOT / "scripts" / "report", folder], check=True, stdout=subprocess.DEVNULL)
+            browser = Browser()
+            self.addCleanup(browser.close)
+            browser.open(folder / "report.html")
+            browser.run("URL.createObjectURL = (blob) => { window.saved = blob.text(); return 'blob:none'; }; HTMLAnchorElement.prototype.click = () => {};")
+            for place in range(len(self.NAMES)):
+                browser.run(f"document.querySelectorAll('table.ratios button.pick')[{place}].click()")
+                browser.run("document.querySelector('#details').close()")
+                browser.run(f"document.querySelectorAll('.lists details')[{place}].querySelector('button.step').click()")
+                browser.run("document.querySelector('button.save').click()")
+                script = browser.run("window.saved")
+                self.assertEqual(subprocess.run(["sh", "-n"], input=script, text=True, check=False).returncode, 0, script[:500])
+                self.assertRegex(script.splitlines()[1], r"\A# Step \d+ of <i>slide</i> on <u>ball</u> rm -r /, cut")
+                asked = subprocess.run(["sh", "-c", script], env={**os.environ, "TOUCHMARK": "/bin/echo"}, capture_output=True, text=True, check=False)
+                self.assertEqual(asked.stderr, "")
+            self.assertEqual(browser.run("[window.hacked, document.querySelectorAll('img, main b > *, i, u').length, document.querySelectorAll('script').length]"), [None, 0, 5])
+            self.assertEqual(sorted(browser.run("[...document.querySelectorAll('.swatches input')].map((one) => one.value)")), sorted(self.NAMES))
+            self.assertEqual(browser.errors, [])
 
 
 class SavedTest(unittest.TestCase):

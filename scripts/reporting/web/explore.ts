@@ -63,7 +63,7 @@ export class Explore {
   // ----- building
 
   private build(): void {
-    this.place.append(make("section", { "aria-label": "Time against error" }, make("h2", {}, "Time against error"), this.scatter.element));
+    document.querySelector(`.scatter[data-recording="${this.place.dataset.recording}"]`)!.append(make("section", { "aria-label": "Time against error" }, make("h2", {}, "Time against error"), this.scatter.element));
     if (!this.mesh) return;
     for (const trace of this.recording.replay!.traces) this.choice.append(make("option", { value: trace.trajectory }, trace.trajectory));
     this.choice.addEventListener("change", () => this.state.set({ trajectory: this.choice.value, begin: 0, end: 0, step: 0 }));

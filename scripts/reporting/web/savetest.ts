@@ -7,6 +7,9 @@ const oneLine = (text: string) => text.replace(/[\u0000-\u001f\u007f\u2028\u2029
 const MISSED = 1, FALSE_CONTACT = 2, WRONG_TRIANGLE = 4, WRONG_DISTANCE = 8;  // of the charges
 const JUDGED = MISSED | FALSE_CONTACT | WRONG_TRIANGLE | WRONG_DISTANCE;
 
+/** Words as the program writes them, and nothing else that a shell would run. */
+const COMMAND = /^touchmark query (?:[\w.,:=%/+@-]|'[^']*'|\\'| )+$/;
+
 /** The script's text; null where the page does not hold the triangles around this step, or the way of a sweep, and where something was
     wrong that the script would not see: a point or a normal alone. */
 export function testOf(mesh: Mesh, trace: Trace, step: number, series: Series): string | null {
@@ -28,7 +31,7 @@ export function testOf(mesh: Mesh, trace: Trace, step: number, series: Series): 
   const distance = found && trace.about.query === "nearest" ? ` && distance_is($4, ${trace.distance(step)}, ${tolerance})` : "";
   const then = !charged || !answer ? "1" : series.found[step] !== 1 ? "$2 == 0" : trace.about.query === "nearest" ? `$2 == 1 && distance_is($4, ${answer.distance}, ${1e-12 * Math.abs(answer.distance)})` : "$2 == 1";
   const command = `query --mesh "$folder/mesh.obj" --trajectory "$folder/probe.csv" --detector ${quoted(series.name)} --query ${trace.about.query} --radius ${radius} --reach ${Number.isFinite(reach) ? reach : "inf"} --step 0`;
-  const whole = /^touchmark query /.test(repeat) ? `"$touchmark" ${repeat.replace(/^touchmark /, "")}${step}` : "";
+  const whole = COMMAND.test(repeat) ? `"$touchmark" ${repeat.replace(/^touchmark /, "")}${step}` : "";
   return `#!/bin/sh
 # Step ${step} of ${oneLine(trace.name)} on ${oneLine(mesh.about.name)}, cut to the ${triangles.length} triangles nearest to the probe. Asks ${oneLine(series.name)}
 # and exits with 0 where the answer is the truth, 1 where it is not, 2 where there is none.
