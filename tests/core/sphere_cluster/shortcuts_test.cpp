@@ -77,8 +77,8 @@ void expect_brute_force_on_a_wild_way(const TriangleMesh& mesh, double size, con
   Vec3 at = middle;
   for (int i = 0; i < 4000; ++i) {
     const double step = size * std::pow(2, random.between(-10, 1.6));
-    Vec3 next = at + random.vector(step);
-    if (!((next - middle).norm() < 4 * size)) next = middle + random.vector(size);
+    Vec3 next = at + random.point(step);
+    if (!((next - middle).norm() < 4 * size)) next = middle + random.point(size);
     const double radius = i % 9 == 0 ? 0 : size * std::pow(2, random.between(-10, 1));
     wrong += comparison.differences(at, next, radius, random.below(4));
     at = next;
