@@ -9,6 +9,7 @@
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/narrowphase/collision.h>
+#include <fcl/narrowphase/collision_object.h>
 #include <fcl/narrowphase/continuous_collision.h>
 #include <fcl/narrowphase/distance.h>
 #include <gtest/gtest.h>
@@ -156,13 +157,25 @@ TEST(FclTraps, ConservativeAdvancementMissesAsWell) {
   Random random(4);
   int found = 0;
   for (int trial = 0; trial < 20; ++trial) {  // straight through the surface, which lies within |z| <= 0.2
-    const double x = 0.9 * random.coordinate(), y = 0.9 * random.coordinate();
+    const double x = 0.9 * random.between(-1, 1), y = 0.9 * random.between(-1, 1);
     fcl::ContinuousCollisionResultd result;
     fcl::continuousCollide(model.get(), fcl::Transform3d::Identity(), fcl::Transform3d::Identity(), &ball,
                            at({x, y, 1}), at({x, y, -1}), request, result);
     found += result.is_collide;
   }
   EXPECT_LE(found, 5);
+}
+
+// A corner 1e6 from the middle goes by 5e-7 out of the box.
+TEST(FclTraps, ARotationBelowAMillionthOfAMillionthLeavesTheBoxUnturned) {
+  const TriangleMesh mesh({{0, 0, 0}, {1e6, 0, 0}, {0, 1e6, 0}}, {{0, 1, 2}});
+  fcl::CollisionObjectd object(std::shared_ptr<fcl::CollisionGeometryd>(raw_model<fcl::AABBd>(mesh)));
+  fcl::Transform3d pose = fcl::Transform3d::Identity();
+  pose.linear()(2, 0) = 5e-13;
+  pose.linear()(0, 2) = -5e-13;
+  object.setTransform(pose);
+  object.computeAABB();
+  EXPECT_FALSE(object.getAABB().contain(pose * Vec3(1e6, 0, 0)));
 }
 
 }  // namespace
