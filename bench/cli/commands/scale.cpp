@@ -233,12 +233,8 @@ void ScaleRun::run_mesh(const std::string& name) {
   });
   skip_known(comparison, workload.mesh.size());
   std::vector<measurement::ResultRow> rows;
-  for (std::size_t trace = 0; trace < workload.traces.size(); ++trace) {
-    std::vector<measurement::ResultRow> of_trace = run_trace(comparison, workload, trace);
-    // One curve, whatever speed it has on this mesh.
-    for (measurement::ResultRow& row : of_trace) row.trajectory = asked[trace];
-    std::ranges::move(of_trace, std::back_inserter(rows));
-  }
+  for (std::size_t trace = 0; trace < workload.traces.size(); ++trace)
+    std::ranges::move(run_trace(comparison, workload, trace), std::back_inserter(rows));
   note_too_much(comparison, rows);
   std::ranges::move(rows, std::back_inserter(rows_));
   description_.steadiness = comparison.steadiness();
