@@ -124,7 +124,7 @@ TEST(DistanceGrid, BoundsTheDistanceWhereItFollowsFromSamplesAround) {
     const KnowingSampler sampler(mesh, plain.frame, searches);
     grid.fill([&](double) { return sampler; }, 1);
     for (int i = 0; i < 3000; ++i) {
-      const Vec3 p = random.vector(i % 2 == 0 ? 0.7 : 3);
+      const Vec3 p = random.point(i % 2 == 0 ? 0.7 : 3);
       const double distance = plain.distance(p);
       EXPECT_LE(static_cast<double>(grid.lower_bound(plain.point(p))), distance) << p.transpose();
       EXPECT_LE(static_cast<double>(grid.tight_lower_bound(plain.point(p))), distance) << p.transpose();
