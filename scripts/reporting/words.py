@@ -92,7 +92,7 @@ def how_measured(recording):
     """Sentences about the machine and how quiet it was."""
     about = recording.about
     cores = about.get("cores")
-    machine = ", ".join(escaped(one) for one in (about.get("cpu"), f"{cores} cores" if isinstance(cores, int) else None) if one)
+    machine = ", ".join(escaped(one) for one in (about.get("cpu"), many(cores, "core") if isinstance(cores, int) else None) if one)
     shares = [one.get("disturbed_share") for one in about.get("steadiness") or []]
     shares = [one for one in shares if isinstance(one, (int, float)) and math.isfinite(one)]
     quiet = (f"Other work disturbed {share(max(shares))} of the samples of the least quiet trajectory." if shares
