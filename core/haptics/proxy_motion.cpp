@@ -154,7 +154,7 @@ void ProxyMotion::meet(const Impact& impact, const Vec3& target) noexcept {
   const ContactPlane plane{met_normal(impact, target), impact.contact.point};
   planes_.meet(plane, has_moved_ ? 0 : skin_);
   has_slid_ = false;
-  slides_ = 0;
+  slides_ = std::max(slides_ - 1, 0);
 }
 
 /// After a slide, so far that what it has come off by stays in sight: on a curve of the ball's own radius, or

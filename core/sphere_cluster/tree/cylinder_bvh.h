@@ -39,7 +39,15 @@ class SphereTree {
   struct Memory : LastDistance {
     /// By which the point had moved then; infinite after `touches`, which refills no cache.
     Vec3 move = Vec3::Zero();
+    /// A place that was found to be farther from the mesh than a radius, exactly; below 0: there is none.
+    Vec3 free_center = Vec3::Zero();
+    double free_radius = -1;
     spheres::LeafCache cache;
+
+    /// Is it known that a ball there does not touch?
+    bool knows_free(const Vec3& at, double radius) const noexcept {
+      return radius <= free_radius && at == free_center;
+    }
   };
 
   struct Options {
@@ -104,6 +112,8 @@ class SphereTree {
                                               Memory& memory, std::uint64_t& budget,
                                               Work& work) const noexcept;
   static void remember_touch(const Vec3& center, double lower, double upper, Memory& memory) noexcept;
+  static void remember_nearest(const Vec3& center, std::uint32_t slot, double distance, double pad,
+                               Memory& memory) noexcept;
   /// Returns at least the distance between two points of the mesh's frame, in the tree's.
   float displacement(const Vec3& from, const Vec3& to, const FilterPoint& at) const noexcept;
 
@@ -140,7 +150,7 @@ class SphereTree {
   std::optional<Contact> nearest_without(const Vec3& center, double reach, Work& work) const noexcept;
 
   bool search_middle(const Sweep& sweep, double length, double reach, std::uint64_t budget, FirstTouch& first,
-                     Work& work) const noexcept;
+                     Memory& memory, Work& work) const noexcept;
   bool search_path(const Sweep& sweep, double length, double reach, std::uint64_t budget, FirstTouch& first,
                    Work& work) const noexcept;
 
