@@ -49,16 +49,16 @@ inline bool answerable(const Vec3& center, double reach) noexcept {
   return reach >= 0 && center.cwiseAbs().maxCoeff() < largest && center.allFinite();
 }
 
-/// Calls ask(within) -> optional<Contact> for balls that double in size, outwards from the mesh's box, until
-/// one finds something, at last for the reach: a ball about everything would make a rival look at every
-/// triangle.
+/// Calls ask(within), which returns an optional contact, for balls that double in size, outwards from the
+/// mesh's box, until one finds something, at last for the reach: a ball about everything would make a rival
+/// look at every triangle.
 template <class Ask>
-std::optional<Contact> nearest_by_growing(const Aabb& bounds, const Vec3& center, double reach, Ask ask) {
+auto nearest_by_growing(const Aabb& bounds, const Vec3& center, double reach, Ask ask) {
   const double outside = std::sqrt(bounds.squared_distance(center));
   constexpr int doublings = 7;  // from 1/128 of the box's diagonal to all of it
   double inside = std::ldexp(bounds.diagonal(), -doublings);
   for (int i = 0; i < doublings && outside + inside < reach; ++i, inside *= 2) {
-    if (std::optional<Contact> contact = ask(outside + inside)) return contact;
+    if (auto contact = ask(outside + inside)) return contact;
   }
   return ask(reach);
 }

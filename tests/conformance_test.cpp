@@ -224,10 +224,10 @@ void examine_in_processes(const contestants::ContestantSpec& spec, const Exam& e
   }
 }
 
-/// Those that do not change where is looked, or go with the defaults of others only: each value is tried
-/// beside the defaults of all others.
+/// Those that do not change where is looked, or go with the defaults of others only, or only steer which form
+/// is chosen: each value is tried beside the defaults of all others.
 bool stands_alone(const contestants::OptionInfo& option) {
-  for (const char* key : {"side", "certified", "build", "simd", "precision"})
+  for (const char* key : {"side", "certified", "build", "simd", "precision", "query", "reach", "speed"})
     if (option.key == key) return true;
   return false;
 }
@@ -239,28 +239,41 @@ bool repeats_another(const contestants::ContestantSpec& spec) {
   return (has("lookup=direct") && has("shape=sphere")) || (has("lookup=scan") && has("prepare=true"));
 }
 
-/// The default, and every combination of choices that differs from the others; a length is tried at its
-/// default and at 3 % of the diagonal.
+/// A length has its default and 3 % of the diagonal.
+std::vector<std::string> values_of(const contestants::OptionInfo& option) {
+  if (option.kind == contestants::OptionKind::length) return {option.default_value, "3%"};
+  return option.choices;
+}
+
+/// The error of a field: one as small as its default takes seconds to build on a mesh of needles, so the
+/// default is asked by itself, and combinations have the other value.
+bool takes_long(const contestants::OptionInfo& option) { return option.key == "error"; }
+
+/// The default, every combination of values that differs from the others, and each value of those that stand
+/// alone.
 std::vector<contestants::ContestantSpec> every_option(const contestants::ContestantInfo& info) {
-  std::vector<std::string> texts = {info.name};
+  std::vector<std::string> combined = {info.name};
+  std::vector<std::string> alone;
   for (const contestants::OptionInfo& option : info.options) {
-    if (stands_alone(option)) continue;
-    std::vector<std::string> values = option.choices;
-    if (option.kind == contestants::OptionKind::length) values = {option.default_value, "3%"};
-    if (values.empty()) continue;
-    std::vector<std::string> longer;
-    for (const std::string& text : texts)
-      for (const std::string& value : values)
-        longer.push_back(text + (text == info.name ? ":" : ",") + option.key + "=" + value);
-    texts = longer;
-  }
-  for (const contestants::OptionInfo& option : info.options) {
-    if (!stands_alone(option)) continue;
-    for (const std::string& value : option.choices)
-      if (value != option.default_value) texts.push_back(info.name + ":" + option.key + "=" + value);
+    std::vector<std::string> values = values_of(option);
+    if (takes_long(option)) {
+      alone.push_back(info.name);
+      std::erase(values, option.default_value);
+    }
+    if (stands_alone(option)) {
+      std::erase(values, option.default_value);
+      for (const std::string& value : values) alone.push_back(info.name + ":" + option.key + "=" + value);
+    } else if (!values.empty()) {
+      std::vector<std::string> longer;
+      for (const std::string& text : combined)
+        for (const std::string& value : values)
+          longer.push_back(text + (text == info.name ? ":" : ",") + option.key + "=" + value);
+      combined = longer;
+    }
   }
   std::vector<contestants::ContestantSpec> specs;
-  for (const std::string& text : texts) specs.push_back(contestants::roster().parse(text));
+  for (const auto* texts : {&combined, &alone})
+    for (const std::string& text : *texts) specs.push_back(contestants::roster().parse(text));
   std::erase_if(specs, repeats_another);
   return specs;
 }

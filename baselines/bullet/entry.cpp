@@ -4,8 +4,10 @@
 #include <stdexcept>
 
 #include "baselines/bullet/bullet_detector.h"
+#include "baselines/bullet/bullet_scene.h"
 #include "baselines/bullet/view.h"
 #include "bench/contestants/rival_options.h"
+#include "bench/contestants/rival_scene.h"
 
 namespace touchmark::bench::contestants {
 
@@ -33,14 +35,17 @@ ContestantInfo bullet_entry() {
   info.worker_program = [](const OptionValues& values) {
     return values.text("precision") == "float" ? "touchmark-worker-bullet-float" : default_worker_program;
   };
-  info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
+  const auto options_of = [](const OptionValues& values) -> BulletDetector::Options {
     if (chosen(values, "precision", precisions) != BulletDetector::precision()) {
       throw std::invalid_argument("bullet: precision=" + values.text("precision") +
                                   " is not the build of Bullet that this program has");
     }
-    return contestant<BulletDetector>(
-        mesh, {chosen(values, "method", methods), chosen(values, "frame", frames), asking(values)});
+    return {chosen(values, "method", methods), chosen(values, "frame", frames), asking(values)};
   };
+  info.build = [options_of](const TriangleMesh& mesh, const OptionValues& values) {
+    return contestant<BulletDetector>(mesh, options_of(values));
+  };
+  info.build_scene = build_rival_scene<baselines::BulletScene>(options_of);
   info.storage_rounding = [](const TriangleMesh& mesh,
                              const OptionValues& values) -> std::optional<StorageRounding> {
     if (values.text("precision") != "float" || values.text("method") != "contact") return std::nullopt;
@@ -55,7 +60,8 @@ ContestantInfo bullet_entry() {
                    "method=callback,frame=fitted"},
       .scaled = {"method=callback,frame=fitted"},
       .updated = {"", "method=callback,frame=fitted"},
-      .suite = {"method=callback,frame=fitted", "precision=float,method=callback,frame=fitted"}};
+      .suite = {"method=callback,frame=fitted", "precision=float,method=callback,frame=fitted"},
+      .scenes = {"method=callback,frame=fitted"}};
   return info;
 }
 

@@ -1,10 +1,13 @@
 #include "bench/contestants/entry.h"
 
 #include <optional>
+#include <stdexcept>
 
 #include "baselines/embree/embree_detector.h"
+#include "baselines/embree/embree_scene.h"
 #include "baselines/embree/frame.h"
 #include "bench/contestants/rival_options.h"
+#include "bench/contestants/rival_scene.h"
 
 namespace touchmark::bench::contestants {
 
@@ -36,6 +39,12 @@ ContestantInfo embree_entry() {
         mesh, {chosen(values, "geometry", geometries), chosen(values, "quality", qualities),
                chosen(values, "warm", yes_or_no), asking(values)});
   };
+  info.build_scene = build_rival_scene<baselines::EmbreeScene>([](const OptionValues& values) {
+    if (chosen(values, "geometry", geometries) != Geometry::user)
+      throw std::invalid_argument("of a scene of bodies there is only geometry=user");
+    return EmbreeDetector::Options{Geometry::user, chosen(values, "quality", qualities),
+                                   chosen(values, "warm", yes_or_no), asking(values)};
+  });
   info.storage_rounding = [](const TriangleMesh& mesh,
                              const OptionValues& values) -> std::optional<StorageRounding> {
     if (chosen(values, "geometry", geometries) != Geometry::triangle) return std::nullopt;
@@ -47,7 +56,8 @@ ContestantInfo embree_entry() {
                 .frontier = {"", "geometry=triangle"},
                 .scaled = {""},
                 .updated = {"", "quality=refit"},
-                .suite = {"", "geometry=triangle"}};
+                .suite = {"", "geometry=triangle"},
+                .scenes = {""}};
   return info;
 }
 

@@ -2,9 +2,7 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -13,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "baselines/posed.h"
+#include "bench/contestants/rival_scene.h"
 #include "bench/contestants/scene_player.h"
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/grid_group/grid_group.h"
@@ -20,92 +20,32 @@
 
 namespace touchmark::bench::contestants {
 
-/// What poses in double add to a detector's error: a centre taken into a body's frame and a contact taken
-/// back are rounded by a few roundings of their lengths, and a rotation is off orthonormal by a few.
-inline Accuracy with_poses(Accuracy accuracy, double largest_coordinate) noexcept {
-  constexpr double roundings = 32 * (std::numeric_limits<double>::epsilon() / 2);
-  accuracy.relative += 2 * roundings;
-  accuracy.absolute += roundings * largest_coordinate;
-  accuracy.decides_exactly = accuracy.names_exactly = false;
-  return accuracy;
-}
-
-inline double largest_coordinate(const TriangleMesh& mesh) noexcept {
-  return mesh.bounds().min.cwiseAbs().cwiseMax(mesh.bounds().max.cwiseAbs()).maxCoeff();
-}
-
 /// Asks every body, with a session for each.
 template <Detector D>
 class LoopedScene {
  public:
-  struct Session {
-    Work work;
-    std::vector<typename D::Session> of_bodies;
-  };
+  using Session = typename baselines::PosedShapes<D>::Session;
 
-  explicit LoopedScene(const bodies::PlacedScene& placed) {
-    for (const auto& mesh : placed.shapes) {
-      shapes_.push_back(D::build(*mesh, {}));
-      largest_ = std::max(largest_, largest_coordinate(*mesh));
-    }
-    for (const bodies::PlacedScene::PlacedBody& body : placed.bodies) bodies_.push_back(body);
-  }
+  explicit LoopedScene(const bodies::PlacedScene& placed) : bodies_(posed(placed), {}) {}
 
-  void place(std::uint32_t body, const Pose& pose) { bodies_[body].start = pose; }
+  void place(std::uint32_t body, const Pose& pose) { bodies_.place(body, pose); }
 
   std::optional<BodyContact> nearest_body(const Probe& probe, double reach, Session& session) const {
     std::optional<BodyContact> best;
-    each(session, [&](std::uint32_t i, const Pose& pose, const D& shape, typename D::Session& own) {
-      const double limit = best ? std::min(reach, best->contact.distance) : reach;
-      const Probe seen{in_frame(pose, probe.center), probe.radius};
-      const std::optional<Contact> found = shape.nearest(seen, limit, own);
-      if (found && (!best || found->distance < best->contact.distance))
-        best = BodyContact{{i, 0}, placed_contact(pose, *found)};
-    });
+    for (std::uint32_t i = 0; i < bodies_.size(); ++i) bodies_.consider(i, probe, reach, session, best);
     return best;
   }
   std::optional<BodyImpact> first_hit_body(const Sweep& sweep, Session& session) const {
-    std::optional<BodyImpact> best;
-    each(session, [&](std::uint32_t i, const Pose& pose, const D& shape, typename D::Session& own) {
-      const Sweep seen{in_frame(pose, sweep.from), in_frame(pose, sweep.to), sweep.radius};
-      const std::optional<Impact> found = shape.first_hit(seen, own);
-      if (found && (!best || is_before(*found, best->impact)))
-        best = BodyImpact{{i, 0}, {found->fraction, placed_contact(pose, found->contact)}};
-    });
-    return best;
+    std::optional<BodyImpact> first;
+    for (std::uint32_t i = 0; i < bodies_.size(); ++i) bodies_.consider(i, sweep, session, first);
+    return first;
   }
 
-  std::size_t bytes() const noexcept {
-    std::size_t sum = bodies_.capacity() * sizeof(bodies_[0]);
-    for (const D& shape : shapes_) sum += shape.bytes();
-    return sum;
-  }
-  Accuracy accuracy() const noexcept { return with_poses(shapes_.front().accuracy(), largest_); }
+  std::size_t bytes() const noexcept { return bodies_.bytes(); }
+  Accuracy accuracy() const noexcept { return bodies_.accuracy(); }
 
  private:
-  template <class Visit>
-  void each(Session& session, const Visit& visit) const {
-    session.of_bodies.resize(bodies_.size());
-    for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
-      typename D::Session& own = session.of_bodies[i];
-      const Work before = own.work;
-      visit(i, bodies_[i].start, shapes_[bodies_[i].shape], own);
-      session.work += work_between(before, own.work);
-    }
-  }
-  /// Returns which touch counts: the nearest one of those at the same moment.
-  static bool is_before(const Impact& a, const Impact& b) noexcept {
-    return a.fraction < b.fraction || (a.fraction == b.fraction && a.contact.distance < b.contact.distance);
-  }
-  static Contact placed_contact(const Pose& pose, Contact contact) noexcept {
-    contact.point = image(pose, contact.point);
-    contact.normal = (pose.rotation * contact.normal).eval();
-    return contact;
-  }
-
-  std::vector<D> shapes_;
-  std::vector<bodies::PlacedScene::PlacedBody> bodies_;
-  double largest_ = 0;
+  baselines::PosedShapes<D> bodies_;
 };
 
 /// One detector over the triangles of all bodies, which stand.
@@ -132,11 +72,11 @@ class MergedScene {
     return detector_.bytes() + first_.capacity() * sizeof(std::uint32_t) +
            ids_.capacity() * sizeof(TriangleId);
   }
-  Accuracy accuracy() const noexcept { return with_poses(detector_.accuracy(), largest_); }
+  Accuracy accuracy() const noexcept { return baselines::with_poses(detector_.accuracy(), largest_); }
 
  private:
   MergedScene(const bodies::PlacedScene& placed, const TriangleMesh& mesh)
-      : detector_(D::build(mesh, {})), largest_(largest_coordinate(mesh)) {
+      : detector_(D::build(mesh, {})), largest_(baselines::largest_coordinate(mesh.bounds())) {
     std::uint32_t sum = 0;
     for (const bodies::PlacedScene::PlacedBody& body : placed.bodies) {
       const TriangleMesh& shape = *placed.shapes[body.shape];

@@ -21,7 +21,8 @@
 namespace touchmark::bench::contestants {
 
 /// What the player plays: a scene whose bodies are numbered as the given one's, from 0. `place` puts a body
-/// elsewhere; queries answer as core/scene/scene.h says.
+/// elsewhere; queries answer as core/scene/scene.h says. One that has `publish()` is told so when all bodies
+/// of a step are placed, before it is asked.
 template <class S>
 concept PlayableScene = std::movable<S> &&
     requires(S& scene, const S& asked, std::uint32_t body, const Pose& pose, const Probe& probe, double reach,
@@ -59,9 +60,14 @@ class ScenePlayer {
   }
 
   void stand_at(const bodies::ScheduleView* schedule, std::size_t step) {
-    follower_.stand_at(
-        schedule, step, [&](std::uint32_t body, const Pose& pose) { scene_.place(body, pose); },
-        [&](std::uint32_t body) { return starts_[body]; });
+    bool moved = false;
+    const auto place = [&](std::uint32_t body, const Pose& pose) {
+      scene_.place(body, pose);
+      moved = true;
+    };
+    follower_.stand_at(schedule, step, place, [&](std::uint32_t body) { return starts_[body]; });
+    if constexpr (requires { scene_.publish(); })
+      if (moved) scene_.publish();
   }
 
   /// The contact that decides is told, too: the body of a touch is the nearest one.

@@ -6,14 +6,16 @@ import pathlib
 from drawing import detectors
 
 from . import others, parts, tables, words
-from .packing import Packer
+from .packing import Packer, packed
 from .recording import time_of
-from .replay import KINDS_OF_CHARGES, replay_of, resolution
+from .replay import KINDS_OF_CHARGES, Detail, replay_of, resolution
 from .words import escaped
 
 BUDGET = 3_000_000  # bytes of the whole page
-LEVELS = [256, 128, 64, 32, 16]  # of a curve's time: as many as the budget allows
-STYLE = pathlib.Path(__file__).resolve().parent / "web" / "page.css"
+# As much as the budget allows.
+DETAILS = [Detail(*one) for one in ((256, 16), (256, 14), (128, 14), (128, 12), (64, 12), (32, 12), (16, 10))]
+WEB = pathlib.Path(__file__).resolve().parent / "web"
+STYLE, LOADER = WEB / "page.css", WEB / "loader.js"
 DASHES = {"full": [], "none": [7, 4], "left": [2, 3], "bottom": [8, 3, 2, 3], "right": [5, 2, 1, 2], "top": [1, 4]}
 PICTURES = ["latency", "time_error", "update_rate", "errors", "cold"]
 
@@ -28,24 +30,28 @@ def page_of(recordings):
         script, style = parts.built()
     except parts.Missing as missing:
         return plain_page(recordings, str(missing))
-    for levels in LEVELS:
-        text = full_page(recordings, script, style, levels)
+    limit = f"to stay within {BUDGET / 1e6:g} MB"
+    for detail in DETAILS:
+        text = full_page(recordings, script, style, [detail] * len(recordings))
         if len(text.encode()) <= BUDGET:
-            return text, ([] if levels == LEVELS[0] else [f"curves have {levels} levels a time, to stay within {BUDGET / 1e6:g} MB"])
-    text = full_page(recordings, script, style, None)
-    if len(text.encode()) <= BUDGET:
-        return text, [f"curves and replay are left out, to stay within {BUDGET / 1e6:g} MB"]
+            return text, [] if detail == DETAILS[0] else [f"curves have {detail.levels} levels a time, places {detail.bits} bits, {limit}"]
+    # With several recordings the newest keeps its replay longest.
+    for first in range(1, len(recordings) + 1):
+        text = full_page(recordings, script, style, [None] * first + [DETAILS[-1]] * (len(recordings) - first))
+        if len(text.encode()) <= BUDGET:
+            return text, [f"curves and replay of {words.listed(one.name for one in recordings[:first])} are left out, {limit}"]
     raise TooLarge(f"the page would have {len(text.encode()) / 1e6:.1f} MB, more than {BUDGET / 1e6:g}; name fewer folders")
 
 
-def full_page(recordings, script, library_style, levels):
+def full_page(recordings, script, library_style, details):
     packer = Packer()
-    data = {"recordings": [recording_json(one, packer, levels) for one in recordings], "charges": KINDS_OF_CHARGES}
-    # In a page "</" would end the element that holds the data.
-    json_text = json.dumps(data, separators=(",", ":"), allow_nan=False).replace("</", "<\\/")
-    tail = (f'<script type="application/json" id="data">{json_text}</script>\n'
-            f'<script type="application/octet-stream" id="arrays">{packer.text()}</script>\n'
-            f'<script>{script.replace("</script", "<" + chr(92) + "/script")}</script>')
+    data = {"recordings": [recording_json(one, packer, detail) for one, detail in zip(recordings, details)],
+            "charges": KINDS_OF_CHARGES}
+    json_text = json.dumps(data, separators=(",", ":"), allow_nan=False)
+    elements = {"data": packed(json_text.encode()), "arrays": packer.text(), "program": packed(script.encode())}
+    tail = f"<!-- {parts.LICENCES} -->\n"
+    tail += "".join(f'<script type="application/octet-stream" id="{name}">{text}</script>\n' for name, text in elements.items())
+    tail += f"<script>{LOADER.read_text(encoding='utf-8')}</script>"
     return document(recordings, library_style, tail, None)
 
 
@@ -133,16 +139,16 @@ def comparison_html(recordings):
     return f'<section aria-label="Comparison"><h2>One recording against the one before</h2>{pairs}</section>' if pairs else ""
 
 
-def recording_json(recording, packer, levels):
+def recording_json(recording, packer, detail):
     names = recording.contestants
     detectors.tell_apart(names)
-    replay = replay_of(recording.steps, packer, levels) if recording.steps and levels else None
+    replay = replay_of(recording.steps, packer, detail) if recording.steps and detail else None
     return {
         "name": recording.name, "trajectories": recording.trajectories,
         "contestants": [{"name": name, "color": detectors.colour(name), "dash": DASHES[detectors.filling(name)]}
                         for name in names],
         "rows": [row_json(row, recording) for row in recording.rows],
-        "replay": replay, "resolution": resolution(levels, replay) if replay else 0,
+        "replay": replay, "resolution": resolution(detail.levels, replay) if replay else 0,
     }
 
 

@@ -11,7 +11,7 @@ LIBRARIES = pathlib.Path(os.environ.get("TOUCHMARK_JAVASCRIPT", "/usr/share/java
 THREE, DYGRAPHS = LIBRARIES / "three", LIBRARIES / "dygraphs"
 NEEDED = [THREE / "three.module.js", THREE / "examples/jsm/controls/OrbitControls.js", DYGRAPHS / "dygraph.js",
           DYGRAPHS / "dygraph.css"]
-LICENCES = """/*! With three.js (c) 2010-2019 three.js authors and dygraphs (c) 2006-, 2009-, 2011- Dan Vanderkam and others, both
+LICENCES = """With three.js (c) 2010-2019 three.js authors and dygraphs (c) 2006-, 2009-, 2011- Dan Vanderkam and others, both
 under the MIT licence: Permission is hereby granted, free of charge, to any person obtaining a copy of this software and
 associated documentation files (the "Software"), to deal in the Software without restriction, including without limitation
 the rights to use, copy, modify, merge, publish, distribute, sublicense, and/or sell copies of the Software, and to permit
@@ -20,8 +20,7 @@ permission notice shall be included in all copies or substantial portions of the
 WITHOUT WARRANTY OF ANY KIND, EXPRESS OR IMPLIED, INCLUDING BUT NOT LIMITED TO THE WARRANTIES OF MERCHANTABILITY, FITNESS FOR
 A PARTICULAR PURPOSE AND NONINFRINGEMENT. IN NO EVENT SHALL THE AUTHORS OR COPYRIGHT HOLDERS BE LIABLE FOR ANY CLAIM, DAMAGES
 OR OTHER LIABILITY, WHETHER IN AN ACTION OF CONTRACT, TORT OR OTHERWISE, ARISING FROM, OUT OF OR IN CONNECTION WITH THE
-SOFTWARE OR THE USE OR OTHER DEALINGS IN THE SOFTWARE. */
-"""
+SOFTWARE OR THE USE OR OTHER DEALINGS IN THE SOFTWARE."""
 
 
 class Missing(Exception):
@@ -74,7 +73,7 @@ def bundle(esbuild):
         if done.returncode != 0:
             raise Missing("esbuild failed: " + (done.stderr.strip().splitlines() or ["it said nothing"])[0])
         style = (DYGRAPHS / "dygraph.css").read_text(encoding="utf-8")
-        return LICENCES + (out / "page.js").read_text(encoding="utf-8"), style
+        return (out / "page.js").read_text(encoding="utf-8"), style
 
 
 def keep(folder, script, style):

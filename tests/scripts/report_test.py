@@ -3,14 +3,19 @@
 the interactive parts."""
 import base64
 import json
+import math
 import os
 import pathlib
+import random
 import re
+import struct
 import subprocess
 import sys
 import tempfile
 import unittest
 import zlib
+
+import numpy
 
 sys.dont_write_bytecode = True
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -18,7 +23,7 @@ sys.path[:0] = [str(ROOT / "scripts"), str(pathlib.Path(__file__).parent)]
 
 import made_up_steps  # noqa: E402
 from made_up_steps import Contestant  # noqa: E402
-from reporting import parts, words  # noqa: E402
+from reporting import packing, parts, words  # noqa: E402
 from reporting.recording import Recording  # noqa: E402
 from reporting.steps_file import Damaged, StepsFile, times_of  # noqa: E402
 
@@ -32,6 +37,24 @@ def can_build():
     except parts.Missing:
         return False
     return True
+
+
+def unpacked(page, name):
+    """What an element of the page carries, as the page's loader sees it."""
+    text = re.search(rf'<script type="application/octet-stream" id="{name}">([^<]*)</script>', page)[1]
+    return zlib.decompress(base64.b85decode(text.replace(".", "<")))
+
+
+def items_of(stream, about):
+    """What the page's reader makes of an array of unsigned integers, in plain arithmetic."""
+    offset, items, kind, order = about
+    width = int(kind[1:]) // 8
+    numbers = [sum(stream[offset + plane * items + item] << (8 * plane) for plane in range(width)) for item in range(items)]
+    for turn in range(order):
+        if turn == 0:
+            numbers = [number // 2 if number % 2 == 0 else -(number + 1) // 2 for number in numbers]
+        numbers = [sum(numbers[:item + 1]) for item in range(items)]
+    return [number % (1 << (8 * width)) for number in numbers]
 
 
 class InFolder(unittest.TestCase):
@@ -135,12 +158,28 @@ class Page(InFolder):
         made_up_steps.write(self.folder, [Contestant(f"detector-{k}", 50 * 1.5 ** k, steps, k) for k in range(20)], steps)
         page = self.page()
         self.assertLess(len(page.encode()), BUDGET)
-        arrays = re.search(r'<script type="application/octet-stream" id="arrays">([^<]*)</script>', page)[1]
-        data = json.loads(re.search(r'<script type="application/json" id="data">(.*?)</script>', page)[1])
-        stream = zlib.decompress(base64.b64decode(arrays))
-        offset, items, kind, delta = data["recordings"][0]["replay"]["traces"][0]["contestants"][19]["ns"]
-        self.assertEqual((items, kind, delta), (steps, "u8", 0))
+        data, stream = json.loads(unpacked(page, "data")), unpacked(page, "arrays")
+        offset, items, kind, _ = data["recordings"][0]["replay"]["traces"][0]["contestants"][19]["ns"]
+        self.assertEqual((items, kind), (steps, "u8"))
         self.assertGreaterEqual(len(stream), offset + items)
+
+    def test_arrays_come_back_from_differences_and_from_base_85(self):
+        smooth = numpy.array([(k * k + (k % 7)) % 65536 for k in range(500)], numpy.uint16)
+        packer = packing.Packer()
+        about = [packer.add(array) for array in (smooth, smooth.astype(numpy.uint32) << 15, numpy.array([0, 255, 0], numpy.uint8),
+                                                 numpy.array([0.1, -1e300, math.inf]), numpy.zeros(0, numpy.uint8))]
+        stream = zlib.decompress(base64.b85decode(packer.text().replace(".", "<")))
+        self.assertGreater(about[0][3], 0)
+        self.assertEqual(items_of(stream, about[0]), list(smooth))
+        self.assertEqual(items_of(stream, about[1]), list(smooth.astype(numpy.uint32) << 15))
+        self.assertEqual(items_of(stream, about[2]), [0, 255, 0])
+        self.assertEqual(struct.unpack("<3d", bytes(stream[about[3][0] + plane * 3 + item] for item in range(3) for plane in range(8))),
+                         (0.1, -1e300, math.inf))
+        self.assertEqual(about[4][1], 0)
+
+    def test_nothing_packed_can_end_its_element(self):
+        draw = random.Random(1)
+        self.assertNotRegex(packing.packed(draw.randbytes(100_000)), r"[<\s]|</")
 
     def test_without_the_interactive_parts_there_are_pictures_and_a_reason(self):
         self.write()

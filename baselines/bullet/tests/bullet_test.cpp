@@ -10,10 +10,12 @@
 #include <gtest/gtest.h>
 
 #include "baselines/bullet/bullet_detector.h"
+#include "baselines/bullet/bullet_scene.h"
 #include "core/brute_force/brute_force.h"
 #include "tests/baselines/asking.h"
 #include "tests/baselines/follows.h"
 #include "tests/baselines/meshes.h"
+#include "tests/baselines/scenes.h"
 
 namespace touchmark::baselines {
 namespace {
@@ -334,6 +336,28 @@ TEST_P(EveryBullet, AskingTheBoxAndTheLastTriangleFirstChangesNoAnswer) {
   expect_asking_changes_no_answer<BulletDetector>(bumps(12), GetParam());
   expect_asking_changes_no_answer<BulletDetector>(soup(120, 4), GetParam());
   expect_asking_to_save_work<BulletDetector>(GetParam());
+}
+
+TEST(BulletScene, FindsTheNearestBodyWhileBodiesMove) {
+  const BulletDetector::Options form{BulletDetector::Method::callback, BulletDetector::Frame::fitted};
+  expect_nearest_body<BulletScene>(form, Vec3::Zero());
+  expect_nearest_body<BulletScene>(form, Vec3(0, 1 << 20, 3));
+}
+
+// The ball of radius 0.25 comes to x = 1.75, a quarter off the square that a quarter turn about y has put up
+// at x = 2; another body stands behind it.
+TEST(BulletScene, SweepsToTheFirstBody) {
+  const double half = std::sqrt(0.5);
+  const PosedScene two{
+      {std::make_shared<const TriangleMesh>(square())},
+      {{0, pose_of({3, 0, 0}, half, 0, -half, 0)}, {0, pose_of({2, 0, 0}, half, 0, -half, 0)}}};
+  const BulletScene scene(two, {BulletDetector::Method::callback, BulletDetector::Frame::mesh});
+  BulletScene::Session session;
+  const auto hit = scene.first_hit_body({{0, 0.5, 0.5}, {7, 0.5, 0.5}, 0.25}, session);
+  ASSERT_TRUE(hit);
+  EXPECT_EQ(hit->body.index, 1u);
+  EXPECT_NEAR(hit->impact.fraction, 0.25, 1e-12);
+  EXPECT_NEAR(hit->impact.contact.distance, 0.25, 1e-12);
 }
 
 }  // namespace

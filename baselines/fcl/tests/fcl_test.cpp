@@ -9,10 +9,12 @@
 
 #include "baselines/fcl/fcl_ccd.h"
 #include "baselines/fcl/fcl_detector.h"
+#include "baselines/fcl/fcl_scene.h"
 #include "core/brute_force/brute_force.h"
 #include "tests/baselines/asking.h"
 #include "tests/baselines/follows.h"
 #include "tests/baselines/meshes.h"
+#include "tests/baselines/scenes.h"
 
 namespace touchmark::baselines {
 namespace {
@@ -344,6 +346,13 @@ TEST(FclCcd, FollowsItsMesh) {
   FclCcd::Session session;
   EXPECT_FALSE(detector.first_hit({Vec3(0.2, 0.1, 1), Vec3(0.2, 0.1, 0), 0.35}, session).has_value());
   EXPECT_TRUE(detector.first_hit({Vec3(0.2, 0.1, -4), Vec3(0.2, 0.1, -5), 0.35}, session).has_value());
+}
+
+TEST(FclScene, FindsTheNearestBodyWhileBodiesMove) {
+  const FclDetector::Options exact{FclDetector::Volume::aabb, FclDetector::Method::distance,
+                                   FclDetector::Narrow::exact};
+  expect_nearest_body<FclScene>(exact, Vec3::Zero());
+  expect_nearest_body<FclScene>(exact, Vec3(0, 1 << 20, 3));
 }
 
 }  // namespace

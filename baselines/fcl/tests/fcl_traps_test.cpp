@@ -9,6 +9,7 @@
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/narrowphase/collision.h>
+#include <fcl/narrowphase/collision_object.h>
 #include <fcl/narrowphase/continuous_collision.h>
 #include <fcl/narrowphase/distance.h>
 #include <gtest/gtest.h>
@@ -163,6 +164,18 @@ TEST(FclTraps, ConservativeAdvancementMissesAsWell) {
     found += result.is_collide;
   }
   EXPECT_LE(found, 5);
+}
+
+// A corner 1e6 from the middle goes by 5e-7 out of the box.
+TEST(FclTraps, ARotationBelowAMillionthOfAMillionthLeavesTheBoxUnturned) {
+  const TriangleMesh mesh({{0, 0, 0}, {1e6, 0, 0}, {0, 1e6, 0}}, {{0, 1, 2}});
+  fcl::CollisionObjectd object(std::shared_ptr<fcl::CollisionGeometryd>(raw_model<fcl::AABBd>(mesh)));
+  fcl::Transform3d pose = fcl::Transform3d::Identity();
+  pose.linear()(2, 0) = 5e-13;
+  pose.linear()(0, 2) = -5e-13;
+  object.setTransform(pose);
+  object.computeAABB();
+  EXPECT_FALSE(object.getAABB().contain(pose * Vec3(1e6, 0, 0)));
 }
 
 }  // namespace

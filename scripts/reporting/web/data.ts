@@ -1,6 +1,6 @@
 // What the page was given: JSON, and arrays in one compressed stream.
 
-/** [offset, items, type, 1 if each item is stored less the one before it] */
+/** [offset, items, type, how often differences were taken] */
 export type Packed = [number, number, string, number];
 
 export interface Look { name: string; color: string; dash: number[] }
@@ -16,7 +16,7 @@ export interface PackedContestant {
 export interface PackedTrace {
   trajectory: string; query: string; steps: number; radius: number; reach: number | string; low: number[]; high: number[];
   position: Packed[]; point: Packed[]; state: Packed; triangle: Packed; largestDistance: number; distance: Packed;
-  noted: { steps: Packed; probes: Packed; truthDistance: Packed; counts: Packed; around: Packed };
+  noted: { steps: Packed; probes: Packed; truthDistance: Packed; counts: Packed; around: Packed; answers: Packed };
   contestants: PackedContestant[];
 }
 export interface PackedMesh {
@@ -32,25 +32,14 @@ export interface PageData { recordings: Recording[]; charges: string[] }
 
 type Numbers = Uint8Array | Uint16Array | Uint32Array | Float32Array | Float64Array;
 
-export function pageData(): PageData {
-  return JSON.parse(document.getElementById("data")!.textContent!) as PageData;
-}
+/** What loader.js has unpacked. */
+export interface Unpacked { data: PageData; arrays: Uint8Array; tell: (error: unknown) => void }
+declare global { interface Window { touchmark: Unpacked } }
 
-/** The arrays' stream, decompressed. */
-export async function arrays(): Promise<Uint8Array> {
-  const text = document.getElementById("arrays")!.textContent!;
-  const binary = atob(text);
-  const packed = new Uint8Array(binary.length);
-  for (let i = 0; i < binary.length; ++i) packed[i] = binary.charCodeAt(i);
-  if (!packed.length) return packed;
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));
-  return new Uint8Array(await new Response(stream).arrayBuffer());
-}
-
-const WIDTHS: Record<string, number> = { u8: 1, u16: 2, u32: 4, f32: 4, f64: 8 };
+const WIDTHS: Record<string, number> = { u8: 1, u16: 2, u32: 4, f32: 4, f64: 8, b64: 8 };
 
 export function unpacked(stream: Uint8Array, packed: Packed): Numbers {
-  const [offset, items, type, delta] = packed, width = WIDTHS[type];
+  const [offset, items, type, order] = packed, width = WIDTHS[type];
   const bytes = new Uint8Array(items * width);
   for (let plane = 0; plane < width; ++plane) {
     const from = offset + plane * items;
@@ -59,15 +48,20 @@ export function unpacked(stream: Uint8Array, packed: Packed): Numbers {
   const buffer = bytes.buffer;
   const numbers: Numbers = type === "u8" ? bytes : type === "u16" ? new Uint16Array(buffer) : type === "u32" ? new Uint32Array(buffer)
     : type === "f32" ? new Float32Array(buffer) : new Float64Array(buffer);
-  if (delta) for (let i = 1; i < items; ++i) numbers[i] += numbers[i - 1];
+  // Differences carry their sign in the lowest bit.
+  if (order) for (let i = 0; i < items; ++i) numbers[i] = (numbers[i] >>> 1) ^ -(numbers[i] & 1);
+  for (let k = 0; k < order; ++k) for (let i = 1; i < items; ++i) numbers[i] += numbers[i - 1];
   return numbers;
 }
 
+/** Sixteen bits an axis. */
+function levelsOf(stream: Uint8Array, axes: Packed[]): Uint16Array[] { return axes.map((axis) => unpacked(stream, axis) as Uint16Array); }
+
 /** (n, 3) places from 16 bits an axis; NaN where there is none. */
-export function places(stream: Uint8Array, axes: Packed[], low: number[], high: number[]): Float32Array {
-  const count = axes[0][1], result = new Float32Array(3 * count);
-  axes.forEach((axis, k) => {
-    const levels = unpacked(stream, axis), step = (high[k] - low[k]) / 65534;
+function places(axes: Uint16Array[], low: number[], high: number[]): Float32Array {
+  const count = axes[0].length, result = new Float32Array(3 * count);
+  axes.forEach((levels, k) => {
+    const step = (high[k] - low[k]) / 65534;
     for (let i = 0; i < count; ++i) result[3 * i + k] = levels[i] === 65535 ? NaN : low[k] + levels[i] * step;
   });
   return result;
@@ -82,7 +76,7 @@ export class Series {
   readonly wrong: number[] = [];  // steps
   readonly asked: Int32Array;  // steps that it was asked
   private readonly answers: Float64Array;
-  private readonly notedNs: Float64Array;
+  private readonly notedNs: Float32Array;
   private readonly placeOfNoted: Int32Array;
 
   constructor(stream: Uint8Array, readonly about: PackedContestant, readonly trace: Trace) {
@@ -106,11 +100,13 @@ export class Series {
       }
     }
     const asked = unpacked(stream, about.asked);
-    this.answers = unpacked(stream, about.answers) as Float64Array;
-    this.notedNs = unpacked(stream, about.notedNs) as Float64Array;
+    this.notedNs = unpacked(stream, about.notedNs) as Float32Array;
     this.placeOfNoted = new Int32Array(asked.length);
     let noted = 0;
     for (let i = 0; i < asked.length; ++i) this.placeOfNoted[i] = asked[i] ? noted++ : -1;
+    this.answers = unpacked(stream, about.answers) as Float64Array;
+    const bits = new Uint32Array(this.answers.buffer);  // in which they differ from the usual ones
+    this.placeOfNoted.forEach((at, i) => { for (let k = 0; at >= 0 && k < 16; ++k) bits[16 * at + k] ^= trace.usualAnswers[16 * i + k]; });
   }
 
   get name(): string { return this.about.name; }
@@ -120,7 +116,7 @@ export class Series {
     return Math.round(lowWork * Math.exp(Math.log(highWork / lowWork) * this.workLevel[step] / (levels - 1)));
   }
 
-  /** Its exact time at a noted step. */
+  /** Its time at a noted step, to seven digits. */
   notedTime(noted: number): number | null {
     const place = this.placeOfNoted[noted] ?? -1;
     return place < 0 ? null : this.notedNs[place];
@@ -158,6 +154,7 @@ export class Trace {
   readonly notedSteps: Uint32Array;
   readonly notedAt = new Map<number, number>();
   readonly series: Series[];
+  readonly usualAnswers: Uint32Array;  // bits, 16 words a noted step
   private readonly distances: Uint16Array;
   private readonly truthDistance: Float64Array;
   private readonly probes: Float64Array;
@@ -167,8 +164,10 @@ export class Trace {
   constructor(stream: Uint8Array, readonly about: PackedTrace) {
     const { low, high, noted } = about;
     this.state = unpacked(stream, about.state) as Uint8Array;
-    this.position = places(stream, about.position, low, high);
-    this.point = places(stream, about.point, low, high);
+    const centers = levelsOf(stream, about.position), points = levelsOf(stream, about.point);
+    points.forEach((axis, k) => { for (let i = 0; i < axis.length; ++i) axis[i] += centers[k][i]; });
+    this.position = places(centers, low, high);
+    this.point = places(points, low, high);
     this.triangle = unpacked(stream, about.triangle) as Uint32Array;
     this.distances = unpacked(stream, about.distance) as Uint16Array;
     this.notedSteps = unpacked(stream, noted.steps) as Uint32Array;
@@ -177,6 +176,7 @@ export class Trace {
     this.probes = unpacked(stream, noted.probes) as Float64Array;
     this.around = unpacked(stream, noted.around) as Uint32Array;
     unpacked(stream, noted.counts).forEach((count: number) => this.aroundBegin.push(this.aroundBegin[this.aroundBegin.length - 1] + count));
+    this.usualAnswers = new Uint32Array(unpacked(stream, noted.answers).buffer);
     this.series = about.contestants.map((one) => new Series(stream, one, this));
   }
 
@@ -188,7 +188,7 @@ export class Trace {
   /** The true distance: exact where the step is noted, else to 1/65535 of the largest. */
   distance(step: number): number {
     const noted = this.notedAt.get(step);
-    return noted === undefined ? this.distances[step] / 65535 * this.about.largestDistance : this.truthDistance[noted];
+    return noted === undefined ? this.distances[step] / 65534 * this.about.largestDistance : this.truthDistance[noted];
   }
 
   /** Centre, radius and reach of a noted step, as they are stored. */
@@ -211,7 +211,7 @@ export class Mesh {
   readonly nearCorners: Uint32Array;
   readonly nearVertices: Float64Array;
   constructor(stream: Uint8Array, readonly about: PackedMesh) {
-    this.vertices = places(stream, about.vertices, about.drawnLow, about.drawnHigh);
+    this.vertices = places(levelsOf(stream, about.vertices), about.drawnLow, about.drawnHigh);
     this.corners = unpacked(stream, about.corners) as Uint32Array;
     this.nearIds = unpacked(stream, about.nearIds) as Uint32Array;
     this.nearCorners = unpacked(stream, about.nearCorners) as Uint32Array;

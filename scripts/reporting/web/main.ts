@@ -1,9 +1,8 @@
 // Puts life into the page: sorting, details, curves and replay.
-import { arrays, pageData, Recording } from "./data";
+import { Recording } from "./data";
 import { showDetails } from "./details";
 import { Explore } from "./explore";
 import { State, View } from "./state";
-import { make } from "./words";
 
 const FIRST_SHOWN = 6;  // contestants in the curves at first
 
@@ -46,12 +45,11 @@ function firstView(recordings: Recording[]): View {
   };
 }
 
-async function start(): Promise<void> {
-  const page = pageData(), recordings = page.recordings;
+function start(): void {
+  const { data: page, arrays: stream } = window.touchmark, recordings = page.recordings;
   letTablesSort();
   document.documentElement.classList.add("scripted");
   const state = new State(firstView(recordings));
-  const stream = await arrays();
   const built = new Set<number>();
   const show = () => {
     const number = state.view.recording;
@@ -76,7 +74,9 @@ async function start(): Promise<void> {
   document.documentElement.dataset.ready = String(Math.round(performance.now()));
 }
 
-start().catch((error: unknown) => {
-  document.querySelector("header")!.append(make("p", { class: "notice", role: "alert" }, `The interactive parts could not start: ${error instanceof Error ? error.message : String(error)}. Tables and verdict are complete.`));
+try {
+  start();
+} catch (error) {
+  window.touchmark.tell(error);
   throw error;
-});
+}

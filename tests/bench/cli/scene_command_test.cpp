@@ -194,6 +194,18 @@ TEST_F(SceneCommand, VerifiesAPlainLoopOverMovingBodies) {
   EXPECT_NE(outcome.out.find("240 answers judged exactly"), std::string::npos) << outcome.out;
 }
 
+// Ours, the plain ways and the rivals that are built in: each keeps what it claims, sweeps included.
+TEST_F(SceneCommand, VerifiesAllWhoTakeScenes) {
+  const Outcome outcome = run_touchmark({"verify", "--scene", "heap:20:motion=all", "--trajectory", "jump",
+                                         "--trajectory", "slide", "--steps", "40", "--radius", "1%"});
+  EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  const Outcome list = run_touchmark({"list"});
+  for (const std::string rival : {"fcl", "bullet", "embree"}) {
+    if (list.out.find("\n  " + rival + "  (not built)") != std::string::npos) continue;
+    EXPECT_NE(outcome.out.find("\n" + rival), std::string::npos) << rival;
+  }
+}
+
 TEST_F(SceneCommand, WritesRowsOfAComparison) {
   const std::string out = (folder_ / "out").string();
   const Outcome outcome =

@@ -1,7 +1,5 @@
 // What is used of the libraries, which bring no types of their own.
 
-declare class DecompressionStream { constructor(format: string); readonly readable: ReadableStream; readonly writable: WritableStream }
-
 declare module "dygraphs" {
   export interface Options { [name: string]: unknown }
   export interface Point { xval: number; yval: number; name: string; canvasx: number; canvasy: number }

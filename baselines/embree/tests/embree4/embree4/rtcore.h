@@ -17,9 +17,17 @@ using RTCScene = RTCSceneTy*;
 using RTCGeometry = RTCGeometryTy*;
 
 enum RTCError { RTC_ERROR_NONE, RTC_ERROR_UNKNOWN };
-enum RTCFormat { RTC_FORMAT_UINT3 = 0x5003, RTC_FORMAT_FLOAT3 = 0x9003 };
+enum RTCFormat {
+  RTC_FORMAT_UINT3 = 0x5003,
+  RTC_FORMAT_FLOAT3 = 0x9003,
+  RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR = 0x9234
+};
 enum RTCBufferType { RTC_BUFFER_TYPE_INDEX, RTC_BUFFER_TYPE_VERTEX };
-enum RTCGeometryType { RTC_GEOMETRY_TYPE_TRIANGLE, RTC_GEOMETRY_TYPE_USER = 120 };
+enum RTCGeometryType {
+  RTC_GEOMETRY_TYPE_TRIANGLE,
+  RTC_GEOMETRY_TYPE_USER = 120,
+  RTC_GEOMETRY_TYPE_INSTANCE = 121
+};
 enum RTCBuildQuality {
   RTC_BUILD_QUALITY_LOW,
   RTC_BUILD_QUALITY_MEDIUM,
@@ -82,6 +90,7 @@ void rtcSetSceneFlags(RTCScene scene, RTCSceneFlags flags);
 void rtcSetSceneBuildQuality(RTCScene scene, RTCBuildQuality quality);
 void rtcCommitScene(RTCScene scene);
 unsigned int rtcAttachGeometry(RTCScene scene, RTCGeometry geometry);
+void rtcAttachGeometryByID(RTCScene scene, RTCGeometry geometry, unsigned int geomID);
 RTCGeometry rtcGetGeometry(RTCScene scene, unsigned int geomID);
 
 RTCGeometry rtcNewGeometry(RTCDevice device, RTCGeometryType type);
@@ -91,6 +100,8 @@ void rtcSetGeometryBuildQuality(RTCGeometry geometry, RTCBuildQuality quality);
 void* rtcSetNewGeometryBuffer(RTCGeometry geometry, RTCBufferType type, unsigned int slot, RTCFormat format,
                               std::size_t byteStride, std::size_t itemCount);
 void rtcUpdateGeometryBuffer(RTCGeometry geometry, RTCBufferType type, unsigned int slot);
+void rtcSetGeometryInstancedScene(RTCGeometry geometry, RTCScene scene);
+void rtcSetGeometryTransform(RTCGeometry geometry, unsigned int timeStep, RTCFormat format, const void* xfm);
 void rtcSetGeometryUserPrimitiveCount(RTCGeometry geometry, unsigned int count);
 void rtcSetGeometryUserData(RTCGeometry geometry, void* user);
 void rtcSetGeometryBoundsFunction(RTCGeometry geometry, RTCBoundsFunction function, void* user);

@@ -1,0 +1,53 @@
+/// The rival Bullet with many bodies: its dynamic tree finds the bodies, BulletDetector asks each. README.md
+/// states the decisions made for it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "baselines/bullet/bullet_detector.h"
+#include "baselines/posed.h"
+
+namespace touchmark::baselines {
+
+class BulletScene {
+ public:
+  class Session {
+   public:
+    Session() noexcept;
+    Session(Session&&) noexcept;
+    Session& operator=(Session&&) noexcept;
+    ~Session();
+
+    Work work;
+
+   private:
+    friend class BulletScene;
+    struct State;
+    State& state();
+    std::unique_ptr<State> state_;
+  };
+
+  /// Throws what BulletDetector::build throws.
+  BulletScene(const PosedScene& scene, const BulletDetector::Options& options);
+  BulletScene(BulletScene&&) noexcept;
+  BulletScene& operator=(BulletScene&&) noexcept;
+  ~BulletScene();
+
+  void place(std::uint32_t body, const Pose& pose);
+  std::optional<BodyContact> nearest_body(const Probe& probe, double reach, Session& session) const noexcept;
+  std::optional<BodyImpact> first_hit_body(const Sweep& sweep, Session& session) const noexcept;
+
+  /// The bodies' shapes and the tree's nodes.
+  std::size_t bytes() const noexcept;
+  Accuracy accuracy() const noexcept;
+
+ private:
+  struct World;
+
+  std::unique_ptr<World> world_;
+};
+
+}  // namespace touchmark::baselines
