@@ -81,7 +81,7 @@ Reached FirstTouch::advance(const Reached& reached) const noexcept {
   return {next, gap_.at(next)};
 }
 
-/// Where the lowest that the tangents may be cross: the first falls, the second one does not surely.
+/// The tangents, as low as they may be, cross there: the first falls, the second one does not surely.
 FirstTouch::Crossing FirstTouch::crossing_of(const Reached& first, const Reached& second) noexcept {
   const double low = first.here.gap - first.here.error, fall = first.here.slope - first.here.slope_error;
   const double high = second.here.gap - second.here.error;

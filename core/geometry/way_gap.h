@@ -70,9 +70,9 @@ class WayGap {
   double radius_;
   double size_;  ///< S
   double length_;
-  double error_;       ///< off the face
-  double face_error_;  ///< over it
-  double apart_error_;  ///< of heights above a plane
+  double error_;        ///< off the face
+  double face_error_;   ///< over it
+  double apart_error_;  ///< bounds the error of a height above a plane
   double unit_ = 1;
   bool defined_ = true;
 };

@@ -69,8 +69,7 @@ Contact ContactsWithin::finished(const Contact& kept) noexcept {
     exact_decisions_ += only.exact_decisions();
     if (contact) return *contact;
   }
-  return contact_at(triangle, question_.center, {kept.point, kept.normal.x()},
-                    question_.ids[triangle.index]);
+  return contact_at(triangle, question_.center, {kept.point, kept.normal.x()}, question_.ids[triangle.index]);
 }
 
 std::size_t ContactsWithin::finish(Work& work) noexcept {

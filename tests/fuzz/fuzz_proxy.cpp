@@ -1,5 +1,6 @@
-// A proxy over each exact detector, on a mesh and goals out of the bytes, and updates of the mesh between them:
-// by the exact oracle no piece of its way comes as near as its radius, and a goal that is free is reached.
+// A proxy over each exact detector, on a mesh and goals out of the bytes, and updates of the mesh between
+// them: by the exact oracle no piece of its way comes as near as its radius, and a goal that is free is
+// reached.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -54,8 +55,8 @@ Course read_course(Script& script) {
   for (std::size_t left = 2 + script.below(16); left > 0; --left) {
     Tick tick;
     if (script.below(8) == 0) tick.moved = now = moved(now, script);
-    tick.goal = script.below(4) == 0 && !course.ticks.empty() ? course.ticks.back().goal
-                                                             : read_center(script, now);
+    tick.goal =
+        script.below(4) == 0 && !course.ticks.empty() ? course.ticks.back().goal : read_center(script, now);
     course.ticks.push_back(std::move(tick));
   }
   return course;
