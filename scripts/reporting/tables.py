@@ -20,15 +20,15 @@ def head(text, title="", sortable=True, extra=""):
     return f'<th scope="col"{about}{extra}><button type="button" class="sort">{text}</button></th>'
 
 
-def framed(table, label):
-    """A table that scrolls by itself where the page is narrow."""
-    return f'<div class="scroll" role="region" tabindex="0" aria-label="{escaped(label)}">{table}</div>'
+def framed(table, label, long=False):
+    """A table that scrolls by itself where the page is narrow, or where it is long."""
+    return f'<div class="scroll{" long" if long else ""}" role="region" tabindex="0" aria-label="{escaped(label)}">{table}</div>'
 
 
 def ratio_table(recording, number):
     """A row a contestant: how often longer than the best right one, mean and p99.9, by trajectory."""
     trajectories = recording.trajectories
-    cold = any(row.number("cold_ns_p99") > 0 for row in recording.rows)
+    cold = any(row.number("cold_ns_max") > 0 for row in recording.rows)
     heads = [head("contestant"), head("all", "geometric mean of the ratios of the trajectories")]
     heads += [head(escaped(trajectory), "mean time over that of the fastest that was never wrong; below it the same of the "
                    "99.9 % times") for trajectory in trajectories]
@@ -151,6 +151,29 @@ def steadiness(about):
              + head("same against itself", "the same contestant timed a second time: 1 is equal, in brackets the 95 % interval", False)
              + head("conclusive", sortable=False))
     return framed(f"<table><caption>How quiet the machine was</caption><thead><tr>{heads}</tr></thead><tbody>{''.join(rows)}</tbody></table>", "How quiet the machine was")
+
+
+REFERENCES = ["embree", "aabb-tree", "brute-force"]
+
+
+def history(recordings):
+    """Each contestant's time over that of one reference in the same run, by recording: what machines have in common."""
+    reference = next((name for name in REFERENCES if all(name in one.contestants for one in recordings)), None)
+    if reference is None:
+        return f"<p>None of {', '.join(REFERENCES)} is in all recordings, so their ratios cannot be compared.</p>"
+    names = list(dict.fromkeys(name for one in recordings for name in one.contestants))
+    rows = "".join(f'<tr><th scope="row">{escaped(name)}</th>{"".join(history_cell(one, name, reference) for one in recordings)}</tr>' for name in names)
+    heads = head("contestant") + "".join(head(escaped(one.name), escaped(str(one.about.get("date", "")))) for one in recordings)
+    caption = (f"<caption>Time over that of {reference} in the same recording: below 1 is faster than {reference}. Geometric mean over "
+               "the trajectories that all recordings have.</caption>")
+    return framed(f"<table>{caption}<thead><tr>{heads}</tr></thead><tbody>{rows}</tbody></table>", "History")
+
+
+def history_cell(recording, name, reference):
+    shared = [(recording.row(name, one), recording.row(reference, one)) for one in recording.common]
+    ratios = [row.ns / other.ns if row and other and row.done and other.done and other.ns > 0 else math.nan for row, other in shared]
+    mean = geometric_mean(ratios)
+    return cell(ratio_text(mean), mean)
 
 
 def against(before, after):

@@ -145,6 +145,8 @@ template <class Exhausted>
     const Vec3& center, double reach, Memory& memory, Work& work, std::uint64_t budget,
     const Exhausted& exhausted) const noexcept {
   claim(memory);
+  if constexpr (tracing)
+    if (visits != nullptr) visits->frame = &frame_;
   const FilterPoint point = frame_.point(center);
   if (!can_search(point)) return nearest_without(center, reach, work);
   bool near = false;

@@ -80,6 +80,8 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
   const Vec3& center = probe.center;
   const double radius = probe.radius;
   claim(memory);
+  if constexpr (tracing)
+    if (visits != nullptr) visits->frame = &frame_;
   const FilterPoint point = frame_.point(center);
   if (!can_search(point)) return nearest_without(center, radius, work).has_value();
   if (memory.is_near()) {

@@ -182,6 +182,8 @@ inline std::array<std::uint32_t, tree_width> slots_in(TreeRef block) noexcept {
 
 template <class Visitor>
 inline void visit(const TreeParts& tree, std::uint32_t at, Visitor& visitor) noexcept {
+  if constexpr (tracing)
+    if (visitor.accepts(at)) note_triangle(tree.triangles[at].index);
   if (visitor.accepts(at)) visitor.update(at, kernel(tree.triangles[at], visitor.center));
 }
 
@@ -256,6 +258,7 @@ template <class Visitor>
         },
         visitor.limit, unseen);
     visitor.work.spheres += tree_width;
+    if constexpr (tracing) note_children(tree.boxes, node, 0, near);
     const std::size_t base = count;
     while (near != 0) {
       const std::uint32_t child = pop_lowest(near);
@@ -295,6 +298,7 @@ inline bool refill(const TreeParts& tree, const FilterPoint& point, std::uint64_
     const TreeNode& node = tree.nodes[stack[next]];
     const unsigned near = within([&](std::size_t at) { return child_bounds(tree.boxes, node, at, p); }, limit, unseen);
     work.spheres += tree_width;
+    if constexpr (tracing) note_children(tree.boxes, node, 0, near);
     const unsigned blocks = near & blocks_of(node);
     for (unsigned deeper = near & ~blocks; deeper != 0;) {
       const TreeRef child = node.child[pop_lowest(deeper)];
@@ -388,6 +392,7 @@ float search_cached(const TreeParts& tree, const FilterPoint& point, const LeafC
   for (std::uint32_t first = 0; first < cache.count; first += tree_width) {
     const unsigned near =
         within([&](std::size_t at) { return child_bounds(tree.boxes, cache, first + at, p); }, limit, unseen);
+    if constexpr (tracing) note_children(tree.boxes, cache, first, near);
     compress(blocks.data() + block_count, cache.child + first, near);
     block_count += static_cast<std::size_t>(std::popcount(near));
     visitor.work.spheres += tree_width;

@@ -4,6 +4,7 @@ import { Look, Mesh, Recording, Series, Trace } from "./data";
 import { rampAsCss, Stage } from "./replay";
 import { download, testOf } from "./savetest";
 import { State, View } from "./state";
+import { Visits, wordsOf } from "./visits";
 import { command, digits, duration, kinds, lighter, make, movesLittle } from "./words";
 
 const SPEEDS = [0.01, 0.1, 1];
@@ -12,6 +13,7 @@ const WRONG_AT_ONCE = 50;
 export class Explore {
   private readonly traces = new Map<string, Trace>();
   private readonly mesh: Mesh | null;
+  private readonly visits: Visits | null;
   private readonly times = new Chart("Time of each step along the trajectory", "Drag over the curves to choose a stretch; click on a peak to see that step.");
   private readonly tails = new Chart("Share of steps that took longer", "Both scales are logarithmic: a curve that ends far right has rare slow steps.");
   private readonly work = new Chart("Work of a step", "What a step looked at is the same on every machine.");
@@ -28,6 +30,7 @@ export class Explore {
   private readonly speed = make("select", { "aria-label": "speed" }, ...SPEEDS.map((one) => make("option", { value: one }, one === 1 ? "real time" : `${one} × real time`)));
   private readonly whose = make("select", { "aria-label": "contestant" });
   private readonly coloring = make("select", { "aria-label": "colour of the way" }, make("option", { value: "time" }, "time"), make("option", { value: "error" }, "wrong answers"));
+  private readonly looked = make("input", { type: "checkbox", checked: true });
   private readonly keyOfColors = make("p", { class: "color-key" });
   private stage: Stage | null = null;
   private timer = 0;
@@ -36,6 +39,7 @@ export class Explore {
   constructor(private readonly place: HTMLElement, private readonly recording: Recording, private readonly stream: Uint8Array,
     private readonly state: State, private readonly charges: string[], private readonly details: (name: string, trajectory?: string) => void) {
     this.mesh = recording.replay ? new Mesh(stream, recording.replay.mesh) : null;
+    this.visits = recording.visits && new Visits(stream, recording.visits);
     this.build();
     this.state.listen((view, changed) => this.update(view, changed));
     window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.drawAll());
@@ -59,7 +63,7 @@ export class Explore {
   // ----- building
 
   private build(): void {
-    this.place.append(make("section", { "aria-label": "Time against error" }, make("h2", {}, "Time against error"), this.scatter.element));
+    document.querySelector(`.scatter[data-recording="${this.place.dataset.recording}"]`)!.append(make("section", { "aria-label": "Time against error" }, make("h2", {}, "Time against error"), this.scatter.element));
     if (!this.mesh) return;
     for (const trace of this.recording.replay!.traces) this.choice.append(make("option", { value: trace.trajectory }, trace.trajectory));
     this.choice.addEventListener("change", () => this.state.set({ trajectory: this.choice.value, begin: 0, end: 0, step: 0 }));
@@ -110,7 +114,9 @@ export class Explore {
     this.coloring.addEventListener("change", () => this.state.set({ color: this.coloring.value as View["color"] }));
     const home = make("button", { type: "button", onclick: () => this.stage?.home() }, "Whole mesh");
     const fly = make("button", { type: "button", onclick: () => this.fly() }, "To the probe");
-    const controls = make("div", { class: "bar" }, this.play, make("label", {}, "Speed ", this.speed), make("label", {}, "Contestant ", this.whose), make("label", {}, "Colour ", this.coloring), home, fly);
+    const controls = make("div", { class: "bar" }, this.play, make("label", {}, "Speed ", this.speed), make("label", {}, "Contestant ", this.whose), make("label", {}, "Colour ", this.coloring), home, fly,
+      this.visits && make("label", {}, this.looked, " What it looked at"));
+    this.looked.addEventListener("change", () => this.showStep(this.view));
     const coarse = this.mesh!.about.drawnTriangles < this.mesh!.about.triangles ? `Drawn with ${this.mesh!.about.drawnTriangles.toLocaleString("en-US")} of ${this.mesh!.about.triangles.toLocaleString("en-US")} triangles; those around a listed step are as they are.` : "";
     this.place.append(make("section", { "aria-label": "Replay", class: "replay" }, make("h2", {}, "Replay"), controls, this.slider, this.keyOfColors,
       make("div", { class: "theatre" }, box, this.about), make("p", { class: "small" }, coarse)));
@@ -246,6 +252,8 @@ export class Explore {
     this.slider.setAttribute("aria-valuetext", `step ${step}`);
     const colors = new Map(this.recording.contestants.map((look) => [look.name, look.color]));
     this.stage?.showStep(trace, step, trace.series, colors);
+    const series = this.series(), seen = series && this.visits?.at(series.name, trace.name, step);
+    this.stage?.showVisited(seen && this.looked.checked ? seen : null);
     this.about.replaceChildren(...this.describe(trace, step));
   }
 
@@ -260,12 +268,21 @@ export class Explore {
       make("h3", {}, `Step ${step.toLocaleString("en-US")} of ${trace.name}`),
       make("p", {}, truth + (noted === undefined ? " (To the precision of curves: this step is none of the listed.)" : "")),
       make("div", { class: "scroll", role: "region", tabindex: 0, "aria-label": "Answers at this step" }, make("table", {}, make("thead", {}, make("tr", {}, ...heads)), make("tbody", {}, ...rows)))];
+    const visited = series && this.sentenceOfVisits(trace, step, series.name);
+    if (visited) nodes.push(visited);
     if (series?.about.repeat) {
       nodes.push(make("p", {}, "Ask again: ", command(series.about.repeat + step)));
-      const test = this.mesh && testOf(this.mesh, trace, step, series.name, series.about.repeat);
-      if (test) nodes.push(make("button", { type: "button", class: "save", onclick: () => download(`step-${step}.sh`, test) }, "Save as test"), make("span", { class: "small" }, " a script with the mesh around the probe and the command"));
+      const test = this.mesh && testOf(this.mesh, trace, step, series);
+      if (test) nodes.push(make("button", { type: "button", class: "save", onclick: () => download(`step-${step}.sh`, test) }, "Save as test"), make("span", { class: "small" }, " a script with the mesh around the probe, the command and the truth"));
     }
     return nodes;
+  }
+
+  /** What the chosen contestant looked at, where that is known. */
+  private sentenceOfVisits(trace: Trace, step: number, name: string): HTMLElement | null {
+    if (!this.visits?.of(name)) return null;
+    const seen = this.visits.at(name, trace.name, step);
+    return make("p", { class: "visited" }, seen ? `${name}: ${wordsOf(seen)} Strong lines were entered, faint ones turned away from.` : `What ${name} looked at is known of its ten slowest and its first wrong steps.`);
   }
 
   private answerRow(trace: Trace, one: Series, step: number, noted: number | undefined): HTMLElement {

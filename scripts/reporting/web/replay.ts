@@ -2,6 +2,8 @@
 import * as THREE from "three";
 import { OrbitControls } from "orbit-controls";
 import { Mesh, Series, Trace } from "./data";
+import { linesOf } from "./outlines";
+import type { Visited } from "./visits";
 import { isDark, movesLittle, shade } from "./words";
 
 /** Dark blue to yellow, rising in brightness too, so that it survives grey and colour blindness (cividis, few stops). */
@@ -31,6 +33,7 @@ export class Stage {
   private nearEdges: THREE.LineSegments | null = null;
   private nearest: THREE.Mesh | null = null;
   private answers: THREE.Object3D[] = [];
+  private outlines: THREE.LineSegments[] = [];
   private readonly middle: number[];
   private readonly scale: number;
   private waiting = false;
@@ -161,6 +164,21 @@ export class Stage {
       ball.position.copy(this.at(answer.point[0], answer.point[1], answer.point[2]));
       this.answers.push(ball);
       this.scene.add(ball);
+    }
+    this.draw();
+  }
+
+  /** Outlines of what a query looked at: strong where it looked inside, faint where it turned away. */
+  showVisited(seen: Visited | null): void {
+    for (const one of this.outlines) { this.scene.remove(one); one.geometry.dispose(); one.material.dispose(); }
+    this.outlines = [];
+    for (const { corners, color, opacity } of seen ? linesOf(seen, isDark()) : []) {
+      const geometry = new THREE.BufferGeometry();
+      geometry.setAttribute("position", new THREE.BufferAttribute(this.scaled(corners), 3));
+      const lines = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color, opacity, transparent: true, depthTest: false }));
+      lines.renderOrder = 5;
+      this.outlines.push(lines);
+      this.scene.add(lines);
     }
     this.draw();
   }
