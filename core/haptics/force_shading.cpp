@@ -32,7 +32,7 @@ ForceShading::ForceShading(const TriangleMesh& mesh)
   for (Vec3& normal : normals_) normal.stableNormalize();
 }
 
-/// Of the triangles of this id, which a file may have cut from one polygon, the one that the point is on.
+/// Returns the triangle of this id that the point is on: a file may have cut several from one polygon.
 std::size_t ForceShading::triangle_at(TriangleId id, const Vec3& point) const noexcept {
   if (mesh_->ids().empty()) return id;
   const auto ids = mesh_->ids();

@@ -32,7 +32,7 @@ struct ProxyState {
   ProxyStatus status = ProxyStatus::free;
   std::size_t contacts = 0;  ///< how many planes hold it, 3 at most; at least 1 unless it is free
   std::array<Vec3, ContactPlanes::max_active> normals;  ///< theirs, unit, out of the surface
-  std::array<Vec3, ContactPlanes::max_active> points;   ///< where they touch, on the surface
+  std::array<Vec3, ContactPlanes::max_active> points;   ///< the places on the surface that they touch
   /// The triangles there; nothing where none is known.
   std::array<std::optional<TriangleId>, ContactPlanes::max_active> triangles;
   Vec3 force = Vec3::Zero();  ///< N, on the device

@@ -68,9 +68,9 @@ class BareQuery {
 
  private:
   std::unique_ptr<contestants::Contestant> contestant_;
-  std::array<workload::Step, 1> step_;
-  std::array<workload::Answer, 1> answer_;
-  std::array<std::uint64_t, 1> work_;
+  std::array<workload::Step, 1> step_{};
+  std::array<workload::Answer, 1> answer_{};
+  std::array<std::uint64_t, 1> work_{};
 };
 
 class Certified final : public ProxyMethod {
