@@ -16,7 +16,7 @@ if(TOUCHMARK_BUILD_BENCH)
   list(APPEND touchmark_components program plots)
   # The program finds its workers beside itself, whatever name it is called by.
   set(touchmark_programs ${CMAKE_INSTALL_LIBDIR}/touchmark)
-  install(TARGETS touchmark touchmark-worker touchmark-worker-bullet-float touchmark-worker-plugin
+  install(TARGETS touchmark touchmark-worker touchmark-worker-bullet-float touchmark-worker-plugin touchmark-tracer
           RUNTIME DESTINATION ${touchmark_programs} COMPONENT program)
   # touchmark_link(COMPONENT NAME TARGET): a relative link in bin, so that the whole may be moved.
   function(touchmark_link component name target)

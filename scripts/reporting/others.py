@@ -79,7 +79,7 @@ def plain_table(title, records, columns):
     body = "".join("<tr>" + "".join(value_cell(column, record.get(column) or "") for column in columns) + "</tr>"
                    for record in records[:MOST_ROWS])
     more = f" The first {MOST_ROWS} of {len(records):,} rows." if len(records) > MOST_ROWS else ""
-    caption = f"<caption>{escaped(title)}.{more}</caption>"
+    caption = f"<caption><span>{escaped(title)}.{more}</span></caption>"
     return framed(f"<table>{caption}<thead><tr>{heads}</tr></thead><tbody>{body}</tbody></table>", title, len(records) > LONG)
 
 
@@ -134,6 +134,6 @@ def heat_map(records):
             cells.append(cell(f"{worst:.2f}" if worst >= 1 else f"<b>{worst:.2f}</b>", worst, f"heat heat{step}", title))
         rows.append(f'<tr><th scope="row">{escaped(scene)}</th>{"".join(cells)}</tr>')
     heads = head("scene") + "".join(head(escaped(shape)) for shape in shapes)
-    caption = ("<caption>The fastest exact rival’s time over that of the best of ours, the worst of each field’s cells: above 1 ours "
-               "is faster. Bold: ours is slower.</caption>")
+    caption = ("<caption><span>The fastest exact rival’s time over that of the best of ours, the worst of each field’s cells: above 1 ours "
+               "is faster. Bold: ours is slower.</span></caption>")
     return framed(f"<table>{caption}<thead><tr>{heads}</tr></thead><tbody>{''.join(rows)}</tbody></table>", "Suite")

@@ -30,7 +30,8 @@ class Page(unittest.TestCase):
             raise RuntimeError("chromium is not installed: scripts/setup page")
         cls.temporary = tempfile.TemporaryDirectory()
         cls.folder = pathlib.Path(cls.temporary.name)
-        names = ["grid-group", "sphere-cluster", "fcl:bv=obb", "libccd+aabb"] + [f"other-{k}" for k in range(CONTESTANTS - 4)]
+        names = ["grid-group", "sphere-cluster", "fcl:bv=obb", "libccd+aabb", "fcl:bv=aabb,method=distance,narrow=exact"]
+        names += [f"sphere-cluster:lookup=scan,precise=false,clustering={k}%" for k in range(CONTESTANTS - len(names))]
         cls.contestants = [Contestant(name, 100 * 1.4 ** k, STEPS, k, WRONG if k == 3 else ()) for k, name in enumerate(names)]
         made_up_steps.write(cls.folder, cls.contestants, STEPS)
         subprocess.run([ROOT / "scripts" / "report", cls.folder], check=True, stdout=subprocess.DEVNULL)
@@ -78,7 +79,7 @@ class Page(unittest.TestCase):
         self.assertEqual(self.browser.run(first), "grid-group")
         self.click("table.ratios thead th:nth-child(2) button")
         self.click("table.ratios thead th:nth-child(2) button")
-        self.assertEqual(self.browser.run(first), self.contestants[-1].detector)
+        self.assertEqual(self.browser.run(first), f"{self.contestants[-1].detector}:{self.contestants[-1].options}")
         self.assertEqual(self.browser.run("document.querySelector('table.ratios thead th:nth-child(2)').ariaSort"), "descending")
 
     def test_the_worst_step_has_the_number_of_the_csv(self):
@@ -161,6 +162,15 @@ class Page(unittest.TestCase):
     def widest(self):
         return self.browser.run("[...document.querySelectorAll('main *')].filter((one) => one.getBoundingClientRect().right > innerWidth + 1 && !one.closest('.scroll'))"
                                 ".map((one) => one.tagName + '.' + one.className).slice(0, 5).join(' ')")
+
+    def test_paper_is_light_whatever_the_system_prefers(self):
+        self.browser.prefer(prefers_color_scheme="dark")
+        self.browser.run("window.dispatchEvent(new Event('beforeprint'))")
+        self.assertEqual(self.browser.run("getComputedStyle(document.body).backgroundColor"), "rgb(255, 255, 255)")
+        self.assertEqual(self.browser.run(CONTRAST), [])
+        self.browser.run("window.dispatchEvent(new Event('afterprint'))")
+        self.assertEqual(self.browser.run("getComputedStyle(document.body).backgroundColor"), "rgb(20, 23, 26)")
+        self.browser.prefer()
 
     def test_every_control_has_a_name_and_a_place_in_the_order_of_tabs(self):
         nameless = self.browser.run("""[...document.querySelectorAll('button, input, select, [role=region], [role=application], [role=img]')]

@@ -43,6 +43,9 @@ export class Explore {
     this.build();
     this.state.listen((view, changed) => this.update(view, changed));
     window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.drawAll());
+    for (const [event, paper] of [["beforeprint", true], ["afterprint", false]] as const) {
+      window.addEventListener(event, () => { document.documentElement.classList.toggle("paper", paper); this.drawAll(); });
+    }
     this.drawAll();
   }
 

@@ -113,12 +113,13 @@ export class Stage {
     if (this.way) { this.scene.remove(this.way); this.way.geometry.dispose(); }
     const colors = new Float32Array(3 * trace.steps);
     const low = series ? Math.log(series.about.lowNs) : 0, high = series ? Math.log(series.about.highNs) : 1;
-    const wrong = isDark() ? [1, 0.35, 0.35] : [0.8, 0, 0];
+    // They differ in brightness, too, for whoever sees no red.
+    const wrong = isDark() ? [1, 0.5, 0.45] : [0.55, 0, 0], right = isDark() ? [0.3, 0.33, 0.4] : [0.62, 0.66, 0.74];
     for (let step = 0; step < trace.steps; ++step) {
       const time = series?.ns[step] ?? NaN;
       let one = isDark() ? [0.45, 0.45, 0.5] : [0.6, 0.6, 0.65];
       if (color === "time" && time === time) one = ramp((Math.log(time) - low) / (high - low || 1));
-      if (color === "error" && time === time) one = series!.charged[step] ? wrong : ramp(0.15);
+      if (color === "error" && time === time) one = series!.charged[step] ? wrong : right;
       colors.set(one, 3 * step);
     }
     const geometry = new THREE.BufferGeometry();
