@@ -10,6 +10,7 @@
 #include <cstring>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "core/detector.h"
 #include "core/geometry/point_triangle.h"
