@@ -59,10 +59,11 @@ TEST(ProxyOverAScene, CrossesNoBodyThoughTheyMoveBetweenItsTicks) {
         scene.move(wall_id, pose_of(wall_at, 1, 0, 0, 0));
         proxy.surface_moved();
       }
-      const bench::oracle::Oracle oracle(world(plate_at, wall_at), 1);
+      const TriangleMesh standing = world(plate_at, wall_at);
+      const bench::oracle::Oracle oracle(standing, 1);
       const Vec3 before = proxy.state().position;
       const bool was_free = !oracle.segment_within(before, before, radius);
-      const Vec3 goal = before + 0.5 * random.direction();
+      const Vec3 goal = Vec3(wall_at.x(), 0, plate_at.z()) + 1.5 * random.direction();
       const ProxyState& state = proxy.step(goal, session);
       if (!was_free) continue;  // a body was moved onto it
       for (std::size_t i = 0; i < state.pieces; ++i)
