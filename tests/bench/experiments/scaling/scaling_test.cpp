@@ -146,7 +146,7 @@ TEST(Growth, OfTimeIsThatOfLooksAndOfTheTimeOfALook) {
   };
   EXPECT_NEAR(exponent("work_mean") + exponent("ns_per_look"), exponent("ns_per_query"), 1e-12);
   EXPECT_NEAR(exponent("spheres_mean"), std::log10(2.5) / 2, 1e-12);  // the middle one of three does not tilt
-  EXPECT_TRUE(std::isnan(exponent("boxes_mean")));                     // none was looked at
+  EXPECT_TRUE(std::isnan(exponent("boxes_mean")));                    // none was looked at
   for (const Growth& growth : growths) EXPECT_EQ(name_of(growth.shrinks), "reach");
 }
 
