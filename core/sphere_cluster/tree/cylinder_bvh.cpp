@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/search/certified_nearest.h"
-#include "core/sphere_cluster/tree/bounding_boxes.h"
 #include "core/sphere_cluster/tree/builder.h"
 #include "core/sphere_cluster/tree/search.h"  // IWYU pragma: keep
 #include "core/sphere_cluster/tree/visitors.h"
@@ -48,7 +47,6 @@ SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters,
   frame_ = FilterFrame::around(mesh.bounds());
   measure_box();
   parts_ = spheres::build_tree(mesh, clusters, frame_, threads_);
-  spheres::choose_bounds(parts_, frame_);
   measure_leaves();
   fill_distances();
 }
