@@ -41,6 +41,14 @@ class FirstTouch {
     return reached.here.gap - reached.here.error - above >
            gap_.steepest_fall(reached.here) * (end - reached.fraction);
   }
+  bool stays_apart(const Reached& reached) const noexcept {
+    return !reached.here.over_face && gap_.stays_apart(reached.fraction, reached.here, 1);
+  }
+  struct Crossing {
+    double fraction;
+    double gap;  ///< bounds what is between from below
+  };
+  static Crossing crossing_of(const Reached& first, const Reached& second) noexcept;
   Reached advance(const Reached& reached) const noexcept;
   std::optional<double> conclude(const Reached& reached) noexcept;
   std::optional<double> halve(const Reached& reached) noexcept;
@@ -51,17 +59,36 @@ class FirstTouch {
   std::uint64_t& exact_decisions_;
 };
 
-/// Steps by Newton's method, aimed at a gap surely above zero; where that has gone too far, by what is safe.
+/// Steps by Newton's method, aimed at a gap surely above zero. Where that has passed the least gap, both
+/// tangents bound what is between; if they do not keep it above zero, it goes on where they cross. Else by
+/// what is safe.
 Reached FirstTouch::advance(const Reached& reached) const noexcept {
+  constexpr int max_tangents = 8;
   const WayGap::Sample& here = reached.here;
   if (here.surely_falls()) {
-    const double next = std::min(reached.fraction + (here.gap - 1.5 * here.error) / -here.slope, 1.0);
-    const WayGap::Sample there = gap_.at(next);
-    if (there.gap > there.error && there.surely_falls()) return {next, there};
+    double next = std::min(reached.fraction + (here.gap - 1.5 * here.error) / -here.slope, 1.0);
+    for (int tangent = 0; tangent < max_tangents; ++tangent) {
+      const WayGap::Sample there = gap_.at(next);
+      if (!(there.gap > there.error)) break;
+      if (there.surely_falls()) return {next, there};
+      const Crossing crossing = crossing_of(reached, {next, there});
+      if (crossing.gap > there.error) return {next, there};
+      next = crossing.fraction;
+    }
   }
   const double safe = (here.gap - here.error) / gap_.steepest_fall(here);
   const double next = std::min(reached.fraction + safe, 1.0);
   return {next, gap_.at(next)};
+}
+
+/// The tangents, as low as they may be, cross there: the first falls, the second one does not surely.
+FirstTouch::Crossing FirstTouch::crossing_of(const Reached& first, const Reached& second) noexcept {
+  const double low = first.here.gap - first.here.error, fall = first.here.slope - first.here.slope_error;
+  const double high = second.here.gap - second.here.error;
+  const double rise = second.here.slope + second.here.slope_error;
+  const double length = second.fraction - first.fraction;
+  const double part = std::clamp((low - high + rise * length) / (rise - fall), 0.0, length);
+  return {first.fraction + part, low + fall * part};
 }
 
 /// Nothing touches before there, and it is near enough: is it a hit?
@@ -101,7 +128,8 @@ std::optional<double> FirstTouch::find(double limit) noexcept {
   Reached reached{0, gap_.at(0)};
   if (reached.here.gap <= reached.here.error && touches_at_start(reached.here)) return 0;
   for (int step = 0; step < max_steps; ++step) {
-    if (reached.here.surely_rises() || stays_above(0, reached, 1)) return std::nullopt;
+    if (reached.here.surely_rises() || stays_above(0, reached, 1) || stays_apart(reached))
+      return std::nullopt;
     if (reached.fraction >= 1 && reached.here.gap > reached.here.error) return std::nullopt;
     // Up to the limit the gap is more than at any fraction told: 2 errors as computed, so 3.
     if (stays_above(3 * gap_.max_error(), reached, limit)) return std::nullopt;

@@ -75,6 +75,7 @@ void WayGap::measure_in_unit(const PreparedTriangle& triangle, const Sweep& swee
 void WayGap::finish() noexcept {
   error_ = 128 * unit_roundoff * size_;
   face_error_ = 32 * unit_roundoff * size_;
+  apart_error_ = 64 * unit_roundoff * size_;
   for (std::size_t i = 0; i < 3; ++i) {
     side_[i] = triangle_.normal.cross(edge_[i]);
     squared_edge_[i] = edge_[i].squaredNorm();
@@ -133,6 +134,18 @@ bool WayGap::surely_touches(double fraction, const Sample& there, double more) c
   // Over the face all the path between the two, and through it.
   return there.over_face && then.over_face && there.height * then.height < 0 &&
          std::abs(there.height) > face_error_ && std::abs(then.height) > face_error_;
+}
+
+bool WayGap::stays_apart(double fraction, const Sample& there, double end) const noexcept {
+  const double distance = there.gap + radius_;
+  if (!(distance > 0)) return false;
+  // Whatever rounding has made of its direction, it is a unit vector to four roundings.
+  const Vec3 normal = there.offset / there.offset.norm();
+  const Vec3 moved = fraction * path_;
+  double lowest = infinity;
+  for (const Vec3& start : start_) lowest = std::min(lowest, normal.dot(start + moved));
+  const double change = (end - fraction) * normal.dot(path_);
+  return lowest + std::min(change, 0.0) - radius_ > apart_error_;
 }
 
 Contact WayGap::contact(double fraction, TriangleId id) const noexcept {

@@ -42,6 +42,11 @@ class WayGap {
   /// `fraction`? May say no where they do.
   bool surely_touches(double fraction, const Sample& there, double more) const noexcept;
 
+  /// Is a plane known that keeps ball and triangle apart from `fraction` to `end`: the one normal to the
+  /// offset found at `fraction`? May say no where there is one. The directions of offsets are off by so much
+  /// that a slope alone does not tell this of a ball that slides along an edge.
+  bool stays_apart(double fraction, const Sample& there, double end) const noexcept;
+
   double max_error() const noexcept { return error_; }
   /// A bound on all lengths: finite, and their fourth powers are in range.
   bool is_defined() const noexcept { return defined_; }
@@ -65,8 +70,9 @@ class WayGap {
   double radius_;
   double size_;  ///< S
   double length_;
-  double error_;       ///< off the face
-  double face_error_;  ///< over it
+  double error_;        ///< off the face
+  double face_error_;   ///< over it
+  double apart_error_;  ///< bounds the error of a height above a plane
   double unit_ = 1;
   bool defined_ = true;
 };

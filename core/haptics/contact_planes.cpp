@@ -68,19 +68,8 @@ bool ContactPlanes::try_set(std::span<const std::uint8_t> chosen, std::span<cons
   return true;
 }
 
-Vec3 ContactPlanes::nearest_to(const Vec3& goal, const Vec3& at, double distance, double slack) noexcept {
-  active_count_ = 0;
-  std::array<double, max_planes> lack;  // by how much the goal is behind each plane
-  bool is_behind = false;
-  for (std::size_t i = 0; i < count_; ++i) {
-    const ContactPlane& plane = planes_[i];
-    const double here = plane.height(at);
-    const double wanted = plane.lift > 0 ? here + plane.lift : std::min(distance, here);
-    lack[i] = wanted - plane.height(goal);
-    is_behind = is_behind || lack[i] > slack;
-  }
-  if (!is_behind) return goal;
-  Vec3 offset;
+/// Chooses the planes that hold the solution, fewest first.
+bool ContactPlanes::solve(std::span<const double> lack, double slack, Vec3& offset) noexcept {
   const auto solves = [&](std::initializer_list<std::uint8_t> chosen) {
     if (!try_set({chosen.begin(), chosen.size()}, lack, slack, offset)) return false;
     std::ranges::copy(chosen, active_.begin());
@@ -89,14 +78,34 @@ Vec3 ContactPlanes::nearest_to(const Vec3& goal, const Vec3& at, double distance
   };
   const auto count = static_cast<std::uint8_t>(count_);
   for (std::uint8_t i = 0; i < count; ++i)
-    if (solves({i})) return goal + offset;
+    if (solves({i})) return true;
   for (std::uint8_t i = 0; i < count; ++i)
     for (std::uint8_t j = i + 1; j < count; ++j)
-      if (solves({i, j})) return goal + offset;
+      if (solves({i, j})) return true;
   for (std::uint8_t i = 0; i < count; ++i)
     for (std::uint8_t j = i + 1; j < count; ++j)
       for (std::uint8_t k = j + 1; k < count; ++k)
-        if (solves({i, j, k})) return goal + offset;
+        if (solves({i, j, k})) return true;
+  return false;
+}
+
+Vec3 ContactPlanes::nearest_to(const Vec3& goal, const Vec3& at, double distance, double slack) noexcept {
+  active_count_ = 0;
+  // By how much the goal is behind each plane, and behind what is no higher than where the proxy is.
+  std::array<double, max_planes> lack, lack_from_here;
+  bool is_behind = false, is_low = false;
+  for (std::size_t i = 0; i < count_; ++i) {
+    const ContactPlane& plane = planes_[i];
+    const double here = plane.height(at), at_goal = plane.height(goal);
+    const bool lifted = plane.lift > 0;
+    lack[i] = (lifted ? here + plane.lift : distance) - at_goal;
+    lack_from_here[i] = lifted ? lack[i] : std::min(distance, here) - at_goal;
+    is_low = is_low || lack_from_here[i] < lack[i];
+    is_behind = is_behind || lack_from_here[i] > slack;
+  }
+  if (!is_behind) return goal;
+  Vec3 offset;
+  if (solve(lack, slack, offset) || (is_low && solve(lack_from_here, slack, offset))) return goal + offset;
   return at;
 }
 

@@ -18,6 +18,7 @@ struct ContactPlane {
   Vec3 normal = Vec3::Zero();  ///< unit, out of the surface
   Vec3 anchor = Vec3::Zero();  ///< on the surface
   double lift = 0;             ///< farther off it than usual, since rounding did not let it be
+  TriangleId triangle = 0;     ///< the contact's
 
   double height(const Vec3& x) const noexcept { return normal.dot(x - anchor); }
 };
@@ -44,13 +45,14 @@ class ContactPlanes {
   /// proxy off.
   void meet(const ContactPlane& plane, double lift) noexcept;
 
-  /// The point nearest to the goal that is at least `distance` off all planes, and no less off each than `at`
-  /// where that is nearer. By the conditions of Karush, Kuhn and Tucker: the first set of at most three
-  /// planes whose solution pushes on all of them and is behind none, within the slack. `at` where there is
-  /// none.
+  /// The point nearest to the goal that is at least `distance` off all planes; where there is none, that is
+  /// no less off each than `at` is. By the conditions of Karush, Kuhn and Tucker: the first set of at most
+  /// three planes whose solution pushes on all of them and is behind none, within the slack. `at` where there
+  /// is none.
   Vec3 nearest_to(const Vec3& goal, const Vec3& at, double distance, double slack) noexcept;
 
  private:
+  bool solve(std::span<const double> lack, double slack, Vec3& offset) noexcept;
   bool try_set(std::span<const std::uint8_t> chosen, std::span<const double> lack, double slack,
                Vec3& offset) const noexcept;
 

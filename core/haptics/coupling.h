@@ -14,6 +14,7 @@ struct Coupling {
   double dynamic_friction = 0;  ///< coefficient, in motion; at most the static one
   double damping = 0;           ///< N s a mesh unit, against the goal's velocity while in contact
   double tick_s = 0.001;        ///< seconds a tick of the servo loop
+  double shading = 0;           ///< share, 0 to 1, of the way to the interpolated normal that the force turns
 
   bool has_friction() const noexcept { return static_friction > 0 || dynamic_friction > 0; }
 };

@@ -20,6 +20,7 @@
 
 #include "core/detector.h"
 #include "core/haptics/coupling.h"
+#include "core/haptics/force_shading.h"
 #include "core/haptics/proxy_motion.h"
 #include "core/probe.h"
 #include "core/triangle_mesh.h"
@@ -46,8 +47,10 @@ class Proxy {
  public:
   /// `mesh` is the detector's, for the normals of its faces: a bare point that stands on a face to rounding
   /// has no other. It must outlive the proxy; null where there is none, or only balls are asked for.
-  explicit Proxy(const D& detector, const Coupling& coupling, const TriangleMesh* mesh = nullptr) noexcept
-      : detector_(&detector), motion_(coupling, mesh) {}
+  /// `shading` turns the force where the coupling asks for it, and outlives the proxy, too.
+  explicit Proxy(const D& detector, const Coupling& coupling, const TriangleMesh* mesh = nullptr,
+                 const ForceShading* shading = nullptr) noexcept
+      : detector_(&detector), motion_(coupling, mesh, shading) {}
 
   /// Puts the proxy anywhere and forgets all contacts. Where that is too near to the surface it is `stuck`.
   void place(const Vec3& position) noexcept { motion_.place(position); }

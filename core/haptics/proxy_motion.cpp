@@ -18,7 +18,9 @@ double largest(const Vec3& v) noexcept { return v.cwiseAbs().maxCoeff(); }
 
 }  // namespace
 
-ProxyMotion::ProxyMotion(const Coupling& coupling, const TriangleMesh* mesh) noexcept : coupling_(coupling) {
+ProxyMotion::ProxyMotion(const Coupling& coupling, const TriangleMesh* mesh,
+                         const ForceShading* shading) noexcept
+    : coupling_(coupling), shading_(shading) {
   surface_moved(mesh);
   place(Vec3::Zero());
 }
@@ -52,7 +54,7 @@ bool ProxyMotion::begin(const Vec3& goal) noexcept {
   goal_ = goal;
   if (same_goal_ > 0 && (rests_ || same_goal_ >= ticks_to_settle)) {
     if (state_.status == ProxyStatus::unanswered) note_contacts();
-    if (state_.contacts > 0) state_.force = coupling_force(position(), goal_, goal_before_, coupling_);
+    if (state_.contacts > 0) set_force();
     return false;
   }
   size_ = largest(position()) + mesh_size_ + coupling_.radius;
@@ -151,10 +153,10 @@ Vec3 ProxyMotion::met_normal(const Impact& impact, const Vec3& target) const noe
 
 /// The plane may be among those around already, if it has moved.
 void ProxyMotion::meet(const Impact& impact, const Vec3& target) noexcept {
-  const ContactPlane plane{met_normal(impact, target), impact.contact.point};
+  const ContactPlane plane{met_normal(impact, target), impact.contact.point, 0, impact.contact.triangle};
   planes_.meet(plane, has_moved_ ? 0 : skin_);
   has_slid_ = false;
-  slides_ = 0;
+  slides_ = std::max(slides_ - 1, 0);
 }
 
 /// After a slide, so far that what it has come off by stays in sight: on a curve of the ball's own radius, or
@@ -170,7 +172,8 @@ void ProxyMotion::look_around(std::span<const Contact> contacts) noexcept {
   planes_.clear();
   for (const Contact& contact : contacts) {
     if (!planes_.protrudes(contact.point, skin_ / 4)) continue;
-    if (const std::optional<Vec3> normal = normal_at(contact)) planes_.add({*normal, contact.point});
+    if (const std::optional<Vec3> normal = normal_at(contact))
+      planes_.add({*normal, contact.point, 0, contact.triangle});
   }
 }
 
@@ -181,17 +184,30 @@ bool ProxyMotion::came_nearer() const noexcept {
   return moved.dot(2 * before + moved) <= before.norm() * skin_ / 8;
 }
 
+void ProxyMotion::set_force() noexcept {
+  state_.force = coupling_force(position(), goal_, goal_before_, coupling_);
+  if (shading_ != nullptr) state_.force = shading_->shaded(state_, coupling_.shading);
+}
+
 void ProxyMotion::note_contacts() noexcept {
   state_.contacts = 0;
   state_.force.setZero();
   state_.status = ProxyStatus::free;
   if (position() != goal_) {
     planes_.nearest_to(goal_, position(), kept_ + skin_, skin_ / 8);
-    for (const std::uint8_t plane : planes_.active())
-      state_.normals[state_.contacts++] = planes_.all()[plane].normal;
-    if (state_.contacts == 0) state_.normals[state_.contacts++] = (position() - goal_).normalized();
+    for (const std::uint8_t index : planes_.active()) {
+      const ContactPlane& plane = planes_.all()[index];
+      state_.points[state_.contacts] = plane.anchor;
+      state_.triangles[state_.contacts] = plane.triangle;
+      state_.normals[state_.contacts++] = plane.normal;
+    }
+    if (state_.contacts == 0) {
+      state_.points[0] = position();
+      state_.triangles[0].reset();
+      state_.normals[state_.contacts++] = (position() - goal_).normalized();
+    }
     state_.status = ProxyStatus::in_contact;
-    state_.force = coupling_force(position(), goal_, goal_before_, coupling_);
+    set_force();
   }
   if (may_touch_) state_.status = ProxyStatus::stuck;
 }

@@ -10,6 +10,7 @@
 
 #include "core/haptics/contact_planes.h"
 #include "core/haptics/coupling.h"
+#include "core/haptics/force_shading.h"
 #include "core/probe.h"
 #include "core/triangle_mesh.h"
 
@@ -31,7 +32,10 @@ struct ProxyState {
   ProxyStatus status = ProxyStatus::free;
   std::size_t contacts = 0;  ///< how many planes hold it, 3 at most; at least 1 unless it is free
   std::array<Vec3, ContactPlanes::max_active> normals;  ///< theirs, unit, out of the surface
-  Vec3 force = Vec3::Zero();                            ///< N, on the device
+  std::array<Vec3, ContactPlanes::max_active> points;   ///< the places on the surface that they touch
+  /// The triangles there; nothing where none is known.
+  std::array<std::optional<TriangleId>, ContactPlanes::max_active> triangles;
+  Vec3 force = Vec3::Zero();  ///< N, on the device
   /// The straight pieces of the tick's way: from way[0], where it was, over each to `position`.
   std::array<Vec3, max_pieces + 1> way;
   std::size_t pieces = 0;
@@ -39,7 +43,7 @@ struct ProxyState {
 
 class ProxyMotion {
  public:
-  ProxyMotion(const Coupling& coupling, const TriangleMesh* mesh) noexcept;
+  ProxyMotion(const Coupling& coupling, const TriangleMesh* mesh, const ForceShading* shading) noexcept;
 
   void place(const Vec3& position) noexcept;
   /// Forgets what it knew of the surface, which is now elsewhere.
@@ -87,8 +91,10 @@ class ProxyMotion {
   Vec3 met_normal(const Impact& impact, const Vec3& target) const noexcept;
   bool came_nearer() const noexcept;
   void note_contacts() noexcept;
+  void set_force() noexcept;
 
   Coupling coupling_;
+  const ForceShading* shading_ = nullptr;
   const TriangleMesh* mesh_ = nullptr;
   double mesh_size_ = 0;  ///< the mesh's largest coordinate
   ProxyState state_;

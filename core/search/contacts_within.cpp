@@ -22,8 +22,8 @@ ContactsWithin::ContactsWithin(const ContactsQuestion& question) noexcept
   if (is_scaled_) error_ = distance_error({scale_ * bounds.min, scale_ * bounds.max}, point_);
 }
 
-double ContactsWithin::distance_to(const PreparedTriangle& triangle) const noexcept {
-  return std::sqrt(squared_distance(is_scaled_ ? scaled(triangle, scale_) : triangle, point_));
+double ContactsWithin::distance_to(const PreparedTriangle& triangle, const Offset& offset) const noexcept {
+  return std::sqrt(is_scaled_ ? squared_distance(scaled(triangle, scale_), point_) : offset.squared);
 }
 
 bool ContactsWithin::is_within(const PreparedTriangle& triangle, double distance, Work& work) noexcept {
@@ -34,7 +34,8 @@ bool ContactsWithin::is_within(const PreparedTriangle& triangle, double distance
   return within_exactly(triangle.corner, question_.center, question_.reach);
 }
 
-/// Meanwhile a contact has the triangle's slot for its id, and the computed distance in this unit.
+/// Meanwhile a contact has the triangle's slot for its id, the computed distance in this unit, the offset for
+/// its point, and the offset's square for its normal's x.
 bool ContactsWithin::is_before(const Contact& a, const Contact& b) const noexcept {
   if (a.triangle == b.triangle) return false;
   const PreparedTriangle &first = question_.triangles[a.triangle], &other = question_.triangles[b.triangle];
@@ -49,32 +50,33 @@ bool ContactsWithin::is_before(const Contact& a, const Contact& b) const noexcep
   return both.nearest() == &first;
 }
 
-void ContactsWithin::consider(std::uint32_t slot, Work& work) noexcept {
+void ContactsWithin::consider(std::uint32_t slot, const Offset& offset, Work& work) noexcept {
   const PreparedTriangle& triangle = question_.triangles[slot];
-  const double distance = distance_to(triangle);
+  const double distance = distance_to(triangle, offset);
   if (!is_within(triangle, distance, work)) return;
-  const Contact contact{.distance = distance, .triangle = slot};
+  const Contact contact{offset.vector, Vec3(offset.squared, 0, 0), distance, slot};
   keep_first(question_.into, count_++, contact,
              [this](const Contact& a, const Contact& b) { return is_before(a, b); });
 }
 
 /// These are the bits that `nearest` gives of the nearest triangle.
-Contact ContactsWithin::contact_on_slot(std::uint32_t slot, double distance) noexcept {
-  const PreparedTriangle& triangle = question_.triangles[slot];
-  if (question_.decides_exactly && (is_scaled_ || !is_certain(distance, question_.reach, error_))) {
+Contact ContactsWithin::finished(const Contact& kept) noexcept {
+  const PreparedTriangle& triangle = question_.triangles[kept.triangle];
+  if (question_.decides_exactly && (is_scaled_ || !is_certain(kept.distance, question_.reach, error_))) {
     NearestOfTies only(question_.center);
     only.consider(triangle);
     const std::optional<Contact> contact = only.contact(question_.reach, error(), question_.ids);
     exact_decisions_ += only.exact_decisions();
     if (contact) return *contact;
   }
-  return contact_on(triangle, question_.center, question_.ids[triangle.index]);
+  return contact_at(triangle, question_.center, {kept.point, kept.normal.x()}, question_.ids[triangle.index]);
 }
 
 std::size_t ContactsWithin::finish(Work& work) noexcept {
   const std::span<Contact> kept = question_.into.first(std::min(count_, question_.into.size()));
   std::sort(kept.begin(), kept.end(), [this](const Contact& a, const Contact& b) { return is_before(a, b); });
-  for (Contact& contact : kept) contact = contact_on_slot(contact.triangle, contact.distance);
+  if (!kept.empty()) nearest_ = {kept.front().triangle, kept.front().distance / scale_};
+  for (Contact& contact : kept) contact = finished(contact);
   work.exact_decisions += exact_decisions_;
   return count_;
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "core/aabb.h"
@@ -54,17 +55,27 @@ class ContactsWithin {
 
   /// Bounds the error of a computed distance; infinite where every triangle is to be shown.
   double error() const noexcept { return is_scaled_ ? infinite : error_; }
-  void consider(std::uint32_t slot, Work& work) noexcept;
+  void consider(std::uint32_t slot, Work& work) noexcept {
+    consider(slot, offset_from(question_.triangles[slot], question_.center), work);
+  }
+  /// Likewise, where offset_from(triangle, center) is known.
+  void consider(std::uint32_t slot, const Offset& offset, Work& work) noexcept;
   /// Returns how many triangles are within the reach; the nearest are in their order then.
   std::size_t finish(Work& work) noexcept;
+  struct Nearest {
+    std::uint32_t slot;
+    double distance;  ///< as computed
+  };
+  /// Once finished, the nearest of those kept; nothing where none was.
+  const std::optional<Nearest>& nearest() const noexcept { return nearest_; }
 
  private:
   static constexpr double infinite = std::numeric_limits<double>::infinity();
 
-  double distance_to(const PreparedTriangle& triangle) const noexcept;
+  double distance_to(const PreparedTriangle& triangle, const Offset& offset) const noexcept;
   bool is_within(const PreparedTriangle& triangle, double distance, Work& work) noexcept;
   bool is_before(const Contact& a, const Contact& b) const noexcept;
-  Contact contact_on_slot(std::uint32_t slot, double distance) noexcept;
+  Contact finished(const Contact& kept) noexcept;
 
   ContactsQuestion question_;
   double error_ = 0;
@@ -74,6 +85,7 @@ class ContactsWithin {
   double reach_;            ///< likewise
   WithinRadius is_within_;
   std::size_t count_ = 0;
+  std::optional<Nearest> nearest_;
   mutable std::uint64_t exact_decisions_ = 0;
 };
 

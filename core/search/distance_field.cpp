@@ -46,11 +46,10 @@ SampleLattice SampleLattice::halved() const noexcept {
 }
 
 DistanceField::DistanceField(const Eigen::Vector3f& min, const Eigen::Vector3f& max, std::size_t triangles) {
-  // As many as pay: a quarter of a megabyte stays in the second cache, and no more than four bytes a
-  // triangle.
-  constexpr std::size_t fewest = 8, max_samples = std::size_t{1} << 15;
-  coarse_ =
-      SampleLattice(min, max, static_cast<std::uint32_t>(std::clamp(triangles / 2, fewest, max_samples)));
+  // As many as pay: 64 kilobytes stay in the second cache. A small mesh can have more for each triangle.
+  constexpr std::size_t fewest = 8, most_of_small = std::size_t{1} << 10, most = std::size_t{1} << 13;
+  const std::size_t samples = std::max(std::min(triangles / 4, most_of_small), triangles / 8);
+  coarse_ = SampleLattice(min, max, static_cast<std::uint32_t>(std::clamp(samples, fewest, most)));
   fine_ = coarse_.halved();
   constexpr float steps_an_edge = 8;
   step_ = std::ldexp(1.0F, std::ilogb(fine_.edge() / steps_an_edge));
@@ -65,25 +64,32 @@ DistanceField DistanceField::around(const FilterFrame& frame, const Aabb& bounds
   return {box.min.cast<float>(), box.max.cast<float>(), triangles};
 }
 
-// Away from the surface, one of the eight is nearly behind the point.
+// The square of the distance, less that of the position, is concave, so between samples it is at least what
+// lies linearly between theirs: with t of the way from one to the next, t (1 - t) of the square of that way
+// less for the square of the distance.
 float DistanceField::tight_lower_bound(const FilterPoint& p) const noexcept {
   if (fine_steps_.empty()) return 0;
   const Lanes point = lanes_of(p), nearest = fine_.clamped(point);
   const LaneBits first = fine_.first_around(nearest);
-  const Lanes to_first = nearest - fine_.middle(first), to_second = nearest - fine_.middle(first + 1);
-  const Lanes first_squared = to_first * to_first, second_squared = to_second * to_second;
-  // A lane for each of four cubes in a plane.
-  const Lanes across = __builtin_shufflevector(first_squared, second_squared, 0, 4, 0, 4) +
-                       __builtin_shufflevector(first_squared, second_squared, 1, 1, 5, 5);
+  const Lanes from_first = (nearest - fine_.middle(first)) * fine_.per_edge();
+  const Lanes t = simd::min(simd::max(from_first, Lanes{}), broadcast(1)), rest = 1 - t;
   const std::uint32_t row = fine_.count(0), plane = row * fine_.count(1);
   const auto step_count = [&](std::uint32_t cube) { return static_cast<float>(fine_steps_[cube].load()); };
   const auto steps = [&](std::uint32_t at) {
     return Lanes{step_count(at), step_count(at + 1), step_count(at + row), step_count(at + row + 1)};
   };
   const std::uint32_t at = fine_.index(first);
-  const Lanes within = simd::max(steps(at) * step_ - simd::sqrt(across + first_squared[2]),
-                                 steps(at + plane) * step_ - simd::sqrt(across + second_squared[2]));
-  return beyond_box(p, point - nearest, simd::reduce_max(within));
+  const Lanes near_plane = steps(at), far_plane = steps(at + plane);
+  const Lanes in_plane = Lanes{rest[0], t[0], rest[0], t[0]} * Lanes{rest[1], rest[1], t[1], t[1]};
+  const Lanes along = near_plane * near_plane * rest[2] + far_plane * far_plane * t[2];
+  const Lanes weighted = in_plane * along, lost = t * rest;
+  // Rounding of the point and of t is as if the point were elsewhere; both sums are of few roundings each.
+  const float between = (weighted[0] + weighted[1] + weighted[2] + weighted[3]) * (step_ * step_);
+  const float less = (lost[0] + lost[1] + lost[2]) * (fine_.edge() * fine_.edge());
+  const float interpolated = between * (1 - sum_error) - less * (1 + sum_error);
+  const Lanes outside = (from_first - t) * fine_.edge();
+  const float within = interpolated > 0 ? root(interpolated) - root(squared(outside)) - interpolation_pad : 0;
+  return beyond_box(p, point - nearest, within);
 }
 
 bool DistanceField::holds(const FilterFrame& frame, const Aabb& bounds) const noexcept {

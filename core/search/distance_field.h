@@ -104,6 +104,8 @@ class DistanceField {
   static float beyond_box(const FilterPoint& point, Lanes to_box, float within) noexcept;
   /// Room for the roundings of two samples' positions.
   static constexpr double sample_pad = 0x1p-20;
+  /// Between samples: room for the rounding of a place, and more than twelve roundings of a sum.
+  static constexpr float interpolation_pad = 0x1p-18F, sum_error = 0x1p-19F;
   /// Returns true away from the surface, where the eight samples of a coarse cube are what its own leaves of
   /// them: then even a point at the corner of a fine cube is known to be half a cube away.
   bool is_far(double distance) const noexcept { return distance > 2.5 * fine_.edge(); }
@@ -119,14 +121,12 @@ class DistanceField {
     return steps == max_steps ? std::numeric_limits<double>::infinity()
                               : static_cast<double>(steps) * static_cast<double>(step_);
   }
+  struct CoarseSamples;
+  template <class DistanceAt, class IsWanted>
+  class Filler;
   template <class Sampler, class IsWanted>
   void fill_cubes(const Sampler& sampler, const IsWanted& is_wanted, unsigned threads);
-  template <class DistanceAt, class IsWanted>
-  void fill_rows(std::size_t first, std::size_t end, DistanceAt& distance_at, const IsWanted& is_wanted);
-  template <class DistanceAt>
-  double fill_cube(const Cube& cube, double max_distance, DistanceAt& distance_at) const;
-  /// What a sample in the middle of a coarse cube says of it and, where that is far, of its eighths: x, y, z
-  /// say which it is.
+  /// What a sample in the middle of a coarse cube says of it and of its eighths: x, y, z say which it is.
   void keep(std::uint32_t x, std::uint32_t y, std::uint32_t z, const Interval& distance) const noexcept;
   /// Which fine cube an eighth of a coarse one is.
   static Cube eighth_of(std::uint32_t x, std::uint32_t y, std::uint32_t z, std::uint32_t eighth) noexcept {
@@ -179,7 +179,6 @@ inline float DistanceField::upper_bound(const FilterPoint& p) const noexcept {
 inline void DistanceField::keep(std::uint32_t x, std::uint32_t y, std::uint32_t z,
                                 const Interval& distance) const noexcept {
   coarse_steps_[coarse_.index(x, y, z)].store(steps_in(distance.upper + step_));
-  if (!is_far(distance.lower)) return;
   const Step lower = steps_in(distance.lower - to_eighth());
   for (std::uint32_t eighth = 0; eighth < 8; ++eighth) keep_fine(eighth_of(x, y, z, eighth), lower);
 }

@@ -2,6 +2,10 @@
 /// detectors.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -13,54 +17,232 @@
 
 namespace touchmark {
 
-/// Samples the middle of a coarse cube, and where that is near those of its eighths. Returns an upper
-/// bound in the middle, negative where nothing is known of it.
+/// A function that takes samples and knows the triangle it found near the last one, by a number.
 template <class DistanceAt>
-double DistanceField::fill_cube(const Cube& cube, double max_distance, DistanceAt& distance_at) const {
-  const auto& [x, y, z] = cube;
-  const Interval distance = distance_at(middle(coarse_, x, y, z), max_distance);
-  if (distance.lower < 0) return distance.lower;
-  keep(x, y, z, distance);
-  if (is_far(distance.lower)) return distance.upper;
-  for (std::uint32_t eighth = 0; eighth < 8; ++eighth) {
-    const Cube fine = eighth_of(x, y, z, eighth);
-    const double lower =
-        distance_at(middle(fine_, fine[0], fine[1], fine[2]), distance.upper + to_eighth()).lower;
-    keep_fine(fine, steps_in(lower));
-  }
-  return distance.upper;
-}
+concept KnowsTriangles = requires(DistanceAt& distance_at, const Vec3& position, std::uint32_t near,
+                                  double length) {
+  { distance_at.near() } -> std::same_as<std::uint32_t>;
+  // Bounds the distance from above by that triangle, and starts the next sample with it.
+  { distance_at.distance_to(near, position) } -> std::same_as<double>;
+  // The next samples are within the second length of this point, where the distance is at most the first.
+  distance_at.gather(position, length, length);
+  distance_at.scatter();
+};
 
-/// Rows are walked to and fro, so that each cube is next to the one before.
+/// What is known of the middles of coarse cubes while a field is filled.
+struct DistanceField::CoarseSamples {
+  explicit CoarseSamples(std::size_t cubes) : lower(cubes, -1), near(cubes, 0) {}
+
+  /// Returns which part of the cubes that are known has the mesh near.
+  double part_near(const DistanceField& field) const noexcept {
+    std::size_t known = 0, far = 0;
+    for (const double one : lower) {
+      if (one < 0) continue;
+      ++known;
+      if (field.is_far(one)) ++far;
+    }
+    return known > 0 ? static_cast<double>(known - far) / static_cast<double>(known) : 0;
+  }
+
+  std::vector<double> lower;        ///< bounds the distance from below; negative: nothing is known
+  std::vector<std::uint32_t> near;  ///< a triangle near there, where samples know one
+};
+
+/// In which order the samples are taken: those of every other cube along each axis first, then those halfway
+/// between two of them along x, y and z, and last the eighths of what is near.
+enum class FillingPass { every_other, between_x, between_y, between_z, eighths };
+
+/// Takes samples with one function of its own.
+///
+/// The square of the distance, less the square of the position, is concave: it is the least of functions that
+/// are linear. So it is at least what lies linearly between samples around a point: with t of the way from
+/// one sample to the next, that is t (1 - t) of the square of that way less for the square of the distance.
+/// Where that is nearly what a triangle near there shows, no search is needed.
 template <class DistanceAt, class IsWanted>
-void DistanceField::fill_rows(std::size_t first, std::size_t end, DistanceAt& distance_at,
-                              const IsWanted& is_wanted) {
-  const double to_next = coarse_.edge() + sample_pad;
-  double before = std::numeric_limits<double>::infinity();
-  for (std::size_t row = first; row < end; ++row) {
-    const auto z = static_cast<std::uint32_t>(row / coarse_.count(1)),
-               across = static_cast<std::uint32_t>(row % coarse_.count(1));
-    const std::uint32_t y = z % 2 == 0 ? across : coarse_.count(1) - 1 - across;
-    for (std::uint32_t position = 0; position < coarse_.count(0); ++position) {
-      const std::uint32_t x = row % 2 == 1 ? coarse_.count(0) - 1 - position : position;
-      const std::uint32_t cube = coarse_.index(x, y, z);
-      before = is_wanted(cube) ? fill_cube({x, y, z}, before + to_next, distance_at) : upper_bound_at(cube);
-      if (before < 0) return;
+class DistanceField::Filler {
+ public:
+  Filler(const DistanceField& field, CoarseSamples& samples, DistanceAt& distance_at,
+         const IsWanted& is_wanted) noexcept
+      : field_(field), samples_(samples), distance_at_(distance_at), is_wanted_(is_wanted) {}
+
+  /// Returns false where the function gave up.
+  bool fill_row(FillingPass pass, std::uint32_t y, std::uint32_t z, bool backwards) {
+    const std::uint32_t count = field_.coarse_.count(0);
+    const bool skips = pass == FillingPass::every_other || pass == FillingPass::between_x;
+    const std::uint32_t first = pass == FillingPass::between_x ? 1 : 0, step = skips ? 2 : 1;
+    const std::uint32_t cubes = (count - first + step - 1) / step;
+    for (std::uint32_t i = 0; i < cubes; ++i) {
+      const Cube cube{first + step * (backwards ? cubes - 1 - i : i), y, z};
+      if (!is_wanted_(index(cube))) continue;
+      if (!(pass == FillingPass::eighths ? fill_eighths(cube) : fill_middle(cube, pass))) return false;
+    }
+    return true;
+  }
+
+ private:
+  static constexpr bool knows_triangles = KnowsTriangles<DistanceAt>;
+  /// A bound from below is good enough at this part of one from above.
+  static constexpr double close_enough = 0.8;
+  /// In fine edges: what is nearer says next to nothing about the points around it.
+  static constexpr double too_near = 0.4;
+  /// Fewer eighths are not worth a list of what is near them.
+  static constexpr std::size_t least_listed = 4;
+
+  std::uint32_t index(const Cube& cube) const noexcept {
+    return field_.coarse_.index(cube[0], cube[1], cube[2]);
+  }
+  static Vec3 middle_of(const SampleLattice& lattice, const Cube& cube) noexcept {
+    return middle(lattice, cube[0], cube[1], cube[2]);
+  }
+  /// Bounds the distance from below by the square of it that lies between samples.
+  static double root_of(double squared) noexcept { return std::sqrt(std::max(squared, 0.0)) - sample_pad; }
+
+  /// Looks halfway between two neighbours; nothing is known, and the lower bound is negative, where that is
+  /// not good enough.
+  Interval between(const Cube& cube, std::size_t axis, std::uint32_t& near) requires knows_triangles {
+    constexpr Interval unknown{-1, -1};
+    if (cube[axis] + 1 == field_.coarse_.count(static_cast<int>(axis))) return unknown;
+    Cube before = cube, after = cube;
+    --before[axis];
+    ++after[axis];
+    const double a = samples_.lower[index(before)], b = samples_.lower[index(after)];
+    if (a < 0 || b < 0) return unknown;
+    const double edge = field_.coarse_.edge(), lower = root_of(0.5 * (a * a + b * b) - edge * edge);
+    near = samples_.near[index(a < b ? before : after)];
+    const double upper = distance_at_.distance_to(near, middle_of(field_.coarse_, cube));
+    return lower >= close_enough * upper ? Interval{lower, upper} : unknown;
+  }
+
+  bool fill_middle(const Cube& cube, FillingPass pass) {
+    const Vec3 position = middle_of(field_.coarse_, cube);
+    Interval found{-1, -1};
+    std::uint32_t near = 0;
+    if constexpr (knows_triangles) {
+      if (pass != FillingPass::every_other) found = between(cube, static_cast<std::size_t>(pass) - 1, near);
+    }
+    if (found.lower < 0) {
+      found = distance_at_(position, upper_ + (position - last_).norm() + sample_pad);
+      if (found.lower < 0) return false;
+      if constexpr (knows_triangles) near = distance_at_.near();
+    }
+    samples_.lower[index(cube)] = found.lower;
+    samples_.near[index(cube)] = near;
+    last_ = position;
+    upper_ = found.upper;
+    field_.keep(cube[0], cube[1], cube[2], found);
+    return true;
+  }
+
+  /// Bounds the distance in the middle of an eighth from below by the samples of the eight cubes around it;
+  /// negative where one of them is not known.
+  double between_eight(const Cube& cube, std::uint32_t eighth) const noexcept {
+    std::array<std::uint32_t, 3> other;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const bool up = (eighth >> axis & 1) != 0;
+      if (up ? cube[axis] + 1 == field_.coarse_.count(static_cast<int>(axis)) : cube[axis] == 0) return -1;
+      other[axis] = up ? cube[axis] + 1 : cube[axis] - 1;
+    }
+    double sum = 0;
+    for (std::uint32_t corner = 0; corner < 8; ++corner) {
+      Cube at = cube;
+      double weight = 1;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const bool is_other = (corner >> axis & 1) != 0;
+        if (is_other) at[axis] = other[axis];
+        weight *= is_other ? 0.25 : 0.75;
+      }
+      const double lower = samples_.lower[index(at)];
+      if (lower < 0) return -1;
+      sum += weight * (lower * lower);
+    }
+    const double edge = field_.coarse_.edge();
+    return root_of(sum - 3 * (0.25 * 0.75) * (edge * edge));
+  }
+
+  bool fill_eighths(const Cube& cube) {
+    const double lower = samples_.lower[index(cube)];
+    if (lower < 0) return true;
+    if (field_.is_far(lower)) {
+      for (std::uint32_t eighth = 0; eighth < 8; ++eighth) {
+        const double found = between_eight(cube, eighth);
+        if (found > lower - field_.to_eighth())
+          field_.keep_fine(eighth_of(cube[0], cube[1], cube[2], eighth), field_.steps_in(found));
+      }
+      return true;
+    }
+    std::array<Cube, 8> left;
+    std::size_t count = 0;
+    for (std::uint32_t eighth = 0; eighth < 8; ++eighth) {
+      const Cube fine = eighth_of(cube[0], cube[1], cube[2], eighth);
+      if (!is_known(cube, eighth, fine)) left[count++] = fine;
+    }
+    const double upper = field_.upper_bound_at(index(cube)), to_eighth = field_.to_eighth();
+    const bool lists = count >= least_listed;
+    if constexpr (knows_triangles)
+      if (lists) distance_at_.gather(middle_of(field_.coarse_, cube), upper, to_eighth);
+    for (const Cube& fine : std::span(left).first(count)) {
+      const double found = distance_at_(middle_of(field_.fine_, fine), upper + to_eighth).lower;
+      if (found < 0) return false;
+      field_.keep_fine(fine, field_.steps_in(found));
+    }
+    if constexpr (knows_triangles)
+      if (lists) distance_at_.scatter();
+    return true;
+  }
+
+  /// Keeps what is known without a search, if that is enough.
+  bool is_known(const Cube& cube, std::uint32_t eighth, const Cube& fine) {
+    if constexpr (knows_triangles) {
+      const double upper =
+          distance_at_.distance_to(samples_.near[index(cube)], middle_of(field_.fine_, fine));
+      if (upper < too_near * double{field_.fine_.edge()}) return true;
+      const double lower = between_eight(cube, eighth);
+      if (!(lower >= close_enough * upper)) return false;
+      field_.keep_fine(fine, field_.steps_in(lower));
+      return true;
+    } else {
+      return false;
     }
   }
-}
 
-/// Parts of whole rows, of about as many cubes: so long that it does not matter that each begins without a
-/// neighbour, so short that there is one for every thread.
+  const DistanceField& field_;
+  CoarseSamples& samples_;
+  DistanceAt& distance_at_;
+  const IsWanted& is_wanted_;
+  Vec3 last_ = Vec3::Zero();                                ///< the place of the last sample in a middle
+  double upper_ = std::numeric_limits<double>::infinity();  ///< bounds the distance there
+};
+
+/// Parts of whole rows, of about as many cubes: so many that it does not matter that each begins without a
+/// neighbour, so few that there is one for every thread.
 template <class Sampler, class IsWanted>
 void DistanceField::fill_cubes(const Sampler& sampler, const IsWanted& is_wanted, unsigned threads) {
   if (coarse_.size() == 0) return;
   constexpr std::size_t cubes_a_part = 512;
-  const std::size_t rows = std::size_t{coarse_.count(1)} * coarse_.count(2);
-  in_ranges(rows, 1 + cubes_a_part / coarse_.count(0), threads, [&](std::size_t first, std::size_t end) {
-    auto distance_at = sampler(static_cast<double>(end - first) / static_cast<double>(rows));
-    fill_rows(first, end, distance_at, is_wanted);
-  });
+  // Where the mesh fills its box next to nothing is rejected, with samples of the eighths or without.
+  constexpr double most_near = 0.85;
+  CoarseSamples samples(coarse_.size());
+  const auto fill = [&](FillingPass pass, std::uint32_t first_y, std::uint32_t step_y, std::uint32_t first_z,
+                        std::uint32_t step_z) {
+    const std::size_t rows_y = (coarse_.count(1) - first_y + step_y - 1) / step_y;
+    const std::size_t rows = rows_y * ((coarse_.count(2) - first_z + step_z - 1) / step_z);
+    in_ranges(rows, 1 + cubes_a_part / coarse_.count(0), threads, [&](std::size_t first, std::size_t end) {
+      // Middles and eighths are looked for with half of the work each.
+      const double all_rows = 2.0 * coarse_.count(1) * coarse_.count(2);
+      auto distance_at = sampler(static_cast<double>(end - first) / all_rows);
+      Filler filler(*this, samples, distance_at, is_wanted);
+      for (std::size_t row = first; row < end; ++row) {
+        const auto y = static_cast<std::uint32_t>(row % rows_y), z = static_cast<std::uint32_t>(row / rows_y);
+        const auto along = static_cast<std::uint32_t>(z % 2 == 0 ? y : rows_y - 1 - y);
+        if (!filler.fill_row(pass, first_y + step_y * along, first_z + step_z * z, row % 2 == 1)) return;
+      }
+    });
+  };
+  fill(FillingPass::every_other, 0, 2, 0, 2);
+  fill(FillingPass::between_x, 0, 2, 0, 2);
+  fill(FillingPass::between_y, 1, 2, 0, 2);
+  fill(FillingPass::between_z, 0, 1, 1, 2);
+  if (samples.part_near(*this) <= most_near) fill(FillingPass::eighths, 0, 1, 0, 1);
 }
 
 template <class Sampler>

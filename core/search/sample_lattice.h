@@ -23,6 +23,7 @@ class SampleLattice {
   std::uint32_t count(int axis) const noexcept { return count_[static_cast<std::size_t>(axis)]; }
   std::size_t size() const noexcept { return std::size_t{count_[0]} * count_[1] * count_[2]; }
   float edge() const noexcept { return edge_; }
+  float per_edge() const noexcept { return per_edge_; }
   float min(int axis) const noexcept { return min_[axis]; }
   float max(int axis) const noexcept { return max_[axis]; }
 

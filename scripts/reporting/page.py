@@ -108,7 +108,8 @@ def recording_html(recording, number, plain):
     parts_of_it = [f'<article class="recording" data-recording="{number}" aria-label="{escaped(recording.name)}">']
     if recording.rows:
         first = recording.rows[0]
-        scene = f"{first.fields['mesh']}, {int(first.number('triangles') or 0):,} triangles, {first.query}"
+        bodies = f", {words.many(recording.bodies, 'body', 'bodies')}" if recording.bodies else ""
+        scene = f"{first.fields['mesh']}{bodies}, {first.count('triangles'):,} triangles, {first.query}"
         sentences = "".join(f"<li>{sentence}</li>" for sentence in words.verdict(recording))
         parts_of_it.append(f'<section class="verdict" aria-label="Verdict"><p class="scene">{escaped(scene)}</p><ul>{sentences}</ul>'
                            f'<p class="scene">{words.how_measured(recording)}</p>{remarks}</section>')
@@ -169,7 +170,8 @@ def replay_in(recording, packer, detail):
     begun = len(packer.parts), packer.size
     try:
         return replay_of(recording.steps, packer, detail)
-    except Damaged as damaged:
+    except (Damaged, KeyError, TypeError, ValueError, IndexError) as error:
+        damaged = error if isinstance(error, Damaged) else f"{recording.steps.path}: its header is not as docs/reference/steps-bin.md has it"
         del packer.parts[begun[0]:]
         packer.size = begun[1]
         recording.steps = recording.visits = None

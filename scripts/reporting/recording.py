@@ -59,6 +59,11 @@ class Row:
         return self.count("malformed") + self.count("wrong_side") > 0 or (guarantee == "conservative" and self.count("missed") > 0)
 
 
+def real(value):
+    """A number of a JSON file; NaN where it is none."""
+    return float(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else math.nan
+
+
 class Recording:
     """What one folder holds."""
 
@@ -104,7 +109,8 @@ class Recording:
     def read_steps(self):
         path = self.path / "steps.bin"
         if not path.is_file():
-            self.remarks.append("This folder has no steps.bin, so there are no curves of single steps and no replay. "
+            self.remarks.append("Curves of single steps and the replay are of one mesh that stands: a scene of bodies has none." if self.bodies else
+                                "This folder has no steps.bin, so there are no curves of single steps and no replay. "
                                 "touchmark bench --out leaves one.")
             return
         try:
@@ -129,6 +135,19 @@ class Recording:
             self.visits = visits
         else:
             self.remarks.append(f"visited.json is of another run, {visits.run_id}, and is left out.")
+
+    @property
+    def steadiness(self):
+        """The objects of run.json about how quiet each trajectory was."""
+        found = self.about.get("steadiness")
+        return [one for one in found if isinstance(one, dict)] if isinstance(found, list) else []
+
+    @property
+    def bodies(self):
+        """How many bodies the scene has; 0 where it is a mesh."""
+        mesh = self.about.get("mesh")
+        bodies = mesh.get("bodies") if isinstance(mesh, dict) else None
+        return bodies if isinstance(bodies, int) else 0
 
     @property
     def contestants(self):

@@ -2,7 +2,7 @@
 import math
 import re
 
-from .recording import RATES_HZ, geometric_mean
+from .recording import RATES_HZ, geometric_mean, real
 from .words import RATE_NAMES, duration, escaped, margins, share, slowest, three_digits
 
 
@@ -135,21 +135,22 @@ def machine_list(recording):
         facts.append(("load at the start", " ".join(f"{one:.2f}" for one in load)))
     clock = about.get("clock") if isinstance(about.get("clock"), dict) else {}
     if clock:
-        facts.append(("clock", f"{clock.get('name')}, {duration(float(clock.get('cost_ns') or math.nan))} a reading"))
+        facts.append(("clock", f"{clock.get('name')}, {duration(real(clock.get('cost_ns')))} a reading"))
     if isinstance(about.get("command_line"), list):
         facts.append(("command", "touchmark " + " ".join(map(str, about["command_line"]))))
     items = "".join(f"<dt>{escaped(name)}</dt><dd>{escaped(value)}</dd>" for name, value in facts if value not in (None, ""))
-    return f'<dl class="facts">{items}</dl>{steadiness(about)}'
+    return f'<dl class="facts">{items}</dl>{steadiness(recording.steadiness)}'
 
 
-def steadiness(about):
+def steadiness(trajectories):
     """How much other work disturbed each trajectory, and how equal two runs of one contestant came out."""
     rows = []
-    for one in about.get("steadiness") or []:
-        control = one.get("control") or {}
-        ratio, low, high = (control.get(key, math.nan) for key in ("ratio", "ratio_low", "ratio_high"))
-        equal = f"{ratio:.3f} ({low:.3f} to {high:.3f})" if isinstance(ratio, float) and ratio > 0 else "–"
-        rows.append(f"<tr><th scope=row>{escaped(one.get('trajectory', ''))}</th>{cell(share(one.get('disturbed_share') or 0))}"
+    for one in trajectories:
+        control = one.get("control") if isinstance(one.get("control"), dict) else {}
+        ratio, low, high = (real(control.get(key)) for key in ("ratio", "ratio_low", "ratio_high"))
+        equal = f"{ratio:.3f} ({low:.3f} to {high:.3f})" if ratio > 0 else "–"
+        disturbed = real(one.get("disturbed_share"))
+        rows.append(f"<tr><th scope=row>{escaped(one.get('trajectory', ''))}</th>{cell(share(disturbed) if math.isfinite(disturbed) else '–')}"
                     f"{cell(escaped(equal))}{cell('yes' if one.get('conclusive') else 'no')}</tr>")
     if not rows:
         return "<p>run.json does not say how quiet the machine was.</p>"

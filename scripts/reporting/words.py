@@ -2,7 +2,7 @@
 import html
 import math
 
-from .recording import RATES_HZ, geometric_mean
+from .recording import RATES_HZ, geometric_mean, real
 
 RATE_NAMES = ["1 kHz", "4 kHz", "10 kHz"]
 
@@ -92,9 +92,8 @@ def how_measured(recording):
     """Sentences about the machine and how quiet it was."""
     about = recording.about
     cores = about.get("cores")
-    machine = ", ".join(escaped(one) for one in (about.get("cpu"), f"{cores} cores" if isinstance(cores, int) else None) if one)
-    shares = [one.get("disturbed_share") for one in about.get("steadiness") or []]
-    shares = [one for one in shares if isinstance(one, (int, float)) and math.isfinite(one)]
+    machine = ", ".join(escaped(one) for one in (about.get("cpu"), many(cores, "core") if isinstance(cores, int) else None) if one)
+    shares = [one for one in (real(one.get("disturbed_share")) for one in recording.steadiness) if math.isfinite(one)]
     quiet = (f"Other work disturbed {share(max(shares))} of the samples of the least quiet trajectory." if shares
              else "How quiet the machine was is not recorded.")
     return f"Measured on {machine}. {quiet}" if machine else quiet

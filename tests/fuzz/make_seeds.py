@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """Writes a folder of seeds for each fuzz target: small files of every form that the readers know, whole and damaged,
-and scripts for the detectors' target. Argument: where the folders go.
+and scripts for the targets of detectors and proxies. Argument: where the folders go.
 """
 import pathlib
 import random
@@ -110,13 +110,14 @@ def seeds():
     yield "stl", list(stl())
     yield "trajectory", [text.encode() for text in trajectory()]
     yield "detectors", list(detectors())
+    yield "proxy", list(detectors())
 
 
 def main():
     folder = pathlib.Path(sys.argv[1])
     for target, whole in seeds():
         (folder / target).mkdir(parents=True, exist_ok=True)
-        texts = whole + ([] if target == "detectors" else [bad for text in whole for bad in damaged(text)])
+        texts = whole + ([] if target in ("detectors", "proxy") else [bad for text in whole for bad in damaged(text)])
         for number, text in enumerate(texts):
             (folder / target / f"{number:02}").write_bytes(text)
 

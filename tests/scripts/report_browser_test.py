@@ -186,6 +186,20 @@ class Page(unittest.TestCase):
         self.browser.prefer()
 
 
+class OldBrowser(unittest.TestCase):
+    def test_a_browser_that_cannot_unpack_the_page_says_so_and_has_the_tables(self):
+        with tempfile.TemporaryDirectory() as folder:
+            made_up_steps.write(folder, [Contestant("grid-group", 100, 300, 1)], 300)
+            subprocess.run([ROOT / "scripts" / "report", folder], check=True, stdout=subprocess.DEVNULL)
+            browser = Browser()
+            self.addCleanup(browser.close)
+            browser.send("Page.addScriptToEvaluateOnNewDocument", source="delete window.DecompressionStream")
+            browser.send("Page.navigate", url=(pathlib.Path(folder) / "report.html").as_uri())
+            self.assertIn("this browser is too old", browser.until("document.querySelector('header .notice[role=alert]')?.textContent"))
+            self.assertIn("grid-group", browser.run("document.querySelector('table.ratios').textContent"))
+            self.assertEqual(browser.errors, [])
+
+
 class OddNames(unittest.TestCase):
     """Names from files are text, whatever is in them."""
 

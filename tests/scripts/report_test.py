@@ -118,6 +118,16 @@ class ReadingSteps(InFolder):
         self.assertIn("a block is damaged", page)
         self.assertIsNone(json.loads(unpacked(page, "data"))["recordings"][0]["replay"])
 
+    def test_a_header_that_lacks_what_it_should_have_is_told_of(self):
+        self.write()
+        path = self.folder / "steps.bin"
+        if not can_build():
+            self.skipTest("without esbuild no page reads blocks")
+        for trace in ({}, {"low": 5}, []):
+            text = json.dumps({"schema": 1, "run_id": made_up_steps.RUN_ID, "traces": [trace], "mesh": {"near": {}}}).encode()
+            path.write_bytes(b"TMSTEPS\n" + struct.pack("<II", 1, len(text)) + text)
+            self.assertIn("its header is not as", self.page())
+
     def test_steps_of_another_run_are_left_out(self):
         self.write()
         results = self.folder / "results.csv"
@@ -279,6 +289,23 @@ class Page(InFolder):
         page = self.page()
         self.assertIn('<td>p</td><td></td><td data-v="6">6</td>', page)
         self.assertIn('<td data-v="8">8</td>', page)
+
+    def test_a_run_json_of_other_shapes_leaves_its_facts_out(self):
+        self.write()
+        for about in ([], {"steadiness": 5}, {"load_average": "x", "clock": 5, "command_line": 3}, {"steadiness": [{"control": None}, 5]},
+                      {"steadiness": [{"control": {"ratio": "x", "ratio_low": None}, "disturbed_share": "a"}]},
+                      {"mesh": 5, "cores": "x", "clock": {"cost_ns": "abc"}}):
+            (self.folder / "run.json").write_text(json.dumps(about), encoding="utf-8")
+            self.assertIn("grid-group", self.page(), about)
+
+    def test_a_scene_names_its_bodies_and_why_there_is_no_replay(self):
+        self.write()
+        (self.folder / "steps.bin").unlink()
+        run = self.folder / "run.json"
+        run.write_text(json.dumps({**json.loads(run.read_text(encoding="utf-8")), "mesh": {"name": "ball", "bodies": 12}}), encoding="utf-8")
+        page = self.page()
+        self.assertIn("ball, 12 bodies, 576 triangles, nearest", page)
+        self.assertIn("a scene of bodies has none", page)
 
     def test_two_recordings_are_compared(self):
         self.write()

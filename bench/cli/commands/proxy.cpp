@@ -42,7 +42,7 @@ struct ProxyOptions {
   std::vector<std::string> methods, families;
   std::string ticks, seed = "1", detector = "sphere-cluster";
   std::string mesh, trajectory, radius = "0.5%", trace, out;
-  std::string stiffness = "1000", friction = "0", damping = "0";
+  std::string stiffness = "1000", friction = "0", damping = "0", shading = "0";
 };
 
 std::uint64_t checked_count(const char* option, const std::string& text, std::uint64_t least,
@@ -85,6 +85,9 @@ proxy::ProxyRequest request_of(const ProxyOptions& options, const contestants::R
   request.coupling.static_friction = friction[0];
   request.coupling.dynamic_friction = friction[1];
   request.coupling.damping = checked_number("--damping", options.damping);
+  request.coupling.shading = checked_number("--shading", options.shading);
+  if (request.coupling.shading > 1)
+    throw std::invalid_argument(fmt::format("--shading \"{}\" is above 1", options.shading));
   return request;
 }
 
@@ -214,6 +217,9 @@ void add_coupling(CLI::App& command, ProxyOptions& options) {
          "N/m");
   option("--friction", options.friction, "coefficients, static and dynamic, or one for both", "MU[,MU]");
   option("--damping", options.damping, "against the device's velocity while in contact", "NS/M");
+  option("--shading", options.shading,
+         "0 to 1, how far our force turns to the normal interpolated between vertices; the way stays",
+         "SHARE");
 }
 
 }  // namespace

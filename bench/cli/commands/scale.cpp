@@ -2,6 +2,7 @@
 /// `touchmark bench` on one mesh after the other, and power laws through its rows.
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <memory>
@@ -31,6 +32,7 @@
 #include "bench/support/numbers.h"
 #include "bench/support/progress.h"
 #include "bench/support/standard_output.h"
+#include "bench/trajectories/trajectories.h"
 #include "bench/workload/query_name.h"
 
 namespace touchmark::bench::cli {
@@ -47,7 +49,7 @@ constexpr double bytes_per_triangle = 1500;
 
 struct ScaleOptions {
   contestants::Selectors selectors;
-  std::string sizes, limit = "60", out;
+  std::string sizes, limit = "60", shrink, out;
   bool quick = false;
   WorkerSelectors workers;
 };
@@ -57,6 +59,22 @@ double checked_limit(const std::string& text) {
   if (!seconds || !(*seconds > 0))
     throw std::invalid_argument(fmt::format("--limit-seconds \"{}\" is not a number above 0, or inf", text));
   return *seconds;
+}
+
+scaling::Shrinks checked_shrinks(const std::string& text) {
+  using scaling::Shrinks;
+  for (const Shrinks shrinks : {Shrinks::nothing, Shrinks::reach, Shrinks::reach_and_motion})
+    if (text == scaling::name_of(shrinks)) return shrinks;
+  throw std::invalid_argument(fmt::format("--shrink \"{}\" is neither reach nor all", text));
+}
+
+/// Returns a trajectory that moves at this part of its speed, if it is generated and has one of its own.
+std::string slowed(const std::string& trajectory, double part) {
+  constexpr double default_percent = 0.05;
+  for (const trajectories::TrajectoryInfo& known : trajectories::trajectories())
+    if (known.has_speed && known.name == trajectory)
+      return fmt::format("{}:speed={}%", trajectory, default_percent * part);
+  return trajectory;
 }
 
 contestants::CheckedSelectors checked(const contestants::Selectors& selectors,
@@ -75,6 +93,7 @@ class ScaleRun {
 
  private:
   void run_mesh(const std::string& name);
+  double edges_of_first(const std::string& name, const TriangleMesh& mesh);
   std::vector<measurement::ResultRow> run_trace(measurement::Comparison& comparison,
                                                 const workload::Workload& workload, std::size_t trace);
   void skip_known(measurement::Comparison& comparison, std::size_t triangles);
@@ -93,7 +112,9 @@ class ScaleRun {
   const ScaleOptions& options_;
   contestants::CheckedSelectors selection_;
   double limit_s_;
+  scaling::Shrinks shrinks_;
   std::vector<std::string> meshes_;
+  std::map<std::string, double> first_triangles_;  // by family
   std::optional<results::ResultsFolder> folder_;
   results::RunDescription description_;
   workers::WorkerOptions workers_;
@@ -109,6 +130,7 @@ ScaleRun::ScaleRun(const ProgramContext& context, const ScaleOptions& options)
       options_(options),
       selection_(checked(options.selectors, context.roster)),
       limit_s_(checked_limit(options.limit)),
+      shrinks_(checked_shrinks(options.shrink)),
       meshes_(scaling::meshes_of_sizes(options.selectors.meshes.empty()
                                            ? std::vector<std::string>{"noisy-sphere"}
                                            : options.selectors.meshes,
@@ -178,13 +200,30 @@ std::vector<measurement::ResultRow> ScaleRun::run_trace(measurement::Comparison&
   return rows;
 }
 
+/// Returns the edges of a surface of so many triangles over those of the first of its family.
+double ScaleRun::edges_of_first(const std::string& name, const TriangleMesh& mesh) {
+  const auto triangles = static_cast<double>(mesh.size());
+  const auto first = first_triangles_.try_emplace(scaling::family_of(name), triangles).first;
+  return std::sqrt(first->second / triangles);
+}
+
 void ScaleRun::run_mesh(const std::string& name) {
   progress_.show(fmt::format("{}: making the mesh and the trajectories", name));
   const contestants::Selectors& selectors = options_.selectors;
+  const std::vector<std::string> asked =
+      selectors.trajectories.empty() ? std::vector<std::string>{"slide"} : selectors.trajectories;
+  TriangleMesh mesh = scenes::load_mesh(name, selectors.normalize);
+  contestants::CheckedSelectors selection = selection_;
+  std::vector<std::string> moves = asked;
+  if (shrinks_ != scaling::Shrinks::nothing) {
+    const double part = edges_of_first(name, mesh);
+    selection.radius.value *= part;
+    if (selection.reach) selection.reach->value *= part;
+    if (shrinks_ == scaling::Shrinks::reach_and_motion)
+      for (std::string& move : moves) move = slowed(move, part);
+  }
   const workload::Workload workload = workload::make_workload(
-      results::without_directories(name), scenes::load_mesh(name, selectors.normalize), selection_,
-      selectors.trajectories.empty() ? std::vector<std::string>{"slide"} : selectors.trajectories,
-      options_.quick ? 5000 : 20000);
+      results::without_directories(name), std::move(mesh), selection, moves, options_.quick ? 5000 : 20000);
   progress_.show(fmt::format("{}: preparing the oracle", name));
   measurement::Comparison comparison(roster_, workload, selection_.contestants, workers_, description_.effort,
                                      selection_.seed);
@@ -206,7 +245,7 @@ void ScaleRun::run_mesh(const std::string& name) {
 void ScaleRun::save(bool finished) const {
   if (!folder_) return;
   folder_->write(results::results_csv(description_.run_id, rows_), results::joined_run_json(runs_, finished));
-  folder_->write_file("scaling.csv", scaling::scaling_csv(scaling::growth_of(rows_)));
+  folder_->write_file("scaling.csv", scaling::scaling_csv(scaling::growth_of(rows_, shrinks_)));
 }
 
 int ScaleRun::run() {
@@ -219,7 +258,7 @@ int ScaleRun::run() {
     progress_.clear();
     fmt::print(stderr, "touchmark: interrupted; the rows of {} finished meshes are kept\n", runs_.size());
   }
-  out_.write(scaling::growth_table(scaling::growth_of(rows_)));
+  out_.write(scaling::growth_table(scaling::growth_of(rows_, shrinks_)));
   if (interrupted) return support::exit_interrupted;
   const auto where = [](const measurement::ResultRow& row) { return row.mesh + ", " + row.trajectory; };
   return results::print_faults(rows_, where) ? support::exit_check_failed : support::exit_done;
@@ -244,6 +283,12 @@ void add_scale(CLI::App& program, ProgramContext& context) {
                    "a contestant that took longer on a mesh is left out on larger ones")
       ->type_name("S")
       ->capture_default_str();
+  command
+      ->add_option(
+          "--shrink", options->shrink,
+          "reach: radius and reach are as given on the smallest mesh, and shrink as the edges of its "
+          "triangles do; all: so does the speed of motion")
+      ->type_name("WHAT");
   add_unit(*command, options->selectors.unit);
   command->add_option("--out", options->out, "folder for results.csv, scaling.csv and run.json")
       ->type_name("DIR");
@@ -251,7 +296,9 @@ void add_scale(CLI::App& program, ProgramContext& context) {
   add_worker_selectors(*command, options->workers);
   command->footer(
       "Fits quantity = factor * triangles^exponent to build time, first answer, memory and query time of\n"
-      "each contestant. scripts/plot DIR draws them.\n"
+      "each contestant, and tells what the query time is made of: looks, their kinds, the time of a look.\n"
+      "With --shrink what the reach and the motion add to it can be told apart. scripts/plot DIR draws "
+      "them.\n"
       "Example: touchmark scale --sizes 1k,10k,100k,1M --detector grid-group --detector embree --out "
       "out/scaling\n");
   command->final_callback([options, &context] { context.status = ScaleRun(context, *options).run(); });

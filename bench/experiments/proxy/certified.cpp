@@ -1,4 +1,7 @@
 // Ours: core/haptics/proxy.h over one of our detectors, as a contestant of the suite.
+#include <array>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -9,6 +12,7 @@
 
 #include "bench/contestants/roster.h"
 #include "bench/experiments/proxy/methods.h"
+#include "core/haptics/force_shading.h"
 #include "core/haptics/proxy.h"
 
 namespace touchmark::bench::experiments::proxy {
@@ -50,10 +54,33 @@ Status status_of(ProxyStatus status) {
   return Status::no_answer;
 }
 
+/// Asks for the nearest and keeps a session of its own.
+class BareQuery {
+ public:
+  explicit BareQuery(std::unique_ptr<contestants::Contestant> contestant)
+      : contestant_(std::move(contestant)) {}
+
+  void ask(const Vec3& goal) {
+    step_[0] = {{goal, 0}, std::numeric_limits<double>::infinity()};
+    contestant_->answer({workload::Query::nearest, step_}, {0, 1}, answer_, work_);
+  }
+  void update(const TriangleMesh& mesh) { contestant_->update(mesh); }
+
+ private:
+  std::unique_ptr<contestants::Contestant> contestant_;
+  std::array<workload::Step, 1> step_{};
+  std::array<workload::Answer, 1> answer_{};
+  std::array<std::uint64_t, 1> work_{};
+};
+
 class Certified final : public ProxyMethod {
  public:
-  Certified(AskedContestant detector, const TriangleMesh& mesh, const Coupling& coupling)
-      : mesh_(mesh), detector_(std::move(detector)), proxy_(detector_, coupling, &mesh_) {}
+  Certified(AskedContestant detector, BareQuery bare, const TriangleMesh& mesh, const Coupling& coupling)
+      : mesh_(mesh),
+        shading_(mesh_),
+        detector_(std::move(detector)),
+        bare_(std::move(bare)),
+        proxy_(detector_, coupling, &mesh_, &shading_) {}
 
   void place(const Vec3& position) override { proxy_.place(position); }
   void step(const Vec3& goal, Step& step) override {
@@ -65,14 +92,19 @@ class Certified final : public ProxyMethod {
   }
   void update(const TriangleMesh& mesh) override {
     detector_.update(mesh);
+    bare_.update(mesh);
     mesh_ = mesh;
+    shading_ = ForceShading(mesh_);
     proxy_.surface_moved(&mesh_);
   }
+  bool ask_nearest(const Vec3& goal) override { return bare_.ask(goal), true; }
   std::uint64_t work() const override { return detector_.work(); }
 
  private:
   TriangleMesh mesh_;
+  ForceShading shading_;
   AskedContestant detector_;
+  BareQuery bare_;
   AskedContestant::Session session_;
   Proxy<AskedContestant> proxy_;
 };
@@ -85,7 +117,9 @@ std::unique_ptr<ProxyMethod> certified_method(const MethodRequest& request) {
   if (!built->guides_proxy())
     throw std::invalid_argument(fmt::format(
         "{} does not answer touches, sweep and contacts, so our proxy cannot run on it", request.detector));
-  return std::make_unique<Certified>(AskedContestant(std::move(built)), request.mesh, request.coupling);
+  BareQuery bare(request.roster.build(spec, request.mesh));
+  return std::make_unique<Certified>(AskedContestant(std::move(built)), std::move(bare), request.mesh,
+                                     request.coupling);
 }
 
 }  // namespace touchmark::bench::experiments::proxy

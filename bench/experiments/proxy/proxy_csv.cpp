@@ -28,6 +28,12 @@ std::string percentile(S score) {
   return fmt::format("{}", score.tally.times.percentile(thousandths / 1000.0));
 }
 
+template <int thousandths>
+std::string bare_percentile(S score) {
+  const servo::LatencyHistogram& times = score.tally.bare_times;
+  return times.count() > 0 ? fmt::format("{}", times.percentile(thousandths / 1000.0)) : "";
+}
+
 constexpr results::Kind ball_or_point{[](std::string_view text) { return text == "ball" || text == "point"; },
                                       "one of ball, point"};
 
@@ -86,6 +92,9 @@ constexpr auto columns = std::to_array<results::Column<Score>>({
     {"p50_ns", percentile<500>, always, whole_number, "A whole tick's time, percentiles by nearest rank."},
     {"p999_ns", percentile<999>, always, whole_number, ""},
     {"max_ns", [](S score) { return fmt::format("{}", score.tally.times.max_ns()); }, always, whole_number, ""},
+    {"query_p50_ns", bare_percentile<500>, optional, whole_number,
+     "The bare `nearest` of the same detector, without a limit of reach, at the same goals between the ticks."},
+    {"query_p999_ns", bare_percentile<999>, optional, whole_number, ""},
 });
 
 }  // namespace

@@ -53,6 +53,9 @@ class ProxyMethod {
   virtual void step(const Vec3& goal, Step& step) = 0;
   /// Follows a mesh whose vertices have moved; the proxy stays where it is.
   virtual void update(const TriangleMesh& mesh) = 0;
+  /// Asks a second detector of its kind for the nearest contact at the goal, however far: the bare query that
+  /// its tick is compared with. Returns false where it has no detector.
+  virtual bool ask_nearest(const Vec3& goal) { return static_cast<void>(goal), false; }
   /// Triangles, boxes and what else was looked at since it was made.
   virtual std::uint64_t work() const = 0;
 };

@@ -110,7 +110,8 @@ std::string proxy_json(const results::RunDescription& description, const ProxyRu
                    {"stiffness_n_per_m", request.coupling.stiffness},
                    {"static_friction", request.coupling.static_friction},
                    {"dynamic_friction", request.coupling.dynamic_friction},
-                   {"damping_ns_per_m", request.coupling.damping}};
+                   {"damping_ns_per_m", request.coupling.damping},
+                   {"shading", request.coupling.shading}};
   Json methods = Json::array(), families = Json::array();
   for (const MethodSpec& method : request.methods)
     methods.push_back({{"name", method.text()}, {"meaning", method.info->meaning}});

@@ -15,6 +15,12 @@ namespace {
 /// A round asks every family so much, so that a campaign that is ended has something of every one.
 constexpr std::size_t ticks_a_round = 4000;
 
+using Clock = std::chrono::steady_clock;
+
+std::int64_t ns_since(Clock::time_point start) {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count();
+}
+
 /// One tick that crossed, for the message.
 std::string where(const Course& course, std::size_t tick) {
   return fmt::format("{}, tick {}", course.name, tick);
@@ -25,7 +31,6 @@ std::string where(const Course& course, std::size_t tick) {
 void run_course(const contestants::Roster& roster, const Course& course, const std::vector<Vec3>& optima,
                 const MethodSpec& method, const Coupling& coupling, const std::string& detector, Tally& tally,
                 const Seen& seen) {
-  using Clock = std::chrono::steady_clock;
   auto oracle = std::make_unique<const WayOracle>(course.mesh);
   const std::unique_ptr<ProxyMethod> proxy =
       method.info->make({roster, course.mesh, coupling, method.values, detector});
@@ -41,10 +46,11 @@ void run_course(const contestants::Roster& roster, const Course& course, const s
       judge.see(*next);  // which still asks the last one
       oracle = std::move(next);
     }
+    const Clock::time_point asked = Clock::now();
+    if (proxy->ask_nearest(course.goals[tick])) tally.bare_times.add(ns_since(asked));
     const Clock::time_point before = Clock::now();
     proxy->step(course.goals[tick], step);
-    const std::int64_t ns =
-        std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - before).count();
+    const std::int64_t ns = ns_since(before);
     tally.times.add(ns);
     judge.tick(tick, step);
     if (seen) seen(tick, step, ns);

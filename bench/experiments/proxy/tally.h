@@ -31,6 +31,7 @@ struct Tally {
   double max_energy = 0;      ///< J, the most that the device got over one closed turn of the goal; 0: none
   std::uint64_t work = 0;
   servo::LatencyHistogram times;
+  servo::LatencyHistogram bare_times;  ///< what the bare query takes at the same goals, between the ticks
 };
 
 /// The goal's constrained optima along a course; empty where they are not known.

@@ -1,21 +1,25 @@
 #include "core/sphere_cluster/tree/bounding_boxes.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
+
+#include "core/search/parallel.h"
+#include "core/sphere_cluster/tree/bounding_cylinder.h"
+#include "core/sphere_cluster/tree/node_writer.h"
 
 namespace touchmark::spheres {
 namespace {
 
 using Eigen::Vector3f;
-using BoxesOfNode = std::array<BoundingBox, tree_width>;
-
 constexpr double pi = 3.14159;
 
 /// From how far off bounds are compared, in mean radii of the blocks' cylinders.
 constexpr double comparing_margin = 0.5;
+/// How many times the volume of cylinders boxes may have: they are tested in fewer instructions, and fill the
+/// upper levels better than the blocks.
+constexpr double most_volume = 1.6;
 
 bool is_empty(const TreeNode& node, std::size_t i) noexcept { return node.half[i] < 0; }
 
@@ -55,54 +59,30 @@ void add_block(Hull& hull, const TreeParts& parts, std::uint32_t block, const Fi
   }
 }
 
-/// Returns the boxes of all children, the deepest first, as children come after their parents.
-std::vector<BoxesOfNode> boxes_of_all(const TreeParts& parts, const FilterFrame& frame) {
-  std::vector<BoxesOfNode> boxes(parts.nodes.size());
-  for (std::size_t at = parts.nodes.size(); at-- > 0;) {
-    const TreeNode& node = parts.nodes[at];
-    for (std::size_t i = 0; i < tree_width; ++i) {
-      if (is_empty(node, i)) continue;
-      Hull hull;
-      const TreeRef child = node.child[i];
-      if (child.is_block()) {
-        add_block(hull, parts, child.index(), frame);
-      } else {
-        for (std::size_t k = 0; k < tree_width; ++k)
-          if (!is_empty(parts.nodes[child.index()], k)) hull.add(boxes[child.index()][k]);
-      }
-      boxes[at][i] = hull.box();
-    }
-  }
-  return boxes;
-}
-
-/// Sums up what is near the bounds of all children.
-struct Volumes {
-  double cylinders = 0, boxes = 0;
+/// Bounds of the same blocks.
+struct BothBounds {
+  std::vector<BoundingCylinder> cylinders;
+  std::vector<BoundingBox> boxes;
 };
 
-Volumes volumes_within(double margin, const TreeParts& parts,
-                       const std::vector<BoxesOfNode>& boxes) noexcept {
-  Volumes sum;
-  for (std::size_t at = 0; at < parts.nodes.size(); ++at) {
+/// Bounds the blocks below some nodes, about so many or all, evenly among the others.
+BothBounds sampled_bounds(const TreeParts& parts, const TriangleMesh& mesh, const FilterFrame& frame) {
+  constexpr std::size_t fewest = 256, most_apart = 8;
+  const std::size_t apart = std::clamp<std::size_t>(parts.nodes.size() / fewest, 1, most_apart);
+  BoundOfTriangles around(mesh, frame);
+  BothBounds bounds;
+  for (std::size_t at = 0; at < parts.nodes.size(); at += apart) {
     const TreeNode& node = parts.nodes[at];
     for (std::size_t i = 0; i < tree_width; ++i) {
-      if (is_empty(node, i)) continue;
-      const double across = double{node.radius[i]} + margin;
-      sum.cylinders += pi * across * across * 2 * (double{node.half[i]} + margin);
-      sum.boxes += 8 * (boxes[at][i].half.cast<double>().array() + margin).prod();
+      if (is_empty(node, i) || !node.child[i].is_block()) continue;
+      const std::size_t begin = std::size_t{node.child[i].index()} * tree_width;
+      for (std::size_t k = begin; k < std::min(begin + tree_width, parts.triangles.size()); ++k)
+        around.add(parts.triangles[k].index);
+      bounds.cylinders.push_back(around.bound());
+      bounds.boxes.push_back(box_below(parts, node.child[i], frame));
     }
   }
-  return sum;
-}
-
-double mean_radius_of_blocks(const TreeParts& parts) noexcept {
-  double sum = 0;
-  for (const TreeNode& node : parts.nodes) {
-    for (std::size_t i = 0; i < tree_width; ++i)
-      if (!is_empty(node, i) && node.child[i].is_block()) sum += double{node.radius[i]};
-  }
-  return sum / static_cast<double>(parts.blocks.size());
+  return bounds;
 }
 
 }  // namespace
@@ -129,15 +109,35 @@ void set_child(TreeNode& node, std::size_t i, const BoundingBox& box) noexcept {
   node.normal_y[i] = node.normal_z[i] = 0;
 }
 
-void choose_bounds(TreeParts& parts, const FilterFrame& frame) {
-  const std::vector<BoxesOfNode> boxes = boxes_of_all(parts, frame);
-  const Volumes volumes = volumes_within(comparing_margin * mean_radius_of_blocks(parts), parts, boxes);
-  parts.boxes = volumes.boxes < volumes.cylinders;
-  if (!parts.boxes) return;
-  for (std::size_t at = 0; at < parts.nodes.size(); ++at) {
-    for (std::size_t i = 0; i < tree_width; ++i)
-      if (!is_empty(parts.nodes[at], i)) set_child(parts.nodes[at], i, boxes[at][i]);
+bool boxes_serve_better(const TreeParts& parts, const TriangleMesh& mesh, const FilterFrame& frame) {
+  const BothBounds bounds = sampled_bounds(parts, mesh, frame);
+  double margin = 0;
+  for (const BoundingCylinder& one : bounds.cylinders) margin += double{one.radius};
+  margin *= comparing_margin / static_cast<double>(std::max<std::size_t>(bounds.cylinders.size(), 1));
+  // What is near the bounds of all.
+  double in_cylinders = 0, in_boxes = 0;
+  for (const BoundingCylinder& one : bounds.cylinders) {
+    const double across = double{one.radius} + margin;
+    in_cylinders += pi * across * across * 2 * (double{one.half} + margin);
   }
+  for (const BoundingBox& one : bounds.boxes)
+    in_boxes += 8 * (one.half.cast<double>().array() + margin).prod();
+  return in_boxes <= most_volume * in_cylinders;
+}
+
+void bound_by_boxes(TreeParts& parts, const FilterFrame& frame, unsigned threads) {
+  const auto bound = [&](std::size_t at, bool blocks) {
+    TreeNode& node = parts.nodes[at];
+    for (std::size_t i = 0; i < tree_width; ++i)
+      if (!is_empty(node, i) && node.child[i].is_block() == blocks)
+        set_child(node, i, box_below(parts, node.child[i], frame));
+  };
+  constexpr std::size_t nodes_a_piece = 64;
+  in_ranges(parts.nodes.size(), nodes_a_piece, threads, [&](std::size_t first, std::size_t end) {
+    for (std::size_t at = first; at < end; ++at) bound(at, true);
+  });
+  // Children come after their parents.
+  for (std::size_t at = parts.nodes.size(); at-- > 0;) bound(at, false);
 }
 
 }  // namespace touchmark::spheres

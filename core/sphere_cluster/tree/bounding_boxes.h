@@ -1,5 +1,5 @@
-/// Boxes in place of cylinders, for a tree whose triangles fill boxes better: plates and beams along the
-/// axes.
+/// Boxes around what is below a child. Cylinders are for meshes whose triangles fill boxes far worse: needles
+/// and fans across the axes.
 #pragma once
 
 #include <cstddef>
@@ -8,6 +8,7 @@
 
 #include "core/search/plane_filter.h"
 #include "core/sphere_cluster/tree/node.h"
+#include "core/triangle_mesh.h"
 
 namespace touchmark::spheres {
 
@@ -22,8 +23,11 @@ BoundingBox box_below(const TreeParts& parts, TreeRef child, const FilterFrame& 
 
 void set_child(TreeNode& node, std::size_t i, const BoundingBox& box) noexcept;
 
-/// Bounds all children of a tree of cylinders by boxes instead, if those let fewer points near the surface
-/// through.
-void choose_bounds(TreeParts& parts, const FilterFrame& frame);
+/// Would boxes around the children be looked into less often, near the surface, than cylinders? A sample of
+/// the blocks tells. Nothing needs to be bounded yet.
+bool boxes_serve_better(const TreeParts& parts, const TriangleMesh& mesh, const FilterFrame& frame);
+
+/// Bounds all children by boxes. The same bits with any number of threads.
+void bound_by_boxes(TreeParts& parts, const FilterFrame& frame, unsigned threads);
 
 }  // namespace touchmark::spheres

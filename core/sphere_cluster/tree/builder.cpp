@@ -8,6 +8,7 @@
 
 #include "core/search/parallel.h"
 #include "core/sphere_cluster/tree/binned_sah.h"
+#include "core/sphere_cluster/tree/bounding_boxes.h"
 #include "core/sphere_cluster/tree/node_writer.h"
 
 namespace touchmark::spheres {
@@ -22,8 +23,12 @@ class Builder {
   TreeParts build() {
     add_node(splitter_.all());
     parts_.nodes.shrink_to_fit();
-    bound_children();
     add_blocks();
+    parts_.boxes = boxes_serve_better(parts_, mesh_, frame_);
+    if (parts_.boxes)
+      bound_by_boxes(parts_, frame_, threads_);
+    else
+      bound_by_cylinders();
     return std::move(parts_);
   }
 
@@ -80,7 +85,7 @@ class Builder {
     return count;
   }
 
-  void bound_children() {
+  void bound_by_cylinders() {
     std::vector<std::size_t> first;  // child of each piece of the work
     constexpr std::uint32_t triangles_a_piece = 2048;
     std::uint32_t triangles = triangles_a_piece;

@@ -18,12 +18,8 @@ struct ContactsVisitor {
   float limit;
   Work work{};
 
-  /// Never: the distance is measured where it is decided.
-  bool accepts(std::uint32_t at) noexcept {
-    found.consider(at, work);
-    return false;
-  }
-  void update(std::uint32_t, const Offset&) noexcept {}
+  bool accepts(std::uint32_t) const noexcept { return true; }
+  void update(std::uint32_t at, const Offset& offset) noexcept { found.consider(at, offset, work); }
 };
 
 }  // namespace
@@ -42,11 +38,24 @@ std::size_t SphereTree::contacts(const Vec3& center, double reach, Memory& memor
   if (std::isinf(found.error())) return fallback().contacts(center, reach, into, work);
   const double farthest = reach + frame_.kernel_error(point.plane_error);
   ContactsVisitor visitor{found, center, frame_.limit(farthest * farthest)};
-  traverse(point, visitor, any_work);
+  search_near(point, visitor, memory, any_work);
   work += visitor.work;
   const std::size_t count = found.finish(work);
-  if (count == 0) remember_touch(center, reach - clearance_pad(point), infinity, memory);
+  if (found.nearest())
+    remember_nearest(center, found.nearest()->slot, found.nearest()->distance, clearance_pad(point), memory);
+  else if (count == 0)
+    remember_touch(center, reach - clearance_pad(point), infinity, memory);
   return count;
+}
+
+/// Remembers the nearest triangle and its computed distance.
+void SphereTree::remember_nearest(const Vec3& center, std::uint32_t slot, double distance, double pad,
+                                  Memory& memory) noexcept {
+  memory.move = center - memory.center;
+  memory.center = center;
+  memory.upper = distance;
+  memory.slot = slot;
+  memory.lower = distance * (1 - 0x1p-40) - pad;
 }
 
 }  // namespace touchmark

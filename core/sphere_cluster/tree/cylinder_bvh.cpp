@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/search/certified_nearest.h"
-#include "core/sphere_cluster/tree/bounding_boxes.h"
 #include "core/sphere_cluster/tree/builder.h"
 #include "core/sphere_cluster/tree/search.h"  // IWYU pragma: keep
 #include "core/sphere_cluster/tree/visitors.h"
@@ -48,7 +47,6 @@ SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters,
   frame_ = FilterFrame::around(mesh.bounds());
   measure_box();
   parts_ = spheres::build_tree(mesh, clusters, frame_, threads_);
-  spheres::choose_bounds(parts_, frame_);
   measure_leaves();
   fill_distances();
 }
@@ -218,9 +216,12 @@ void SphereTree::prepare(const LastQuestion& question, Memory& memory, Work& wor
   if (memory.beyond_box || memory.epoch != epoch_ || is_clear(memory.center, question.reach, memory)) return;
   const Vec3 move = is_slow(memory.move) ? memory.move : Vec3(Vec3::Zero());
   if (question.query != LastQuestion::Query::touches && memory.is_near()) refill_ahead(memory, work);
-  const Vec3 kept = memory.move;
+  const Vec3 kept = memory.move, free_center = memory.free_center;
+  const double free_radius = memory.free_radius;
   ask_again(*this, question, memory.center + move, move, memory, work);
   memory.move = kept;
+  memory.free_center = free_center;
+  memory.free_radius = free_radius;
 }
 
 /// Refills the cache if the next tick would leave it.

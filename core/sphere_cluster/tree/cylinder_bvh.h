@@ -39,12 +39,20 @@ class SphereTree {
   struct Memory : LastDistance {
     /// By which the point had moved then; infinite after `touches`, which refills no cache.
     Vec3 move = Vec3::Zero();
+    /// A place that was found to be farther from the mesh than a radius, exactly; below 0: there is none.
+    Vec3 free_center = Vec3::Zero();
+    double free_radius = -1;
     spheres::LeafCache cache;
     /// The planes of the triangle that `touches` found last, in one line, and its slot.
     TrianglePlanes touched{};
     std::uint32_t touched_slot = std::numeric_limits<std::uint32_t>::max();
     /// The mesh's box answered last, and so is asked first.
     bool beyond_box = false;
+
+    /// Is it known that a ball there does not touch?
+    bool knows_free(const Vec3& at, double radius) const noexcept {
+      return radius <= free_radius && at == free_center;
+    }
   };
 
   struct Options {
@@ -126,6 +134,8 @@ class SphereTree {
   bool accepts_by_distance_field(const FilterPoint& point, const Vec3& center, double radius,
                                  Memory& memory) const noexcept;
   static void remember_touch(const Vec3& center, double lower, double upper, Memory& memory) noexcept;
+  static void remember_nearest(const Vec3& center, std::uint32_t slot, double distance, double pad,
+                               Memory& memory) noexcept;
   void remember_planes(Memory& memory) const noexcept;
   bool still_touches(const FilterPoint& point, const Probe& probe, Memory& memory, Work& work) const noexcept;
   /// Returns at least the distance between two points of the mesh's frame, in the tree's.
@@ -168,7 +178,7 @@ class SphereTree {
   }
   bool is_sampled_clear(const Sweep& sweep, double length, double reach, Memory& memory) const noexcept;
   bool search_middle(const Sweep& sweep, double length, double reach, std::uint64_t budget, FirstTouch& first,
-                     Work& work) const noexcept;
+                     Memory& memory, Work& work) const noexcept;
   bool search_path(const Sweep& sweep, double length, double reach, std::uint64_t budget, FirstTouch& first,
                    Work& work) const noexcept;
 
@@ -179,7 +189,13 @@ class SphereTree {
     std::uint64_t budget;    ///< work, of all these samples together
     std::uint32_t near = 0;  ///< a triangle near the last point, and so perhaps the next
     Work work{};
+    spheres::LeafCache* around = nullptr;  ///< leaves near the next points, if it covers any
   };
+  /// Samples one point after the other, each near the last one.
+  class Sampler;
+  /// Lists the leaves that samples within `radius` of a point of the frame may need; none where that is too
+  /// many.
+  void list_around(const Vec3& position, double radius, Sampling& sampling) const noexcept;
   /// Bounds the distance at a point of the frame, which is at most `max_distance`, to about a fifth; negative
   /// when that is too much work.
   DistanceField::Interval sample(const Vec3& position, double max_distance,

@@ -41,8 +41,16 @@ DistanceField::Interval SphereTree::sample(const Vec3& position, double max_dist
   const double reach = max_distance / frame_.scale();
   RoughVisitor visitor{parts_, frame_, center, frame_.limit(reach * reach)};
   visit(sampling.near, visitor);
-  const float unseen =
-      traverse(frame_.point(center), visitor, remaining(sampling.budget, sampling.work.total()));
+  const FilterPoint point = frame_.point(center);
+  const std::uint64_t budget = remaining(sampling.budget, sampling.work.total());
+  float away = 0;
+  const auto is_listed = [&] {
+    if (sampling.around == nullptr) return false;
+    away = displacement(sampling.around->center, center, point);
+    return std::sqrt(visitor.limit) + point.plane_error + away < sampling.around->covered_radius;
+  };
+  const float unseen = is_listed() ? search_cached(point, visitor, *sampling.around, away, budget)
+                                   : traverse(point, visitor, budget);
   sampling.work += visitor.work;
   if (unseen == spheres::exhausted) return unknown;
   sampling.near = visitor.kept_at;
@@ -50,16 +58,54 @@ DistanceField::Interval SphereTree::sample(const Vec3& position, double max_dist
   return {std::min<double>(std::sqrt(unseen), found), std::min(found, max_distance)};
 }
 
+void SphereTree::list_around(const Vec3& position, double radius, Sampling& sampling) const noexcept {
+  const Vec3 center = frame_.from_frame(position);
+  const FilterPoint point = frame_.point(center);
+  spheres::LeafCache& list = *sampling.around;
+  list.start(center, static_cast<float>(radius) + 8 * point.plane_error);
+  const std::uint64_t budget = remaining(sampling.budget, sampling.work.total());
+  const bool fits = simd_ == Simd::portable
+                        ? spheres::portable::refill(parts_, point, budget, list, sampling.work)
+                        : spheres::avx2::refill(parts_, point, budget, list, sampling.work);
+  if (!fits) list.forget();
+}
+
+class SphereTree::Sampler {
+ public:
+  Sampler(const SphereTree& tree, double share)
+      : tree_(tree),
+        sampling_{static_cast<std::uint64_t>(
+            share * static_cast<double>(DistanceField::max_work(tree.parts_.triangles.size())))} {}
+
+  DistanceField::Interval operator()(const Vec3& position, double max_distance) {
+    return tree_.sample(position, max_distance, sampling_);
+  }
+  std::uint32_t near() const noexcept { return sampling_.near; }
+  double distance_to(std::uint32_t near, const Vec3& position) noexcept {
+    sampling_.near = near;
+    const Vec3 center = tree_.frame_.from_frame(position);
+    RoughVisitor visitor{tree_.parts_, tree_.frame_, center, spheres::farthest};
+    tree_.visit(near, visitor);
+    sampling_.work += visitor.work;
+    return std::sqrt(visitor.squared) * tree_.frame_.scale();
+  }
+  /// The next samples are within `to_points` of this point, where the distance is at most `upper`.
+  void gather(const Vec3& position, double upper, double to_points) {
+    sampling_.around = &list_;
+    tree_.list_around(position, to_points + std::sqrt(RoughVisitor::enough) * (upper + to_points), sampling_);
+  }
+  void scatter() { sampling_.around = nullptr; }
+
+ private:
+  const SphereTree& tree_;
+  Sampling sampling_;
+  spheres::LeafCache list_;
+};
+
 /// Returns what makes a function that takes samples one after the other, near the last one, with its share of
 /// the work that all may be.
 auto SphereTree::sampler() const noexcept {
-  return [this](double share) {
-    const auto all = static_cast<double>(DistanceField::max_work(parts_.triangles.size()));
-    return [this, sampling = Sampling{static_cast<std::uint64_t>(share * all)}](const Vec3& position,
-                                                                                double max_distance) mutable {
-      return sample(position, max_distance, sampling);
-    };
-  };
+  return [this](double share) { return Sampler(*this, share); };
 }
 
 void SphereTree::fill_distances() {

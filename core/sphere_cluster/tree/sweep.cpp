@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "core/geometry/distance_error.h"
+#include "core/geometry/sphere_triangle_sweep.h"
 #include "core/geometry/sweep_box.h"
 #include "core/search/first_touch.h"
 #include "core/sphere_cluster/tree/cylinder_bvh.h"
@@ -18,12 +19,13 @@ struct MiddleVisitor {
   FirstTouch& first;
   Work work{};
 
-  /// Never: how far the triangle is from the centre does not matter.
-  bool accepts(std::uint32_t at) noexcept {
-    first.consider(tree.triangles[at], at, work.exact_decisions);
-    return false;
+  bool accepts(std::uint32_t) const noexcept { return true; }
+  /// The offset's plane tells most of those that are not touched.
+  void update(std::uint32_t at, const Offset& offset) noexcept {
+    const PreparedTriangle& triangle = tree.triangles[at];
+    if (plane_keeps_apart(triangle, first.sweep(), offset.vector / std::sqrt(offset.squared))) return;
+    first.consider(triangle, at, work.exact_decisions);
   }
-  void update(std::uint32_t, const Offset&) noexcept {}
 };
 
 /// Keeps the first hit; what is left of the path falls with it.
@@ -48,8 +50,9 @@ constexpr float path_error = 16;
 
 std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, Work& work) const noexcept {
   if (!can_search(sweep.from) || !can_search(sweep.to)) return fallback().first_hit(sweep, work);
+  claim(memory);
   const std::uint64_t before = work.total();
-  if (!is_clear(sweep.from, sweep.radius, memory)) {
+  if (!memory.knows_free(sweep.from, sweep.radius) && !is_clear(sweep.from, sweep.radius, memory)) {
     const WithinBudget start = nearest_within_budget(sweep.from, sweep.radius, memory, work);
     if (start.exhausted) return fallback().first_hit(sweep, work);
     if (start.contact) return Impact{0, *start.contact};
@@ -61,12 +64,17 @@ std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, 
   const std::uint64_t budget = remaining(work_limit(), work.total() - before);
   FirstTouch first(sweep);
   const bool done = length <= longest_in_leaf_radii * mean_leaf_radius_
-                        ? search_middle(sweep, length, reach, budget, first, work)
+                        ? search_middle(sweep, length, reach, budget, first, memory, work)
                         : search_path(sweep, length, reach, budget, first, work);
   if (!done) {
     work.triangles += parts_.triangles.size();
     for (std::uint32_t at = 0; at < parts_.triangles.size(); ++at)
       first.consider(parts_.triangles[at], at, work.exact_decisions);
+  }
+  if (certified_ && !first.found()) {
+    memory.free_center = sweep.to;
+    memory.free_radius = sweep.radius;
+    return std::nullopt;
   }
   return impact_of(first, parts_.triangles, ids_, certified_,
                    [&](double reach_at_start) { return nearest(sweep.from, reach_at_start, memory, work); });
@@ -99,10 +107,10 @@ bool SphereTree::is_sampled_clear(const Sweep& sweep, double length, double reac
 /// Looks in a ball about the middle, which is rounded to a point. Returns false when the work budget was
 /// exhausted.
 bool SphereTree::search_middle(const Sweep& sweep, double length, double reach, std::uint64_t budget,
-                               FirstTouch& first, Work& work) const noexcept {
+                               FirstTouch& first, Memory& memory, Work& work) const noexcept {
   const double ball = reach + position_error(sweep) + 0.5 * length * (1 + 0x1p-40);
   MiddleVisitor visitor{parts_, position_at(sweep, 0.5), frame_.limit(ball * ball), first};
-  const bool done = traverse(frame_.point(visitor.center), visitor, budget) != spheres::exhausted;
+  const bool done = search_near(frame_.point(visitor.center), visitor, memory, budget) != spheres::exhausted;
   work += visitor.work;
   return done;
 }

@@ -2,10 +2,10 @@
 import { Chart, drawTails, drawTimeError, drawTimes, drawWork, timesOf } from "./charts";
 import { Look, Mesh, Recording, Series, Trace } from "./data";
 import { rampAsCss, Stage } from "./replay";
-import { download, testOf } from "./savetest";
 import { State, View } from "./state";
-import { Visits, wordsOf } from "./visits";
-import { command, digits, duration, kinds, lighter, make, movesLittle } from "./words";
+import { describe } from "./step";
+import { Visits } from "./visits";
+import { digits, duration, kinds, lighter, make, movesLittle } from "./words";
 
 const SPEEDS = [0.01, 0.1, 1];
 const WRONG_AT_ONCE = 50;
@@ -124,11 +124,16 @@ export class Explore {
     this.place.append(make("section", { "aria-label": "Replay", class: "replay" }, make("h2", {}, "Replay"), controls, this.slider, this.keyOfColors,
       make("div", { class: "theatre" }, box, this.about), make("p", { class: "small" }, coarse)));
     this.speed.value = movesLittle() ? "0.01" : "0.1";
-    try {
-      this.stage = new Stage(this.mesh!, box);
-    } catch {
-      box.append(make("p", { class: "notice" }, "This browser has no WebGL, so there is no picture; the numbers of each step are beside it."));
-    }
+    // The slowest part to come up, and below the first screen.
+    setTimeout(() => {
+      try {
+        this.stage = new Stage(this.mesh!, box);
+      } catch {
+        box.append(make("p", { class: "notice" }, "This browser has no WebGL, so there is no picture; the numbers of each step are beside it."));
+      }
+      this.drawWay();
+      this.showStep(this.view);
+    });
   }
 
   // ----- what changes
@@ -257,46 +262,7 @@ export class Explore {
     this.stage?.showStep(trace, step, trace.series, colors);
     const series = this.series(), seen = series && this.visits?.at(series.name, trace.name, step);
     this.stage?.showVisited(seen && this.looked.checked ? seen : null);
-    this.about.replaceChildren(...this.describe(trace, step));
-  }
-
-  private describe(trace: Trace, step: number): Node[] {
-    const noted = trace.notedAt.get(step), unit = (value: number) => noted === undefined ? digits(value) : String(value);
-    const truth = !trace.known(step) ? "No contestant was asked here."
-      : trace.about.query === "sweep" ? `The truth: ${trace.found(step) ? "a hit on the way" : "no hit"}.`
-      : `The truth: ${trace.found(step) ? "contact" : trace.about.query === "touches" ? "no contact" : "nothing in reach"}, distance ${unit(trace.distance(step))}, triangle ${trace.triangle[step]}.`;
-    const rows = trace.series.filter((one) => one.found[step] !== 2).sort((a, b) => b.exactTime(step) - a.exactTime(step)).map((one) => this.answerRow(trace, one, step, noted));
-    const heads = ["contestant", "time", "work", "found", "distance", "verdict"].map((text) => make("th", { scope: "col" }, text));
-    const series = this.series(), nodes: Node[] = [
-      make("h3", {}, `Step ${step.toLocaleString("en-US")} of ${trace.name}`),
-      make("p", {}, truth + (noted === undefined ? " (To the precision of curves: this step is none of the listed.)" : "")),
-      make("div", { class: "scroll", role: "region", tabindex: 0, "aria-label": "Answers at this step" }, make("table", {}, make("thead", {}, make("tr", {}, ...heads)), make("tbody", {}, ...rows)))];
-    const visited = series && this.sentenceOfVisits(trace, step, series.name);
-    if (visited) nodes.push(visited);
-    if (series?.about.repeat) {
-      nodes.push(make("p", {}, "Ask again: ", command(series.about.repeat + step)));
-      const test = this.mesh && testOf(this.mesh, trace, step, series);
-      if (test) nodes.push(make("button", { type: "button", class: "save", onclick: () => download(`step-${step}.sh`, test) }, "Save as test"), make("span", { class: "small" }, " a script with the mesh around the probe, the command and the truth"));
-    }
-    return nodes;
-  }
-
-  /** What the chosen contestant looked at, where that is known. */
-  private sentenceOfVisits(trace: Trace, step: number, name: string): HTMLElement | null {
-    if (!this.visits?.of(name)) return null;
-    const seen = this.visits.at(name, trace.name, step);
-    return make("p", { class: "visited" }, seen ? `${name}: ${wordsOf(seen)} Strong lines were entered, faint ones turned away from.` : `What ${name} looked at is known of its ten slowest and its first wrong steps.`);
-  }
-
-  private answerRow(trace: Trace, one: Series, step: number, noted: number | undefined): HTMLElement {
-    const answer = noted === undefined ? null : one.answer(noted), found = one.found[step] === 1;
-    const distance = !found ? "–" : answer ? String(answer.distance) : "as the truth";
-    const wrong = one.charged[step] ? kinds(one.charged[step], this.charges) : "right";
-    const told = trace.about.query === "touches" || (!answer && one.charged[step]) ? "–" : distance;
-    const current = one.name === this.series()?.name;
-    return make("tr", { class: (one.charged[step] ? "wrong" : "") + (current ? " current" : "") },
-      make("th", { scope: "row" }, make("button", { type: "button", onclick: () => this.state.set({ contestant: one.name }), "aria-pressed": String(current) }, one.name)),
-      ...[duration(one.exactTime(step)), one.work(step).toLocaleString("en-US"), found ? "yes" : "no", told, wrong].map((text) => make("td", {}, text)));
+    this.about.replaceChildren(...describe({ trace, step, series, mesh: this.mesh, visits: this.visits, charges: this.charges, pick: (name) => this.state.set({ contestant: name }) }));
   }
 
   // ----- lists

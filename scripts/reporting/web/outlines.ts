@@ -6,9 +6,14 @@ export interface Outlines { corners: number[]; color: string; opacity: number }
 const EDGES = [[0, 1], [2, 3], [4, 5], [6, 7], [0, 2], [1, 3], [4, 6], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7]];
 const SIDES = 24;
 
+/** Of each kind of volume; cylinders are told from boxes by their shape. */
+export function colorsOf(dark: boolean): { boxes: string; groups: string; cells: string } {
+  return dark ? { boxes: "#9ecbff", groups: "#ffd479", cells: "#b9f5c4" } : { boxes: "#0b4f9e", groups: "#8a4b00", cells: "#1c6b2f" };
+}
+
 /** Pairs of points, as three numbers each, with a colour that differs in brightness from the others', too. */
 export function linesOf(seen: Visited, dark: boolean): Outlines[] {
-  const strong = 0.95, faint = 0.3, boxes = dark ? "#9ecbff" : "#0b4f9e", groups = dark ? "#ffd479" : "#8a4b00", cells = dark ? "#b9f5c4" : "#1c6b2f";
+  const strong = 0.95, faint = 0.3, { boxes, groups, cells } = colorsOf(dark);
   const both = (all: Volume[], color: string): Outlines[] => [
     { corners: all.filter((one) => one.entered).flatMap(edgesOf), color, opacity: strong },
     { corners: all.filter((one) => !one.entered).flatMap(edgesOf), color, opacity: faint }];

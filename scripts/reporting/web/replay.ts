@@ -36,6 +36,7 @@ export class Stage {
   private outlines: THREE.LineSegments[] = [];
   private readonly middle: number[];
   private readonly scale: number;
+  private readonly lamp = new THREE.DirectionalLight(0xffffff, 0.75);
   private waiting = false;
   private flight = 0;
 
@@ -52,9 +53,7 @@ export class Stage {
     this.orbit.enableKeys = false;  // arrow keys go through steps
     this.orbit.addEventListener("change", () => this.draw());
     this.scene.add(new THREE.AmbientLight(0xffffff, 0.45));
-    const sun = new THREE.DirectionalLight(0xffffff, 0.75);
-    sun.position.set(0.6, 1, 0.8);
-    this.scene.add(sun);
+    this.scene.add(this.lamp);
     this.surface = new THREE.Mesh(this.surfaceGeometry(), new THREE.MeshLambertMaterial({ color: 0xb8bcc4, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }));
     this.probe = new THREE.Mesh(new THREE.SphereBufferGeometry(1, 32, 20), new THREE.MeshLambertMaterial({ color: 0x2f7fd0, transparent: true, opacity: 0.45, depthWrite: false }));
     this.contact = new THREE.Mesh(new THREE.SphereBufferGeometry(1, 16, 12), new THREE.MeshBasicMaterial({ color: 0xd01c1c, depthTest: false }));
@@ -104,6 +103,8 @@ export class Stage {
     this.waiting = true;
     requestAnimationFrame(() => {
       this.waiting = false;
+      // From above the viewer's shoulder, so that no side lies in the dark.
+      this.lamp.position.copy(this.camera.position).sub(this.orbit.target).normalize().add(new THREE.Vector3(0.25, 0.45, 0.15));
       this.renderer.render(this.scene, this.camera);
     });
   }

@@ -2,14 +2,19 @@
 // as near as its radius, reaches what is free, rests, and pushes back as its coupling says.
 #include "core/haptics/proxy.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "bench/oracle/constrained_optimum.h"
 #include "bench/oracle/oracle.h"
+#include "bench/oracle/triangle.h"
 #include "bench/support/random.h"
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
@@ -175,6 +180,98 @@ TYPED_TEST(ProxyOver, IsAtTheOptimumOfACornerInTheSameTick) {
   }
 }
 
+TYPED_TEST(ProxyOver, DoesNotGoWhereItWouldJustTouch) {
+  // A closed contact: at a quarter above the plane a ball of a quarter touches, and so does a point on it.
+  for (const double radius : {0.0, 0.25}) {
+    Watched<TypeParam> watched(octant(4), {.radius = radius});
+    watched.proxy.place({1, 1, 1});
+    EXPECT_GT(watched.follow({1, 1, radius}, "onto the plane").position.z(), radius);
+    EXPECT_GT(watched.follow({1.5, 1.25, radius}, "along the plane").position.z(), radius);
+  }
+}
+
+/// A groove along y, its two sides `half_angle` off the vertical, as high as 1.
+TriangleMesh groove(double half_angle) {
+  const double side = std::tan(half_angle);
+  return {{{0, -1, 0}, {0, 1, 0}, {-side, -1, 1}, {-side, 1, 1}, {side, -1, 1}, {side, 1, 1}},
+          {{0, 2, 1}, {1, 2, 3}, {0, 1, 4}, {1, 5, 4}}};
+}
+
+TYPED_TEST(ProxyOver, IsAtTheOptimumOfAGrooveOfOneDegree) {
+  constexpr double half_angle = 0.5 / 180 * 3.141592653589793;
+  const TriangleMesh mesh = groove(half_angle);
+  const std::vector<bench::oracle::Triangle> sides{bench::oracle::triangle_of(mesh, 0),
+                                                   bench::oracle::triangle_of(mesh, 2)};
+  // Off each plane by 2^-43 of the coordinates and as much again by rounding, so over the sine off the edge.
+  const double bound = 8 * 0x1p-43 / std::sin(half_angle);
+  for (const double radius : {0.0, 0.001}) {
+    Watched<TypeParam> watched(mesh, {.radius = radius});
+    Random random(50);
+    const Vec3 start(0, 0, 0.75);
+    const bench::oracle::ConvexFreeSpace space(sides, start, radius);
+    watched.proxy.place(start);
+    for (int tick = 0; tick < 150; ++tick) {
+      // Below the edge, beyond either side, and between them.
+      const Vec3 goal(0.02 * (random.unit() - 0.5), random.unit() - 0.5, 0.9 * random.unit() - 0.2);
+      const ProxyState& state = watched.follow(goal, "tick " + std::to_string(tick));
+      EXPECT_LT((state.position - space.nearest(goal).value()).norm(), bound)
+          << "radius " << radius << ", tick " << tick;
+    }
+  }
+}
+
+TYPED_TEST(ProxyOver, GivesBackNoEnergyWhereFreeSpaceIsConvex) {
+  // Each step is along an axis on a lattice that the radius belongs to, so that what holds the proxy changes
+  // between two steps only. During one the force is linear, and the mean of its ends is exact.
+  constexpr double step = 0x1p-5, stiffness = 1000;
+  Watched<TypeParam> watched(octant(4), {.radius = 4 * step, .stiffness = stiffness});
+  Random random(12);
+  Vec3 goal(1, 1, 1), force = Vec3::Zero();
+  watched.proxy.place(goal);
+  double energy = 0, longest = 0;
+  const auto go = [&](const Vec3& to) {
+    const ProxyState& state = watched.follow(to, "around");
+    energy += (state.force + force).dot(to - goal) / 2;
+    longest += (to - goal).norm();
+    force = state.force;
+    goal = to;
+  };
+  const auto go_along = [&](int axis, double to) {
+    while (goal[axis] != to) {
+      Vec3 next = goal;
+      next[axis] += to > goal[axis] ? step : -step;
+      go(next);
+    }
+  };
+  for (int corner = 0; corner < 12; ++corner)
+    go_along(static_cast<int>(random.below(3)), step * (static_cast<double>(random.below(40)) - 16));
+  for (int axis = 0; axis < 3; ++axis) go_along(axis, 1);
+  ASSERT_EQ(force, Vec3::Zero()) << "the way is closed and ends free";
+  // Each force is off by the stiffness times what the proxy stays off its planes.
+  EXPECT_LT(std::abs(energy), stiffness * longest * 16 * 0x1p-43 * 4);
+  EXPECT_GT(longest, 4) << "far enough for an energy to be seen";
+}
+
+TYPED_TEST(ProxyOver, ASweepBelievesNothingOfBeforeAnUpdate) {
+  const TriangleMesh mesh = octasphere(6);
+  TypeParam detector = TypeParam::build(mesh);
+  typename TypeParam::Session session;
+  std::array<Contact, 4> around;
+  Vec3 at(0, 0, 1.25);
+  // Slow enough for what is near to be worth listing.
+  for (int tick = 0; tick < 8; ++tick) {
+    const Vec3 to = at + Vec3(0x1p-10, 0, 0);
+    EXPECT_FALSE(detector.first_hit({at, to, 0.05}, session)) << "a quarter above the top";
+    EXPECT_EQ(detector.contacts({to, 0}, 0.05, session, around), 0u);
+    EXPECT_GT(detector.contacts({to, 0}, 0.3, session, around), 0u);
+    at = to;
+  }
+  detector.update(mesh.transformed(1, {0, 0, 0.25}));
+  const std::optional<Impact> impact = detector.first_hit({at, at + Vec3(0x1p-10, 0, 0), 0.05}, session);
+  ASSERT_TRUE(impact) << "the top is at its height now";
+  EXPECT_EQ(impact->fraction, 0);
+}
+
 TYPED_TEST(ProxyOver, RestsBitForBitWithinTenTicksOfItsGoal) {
   const TriangleMesh mesh = octasphere(6);
   for (const double radius : {0.0, 0.3}) {
@@ -240,6 +337,58 @@ TEST(Proxy, SticksWithinItsFrictionConeAndSlidesBeyond) {
   EXPECT_EQ(watched.follow({2.45, 2, -0.75}, "within the cone").position, pressed);
   const ProxyState& slid = watched.follow({3, 2, -0.75}, "beyond it");
   EXPECT_NEAR(slid.position.x(), 3 - 0.25, 1e-9) << "short of the goal by the dynamic coefficient times 1";
+}
+
+/// A ridge along y whose sides fall by half a unit a unit: the normal of its edge is straight up.
+TriangleMesh ridge() {
+  return {{{0, -8, 0}, {0, 8, 0}, {-8, -8, -4}, {-8, 8, -4}, {8, -8, -4}, {8, 8, -4}},
+          {{0, 1, 2}, {1, 3, 2}, {0, 4, 1}, {1, 4, 5}}};
+}
+
+TEST(Proxy, ShadingTurnsTheForceAndNotTheWay) {
+  const TriangleMesh mesh = ridge();
+  const SphereCluster detector = SphereCluster::build(mesh);
+  const ForceShading shading(mesh);
+  SphereCluster::Session sessions[3];
+  Proxy plain(detector, {.radius = 0.25}, &mesh);
+  Proxy shaded(detector, {.radius = 0.25, .shading = 1}, &mesh, &shading);
+  Proxy off(detector, {.radius = 0.25}, &mesh, &shading);
+  for (Proxy<SphereCluster>* proxy : {&plain, &shaded, &off}) proxy->place({-4, 0, 2});
+  struct Turns {
+    double steepest = 0;
+    Vec3 last = Vec3::Zero();
+    void add(const Vec3& force) {
+      const Vec3 direction = force.normalized();
+      if (last != Vec3::Zero()) steepest = std::max(steepest, (direction - last).norm());
+      last = direction;
+    }
+  } turns, turns_shaded;
+  for (int tick = 0; tick <= 200; ++tick) {
+    // A fifth above the ridge, so a little too near for the ball, over its edge and on.
+    const double x = -3 + 0.03 * tick;
+    const Vec3 goal(x, 0.1, -0.5 * std::abs(x) + 0.2);
+    const ProxyState& as_it_is = plain.step(goal, sessions[0]);
+    const ProxyState& turned = shaded.step(goal, sessions[1]);
+    EXPECT_EQ(turned.position, as_it_is.position);
+    EXPECT_EQ(off.step(goal, sessions[2]).force, as_it_is.force) << "a share of 0";
+    EXPECT_NEAR(turned.force.norm(), as_it_is.force.norm(), 1e-2 * as_it_is.force.norm());
+    turns.add(as_it_is.force);
+    turns_shaded.add(turned.force);
+  }
+  EXPECT_GT(turns.steepest, 0.1) << "the normals of the sides are 53 degrees apart, for a seventh of a unit";
+  EXPECT_LT(turns_shaded.steepest, 0.02) << "over all six units";
+}
+
+TEST(Proxy, ShadingLeavesAForceBetweenTwoFacesAsItIs) {
+  const TriangleMesh mesh = octant(4);
+  const ForceShading shading(mesh);
+  const BruteForce detector = BruteForce::build(mesh);
+  BruteForce::Session session;
+  Proxy proxy(detector, {.radius = 0.25, .shading = 1}, &mesh, &shading);
+  proxy.place({1, 1, 1});
+  const ProxyState& state = proxy.step({0, 0, 1}, session);
+  ASSERT_EQ(state.contacts, 2u);
+  EXPECT_EQ(state.force, Vec3(1000 * (state.position - Vec3(0, 0, 1))));
 }
 
 TEST(Proxy, DampsTheGoalsMotionInContactAlone) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -72,6 +73,69 @@ TEST(DistanceGrid, BoundsTheDistanceInsideAndFarOutside) {
         EXPECT_GE(static_cast<double>(grid->grid.upper_bound(grid->point(p))), distance) << p.transpose();
       }
     }
+  }
+}
+
+/// Takes samples as a detector does that knows a triangle near each.
+class KnowingSampler {
+ public:
+  KnowingSampler(const TriangleMesh& mesh, const FilterFrame& frame, std::size_t& searches)
+      : frame_(frame), searches_(searches), all_(BruteForce::build(mesh, {})) {
+    for (std::uint32_t i = 0; i < mesh.size(); ++i) {
+      const std::vector<Vec3> corners = {mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)};
+      each_.push_back(BruteForce::build(TriangleMesh(corners, {{0, 1, 2}}), {}));
+    }
+  }
+
+  DistanceField::Interval operator()(const Vec3& place, double most) {
+    ++searches_;
+    BruteForce::Session session;
+    const Contact found =
+        *all_.nearest({frame_.from_frame(place), 0}, std::numeric_limits<double>::infinity(), session);
+    near_ = found.triangle;
+    const double distance = frame_.scale() * found.distance;
+    EXPECT_LE(distance, most);
+    return {0.9 * distance, distance};
+  }
+  std::uint32_t near() const { return near_; }
+  double distance_to(std::uint32_t near, const Vec3& place) const {
+    return frame_.scale() * ::touchmark::distance_to(each_[near], frame_.from_frame(place));
+  }
+  void gather(const Vec3&, double, double) {}
+  void scatter() {}
+
+ private:
+  const FilterFrame& frame_;
+  std::size_t& searches_;
+  BruteForce all_;
+  std::vector<BruteForce> each_;
+  std::uint32_t near_ = 0;
+};
+
+static_assert(KnowsTriangles<KnowingSampler>);
+
+TEST(DistanceGrid, BoundsTheDistanceWhereItFollowsFromSamplesAround) {
+  Random random(11);
+  for (const TriangleMesh& mesh : meshes()) {
+    const Grid plain(mesh);
+    const Vec3 low = plain.frame.to_frame(mesh.bounds().min), high = plain.frame.to_frame(mesh.bounds().max);
+    DistanceField grid(low.cast<float>(), high.cast<float>(), 4096);
+    std::size_t searches = 0;
+    const KnowingSampler sampler(mesh, plain.frame, searches);
+    grid.fill([&](double) { return sampler; }, 1);
+    for (int i = 0; i < 3000; ++i) {
+      const Vec3 p = random.point(i % 2 == 0 ? 0.7 : 3);
+      const double distance = plain.distance(p);
+      EXPECT_LE(static_cast<double>(grid.lower_bound(plain.point(p))), distance) << p.transpose();
+      EXPECT_LE(static_cast<double>(grid.tight_lower_bound(plain.point(p))), distance) << p.transpose();
+      EXPECT_GE(static_cast<double>(grid.upper_bound(plain.point(p))), distance) << p.transpose();
+    }
+    std::size_t all = 0;
+    DistanceField searched(low.cast<float>(), high.cast<float>(), 4096);
+    KnowingSampler same(mesh, plain.frame, all);
+    searched.fill([&](double) { return [&](const Vec3& place, double most) { return same(place, most); }; },
+                  1);
+    EXPECT_LT(searches, all);
   }
 }
 

@@ -38,6 +38,26 @@ TEST(ProxyCommand, CountsCrossingsAndItsFilesAreValid) {
   EXPECT_NE(valid.out.find("proxy, 4 rows"), std::string::npos) << valid.out;
 }
 
+TEST(ProxyCommand, TellsTheBareQueryOfTheDetectorBesideTheTick) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run_touchmark({"proxy", "--method", "certified", "--method", "penalty", "--family",
+                                         "rooms", "--ticks", "400", "--out", folder.file("out")});
+  EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  const auto rows = table_in(folder.file("out/proxy.csv"));
+  ASSERT_EQ(rows.size(), 5U);
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    const std::string &median = rows[i][column_index("query_p50_ns")],
+                      &late = rows[i][column_index("query_p999_ns")];
+    if (rows[i][column_index("method")] == "penalty") {
+      EXPECT_EQ(median + late, "") << "it has no detector";
+    } else {
+      EXPECT_GT(std::atoi(median.c_str()), 0);
+      EXPECT_GE(std::atoi(late.c_str()), std::atoi(median.c_str()));
+    }
+  }
+  EXPECT_EQ(run_touchmark({"validate", folder.file("out")}).status, 0);
+}
+
 TEST(ProxyCommand, CountsTheSameAgain) {
   const auto counted = [](const std::string& path) {
     auto rows = table_in(path);

@@ -49,6 +49,17 @@ TEST_F(Scale, MeasuresEachSizeFitsAndLeavesWhatIsValid) {
   EXPECT_EQ(run_touchmark({"validate", folder_.file("out")}).status, 0);
 }
 
+TEST_F(Scale, ShrinksTheReachAsTheEdgesDo) {
+  EXPECT_EQ(scale({"--sizes", "100,400", "--radius", "0.1", "--shrink", "all"}).status, 0);
+  EXPECT_EQ(read("results.csv", {"triangles", "radius", "trajectory"}),
+            (std::vector<Fields>{{"100", "0.1", "slide"}, {"400", "0.05", "slide"}}));
+  for (const Fields& fit : read("scaling.csv", {"shrinks", "trajectory"}))
+    EXPECT_EQ(fit, (Fields{"all", "slide"}));
+  const Outcome wrong = run_touchmark({"scale", "--shrink", "speed"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_NE(wrong.err.find("--shrink \"speed\""), std::string::npos) << wrong.err;
+}
+
 TEST_F(Scale, DescribesEveryMeshOfItsRows) {
   EXPECT_EQ(scale({"--sizes", "100,200", "--radius", "1%"}).status, 0);
   const std::string path = folder_.file("out/run.json");

@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -120,10 +123,31 @@ TEST(Growth, IsWrittenAsCsv) {
   const std::string csv = scaling_csv(growth_of({row("soup:10", 10, 5), row("soup:1000", 1000, 50)}));
   EXPECT_EQ(csv.substr(0, csv.find('\n')),
             "schema,detector,options,trajectory,quantity,points,exponent,exponent_low,exponent_high,factor,"
-            "family,query,least_triangles,most_triangles");
-  EXPECT_NE(csv.find("\n1,aabb-tree,,slide,ns_per_query,2,0.5,,,1.58114,soup,nearest,10,1000\n"),
+            "family,query,least_triangles,most_triangles,shrinks");
+  EXPECT_NE(csv.find("\n1,aabb-tree,,slide,ns_per_query,2,0.5,,,1.58114,soup,nearest,10,1000,\n"),
             std::string::npos)
       << csv;
+}
+
+TEST(Growth, OfTimeIsThatOfLooksAndOfTheTimeOfALook) {
+  std::vector<measurement::ResultRow> rows{row("soup:10", 10, 5), row("soup:100", 100, 17),
+                                           row("soup:1000", 1000, 30)};
+  const std::vector<std::uint64_t> spheres{4000, 9000, 10000};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    Work work;
+    work.spheres = spheres[i];
+    work.triangles = 2000 * (i + 1);
+    rows[i].work = measurement::summarize_work(std::vector<std::uint64_t>(rows[i].steps, 1), work);
+  }
+  const std::vector<Growth> growths = growth_of(rows, Shrinks::reach);
+  const auto exponent = [&](const std::string& quantity) {
+    const auto found = std::ranges::find(growths, quantity, &Growth::quantity);
+    return found == growths.end() ? std::numeric_limits<double>::quiet_NaN() : found->law.exponent;
+  };
+  EXPECT_NEAR(exponent("work_mean") + exponent("ns_per_look"), exponent("ns_per_query"), 1e-12);
+  EXPECT_NEAR(exponent("spheres_mean"), std::log10(2.5) / 2, 1e-12);  // the middle one of three does not tilt
+  EXPECT_TRUE(std::isnan(exponent("boxes_mean")));                    // none was looked at
+  for (const Growth& growth : growths) EXPECT_EQ(name_of(growth.shrinks), "reach");
 }
 
 }  // namespace
