@@ -62,8 +62,9 @@ bool AutoDetector::ask_other_touches(const Probe& probe, Session& session) const
   return ask_other(session, [&](const auto& form, auto& own) { return form.touches(probe, own); });
 }
 
-std::optional<Contact> AutoDetector::ask_other_nearest(const Probe& probe, double reach,
-                                                       Session& session) const noexcept {
+std::optional<Contact> AutoDetector::look_for_nearest(const Probe& probe, double reach,
+                                                      Session& session) const noexcept {
+  if (!other_) return spheres_.nearest(probe, reach, session);
   return ask_other(session, [&](const auto& form, auto& own) { return form.nearest(probe, reach, own); });
 }
 

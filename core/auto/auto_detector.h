@@ -45,7 +45,7 @@ class AutoDetector {
   }
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept {
     if (spheres_.is_clear(probe.center, reach, session)) return std::nullopt;
-    return other_ ? ask_other_nearest(probe, reach, session) : spheres_.nearest(probe, reach, session);
+    return look_for_nearest(probe, reach, session);
   }
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept {
     if (spheres_.is_clear(sweep, session)) return std::nullopt;
@@ -73,8 +73,9 @@ class AutoDetector {
   template <class Ask>
   auto ask_other(Session& session, const Ask& of) const noexcept;
   [[gnu::noinline]] bool ask_other_touches(const Probe& probe, Session& session) const noexcept;
-  [[gnu::noinline]] std::optional<Contact> ask_other_nearest(const Probe& probe, double reach,
-                                                             Session& session) const noexcept;
+  /// Asks whichever was chosen: next to a choice in line, what is clear cost a third more.
+  [[gnu::noinline]] std::optional<Contact> look_for_nearest(const Probe& probe, double reach,
+                                                            Session& session) const noexcept;
   [[gnu::noinline]] std::optional<Impact> ask_other_first_hit(const Sweep& sweep,
                                                               Session& session) const noexcept;
   [[gnu::noinline]] std::size_t ask_other_contacts(const Probe& probe, double reach, Session& session,

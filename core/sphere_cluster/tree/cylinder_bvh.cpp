@@ -183,10 +183,10 @@ template <class Exhausted>
   memory.move = center - memory.center;
   memory.center = center;
   memory.upper = distance;
-  memory.slot = candidates.at();
   memory.lower = clearance_from(unseen, distance, clearance_pad(point));
   work += visitor.work;
   if (!candidates.found()) return std::nullopt;
+  memory.slot = candidates.at();
   if (certified_ && !(is_certain(distance, reach, error) && candidates.is_surely_first(error)))
     return contact_of(candidates, parts_.triangles, center, reach, distance_error(bounds_, center), ids_,
                       work);

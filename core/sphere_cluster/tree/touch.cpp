@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "core/search/nearest_of_ties.h"
+#include "core/search/side_bound.h"
 #include "core/sphere_cluster/tree/cylinder_bvh.h"
 #include "core/sphere_cluster/tree/search.h"  // IWYU pragma: keep
 
@@ -121,12 +122,15 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
   if (memory.touched_slot == memory.slot) {
     ++work.triangles;
     const Lanes values = plane_values(memory.touched, point);
-    const double farthest = frame_.from_frame_rounded_up(distance_upper_bound(memory.touched, values, point));
-    if (farthest < radius - error) {
+    if (squared_lower_bound(values, point) > frame_.limit((radius + error) * (radius + error))) return false;
+    const double enough = radius - error;
+    double farthest = frame_.from_frame_rounded_up(distance_upper_bound(memory.touched, values, point));
+    if (!(farthest < enough))
+      farthest = frame_.from_frame_rounded_up(side_upper_bound(memory.touched, values, point));
+    if (farthest < enough) {
       remember_touch(center, 0, farthest, memory);
       return true;
     }
-    if (squared_lower_bound(values, point) > frame_.limit((radius + error) * (radius + error))) return false;
   } else if (!(std::abs(memory.upper - moved) <= radius)) {
     return false;  // it came from elsewhere
   }

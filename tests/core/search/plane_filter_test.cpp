@@ -2,11 +2,13 @@
 
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "bench/support/random.h"
+#include "core/search/side_bound.h"
 
 namespace touchmark {
 namespace {
@@ -78,6 +80,45 @@ TEST(PlaneFilter, BoundsTheDistanceFromAboveWhateverTheTriangleAndTheScale) {
     }
   }
   EXPECT_GT(close, 1000);
+}
+
+TEST(SideBound, IsNeverBelowTheDistanceWhateverTheTriangleAndTheScale) {
+  Random random(5);
+  int close = 0;
+  for (const double scale : {1e-35, 1e-6, 1.0, 1e6, 1e50}) {
+    for (const double thickness : {1.0, 1e-3, 1e-5, 1e-7, 1e-9}) {
+      for (int round = 0; round < 1000; ++round) {
+        const Thin thin(random, scale, thickness, round);
+        const double away = scale * (round % 3 == 0 ? 1 : round % 3 == 1 ? thickness : 1e-3);
+        const Vec3 center = thin.triangle.corner[0] + random.between(-0.2, 1.2) * thin.along +
+                            random.between(-0.2, 1.2) * thin.aside + random.point(away);
+        const FilterPoint point = thin.frame.point(center);
+        const TrianglePlanes planes = planes_of(thin.triangle, thin.frame);
+        const double most =
+            thin.frame.from_frame_rounded_up(side_upper_bound(planes, plane_values(planes, point), point));
+        const double distance = std::sqrt(squared_distance(thin.triangle, center));
+        if (most < 1.01 * distance) ++close;
+        ASSERT_GE(most, distance) << scale << ' ' << thickness << ' ' << round;
+      }
+    }
+  }
+  EXPECT_GT(close, 1000);
+}
+
+TEST(SideBound, IsTheDistanceToASideOrNothing) {
+  const PreparedTriangle triangle = prepare({0, 0, 0}, {4, 0, 0}, {0, 4, 0}, 0);
+  const FilterFrame frame = FilterFrame::around(box_of(triangle));
+  const TrianglePlanes planes = planes_of(triangle, frame);
+  const auto most = [&](const Vec3& center) {
+    const FilterPoint point = frame.point(center);
+    return frame.from_frame_rounded_up(side_upper_bound(planes, plane_values(planes, point), point));
+  };
+  EXPECT_NEAR(most({2, -1, 2}), std::sqrt(5), 1e-3);
+  EXPECT_NEAR(most({-3, 1, 0}), 3, 1e-3);
+  EXPECT_NEAR(most({3, 3, 0}), std::sqrt(2), 1e-3);
+  EXPECT_NEAR(most({0.5, 1, 2}), std::sqrt(4.25), 1e-3);  // over the face, by the nearest side
+  EXPECT_NEAR(most({-1, -1, 0}), std::sqrt(18), 2e-3);    // by the foot on the far side
+  EXPECT_EQ(most({6, -1, 0}), std::numeric_limits<double>::infinity());
 }
 
 TEST(PlaneFilter, BoundsFromAboveByTheHeightOrAnAcuteCorner) {

@@ -141,6 +141,26 @@ TEST(SphereClusterShortcuts, LookAtNothing) {
   EXPECT_EQ(session.work.total(), 0U);
 }
 
+/// A search in vain leaves no triangle to begin with, and a touch that samples tell names none either.
+TEST(SphereClusterShortcuts, ATouchBySamplesMayFollowASearchInVain) {
+  const TriangleMesh mesh = test::bumpy_sphere(24, 0.01, 1);
+  const SphereCluster detector = SphereCluster::build(mesh);
+  const BruteForce all = BruteForce::build(mesh);
+  BruteForce::Session plain;
+  test::Random random(31);
+  for (int i = 0; i < 500; ++i) {
+    const Vec3 center = random.direction() * random.between(1.02, 1.1);
+    const double distance = all.nearest({center, 0}, infinity, plain)->distance;
+    const double short_of = random.between(0.8, 0.999) * distance;
+    SphereCluster::Session session;
+    EXPECT_FALSE(detector.nearest({center, 0}, short_of, session));
+    EXPECT_TRUE(detector.touches({center, 0.8}, session));
+    EXPECT_FALSE(detector.touches({center, short_of}, session));
+    EXPECT_TRUE(detector.touches({center, 0.8}, session));
+    EXPECT_TRUE(detector.touches({center, 1.001 * distance}, session));
+  }
+}
+
 TEST(SphereClusterShortcuts, TheBoxIsThatOfTheUpdatedMesh) {
   const TriangleMesh before = test::bumpy_sphere(8, 0, 1);
   std::vector<Vec3> vertices(before.vertices().begin(), before.vertices().end());
