@@ -14,6 +14,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/cli/commands/scale_bodies.h"
 #include "bench/cli/program.h"
 #include "bench/cli/selector_options.h"
 #include "bench/cli/worker_options.h"
@@ -48,16 +49,9 @@ constexpr double bytes_per_triangle = 1500;
 struct ScaleOptions {
   contestants::Selectors selectors;
   std::string sizes, limit = "60", out;
-  bool quick = false;
+  bool bodies = false, quick = false;
   WorkerSelectors workers;
 };
-
-double checked_limit(const std::string& text) {
-  const std::optional<double> seconds = support::parse_number(text);
-  if (!seconds || !(*seconds > 0))
-    throw std::invalid_argument(fmt::format("--limit-seconds \"{}\" is not a number above 0, or inf", text));
-  return *seconds;
-}
 
 contestants::CheckedSelectors checked(const contestants::Selectors& selectors,
                                       const contestants::Roster& roster) {
@@ -244,6 +238,8 @@ void add_scale(CLI::App& program, ProgramContext& context) {
                    "a contestant that took longer on a mesh is left out on larger ones")
       ->type_name("S")
       ->capture_default_str();
+  command->add_flag("--bodies", options->bodies,
+                    "scenes of 1 body and of each of the sizes instead, still and all moving");
   add_unit(*command, options->selectors.unit);
   command->add_option("--out", options->out, "folder for results.csv, scaling.csv and run.json")
       ->type_name("DIR");
@@ -252,9 +248,20 @@ void add_scale(CLI::App& program, ProgramContext& context) {
   command->footer(
       "Fits quantity = factor * triangles^exponent to build time, first answer, memory and query time of\n"
       "each contestant. scripts/plot DIR draws them.\n"
+      "With --bodies: what a tick costs, in free space and beside a body, what placing a moved body does, "
+      "and\n"
+      "the bytes of a body, by the number of bodies; into bodies.csv, bodies_growth.csv and run.json. All\n"
+      "contestants run in this program, and their answers are compared with the first one's.\n"
+      "Example: touchmark scale --bodies --sizes 10,100,1k,10k,100k --detector sphere-cluster --out "
+      "out/bodies\n"
       "Example: touchmark scale --sizes 1k,10k,100k,1M --detector grid-group --detector embree --out "
       "out/scaling\n");
-  command->final_callback([options, &context] { context.status = ScaleRun(context, *options).run(); });
+  command->final_callback([options, &context] {
+    context.status = options->bodies
+                         ? run_scale_bodies(context, {options->selectors, options->sizes, options->limit,
+                                                      options->out, options->quick})
+                         : ScaleRun(context, *options).run();
+  });
 }
 
 }  // namespace touchmark::bench::cli
