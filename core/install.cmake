@@ -16,8 +16,12 @@ function(touchmark_install name)
     target_include_directories(touchmark_${name} PRIVATE ${PROJECT_SOURCE_DIR}
                                INTERFACE $<BUILD_INTERFACE:${touchmark_include}>)
   endif()
-  install(TARGETS touchmark_${name} EXPORT touchmark-${name} INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-  install(EXPORT touchmark-${name} NAMESPACE touchmark:: DESTINATION ${touchmark_package})
+  install(TARGETS touchmark_${name} EXPORT touchmark-${name}
+          ARCHIVE COMPONENT dev
+          LIBRARY COMPONENT ${name} NAMELINK_COMPONENT dev
+          RUNTIME COMPONENT ${name}
+          INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  install(EXPORT touchmark-${name} NAMESPACE touchmark:: DESTINATION ${touchmark_package} COMPONENT dev)
 endfunction()
 
 touchmark_install(core)
@@ -35,15 +39,15 @@ if(NOT PROJECT_IS_TOP_LEVEL)
 endif()
 # Written when they are installed, so that they are those of the tree as it is then.
 install(CODE "include(\"${CMAKE_CURRENT_SOURCE_DIR}/installed_headers.cmake\")
-touchmark_write_headers(\"${CMAKE_CURRENT_SOURCE_DIR}\" \"${touchmark_include}\" ${touchmark_public_headers})")
-install(DIRECTORY ${touchmark_include}/touchmark DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+touchmark_write_headers(\"${CMAKE_CURRENT_SOURCE_DIR}\" \"${touchmark_include}\" ${touchmark_public_headers})" COMPONENT dev)
+install(DIRECTORY ${touchmark_include}/touchmark DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT dev)
 
 configure_package_config_file(touchmark-config.cmake.in touchmark-config.cmake
                               INSTALL_DESTINATION ${touchmark_package})
 write_basic_package_version_file(touchmark-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/touchmark-config.cmake
               ${CMAKE_CURRENT_BINARY_DIR}/touchmark-config-version.cmake
-        DESTINATION ${touchmark_package})
+        DESTINATION ${touchmark_package} COMPONENT dev)
 
 # From where the .pc file lies back to the prefix, so that the whole may be moved.
 file(RELATIVE_PATH touchmark_pc_to_prefix ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
@@ -58,5 +62,5 @@ if(TOUCHMARK_BUILD_C)
 endif()
 foreach(file ${touchmark_pc})
   configure_file(${file}.in ${file} @ONLY)
-  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${file} DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${file} DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
 endforeach()

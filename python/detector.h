@@ -4,12 +4,14 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <shared_mutex>
 #include <string>
 #include <vector>
+
+#include "python/batch.h"
 
 #include "core/named/named_detector.h"
 #include "core/probe.h"
@@ -48,11 +50,10 @@ struct ContactArrays {
   void store(std::size_t i, const std::optional<Contact>& contact) const noexcept;
 };
 
-/// How a batch is run.
-struct Effort {
-  std::size_t threads = 1;  ///< 0: as many as the machine has processors
-  /// Called every tenth of a second or so on the thread that asked; true ends the batch.
-  std::function<bool()> is_interrupted;
+/// The contacts of some points, those of one point after those of the one before.
+struct ContactLists {
+  std::vector<std::int64_t> ends;  ///< those of point i end before ends[i]
+  std::vector<Contact> contacts;
 };
 
 /// A detector, its mesh, and what finds sides, which is made by the first who asks for one.
@@ -67,14 +68,36 @@ class BatchDetector {
   bool first_hit(Points from, Points to, Sizes radii, double* fraction, ContactArrays contacts,
                  const Effort& effort) const;
   bool sides(Points centers, std::int8_t* side, const Effort& effort) const;
+  bool contacts(Points centers, Sizes reaches, ContactLists& lists, const Effort& effort) const;
 
-  const std::shared_ptr<const TriangleMesh>& mesh() const noexcept { return mesh_; }
+  /// Takes other places for the mesh's vertices, as many as it has. It waits for the batches that run, and
+  /// they for it. Throws MeshError or std::invalid_argument and is as it was; after anything else that is
+  /// thrown it answers no more.
+  void update(std::vector<Vec3> vertices);
+  std::shared_ptr<const TriangleMesh> mesh() const;
+  std::size_t bytes() const;
+
+  // What follows is for who holds `lock()`, shared: updates wait meanwhile.
+
+  /// Throws std::invalid_argument where it answers no more.
+  void expect_usable() const;
+  std::shared_mutex& lock() const noexcept { return lock_; }
   const NamedDetector& detector() const noexcept { return *detector_; }
+  const TriangleMesh& locked_mesh() const noexcept { return *mesh_; }
+  std::uint64_t updates() const noexcept { return updates_; }
 
  private:
+  const SideFinder& side_finder() const;
+  /// Runs a batch of `count` questions while no update runs.
+  template <class Ask>
+  bool ask_all(std::size_t count, const Effort& effort, const Ask& ask) const;
+
   std::shared_ptr<const TriangleMesh> mesh_;
   std::unique_ptr<NamedDetector> detector_;
-  mutable std::once_flag sides_made_;
+  std::uint64_t updates_ = 0;
+  bool usable_ = true;
+  mutable std::shared_mutex lock_;  ///< of all that is above: updates take it alone
+  mutable std::mutex making_sides_;
   mutable std::optional<SideFinder> sides_;
 };
 

@@ -12,42 +12,19 @@
 #include <utility>
 #include <vector>
 
+#include "python/arrays.h"
 #include "python/detector.h"
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
+
+#include "core/scene/body.h"
+#include "core/scene/pose.h"
 
 namespace py = pybind11;
 using namespace py::literals;
 
 namespace touchmark::python {
 namespace {
-
-// Without py::array::forcecast nothing is converted here: another type is a TypeError.
-template <class Number>
-using Array = py::array_t<Number, py::array::c_style>;
-
-void expect_rows_of_three(const py::array& array, const char* name) {
-  if (array.ndim() == 2 && array.shape(1) == 3) return;
-  throw std::invalid_argument(std::string(name) + " must have the shape (n, 3)");
-}
-
-Points points(const Array<double>& array, const char* name) {
-  expect_rows_of_three(array, name);
-  return {array.data(), static_cast<std::size_t>(array.shape(0))};
-}
-
-Sizes sizes(const Array<double>& array, std::size_t count, const char* name) {
-  if (array.ndim() != 1 || (array.shape(0) != 1 && static_cast<std::size_t>(array.shape(0)) != count))
-    throw std::invalid_argument(std::string(name) + " must be one number, or one for each point");
-  for (py::ssize_t i = 0; i < array.shape(0); ++i) {
-    if (!(array.data()[i] >= 0)) {
-      throw std::invalid_argument(
-          std::string(name) + (array.shape(0) == 1 ? "" : "[" + std::to_string(i) + "]") + " is " +
-          py::str(py::float_(array.data()[i])).cast<std::string>() + "; it must be 0 or more");
-    }
-  }
-  return {array.data(), array.shape(0) == 1};
-}
 
 std::shared_ptr<TriangleMesh> make_mesh(const Array<double>& vertices, const Array<std::uint32_t>& faces) {
   const Points from = points(vertices, "vertices");
@@ -72,51 +49,6 @@ py::array view_of(py::object mesh, std::span<const Row> rows) {
   return view;
 }
 
-/// True once the user has asked to stop; then Python's error is set.
-bool is_interrupted() {
-  const py::gil_scoped_acquire acquired;
-  return PyErr_CheckSignals() != 0;
-}
-
-/// Runs a batch without the interpreter's lock; throws what Python has to say where it was interrupted.
-template <class Run>
-void run(std::size_t threads, const Run& batch) {
-  bool complete;
-  {
-    const py::gil_scoped_release released;
-    complete = batch(Effort{threads, is_interrupted});
-  }
-  if (!complete) throw py::error_already_set();
-}
-
-struct Contacts {
-  explicit Contacts(std::size_t count)
-      : found(static_cast<py::ssize_t>(count)),
-        distance(static_cast<py::ssize_t>(count)),
-        point(std::vector<py::ssize_t>{static_cast<py::ssize_t>(count), 3}),
-        normal(std::vector<py::ssize_t>{static_cast<py::ssize_t>(count), 3}),
-        triangle(static_cast<py::ssize_t>(count)) {}
-
-  ContactArrays arrays() {
-    return {found.mutable_data(), distance.mutable_data(), point.mutable_data(), normal.mutable_data(),
-            triangle.mutable_data()};
-  }
-
-  py::array_t<bool> found;
-  py::array_t<double> distance, point, normal;
-  py::array_t<std::int64_t> triangle;
-};
-
-py::array_t<bool> touches(const BatchDetector& detector, const Array<double>& centers,
-                          const Array<double>& radii, std::size_t threads) {
-  const Points at = points(centers, "points");
-  const Sizes within = sizes(radii, at.count, "radius");
-  py::array_t<bool> touching(static_cast<py::ssize_t>(at.count));
-  bool* const out = touching.mutable_data();
-  run(threads, [&](const Effort& effort) { return detector.touches(at, within, out, effort); });
-  return touching;
-}
-
 py::tuple nearest(const BatchDetector& detector, const Array<double>& centers, const Array<double>& reaches,
                   std::size_t threads) {
   const Points at = points(centers, "points");
@@ -131,9 +63,7 @@ py::tuple nearest(const BatchDetector& detector, const Array<double>& centers, c
 py::tuple first_hit(const BatchDetector& detector, const Array<double>& starts, const Array<double>& ends,
                     const Array<double>& radii, std::size_t threads) {
   const Points from = points(starts, "starts"), to = points(ends, "ends");
-  if (from.count != to.count)
-    throw std::invalid_argument("starts has " + std::to_string(from.count) + " points and ends has " +
-                                std::to_string(to.count));
+  expect_as_many(from, to);
   const Sizes within = sizes(radii, from.count, "radius");
   Contacts contacts(from.count);
   py::array_t<double> fraction(static_cast<py::ssize_t>(from.count));
@@ -152,6 +82,36 @@ py::array_t<std::int8_t> sides(const BatchDetector& detector, const Array<double
   std::int8_t* const out = side.mutable_data();
   run(threads, [&](const Effort& effort) { return detector.sides(at, out, effort); });
   return side;
+}
+
+template <class Number>
+py::array_t<Number> array_of(const std::vector<Number>& numbers) {
+  return py::array_t<Number>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
+}
+
+py::tuple contacts(const BatchDetector& detector, const Array<double>& centers, const Array<double>& reaches,
+                   std::size_t threads) {
+  const Points at = points(centers, "points");
+  const Sizes within = sizes(reaches, at.count, "reach");
+  ContactLists lists;
+  run(threads, [&](const Effort& effort) { return detector.contacts(at, within, lists, effort); });
+  Contacts found(lists.contacts.size());
+  const ContactArrays out = found.arrays();
+  for (std::size_t i = 0; i < lists.contacts.size(); ++i) out.store(i, lists.contacts[i]);
+  return py::make_tuple(array_of(lists.ends), found.distance, found.point, found.normal, found.triangle);
+}
+
+void update(BatchDetector& detector, const Array<double>& vertices) {
+  const Points from = points(vertices, "vertices");
+  const py::gil_scoped_release released;
+  std::vector<Vec3> moved(from.count);
+  for (std::size_t i = 0; i < from.count; ++i) moved[i] = from.at(i);
+  detector.update(std::move(moved));
+}
+
+/// The mesh as it is now. Python knows no constant one, and no function of Mesh changes it.
+std::shared_ptr<TriangleMesh> mesh_of(const BatchDetector& detector) {
+  return std::const_pointer_cast<TriangleMesh>(detector.mesh());
 }
 
 py::tuple bounds(const TriangleMesh& mesh) {
@@ -175,18 +135,21 @@ void define_mesh(py::module_& module) {
 }
 
 void define_detector(py::module_& module) {
-  py::class_<BatchDetector>(module, "Detector")
+  py::class_<BatchDetector, std::shared_ptr<BatchDetector>>(module, "Detector")
       .def(py::init([](std::shared_ptr<TriangleMesh> mesh, const std::string& text) {
              const py::gil_scoped_release released;
-             return std::make_unique<BatchDetector>(std::move(mesh), text);
+             return std::make_shared<BatchDetector>(std::move(mesh), text);
            }),
            "mesh"_a, "text"_a)
-      .def("touches", &touches, "points"_a.noconvert(), "radius"_a.noconvert(), "threads"_a)
+      .def("touches", &touches<BatchDetector>, "points"_a.noconvert(), "radius"_a.noconvert(), "threads"_a)
       .def("nearest", &nearest, "points"_a.noconvert(), "reach"_a.noconvert(), "threads"_a)
       .def("first_hit", &first_hit, "starts"_a.noconvert(), "ends"_a.noconvert(), "radius"_a.noconvert(),
            "threads"_a)
       .def("side", &sides, "points"_a.noconvert(), "threads"_a)
-      .def("bytes", [](const BatchDetector& detector) { return detector.detector().bytes(); });
+      .def("contacts", &contacts, "points"_a.noconvert(), "reach"_a.noconvert(), "threads"_a)
+      .def("update", &update, "vertices"_a.noconvert())
+      .def("mesh", &mesh_of, py::call_guard<py::gil_scoped_release>())
+      .def("bytes", &BatchDetector::bytes, py::call_guard<py::gil_scoped_release>());
 }
 
 }  // namespace
@@ -201,8 +164,14 @@ PYBIND11_MODULE(_native, module) {
       if (pointer) std::rethrow_exception(pointer);
     } catch (const touchmark::MeshError& error) {
       PyErr_SetString(PyExc_ValueError, error.what());
+    } catch (const touchmark::SceneError& error) {
+      PyErr_SetString(PyExc_ValueError, error.what());
+    } catch (const touchmark::PoseError& error) {
+      PyErr_SetString(PyExc_ValueError, error.what());
     }
   });
   define_mesh(module);
   define_detector(module);
+  define_scene(module);
+  define_proxy(module);
 }

@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "bench/cli/step_visits.h"
 #include "bench/results/steps_csv.h"
 #include "bench/results/steps_file.h"
 
@@ -10,7 +11,9 @@ namespace touchmark::bench::cli {
 StepOutputs::StepOutputs(const results::ResultsFolder* folder, const std::string& csv_path)
     : folder_(folder) {
   if (!csv_path.empty()) csv_.emplace(csv_path);
-  if (folder_ != nullptr) folder_->remove(results::steps_file_name);
+  if (folder_ == nullptr) return;
+  folder_->remove(results::steps_file_name);
+  folder_->remove(visited_file_name);
 }
 
 void StepOutputs::write(const std::string& run_id, const workload::Workload& workload,
@@ -22,6 +25,8 @@ void StepOutputs::write(const std::string& run_id, const workload::Workload& wor
     for (std::size_t trace = 0; trace < workload.traces.size(); ++trace)
       truths.push_back(comparison.truths(trace));
     folder_->write_file(results::steps_file_name, results::steps_file(run_id, workload, rows, truths));
+    if (const auto visited = step_visits(run_id, workload, rows))
+      folder_->write_file(visited_file_name, *visited);
   }
   if (!csv_) return;
   results::write_steps_csv(rows, [this](std::string_view text) { csv_->write(text); });

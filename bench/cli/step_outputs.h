@@ -1,4 +1,5 @@
-/// What `touchmark bench` leaves of single steps: steps.bin in its folder, and the file of --steps-out.
+/// What `touchmark bench` leaves of single steps: steps.bin and visited.json in its folder, and the
+/// file of --steps-out.
 #pragma once
 
 #include <optional>

@@ -233,7 +233,7 @@ void Measurement::latency_pass() {
 void Measurement::take_cold_samples(std::size_t bytes, std::size_t max_samples, double budget_ns,
                                     std::vector<double>& ns, std::vector<double>& floor_ns) {
   request::Cold request{
-      task_,       bytes,    cold_floor_samples, ns.size(), std::min(effort_.min_cold_samples, max_samples),
+      cold_task(), bytes,    cold_floor_samples, ns.size(), std::min(effort_.min_cold_samples, max_samples),
       max_samples, budget_ns};
   const std::size_t taken = process_.ask(request).taken;
   const double ns_per_tick = process_.opened().ns_per_tick;

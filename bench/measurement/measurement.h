@@ -1,6 +1,7 @@
 /// One contestant on one trajectory, from the first answer to the finished row.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -69,6 +70,13 @@ class Measurement {
   void choose_steps();
   void choose_pieces();
   PieceTimes piece_times() const;
+  /// Few samples are taken with emptied caches, so of the same steps whoever is asked, but the slowest.
+  workers::Task cold_task() const {
+    constexpr std::size_t common_steps = 512;
+    workers::Task task = task_;
+    task.ranges = plan_.ranges(std::min(row_.steps, common_steps));
+    return task;
+  }
   void take_cold_samples(std::size_t bytes, std::size_t max_samples, double budget_ns,
                          std::vector<double>& ns, std::vector<double>& floor_ns);
   std::vector<double> in_ns(std::span<const std::uint64_t> ticks) const;

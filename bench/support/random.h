@@ -26,6 +26,11 @@ class Random {
   /// Uniform in [0, 1), a multiple of 2^-53.
   double unit() { return static_cast<double>(bits_() >> 11) * 0x1p-53; }
   double between(double low, double high) { return low + unit() * (high - low); }
+  /// Uniform in the cube [-half, half)^3.
+  Vec3 point(double half = 1) {
+    const double x = between(-half, half), y = between(-half, half), z = between(-half, half);
+    return {x, y, z};
+  }
   /// Uniform in 0..count-1; the bias of the remainder is below count / 2^64.
   std::size_t below(std::size_t count) { return static_cast<std::size_t>(bits_() % count); }
   /// Fisher and Yates, with our own arithmetic: std::shuffle differs between libraries.

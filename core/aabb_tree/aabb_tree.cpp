@@ -10,6 +10,7 @@
 #include "core/search/certified_nearest.h"
 #include "core/search/closest_candidates.h"
 #include "core/search/parallel.h"
+#include "core/search/tracing.h"
 
 namespace touchmark {
 namespace {
@@ -17,6 +18,13 @@ namespace {
 /// Returns AabbTree::lower_bound, inside the loops that ask it of every box.
 [[gnu::always_inline]] inline double bound_below(const Aabb& box, const Vec3& center, double pad) noexcept {
   return box.excess(center).norm() - pad;
+}
+
+[[maybe_unused]] void note_box(const Aabb& box, bool entered) {
+  if (visits != nullptr) visits->note(box, entered);
+}
+[[maybe_unused]] void note_triangle(const PreparedTriangle& triangle) {
+  if (visits != nullptr) visits->triangles.push_back(triangle.index);
 }
 
 /// A box or subtree that waits, with the bound it was left for.
@@ -84,6 +92,7 @@ bool AabbTree::touches(const Probe& probe, Session& session) const noexcept {
   WithinRadius is_within(probe.center, probe.radius, error);
   const auto touching = [&](std::uint32_t i) {
     ++work.triangles;
+    if constexpr (tracing) note_triangle(triangles_[i]);
     const double distance = std::sqrt(squared_distance(triangles_[i], probe.center));
     return certified_ ? is_within(triangles_[i], distance, work.exact_decisions) : distance <= probe.radius;
   };
@@ -106,6 +115,10 @@ bool AabbTree::touches(const Probe& probe, Session& session) const noexcept {
     work.boxes += 2;
     StackEntry near{bound_below(nodes_[node.first].box, probe.center, pad), node.first};
     StackEntry far{bound_below(nodes_[node.first + 1].box, probe.center, pad), node.first + 1};
+    if constexpr (tracing) {
+      note_box(nodes_[near.node].box, near.bound <= probe.radius + error);
+      note_box(nodes_[far.node].box, far.bound <= probe.radius + error);
+    }
     if (far.bound < near.bound) std::swap(near, far);
     stack[count++] = far;
     stack[count++] = near;
@@ -124,6 +137,7 @@ std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Sessi
   ClosestCandidates candidates(triangles_.data(), center, error);
   const auto consider = [&](std::uint32_t i) {
     ++work.triangles;
+    if constexpr (tracing) note_triangle(triangles_[i]);
     candidates.update({squared_distance(triangles_[i], center), triangles_[i].index}, i);
   };
   if (session.last < triangles_.size()) consider(session.last);
@@ -145,6 +159,10 @@ std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Sessi
     work.boxes += 2;
     StackEntry near{bound_below(nodes_[node.first].box, center, pad), node.first};
     StackEntry far{bound_below(nodes_[node.first + 1].box, center, pad), node.first + 1};
+    if constexpr (tracing) {
+      note_box(nodes_[near.node].box, near.bound <= limit);
+      note_box(nodes_[far.node].box, far.bound <= limit);
+    }
     if (far.bound < near.bound) std::swap(near, far);
     stack[count++] = far;
     stack[count++] = near;

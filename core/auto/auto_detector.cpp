@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace touchmark {
 namespace {
@@ -10,7 +11,19 @@ std::size_t bytes_of(const BuiltForm& form) noexcept {
   return std::visit([](const auto& built) { return built.bytes(); }, form);
 }
 
+void move_work(Work& from, Work& to) noexcept {
+  if (from.total() + from.exact_decisions == 0) return;
+  to += from;
+  from = {};
+}
+
 }  // namespace
+
+AutoDetector::AutoDetector(const Choice& choice, BuiltForm form) : choice_(choice) {
+  if (auto* spheres = std::get_if<SphereCluster>(&form)) spheres_ = std::move(*spheres);
+  if (auto* grid = std::get_if<GridGroup>(&form)) other_ = std::move(*grid);
+  if (auto* boxes = std::get_if<AabbTree>(&form)) other_ = std::move(*boxes);
+}
 
 AutoDetector AutoDetector::build(const TriangleMesh& mesh, const Wish& wish) {
   ChosenForm chosen = choose_form(mesh, wish);
@@ -29,13 +42,56 @@ AutoDetector AutoDetector::build(const TriangleMesh& mesh, const Wish& wish) {
 }
 
 void AutoDetector::update(const TriangleMesh& mesh) {
-  std::visit([&](auto& form) { form.update(mesh); }, form_);
+  if (!other_) return spheres_.update(mesh);
+  std::visit([&](auto& form) { form.update(mesh); }, *other_);
 }
 
-std::size_t AutoDetector::bytes() const noexcept { return bytes_of(form_); }
+template <class Ask>
+auto AutoDetector::ask_other(Session& session, const Ask& of) const noexcept {
+  if (const auto* grid = std::get_if<GridGroup>(&*other_)) {
+    auto answer = of(*grid, session.grid);
+    move_work(session.grid.work, session.work);
+    return answer;
+  }
+  auto answer = of(*std::get_if<AabbTree>(&*other_), session.boxes);
+  move_work(session.boxes.work, session.work);
+  return answer;
+}
+
+bool AutoDetector::ask_other_touches(const Probe& probe, Session& session) const noexcept {
+  return ask_other(session, [&](const auto& form, auto& own) { return form.touches(probe, own); });
+}
+
+std::optional<Contact> AutoDetector::ask_other_nearest(const Probe& probe, double reach,
+                                                       Session& session) const noexcept {
+  return ask_other(session, [&](const auto& form, auto& own) { return form.nearest(probe, reach, own); });
+}
+
+std::optional<Impact> AutoDetector::ask_other_first_hit(const Sweep& sweep, Session& session) const noexcept {
+  return ask_other(session, [&](const auto& form, auto& own) { return form.first_hit(sweep, own); });
+}
+
+std::size_t AutoDetector::ask_other_contacts(const Probe& probe, double reach, Session& session,
+                                             std::span<Contact> into) const noexcept {
+  return ask_other(session,
+                   [&](const auto& form, auto& own) { return form.contacts(probe, reach, own, into); });
+}
+
+void AutoDetector::prepare_other(Session& session) const noexcept {
+  if (const auto* grid = std::get_if<GridGroup>(&*other_)) {
+    grid->prepare(session.grid);
+    move_work(session.grid.work, session.work);
+  }
+}
+
+std::size_t AutoDetector::bytes() const noexcept {
+  if (!other_) return spheres_.bytes();
+  return std::visit([](const auto& form) { return form.bytes(); }, *other_);
+}
 
 Accuracy AutoDetector::accuracy() const noexcept {
-  return std::visit([](const auto& form) { return form.accuracy(); }, form_);
+  if (!other_) return spheres_.accuracy();
+  return std::visit([](const auto& form) { return form.accuracy(); }, *other_);
 }
 
 }  // namespace touchmark

@@ -37,28 +37,29 @@ class AutoDetector {
   /// See the concept Updates. What was chosen stays.
   void update(const TriangleMesh& mesh);
 
+  // What the sphere-cluster's memory knows to be clear is asked before which form was chosen: another one
+  // leaves that memory empty, and then nothing is known. So clear space costs what it costs there.
   bool touches(const Probe& probe, Session& session) const noexcept {
-    return ask<bool>(session, [&](const auto& form, auto& own) { return form.touches(probe, own); });
+    if (spheres_.is_clear(probe.center, probe.radius, session)) return false;
+    return other_ ? ask_other_touches(probe, session) : spheres_.touches(probe, session);
   }
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept {
-    return ask<std::optional<Contact>>(
-        session, [&](const auto& form, auto& own) { return form.nearest(probe, reach, own); });
+    if (spheres_.is_clear(probe.center, reach, session)) return std::nullopt;
+    return other_ ? ask_other_nearest(probe, reach, session) : spheres_.nearest(probe, reach, session);
   }
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept {
-    return ask<std::optional<Impact>>(
-        session, [&](const auto& form, auto& own) { return form.first_hit(sweep, own); });
+    if (spheres_.is_clear(sweep, session)) return std::nullopt;
+    return other_ ? ask_other_first_hit(sweep, session) : spheres_.first_hit(sweep, session);
   }
   std::size_t contacts(const Probe& probe, double reach, Session& session,
                        std::span<Contact> into) const noexcept {
-    return ask<std::size_t>(
-        session, [&](const auto& form, auto& own) { return form.contacts(probe, reach, own, into); });
+    if (spheres_.is_clear(probe.center, reach, session)) return 0;
+    return other_ ? ask_other_contacts(probe, reach, session, into)
+                  : spheres_.contacts(probe, reach, session, into);
   }
   /// See the concept Prepares; the plain tree of boxes has nothing to prepare.
   void prepare(Session& session) const noexcept {
-    ask<bool>(session, [&]<class F>(const F& form, auto& own) {
-      if constexpr (Prepares<F>) form.prepare(own);
-      return true;
-    });
+    other_ ? prepare_other(session) : spheres_.prepare(session);
   }
 
   std::size_t bytes() const noexcept;
@@ -66,31 +67,23 @@ class AutoDetector {
   const Choice& choice() const noexcept { return choice_; }
 
  private:
-  AutoDetector(const Choice& choice, BuiltForm form) : choice_(choice), form_(std::move(form)) {}
+  AutoDetector(const Choice& choice, BuiltForm form);
 
-  /// Asks the one that is held, the likeliest first. A branch that always goes the same way costs less than a
-  /// call through a table, and leaves the query in line.
-  template <class Answer, class Ask>
-  Answer ask(Session& session, const Ask& of) const noexcept {
-    if (const auto* spheres = std::get_if<SphereCluster>(&form_))
-      return of(*spheres, static_cast<SphereCluster::Session&>(session));
-    if (const auto* grid = std::get_if<GridGroup>(&form_)) {
-      Answer answer = of(*grid, session.grid);
-      move_work(session.grid.work, session.work);
-      return answer;
-    }
-    Answer answer = of(*std::get_if<AabbTree>(&form_), session.boxes);
-    move_work(session.boxes.work, session.work);
-    return answer;
-  }
-  static void move_work(Work& from, Work& to) noexcept {
-    if (from.total() + from.exact_decisions == 0) return;
-    to += from;
-    from = {};
-  }
+  /// Asks the one of the others that was chosen. These are calls, whose frame nobody else pays for.
+  template <class Ask>
+  auto ask_other(Session& session, const Ask& of) const noexcept;
+  [[gnu::noinline]] bool ask_other_touches(const Probe& probe, Session& session) const noexcept;
+  [[gnu::noinline]] std::optional<Contact> ask_other_nearest(const Probe& probe, double reach,
+                                                             Session& session) const noexcept;
+  [[gnu::noinline]] std::optional<Impact> ask_other_first_hit(const Sweep& sweep,
+                                                              Session& session) const noexcept;
+  [[gnu::noinline]] std::size_t ask_other_contacts(const Probe& probe, double reach, Session& session,
+                                                   std::span<Contact> into) const noexcept;
+  [[gnu::noinline]] void prepare_other(Session& session) const noexcept;
 
   Choice choice_;
-  BuiltForm form_;
+  SphereCluster spheres_;  ///< empty where another was chosen
+  std::optional<std::variant<GridGroup, AabbTree>> other_;
 };
 
 }  // namespace touchmark

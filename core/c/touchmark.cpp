@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <exception>
 #include <limits>
 #include <memory>
-#include <new>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -15,30 +13,18 @@
 #include <utility>
 #include <vector>
 
+#include "core/c/handles.h"
 #include "core/named/named_detector.h"
 #include "core/probe.h"
 #include "core/triangle_mesh.h"
 
-using touchmark::NamedDetector;
-using touchmark::TriangleMesh;
-using touchmark::Vec3;
-
-struct touchmark_mesh {
-  TriangleMesh mesh;
-};
-
+namespace touchmark::c {
 namespace {
-
-/// Outlives its handle for as long as a session needs it.
-struct Held {
-  std::unique_ptr<NamedDetector> detector;
-  bool usable = true;  ///< false after an update that failed half-way
-};
-
-constexpr std::string_view unusable = "the detector's last update failed half-way: build it anew";
 
 /// Longer texts are cut off. A fixed place, so that telling of an error cannot fail.
 thread_local std::array<char, 1024> last_error{};
+
+}  // namespace
 
 int fail(std::string_view message) noexcept {
   const std::size_t length = std::min(message.size(), last_error.size() - 1);
@@ -60,59 +46,20 @@ int fail_for_size(const char* function, const char* argument, double value) noex
   return fail(message.data());
 }
 
-/// Calls make(), whose exceptions become the last error and `failed`.
-template <class Result, class Make>
-Result guarded(const char* function, Result failed, const Make& make) noexcept {
-  try {
-    return make();
-  } catch (const std::bad_alloc&) {
-    fail(std::string_view("out of memory"));
-  } catch (const std::length_error&) {
-    fail(std::string_view("out of memory"));
-  } catch (const std::exception& error) {
-    std::array<char, 1024> message{};
-    std::snprintf(message.data(), message.size(), "%s: %s", function, error.what());
-    fail(message.data());
-  } catch (...) {
-    fail(std::string_view("an exception of no known kind"));
-  }
-  return failed;
-}
+namespace {
 
 void expect_count(const char* what, std::size_t count) {
   if (count <= std::numeric_limits<std::uint32_t>::max()) return;
   throw std::invalid_argument(std::to_string(count) + " " + what + "; there can be 4294967295 at most");
 }
 
-Vec3 point(const double coordinates[3]) noexcept { return {coordinates[0], coordinates[1], coordinates[2]}; }
-
-void store(const Vec3& from, double to[3]) noexcept {
-  for (int k = 0; k < 3; ++k) to[k] = from[k];
-}
-
-void store(const touchmark::Contact& from, touchmark_contact& to) noexcept {
+void store_contact(const Contact& from, touchmark_contact& to) noexcept {
   store(from.point, to.point);
   store(from.normal, to.normal);
   to.distance = from.distance;
   to.triangle = from.triangle;
   to.side = static_cast<std::int32_t>(from.side);
 }
-
-}  // namespace
-
-struct touchmark_detector {
-  std::shared_ptr<Held> held;
-};
-
-struct touchmark_session {
-  std::shared_ptr<const Held> held;
-  std::unique_ptr<NamedDetector::Session> memory;
-  std::vector<touchmark::Contact> contacts = {};  ///< as many as were ever asked for at once
-
-  const NamedDetector& detector() const noexcept { return *held->detector; }
-};
-
-namespace {
 
 /// What is wrong with a query's arguments has become the last error.
 bool refuses(const char* function, const touchmark_session* session, const double* center,
@@ -132,10 +79,16 @@ bool refuses(const char* function, const touchmark_session* session, const doubl
 }
 
 }  // namespace
+}  // namespace touchmark::c
+
+using namespace touchmark::c;
+using touchmark::NamedDetector;
+using touchmark::TriangleMesh;
+using touchmark::Vec3;
 
 const char* touchmark_version(void) { return TOUCHMARK_VERSION; }
 
-const char* touchmark_last_error(void) { return last_error.data(); }
+const char* touchmark_last_error(void) { return touchmark::c::last_error.data(); }
 
 touchmark_mesh* touchmark_mesh_create(const double* vertices, size_t vertex_count, const uint32_t* triangles,
                                       size_t triangle_count) {
@@ -150,7 +103,7 @@ touchmark_mesh* touchmark_mesh_create(const double* vertices, size_t vertex_coun
     std::vector<TriangleMesh::Corners> corners(triangle_count);
     for (std::size_t i = 0; i < triangle_count; ++i)
       corners[i] = {triangles[3 * i], triangles[3 * i + 1], triangles[3 * i + 2]};
-    return new touchmark_mesh{TriangleMesh(std::move(points), std::move(corners))};
+    return new touchmark_mesh{std::make_shared<TriangleMesh>(std::move(points), std::move(corners))};
   });
 }
 
@@ -160,8 +113,8 @@ int touchmark_mesh_bounds(const touchmark_mesh* mesh, double min[3], double max[
   if (mesh == nullptr) return fail_for_null(__func__, "mesh");
   if (min == nullptr) return fail_for_null(__func__, "min");
   if (max == nullptr) return fail_for_null(__func__, "max");
-  store(mesh->mesh.bounds().min, min);
-  store(mesh->mesh.bounds().max, max);
+  store(mesh->mesh->bounds().min, min);
+  store(mesh->mesh->bounds().max, max);
   return TOUCHMARK_YES;
 }
 
@@ -170,7 +123,8 @@ touchmark_detector* touchmark_detector_build(const touchmark_mesh* mesh, const c
   if (mesh == nullptr) return fail_for_null(__func__, "mesh"), none;
   return guarded(__func__, none, [&] {
     auto held = std::make_shared<Held>();
-    held->detector = NamedDetector::build(mesh->mesh, text == nullptr ? "sphere-cluster" : text);
+    held->detector = NamedDetector::build(*mesh->mesh, text == nullptr ? "sphere-cluster" : text);
+    held->mesh = mesh->mesh;
     return new touchmark_detector{std::move(held)};
   });
 }
@@ -189,11 +143,13 @@ int touchmark_detector_update(touchmark_detector* detector, const touchmark_mesh
   return guarded(__func__, int{TOUCHMARK_ERROR}, [&] {
     held.usable = false;
     try {
-      held.detector->update(mesh->mesh);
+      held.detector->update(*mesh->mesh);
     } catch (const std::invalid_argument&) {
       held.usable = true;
       throw;
     }
+    held.mesh = mesh->mesh;
+    ++held.updates;
     held.usable = true;
     return int{TOUCHMARK_YES};
   });
@@ -222,7 +178,7 @@ int touchmark_nearest(touchmark_session* session, const double center[3], double
   const std::optional<touchmark::Contact> found =
       session->detector().nearest({point(center), 0}, reach, *session->memory);
   if (!found) return TOUCHMARK_NO;
-  if (contact != nullptr) store(*found, *contact);
+  if (contact != nullptr) store_contact(*found, *contact);
   return TOUCHMARK_YES;
 }
 
@@ -235,7 +191,7 @@ int touchmark_first_hit(touchmark_session* session, const double from[3], const 
   if (!found) return TOUCHMARK_NO;
   if (impact != nullptr) {
     impact->fraction = found->fraction;
-    store(found->contact, impact->contact);
+    store_contact(found->contact, impact->contact);
   }
   return TOUCHMARK_YES;
 }
@@ -249,7 +205,7 @@ int touchmark_contacts(touchmark_session* session, const double center[3], doubl
     if (session->contacts.size() < capacity) session->contacts.resize(capacity);
     const std::span<touchmark::Contact> into(session->contacts.data(), capacity);
     *count = session->detector().contacts({point(center), 0}, reach, *session->memory, into);
-    for (std::size_t i = 0; i < std::min(*count, capacity); ++i) store(into[i], contacts[i]);
+    for (std::size_t i = 0; i < std::min(*count, capacity); ++i) store_contact(into[i], contacts[i]);
     return int{*count > 0 ? TOUCHMARK_YES : TOUCHMARK_NO};
   });
 }

@@ -30,6 +30,10 @@ typedef struct touchmark_detector touchmark_detector;
 /// session at a time; many threads may ask one detector with a session each.
 typedef struct touchmark_session touchmark_session;
 
+/// A haptic proxy: a ball, or a point, that follows the device's tip and never crosses the surface. It keeps
+/// its detector alive. Only one thread may use a proxy at a time.
+typedef struct touchmark_proxy touchmark_proxy;
+
 /// What queries return: found or touching, not so, or an error.
 enum { TOUCHMARK_YES = 1, TOUCHMARK_NO = 0, TOUCHMARK_ERROR = -1 };
 
@@ -57,6 +61,33 @@ typedef struct touchmark_impact {
   double fraction;           /**< 0 to 1, rounded down; 0 where and only where it touches at the start */
   touchmark_contact contact; /**< that of the ball standing there */
 } touchmark_impact;
+
+/// How a device's tip, the goal, is coupled to its proxy. Lengths are in mesh units. Zero turns a part off.
+typedef struct touchmark_coupling {
+  double radius;           ///< the ball's; 0: the bare point
+  double stiffness;        ///< N a mesh unit, of the spring between proxy and goal
+  double static_friction;  ///< coefficient, of Coulomb's friction at rest
+  double dynamic_friction; /**< coefficient, in motion; at most the static one */
+  double damping;          ///< N s a mesh unit, against the goal's velocity while in contact
+  double tick_s;           ///< seconds a tick of the servo loop, more than 0
+} touchmark_coupling;
+
+/// How a proxy is.
+enum {
+  TOUCHMARK_PROXY_FREE = 0,       ///< nothing holds it: it is at its goal
+  TOUCHMARK_PROXY_IN_CONTACT = 1, /**< the surface holds it */
+  TOUCHMARK_PROXY_STUCK = 2,      /**< it was put too near to the surface, and is not off yet */
+  TOUCHMARK_PROXY_UNANSWERED = 3  /**< the goal is no number; the proxy stays */
+};
+
+/// What one tick of a proxy came to.
+typedef struct touchmark_proxy_state {
+  double position[3];    ///< the proxy's
+  double force[3];       ///< N, on the device
+  double normals[3][3];  ///< unit, out of the surface, a plane that holds it each
+  int32_t status;        ///< one of TOUCHMARK_PROXY_...
+  uint32_t contacts;     ///< how many planes hold it, 3 at most: so many of `normals` are set
+} touchmark_proxy_state;
 
 /// Returns "MAJOR.MINOR.PATCH" of the library that is linked.
 TOUCHMARK_API const char* touchmark_version(void);
@@ -111,6 +142,24 @@ TOUCHMARK_API int touchmark_contacts(touchmark_session* session, const double ce
 /// Does ahead what the next query would do first: best right after waking, before the device is read. It
 /// changes no answer. Returns TOUCHMARK_YES or TOUCHMARK_ERROR.
 TOUCHMARK_API int touchmark_prepare(touchmark_session* session);
+
+/// Stores what a coupling is where nothing else is said: a bare point, 1000 N a mesh unit, no friction, no
+/// damping, 1 ms a tick. Returns TOUCHMARK_YES or TOUCHMARK_ERROR.
+TOUCHMARK_API int touchmark_coupling_default(touchmark_coupling* coupling);
+/// Makes a proxy that has yet to be placed. The detector must decide exactly, as all do but those with
+/// "certified=false" or "precise=false". `coupling` may be NULL for the default one.
+TOUCHMARK_API touchmark_proxy* touchmark_proxy_create(const touchmark_detector* detector,
+                                                      const touchmark_coupling* coupling);
+/// Frees a proxy.
+TOUCHMARK_API void touchmark_proxy_free(touchmark_proxy* proxy);
+/// Puts the proxy anywhere and forgets all contacts. Fails for a place that is not finite.
+TOUCHMARK_API int touchmark_proxy_place(touchmark_proxy* proxy, const double position[3]);
+/// One tick: follows the goal, which is the device's tip, as far as the surface lets it. Takes no memory.
+/// Returns TOUCHMARK_YES where the surface holds it and TOUCHMARK_NO where nothing does or the goal is no
+/// number, and stores what came of it; `state` may be NULL. After touchmark_detector_update it goes on with
+/// the surface as it is then. Fails for a proxy that was never placed.
+TOUCHMARK_API int touchmark_proxy_step(touchmark_proxy* proxy, const double goal[3],
+                                       touchmark_proxy_state* state);
 
 #ifdef __cplusplus
 }

@@ -18,6 +18,10 @@ struct Coupling {
   bool has_friction() const noexcept { return static_friction > 0 || dynamic_friction > 0; }
 };
 
+/// Throws std::invalid_argument naming the member that is below zero or not finite, a tick that takes no
+/// time, or a dynamic friction above the static one.
+void expect_usable(const Coupling& coupling);
+
 /// Returns where friction lets the proxy come to on its way to `target`, the optimum without it: a cone about
 /// the spring (W. Harwin and N. Melder, "Improved haptic rendering for multi-finger manipulation using
 /// friction cone based god-objects", Eurohaptics 2002). It sticks at `from` while the way is within the

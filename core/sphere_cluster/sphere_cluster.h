@@ -59,12 +59,13 @@ class SphereCluster {
   /// become of another size or place; the scan and the fast level always are.
   void update(const TriangleMesh& mesh);
 
-  // Inline as far as clear space: there a query is a few comparisons, less than a call.
+  // Inline as far as clear space and what is beyond the mesh's box: there a query is a few comparisons, less
+  // than a call.
   bool touches(const Probe& probe, Session& session) const noexcept {
-    return !tree_.is_clear(probe.center, probe.radius, session.memory) && look_for_touch(probe, session);
+    return !is_clear(probe.center, probe.radius, session) && look_for_touch(probe, session);
   }
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept {
-    if (tree_.is_clear(probe.center, reach, session.memory)) return std::nullopt;
+    if (is_clear(probe.center, reach, session)) return std::nullopt;
     return look_for_nearest(probe, reach, session);
   }
   /// Answers likewise for one of many points that are asked again and again. See the concept FollowsPoints.
@@ -86,14 +87,25 @@ class SphereCluster {
     return tree_.clearance(center, session.memory);
   }
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept {
-    if (tree_.is_clear(sweep, session.memory)) return std::nullopt;
+    if (is_clear(sweep, session)) return std::nullopt;
     return look_for_impact(sweep, session);
   }
 
   std::size_t contacts(const Probe& probe, double reach, Session& session,
                        std::span<Contact> into) const noexcept {
-    if (tree_.is_clear(probe.center, reach, session.memory)) return 0;
+    if (is_clear(probe.center, reach, session)) return 0;
     return look_for_contacts(probe, reach, session, into);
+  }
+
+  /// With a tree: is it known, without looking, that nothing is within reach? By what was near last, or by
+  /// the mesh's box where that answered last. Of a detector that was not built, nothing is known.
+  bool is_clear(const Vec3& center, double reach, const Session& session) const noexcept {
+    return session.memory.beyond_box ? tree_.is_beyond_box(center, reach)
+                                     : tree_.is_clear(center, reach, session.memory);
+  }
+  /// Is that known of a whole path?
+  bool is_clear(const Sweep& sweep, const Session& session) const noexcept {
+    return session.memory.beyond_box ? tree_.is_beyond_box(sweep) : tree_.is_clear(sweep, session.memory);
   }
 
   /// With a tree: lists, after `nearest`, the leaves near the point for a next tick that moves no farther
@@ -116,6 +128,7 @@ class SphereCluster {
   double tightness() const noexcept { return tightness_; }
 
  private:
+  bool turns_out_beyond_box(const Vec3& center, double reach, Session& session) const noexcept;
   bool look_for_touch(const Probe& probe, Session& session) const noexcept;
   std::optional<Contact> look_for_nearest(const Probe& probe, double reach, Session& session) const noexcept;
   std::optional<Contact> look_for_nearest(const Probe& probe, double reach, FollowedPoint& followed,

@@ -17,7 +17,6 @@ int main(void) {
   touchmark_detector* detector = touchmark_detector_build(mesh, "sphere-cluster");
   touchmark_session* session = touchmark_session_create(detector);
   touchmark_mesh_free(mesh);
-  touchmark_detector_free(detector); /* the session keeps it */
   if (session == NULL) {
     fprintf(stderr, "%s\n", touchmark_last_error());
     return 1;
@@ -40,7 +39,29 @@ int main(void) {
     if (touchmark_first_hit(session, from, to, radius, &impact) == TOUCHMARK_YES)
       printf("first touch at %.2f of the way\n", impact.fraction);
   }
+  {
+    /* A proxy follows the device's tip and stays on its side of the plate. */
+    touchmark_coupling coupling;
+    touchmark_proxy* proxy;
+    double tip[3] = {0.04, 0.03, 0.007};
+    touchmark_coupling_default(&coupling);
+    coupling.radius = radius;
+    coupling.stiffness = 500;
+    proxy = touchmark_proxy_create(detector, &coupling);
+    touchmark_proxy_place(proxy, tip); /* It fails for a proxy that is NULL, and so does each step. */
+    for (tick = 0; tick < 3; ++tick) {
+      touchmark_proxy_state state;
+      if (touchmark_proxy_step(proxy, tip, &state) == TOUCHMARK_ERROR) {
+        fprintf(stderr, "%s\n", touchmark_last_error());
+        return 1;
+      }
+      printf("tip at %.3f m, ball at %.3f m: %.2f N\n", tip[2], state.position[2], state.force[2]);
+      tip[2] -= 0.004;
+    }
+    touchmark_proxy_free(proxy);
+  }
   if (touchmark_nearest(session, center, -1, NULL) == TOUCHMARK_ERROR) printf("%s\n", touchmark_last_error());
   touchmark_session_free(session);
+  touchmark_detector_free(detector);
   return 0;
 }

@@ -23,7 +23,8 @@ import numpy.typing as npt
 
 from . import _native
 
-__all__ = ["AabbTree", "BruteForce", "Detector", "FirstHit", "GridGroup", "Mesh", "Nearest", "Side", "SphereCluster"]
+__all__ = ["AabbTree", "BodyHit", "BodyNearest", "BruteForce", "Contacts", "Detector", "FirstHit", "GridGroup", "Mesh",
+           "Nearest", "Proxy", "ProxyState", "ProxyStatus", "Scene", "Side", "SphereCluster"]
 __version__: str = _native.version
 
 Length = Union[float, str]
@@ -71,6 +72,73 @@ class FirstHit(NamedTuple):
     """Row of `faces`; -1 where nothing is hit."""
 
 
+class Contacts(NamedTuple):
+    """A contact for each triangle within reach of each point: those of point i are the rows `of(i)`, nearest first."""
+
+    ends: npt.NDArray[np.int64]
+    """Where the rows of each point end, (n,): as many as the points."""
+    distance: npt.NDArray[np.float64]
+    """From the point asked for to `point`, a row a contact."""
+    point: npt.NDArray[np.float64]
+    """On the triangle, nearest to the point asked for, (rows, 3)."""
+    normal: npt.NDArray[np.float64]
+    """Unit, from `point` to the point asked for, (rows, 3)."""
+    triangle: npt.NDArray[np.int64]
+    """Row of `faces`, (rows,)."""
+
+    def of(self, i: int) -> slice:
+        """The rows of point i."""
+        end = range(len(self.ends))[i]
+        return slice(int(self.ends[end - 1]) if end else 0, int(self.ends[end]))
+
+
+class BodyNearest(NamedTuple):
+    """The nearest points of a scene, as `Nearest`, and on which body each is."""
+
+    found: npt.NDArray[np.bool_]
+    distance: npt.NDArray[np.float64]
+    point: npt.NDArray[np.float64]
+    normal: npt.NDArray[np.float64]
+    triangle: npt.NDArray[np.int64]
+    """Row of the `faces` of the body's mesh."""
+    body: npt.NDArray[np.int64]
+    """As `Scene.add` returned it; -1 where nothing is found."""
+
+
+class BodyHit(NamedTuple):
+    """The first touches in a scene, as `FirstHit`, and on which body each is."""
+
+    found: npt.NDArray[np.bool_]
+    fraction: npt.NDArray[np.float64]
+    distance: npt.NDArray[np.float64]
+    point: npt.NDArray[np.float64]
+    normal: npt.NDArray[np.float64]
+    triangle: npt.NDArray[np.int64]
+    body: npt.NDArray[np.int64]
+    """As `Scene.add` returned it; -1 where nothing is hit."""
+
+
+class ProxyStatus(enum.IntEnum):
+    """How a proxy is."""
+
+    FREE = 0  # nothing holds it: it is at its goal
+    IN_CONTACT = 1  # the surface holds it
+    STUCK = 2  # it was put too near to the surface, or the surface was moved onto it, and it is not off yet
+    UNANSWERED = 3  # the goal is no number; the proxy stays
+
+
+class ProxyState(NamedTuple):
+    """What one tick of a proxy came to."""
+
+    position: npt.NDArray[np.float64]
+    """The proxy's, (3,)."""
+    force: npt.NDArray[np.float64]
+    """N, on the device, (3,)."""
+    contacts: npt.NDArray[np.float64]
+    """The normals of the planes that hold it, 3 at most, unit, out of the surface, (k, 3)."""
+    status: ProxyStatus
+
+
 def _real(name: str, value: Any) -> npt.NDArray[Any]:
     try:
         array = np.asarray(value)
@@ -98,6 +166,20 @@ def _doubles(array: npt.NDArray[Any]) -> npt.NDArray[np.float64]:
 
 def _points(name: str, value: Any) -> npt.NDArray[np.float64]:
     return _doubles(_rows_of_three(name, value))
+
+
+def _point(name: str, value: Any) -> npt.NDArray[np.float64]:
+    array = _real(name, value)
+    if array.shape != (3,):
+        raise ValueError(f"{name} has the shape {array.shape}; it must be (3,)")
+    return _doubles(array)
+
+
+def _pose(position: Any, orientation: Any) -> npt.NDArray[np.float64]:
+    turned = _real("orientation", orientation)
+    if turned.shape != (4,):
+        raise ValueError(f"orientation has the shape {turned.shape}; it must be (4,), a quaternion w, x, y, z")
+    return _doubles(np.concatenate([_point("position", position), turned]))
 
 
 def _sizes(name: str, value: Any, count: int) -> npt.NDArray[np.float64]:
@@ -161,10 +243,16 @@ class Mesh:
         return f"<touchmark.Mesh: {len(self.vertices)} vertices, {len(self)} triangles>"
 
 
-class Detector:
-    """What all detectors can be asked. Constant once built; may be asked by several Python threads at once."""
+def _mesh(native: _native.Mesh) -> Mesh:
+    mesh = Mesh.__new__(Mesh)
+    mesh._native = native
+    return mesh
 
-    __slots__ = ("_mesh", "_native")
+
+class Detector:
+    """What all detectors can be asked, by several Python threads at once. Constant but for `update`."""
+
+    __slots__ = ("_native",)
     _name = ""
 
     def __init__(self, mesh: Mesh, **options: object) -> None:
@@ -172,14 +260,13 @@ class Detector:
             raise TypeError("touchmark.Detector is what detectors have in common: build a GridGroup or a SphereCluster")
         if not isinstance(mesh, Mesh):
             raise TypeError(f"{type(self).__name__} is built of a touchmark.Mesh, not of {type(mesh).__name__}")
-        self._mesh = mesh
         texts = (f"{key}={_text(value)}" for key, value in options.items())
         self._native = _native.Detector(mesh._native, f"{self._name}:{','.join(texts)}")
 
     @property
     def mesh(self) -> Mesh:
-        """The mesh that it was built of."""
-        return self._mesh
+        """The mesh that it was built of, as the last update left it."""
+        return _mesh(self._native.mesh())
 
     @property
     def nbytes(self) -> int:
@@ -210,8 +297,21 @@ class Detector:
         """Inside or outside, a `Side` for each point. What this needs of the mesh is found when it is first asked for."""
         return self._native.side(_points("points", points), _threads(threads))
 
+    def contacts(self, points: npt.ArrayLike, reach: npt.ArrayLike, *, threads: int = 1) -> Contacts:
+        """A contact for each triangle within `reach` of each point: one number, or one a point. All are kept in memory."""
+        asked = _points("points", points)
+        return Contacts(*self._native.contacts(asked, _sizes("reach", reach, len(asked)), _threads(threads)))
+
+    def update(self, vertices: npt.ArrayLike) -> None:
+        """Takes other places for the mesh's vertices, (n, 3), as many as it has; its triangles stay.
+
+        It waits for the batches that other threads have begun. `mesh` is another one afterwards, and the one that it was
+        built of stays as it is. What is refused changes nothing.
+        """
+        self._native.update(_points("vertices", vertices))
+
     def __repr__(self) -> str:
-        return f"<touchmark.{type(self).__name__}: {len(self._mesh)} triangles, {self.nbytes} bytes>"
+        return f"<touchmark.{type(self).__name__}: {len(self.mesh)} triangles, {self.nbytes} bytes>"
 
 
 def _text(value: object) -> str:
@@ -274,3 +374,108 @@ class BruteForce(Detector):
 
     def __init__(self, mesh: Mesh) -> None:
         super().__init__(mesh)
+
+
+class Scene:
+    """Bodies that move, asked as one: each a mesh in a pose. Meshes are searched by sphere clusters.
+
+    Any number of bodies may have one mesh, which is searched in once. Python threads may ask and change a scene at the same
+    time: a change waits for the batches that run, and a batch sees no change that is made meanwhile.
+    """
+
+    __slots__ = ("_native", "_shapes")
+
+    def __init__(self) -> None:
+        self._native = _native.Scene()
+        self._shapes: dict[Mesh, int] = {}  # which keeps the meshes alive
+
+    def add(self, mesh: Mesh, position: npt.ArrayLike = (0.0, 0.0, 0.0),
+            orientation: npt.ArrayLike = (1.0, 0.0, 0.0, 0.0)) -> int:
+        """Adds a body and returns its number: 0 for the first, and never one that a removed body had.
+
+        position: where the mesh's origin is. orientation: a quaternion w, x, y, z of any length but zero.
+        """
+        if not isinstance(mesh, Mesh):
+            raise TypeError(f"a body is a touchmark.Mesh, not a {type(mesh).__name__}")
+        pose = _pose(position, orientation)
+        shape = self._shapes.get(mesh)
+        if shape is None:
+            shape = self._shapes[mesh] = self._native.add_shape(mesh._native)
+        return self._native.add(shape, pose)
+
+    def move(self, body: int, position: npt.ArrayLike, orientation: npt.ArrayLike = (1.0, 0.0, 0.0, 0.0)) -> None:
+        """Puts a body elsewhere: both parts of its pose are given anew."""
+        self._native.move(body, _pose(position, orientation))
+
+    def remove(self, body: int) -> None:
+        """Removes a body. Its mesh stays, for bodies that are added later."""
+        self._native.remove(body)
+
+    def pose(self, body: int) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        """Where a body is: its position (3,), and its rotation as a matrix (3, 3)."""
+        return self._native.pose(body)
+
+    @property
+    def nbytes(self) -> int:
+        """The memory that bodies and search structures take, in bytes."""
+        return self._native.bytes()
+
+    def __len__(self) -> int:
+        """The number of bodies."""
+        return self._native.size()
+
+    def nearest(self, points: npt.ArrayLike, reach: npt.ArrayLike = np.inf, *, threads: int = 1) -> BodyNearest:
+        """The nearest point of all bodies for each of the points, if it is within `reach`: one number, or one a point."""
+        asked = _points("points", points)
+        return BodyNearest(*self._native.nearest(asked, _sizes("reach", reach, len(asked)), _threads(threads)))
+
+    def touches(self, points: npt.ArrayLike, radius: npt.ArrayLike = 0.0, *, threads: int = 1) -> npt.NDArray[np.bool_]:
+        """Is a body within `radius` of each point? `nearest` with that reach says which."""
+        asked = _points("points", points)
+        return self._native.touches(asked, _sizes("radius", radius, len(asked)), _threads(threads))
+
+    def first_hit(self, starts: npt.ArrayLike, ends: npt.ArrayLike, radius: npt.ArrayLike = 0.0, *,
+                  threads: int = 1) -> BodyHit:
+        """The first touch of a ball that moves straight from start to end, for each, while the bodies stand still."""
+        asked = _points("starts", starts)
+        found = self._native.first_hit(asked, _points("ends", ends), _sizes("radius", radius, len(asked)), _threads(threads))
+        return BodyHit(*found)
+
+    def __repr__(self) -> str:
+        return f"<touchmark.Scene: {len(self)} bodies, {self.nbytes} bytes>"
+
+
+class Proxy:
+    """One haptic point: a ball, or a bare point, that follows a device's tip and never crosses the surface.
+
+    radius: of the ball, mesh units; 0: the bare point. stiffness: N a mesh unit, of the spring between proxy and tip.
+    static_friction, dynamic_friction: coefficients, the latter at most the former. damping: N s a mesh unit, in contact.
+    tick_s: seconds between two steps. The detector must decide exactly: not with certified=False or precise=False.
+
+    A step takes microseconds in Python: this is for trying things out, not for a loop at 1 kHz with other threads beside it.
+    """
+
+    __slots__ = ("_detector", "_native")
+
+    def __init__(self, detector: Detector, position: npt.ArrayLike, *, radius: float = 0.0, stiffness: float = 1000.0,
+                 static_friction: float = 0.0, dynamic_friction: float = 0.0, damping: float = 0.0,
+                 tick_s: float = 0.001) -> None:
+        if not isinstance(detector, Detector):
+            raise TypeError(f"a Proxy is over a detector such as touchmark.GridGroup, not over a {type(detector).__name__}")
+        self._detector = detector
+        self._native = _native.Proxy(detector._native, radius, stiffness, static_friction, dynamic_friction, damping, tick_s)
+        self.place(position)
+
+    @property
+    def detector(self) -> Detector:
+        """What it asks. After an update of it the proxy goes on with the surface as it is then."""
+        return self._detector
+
+    def place(self, position: npt.ArrayLike) -> None:
+        """Puts the proxy anywhere, (3,), and forgets all contacts."""
+        self._native.place(_point("position", position))
+
+    def step(self, goal: npt.ArrayLike) -> ProxyState:
+        """One tick: follows the goal, (3,), which is the device's tip, as far as the surface lets it."""
+        position, force, contacts, status = self._native.step(_point("goal", goal))
+        return ProxyState(position, force, contacts, ProxyStatus(status))

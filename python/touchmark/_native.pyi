@@ -38,4 +38,69 @@ class Detector:
         npt.NDArray[np.int64],
     ]: ...
     def side(self, points: npt.NDArray[np.float64], threads: int) -> npt.NDArray[np.int8]: ...
+    def contacts(
+        self, points: npt.NDArray[np.float64], reach: npt.NDArray[np.float64], threads: int
+    ) -> tuple[
+        npt.NDArray[np.int64],
+        npt.NDArray[np.float64],
+        npt.NDArray[np.float64],
+        npt.NDArray[np.float64],
+        npt.NDArray[np.int64],
+    ]: ...
+    def update(self, vertices: npt.NDArray[np.float64]) -> None: ...
+    def mesh(self) -> Mesh: ...
     def bytes(self) -> int: ...
+
+class Scene:
+    def __init__(self) -> None: ...
+    def add_shape(self, mesh: Mesh) -> int: ...
+    def add(self, shape: int, pose: npt.NDArray[np.float64]) -> int: ...
+    def move(self, body: int, pose: npt.NDArray[np.float64]) -> None: ...
+    def remove(self, body: int) -> None: ...
+    def pose(self, body: int) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]: ...
+    def size(self) -> int: ...
+    def bytes(self) -> int: ...
+    def touches(
+        self, points: npt.NDArray[np.float64], radius: npt.NDArray[np.float64], threads: int
+    ) -> npt.NDArray[np.bool_]: ...
+    def nearest(
+        self, points: npt.NDArray[np.float64], reach: npt.NDArray[np.float64], threads: int
+    ) -> tuple[
+        npt.NDArray[np.bool_],
+        npt.NDArray[np.float64],
+        npt.NDArray[np.float64],
+        npt.NDArray[np.float64],
+        npt.NDArray[np.int64],
+        npt.NDArray[np.int64],
+    ]: ...
+    def first_hit(
+        self,
+        starts: npt.NDArray[np.float64],
+        ends: npt.NDArray[np.float64],
+        radius: npt.NDArray[np.float64],
+        threads: int,
+    ) -> tuple[
+        npt.NDArray[np.bool_],
+        npt.NDArray[np.float64],
+        npt.NDArray[np.float64],
+        npt.NDArray[np.float64],
+        npt.NDArray[np.float64],
+        npt.NDArray[np.int64],
+        npt.NDArray[np.int64],
+    ]: ...
+
+class Proxy:
+    def __init__(
+        self,
+        detector: Detector,
+        radius: float,
+        stiffness: float,
+        static_friction: float,
+        dynamic_friction: float,
+        damping: float,
+        tick_s: float,
+    ) -> None: ...
+    def place(self, position: npt.NDArray[np.float64]) -> None: ...
+    def step(
+        self, goal: npt.NDArray[np.float64]
+    ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64], int]: ...

@@ -9,11 +9,13 @@ from . import others, parts, tables, words
 from .packing import Packer, packed
 from .recording import time_of
 from .replay import KINDS_OF_CHARGES, Detail, replay_of, resolution
+from .steps_file import Damaged
+from .visits import visits_of
 from .words import escaped
 
 BUDGET = 3_000_000  # bytes of the whole page
 # As much as the budget allows.
-DETAILS = [Detail(*one) for one in ((256, 16), (256, 14), (128, 14), (128, 12), (64, 12), (32, 12), (16, 10))]
+DETAILS = [Detail(*one) for one in ((256, 16), (256, 14), (128, 14), (128, 12), (64, 12), (64, 12, False), (32, 12, False), (16, 10, False))]
 WEB = pathlib.Path(__file__).resolve().parent / "web"
 STYLE, LOADER = WEB / "page.css", WEB / "loader.js"
 DASHES = {"full": [], "none": [7, 4], "left": [2, 3], "bottom": [8, 3, 2, 3], "right": [5, 2, 1, 2], "top": [1, 4]}
@@ -34,7 +36,8 @@ def page_of(recordings):
     for detail in DETAILS:
         text = full_page(recordings, script, style, [detail] * len(recordings))
         if len(text.encode()) <= BUDGET:
-            return text, [] if detail == DETAILS[0] else [f"curves have {detail.levels} levels a time, places {detail.bits} bits, {limit}"]
+            return text, [] if detail == DETAILS[0] else [f"curves have {detail.levels} levels a time, places {detail.bits} bits"
+                                                               + ("" if detail.visits else ", what queries looked at is left out") + f", {limit}"]
     # With several recordings the newest keeps its replay longest.
     for first in range(1, len(recordings) + 1):
         text = full_page(recordings, script, style, [None] * first + [DETAILS[-1]] * (len(recordings) - first))
@@ -107,8 +110,11 @@ def recording_html(recording, number, plain):
         first = recording.rows[0]
         scene = f"{first.fields['mesh']}, {int(first.number('triangles') or 0):,} triangles, {first.query}"
         sentences = "".join(f"<li>{sentence}</li>" for sentence in words.verdict(recording))
-        parts_of_it.append(f'<section class="verdict" aria-label="Verdict"><p class="scene">{escaped(scene)}</p><ul>{sentences}</ul>{remarks}</section>')
-        parts_of_it.append(f'<section aria-label="Ratios"><h2>Who is faster, and how much</h2>{tables.ratio_table(recording, number)}</section>')
+        parts_of_it.append(f'<section class="verdict" aria-label="Verdict"><p class="scene">{escaped(scene)}</p><ul>{sentences}</ul>'
+                           f'<p class="scene">{words.how_measured(recording)}</p>{remarks}</section>')
+        picture = "" if plain else f'<div class="scatter" data-recording="{number}"></div>'
+        parts_of_it.append('<div class="first-look"><section aria-label="Ratios"><h2>Who is faster, and how much</h2>'
+                           f'{tables.ratio_table(recording, number)}</section>{picture}</div>')
         parts_of_it.append(pictures_of(recording) if plain else f'<div class="interactive" data-recording="{number}"></div>')
         parts_of_it.append(f'<section aria-label="Machine"><h2>The machine, and how quiet it was</h2>{tables.machine_list(recording)}</section>')
     for title, html in others.sections_of(recording):
@@ -136,20 +142,39 @@ def comparison_html(recordings):
     with_rows = [one for one in recordings if one.rows]
     pairs = "".join(f"<h3>{escaped(after.name)} against {escaped(before.name)}</h3>{tables.against(before, after)}"
                     for before, after in zip(with_rows, with_rows[1:]))
-    return f'<section aria-label="Comparison"><h2>One recording against the one before</h2>{pairs}</section>' if pairs else ""
+    if not pairs:
+        return ""
+    for one in with_rows:
+        one.common = [name for name in with_rows[0].trajectories if all(name in other.trajectories for other in with_rows)]
+    return (f'<section aria-label="History"><h2>The recordings side by side</h2>{tables.history(with_rows)}</section>'
+            f'<section aria-label="Comparison"><h2>One recording against the one before</h2>{pairs}</section>')
 
 
 def recording_json(recording, packer, detail):
     names = recording.contestants
     detectors.tell_apart(names)
-    replay = replay_of(recording.steps, packer, detail) if recording.steps and detail else None
+    replay = replay_in(recording, packer, detail) if recording.steps and detail else None
     return {
         "name": recording.name, "trajectories": recording.trajectories,
         "contestants": [{"name": name, "color": detectors.colour(name), "dash": DASHES[detectors.filling(name)]}
                         for name in names],
         "rows": [row_json(row, recording) for row in recording.rows],
-        "replay": replay, "resolution": resolution(detail.levels, replay) if replay else 0,
+        "replay": replay, "visits": visits_of(recording.visits, packer) if replay and recording.visits and detail.visits else None,
+        "resolution": resolution(detail.levels, replay) if replay else 0,
     }
+
+
+def replay_in(recording, packer, detail):
+    """Null where a block turns out to be damaged, which the page then says."""
+    begun = len(packer.parts), packer.size
+    try:
+        return replay_of(recording.steps, packer, detail)
+    except Damaged as damaged:
+        del packer.parts[begun[0]:]
+        packer.size = begun[1]
+        recording.steps = recording.visits = None
+        recording.remarks.append(f"There is no replay: {damaged}.")
+        return None
 
 
 def row_json(row, recording):

@@ -6,9 +6,10 @@ from drawing import detectors
 from drawing.results import Unusable, read_about, read_records, unique
 
 from .steps_file import Damaged, StepsFile
+from .visits import Unreadable, Visits
 
 NEEDED = ["detector", "options", "mesh", "trajectory", "query", "status", "steps"]
-OTHERS = ["suite.csv", "proxy.csv", "stab.csv", "servo.csv", "stress.csv", "scaling.csv", "choose.csv"]
+OTHERS = ["suite.csv", "proxy.csv", "stab.csv", "servo.csv", "stress.csv", "scaling.csv", "choose.csv", "update.csv", "many.csv"]
 RATES_HZ = [1000, 4000, 10000]
 
 
@@ -66,7 +67,8 @@ class Recording:
         self.name = self.path.resolve().name
         results = self.path / "results.csv"
         self.others = [self.path / name for name in OTHERS if (self.path / name).is_file()]
-        self.rows, self.remarks, self.steps = [], [], None
+        self.rows, self.remarks, self.steps, self.visits = [], [], None, None
+        self.common = []  # trajectories that all recordings of a page have
         self.about = read_about(self.path / "run.json")
         if not results.is_file():
             if not self.others:
@@ -80,7 +82,24 @@ class Recording:
             raise Unusable(f"{results}: {error.strerror}") from None
         if not self.rows:
             raise Unusable(f"{results}: no row follows the header")
+        self.keep_one_question()
         self.read_steps()
+
+    def keep_one_question(self):
+        """Tables compare contestants on one mesh, query, radius and reach. A suite has its own; of others the first is kept."""
+        columns = ["mesh", "query"]
+        pairs = [(row.name, row.trajectory, *(row.fields.get(column) for column in columns)) for row in self.rows]
+        if len(set(pairs)) < len(pairs):
+            columns += ["radius", "reach"]
+        asked = unique(tuple(row.fields.get(column, "") for column in columns) for row in self.rows)
+        if len(asked) == 1:
+            return
+        if any(path.name == "suite.csv" for path in self.others):
+            self.rows = []
+            return
+        self.rows = [row for row in self.rows if tuple(row.fields.get(column, "") for column in columns) == asked[0]]
+        named = ", ".join(f"{column} {value}" for column, value in zip(columns, asked[0]))
+        self.remarks.append(f"results.csv has {len(asked)} questions; tables and verdict are of the first: {named}.")
 
     def read_steps(self):
         path = self.path / "steps.bin"
@@ -97,6 +116,19 @@ class Recording:
         if self.steps.run_id not in run_ids:
             self.remarks.append(f"steps.bin is of another run, {self.steps.run_id}, and is left out.")
             self.steps = None
+        if self.steps is not None and (self.path / "visited.json").is_file():
+            self.read_visits()
+
+    def read_visits(self):
+        try:
+            visits = Visits(self.path / "visited.json")
+        except Unreadable as error:
+            self.remarks.append(f"What queries looked at is not shown: {error}.")
+            return
+        if visits.run_id == self.steps.run_id:
+            self.visits = visits
+        else:
+            self.remarks.append(f"visited.json is of another run, {visits.run_id}, and is left out.")
 
     @property
     def contestants(self):

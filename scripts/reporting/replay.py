@@ -16,6 +16,7 @@ class Detail(NamedTuple):
 
     levels: int  # of a time, on a log scale
     bits: int  # of a coordinate, of the box of the trajectory
+    visits: bool = True  # what queries looked at
 
 
 ANSWER = 8  # numbers: distance, point, normal, fraction

@@ -1,5 +1,6 @@
 """The page's tables, as HTML that needs no script: ratios, the machine, one recording against another."""
 import math
+import re
 
 from .recording import RATES_HZ, geometric_mean
 from .words import RATE_NAMES, duration, escaped, margins, share, slowest, three_digits
@@ -20,15 +21,15 @@ def head(text, title="", sortable=True, extra=""):
     return f'<th scope="col"{about}{extra}><button type="button" class="sort">{text}</button></th>'
 
 
-def framed(table, label):
-    """A table that scrolls by itself where the page is narrow."""
-    return f'<div class="scroll" role="region" tabindex="0" aria-label="{escaped(label)}">{table}</div>'
+def framed(table, label, long=False):
+    """A table that scrolls by itself where the page is narrow, or where it is long."""
+    return f'<div class="scroll{" long" if long else ""}" role="region" tabindex="0" aria-label="{escaped(label)}">{table}</div>'
 
 
 def ratio_table(recording, number):
     """A row a contestant: how often longer than the best right one, mean and p99.9, by trajectory."""
     trajectories = recording.trajectories
-    cold = any(row.number("cold_ns_p99") > 0 for row in recording.rows)
+    cold = any(row.number("cold_ns_max") > 0 for row in recording.rows)
     heads = [head("contestant"), head("all", "geometric mean of the ratios of the trajectories")]
     heads += [head(escaped(trajectory), "mean time over that of the fastest that was never wrong; below it the same of the "
                    "99.9 % times") for trajectory in trajectories]
@@ -40,8 +41,8 @@ def ratio_table(recording, number):
     rows = [ratio_row(recording, name, best, cold) for name in recording.contestants]
     rows.sort(key=lambda row: row[0])
     body = "".join(text for _, text in rows)
-    caption = ("<caption>Time over that of the fastest contestant that was never wrong: 1.00 is that one. Large: the mean; small: "
-               "the 99.9 % step. Grey: did not finish, or broke its claim.</caption>")
+    caption = ("<caption><span>Time over that of the fastest contestant that was never wrong: 1.00 is that one. Large: the mean; small: "
+               "the 99.9 % step. Grey: did not finish, or broke its claim.</span></caption>")
     table = f'<table class="ratios" data-recording="{number}">{caption}<thead><tr>{"".join(heads)}</tr></thead><tbody>{body}</tbody></table>'
     return framed(table, "Ratios")
 
@@ -70,10 +71,15 @@ def ratio_row(recording, name, best, cold):
     cells.append(wrong_cell(rows))
     memory = max((row.number("bytes") for row in rows), default=math.nan)
     cells.append(cell(f"{memory / 1e6:.1f} MB" if memory > 0 else "–", memory))
-    first = f'<th scope="row"><button type="button" class="pick" data-name="{escaped(name)}">{escaped(name)}</button></th>'
+    first = f'<th scope="row"><button type="button" class="pick" data-name="{escaped(name)}">{breakable(name)}</button></th>'
     all_cell = cell(f"<b>{ratio_text(total)}</b>", total)
     html = f'<tr{" class=failed" if failed else ""} data-name="{escaped(name)}">{first}{all_cell}{"".join(cells)}</tr>'
     return (math.inf if math.isnan(total) else total), html
+
+
+def breakable(name):
+    """As HTML, which may go on in the next line behind a mark of the options."""
+    return re.sub(r"([:,=])", r"\1<wbr>", escaped(name))
 
 
 def ratio_text(ratio):
@@ -150,7 +156,30 @@ def steadiness(about):
     heads = (head("trajectory", sortable=False) + head("disturbed", "share of samples that other work lengthened", False)
              + head("same against itself", "the same contestant timed a second time: 1 is equal, in brackets the 95 % interval", False)
              + head("conclusive", sortable=False))
-    return framed(f"<table><caption>How quiet the machine was</caption><thead><tr>{heads}</tr></thead><tbody>{''.join(rows)}</tbody></table>", "How quiet the machine was")
+    return framed(f"<table><caption><span>How quiet the machine was</span></caption><thead><tr>{heads}</tr></thead><tbody>{''.join(rows)}</tbody></table>", "How quiet the machine was")
+
+
+REFERENCES = ["embree", "aabb-tree", "brute-force"]
+
+
+def history(recordings):
+    """Each contestant's time over that of one reference in the same run, by recording: what machines have in common."""
+    reference = next((name for name in REFERENCES if all(name in one.contestants for one in recordings)), None)
+    if reference is None:
+        return f"<p>None of {', '.join(REFERENCES)} is in all recordings, so their ratios cannot be compared.</p>"
+    names = list(dict.fromkeys(name for one in recordings for name in one.contestants))
+    rows = "".join(f'<tr><th scope="row">{escaped(name)}</th>{"".join(history_cell(one, name, reference) for one in recordings)}</tr>' for name in names)
+    heads = head("contestant") + "".join(head(escaped(one.name), escaped(str(one.about.get("date", "")))) for one in recordings)
+    caption = (f"<caption><span>Time over that of {reference} in the same recording: below 1 is faster than {reference}. Geometric mean over "
+               "the trajectories that all recordings have.</span></caption>")
+    return framed(f"<table>{caption}<thead><tr>{heads}</tr></thead><tbody>{rows}</tbody></table>", "History")
+
+
+def history_cell(recording, name, reference):
+    shared = [(recording.row(name, one), recording.row(reference, one)) for one in recording.common]
+    ratios = [row.ns / other.ns if row and other and row.done and other.done and other.ns > 0 else math.nan for row, other in shared]
+    mean = geometric_mean(ratios)
+    return cell(ratio_text(mean), mean)
 
 
 def against(before, after):
@@ -166,8 +195,8 @@ def against(before, after):
     same = before.about.get("cpu") == after.about.get("cpu")
     warning = "" if same else " The machines differ, so only ratios between contestants tell something."
     heads = head("contestant") + "".join(head(escaped(trajectory)) for trajectory in trajectories)
-    caption = (f"<caption>Time in {escaped(after.name)} over that in {escaped(before.name)}: below 1 is faster. Bold: the 95 % "
-               f"intervals do not overlap.{escaped(warning)}</caption>")
+    caption = (f"<caption><span>Time in {escaped(after.name)} over that in {escaped(before.name)}: below 1 is faster. Bold: the 95 % "
+               f"intervals do not overlap.{escaped(warning)}</span></caption>")
     return framed(f"<table>{caption}<thead><tr>{heads}</tr></thead><tbody>{''.join(rows)}</tbody></table>", "One recording against another")
 
 

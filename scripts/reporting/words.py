@@ -88,6 +88,18 @@ def verdict(recording):
     return [sentence for sentence in sentences if sentence]
 
 
+def how_measured(recording):
+    """Sentences about the machine and how quiet it was."""
+    about = recording.about
+    cores = about.get("cores")
+    machine = ", ".join(escaped(one) for one in (about.get("cpu"), f"{cores} cores" if isinstance(cores, int) else None) if one)
+    shares = [one.get("disturbed_share") for one in about.get("steadiness") or []]
+    shares = [one for one in shares if isinstance(one, (int, float)) and math.isfinite(one)]
+    quiet = (f"Other work disturbed {share(max(shares))} of the samples of the least quiet trajectory." if shares
+             else "How quiet the machine was is not recorded.")
+    return f"Measured on {machine}. {quiet}" if machine else quiet
+
+
 def who_holds(recording):
     """How many hold each rate at every step, and who does not hold 1 kHz."""
     most = {name: slowest(recording.rows_of(name), "ns_max") for name in recording.contestants}

@@ -3,31 +3,20 @@
 
 #include <cmath>
 #include <cstdint>
-#include <random>
 #include <utility>
 #include <vector>
 
+#include "bench/support/random.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::baselines {
+
+using bench::support::Random;
 
 /// The unit square in z = 0, as two triangles.
 inline TriangleMesh square() {
   return TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}});
 }
-
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  /// In [-1, 1).
-  double coordinate() { return static_cast<double>(engine_() >> 11) * 0x1p-52 - 1; }
-  Vec3 point() { return Vec3(coordinate(), coordinate(), coordinate()); }
-  /// In [0, 1).
-  double fraction() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 /// A bumpy height field over [-1, 1]^2 with cells x cells quads: well-shaped triangles, many ties at edges.
 inline TriangleMesh bumps(std::uint32_t cells) {
@@ -59,7 +48,7 @@ inline TriangleMesh soup(std::uint32_t triangles, std::uint64_t seed) {
     const double width = i % 5 == 0 ? 1e-7 : 0.2;
     vertices.push_back(place);
     vertices.push_back(place + along);
-    vertices.push_back(place + random.fraction() * along + width * random.point());
+    vertices.push_back(place + random.unit() * along + width * random.point());
     corners.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
   return TriangleMesh(std::move(vertices), std::move(corners));

@@ -248,6 +248,252 @@ class Arrays(unittest.TestCase):
         self.assertGreater(sum(begin < tick < end for tick in ticks), 3)
 
 
+def turn(quaternion):
+    """The rotation of a quaternion of any length, by what it does to the three axes."""
+    w, v = quaternion[0], np.array(quaternion[1:])
+    axes = np.eye(3)
+    turned = axes + 2 * np.cross(v, w * axes + np.cross(v, axes)) / (w * w + v @ v)
+    return turned.T
+
+
+class Scenes(unittest.TestCase):
+    POSES = [((0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0)), ((2.5, 0.3, -0.2), (0.3, -0.5, 0.2, 0.9)),
+             ((0.0, 2.6, 0.1), (0.0, 2.0, 0.0, 0.0))]
+
+    @staticmethod
+    def truth(poses, points):
+        """(bodies, points): the distance of each point to each body, in numpy."""
+        return np.stack([distances_by_numpy(VERTICES @ turn(q).T + np.array(p), FACES, points).min(axis=1) for p, q in poses])
+
+    def scene(self, poses):
+        scene, bodies = touchmark.Scene(), []
+        for position, orientation in poses:
+            bodies.append(scene.add(MESH, position, orientation))
+        return scene, bodies
+
+    def test_nearest_is_that_of_numpy_and_names_the_body(self):
+        scene, bodies = self.scene(self.POSES)
+        points = np.random.default_rng(8).uniform(-1.5, 4, (400, 3))
+        truth = self.truth(self.POSES, points)
+        found = scene.nearest(points)
+        np.testing.assert_allclose(found.distance, truth.min(axis=0), rtol=0, atol=1e-13)
+        np.testing.assert_array_equal(found.body, np.array(bodies)[truth.argmin(axis=0)])
+        self.assertEqual(len(set(found.body)), 3)
+        np.testing.assert_allclose(found.point + found.normal * found.distance[:, None], points, atol=1e-13)
+        near = truth.min(axis=0) <= 0.5
+        within = scene.nearest(points, 0.5)
+        np.testing.assert_array_equal(within.found, near)
+        np.testing.assert_array_equal(within.body[~near], -1)
+        np.testing.assert_array_equal(scene.touches(points, 0.5), near)
+        for first, second in zip(found, scene.nearest(points, threads=3)):
+            np.testing.assert_array_equal(first, second)
+
+    def test_a_body_that_moves_is_found_where_it_is_and_one_that_is_removed_is_not(self):
+        scene, bodies = self.scene(self.POSES)
+        points = np.random.default_rng(9).uniform(-1.5, 4, (200, 3))
+        moved = [self.POSES[0], ((-1.0, 2.0, 1.0), (0.5, 0.5, -0.5, 0.5)), self.POSES[2]]
+        scene.move(bodies[1], *moved[1])
+        np.testing.assert_allclose(scene.nearest(points).distance, self.truth(moved, points).min(axis=0), rtol=0, atol=1e-13)
+        position, rotation = scene.pose(bodies[1])
+        np.testing.assert_array_equal(position, moved[1][0])
+        np.testing.assert_allclose(rotation, turn(moved[1][1]), atol=1e-15)
+        scene.remove(bodies[0])
+        self.assertEqual(len(scene), 2)
+        found = scene.nearest(points)
+        np.testing.assert_allclose(found.distance, self.truth(moved[1:], points).min(axis=0), rtol=0, atol=1e-13)
+        self.assertNotIn(bodies[0], found.body)
+        again = scene.add(MESH, *self.POSES[0])
+        self.assertNotIn(again, bodies)
+        np.testing.assert_allclose(scene.nearest(points).distance, self.truth(moved, points).min(axis=0), rtol=0, atol=1e-13)
+
+    def test_first_hit_stops_at_the_body_in_the_way(self):
+        scene, bodies = self.scene(self.POSES)
+        hit = scene.first_hit([[4.5, 0.3, -0.2], [0, 0, 9]], [[-2, 0, 0], [9, 9, 9]], 0.01)
+        np.testing.assert_array_equal(hit.found, [True, False])
+        np.testing.assert_array_equal(hit.body, [bodies[1], -1])
+        at = np.array([4.5, 0.3, -0.2]) + hit.fraction[0] * (np.array([-2, 0, 0]) - [4.5, 0.3, -0.2])
+        self.assertAlmostEqual(self.truth(self.POSES, at[None]).min(), 0.01, places=9)
+
+    def test_an_empty_scene_touches_nothing(self):
+        scene = touchmark.Scene()
+        self.assertFalse(scene.nearest(POINTS).found.any())
+        self.assertFalse(scene.touches(POINTS, np.inf).any())
+        self.assertEqual(len(scene), 0)
+
+    def test_what_no_scene_has_is_refused(self):
+        scene, bodies = self.scene(self.POSES[:1])
+        scene.remove(bodies[0])
+        for call, message in ((lambda: scene.move(bodies[0], (0, 0, 0)), "body"), (lambda: scene.remove(bodies[0]), "body"),
+                              (lambda: scene.pose(7), "body"), (lambda: scene.pose(-1), "no body -1"),
+                              (lambda: scene.add(MESH, (0, 0)), r"position has the shape \(2,\)"),
+                              (lambda: scene.add(MESH, (0, 0, np.nan)), "finite"),
+                              (lambda: scene.add(MESH, orientation=(0, 0, 0, 0)), "quaternion"),
+                              (lambda: scene.add(MESH, orientation=np.eye(3)), r"orientation has the shape \(3, 3\)")):
+            with self.subTest(message), self.assertRaisesRegex(ValueError, message):
+                call()
+        with self.assertRaises(TypeError):
+            scene.add(VERTICES)
+        self.assertEqual(len(scene), 0)
+
+    def test_a_batch_sees_all_of_a_change_or_nothing_of_it(self):
+        sheet = touchmark.Mesh([[-9, -9, 0], [9, -9, 0], [0, 18, 0]], [[0, 1, 2]])
+        scene = touchmark.Scene()
+        body = scene.add(sheet, (0, 0, 1))
+        points = np.zeros((4000, 3))
+        ended = threading.Event()
+
+        def move():
+            for i in range(1000):
+                scene.move(body, (0, 0, 1 + i % 2))
+            ended.set()
+        mover = threading.Thread(target=move)
+        mover.start()
+        asked = 0
+        while not ended.is_set() or asked == 0:
+            distances = scene.nearest(points, threads=2).distance
+            self.assertIn(distances[0], (1, 2))
+            np.testing.assert_array_equal(distances, distances[0])
+            asked += 1
+        mover.join()
+
+
+class Updates(unittest.TestCase):
+    def test_a_mesh_that_moves_is_asked_where_it_is(self):
+        moved = VERTICES + 0.2 * np.sin(3 * VERTICES[:, ::-1])
+        truth = distances_by_numpy(moved, FACES, POINTS)
+        for kind, options in FORMS:
+            with self.subTest(kind.__name__, **options):
+                detector = kind(MESH, **options)
+                detector.update(moved)
+                np.testing.assert_allclose(detector.nearest(POINTS).distance, truth.min(axis=1), rtol=0, atol=1e-14)
+                np.testing.assert_array_equal(detector.mesh.vertices, moved)
+                np.testing.assert_array_equal(detector.mesh.faces, FACES)
+        np.testing.assert_array_equal(MESH.vertices, VERTICES)
+
+    def test_sides_follow(self):
+        detector = touchmark.GridGroup(MESH)
+        self.assertEqual(detector.side([[0, 0, 0]])[0], Side.INSIDE)
+        detector.update(VERTICES + 5.0)
+        np.testing.assert_array_equal(detector.side([[0, 0, 0], [5, 5, 5]]), [Side.OUTSIDE, Side.INSIDE])
+
+    def test_what_is_refused_changes_nothing(self):
+        detector = touchmark.SphereCluster(MESH)
+        before = detector.nearest(POINTS).distance
+        bad = VERTICES.copy()
+        bad[3, 1] = np.nan
+        for vertices, message in ((VERTICES[:-1], f"vertices has {len(VERTICES) - 1} rows"), (bad, "vertex 3 is not finite"),
+                                  (VERTICES[:, :2], "vertices has the shape")):
+            with self.subTest(message), self.assertRaisesRegex(ValueError, message):
+                detector.update(vertices)
+        np.testing.assert_array_equal(detector.nearest(POINTS).distance, before)
+
+    def test_batches_and_updates_of_several_threads_take_turns(self):
+        detector = touchmark.GridGroup(MESH)
+        points = np.tile(POINTS, (20, 1))
+        places = [VERTICES, VERTICES + 0.5]
+        expected = [np.tile(distances_by_numpy(place, FACES, POINTS).min(axis=1), 20) for place in places]
+        stop = threading.Event()
+
+        def update():
+            i = 0
+            while not stop.is_set():
+                i = 1 - i
+                detector.update(places[i])
+        proxy = touchmark.Proxy(detector, (0, 0, 3))
+        updater = threading.Thread(target=update)
+        updater.start()
+        try:
+            for _ in range(30):
+                distance = detector.nearest(points, threads=2).distance
+                self.assertTrue(any(np.allclose(distance, one, rtol=0, atol=1e-13) for one in expected))
+                proxy.step((0, 0, 2.9))
+        finally:
+            stop.set()
+            updater.join()
+
+
+class ContactLists(unittest.TestCase):
+    def test_they_are_those_of_numpy_nearest_first(self):
+        reaches = np.random.default_rng(2).uniform(0, 0.6, len(POINTS))
+        for kind, options in FORMS:
+            with self.subTest(kind.__name__, **options):
+                found = kind(MESH, **options).contacts(POINTS, reaches)
+                self.assertEqual(len(found.ends), len(POINTS))
+                self.assertEqual(found.ends[-1], (TRUTH <= reaches[:, None]).sum())
+                for i in range(len(POINTS)):
+                    rows = found.of(i)
+                    self.assertEqual(set(found.triangle[rows]), set(np.flatnonzero(TRUTH[i] <= reaches[i])))
+                    np.testing.assert_allclose(found.distance[rows], TRUTH[i, found.triangle[rows]], atol=1e-14)
+                    self.assertTrue((np.diff(found.distance[rows]) >= 0).all())
+                away = np.repeat(POINTS, np.diff(found.ends, prepend=0), axis=0)
+                np.testing.assert_allclose(found.point + found.normal * found.distance[:, None], away, atol=1e-13)
+
+    def test_all_of_a_mesh_fits_and_nothing_gives_nothing(self):
+        detector = touchmark.GridGroup(MESH)
+        self.assertEqual(detector.contacts(POINTS[:3], np.inf).ends.tolist(), [len(FACES), 2 * len(FACES), 3 * len(FACES)])
+        for points in ([], np.zeros((0, 3))):
+            self.assertEqual(detector.contacts(points, 1).point.shape, (0, 3))
+        nowhere = detector.contacts([[np.nan, 0, 0], [0, 0, 50]], 1)
+        self.assertEqual(nowhere.ends.tolist(), [0, 0])
+        with self.assertRaises(IndexError):
+            nowhere.of(2)
+        with self.assertRaisesRegex(ValueError, "reach is -1.0"):
+            detector.contacts(POINTS, -1)
+
+
+class Proxies(unittest.TestCase):
+    PLATE = touchmark.Mesh([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], [[0, 1, 2], [0, 2, 3]])
+
+    def test_it_is_pushed_back_by_the_depth_of_the_device(self):
+        for radius in (0.0, 0.1):
+            proxy = touchmark.Proxy(touchmark.AabbTree(self.PLATE), (0, 0, 1), radius=radius, stiffness=200)
+            free = proxy.step((0.1, 0.2, 0.5))
+            self.assertEqual(free.status, touchmark.ProxyStatus.FREE)
+            np.testing.assert_array_equal(free.position, (0.1, 0.2, 0.5))
+            np.testing.assert_array_equal(free.force, 0)
+            self.assertEqual(free.contacts.shape, (0, 3))
+            held = proxy.step((0.1, 0.2, -0.3))
+            self.assertEqual(held.status, touchmark.ProxyStatus.IN_CONTACT)
+            np.testing.assert_allclose(held.position, (0.1, 0.2, radius), atol=1e-9)
+            np.testing.assert_allclose(held.force, (0, 0, 200 * (0.3 + radius)), atol=1e-6)
+            np.testing.assert_allclose(held.contacts, [[0, 0, 1]], atol=1e-12)
+
+    def test_it_stays_outside_of_a_mesh_that_it_is_pushed_into(self):
+        detector = touchmark.SphereCluster(MESH)
+        proxy = touchmark.Proxy(detector, (0, 0, 2), radius=0.05)
+        path = np.stack([np.linspace(0, 0.6, 200), np.linspace(0, -0.4, 200), np.linspace(2, 0.1, 200)], axis=1)
+        positions = np.array([proxy.step(goal).position for goal in path])
+        distances = distances_by_numpy(VERTICES, FACES, positions).min(axis=1)
+        self.assertGreater(distances.min(), 0.05 - 1e-12)
+        self.assertLess(distances.min(), 0.05 + 1e-9)
+        np.testing.assert_array_equal(detector.side(positions), Side.OUTSIDE)
+
+    def test_it_notices_an_update_of_its_detector(self):
+        detector = touchmark.GridGroup(self.PLATE)
+        proxy = touchmark.Proxy(detector, (0, 0, 1), radius=0.1)
+        self.assertEqual(proxy.step((0, 0, 0)).status, touchmark.ProxyStatus.IN_CONTACT)
+        detector.update(np.array(self.PLATE.vertices) - [0, 0, 5])
+        np.testing.assert_array_equal(proxy.step((0, 0, 0)).position, 0)
+        self.assertIs(proxy.detector, detector)
+
+    def test_what_it_cannot_be_made_of_or_follow_is_refused(self):
+        detector = touchmark.GridGroup(self.PLATE)
+        for call, message in ((lambda: touchmark.Proxy(detector, (0, 0)), r"position has the shape \(2,\)"),
+                              (lambda: touchmark.Proxy(detector, (0, 0, np.inf)), "position is not finite"),
+                              (lambda: touchmark.Proxy(detector, (0, 0, 1), radius=-1), "radius is -1"),
+                              (lambda: touchmark.Proxy(detector, (0, 0, 1), dynamic_friction=1), "more than static_friction"),
+                              (lambda: touchmark.Proxy(touchmark.SphereCluster(self.PLATE, precise=False), (0, 0, 1)),
+                               "does not decide exactly"),
+                              (lambda: touchmark.Proxy(detector, (0, 0, 1)).step([[0, 0, 0]]), "goal has the shape")):
+            with self.subTest(message), self.assertRaisesRegex(ValueError, message):
+                call()
+        with self.assertRaises(TypeError):
+            touchmark.Proxy(self.PLATE, (0, 0, 1))
+        state = touchmark.Proxy(detector, (0, 0, 1)).step((np.nan, 0, 0))
+        self.assertEqual(state.status, touchmark.ProxyStatus.UNANSWERED)
+        np.testing.assert_array_equal(state.force, 0)
+
+
 class Examples(unittest.TestCase):
     """Run as the page says: with a script's own folder before all others where Python looks for modules."""
 

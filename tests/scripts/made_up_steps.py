@@ -58,7 +58,7 @@ class Contestant:
         return sorted(range(len(self.ns)), key=lambda step: -self.ns[step])[:count]
 
 
-def write(folder, contestants, steps, trajectory="slide"):
+def write(folder, contestants, steps, trajectory="slide", mesh="ball"):
     """Leaves results.csv, run.json and steps.bin."""
     folder = pathlib.Path(folder)
     low, high, radius = [-1.1] * 3, [1.1] * 3, 0.05
@@ -80,14 +80,14 @@ def write(folder, contestants, steps, trajectory="slide"):
         "contestants": [contestant(blocks, one, noted, steps, distances, points) for one in contestants],
     }
     header = {"schema": 1, "run_id": RUN_ID, "traces": [trace], "mesh": {
-        "name": "ball", "triangles": len(triangles), "diagonal": 2 * math.sqrt(3), "low": [-1] * 3, "high": [1] * 3,
+        "name": mesh, "triangles": len(triangles), "diagonal": 2 * math.sqrt(3), "low": [-1] * 3, "high": [1] * 3,
         "drawn": {"triangles": len(triangles), "low": low, "high": high, "vertices": blocks.place(vertices, low, high),
                   "corners": blocks.add([corner for three in triangles for corner in three], "u32", True)},
         "near": {"ids": blocks.add([0, 1], "u32"), "corners": blocks.add([0, 1, 2, 0, 2, 3], "u32"),
                  "vertices": blocks.add([0.9, 0, 0, 1, 0.1, 0, 1, 0, 0.1, 0.9, 0, 0.1], "f64")}}}
     text = json.dumps(header).encode()
     (folder / "steps.bin").write_bytes(b"TMSTEPS\n" + struct.pack("<II", 1, len(text)) + text + blocks.content)
-    write_results(folder, contestants, steps, trajectory, len(triangles), radius)
+    write_results(folder, contestants, steps, trajectory, mesh, len(triangles), radius)
 
 
 def contestant(blocks, one, noted, steps, distances, points):
@@ -107,7 +107,7 @@ def contestant(blocks, one, noted, steps, distances, points):
                   "answers": blocks.add(answers, "f64")}}
 
 
-def write_results(folder, contestants, steps, trajectory, triangles, radius):
+def write_results(folder, contestants, steps, trajectory, mesh, triangles, radius):
     columns = ["schema", "run_id", "detector", "options", "mesh", "triangles", "trajectory", "query", "steps", "radius", "reach", "guarantee",
                "missed", "false_contacts", "wrong_triangle", "unresolved", "status", "ns_per_query", "ns_p50", "ns_p90", "ns_p99", "ns_p999",
                "ns_max", "max_distance_error", "max_distance_error_of_diagonal", "bytes", "judged", "beyond_bound", "wrong_point", "wrong_normal",
@@ -118,7 +118,7 @@ def write_results(folder, contestants, steps, trajectory, triangles, radius):
         for one in contestants:
             ns = sorted(one.ns)
             at = lambda share: ns[max(0, math.ceil(share * steps) - 1)]  # noqa: E731,B023
-            writer.writerow({"schema": 1, "run_id": RUN_ID, "detector": one.detector, "options": one.options, "mesh": "ball",
+            writer.writerow({"schema": 1, "run_id": RUN_ID, "detector": one.detector, "options": one.options, "mesh": mesh,
                              "triangles": triangles, "trajectory": trajectory, "query": "nearest", "steps": steps, "radius": radius, "reach": radius,
                              "guarantee": "approximate" if one.wrong else "exact", "missed": len(one.wrong), "false_contacts": 0, "wrong_triangle": 0,
                              "unresolved": 0, "status": "ok", "ns_per_query": f"{sum(ns) / steps:.6g}", "ns_p50": f"{at(0.5):.6g}",

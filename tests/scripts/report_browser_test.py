@@ -30,7 +30,8 @@ class Page(unittest.TestCase):
             raise RuntimeError("chromium is not installed: scripts/setup page")
         cls.temporary = tempfile.TemporaryDirectory()
         cls.folder = pathlib.Path(cls.temporary.name)
-        names = ["grid-group", "sphere-cluster", "fcl:bv=obb", "libccd+aabb"] + [f"other-{k}" for k in range(CONTESTANTS - 4)]
+        names = ["grid-group", "sphere-cluster", "fcl:bv=obb", "libccd+aabb", "fcl:bv=aabb,method=distance,narrow=exact"]
+        names += [f"sphere-cluster:lookup=scan,precise=false,clustering={k}%" for k in range(CONTESTANTS - len(names))]
         cls.contestants = [Contestant(name, 100 * 1.4 ** k, STEPS, k, WRONG if k == 3 else ()) for k, name in enumerate(names)]
         made_up_steps.write(cls.folder, cls.contestants, STEPS)
         subprocess.run([ROOT / "scripts" / "report", cls.folder], check=True, stdout=subprocess.DEVNULL)
@@ -78,7 +79,7 @@ class Page(unittest.TestCase):
         self.assertEqual(self.browser.run(first), "grid-group")
         self.click("table.ratios thead th:nth-child(2) button")
         self.click("table.ratios thead th:nth-child(2) button")
-        self.assertEqual(self.browser.run(first), self.contestants[-1].detector)
+        self.assertEqual(self.browser.run(first), f"{self.contestants[-1].detector}:{self.contestants[-1].options}")
         self.assertEqual(self.browser.run("document.querySelector('table.ratios thead th:nth-child(2)').ariaSort"), "descending")
 
     def test_the_worst_step_has_the_number_of_the_csv(self):
@@ -123,6 +124,19 @@ class Page(unittest.TestCase):
         self.browser.press("Escape")
         self.browser.until("!document.querySelector('#details')")
 
+    def test_cells_tell_their_errors_on_focus_and_on_hover(self):
+        self.browser.run("document.querySelector('table.ratios td[tabindex=\"0\"]').focus()")
+        for key in ("ArrowDown", "ArrowDown", "ArrowDown", "ArrowRight"):
+            self.browser.press(key)
+        self.assertEqual(self.browser.run("document.activeElement.closest('tr').dataset.name"), "libccd+aabb")
+        self.assertIn("60 × missed contact", self.browser.run("document.querySelector('#tip:not([hidden])').textContent"))
+        self.assertEqual(self.browser.run("document.activeElement.getAttribute('aria-describedby')"), "tip")
+        self.browser.press("Escape")
+        self.assertTrue(self.browser.run("document.querySelector('#tip').hidden"))
+        x, y, width, height = self.browser.box("table.ratios tbody tr:nth-child(4) td.errs")
+        self.browser.mouse("mouseMoved", x + width / 2, y + height / 2)
+        self.assertIn("slide: 60 × missed contact", self.browser.until("document.querySelector('#tip:not([hidden])')?.textContent"))
+
     def test_scrubbing_moves_the_step(self):
         self.browser.run("(() => { const one = document.querySelector('.scrub'); one.value = 1234; one.dispatchEvent(new Event('input')); })()")
         self.assertEqual(self.step(), 1234)
@@ -134,7 +148,7 @@ class Page(unittest.TestCase):
         text = self.browser.run("window.saved")
         self.assertIn("v 0.9 0 0\n", text)
         self.assertIn("# triangle 0\nf 1 2 3\n", text)
-        self.assertRegex(text, r"--radius 0\.05 --reach 0\.05 --step 0\n\Z")
+        self.assertIn("--radius 0.05 --reach 0.05 --step 0 | judged", text)
         self.assertEqual(subprocess.run(["sh", "-n"], input=text, text=True, check=False).returncode, 0)
 
     def test_nothing_runs_over_the_edge_at_any_width_or_text_size(self):
@@ -149,6 +163,15 @@ class Page(unittest.TestCase):
         return self.browser.run("[...document.querySelectorAll('main *')].filter((one) => one.getBoundingClientRect().right > innerWidth + 1 && !one.closest('.scroll'))"
                                 ".map((one) => one.tagName + '.' + one.className).slice(0, 5).join(' ')")
 
+    def test_paper_is_light_whatever_the_system_prefers(self):
+        self.browser.prefer(prefers_color_scheme="dark")
+        self.browser.run("window.dispatchEvent(new Event('beforeprint'))")
+        self.assertEqual(self.browser.run("getComputedStyle(document.body).backgroundColor"), "rgb(255, 255, 255)")
+        self.assertEqual(self.browser.run(CONTRAST), [])
+        self.browser.run("window.dispatchEvent(new Event('afterprint'))")
+        self.assertEqual(self.browser.run("getComputedStyle(document.body).backgroundColor"), "rgb(20, 23, 26)")
+        self.browser.prefer()
+
     def test_every_control_has_a_name_and_a_place_in_the_order_of_tabs(self):
         nameless = self.browser.run("""[...document.querySelectorAll('button, input, select, [role=region], [role=application], [role=img]')]
             .filter((one) => one.getClientRects().length && !(one.ariaLabel || one.textContent.trim() || one.labels?.length || one.title)).map((one) => one.outerHTML.slice(0, 80))""")
@@ -161,6 +184,116 @@ class Page(unittest.TestCase):
             worst = self.browser.run(CONTRAST)
             self.assertEqual(worst, [], scheme)
         self.browser.prefer()
+
+
+class OldBrowser(unittest.TestCase):
+    def test_a_browser_that_cannot_unpack_the_page_says_so_and_has_the_tables(self):
+        with tempfile.TemporaryDirectory() as folder:
+            made_up_steps.write(folder, [Contestant("grid-group", 100, 300, 1)], 300)
+            subprocess.run([ROOT / "scripts" / "report", folder], check=True, stdout=subprocess.DEVNULL)
+            browser = Browser()
+            self.addCleanup(browser.close)
+            browser.send("Page.addScriptToEvaluateOnNewDocument", source="delete window.DecompressionStream")
+            browser.send("Page.navigate", url=(pathlib.Path(folder) / "report.html").as_uri())
+            self.assertIn("this browser is too old", browser.until("document.querySelector('header .notice[role=alert]')?.textContent"))
+            self.assertIn("grid-group", browser.run("document.querySelector('table.ratios').textContent"))
+            self.assertEqual(browser.errors, [])
+
+
+class OddNames(unittest.TestCase):
+    """Names from files are text, whatever is in them."""
+
+    NAMES = ["<img src=x onerror=window.hacked=1>", "</script><script>window.hacked=1</script>", "naïve-検出器:größe=½", "a\"b'c\\d`e$(exit 3)", "two\nlines&amp;"]
+
+    def test_neither_page_nor_saved_test_takes_them_for_anything_else(self):
+        with tempfile.TemporaryDirectory() as temporary:
+            folder = pathlib.Path(temporary) / "<b>run & co"
+            folder.mkdir()
+            contestants = [Contestant(name, 100 * 2 ** k, 300, k, range(20, 25) if k == 1 else ()) for k, name in enumerate(self.NAMES)]
+            made_up_steps.write(folder, contestants, 300, trajectory="<i>slide</i>", mesh="<u>ball</u>\nrm -r /")
+            (folder / "stress.csv").write_text("detector,options,family,probes,missed\n<b>x</b>,,<script>window.hacked=1</script>,1,0\n", encoding="utf-8")
+            subprocess.run([ROOT / "scripts" / "report", folder], check=True, stdout=subprocess.DEVNULL)
+            browser = Browser()
+            self.addCleanup(browser.close)
+            browser.open(folder / "report.html")
+            browser.run("URL.createObjectURL = (blob) => { window.saved = blob.text(); return 'blob:none'; }; HTMLAnchorElement.prototype.click = () => {};")
+            for place in range(len(self.NAMES)):
+                browser.run(f"document.querySelectorAll('table.ratios button.pick')[{place}].click()")
+                browser.run("document.querySelector('#details').close()")
+                browser.run(f"document.querySelectorAll('.lists details')[{place}].querySelector('button.step').click()")
+                browser.run("document.querySelector('button.save').click()")
+                script = browser.run("window.saved")
+                self.assertEqual(subprocess.run(["sh", "-n"], input=script, text=True, check=False).returncode, 0, script[:500])
+                self.assertRegex(script.splitlines()[1], r"\A# Step \d+ of <i>slide</i> on <u>ball</u> rm -r /, cut")
+                asked = subprocess.run(["sh", "-c", script], env={**os.environ, "TOUCHMARK": "/bin/echo"}, capture_output=True, text=True, check=False)
+                self.assertEqual(asked.stderr, "")
+            self.assertEqual(browser.run("[window.hacked, document.querySelectorAll('img, main b > *, i, u').length, document.querySelectorAll('script').length]"), [None, 0, 5])
+            self.assertEqual(sorted(browser.run("[...document.querySelectorAll('.swatches input')].map((one) => one.value)")), sorted(self.NAMES))
+            self.assertEqual(browser.errors, [])
+
+
+class SavedTest(unittest.TestCase):
+    """A real run, whose steps are saved and asked again, as a user would."""
+
+    @classmethod
+    def setUpClass(cls):
+        found = [path for build in ("release", "dev") if (path := ROOT / "build" / build / "bin" / "touchmark").is_file()]
+        if not found:
+            raise RuntimeError("touchmark is not built: scripts/build-program")
+        cls.program = found[0]
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls.temporary.name)
+        subprocess.run([cls.program, "bench", "--quick", "--mesh", "icosphere:3", "--trajectory", "slide", "--steps", "400",
+                        "--detector", "grid-group", "--detector", "libccd+aabb", "--benchmark_min_time=0.001",
+                        "--out", cls.folder], check=True, capture_output=True)
+        subprocess.run([ROOT / "scripts" / "report", cls.folder], check=True, stdout=subprocess.DEVNULL)
+        cls.browser = Browser()
+        cls.browser.open(cls.folder / "report.html")
+        cls.browser.run("URL.createObjectURL = (blob) => { window.saved = blob.text(); return 'blob:none'; }; HTMLAnchorElement.prototype.click = () => {};")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.close()
+        cls.temporary.cleanup()
+
+    def saved(self, name, kind):
+        """The first step of a list, saved: the script, and the page's cells about the contestant there."""
+        self.browser.run(f"document.querySelector('.swatches input[value=\"{name}\"]').checked || document.querySelector('.swatches input[value=\"{name}\"]').click()")
+        self.browser.run(f"document.querySelector('.lists {kind} button.step[data-name=\"{name}\"]').click()")
+        cells = self.browser.run("[...document.querySelectorAll('.about-step tr.current td')].map((cell) => cell.textContent)")
+        self.browser.run("document.querySelector('button.save').click()")
+        return self.browser.run("window.saved"), cells
+
+    def ask(self, script):
+        return subprocess.run(["sh", "-c", script], env={**os.environ, "TOUCHMARK": str(self.program)}, capture_output=True, text=True, check=False)
+
+    def test_the_slowest_step_gives_the_numbers_of_the_page_again(self):
+        script, cells = self.saved("grid-group", "ol")
+        done = self.ask(script)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
+        fields = done.stdout.split(",")
+        self.assertEqual(fields[0], "right: 0")
+        self.assertEqual(cells[4], "right")
+        self.assertEqual(fields[3] or "–", cells[3])  # the distance, to the last digit
+
+    def test_a_wrong_step_is_wrong_again_with_the_same_answer(self):
+        script, cells = self.saved("libccd+aabb", "ul")
+        done = self.ask(script)
+        self.assertEqual((done.returncode, done.stderr), (1, ""), done.stdout)
+        fields = done.stdout.splitlines()[-1].split(",")
+        self.assertRegex(fields[0], r"\Awrong: \d+\Z")
+        self.assertNotEqual(cells[4], "right")
+        self.assertEqual((fields[1], fields[3] or "–"), ("1" if cells[2] == "yes" else "0", cells[3]))
+
+    def test_a_contestant_that_does_not_answer_is_neither_right_nor_wrong(self):
+        script, _ = self.saved("grid-group", "ol")
+        done = subprocess.run(["sh", "-c", script], env={**os.environ, "TOUCHMARK": "false"}, capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+
+    def test_what_a_slow_step_looked_at_is_told(self):
+        self.saved("grid-group", "ol")
+        self.assertRegex(self.browser.run("document.querySelector('.visited').textContent"), r"\Agrid-group: Looked at ")
+        self.assertEqual(self.browser.errors, [])
 
 
 # Every text against the ground behind it: 4.5 to 1, as WCAG's AA demands.

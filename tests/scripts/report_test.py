@@ -2,6 +2,7 @@
 """scripts/report on made-up recordings: what it reads, how large the page is, what the page asks for, and what it does without
 the interactive parts."""
 import base64
+import csv
 import json
 import math
 import os
@@ -106,15 +107,16 @@ class ReadingSteps(InFolder):
                 StepsFile(path)
             self.assertIn("There is no replay", self.page())
 
-    def test_a_block_that_was_cut_off_is_one_line_and_no_page(self):
+    def test_a_block_that_was_cut_off_leaves_a_page_that_says_so(self):
         self.write()
         path = self.folder / "steps.bin"
         path.write_bytes(path.read_bytes()[:-400])
         if not can_build():
             self.skipTest("without esbuild no page reads blocks")
-        done = self.report()
-        self.assertEqual((done.returncode, done.stderr), (2, f"report: {path}: a block is damaged\n"))
-        self.assertFalse((self.folder / "report.html").exists())
+        page = self.page()
+        self.assertIn("There is no replay: ", page)
+        self.assertIn("a block is damaged", page)
+        self.assertIsNone(json.loads(unpacked(page, "data"))["recordings"][0]["replay"])
 
     def test_steps_of_another_run_are_left_out(self):
         self.write()
@@ -196,6 +198,88 @@ class Page(InFolder):
         (self.folder / "steps.bin").unlink()
         self.assertIn("This folder has no steps.bin", self.page())
 
+    def rewrite(self, change):
+        """Each row of results.csv as `change` makes it."""
+        path = self.folder / "results.csv"
+        with open(path, newline="", encoding="utf-8") as file:
+            reader = csv.DictReader(file)
+            rows, columns = list(reader), reader.fieldnames
+        for number, row in enumerate(rows):
+            change(number, row)
+        with open(path, "w", newline="", encoding="utf-8") as file:
+            writer = csv.DictWriter(file, columns)
+            writer.writeheader()
+            writer.writerows(rows)
+
+    def test_a_contestant_that_failed_is_told_of(self):
+        self.write()
+        self.rewrite(lambda number, row: number == 1 and row.update(status="crashed:SIGSEGV", ns_per_query="", ns_p50="", ns_p90="", ns_p99="",
+                                                                    ns_p999="", ns_max="", judged=""))
+        page = self.page()
+        self.assertIn("Did not finish everywhere: fcl:bv=obb.", page)
+        self.assertIn("crashed:SIGSEGV", page)
+
+    def test_all_that_failed_is_no_verdict(self):
+        self.write()
+        self.rewrite(lambda number, row: row.update(status="timeout", ns_per_query="", ns_max="", ns_p999=""))
+        self.assertIn("No contestant finished all trajectories without a wrong answer.", self.page())
+
+    def test_numbers_that_are_none_are_dashes(self):
+        self.write()
+        self.rewrite(lambda number, row: row.update(ns_p999="nan", ns_max="inf", bytes="-nan", max_distance_error_of_diagonal="nan", judged="nan"))
+        page = self.page()
+        self.assertIn("grid-group", page)
+        self.assertNotRegex(re.sub(r"<script.*?</script>", "", page, flags=re.S), r">\s*-?(nan|inf)\b")
+
+    def test_one_contestant_alone_is_the_first(self):
+        made_up_steps.write(self.folder, [Contestant("grid-group", 100, 300, 1)], 300)
+        self.assertIn("grid-group</strong> is the fastest that was never wrong", self.page())
+
+    def test_results_without_a_row_are_refused_in_one_line(self):
+        self.write()
+        results = self.folder / "results.csv"
+        for text, why in ((results.read_text(encoding="utf-8").splitlines()[0] + "\n", "no row follows the header"), ("", "")):
+            results.write_text(text, encoding="utf-8")
+            done = self.report()
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+            self.assertIn(why, done.stderr)
+            self.assertFalse((self.folder / "report.html").exists())
+
+    def test_results_of_several_questions_are_not_mixed(self):
+        self.write()
+        results = self.folder / "results.csv"
+        lines = results.read_text(encoding="utf-8").splitlines()
+        results.write_text("\n".join([*lines, *(line.replace(",ball,", ",cube,") for line in lines[1:])]) + "\n", encoding="utf-8")
+        page = self.page()
+        self.assertIn("results.csv has 2 questions; tables and verdict are of the first: mesh ball, query nearest.", page)
+
+    def test_what_queries_looked_at_is_read_or_its_fault_told(self):
+        self.write()
+        visited = self.folder / "visited.json"
+        step = {"step": 100, "found": True, "boxes": [[0, 0, 0, 1, 1, 1, 1], [0, 0, 0, 0.5, 1, 1, 0]], "triangles": [3]}
+        good = {"schema": 1, "run_id": made_up_steps.RUN_ID, "rows": [{"detector": "grid-group", "options": "", "trajectory": "slide", "steps": [step]}]}
+        visited.write_text(json.dumps(good), encoding="utf-8")
+        if can_build():
+            self.assertEqual(json.loads(unpacked(self.page(), "data"))["recordings"][0]["visits"]["rows"][0]["name"], "grid-group")
+        short = {**good, "rows": [{**good["rows"][0], "steps": [{**step, "boxes": [[0, 0, 0, 1]]}]}]}
+        for content, told in (("{", "is not as it should be"), ("[]", "is not as it should be"), (json.dumps({**good, "schema": 2}), "is of version 2"),
+                              (json.dumps(short), "is not as it should be"), (json.dumps({**good, "run_id": "another"}), "is of another run")):
+            visited.write_text(content, encoding="utf-8")
+            self.assertIn(told, self.page())
+
+    def test_a_suite_has_its_own_sentence(self):
+        cells = "mesh,trajectory,query,reach,caches,ours,exact_rival,exact_ratio\na,slide,nearest,1%,warm,x,y,4\nb,jump,nearest,1%,warm,x,y,0.25\nb,slide,nearest,1%,warm,x,,\n"
+        (self.folder / "suite.csv").write_text(cells, encoding="utf-8")
+        page = self.page()
+        self.assertIn("In 1 of 2 cells the best of ours is faster than the fastest exact rival; over all, the rival takes <strong>1.00 times</strong>", page)
+        self.assertIn("The worst cell: 0.25 times, b, jump, nearest, reach 1%, caches warm. 1 more have no such pair", page)
+
+    def test_proxies_are_summed_up_by_method(self):
+        (self.folder / "proxy.csv").write_text("method,options,family,courses,crossings,max_ns\np,,a,2,3,5\np,,b,4,5,4\nq,,a,1,0,\n", encoding="utf-8")
+        page = self.page()
+        self.assertIn('<td>p</td><td></td><td data-v="6">6</td>', page)
+        self.assertIn('<td data-v="8">8</td>', page)
+
     def test_two_recordings_are_compared(self):
         self.write()
         other = self.folder.with_name("after")
@@ -206,6 +290,7 @@ class Page(InFolder):
         page = (self.folder / "both.html").read_text(encoding="utf-8")
         self.assertIn("after against run", page)
         self.assertIn('data-v="0.5"', page)
+        self.assertIn("None of embree, aabb-tree, brute-force is in all recordings", page)
 
     def test_a_folder_without_results_is_refused_in_one_line(self):
         done = self.report()

@@ -4,7 +4,6 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -13,9 +12,11 @@
 #include "baselines/bullet/bullet_scene.h"
 #include "core/brute_force/brute_force.h"
 #include "tests/baselines/asking.h"
+#include "tests/baselines/exact_form.h"
 #include "tests/baselines/follows.h"
 #include "tests/baselines/meshes.h"
 #include "tests/baselines/scenes.h"
+#include "tests/baselines/threads.h"
 
 namespace touchmark::baselines {
 namespace {
@@ -174,23 +175,7 @@ TEST_P(EveryBullet, ASessionMayGoFromOneMeshToAnother) {
 }
 
 TEST_P(EveryBullet, ThreadsWithASessionEachGiveTheSameBits) {
-  const BulletDetector detector = build(bumps(12));
-  const auto distances = [&] {
-    BulletDetector::Session mine;
-    Random random(10);
-    std::vector<double> all;
-    for (int trial = 0; trial < 200; ++trial) {
-      const auto contact = detector.nearest({random.point(), 0}, 0.3, mine);
-      all.push_back(contact ? contact->distance : -1);
-    }
-    return all;
-  };
-  const std::vector<double> expected = distances();
-  std::vector<std::vector<double>> got(4);
-  std::vector<std::thread> threads;
-  for (auto& mine : got) threads.emplace_back([&mine, &distances] { mine = distances(); });
-  for (std::thread& thread : threads) thread.join();
-  for (const auto& mine : got) EXPECT_EQ(mine, expected);
+  expect_threads_to_get_the_same_bits(build(bumps(12)));
 }
 
 TEST_P(EveryBullet, CountsItsBytes) {
@@ -203,67 +188,9 @@ TEST_P(EveryBullet, CountsItsBytes) {
 class ExactBullet : public EveryBullet {};
 INSTANTIATE_TEST_SUITE_P(Bullet, ExactBullet, testing::Values(exact, exact_fitted));
 
-void expect_equal_to_brute_force(const TriangleMesh& mesh, const BulletDetector& detector, double size,
-                                 const Vec3& middle) {
-  EXPECT_EQ(detector.accuracy().guarantee, Guarantee::exact);
-  const BruteForce reference = BruteForce::build(mesh);
-  BruteForce::Session reference_session;
-  BulletDetector::Session session;
-  Random random(5);
-  int found = 0, hits = 0;
-  const auto expect_same = [](const Contact& actual, const Contact& expected) {
-    EXPECT_EQ(actual.distance, expected.distance);
-    EXPECT_EQ(actual.triangle, expected.triangle);
-    EXPECT_EQ(actual.point, expected.point);
-    EXPECT_EQ(actual.normal, expected.normal);
-  };
-  for (std::size_t trial = 0; trial < 400; ++trial) {
-    SCOPED_TRACE(trial);
-    const double reach = trial % 9 == 0 ? infinity : 0.3 * size * random.fraction();
-    const bool on_corner = trial % 11 == 0;
-    const Vec3 center =
-        on_corner ? mesh.corner(trial % mesh.size(), 1) : Vec3(size * random.point() + middle);
-    const auto expected = reference.nearest({center, 0}, reach, reference_session);
-    const auto actual = detector.nearest({center, 0}, reach, session);
-    ASSERT_EQ(actual.has_value(), expected.has_value());
-    EXPECT_EQ(detector.touches({center, reach}, session), expected.has_value());
-    if (expected) expect_same(*actual, *expected);
-    found += expected.has_value();
-
-    const double length = size * (trial % 2 == 0 ? 0.01 : 1);
-    const double radius = trial % 3 == 0 ? 0.0 : 0.02 * size;
-    const Sweep sweep{center, center + length * random.point(), radius};
-    const auto expected_hit = reference.first_hit(sweep, reference_session);
-    const auto hit = detector.first_hit(sweep, session);
-    ASSERT_EQ(hit.has_value(), expected_hit.has_value());
-    if (!hit) continue;
-    ++hits;
-    EXPECT_EQ(hit->fraction, expected_hit->fraction);
-    expect_same(hit->contact, expected_hit->contact);
-  }
-  EXPECT_GT(found, 100);
-  EXPECT_GT(hits, 30);
-}
-
-TEST_P(ExactBullet, EqualsBruteForceOnASurface) {
-  const TriangleMesh mesh = bumps(12);
-  expect_equal_to_brute_force(mesh, build(mesh), 1, Vec3::Zero());
-}
-
-TEST_P(ExactBullet, EqualsBruteForceOnSlivers) {
-  const TriangleMesh mesh = soup(300, 6);
-  expect_equal_to_brute_force(mesh, build(mesh), 1, Vec3::Zero());
-}
-
-TEST_P(ExactBullet, EqualsBruteForceFarFromTheOrigin) {
-  const Vec3 far(1e6, -1e6, 1e6);
-  const TriangleMesh mesh = soup(300, 7).transformed(1, far);
-  expect_equal_to_brute_force(mesh, build(mesh), 1, far);
-}
-
-TEST_P(ExactBullet, EqualsBruteForceOnAMeshOfMicrons) {
-  const TriangleMesh mesh = bumps(12).transformed(1e-6, Vec3::Zero());
-  expect_equal_to_brute_force(mesh, build(mesh), 1e-6, Vec3::Zero());
+TEST_P(ExactBullet, GivesTheBitsOfBruteForce) {
+  EXPECT_EQ(build(square()).accuracy().guarantee, Guarantee::exact);
+  expect_the_bits_of_brute_force_everywhere([this](const TriangleMesh& mesh) { return build(mesh); });
 }
 
 /// Faults of Bullet 3.24 as Debian 12 ships it: these pass while the faults are there. When one fails, Bullet

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <stdexcept>
 #include <vector>
 
@@ -11,6 +10,7 @@
 #include "baselines/embree/embree_detector.h"
 #include "core/brute_force/brute_force.h"
 #include "tests/baselines/follows.h"
+#include "tests/baselines/meshes.h"
 
 namespace touchmark::baselines {
 namespace {
@@ -22,19 +22,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 using Options = EmbreeDetector::Options;
 using Geometry = EmbreeDetector::Geometry;
 using Quality = EmbreeDetector::Quality;
-
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double coordinate() { return static_cast<double>(engine_() >> 11) * 0x1p-52 - 1; }
-  Vec3 point() {
-    const double x = coordinate(), y = coordinate(), z = coordinate();
-    return {x, y, z};
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 TriangleMesh soup(double scale, double offset) {
   Random random(5);
@@ -57,7 +44,7 @@ TriangleMesh octahedra(std::uint32_t count, double scale) {
   std::vector<TriangleMesh::Corners> corners;
   for (std::uint32_t i = 0; i < count; ++i) {
     const Vec3 center = random.point();
-    const double size = 0.05 * (1.5 + random.coordinate());
+    const double size = 0.05 * (1.5 + random.between(-1, 1));
     for (std::uint32_t axis = 0; axis < 3; ++axis) {
       for (const double sign : {-1.0, 1.0})
         vertices.push_back(scale * (center + sign * size * Vec3::Unit(axis)));

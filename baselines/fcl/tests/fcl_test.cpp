@@ -2,7 +2,6 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -12,9 +11,11 @@
 #include "baselines/fcl/fcl_scene.h"
 #include "core/brute_force/brute_force.h"
 #include "tests/baselines/asking.h"
+#include "tests/baselines/exact_form.h"
 #include "tests/baselines/follows.h"
 #include "tests/baselines/meshes.h"
 #include "tests/baselines/scenes.h"
+#include "tests/baselines/threads.h"
 
 namespace touchmark::baselines {
 namespace {
@@ -135,7 +136,7 @@ TEST_P(EveryFcl, FindsExactlyTheTouchingProbesOfBruteForce) {
   Random random(3);
   int touching = 0;
   for (int trial = 0; trial < 300; ++trial) {
-    const Probe probe{random.point(), 0.3 * random.fraction()};
+    const Probe probe{random.point(), 0.3 * random.unit()};
     const bool expected = reference.touches(probe, reference_session);
     EXPECT_EQ(detector.touches(probe, session), expected) << trial;
     EXPECT_EQ(detector.nearest(probe, probe.radius, session).has_value(), expected) << trial;
@@ -177,51 +178,8 @@ INSTANTIATE_TEST_SUITE_P(Fcl, ExactFcl, testing::ValuesIn([] {
                            return exact;
                          }()));
 
-void expect_equal_to_brute_force(const TriangleMesh& mesh, const FclDetector& detector, double size,
-                                 const Vec3& middle) {
-  const BruteForce reference = BruteForce::build(mesh);
-  BruteForce::Session reference_session;
-  FclDetector::Session session;
-  Random random(5);
-  int found = 0;
-  for (std::size_t trial = 0; trial < 400; ++trial) {
-    const double reach = trial % 9 == 0 ? infinity : 0.3 * size * random.fraction();
-    const bool on_corner = trial % 11 == 0;
-    const Vec3 center =
-        on_corner ? mesh.corner(trial % mesh.size(), 1) : Vec3(size * random.point() + middle);
-    const auto expected = reference.nearest({center, 0}, reach, reference_session);
-    const auto actual = detector.nearest({center, 0}, reach, session);
-    ASSERT_EQ(actual.has_value(), expected.has_value()) << trial;
-    EXPECT_EQ(detector.touches({center, reach}, session), expected.has_value()) << trial;
-    if (!expected) continue;
-    ++found;
-    EXPECT_EQ(actual->distance, expected->distance) << trial;
-    EXPECT_EQ(actual->triangle, expected->triangle) << trial;
-    EXPECT_EQ(actual->point, expected->point) << trial;
-    EXPECT_EQ(actual->normal, expected->normal) << trial;
-  }
-  EXPECT_GT(found, 100);
-}
-
-TEST_P(ExactFcl, EqualsBruteForceOnASurface) {
-  const TriangleMesh mesh = bumps(12);
-  expect_equal_to_brute_force(mesh, build(mesh), 1, Vec3::Zero());
-}
-
-TEST_P(ExactFcl, EqualsBruteForceOnSlivers) {
-  const TriangleMesh mesh = soup(300, 6);
-  expect_equal_to_brute_force(mesh, build(mesh), 1, Vec3::Zero());
-}
-
-TEST_P(ExactFcl, EqualsBruteForceFarFromTheOrigin) {
-  const Vec3 far(1e6, -1e6, 1e6);
-  const TriangleMesh mesh = soup(300, 7).transformed(1, far);
-  expect_equal_to_brute_force(mesh, build(mesh), 1, far);
-}
-
-TEST_P(ExactFcl, EqualsBruteForceOnAMeshOfMicrons) {
-  const TriangleMesh mesh = bumps(12).transformed(1e-6, Vec3::Zero());
-  expect_equal_to_brute_force(mesh, build(mesh), 1e-6, Vec3::Zero());
+TEST_P(ExactFcl, GivesTheBitsOfBruteForce) {
+  expect_the_bits_of_brute_force_everywhere([this](const TriangleMesh& mesh) { return build(mesh); });
 }
 
 TEST_P(ExactFcl, EqualsBruteForceOnTrianglesWithoutArea) {
@@ -235,7 +193,7 @@ TEST_P(ExactFcl, EqualsBruteForceOnTrianglesWithoutArea) {
     corners.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
   const TriangleMesh mesh(vertices, corners);
-  expect_equal_to_brute_force(mesh, build(mesh), 1, Vec3::Zero());
+  expect_the_bits_of_brute_force(mesh, build(mesh), 1, Vec3::Zero());
 }
 
 TEST(Fcl, DistanceMethodIsAsAccurateAsDoublesOnAWellShapedMesh) {
@@ -280,23 +238,7 @@ TEST(Fcl, CountsTheVolumesItLooksAt) {
 }
 
 TEST(Fcl, ThreadsWithASessionEachGiveTheSameBits) {
-  const FclDetector detector = FclDetector::build(bumps(12));
-  const auto distances = [&] {
-    FclDetector::Session session;
-    Random random(10);
-    std::vector<double> all;
-    for (int trial = 0; trial < 200; ++trial) {
-      const auto contact = detector.nearest({random.point(), 0}, 0.3, session);
-      all.push_back(contact ? contact->distance : -1);
-    }
-    return all;
-  };
-  const std::vector<double> expected = distances();
-  std::vector<std::vector<double>> got(4);
-  std::vector<std::thread> threads;
-  for (auto& mine : got) threads.emplace_back([&mine, &distances] { mine = distances(); });
-  for (std::thread& thread : threads) thread.join();
-  for (const auto& mine : got) EXPECT_EQ(mine, expected);
+  expect_threads_to_get_the_same_bits(FclDetector::build(bumps(12)));
 }
 
 TEST(Fcl, FollowsVerticesThatMove) {

@@ -157,7 +157,7 @@ TEST(FclTraps, ConservativeAdvancementMissesAsWell) {
   Random random(4);
   int found = 0;
   for (int trial = 0; trial < 20; ++trial) {  // straight through the surface, which lies within |z| <= 0.2
-    const double x = 0.9 * random.coordinate(), y = 0.9 * random.coordinate();
+    const double x = 0.9 * random.between(-1, 1), y = 0.9 * random.between(-1, 1);
     fcl::ContinuousCollisionResultd result;
     fcl::continuousCollide(model.get(), fcl::Transform3d::Identity(), fcl::Transform3d::Identity(), &ball,
                            at({x, y, 1}), at({x, y, -1}), request, result);

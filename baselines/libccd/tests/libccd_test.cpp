@@ -3,7 +3,6 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -12,6 +11,7 @@
 #include "core/brute_force/brute_force.h"
 #include "tests/baselines/asking.h"
 #include "tests/baselines/meshes.h"
+#include "tests/baselines/threads.h"
 
 namespace touchmark::baselines {
 namespace {
@@ -113,23 +113,7 @@ TEST_P(EveryLibccd, FindsThemOnAMeshOfMicronsToo) {
 }
 
 TEST_P(EveryLibccd, ThreadsWithASessionEachGiveTheSameBits) {
-  const LibccdDetector detector = build(bumps(12));
-  const auto distances = [&] {
-    LibccdDetector::Session mine;
-    Random random(10);
-    std::vector<double> all;
-    for (int trial = 0; trial < 100; ++trial) {
-      const auto contact = detector.nearest({random.point(), 0}, 0.3, mine);
-      all.push_back(contact ? contact->distance : -1);
-    }
-    return all;
-  };
-  const std::vector<double> expected = distances();
-  std::vector<std::vector<double>> got(4);
-  std::vector<std::thread> threads;
-  for (auto& mine : got) threads.emplace_back([&mine, &distances] { mine = distances(); });
-  for (std::thread& thread : threads) thread.join();
-  for (const auto& mine : got) EXPECT_EQ(mine, expected);
+  expect_threads_to_get_the_same_bits(build(bumps(12)), 100);
 }
 
 TEST_P(EveryLibccd, CountsPairsAndBoxes) {
@@ -165,7 +149,7 @@ Wrong wrong_touches(Frame frame, double scale) {
   Random random(3);
   Wrong wrong;
   for (int trial = 0; trial < 1000; ++trial) {
-    const Probe probe{scale * random.point(), 0.2 * scale * random.fraction()};
+    const Probe probe{scale * random.point(), 0.2 * scale * random.unit()};
     const bool expected = reference.touches(probe, reference_session);
     const bool touching = detector.touches(probe, session);
     wrong.missed += expected && !touching;
@@ -189,7 +173,7 @@ TEST(LibccdTraps, DepthsAreFarOffForABallOnALargeTriangle) {
   Random random(6);
   double worst = 0;
   for (int trial = 0; trial < 100; ++trial) {
-    const Vec3 center(0.05 + 0.4 * random.fraction(), 0.05 + 0.4 * random.fraction(), 0.0005);
+    const Vec3 center(0.05 + 0.4 * random.unit(), 0.05 + 0.4 * random.unit(), 0.0005);
     const auto contact = detector.nearest({center, 0}, 0.001, session);
     if (contact) worst = std::max(worst, std::abs(contact->distance - 0.0005) / 0.001);
   }
@@ -203,7 +187,7 @@ TEST(LibccdTraps, ABarePointOnATriangleIsOftenMissed) {
   Random random(7);
   int found = 0;
   for (std::size_t trial = 0; trial < 100; ++trial) {
-    const double u = random.fraction(), v = (1 - u) * random.fraction();
+    const double u = random.unit(), v = (1 - u) * random.unit();
     const Vec3 inside =
         (1 - u - v) * mesh.corner(trial, 0) + u * mesh.corner(trial, 1) + v * mesh.corner(trial, 2);
     found += detector.touches({inside, 0}, session);

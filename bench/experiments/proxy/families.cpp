@@ -1,9 +1,4 @@
 #include <array>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "bench/experiments/proxy/course_makers.h"
 #include "bench/support/did_you_mean.h"
@@ -41,14 +36,6 @@ constexpr std::array list{
 
 std::span<const Family> families() { return list; }
 
-const Family& family_named(std::string_view name) {
-  std::vector<std::string> names;
-  for (const Family& family : list) {
-    if (family.name == name) return family;
-    names.emplace_back(family.name);
-  }
-  throw std::invalid_argument(
-      fmt::format("unknown family \"{}\"; the nearest names: {}", name, support::near_names(name, names)));
-}
+const Family& family_named(std::string_view name) { return support::item_named(name, list, "family"); }
 
 }  // namespace touchmark::bench::experiments::proxy

@@ -76,15 +76,8 @@ std::span<const MethodInfo> methods() { return list(); }
 
 MethodSpec method_named(const std::string& text) {
   const std::string name = text.substr(0, text.find(':'));
-  std::vector<std::string> names;
   MethodSpec spec;
-  for (const MethodInfo& info : list()) {
-    names.emplace_back(info.name);
-    if (info.name == name) spec.info = &info;
-  }
-  if (spec.info == nullptr)
-    throw std::invalid_argument(
-        fmt::format("unknown method \"{}\"; the nearest names: {}", name, support::near_names(name, names)));
+  spec.info = &support::item_named(name, list(), "method");
   std::map<std::string, std::string> values;
   for (const MethodOption& option : spec.info->options) values.emplace(option.key, option.default_value);
   if (name.size() < text.size()) spec.options = text.substr(name.size() + 1);

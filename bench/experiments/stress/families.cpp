@@ -1,7 +1,4 @@
 #include <array>
-#include <stdexcept>
-
-#include <fmt/format.h>
 
 #include "bench/experiments/stress/family.h"
 #include "bench/experiments/stress/makers.h"
@@ -68,14 +65,6 @@ constexpr std::array list{
 
 std::span<const Family> families() { return list; }
 
-const Family& family_named(std::string_view name) {
-  std::vector<std::string> names;
-  for (const Family& family : list) {
-    if (family.name == name) return family;
-    names.emplace_back(family.name);
-  }
-  throw std::invalid_argument(
-      fmt::format("unknown family \"{}\"; the nearest names: {}", name, support::near_names(name, names)));
-}
+const Family& family_named(std::string_view name) { return support::item_named(name, list, "family"); }
 
 }  // namespace touchmark::bench::experiments::stress

@@ -51,6 +51,8 @@ class CellTree {
     const Leaf leaf = leaves_[found.leaf].load();
     return {middle(at, found.shift), static_cast<double>(leaf.distance), leaf.slot};
   }
+  /// Returns the length of that cell's edges.
+  double edge_at(const Vec3& in_frame) const noexcept { return unit_ * (1u << find(units(in_frame)).shift); }
   /// The mesh is no farther from the middle of a cell of this distance, where a search for what is nearest to
   /// it came to its end.
   double upper_bound(double distance) const noexcept {

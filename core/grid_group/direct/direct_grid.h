@@ -18,6 +18,7 @@
 #include "core/search/last_distance.h"
 #include "core/search/last_question.h"
 #include "core/search/linear_scan.h"
+#include "core/search/tracing.h"
 
 namespace touchmark::grid {
 
@@ -124,8 +125,12 @@ class DirectGrid {
                                                      Work& work) const noexcept {
     ++work.cells;
     const Group& group = groups_.of(slot);
+    if constexpr (tracing)
+      note_group(group, group.covers(plane_values(store_.planes[slot], point), point.plane_error));
     return group.covers(plane_values(store_.planes[slot], point), point.plane_error) ? &group : nullptr;
   }
+  void note_group(const Group& group, bool covers) const;
+  void note_cell(const Vec3& in_frame) const;
   /// Returns at least the distance to the triangle in this slot, or infinity.
   double upper_bound_to(std::uint32_t slot, const FilterPoint& point, Work& work) const noexcept {
     ++work.triangles;

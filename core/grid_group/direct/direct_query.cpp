@@ -24,6 +24,7 @@ DirectGrid::Start DirectGrid::start_at(const Vec3& center, const FilterPoint& po
     return {memory.lower > reach, memory.slot, nullptr};
   }
   ++work.cells;
+  if constexpr (tracing) note_cell(in_frame);
   const Cell cell = cells_.at(in_frame);
   // The memory keeps the middle as it is when rounded.
   const double clearance = (cell.distance - cells_.middle_error()) * store_.frame.unit();
@@ -32,6 +33,22 @@ DirectGrid::Start DirectGrid::start_at(const Vec3& center, const FilterPoint& po
   if (is_clear(center, reach, memory)) return {true, cell.slot, nullptr};
   return {false, cell.slot, group_covering(cell.slot, point, work)};
 }
+
+#if TOUCHMARK_TRACING
+void DirectGrid::note_group(const Group& group, bool covers) const {
+  if (visits == nullptr || group.count() == 0) return;
+  Aabb box;
+  for (const std::uint32_t member : groups_.members(group))
+    for (const Vec3& corner : store_.exact[member].corner) box.extend(corner);
+  visits->groups.push_back({box, static_cast<std::uint32_t>(group.count()), covers});
+}
+
+void DirectGrid::note_cell(const Vec3& in_frame) const {
+  if (visits == nullptr) return;
+  const Vec3 middle = cells_.at(in_frame).middle, half = Vec3::Constant(cells_.edge_at(in_frame) / 2);
+  visits->cells.push_back({store_.frame.from_frame(middle - half), store_.frame.from_frame(middle + half)});
+}
+#endif
 
 /// Hops twice at most to that member of a triangle's group which seems nearest, until its own group covers
 /// the point.

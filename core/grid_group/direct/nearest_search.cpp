@@ -103,6 +103,24 @@ void NearestSearch::decide_open() noexcept {
   open_count_ = 0;
 }
 
+#if TOUCHMARK_TRACING
+/// Notes those that exist.
+void NearestSearch::note_boxes(const EightBoxes& boxes) const {
+  if (visits == nullptr) return;
+  visits->frame = &store_.frame;
+  const std::array<Lanes, 2> bounds = lower_bounds(boxes, point_);
+  for (std::uint32_t i = 0; i < BoxTree::arity; ++i) {
+    const auto corner = [&](const Lanes(&side)[3][2]) {
+      return Vec3(double{side[0][i / 4][i % 4]}, double{side[1][i / 4][i % 4]},
+                  double{side[2][i / 4][i % 4]});
+    };
+    const Vec3 min = corner(boxes.min), max = corner(boxes.max);
+    if ((min.array() <= max.array()).all() && max.allFinite())
+      visits->note_in_frame(min, max, bounds[i / 4][i % 4] <= limit_);
+  }
+}
+#endif
+
 std::uint32_t NearestSearch::closest_of(std::span<const std::uint32_t> members) noexcept {
   triangles_ += members.size();
   return filter(members).guess;

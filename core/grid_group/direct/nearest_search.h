@@ -18,6 +18,7 @@
 #include "core/search/closest_candidates.h"
 #include "core/search/linear_scan.h"
 #include "core/search/nearest_of_ties.h"
+#include "core/search/tracing.h"
 #include "core/simd/prefetch.h"
 
 namespace touchmark::grid {
@@ -122,6 +123,7 @@ class NearestSearch {
 
   void visit(const BoxTree& tree, std::uint32_t level, std::uint32_t node, BoxStack& stack) noexcept {
     boxes_ += BoxTree::arity;
+    if constexpr (tracing) note_boxes(tree.node(level, node));
     const std::size_t base = stack.size();
     stack.push(lower_bounds(tree.node(level, node), point_), limit_, node, level);
     for (const BoxStack::Entry& child : stack.from(base)) {
@@ -145,6 +147,8 @@ class NearestSearch {
   }
   void decide(std::uint32_t slot) noexcept {
     const PreparedTriangle& triangle = store_.exact[slot];
+    if constexpr (tracing)
+      if (visits != nullptr) visits->triangles.push_back(triangle.index);
     const Offset offset = exact_offset(triangle, center_);
     if (is_open(offset.squared)) leave_open(slot, offset.squared);
     if (!candidates_.update({offset.squared, triangle.index}, slot)) return;
@@ -154,6 +158,7 @@ class NearestSearch {
     limit_ = std::min(limit_, store_.frame.limit(offset.squared));
     if (enough_ > 0) within_ = std::min(within_, std::sqrt(offset.squared));
   }
+  void note_boxes(const EightBoxes& boxes) const;
   /// Do doubles leave open whether this is within the radius, or nearly so?
   bool is_open(double squared) const noexcept { return squared >= open_from_ && squared <= open_to_; }
   [[gnu::cold, gnu::noinline]] bool decide_last(double squared) noexcept;

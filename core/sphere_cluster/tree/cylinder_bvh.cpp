@@ -47,11 +47,18 @@ SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters,
     return;
   }
   frame_ = FilterFrame::around(mesh.bounds());
-  radius_ = frame_.radius() * frame_.unit();
+  measure_box();
   parts_ = spheres::build_tree(mesh, clusters, frame_, threads_);
   spheres::choose_bounds(parts_, frame_);
   measure_leaves();
   fill_distances();
+}
+
+void SphereTree::measure_box() noexcept {
+  constexpr double margin = 0x1p-20, longest = 0x1p20;
+  radius_ = frame_.radius() * frame_.unit();
+  box_margin_ = margin * radius_;
+  longest_beyond_box_ = (longest * radius_) * (longest * radius_);
 }
 
 void SphereTree::measure_leaves() noexcept {
@@ -149,6 +156,8 @@ template <class Ends>
                                                               std::uint64_t budget,
                                                               const Ends& ends) const noexcept {
   claim(memory);
+  if constexpr (tracing)
+    if (visits != nullptr) visits->frame = &frame_;
   const FilterPoint point = frame_.point(center);
   if (!can_search(point)) return ends.without();
   bool near = false;
@@ -267,7 +276,7 @@ SphereTree::WithinBudget SphereTree::nearest_within_budget(const Vec3& center, d
 }
 
 void SphereTree::prepare(const LastQuestion& question, Memory& memory, Work& work) const noexcept {
-  if (memory.epoch != epoch_ || is_clear(memory.center, question.reach, memory)) return;
+  if (memory.beyond_box || memory.epoch != epoch_ || is_clear(memory.center, question.reach, memory)) return;
   const Vec3 move = is_slow(memory.move) ? memory.move : Vec3(Vec3::Zero());
   if (question.query != LastQuestion::Query::touches && memory.is_near()) refill_ahead(memory, work);
   const Vec3 kept = memory.move;

@@ -41,6 +41,11 @@ class SphereTree {
     /// By which the point had moved then; infinite after `touches`, which refills no cache.
     Vec3 move = Vec3::Zero();
     spheres::LeafCache cache;
+    /// The planes of the triangle that `touches` found last, in one line, and its slot.
+    TrianglePlanes touched{};
+    std::uint32_t touched_slot = std::numeric_limits<std::uint32_t>::max();
+    /// The mesh's box answered last, and so is asked first.
+    bool beyond_box = false;
   };
 
   struct Options {
@@ -67,6 +72,16 @@ class SphereTree {
   /// Is that known of a whole path? A ball that holds both its ends holds all of it.
   bool is_clear(const Sweep& sweep, const Memory& memory) const noexcept {
     return is_clear(sweep.from, sweep.radius, memory) && is_clear(sweep.to, sweep.radius, memory);
+  }
+  /// Is nothing within reach, by the mesh's box alone?
+  bool is_beyond_box(const Vec3& center, double reach) const noexcept {
+    return beyond_box(center, center) > reach + box_margin_;
+  }
+  /// Is nothing within the radius of the whole path, by the mesh's box alone? Longer paths round more.
+  bool is_beyond_box(const Sweep& sweep) const noexcept {
+    return beyond_box(sweep.from.cwiseMin(sweep.to), sweep.from.cwiseMax(sweep.to)) >
+               sweep.radius + box_margin_ &&
+           (sweep.to - sweep.from).squaredNorm() < longest_beyond_box_;
   }
   /// Is that known of one of many points?
   bool is_clear(const Vec3& center, double reach, const spheres::FollowedPoint& list) const noexcept {
@@ -106,6 +121,11 @@ class SphereTree {
     if (memory.epoch != epoch_) start_anew(memory);
   }
   void start_anew(Memory& memory) const noexcept;
+  /// Returns by how much a box is beyond the mesh's along the axis where it is most.
+  double beyond_box(const Vec3& min, const Vec3& max) const noexcept {
+    return (bounds_.min - max).cwiseMax(min - bounds_.max).maxCoeff();
+  }
+  void measure_box() noexcept;
   double clearance_pad(const FilterPoint& point) const noexcept;
   double clearance_from(float unseen, double shown, double pad) const noexcept;
   bool rejects_by_distance_field(const FilterPoint& point, const Vec3& center, double reach,
@@ -113,7 +133,11 @@ class SphereTree {
   [[gnu::noinline]] bool rejects_once_sampled(const FilterPoint& point, const Vec3& center, double reach,
                                               Memory& memory, std::uint64_t& budget,
                                               Work& work) const noexcept;
+  bool accepts_by_distance_field(const FilterPoint& point, const Vec3& center, double radius,
+                                 Memory& memory) const noexcept;
   static void remember_touch(const Vec3& center, double lower, double upper, Memory& memory) noexcept;
+  void remember_planes(Memory& memory) const noexcept;
+  bool still_touches(const FilterPoint& point, const Probe& probe, Memory& memory, Work& work) const noexcept;
   /// Returns at least the distance between two points of the mesh's frame, in the tree's.
   float displacement(const Vec3& from, const Vec3& to, const FilterPoint& at) const noexcept;
 
@@ -152,6 +176,10 @@ class SphereTree {
   }
   std::optional<Contact> nearest_without(const Vec3& center, double reach, Work& work) const noexcept;
 
+  double sampled_clearance(const FilterPoint& point) const noexcept {
+    return static_cast<double>(distances_.lower_bound(point)) * frame_.unit();
+  }
+  bool is_sampled_clear(const Sweep& sweep, double length, double reach, Memory& memory) const noexcept;
   bool search_middle(const Sweep& sweep, double length, double reach, std::uint64_t budget, FirstTouch& first,
                      Work& work) const noexcept;
   bool search_path(const Sweep& sweep, double length, double reach, std::uint64_t budget, FirstTouch& first,
@@ -196,6 +224,9 @@ class SphereTree {
   bool certified_ = true;
   double radius_ = 0;            ///< radius of a ball around the frame's origin that holds the mesh
   double mean_leaf_radius_ = 0;  ///< the mean radius of a block
+  /// How much farther than the reach the mesh's box must be to answer, and of how long a path, squared: then
+  /// the margin is far more than all rounding on the way to an answer.
+  double box_margin_ = std::numeric_limits<double>::infinity(), longest_beyond_box_ = 0;
   spheres::TreeParts parts_;
   bool lazy_ = false;
   unsigned threads_ = 1;

@@ -81,7 +81,7 @@ bool SphereTree::update(const TriangleMesh& mesh) {
   if (!searchable_ || !FilterFrame::fits(mesh.bounds()) || !frame_.widen(mesh.bounds())) return false;
   epoch_ = Epoch::next();
   bounds_ = mesh.bounds();
-  radius_ = frame_.radius() * frame_.unit();
+  measure_box();
   const spheres::MovedTriangles moved = spheres::refit_tree(parts_, mesh, frame_);
   if (moved.count == 0) return true;
   measure_leaves();

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 
 #include "core/geometry/distance_error.h"
 #include "core/geometry/sweep_box.h"
@@ -56,6 +57,7 @@ std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, 
   if (is_clear(sweep, memory)) return std::nullopt;
   const double length = (sweep.to - sweep.from).norm();
   const double reach = padded_sweep_radius(sweep, largest_difference(bounds_, sweep));
+  if (is_sampled_clear(sweep, length, reach, memory)) return std::nullopt;
   const std::uint64_t budget = remaining(work_limit(), work.total() - before);
   FirstTouch first(sweep);
   const bool done = length <= longest_in_leaf_radii * mean_leaf_radius_
@@ -68,6 +70,30 @@ std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, 
   }
   return impact_of(first, parts_.triangles, ids_, certified_,
                    [&](double reach_at_start) { return nearest(sweep.from, reach_at_start, memory, work); });
+}
+
+/// Is all of the path in balls that are clear of the mesh: that about its start, that about its end, and up
+/// to two in between, each about the place where the ones before it end? Then the end is remembered.
+bool SphereTree::is_sampled_clear(const Sweep& sweep, double length, double reach,
+                                  Memory& memory) const noexcept {
+  constexpr int most_between = 2;
+  const double clear_of = reach + position_error(sweep), way = length * (1 + 0x1p-40);
+  const double at_end = sampled_clearance(frame_.point(sweep.to));
+  double covered = memory.lower - (sweep.from - memory.center).norm() * (1 + 0x1p-40) - clear_of;
+  for (int between = 0; at_end > clear_of; ++between) {
+    if (!(covered > 0)) return false;
+    if (covered + (at_end - clear_of) > way) {
+      memory.center = sweep.to;
+      memory.lower = at_end;
+      memory.upper = std::numeric_limits<double>::infinity();
+      return true;
+    }
+    if (between == most_between) return false;
+    const double more = sampled_clearance(frame_.point(position_at(sweep, covered / way))) - clear_of;
+    if (!(more > 0)) return false;
+    covered += more;
+  }
+  return false;
 }
 
 /// Looks in a ball about the middle, which is rounded to a point. Returns false when the work budget was

@@ -80,27 +80,16 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
   const Vec3& center = probe.center;
   const double radius = probe.radius;
   claim(memory);
+  if constexpr (tracing)
+    if (visits != nullptr) visits->frame = &frame_;
   const FilterPoint point = frame_.point(center);
   if (!can_search(point)) return nearest_without(center, radius, work).has_value();
-  if (memory.is_near()) {
-    const double moved = (center - memory.center).norm();
-    if ((memory.upper + moved) * (1 + 0x1p-40) + clearance_pad(point) <= radius) return true;
-    // It is still near what it touched, unless it came from elsewhere.
-    if (std::abs(memory.upper - moved) <= radius) {
-      TouchVisitor visitor(parts_, center, radius, frame_.kernel_error(point.plane_error), certified_);
-      visit(memory.slot, visitor);
-      if (visitor.open_count > 0) decide_open(visitor, frame_.kernel_error(point.plane_error), work);
-      work += visitor.work;
-      if (visitor.kept_at != nowhere) {
-        remember_touch(center, 0, visitor.least, memory);
-        return true;
-      }
-    }
-  }
+  if (memory.is_near() && still_touches(point, probe, memory, work)) return true;
   std::uint64_t budget = work_limit();
   if (rejects_by_distance_field(point, center, radius, memory) ||
       (lazy_ && rejects_once_sampled(point, center, radius, memory, budget, work)))
     return false;
+  if (accepts_by_distance_field(point, center, radius, memory)) return true;
   const double error = frame_.kernel_error(point.plane_error);
   TouchVisitor visitor(parts_, center, radius, error, certified_);
   visitor.limit = frame_.limit((radius + error) * (radius + error));
@@ -118,7 +107,60 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
   }
   remember_touch(center, 0, visitor.least, memory);
   memory.slot = visitor.kept_at;
+  remember_planes(memory);
   return true;
+}
+
+/// Does what was near last still touch? By how far it was, else by its planes, else by the kernel.
+[[gnu::always_inline]] inline bool SphereTree::still_touches(const FilterPoint& point, const Probe& probe,
+                                                             Memory& memory, Work& work) const noexcept {
+  const Vec3& center = probe.center;
+  const double radius = probe.radius, moved = (center - memory.center).norm();
+  if ((memory.upper + moved) * (1 + 0x1p-40) + clearance_pad(point) <= radius) return true;
+  const double error = frame_.kernel_error(point.plane_error);
+  if (memory.touched_slot == memory.slot) {
+    ++work.triangles;
+    const Lanes values = plane_values(memory.touched, point);
+    const double farthest = frame_.from_frame_rounded_up(distance_upper_bound(memory.touched, values, point));
+    if (farthest < radius - error) {
+      remember_touch(center, 0, farthest, memory);
+      return true;
+    }
+    if (squared_lower_bound(values, point) > frame_.limit((radius + error) * (radius + error))) return false;
+  } else if (!(std::abs(memory.upper - moved) <= radius)) {
+    return false;  // it came from elsewhere
+  }
+  TouchVisitor visitor(parts_, center, radius, error, certified_);
+  visit(memory.slot, visitor);
+  if (visitor.open_count > 0) decide_open(visitor, error, work);
+  work += visitor.work;
+  if (visitor.kept_at == nowhere) return false;
+  remember_touch(center, 0, visitor.least, memory);
+  return true;
+}
+
+/// Does something surely touch, by what was sampled? It may be another triangle than the one remembered,
+/// which later queries only start from.
+[[gnu::always_inline]] inline bool SphereTree::accepts_by_distance_field(const FilterPoint& point,
+                                                                         const Vec3& center, double radius,
+                                                                         Memory& memory) const noexcept {
+  const double farthest = static_cast<double>(distances_.upper_bound(point)) * frame_.unit();
+  if (!(farthest < radius - frame_.kernel_error(point.plane_error))) return false;
+  remember_touch(center, 0, farthest, memory);
+  return true;
+}
+
+/// Takes the planes of the triangle that touches out of its block, whose eight lines they are spread over.
+void SphereTree::remember_planes(Memory& memory) const noexcept {
+  const spheres::TriangleBlock& block = parts_.blocks[memory.slot / spheres::tree_width];
+  const std::uint32_t at = memory.slot % spheres::tree_width;
+  for (int k = 0; k < 4; ++k) {
+    memory.touched.x[k] = block.x[k][at];
+    memory.touched.y[k] = block.y[k][at];
+    memory.touched.z[k] = block.z[k][at];
+    memory.touched.offset[k] = block.offset[k][at];
+  }
+  memory.touched_slot = memory.slot;
 }
 
 /// Remembers what `touches` found.

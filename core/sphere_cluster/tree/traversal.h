@@ -10,11 +10,13 @@
 #include <cstring>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "core/detector.h"
 #include "core/geometry/point_triangle.h"
 #include "core/geometry/point_triangle_avx2.h"
 #include "core/search/plane_filter.h"
+#include "core/search/tracing.h"
 #include "core/simd/lanes.h"
 #include "core/simd/prefetch.h"
 #include "core/simd/target.h"
@@ -52,6 +54,34 @@ inline constexpr float difference_pad = 1 - 16 * 0x1p-24F;
 /// Rounding of a corner's bound, of which no term is negative: the cosine is off by 8 u at most, two for each
 /// of the normals and three of its own, so its square by 16 u and what it is a factor of by 8; ten roundings.
 inline constexpr float sine_error = 0x1p-18F, corner_factor = 1 - 32 * 0x1p-24F;
+
+/// Notes eight children, of a node or cached, from `first` on; those of `near` are entered.
+template <class Children>
+void note_children(bool boxes, const Children& node, std::size_t first, unsigned near) {
+  if (visits == nullptr) return;
+  for (std::size_t k = 0; k < tree_width; ++k) {
+    const std::size_t i = first + k;
+    if (!(node.half[i] >= 0)) continue;  // nothing is there
+    const Vec3 center(double{node.x[i]}, double{node.y[i]}, double{node.z[i]});
+    const bool entered = (near >> k & 1) != 0;
+    if (boxes) {
+      const Vec3 half(double{node.half[i]}, double{node.radius[i]}, double{node.normal_x[i]});
+      visits->note_in_frame(center - half, center + half, entered);
+    } else {
+      const FilterFrame& frame = *visits->frame;
+      visits->cylinders.push_back(
+          {frame.from_frame(center),
+           {double{node.normal_x[i]}, double{node.normal_y[i]}, double{node.normal_z[i]}},
+           double{node.radius[i]} * frame.unit(),
+           double{node.half[i]} * frame.unit(),
+           entered});
+    }
+  }
+}
+
+[[maybe_unused]] inline void note_triangle(std::uint32_t index) {
+  if (visits != nullptr) visits->triangles.push_back(index);
+}
 
 namespace portable {
 

@@ -182,6 +182,8 @@ inline std::array<std::uint32_t, tree_width> slots_in(TreeRef block) noexcept {
 
 template <class Visitor>
 inline void visit(const TreeParts& tree, std::uint32_t at, Visitor& visitor) noexcept {
+  if constexpr (tracing)
+    if (visitor.accepts(at)) note_triangle(tree.triangles[at].index);
   if (visitor.accepts(at)) visitor.update(at, kernel(tree.triangles[at], visitor.center));
 }
 
@@ -222,6 +224,40 @@ template <class Visitor>
   return false;
 }
 
+/// Finds a node's children within the visitor's limit. The nearest is the next: on the stack it would have to be
+/// written and read again at once. The others go there, the nearer the later. Returns false where there is none.
+template <class Visitor>
+[[gnu::always_inline]] inline bool enter_node(const TreeParts& tree, const TreeNode& node, const Point& p,
+                                              Wide& unseen, Visitor& visitor, StackEntry& next,
+                                              std::array<StackEntry, max_stack>& stack,
+                                              std::size_t& count) noexcept {
+  alignas(64) std::array<float, tree_width> bound;
+  unsigned near = within(
+      [&](std::size_t at) {
+        const Wide bounds = child_bounds(tree.boxes, node, at, p);
+        store(bound.data() + at, bounds);
+        return bounds;
+      },
+      visitor.limit, unseen);
+  visitor.work.spheres += tree_width;
+  if constexpr (tracing) note_children(tree.boxes, node, 0, near);
+  if (near == 0) return false;
+  const std::uint32_t first = pop_lowest(near);
+  prefetch(tree, node.child[first]);
+  next = {bound[first], node.child[first]};
+  const std::size_t base = count;
+  while (near != 0) {
+    const std::uint32_t child = pop_lowest(near);
+    prefetch(tree, node.child[child]);
+    StackEntry other{bound[child], node.child[child]};
+    if (other.bound <= next.bound) std::swap(other, next);
+    std::size_t at = count++;
+    for (; at > base && stack[at - 1].bound < other.bound; --at) stack[at] = stack[at - 1];
+    stack[at] = other;
+  }
+  return true;
+}
+
 /// Shows the visitor every triangle that may be within its limit, nearest volumes first. Returns a lower
 /// bound of the squared distance to what it was not shown, or `exhausted` when the visitor's work has come to
 /// more than `budget` before the end. Never inlined: whoever mostly answers without it would pay for its
@@ -232,38 +268,20 @@ template <class Visitor>
   const Point p = broadcast(point);
   Wide unseen = Wide{} + farthest;
   std::array<StackEntry, max_stack> stack;
-  std::size_t count = 1;
-  stack[0] = {0, TreeRef{0}};
-  while (count > 0) {
-    const StackEntry next = stack[--count];
+  std::size_t count = 0;
+  StackEntry next{0, TreeRef{0}};
+  for (;;) {
     if (next.bound > visitor.limit) {
       unseen = min(unseen, Wide{} + next.bound);
+    } else if (visitor.work.spheres + visitor.work.triangles > budget) {
+      return exhausted;
+    } else if (next.ref.is_block()) {
+      if (visit_block(tree, next.ref.index(), p, unseen, visitor)) break;
+    } else if (enter_node(tree, tree.nodes[next.ref.index()], p, unseen, visitor, next, stack, count)) {
       continue;
     }
-    if (visitor.work.spheres + visitor.work.triangles > budget) return exhausted;
-    const std::uint32_t index = next.ref.index();
-    if (next.ref.is_block()) {
-      if (visit_block(tree, index, p, unseen, visitor)) break;
-      continue;
-    }
-    const TreeNode& node = tree.nodes[index];
-    alignas(64) std::array<float, tree_width> bound;
-    unsigned near = within(
-        [&](std::size_t at) {
-          const Wide bounds = child_bounds(tree.boxes, node, at, p);
-          store(bound.data() + at, bounds);
-          return bounds;
-        },
-        visitor.limit, unseen);
-    visitor.work.spheres += tree_width;
-    const std::size_t base = count;
-    while (near != 0) {
-      const std::uint32_t child = pop_lowest(near);
-      prefetch(tree, node.child[child]);
-      std::size_t at = count++;
-      for (; at > base && stack[at - 1].bound < bound[child]; --at) stack[at] = stack[at - 1];
-      stack[at] = {bound[child], node.child[child]};
-    }
+    if (count == 0) break;
+    next = stack[--count];
   }
   return reduce_min(unseen);
 }
@@ -295,6 +313,7 @@ inline bool refill(const TreeParts& tree, const FilterPoint& point, std::uint64_
     const TreeNode& node = tree.nodes[stack[next]];
     const unsigned near = within([&](std::size_t at) { return child_bounds(tree.boxes, node, at, p); }, limit, unseen);
     work.spheres += tree_width;
+    if constexpr (tracing) note_children(tree.boxes, node, 0, near);
     const unsigned blocks = near & blocks_of(node);
     for (unsigned deeper = near & ~blocks; deeper != 0;) {
       const TreeRef child = node.child[pop_lowest(deeper)];
@@ -388,6 +407,7 @@ float search_cached(const TreeParts& tree, const FilterPoint& point, const LeafC
   for (std::uint32_t first = 0; first < cache.count; first += tree_width) {
     const unsigned near =
         within([&](std::size_t at) { return child_bounds(tree.boxes, cache, first + at, p); }, limit, unseen);
+    if constexpr (tracing) note_children(tree.boxes, cache, first, near);
     compress(blocks.data() + block_count, cache.child + first, near);
     block_count += static_cast<std::size_t>(std::popcount(near));
     visitor.work.spheres += tree_width;

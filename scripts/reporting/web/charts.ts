@@ -6,11 +6,12 @@ import { duration, make, shade, variable } from "./words";
 
 const NOTHING: [number | null][] = [[0], [1]];
 
-/** Ticks at 1, 2 and 5 times powers of ten, for axes that hold logarithms. */
-function decades(label: (value: number) => string) {
+/** Ticks at powers of ten, and at 2 and 5 times those where a label and its gap take no more than `room` pixels; for axes that
+    hold logarithms. */
+function decades(label: (value: number) => string, room: number) {
   return (low: number, high: number, pixels: number): { v: number; label: string }[] => {
-    const wide = (high - low) * 60 < pixels, ticks: { v: number; label: string }[] = [];
-    const every = Math.max(1, Math.ceil((high - low) * 45 / pixels));
+    const wide = (high - low) * room < pixels * 0.3, ticks: { v: number; label: string }[] = [];
+    const every = Math.max(1, Math.ceil((high - low) * room / pixels));
     for (let power = Math.floor(low); power <= Math.ceil(high); ++power) {
       for (const factor of wide ? [1, 2, 5] : [1]) {
         const v = power + Math.log10(factor);
@@ -90,7 +91,7 @@ export function drawTimes(chart: Chart, trace: Trace, looks: Look[], begin: numb
   const each_point = (end - begin) / points;
   let last: Point[] = [];
   chart.draw(data, looks, {
-    axes: { x: { ticker: whole, axisLabelWidth: 60 }, y: { ticker: decades(duration), axisLabelWidth: 62 } },
+    axes: { x: { ticker: whole, axisLabelWidth: 60 }, y: { ticker: decades(duration, 22), axisLabelWidth: 62 } },
     xlabel: "step", ylabel: "", xRangePad: 0,
     zoomCallback: (low: number, high: number) => brush(Math.max(begin, Math.floor(low)), Math.min(end, Math.ceil(high))),
     clickCallback: (_: Event, x: number, points: Point[]) => {
@@ -118,7 +119,7 @@ export function drawTails(chart: Chart, trace: Trace, looks: Look[], begin: numb
     })]);
   }
   chart.draw(data, looks, {
-    axes: { x: { ticker: decades(duration), axisLabelWidth: 70 }, y: { ticker: decades(share), axisLabelWidth: 62 } },
+    axes: { x: { ticker: decades(duration, 70), axisLabelWidth: 70 }, y: { ticker: decades(share, 22), axisLabelWidth: 62 } },
     xlabel: "time of a step", stepPlot: true, interactionModel: {},
   }, (now) => `slower than ${duration(10 ** (now[0]?.xval ?? 0))}: ${each(now, (v) => share(10 ** v))}`);
 }
@@ -141,7 +142,7 @@ export function drawWork(chart: Chart, trace: Trace, looks: Look[], begin: numbe
   const data: (number | null)[][] = [];
   for (let i = 0; i < bins; ++i) data.push([low + (high - low) * i / bins, ...counts.map((heights) => heights[i])]);
   chart.draw(data, looks, {
-    axes: { x: { ticker: decades(count), axisLabelWidth: 60 }, y: { axisLabelWidth: 46, axisLabelFormatter: (v: number) => `${v} %` } },
+    axes: { x: { ticker: decades(count, 70), axisLabelWidth: 60 }, y: { axisLabelWidth: 46, axisLabelFormatter: (v: number) => `${v} %` } },
     xlabel: "groups, spheres, boxes and triangles looked at in a step", stepPlot: true, fillGraph: looks.length <= 2, interactionModel: {},
   }, (now) => `about ${count(Math.round(10 ** (now[0]?.xval ?? 0)))} looked at: ${each(now, (v) => `${v.toFixed(1)} %`)}`);
 }
@@ -199,7 +200,7 @@ export function drawTimeError(chart: Chart, recording: Recording, pick: (name: s
     strokeWidth: 0, drawPoints: true, pointSize: 5, highlightCircleSize: 8, drawPointCallback: drawMark, underlayCallback: (canvas: CanvasRenderingContext2D, area: Area, graph: Dygraph) => labelMarks(canvas, area, marks.map((mark) => ({ name: mark.look.name, at: graph.toDomCoords(mark.x, mark.y) }))),
     
     dateWindow: [low, high], valueRange: [EXACT - 4, 0.5], xlabel: "mean time of a query",
-    axes: { x: { ticker: decades(duration), axisLabelWidth: 70 }, y: { ticker: errorTicks, axisLabelWidth: 74 } },
+    axes: { x: { ticker: decades(duration, 70), axisLabelWidth: 70 }, y: { ticker: errorTicks, axisLabelWidth: 74 } },
     pointClickCallback: (_: Event, point: Point) => pick(point.name),
   }, (now) => now.map((point) => `${point.name}: ${duration(10 ** point.xval)}, ${point.yval <= EXACT ? "no error" : `off by ${(10 ** point.yval).toExponential(1)} of the diagonal`}`).join(" · "));
 }

@@ -1,4 +1,5 @@
 // What the page was given: JSON, and arrays in one compressed stream.
+import type { PackedVisits } from "./visits";
 
 /** [offset, items, type, how often differences were taken] */
 export type Packed = [number, number, string, number];
@@ -26,7 +27,7 @@ export interface PackedMesh {
 }
 export interface Recording {
   name: string; trajectories: string[]; contestants: Look[]; rows: Row[];
-  replay: { mesh: PackedMesh; traces: PackedTrace[] } | null; resolution: number;
+  replay: { mesh: PackedMesh; traces: PackedTrace[] } | null; visits: PackedVisits | null; resolution: number;
 }
 export interface PageData { recordings: Recording[]; charges: string[] }
 

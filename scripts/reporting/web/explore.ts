@@ -2,9 +2,10 @@
 import { Chart, drawTails, drawTimeError, drawTimes, drawWork, timesOf } from "./charts";
 import { Look, Mesh, Recording, Series, Trace } from "./data";
 import { rampAsCss, Stage } from "./replay";
-import { download, testOf } from "./savetest";
 import { State, View } from "./state";
-import { command, digits, duration, kinds, lighter, make, movesLittle } from "./words";
+import { describe } from "./step";
+import { Visits } from "./visits";
+import { digits, duration, kinds, lighter, make, movesLittle } from "./words";
 
 const SPEEDS = [0.01, 0.1, 1];
 const WRONG_AT_ONCE = 50;
@@ -12,6 +13,7 @@ const WRONG_AT_ONCE = 50;
 export class Explore {
   private readonly traces = new Map<string, Trace>();
   private readonly mesh: Mesh | null;
+  private readonly visits: Visits | null;
   private readonly times = new Chart("Time of each step along the trajectory", "Drag over the curves to choose a stretch; click on a peak to see that step.");
   private readonly tails = new Chart("Share of steps that took longer", "Both scales are logarithmic: a curve that ends far right has rare slow steps.");
   private readonly work = new Chart("Work of a step", "What a step looked at is the same on every machine.");
@@ -28,6 +30,7 @@ export class Explore {
   private readonly speed = make("select", { "aria-label": "speed" }, ...SPEEDS.map((one) => make("option", { value: one }, one === 1 ? "real time" : `${one} × real time`)));
   private readonly whose = make("select", { "aria-label": "contestant" });
   private readonly coloring = make("select", { "aria-label": "colour of the way" }, make("option", { value: "time" }, "time"), make("option", { value: "error" }, "wrong answers"));
+  private readonly looked = make("input", { type: "checkbox", checked: true });
   private readonly keyOfColors = make("p", { class: "color-key" });
   private stage: Stage | null = null;
   private timer = 0;
@@ -36,9 +39,13 @@ export class Explore {
   constructor(private readonly place: HTMLElement, private readonly recording: Recording, private readonly stream: Uint8Array,
     private readonly state: State, private readonly charges: string[], private readonly details: (name: string, trajectory?: string) => void) {
     this.mesh = recording.replay ? new Mesh(stream, recording.replay.mesh) : null;
+    this.visits = recording.visits && new Visits(stream, recording.visits);
     this.build();
     this.state.listen((view, changed) => this.update(view, changed));
     window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.drawAll());
+    for (const [event, paper] of [["beforeprint", true], ["afterprint", false]] as const) {
+      window.addEventListener(event, () => { document.documentElement.classList.toggle("paper", paper); this.drawAll(); });
+    }
     this.drawAll();
   }
 
@@ -59,7 +66,7 @@ export class Explore {
   // ----- building
 
   private build(): void {
-    this.place.append(make("section", { "aria-label": "Time against error" }, make("h2", {}, "Time against error"), this.scatter.element));
+    document.querySelector(`.scatter[data-recording="${this.place.dataset.recording}"]`)!.append(make("section", { "aria-label": "Time against error" }, make("h2", {}, "Time against error"), this.scatter.element));
     if (!this.mesh) return;
     for (const trace of this.recording.replay!.traces) this.choice.append(make("option", { value: trace.trajectory }, trace.trajectory));
     this.choice.addEventListener("change", () => this.state.set({ trajectory: this.choice.value, begin: 0, end: 0, step: 0 }));
@@ -110,16 +117,23 @@ export class Explore {
     this.coloring.addEventListener("change", () => this.state.set({ color: this.coloring.value as View["color"] }));
     const home = make("button", { type: "button", onclick: () => this.stage?.home() }, "Whole mesh");
     const fly = make("button", { type: "button", onclick: () => this.fly() }, "To the probe");
-    const controls = make("div", { class: "bar" }, this.play, make("label", {}, "Speed ", this.speed), make("label", {}, "Contestant ", this.whose), make("label", {}, "Colour ", this.coloring), home, fly);
+    const controls = make("div", { class: "bar" }, this.play, make("label", {}, "Speed ", this.speed), make("label", {}, "Contestant ", this.whose), make("label", {}, "Colour ", this.coloring), home, fly,
+      this.visits && make("label", {}, this.looked, " What it looked at"));
+    this.looked.addEventListener("change", () => this.showStep(this.view));
     const coarse = this.mesh!.about.drawnTriangles < this.mesh!.about.triangles ? `Drawn with ${this.mesh!.about.drawnTriangles.toLocaleString("en-US")} of ${this.mesh!.about.triangles.toLocaleString("en-US")} triangles; those around a listed step are as they are.` : "";
     this.place.append(make("section", { "aria-label": "Replay", class: "replay" }, make("h2", {}, "Replay"), controls, this.slider, this.keyOfColors,
       make("div", { class: "theatre" }, box, this.about), make("p", { class: "small" }, coarse)));
     this.speed.value = movesLittle() ? "0.01" : "0.1";
-    try {
-      this.stage = new Stage(this.mesh!, box);
-    } catch {
-      box.append(make("p", { class: "notice" }, "This browser has no WebGL, so there is no picture; the numbers of each step are beside it."));
-    }
+    // The slowest part to come up, and below the first screen.
+    setTimeout(() => {
+      try {
+        this.stage = new Stage(this.mesh!, box);
+      } catch {
+        box.append(make("p", { class: "notice" }, "This browser has no WebGL, so there is no picture; the numbers of each step are beside it."));
+      }
+      this.drawWay();
+      this.showStep(this.view);
+    });
   }
 
   // ----- what changes
@@ -246,37 +260,9 @@ export class Explore {
     this.slider.setAttribute("aria-valuetext", `step ${step}`);
     const colors = new Map(this.recording.contestants.map((look) => [look.name, look.color]));
     this.stage?.showStep(trace, step, trace.series, colors);
-    this.about.replaceChildren(...this.describe(trace, step));
-  }
-
-  private describe(trace: Trace, step: number): Node[] {
-    const noted = trace.notedAt.get(step), unit = (value: number) => noted === undefined ? digits(value) : String(value);
-    const truth = !trace.known(step) ? "No contestant was asked here."
-      : trace.about.query === "sweep" ? `The truth: ${trace.found(step) ? "a hit on the way" : "no hit"}.`
-      : `The truth: ${trace.found(step) ? "contact" : trace.about.query === "touches" ? "no contact" : "nothing in reach"}, distance ${unit(trace.distance(step))}, triangle ${trace.triangle[step]}.`;
-    const rows = trace.series.filter((one) => one.found[step] !== 2).sort((a, b) => b.exactTime(step) - a.exactTime(step)).map((one) => this.answerRow(trace, one, step, noted));
-    const heads = ["contestant", "time", "work", "found", "distance", "verdict"].map((text) => make("th", { scope: "col" }, text));
-    const series = this.series(), nodes: Node[] = [
-      make("h3", {}, `Step ${step.toLocaleString("en-US")} of ${trace.name}`),
-      make("p", {}, truth + (noted === undefined ? " (To the precision of curves: this step is none of the listed.)" : "")),
-      make("div", { class: "scroll", role: "region", tabindex: 0, "aria-label": "Answers at this step" }, make("table", {}, make("thead", {}, make("tr", {}, ...heads)), make("tbody", {}, ...rows)))];
-    if (series?.about.repeat) {
-      nodes.push(make("p", {}, "Ask again: ", command(series.about.repeat + step)));
-      const test = this.mesh && testOf(this.mesh, trace, step, series.name, series.about.repeat);
-      if (test) nodes.push(make("button", { type: "button", class: "save", onclick: () => download(`step-${step}.sh`, test) }, "Save as test"), make("span", { class: "small" }, " a script with the mesh around the probe and the command"));
-    }
-    return nodes;
-  }
-
-  private answerRow(trace: Trace, one: Series, step: number, noted: number | undefined): HTMLElement {
-    const answer = noted === undefined ? null : one.answer(noted), found = one.found[step] === 1;
-    const distance = !found ? "–" : answer ? String(answer.distance) : "as the truth";
-    const wrong = one.charged[step] ? kinds(one.charged[step], this.charges) : "right";
-    const told = trace.about.query === "touches" || (!answer && one.charged[step]) ? "–" : distance;
-    const current = one.name === this.series()?.name;
-    return make("tr", { class: (one.charged[step] ? "wrong" : "") + (current ? " current" : "") },
-      make("th", { scope: "row" }, make("button", { type: "button", onclick: () => this.state.set({ contestant: one.name }), "aria-pressed": String(current) }, one.name)),
-      ...[duration(one.exactTime(step)), one.work(step).toLocaleString("en-US"), found ? "yes" : "no", told, wrong].map((text) => make("td", {}, text)));
+    const series = this.series(), seen = series && this.visits?.at(series.name, trace.name, step);
+    this.stage?.showVisited(seen && this.looked.checked ? seen : null);
+    this.about.replaceChildren(...describe({ trace, step, series, mesh: this.mesh, visits: this.visits, charges: this.charges, pick: (name) => this.state.set({ contestant: name }) }));
   }
 
   // ----- lists

@@ -1,5 +1,6 @@
 // Puts life into the page: sorting, details, curves and replay.
 import { Recording } from "./data";
+import { letCellsSpeak } from "./cells";
 import { showDetails } from "./details";
 import { Explore } from "./explore";
 import { State, View } from "./state";
@@ -48,6 +49,7 @@ function firstView(recordings: Recording[]): View {
 function start(): void {
   const { data: page, arrays: stream } = window.touchmark, recordings = page.recordings;
   letTablesSort();
+  letCellsSpeak();
   document.documentElement.classList.add("scripted");
   const state = new State(firstView(recordings));
   const built = new Set<number>();

@@ -2,6 +2,8 @@
 import * as THREE from "three";
 import { OrbitControls } from "orbit-controls";
 import { Mesh, Series, Trace } from "./data";
+import { linesOf } from "./outlines";
+import type { Visited } from "./visits";
 import { isDark, movesLittle, shade } from "./words";
 
 /** Dark blue to yellow, rising in brightness too, so that it survives grey and colour blindness (cividis, few stops). */
@@ -31,6 +33,7 @@ export class Stage {
   private nearEdges: THREE.LineSegments | null = null;
   private nearest: THREE.Mesh | null = null;
   private answers: THREE.Object3D[] = [];
+  private outlines: THREE.LineSegments[] = [];
   private readonly middle: number[];
   private readonly scale: number;
   private waiting = false;
@@ -110,12 +113,13 @@ export class Stage {
     if (this.way) { this.scene.remove(this.way); this.way.geometry.dispose(); }
     const colors = new Float32Array(3 * trace.steps);
     const low = series ? Math.log(series.about.lowNs) : 0, high = series ? Math.log(series.about.highNs) : 1;
-    const wrong = isDark() ? [1, 0.35, 0.35] : [0.8, 0, 0];
+    // They differ in brightness, too, for whoever sees no red.
+    const wrong = isDark() ? [1, 0.5, 0.45] : [0.55, 0, 0], right = isDark() ? [0.3, 0.33, 0.4] : [0.62, 0.66, 0.74];
     for (let step = 0; step < trace.steps; ++step) {
       const time = series?.ns[step] ?? NaN;
       let one = isDark() ? [0.45, 0.45, 0.5] : [0.6, 0.6, 0.65];
       if (color === "time" && time === time) one = ramp((Math.log(time) - low) / (high - low || 1));
-      if (color === "error" && time === time) one = series!.charged[step] ? wrong : ramp(0.15);
+      if (color === "error" && time === time) one = series!.charged[step] ? wrong : right;
       colors.set(one, 3 * step);
     }
     const geometry = new THREE.BufferGeometry();
@@ -161,6 +165,21 @@ export class Stage {
       ball.position.copy(this.at(answer.point[0], answer.point[1], answer.point[2]));
       this.answers.push(ball);
       this.scene.add(ball);
+    }
+    this.draw();
+  }
+
+  /** Outlines of what a query looked at: strong where it looked inside, faint where it turned away. */
+  showVisited(seen: Visited | null): void {
+    for (const one of this.outlines) { this.scene.remove(one); one.geometry.dispose(); one.material.dispose(); }
+    this.outlines = [];
+    for (const { corners, color, opacity } of seen ? linesOf(seen, isDark()) : []) {
+      const geometry = new THREE.BufferGeometry();
+      geometry.setAttribute("position", new THREE.BufferAttribute(this.scaled(corners), 3));
+      const lines = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ color, opacity, transparent: true, depthTest: false }));
+      lines.renderOrder = 5;
+      this.outlines.push(lines);
+      this.scene.add(lines);
     }
     this.draw();
   }

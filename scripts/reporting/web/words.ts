@@ -55,7 +55,9 @@ export function command(text: string, label = "Copy"): HTMLElement {
   return make("span", { class: "command" }, make("code", {}, text), make("button", { type: "button", onclick: copy, "aria-label": `${label}: ${text}` }, label));
 }
 
-export const isDark = (): boolean => window.matchMedia("(prefers-color-scheme: dark)").matches;
+/** Paper is light; the style sheet has its colours. */
+export const onPaper = (): boolean => document.documentElement.classList.contains("paper");
+export const isDark = (): boolean => !onPaper() && window.matchMedia("(prefers-color-scheme: dark)").matches;
 export const movesLittle = (): boolean => window.matchMedia("(prefers-reduced-motion: reduce)").matches;
 
 /** A colour of a line on the page's ground: lighter on dark. */

@@ -2,34 +2,23 @@
 
 #include <cstdint>
 #include <limits>
-#include <random>
 #include <set>
 #include <stdexcept>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "bench/support/random.h"
 #include "core/brute_force/brute_force.h"
 
 namespace touchmark {
 namespace {
 
+using bench::support::Random;
+
 static_assert(AnswersTouches<AabbTree> && AnswersNearest<AabbTree> && AnswersSweep<AabbTree>);
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double coordinate() { return static_cast<double>(engine_() >> 11) * 0x1p-52 - 1; }
-  Vec3 point() {
-    const double x = coordinate(), y = coordinate(), z = coordinate();
-    return {x, y, z};
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 /// Triangles of all sizes, some degenerate, some twice, in one place and far from the origin.
 TriangleMesh soup(std::size_t triangles, double offset) {

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "core/brute_force/brute_force.h"
+#include "core/haptics/proxy.h"
 
 namespace {
 
@@ -106,6 +107,11 @@ TEST(CInterface, LaysItsStructsOutAsThePageSays) {
                 offsetof(touchmark_contact, distance) == 48 && offsetof(touchmark_contact, triangle) == 56 &&
                 offsetof(touchmark_contact, side) == 60);
   static_assert(sizeof(touchmark_impact) == 72 && offsetof(touchmark_impact, contact) == 8);
+  static_assert(sizeof(touchmark_coupling) == 48 && offsetof(touchmark_coupling, tick_s) == 40);
+  static_assert(sizeof(touchmark_proxy_state) == 128 && offsetof(touchmark_proxy_state, force) == 24 &&
+                offsetof(touchmark_proxy_state, normals) == 48 &&
+                offsetof(touchmark_proxy_state, status) == 120 &&
+                offsetof(touchmark_proxy_state, contacts) == 124);
 }
 
 TEST(CInterface, AnswersTheBitsOfBruteForceWhateverTheDetector) {
@@ -324,6 +330,157 @@ TEST(CInterface, KeepsErrorsOfThreadsApart) {
     expect_error("touchmark_session_create: detector is NULL");
   }).join();
   expect_error("touchmark_mesh_create: vertices is NULL");
+}
+
+TEST(CInterface, AProxyTakesTheWayAndTheForcesOfTheOneInCpp) {
+  const Arrays arrays = sheet(12);
+  const TriangleMesh mesh = cpp_mesh_of(arrays);
+  const BruteForce truth = BruteForce::build(mesh);
+  for (const double radius : {0.0, 0.02}) {
+    BruteForce::Session session;
+    const touchmark::Coupling coupling{
+        .radius = radius, .stiffness = 700, .static_friction = 0.3, .dynamic_friction = 0.2, .damping = 1};
+    touchmark::Proxy expected(truth, coupling, &mesh);
+    touchmark_coupling same{};
+    ASSERT_EQ(touchmark_coupling_default(&same), TOUCHMARK_YES);
+    same.radius = radius, same.stiffness = 700, same.static_friction = 0.3, same.dynamic_friction = 0.2;
+    same.damping = 1;
+    const Asked asked(arrays, "grid-group");
+    touchmark_proxy* proxy = touchmark_proxy_create(asked.detector(), &same);
+    ASSERT_NE(proxy, nullptr) << touchmark_last_error();
+    const Vec3 start(0.5, 0.5, 0.3);
+    expected.place(start);
+    EXPECT_EQ(touchmark_proxy_place(proxy, start.data()), TOUCHMARK_YES);
+    int held = 0;
+    for (int tick = 0; tick < 400; ++tick) {
+      const double t = tick / 400.0;
+      const Vec3 goal(0.5 + 0.4 * t, 0.5 - 0.3 * t, 0.3 - 0.4 * t);
+      touchmark_proxy_state state{};
+      const int found = touchmark_proxy_step(proxy, goal.data(), &state);
+      const touchmark::ProxyState& now = expected.step(goal, session);
+      ASSERT_EQ(found, now.contacts > 0 ? TOUCHMARK_YES : TOUCHMARK_NO) << touchmark_last_error();
+      ASSERT_EQ(state.contacts, now.contacts);
+      ASSERT_EQ(state.status, static_cast<int>(now.status));
+      for (int k = 0; k < 3; ++k) {
+        ASSERT_EQ(state.position[k], now.position[k]);
+        ASSERT_EQ(state.force[k], now.force[k]);
+        for (std::size_t i = 0; i < now.contacts; ++i) ASSERT_EQ(state.normals[i][k], now.normals[i][k]);
+      }
+      held += found;
+    }
+    EXPECT_GT(held, 100);
+    touchmark_proxy_free(proxy);
+  }
+}
+
+/// A square plate in the plane of that height, and a ball of radius 0.1 above it.
+struct BallOverAPlate {
+  BallOverAPlate() : asked(plate(0)) {
+    touchmark_coupling coupling;
+    touchmark_coupling_default(&coupling);
+    coupling.radius = 0.1;
+    coupling.stiffness = 100;
+    proxy = touchmark_proxy_create(asked.detector(), &coupling);
+  }
+  BallOverAPlate(const BallOverAPlate&) = delete;
+  BallOverAPlate& operator=(const BallOverAPlate&) = delete;
+  ~BallOverAPlate() { touchmark_proxy_free(proxy); }
+
+  static Arrays plate(double z) { return {{-1, -1, z, 1, -1, z, 1, 1, z, -1, 1, z}, {0, 1, 2, 0, 2, 3}}; }
+  int step(double z, touchmark_proxy_state* state) const {
+    const double goal[3] = {0, 0, z};
+    return touchmark_proxy_step(proxy, goal, state);
+  }
+
+  Asked asked;
+  touchmark_proxy* proxy;
+};
+
+TEST(CInterface, AProxyIsPushedBackByTheDepthOfTheDevice) {
+  const BallOverAPlate ball;
+  const double above[3] = {0, 0, 1};
+  ASSERT_EQ(touchmark_proxy_place(ball.proxy, above), TOUCHMARK_YES);
+  touchmark_proxy_state state{};
+  EXPECT_EQ(ball.step(0.5, &state), TOUCHMARK_NO);
+  EXPECT_EQ(state.status, TOUCHMARK_PROXY_FREE);
+  EXPECT_EQ(state.force[2], 0);
+  EXPECT_EQ(ball.step(0.05, &state), TOUCHMARK_YES);
+  EXPECT_EQ(state.status, TOUCHMARK_PROXY_IN_CONTACT);
+  EXPECT_NEAR(state.position[2], 0.1, 1e-9);
+  EXPECT_NEAR(state.force[2], 100 * 0.05, 1e-6);
+  EXPECT_EQ(state.contacts, 1u);
+  EXPECT_NEAR(state.normals[0][2], 1, 1e-12);
+  EXPECT_EQ(ball.step(nan, &state), TOUCHMARK_NO);
+  EXPECT_EQ(state.status, TOUCHMARK_PROXY_UNANSWERED);
+  EXPECT_EQ(state.force[2], 0);
+  EXPECT_EQ(ball.step(0.05, nullptr), TOUCHMARK_YES);
+}
+
+TEST(CInterface, AProxyNoticesThatTheSurfaceHasMoved) {
+  const BallOverAPlate ball;
+  const double above[3] = {0, 0, 1};
+  touchmark_proxy_place(ball.proxy, above);
+  touchmark_proxy_state state{};
+  ASSERT_EQ(ball.step(0.05, &state), TOUCHMARK_YES);
+  touchmark_mesh* lowered = mesh_of(BallOverAPlate::plate(-1));
+  ASSERT_EQ(touchmark_detector_update(ball.asked.detector(), lowered), TOUCHMARK_YES);
+  touchmark_mesh_free(lowered);
+  EXPECT_EQ(ball.step(0.05, &state), TOUCHMARK_NO);
+  EXPECT_EQ(state.position[2], 0.05);
+  EXPECT_EQ(ball.step(-1.05, &state), TOUCHMARK_YES);
+  EXPECT_NEAR(state.position[2], -0.9, 1e-9);
+}
+
+TEST(CInterface, AProxyOutlivesTheHandlesItWasMadeOf) {
+  touchmark_mesh* mesh = mesh_of(unit_triangle);
+  touchmark_detector* detector = touchmark_detector_build(mesh, "aabb-tree");
+  touchmark_proxy* proxy = touchmark_proxy_create(detector, nullptr);
+  touchmark_mesh_free(mesh);
+  touchmark_detector_free(detector);
+  const double above[3] = {0.2, 0.2, 1}, below[3] = {0.2, 0.2, -1};
+  EXPECT_EQ(touchmark_proxy_place(proxy, above), TOUCHMARK_YES);
+  touchmark_proxy_state state{};
+  EXPECT_EQ(touchmark_proxy_step(proxy, below, &state), TOUCHMARK_YES);
+  EXPECT_GT(state.position[2], 0);
+  touchmark_proxy_free(proxy);
+  touchmark_proxy_free(nullptr);
+}
+
+TEST(CInterface, AProxySaysWhatItCannotBeMadeOf) {
+  const Asked asked(unit_triangle), inexact(unit_triangle, "sphere-cluster:precise=false");
+  EXPECT_EQ(touchmark_proxy_create(nullptr, nullptr), nullptr);
+  expect_error("touchmark_proxy_create: detector is NULL");
+  EXPECT_EQ(touchmark_proxy_create(inexact.detector(), nullptr), nullptr);
+  expect_error("touchmark_proxy_create: the detector does not decide exactly, so the proxy could cross");
+  const auto expect_refused = [&](double touchmark_coupling::*member, double value, const std::string& text) {
+    touchmark_coupling coupling;
+    touchmark_coupling_default(&coupling);
+    coupling.*member = value;
+    EXPECT_EQ(touchmark_proxy_create(asked.detector(), &coupling), nullptr);
+    expect_error("touchmark_proxy_create: " + text);
+  };
+  expect_refused(&touchmark_coupling::radius, -1, "radius is -1.000000; it must be finite, and 0 or more");
+  expect_refused(&touchmark_coupling::stiffness, nan, "stiffness is nan; it must be finite, and 0 or more");
+  expect_refused(&touchmark_coupling::damping, infinity, "damping is inf; it must be finite, and 0 or more");
+  expect_refused(&touchmark_coupling::tick_s, 0, "tick_s is 0; a tick takes time");
+  expect_refused(&touchmark_coupling::dynamic_friction, 0.5,
+                 "dynamic_friction is 0.500000, more than static_friction, 0.000000");
+  EXPECT_EQ(touchmark_coupling_default(nullptr), TOUCHMARK_ERROR);
+}
+
+TEST(CInterface, AProxyRefusesWhatIsNullOrNowhere) {
+  const Asked asked(unit_triangle);
+  touchmark_proxy* proxy = touchmark_proxy_create(asked.detector(), nullptr);
+  const double here[3] = {0, 0, 1}, nowhere[3] = {0, infinity, 0};
+  EXPECT_EQ(touchmark_proxy_step(proxy, here, nullptr), TOUCHMARK_ERROR);
+  expect_error("touchmark_proxy_step: the proxy was never placed: call touchmark_proxy_place");
+  EXPECT_EQ(touchmark_proxy_place(proxy, nowhere), TOUCHMARK_ERROR);
+  expect_error("touchmark_proxy_place: position is not finite");
+  EXPECT_EQ(touchmark_proxy_place(proxy, nullptr), TOUCHMARK_ERROR);
+  EXPECT_EQ(touchmark_proxy_place(nullptr, here), TOUCHMARK_ERROR);
+  EXPECT_EQ(touchmark_proxy_step(nullptr, here, nullptr), TOUCHMARK_ERROR);
+  EXPECT_EQ(touchmark_proxy_step(proxy, nullptr, nullptr), TOUCHMARK_ERROR);
+  touchmark_proxy_free(proxy);
 }
 
 TEST(CInterface, TellsTheVersionOfTheProject) { EXPECT_STREQ(touchmark_version(), TOUCHMARK_VERSION); }

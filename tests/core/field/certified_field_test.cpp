@@ -64,8 +64,8 @@ std::vector<Vec3> points_near(const test::NamedMesh& scene, double band, test::R
   for (int i = 0; i < 60; ++i) {
     const Vec3 near = test::random_point(scene, random);
     points.push_back(near);
-    points.push_back(near + random.vector(band));
-    points.push_back(near + random.vector(0.05 * band));
+    points.push_back(near + random.point(band));
+    points.push_back(near + random.point(0.05 * band));
   }
   return points;
 }
@@ -107,7 +107,7 @@ TEST(CertifiedField, NamesAPointOfTheTriangleThatItNames) {
   Field::Session session;
   test::Random random(2);
   for (int i = 0; i < 500; ++i) {
-    const Vec3 point = 1.02 * random.vector(1).normalized();
+    const Vec3 point = 1.02 * random.point(1).normalized();
     const auto answer = field.nearest({point, 0}, 0.25, session);
     ASSERT_TRUE(answer);
     const Contact alone = contact_on(prepare(mesh, answer->triangle), point, answer->triangle);
@@ -123,7 +123,7 @@ TEST(CertifiedField, AnswersAsIfItHadNoSession) {
     test::Random random(4);
     Vec3 at = Vec3::Zero();
     for (int i = 0; i < 3000; ++i) {
-      at = i % 100 == 0 ? Vec3(random.vector(1.4)) : Vec3(at + random.vector(0.01));
+      at = i % 100 == 0 ? Vec3(random.point(1.4)) : Vec3(at + random.point(0.01));
       const double reach = i % 3 == 0 ? 0.02 : 0.29;
       Field::Session fresh;
       ASSERT_TRUE(same_bits(field.nearest({at, 0}, reach, kept), field.nearest({at, 0}, reach, fresh))) << i;
@@ -150,7 +150,7 @@ TEST(CertifiedField, IsExactWhereThatIsAskedForAndBeyondTheBand) {
   Field::Session session, other;
   test::Random random(6);
   for (int i = 0; i < 1000; ++i) {
-    const Vec3 point = random.vector(2);
+    const Vec3 point = random.point(2);
     SphereCluster::Session exact;
     for (const double reach : {0.01, 0.1, 0.5, infinity}) {
       const auto right = field.exact().nearest({point, 0}, reach, exact);
@@ -173,7 +173,7 @@ TEST(CertifiedField, IsTheSameOfAnyNumberOfThreads) {
   test::Random random(8);
   Field::Session session, other;
   for (int i = 0; i < 1000; ++i) {
-    const Vec3 point = random.vector(1.2);
+    const Vec3 point = random.point(1.2);
     ASSERT_TRUE(same_bits(one.nearest({point, 0}, 0.19, session), three.nearest({point, 0}, 0.19, other)))
         << i;
   }

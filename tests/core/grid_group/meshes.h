@@ -5,30 +5,15 @@
 #include <cstdint>
 #include <map>
 #include <numbers>
-#include <random>
 #include <utility>
 #include <vector>
 
+#include "bench/support/random.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::testing {
 
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  /// Uniform in [0, 1).
-  double unit() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
-  /// Uniform in [-size, size).
-  double number(double size) { return size * (2 * unit() - 1); }
-  Vec3 point(double size) {
-    const double x = number(size), y = number(size), z = number(size);
-    return {x, y, z};
-  }
-  std::uint32_t below(std::uint32_t count) { return static_cast<std::uint32_t>(engine_() % count); }
-
- private:
-  std::mt19937_64 engine_;
-};
+using bench::support::Random;
 
 inline TriangleMesh moved(const TriangleMesh& mesh, double scale, const Vec3& shift) {
   std::vector<Vec3> vertices;

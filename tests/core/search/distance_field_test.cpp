@@ -63,7 +63,7 @@ TEST(DistanceGrid, BoundsTheDistanceInsideAndFarOutside) {
   for (const TriangleMesh& mesh : meshes()) {
     const Grid known(mesh), roughly(mesh, 0.8);
     for (int i = 0; i < 3000; ++i) {
-      const Vec3 p = random.vector(i % 3 == 0 ? 0.7 : i % 3 == 1 ? 3 : 1e5);
+      const Vec3 p = random.point(i % 3 == 0 ? 0.7 : i % 3 == 1 ? 3 : 1e5);
       const double distance = known.distance(p);
       for (const Grid* grid : {&known, &roughly}) {
         EXPECT_LE(static_cast<double>(grid->grid.lower_bound(grid->point(p))), distance) << p.transpose();
@@ -80,7 +80,7 @@ TEST(DistanceGrid, KnowsThatAPointIsFar) {
   const TriangleMesh mesh = test::bumpy_sphere(20, 0.02, 1);
   const Grid known(mesh);
   for (int i = 0; i < 1000; ++i) {
-    const Vec3 p = random.vector(4);
+    const Vec3 p = random.point(4);
     const double distance = known.distance(p);
     if (distance < 0.2) continue;  // two cubes' edges
     EXPECT_GT(static_cast<double>(known.grid.lower_bound(known.point(p))), 0.3 * distance) << p.transpose();
@@ -97,7 +97,7 @@ TEST(DistanceGrid, KnowsMoreByEight) {
   const Grid known(mesh);
   double missing_by_one = 0, missing_by_eight = 0;
   for (int i = 0; i < 1000; ++i) {
-    const Vec3 p = random.vector(0.6);  // within the samples' box
+    const Vec3 p = random.point(0.6);  // within the samples' box
     const double distance = known.distance(p);
     missing_by_one += distance - static_cast<double>(known.grid.lower_bound(known.point(p)));
     missing_by_eight += distance - static_cast<double>(known.grid.tight_lower_bound(known.point(p)));
@@ -112,7 +112,7 @@ TEST(DistanceGrid, WhereSamplingEndsNothingIsClaimed) {
     for (const std::size_t most : {std::size_t{0}, std::size_t{1}, all / 2}) {
       const Grid cut(mesh, 1, most);
       for (int i = 0; i < 500; ++i) {
-        const Vec3 p = random.vector(1.5);
+        const Vec3 p = random.point(1.5);
         EXPECT_LE(static_cast<double>(cut.grid.lower_bound(cut.point(p))), cut.distance(p));
         EXPECT_LE(static_cast<double>(cut.grid.tight_lower_bound(cut.point(p))), cut.distance(p));
         EXPECT_GE(static_cast<double>(cut.grid.upper_bound(cut.point(p))), cut.distance(p));

@@ -86,7 +86,7 @@ TYPED_TEST(LastQuestionOf, PreparingChangesNoAnswer) {
   typename TypeParam::Session prepared;
   test::Random random(73);
   for (int step = 0; step < 3000; ++step) {
-    const Vec3 center = random.vector(step % 7 < 5 ? 1.05 : 2);
+    const Vec3 center = random.point(step % 7 < 5 ? 1.05 : 2);
     const double reach = step % 11 == 0 ? std::numeric_limits<double>::infinity() : 0.2;
     typename TypeParam::Session fresh;
     if (step % 3 == 0) {

@@ -2,27 +2,16 @@
 
 #include <bit>
 #include <cmath>
-#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "bench/support/random.h"
+
 namespace touchmark {
 namespace {
 
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  /// Uniform in [-size, size).
-  double number(double size) { return size * (static_cast<double>(engine_() >> 11) * 0x1p-52 - 1); }
-  Vec3 point(double size) {
-    const double x = number(size), y = number(size), z = number(size);
-    return {x, y, z};
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
+using bench::support::Random;
 
 double bound_of(const PreparedTriangle& triangle, const FilterFrame& frame, const Vec3& center) {
   const TrianglePlanes planes = planes_of(triangle, frame);

@@ -125,7 +125,7 @@ TEST(SphereCluster, EqualsBruteForceOnACoherentWay) {
       Vec3 center = test::random_point(scene, random);
       for (int step = 0; step < 600; ++step) {
         if (step % 200 == 199) center = test::random_point(scene, random);
-        center += random.vector(0.01 * scene.size);
+        center += random.point(0.01 * scene.size);
         const double reach = step % 3 == 0 ? infinity : 0.05 * scene.size;
         expect_same(detector.nearest({center, 0}, reach, used),
                     oracle.nearest({center, 0}, reach, oracle_session));
@@ -160,7 +160,7 @@ TEST(SphereCluster, ATouchTellsNothingOfWhatIsNearerThanWhatItFound) {
       const SphereCluster detector = SphereCluster::build(mesh, options);
       SphereCluster::Session session;
       for (int i = 0; i < 500; ++i) {
-        const Vec3 center = random.vector(i % 3 == 0 ? 3 : 1.3);
+        const Vec3 center = random.point(i % 3 == 0 ? 3 : 1.3);
         BruteForce::Session measured;
         const auto contact = brute.nearest({center, 0}, infinity, measured);
         expect_same(test::nearest_after_touches(detector, center, contact->distance, session), contact);
@@ -184,7 +184,7 @@ TEST(SphereCluster, EqualsBruteForceWhereMoreIsNearThanASessionRemembers) {
         SphereCluster::Session used;
         Vec3 center = Vec3::Zero();
         for (int step = 0; step < 10; ++step) {
-          center += random.vector(step % 2 == 0 ? 3e-3 : 1e-3);
+          center += random.point(step % 2 == 0 ? 3e-3 : 1e-3);
           expect_same(detector.nearest({center, 0}, infinity, used),
                       oracle.nearest({center, 0}, infinity, oracle_session));
           if (HasFailure()) return;
@@ -264,7 +264,7 @@ TEST(SphereCluster, SweepsAsBruteForceDoes) {
       for (int step = 0; step < 150; ++step) {
         const Vec3 from = test::random_point(scene, random);
         const Vec3 to =
-            step % 2 == 0 ? test::random_point(scene, random) : Vec3(from + random.vector(0.02 * scene.size));
+            step % 2 == 0 ? test::random_point(scene, random) : Vec3(from + random.point(0.02 * scene.size));
         const Sweep sweep{from, to, step % 5 == 0 ? 0 : scene.size * random.between(0, 0.05)};
         expect_same(detector.first_hit(sweep, session), oracle.first_hit(sweep, oracle_session));
         if (HasFailure()) return;
@@ -284,8 +284,8 @@ TEST(SphereCluster, LongSweepsFromFarAwayGrazeAsBruteForceDoes) {
       int hits = 0;
       for (int i = 0; i < 1000; ++i) {
         const Vec3 target = mesh.corner(random.below(mesh.size()), 0);
-        const Vec3 way = random.vector(1).normalized();
-        const Vec3 across = way.cross(random.vector(1)).normalized();
+        const Vec3 way = random.point(1).normalized();
+        const Vec3 across = way.cross(random.point(1)).normalized();
         const double radius = i % 4 == 0 ? 0 : 0.05, miss = radius * (1 + random.between(-1e-3, 1e-3));
         const double before = std::ldexp(1.0, static_cast<int>(random.below(18))), after = i % 3;
         const Sweep sweep{target + miss * across - before * way, target + miss * across + after * way,

@@ -3,30 +3,15 @@
 
 #include <cmath>
 #include <cstdint>
-#include <random>
 #include <string>
 #include <vector>
 
+#include "bench/support/random.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::test {
 
-/// Reproducible everywhere, unlike the standard distributions.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double between(double low, double high) {
-    return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
-  }
-  Vec3 vector(double half) {
-    const double x = between(-half, half), y = between(-half, half), z = between(-half, half);
-    return {x, y, z};
-  }
-  std::size_t below(std::size_t count) { return engine_() % count; }
-
- private:
-  std::mt19937_64 engine_;
-};
+using bench::support::Random;
 
 /// A sphere of radius 1 in rings, its vertices moved by up to `noise`; closed, with collapsed quads at the
 /// poles (degenerate triangles).
@@ -58,9 +43,9 @@ inline TriangleMesh soup(std::size_t count, double size, std::uint64_t seed) {
   std::vector<Vec3> vertices;
   std::vector<TriangleMesh::Corners> triangles;
   for (std::size_t i = 0; i < count; ++i) {
-    const Vec3 center = random.vector(1);
+    const Vec3 center = random.point(1);
     const auto first = static_cast<std::uint32_t>(vertices.size());
-    for (int k = 0; k < 3; ++k) vertices.push_back(center + random.vector(size));
+    for (int k = 0; k < 3; ++k) vertices.push_back(center + random.point(size));
     triangles.push_back({first, first + 1, first + 2});
   }
   return {std::move(vertices), std::move(triangles)};
@@ -167,10 +152,10 @@ inline Vec3 random_point(const NamedMesh& scene, Random& random) {
       return 0.5 * (a + b);
     case 2: {
       const double u = random.between(0, 1), v = random.between(0, 1 - u);
-      return a + u * (b - a) + v * (c - a) + random.vector(0.02 * scene.size);
+      return a + u * (b - a) + v * (c - a) + random.point(0.02 * scene.size);
     }
     default:
-      return scene.center + random.vector(scene.size);
+      return scene.center + random.point(scene.size);
   }
 }
 

@@ -1,33 +1,20 @@
 /// `touchmark proxy` as a user runs it.
-#include <algorithm>
 #include <cstdlib>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "bench/experiments/proxy/proxy_csv.h"
+#include "tests/bench/cli/csv_table.h"
 #include "tests/bench/cli/run_touchmark.h"
 #include "tests/temporary_folder.h"
 
 namespace touchmark::bench::cli {
 namespace {
 
-std::vector<std::vector<std::string>> table_in(const std::string& path) {
-  std::vector<std::vector<std::string>> rows;
-  std::istringstream lines(content_of(path));
-  for (std::string line; std::getline(lines, line);) {
-    std::vector<std::string>& row = rows.emplace_back();
-    std::istringstream fields(line + ",");
-    for (std::string field; std::getline(fields, field, ',');) row.push_back(field);
-  }
-  return rows;
-}
-
 std::size_t column_index(const std::string& column) {
-  const auto columns = results::names_of(experiments::proxy::proxy_columns());
-  return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), column) - columns.begin());
+  return index_of(column, results::names_of(experiments::proxy::proxy_columns()));
 }
 
 TEST(ProxyCommand, CountsCrossingsAndItsFilesAreValid) {

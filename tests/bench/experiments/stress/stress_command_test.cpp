@@ -1,13 +1,12 @@
 /// `touchmark stress` as a user runs it, on honest contestants and on those that lie, crash and hang.
-#include <algorithm>
 #include <array>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "bench/experiments/stress/stress_csv.h"
+#include "tests/bench/cli/csv_table.h"
 #include "tests/bench/cli/run_touchmark.h"
 
 namespace touchmark::bench::cli {
@@ -18,21 +17,8 @@ Outcome hostile(std::vector<std::string> arguments) {
   return run_program_at(arguments);
 }
 
-/// Rows without quotes: no field here needs them.
-std::vector<std::vector<std::string>> table_in(const std::string& path) {
-  std::vector<std::vector<std::string>> rows;
-  std::istringstream lines(content_of(path));
-  for (std::string line; std::getline(lines, line);) {
-    std::vector<std::string>& row = rows.emplace_back();
-    std::istringstream fields(line + ",");
-    for (std::string field; std::getline(fields, field, ',');) row.push_back(field);
-  }
-  return rows;
-}
-
 std::size_t column_index(const std::string& column) {
-  const auto columns = results::names_of(experiments::stress::stress_columns());
-  return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), column) - columns.begin());
+  return index_of(column, results::names_of(experiments::stress::stress_columns()));
 }
 
 TEST(Stress, ExactContestantsAreCleanAndItsFilesSaySo) {

@@ -37,7 +37,7 @@ void expect_walks_alike(const SphereCluster& detector, const test::NamedMesh& sc
   for (int walk = 0; walk < 3; ++walk) {
     Vec3 at = test::random_point(scene, random);
     for (int tick = 0; tick < 30; ++tick) {
-      at += random.vector(step * scene.size);
+      at += random.point(step * scene.size);
       for (const double reach : {0.0, 0.01 * scene.size, 0.3 * scene.size, infinity}) {
         SphereCluster::Session fresh;
         ASSERT_TRUE(same_bits(detector.nearest({at, 0}, reach, followed, work),

@@ -1,0 +1,161 @@
+/// touchmark-tracer: asks our detectors the steps of a run again, with a core that notes what a query looks
+/// at, and prints visited.json (docs/reference/visited-json.md). `touchmark bench` starts it when all has
+/// been timed. Its standard input is what bench/cli/step_visits.cpp writes.
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <map>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "bench/support/raw_lists.h"
+#include "core/named/named_detector.h"
+#include "core/search/tracing.h"
+
+namespace touchmark {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using bench::support::take_list, bench::support::take_text;
+
+static_assert(tracing, "this program is for a core that is compiled with TOUCHMARK_TRACING");
+
+/// More of one kind are left out, those looked at last.
+constexpr std::size_t most_of_a_kind = 300;
+
+using Question = std::array<double, 5>;  // centre, radius, reach
+
+struct Trace {
+  std::string trajectory, query;
+  std::vector<Question> steps;
+};
+
+Json json_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+Json json_of(const Aabb& box) {
+  return {box.min.x(), box.min.y(), box.min.z(), box.max.x(), box.max.y(), box.max.z()};
+}
+template <class Marked>
+Json json_of(const Marked& marked) requires requires {
+  marked.box;
+}
+{
+  Json json = json_of(marked.box);
+  json.push_back(marked.entered ? 1 : 0);
+  if constexpr (requires { marked.members; }) json.push_back(marked.members);
+  return json;
+}
+Json json_of(const Visits::Cylinder& one) {
+  Json json = json_of(one.center);
+  for (const double x : {one.normal.x(), one.normal.y(), one.normal.z(), one.radius, one.half})
+    json.push_back(x);
+  json.push_back(one.entered ? 1 : 0);
+  return json;
+}
+Json json_of(std::uint32_t number) { return number; }
+
+template <class T>
+void add(Json& json, const char* name, const std::vector<T>& items) {
+  if (items.empty()) return;
+  for (std::size_t i = 0; i < std::min(items.size(), most_of_a_kind); ++i)
+    json[name].push_back(json_of(items[i]));
+  if (items.size() > most_of_a_kind) json["left_out"][name] = items.size() - most_of_a_kind;
+}
+
+Json json_of(std::size_t step, const Visits& visited, const TriangleMesh& mesh) {
+  Json json{{"step", step}};
+  add(json, "cells", visited.cells);
+  add(json, "groups", visited.groups);
+  add(json, "boxes", visited.boxes);
+  add(json, "cylinders", visited.cylinders);
+  std::vector<std::uint32_t> ids;
+  for (const std::uint32_t index : visited.triangles) ids.push_back(mesh.id(index));
+  add(json, "triangles", ids);
+  return json;
+}
+
+/// Asks the steps of the ranges in their order, as the run did, and notes those that are wanted.
+Json visits_of(const NamedDetector& detector, const TriangleMesh& mesh, const Trace& trace,
+               std::span<const std::uint64_t> ranges, std::span<const std::uint64_t> wanted) {
+  Json steps = Json::array();
+  const std::unique_ptr<NamedDetector::Session> session = detector.begin_session();
+  for (std::size_t range = 0; range + 1 < ranges.size(); range += 2) {
+    for (std::size_t step = ranges[range]; step < ranges[range + 1]; ++step) {
+      const Question& asked = trace.steps.at(step);
+      Visits visited;
+      const bool noted = std::ranges::binary_search(wanted, step);
+      visits = noted ? &visited : nullptr;
+      const Probe probe{{asked[0], asked[1], asked[2]}, asked[3]};
+      const bool found = trace.query == "touches" ? detector.touches(probe, *session)
+                                                  : detector.nearest(probe, asked[4], *session).has_value();
+      visits = nullptr;
+      if (!noted) continue;
+      steps.push_back(json_of(step, visited, mesh));
+      steps.back()["found"] = found;
+    }
+  }
+  return steps;
+}
+
+TriangleMesh taken_mesh() {
+  const std::vector<double> coordinates = take_list<double>(stdin);
+  std::vector<Vec3> vertices;
+  for (std::size_t i = 0; i + 2 < coordinates.size(); i += 3) vertices.emplace_back(&coordinates[i]);
+  std::vector<TriangleMesh::Corners> triangles = take_list<TriangleMesh::Corners>(stdin);
+  std::vector<TriangleId> ids = take_list<TriangleId>(stdin);
+  return {std::move(vertices), std::move(triangles), std::move(ids)};
+}
+
+Json taken_and_traced() {
+  Json json{{"schema", 1}, {"run_id", take_text(stdin)}, {"rows", Json::array()}};
+  const TriangleMesh mesh = taken_mesh();
+  std::vector<Trace> traces(take_list<std::uint64_t>(stdin).size());
+  for (Trace& trace : traces) {
+    trace.trajectory = take_text(stdin);
+    trace.query = take_text(stdin);
+    trace.steps = take_list<Question>(stdin);
+  }
+  std::map<std::string, std::unique_ptr<NamedDetector>> detectors;
+  const std::size_t rows = take_list<std::uint64_t>(stdin).size();
+  for (std::size_t row = 0; row < rows; ++row) {
+    const Trace& trace = traces.at(take_list<std::uint64_t>(stdin).at(0));
+    const std::string detector = take_text(stdin), options = take_text(stdin);
+    const std::vector<std::uint64_t> ranges = take_list<std::uint64_t>(stdin),
+                                     wanted = take_list<std::uint64_t>(stdin);
+    Json& told = json["rows"].emplace_back(Json{{"detector", detector},
+                                                {"options", options},
+                                                {"trajectory", trace.trajectory},
+                                                {"steps", Json::array()}});
+    try {
+      const std::string text = options.empty() ? detector : detector + ":" + options;
+      std::unique_ptr<NamedDetector>& built = detectors[text];
+      if (!built) built = NamedDetector::build(mesh, text);
+      told["steps"] = visits_of(*built, mesh, trace, ranges, wanted);
+    } catch (const std::invalid_argument& error) {
+      told["why_not"] = error.what();
+    }
+  }
+  return json;
+}
+
+}  // namespace
+}  // namespace touchmark
+
+int main() {
+  try {
+    const std::string text = touchmark::taken_and_traced().dump() + "\n";
+    return std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0 ? 0
+                                                                                                       : 3;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "touchmark-tracer: %s\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,176 @@
+/// visited.json of `touchmark bench`, from the outside: on a flat sheet, where geometry says what can be
+/// near.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/bench/cli/run_touchmark.h"
+
+namespace touchmark::bench::cli {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int cells = 32, steps = 150;  // cells along each edge of the sheet
+constexpr double reach = 0.0625, rounding = 1e-5;
+
+struct Point {
+  double x, y, z;
+};
+/// Goes over the sheet at 0.4 of the reach, from one corner's cell to the opposite one's.
+Point center_at(int step) {
+  const double along = 0.1 + 0.8 * step / (steps - 1);
+  return {along, 0.9 * along + 0.03, 0.4 * reach};
+}
+
+std::string sheet() {
+  std::string obj;
+  for (int i = 0; i <= cells; ++i)
+    for (int k = 0; k <= cells; ++k) obj += fmt::format("v {} {} 0\n", i / double{cells}, k / double{cells});
+  for (int i = 0; i < cells; ++i) {
+    for (int k = 0; k < cells; ++k) {
+      const int a = i * (cells + 1) + k + 1, b = a + cells + 1;
+      obj += fmt::format("f {} {} {}\nf {} {} {}\n", a, b, b + 1, a, b + 1, a + 1);
+    }
+  }
+  return obj;
+}
+
+std::string motion() {
+  std::string csv = "x,y,z\n";
+  for (int step = 0; step < steps; ++step) {
+    const Point p = center_at(step);
+    csv += fmt::format("{},{},{}\n", p.x, p.y, p.z);
+  }
+  return csv;
+}
+
+double squared_beyond(const Json& box, const Point& p) {
+  const double at[3] = {p.x, p.y, p.z};
+  double sum = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double low = box[axis], high = box[axis + 3];
+    const double excess = std::max({low - at[axis], at[axis] - high, 0.0});
+    sum += excess * excess;
+  }
+  return sum;
+}
+
+double beyond_cylinder(const Json& rod, const Point& p) {
+  const double v[3] = {p.x - rod[0].get<double>(), p.y - rod[1].get<double>(), p.z - rod[2].get<double>()};
+  double along = 0, squared = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    along += v[axis] * rod[axis + 3].get<double>();
+    squared += v[axis] * v[axis];
+  }
+  const double across = std::sqrt(std::max(0.0, squared - along * along));
+  return std::hypot(std::max(0.0, std::abs(along) - rod[7].get<double>()),
+                    std::max(0.0, across - rod[6].get<double>()));
+}
+
+/// One run for all tests.
+class StepVisits : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const TemporaryFolder folder;
+    const Outcome finished =
+        run_touchmark({"bench", "--mesh", folder.file("sheet.obj", sheet()), "--trajectory",
+                       folder.file("motion.csv", motion()), "--radius", fmt::format("{}", reach), "--quick",
+                       "--detector", "aabb-tree", "--detector", "grid-group", "--detector", "sphere-cluster",
+                       "--detector", "brute-force", "--out", folder.path(), "--benchmark_min_time=0.001"});
+    ASSERT_EQ(finished.status, 0) << finished.err;
+    visited() = Json::parse(content_of(folder.file("visited.json")));
+  }
+  static Json& visited() {
+    static Json json;
+    return json;
+  }
+  static const Json& row(const std::string& detector) {
+    for (const Json& one : visited().at("rows"))
+      if (one.at("detector") == detector) return one;
+    ADD_FAILURE() << "no row of " << detector;
+    return visited();
+  }
+};
+
+TEST_F(StepVisits, HaveTheTenSlowestStepsOfOurDetectorsAlone) {
+  std::set<std::string> detectors;
+  for (const Json& one : visited().at("rows")) {
+    detectors.insert(one.at("detector").get<std::string>());
+    EXPECT_EQ(one.at("steps").size(), 10U);
+  }
+  EXPECT_EQ(detectors, (std::set<std::string>{"aabb-tree", "grid-group", "sphere-cluster"}));
+}
+
+TEST_F(StepVisits, WhatWasEnteredIsWithinReachAndWhatWasNotIsFartherThanTheSheet) {
+  std::size_t entered = 0, turned_away = 0;
+  for (const Json& one : visited().at("rows")) {
+    for (const Json& step : one.at("steps")) {
+      EXPECT_TRUE(step.at("found"));
+      const Point p = center_at(step.at("step"));
+      const auto check = [&](bool is_entered, double distance) {
+        ++(is_entered ? entered : turned_away);
+        // The other lists what is near for steps ahead, too.
+        if (is_entered && one.at("detector") != "sphere-cluster") {
+          EXPECT_LE(distance, reach * (1 + rounding));
+        }
+        if (!is_entered) {
+          EXPECT_GE(distance, p.z * (1 - rounding));
+        }
+      };
+      for (const Json& box : step.value("boxes", Json::array()))
+        check(box[6] == 1, std::sqrt(squared_beyond(box, p)));
+      for (const Json& rod : step.value("cylinders", Json::array()))
+        check(rod[8] == 1, beyond_cylinder(rod, p));
+    }
+  }
+  EXPECT_GT(entered, 20U);
+  EXPECT_GT(turned_away, 20U);
+}
+
+TEST_F(StepVisits, ACellHoldsTheProbeAndAGroupThatCoversItLiesUnderIt) {
+  std::size_t seen = 0;
+  for (const Json& step : row("grid-group").at("steps")) {
+    const Point p = center_at(step.at("step"));
+    for (const Json& cell : step.value("cells", Json::array()))
+      EXPECT_LE(squared_beyond(cell, p), rounding * rounding);
+    for (const Json& group : step.value("groups", Json::array())) {
+      ++seen;
+      EXPECT_GE(group[7], 1);
+      if (group[6] == 1) {
+        EXPECT_LE(std::sqrt(squared_beyond(group, p)), p.z * (1 + rounding));
+      }
+    }
+  }
+  EXPECT_GT(seen, 0U);
+}
+
+TEST_F(StepVisits, TheTreeComparedTheTriangleUnderTheProbe) {
+  for (const Json& step : row("aabb-tree").at("steps")) {
+    const Point p = center_at(step.at("step"));
+    const int i = static_cast<int>(p.x * cells), k = static_cast<int>(p.y * cells);
+    const int upper = p.y * cells - k > p.x * cells - i ? 1 : 0;  // beyond the diagonal of its cell
+    const auto ids = step.at("triangles").get<std::set<std::int64_t>>();
+    EXPECT_TRUE(ids.contains(2 * (i * cells + k) + upper)) << step.at("step");
+  }
+}
+
+TEST_F(StepVisits, OfAnEarlierRunAreTakenAway) {
+  const TemporaryFolder folder;
+  folder.file("visited.json", "of an earlier run");
+  const Outcome outcome =
+      run_touchmark({"bench", "--mesh", "cube", "--quick", "--steps", "5", "--trajectory", "slide",
+                     "--detector", "brute-force", "--out", folder.path(), "--benchmark_min_time=0.001"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.path() + "/visited.json"));
+}
+
+}  // namespace
+}  // namespace touchmark::bench::cli
