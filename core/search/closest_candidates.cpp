@@ -11,7 +11,7 @@ namespace touchmark {
 
 /// Keeps only the exactly nearest where there are more than fit, the first where several are.
 void ClosestCandidates::compact() noexcept {
-  was_full_ = true;
+  exact_decisions_ |= was_full;
   if (closeness_ == 0) {
     tie_count_ = 0;
     return;
