@@ -1,11 +1,13 @@
-/// Prints the columns of results.csv, or of suite.csv, proxy.csv or many.csv where "suite", "proxy" or "many"
-/// is the argument, as the table that scripts/docs puts into docs/reference/results-csv.md.
+/// Prints the columns of results.csv, or of suite.csv, proxy.csv, many.csv or bodies.csv where "suite",
+/// "proxy", "many" or "bodies" is the argument, as the table that scripts/docs puts into
+/// docs/reference/results-csv.md.
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "bench/experiments/many/many_row.h"
 #include "bench/experiments/proxy/proxy_csv.h"
+#include "bench/experiments/scaling/body_row.h"
 #include "bench/experiments/suite/suite_csv.h"
 #include "bench/results/results_csv.h"
 
@@ -53,6 +55,8 @@ int main(int argc, char** argv) {
     print_table(touchmark::bench::experiments::suite::suite_columns());
   } else if (of == "many") {
     print_table(touchmark::bench::experiments::many::many_columns());
+  } else if (of == "bodies") {
+    print_table(touchmark::bench::experiments::scaling::body_columns());
   } else if (of == "proxy") {
     print_table(touchmark::bench::experiments::proxy::proxy_columns());
   } else {

@@ -54,6 +54,16 @@ std::string complaint_about_command(const CLI::App& program) {
                      support::near_names(words.front(), names));
 }
 
+/// A command that takes a mesh alone says so of a scene, not only that it knows no such argument.
+std::string complaint_about_arguments(const std::string& error, const ProgramContext& context) {
+  for (const std::string_view of_scenes : {"--scene", "--poses"}) {
+    if (error.find(of_scenes) != std::string::npos && context.argc > 1)
+      return fmt::format("{} takes a mesh alone: {} is of query, verify and bench (touchmark --help)",
+                         context.argv[1], of_scenes);
+  }
+  return fmt::format("{} (touchmark --help)", error);
+}
+
 int parse_and_run(CLI::App& program, ProgramContext& context) {
   try {
     program.parse(context.argc, context.argv);
@@ -63,7 +73,7 @@ int parse_and_run(CLI::App& program, ProgramContext& context) {
     support::StandardOutput().write(text.str());
     return support::exit_done;
   } catch (const CLI::ParseError& error) {
-    return fail(support::exit_bad_input, fmt::format("{} (touchmark --help)", one_line(error.what())));
+    return fail(support::exit_bad_input, complaint_about_arguments(one_line(error.what()), context));
   }
   if (program.get_subcommands().empty())
     return fail(support::exit_bad_input, complaint_about_command(program));

@@ -12,15 +12,19 @@
 #include <utility>
 
 #include "core/detector.h"
+#include "core/geometry/distance_error.h"
 #include "core/scene/nearest_image.h"
 #include "core/scene/scene_bodies.h"
 #include "core/scene/seen_body.h"
 #include "core/scene/shape.h"
+#include "core/search/close_triangles.h"
 
 namespace touchmark {
 
 /// What a distance that a detector of this accuracy reports may be off by for a point there.
-double distance_error(const Accuracy& accuracy, const Aabb& bounds, const Vec3& center) noexcept;
+inline double distance_error(const Accuracy& accuracy, const Aabb& bounds, const Vec3& center) noexcept {
+  return accuracy.relative * largest_difference(bounds, center) + accuracy.absolute;
+}
 
 /// Everything named here outlives it.
 template <Detector D>
@@ -47,12 +51,40 @@ class BodyQuery {
 
   /// Shows all triangles that can be the nearest of the scene, where that is within the limit.
   void nearest(NearestImage& nearest, double limit, Work& work) const noexcept {
+    if constexpr (TellsCloseTriangles<D>) {
+      CloseTriangles close;
+      // Somewhat farther, so that the body need not be asked again while the point stays about there.
+      constexpr double ahead = 0.1;
+      const double farther = limit + ahead * shape_.mesh->bounds().diagonal();
+      if (shape_.detector->close_triangles(seen_.center(), seen_.reach_in_frame(farther, error_),
+                                           slack(farther), session_, close)) {
+        if (close.count == 0) return;
+        const DistanceInterval least = seen_.in_scene(close.least, close.error);
+        if (least.lower > limit) return;
+        const SeenCorners corners(seen_);
+        // The best of them is within the interval of the least; whether others are is not asked where one is
+        // alone.
+        for (std::size_t k = 0; k < close.count; ++k) {
+          ImageCandidate one = seen_as(corners, close.triangle[k]);
+          one.distance = close.count == 1 ? least : distance_to(one.seen);
+          nearest.consider(one, work.exact_decisions);
+        }
+        return;
+      }
+    }
     const std::optional<DistanceInterval> known = distance(limit);
     if (!known) return;
     for_each_within(std::min(limit, known->upper), [&](const ImageCandidate& candidate) {
       nearest.consider(candidate, work.exact_decisions);
       return false;
     });
+  }
+
+  /// Bounds the body's distance from below, by what its detector remembers.
+  double clearance() const noexcept {
+    if constexpr (TellsClearance<D>)
+      return seen_.in_scene(shape_.detector->clearance(seen_.center(), session_), 0).lower;
+    return -std::numeric_limits<double>::infinity();
   }
 
   bool touches(double radius, Work& work) const noexcept {
@@ -89,6 +121,11 @@ class BodyQuery {
     return false;
   }
 
+  /// No triangle is farther than twice the largest difference of coordinates.
+  double slack(double limit) const noexcept {
+    return seen_.slack(std::min(limit, 2 * largest_difference(shape_.mesh->bounds(), seen_.center())));
+  }
+
   /// Returns the places in the mesh of the triangles with this id, of which there is one at least.
   std::pair<std::uint32_t, std::uint32_t> triangles_of(TriangleId id) const noexcept {
     const std::span<const TriangleId> ids = shape_.mesh->ids();
@@ -97,6 +134,12 @@ class BodyQuery {
     return {static_cast<std::uint32_t>(first - ids.begin()), static_cast<std::uint32_t>(last - ids.begin())};
   }
   ImageCandidate candidate(const SeenCorners& corners, std::uint32_t triangle) const noexcept {
+    ImageCandidate result = seen_as(corners, triangle);
+    result.distance = distance_to(result.seen);
+    return result;
+  }
+  /// Without the distance.
+  ImageCandidate seen_as(const SeenCorners& corners, std::uint32_t triangle) const noexcept {
     const TriangleMesh& mesh = *shape_.mesh;
     ImageCandidate result;
     result.body = body_;
@@ -105,7 +148,6 @@ class BodyQuery {
     result.posed = {{mesh.corner(triangle, 0), mesh.corner(triangle, 1), mesh.corner(triangle, 2)},
                     &seen_.pose()};
     result.seen = corners(result.posed.corner);
-    result.distance = distance_to(result.seen);
     return result;
   }
 

@@ -38,7 +38,7 @@ NearBodies::Looked NearBodies::list(const Vec3& point, double reach, const Scene
   looked.boxes = bodies.tree().for_each_within({point, point}, farthest(), [&](std::uint32_t body) {
     ++looked.bodies;
     const double lower = lower_distance(bodies, body, point);
-    if (lower < farthest()) add({bodies.id(body), room, lower});
+    if (lower < farthest()) add({bodies.id(body), room, lower, {}});
     return farthest();
   });
   others_ = Clearance::at(point, farthest(), bodies);
@@ -87,8 +87,12 @@ std::size_t NearBodies::look_again(const Vec3& point, double reach, const SceneB
     count_ = static_cast<std::size_t>(std::remove_if(begin, end, removed) - begin);
     near_count_ = count_;
   }
-  for (Entry& entry : listed().first(near_count_))
-    entry.lower = lower_distance(bodies, entry.id.index, point);
+  for (Entry& entry : near()) {
+    entry.lower = entry.seen.epoch == bodies.epoch() ? entry.seen.remaining(point, bodies) : 0;
+    if (entry.lower > reach) continue;
+    entry.lower = 0;
+    entry.raise(point, lower_distance(bodies, entry.id.index, point), bodies);
+  }
   const std::size_t looked = near_count_;
   if (!is_parted) part(point, reach, bodies);
   return looked;

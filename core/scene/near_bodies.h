@@ -25,6 +25,14 @@ class NearBodies {
     BodyId id;
     std::uint32_t slot = 0;  ///< the place of what is remembered of the body, below `room`
     double lower = 0;        ///< bound of the distance when that was last asked for
+    Clearance seen;          ///< what was found of this body alone
+
+    /// The body is at least so far from there.
+    void raise(const Vec3& point, double bound, const SceneBodies& bodies) noexcept {
+      if (!(bound > lower)) return;
+      lower = bound;
+      seen = Clearance::at(point, bound, bodies);
+    }
   };
 
   /// Is every body surely farther than the reach? One comparison, whatever the number of bodies.
@@ -39,6 +47,7 @@ class NearBodies {
   std::span<const Entry> listed() const noexcept { return {entries_.data(), count_}; }
   /// Those of them that were looked at last; the others are beyond the reach.
   std::span<const Entry> near() const noexcept { return {entries_.data(), near_count_}; }
+  std::span<Entry> near() noexcept { return {entries_.data(), near_count_}; }
   /// Returns the slot of a body, or `room` for one that is not listed.
   std::size_t slot_of(const BodyId& id) const noexcept;
 

@@ -29,15 +29,25 @@ Contact exact_contact(const ImageCandidate& candidate, const Vec3& point) noexce
   return contact;
 }
 
+/// Returns which is surely less, or that they are equivalent as far as is known.
+std::weak_ordering order_of(const DistanceInterval& a, const DistanceInterval& b) noexcept {
+  if (a.upper < b.lower) return std::weak_ordering::less;
+  if (a.lower > b.upper) return std::weak_ordering::greater;
+  return std::weak_ordering::equivalent;
+}
+
 }  // namespace
 
 std::weak_ordering NearestImage::compare(const ImageCandidate& a, const ImageCandidate& b,
                                          std::uint64_t& exact_decisions) const noexcept {
-  if (a.distance.upper < b.distance.lower) return std::weak_ordering::less;
-  if (a.distance.lower > b.distance.upper) return std::weak_ordering::greater;
+  const std::weak_ordering by_bounds = order_of(a.distance, b.distance);
+  if (by_bounds != 0) return by_bounds;
   const bool one_pose = a.posed.pose == b.posed.pose || *a.posed.pose == *b.posed.pose;
   if (one_pose && surely_tied(a.posed.corner, a.seen, b.posed.corner, b.seen))
     return std::weak_ordering::equivalent;
+  // What the detector said of one that was alone is wider than what the image tells.
+  const std::weak_ordering by_images = order_of(distance_to(a.seen), distance_to(b.seen));
+  if (by_images != 0) return by_images;
   ++exact_decisions;
   return compare_exactly(a.posed, b.posed, point_);
 }
@@ -53,7 +63,10 @@ void NearestImage::consider(const ImageCandidate& candidate, std::uint64_t& exac
 }
 
 std::optional<Contact> NearestImage::contact(double reach, std::uint64_t& exact_decisions) const noexcept {
-  if (!best_ || !is_within(*best_, point_, reach, exact_decisions)) return std::nullopt;
+  if (!best_) return std::nullopt;
+  ImageCandidate best = *best_;
+  if (best.distance.lower <= reach && reach < best.distance.upper) best.distance = distance_to(best.seen);
+  if (!is_within(best, point_, reach, exact_decisions)) return std::nullopt;
   return contact_on_image(*best_, point_, exact_decisions);
 }
 
@@ -81,9 +94,10 @@ Contact contact_on_image(const ImageCandidate& candidate, const Vec3& point,
   if (fourth_powers_fit(largest) && candidate.seen.error <= 15 * unit_roundoff * largest) {
     const PreparedTriangle prepared = prepare(corner[0], corner[1], corner[2], candidate.triangle);
     const Vec3 origin = Vec3::Zero();
+    const Offset offset = offset_from(prepared, origin);
     // From there on the kernel's distance is within 16 u M: docs/exactness.md, E5.
-    if (std::sqrt(squared_distance(prepared, origin)) > distance_error(largest)) {
-      Contact contact = contact_on(prepared, origin, candidate.id);
+    if (std::sqrt(offset.squared) > distance_error(largest)) {
+      Contact contact = contact_at(prepared, origin, offset, candidate.id);
       contact.point += point;
       return contact;
     }

@@ -168,20 +168,24 @@ class Scene {
     }
     return asked.session;
   }
+  static constexpr double unknown = -std::numeric_limits<double>::infinity();
+  /// Returns what `ask` does: a bound of the body's distance, or `unknown`.
   template <class Ask>
-  void ask(std::size_t slot, std::uint32_t body, Session& session, const Ask& ask) const noexcept {
+  double ask(std::size_t slot, std::uint32_t body, Session& session, const Ask& ask) const noexcept {
     const Shape<D>* shape = shapes_.needed(bodies_[body].shape);
-    if (shape == nullptr) return;
+    if (shape == nullptr) return unknown;
     typename D::Session& own = session_of(slot, body, session);
-    ask(*shape, body, own);
+    const double lower = ask(*shape, body, own);
     session.work += own.work;
     own.work = {};
+    return lower;
   }
   template <class Ask>
-  void ask_listed(double length, const double& limit, Session& session, std::span<const BodyId> done,
-                  const Ask& ask) const noexcept;
+  void ask_listed(const Vec3& from, double length, const double& limit, Session& session,
+                  std::span<const BodyId> done, const Ask& ask) const noexcept;
   /// Calls ask(shape, body, detector session) for every body that can be within the limit of the way from
-  /// `from` to `to`, which ask may lower.
+  /// `from` to `to`, which ask may lower. It returns a bound of the body's distance from `from`, or
+  /// `unknown`.
   template <class Ask>
   void ask_near(const Vec3& from, const Vec3& to, const double& limit, Session& session,
                 const Ask& ask) const noexcept;

@@ -17,11 +17,11 @@ namespace touchmark {
 template <Detector D>
 requires AnswersNearest<D> && AnswersContacts<D>
 template <class Ask>
-void Scene<D>::ask_listed(double length, const double& limit, Session& session, std::span<const BodyId> done,
-                          const Ask& ask) const noexcept {
-  for (const NearBodies::Entry& entry : session.near.near()) {
+void Scene<D>::ask_listed(const Vec3& from, double length, const double& limit, Session& session,
+                          std::span<const BodyId> done, const Ask& ask) const noexcept {
+  for (NearBodies::Entry& entry : session.near.near()) {
     if (entry.lower > limit + length || std::ranges::find(done, entry.id) != done.end()) continue;
-    this->ask(entry.slot, entry.id.index, session, ask);
+    entry.raise(from, this->ask(entry.slot, entry.id.index, session, ask), bodies_);
   }
 }
 
@@ -38,7 +38,7 @@ void Scene<D>::ask_near(const Vec3& from, const Vec3& to, const double& limit, S
   std::array<BodyId, NearBodies::room> done;
   std::size_t done_count = 0;
   session.work.bodies += near.look_again(from, limit + length, bodies_);
-  ask_listed(length, limit, session, {}, ask);
+  ask_listed(from, length, limit, session, {}, ask);
   // 3. The nearest few of now, where others may have come as near.
   if (limit >= 0 && !near.others_are_beyond(from, limit + length, bodies_)) {
     for (const NearBodies::Entry& entry : near.near())
@@ -46,7 +46,7 @@ void Scene<D>::ask_near(const Vec3& from, const Vec3& to, const double& limit, S
     const NearBodies::Looked looked = near.list(from, limit + length, bodies_);
     session.work.bodies += looked.bodies;
     session.work.boxes += looked.boxes;
-    ask_listed(length, limit, session, std::span(done).first(done_count), ask);
+    ask_listed(from, length, limit, session, std::span(done).first(done_count), ask);
   }
   // 4. All, where those are not all that are near.
   if (limit >= 0 && !near.others_are_beyond(from, limit + length, bodies_)) {
@@ -74,9 +74,10 @@ bool Scene<D>::touches(const Probe& probe, Session& session) const noexcept {
   ask_near(probe.center, probe.center, limit, session,
            [&](const Shape<D>& shape, std::uint32_t body, typename D::Session& own) {
              const BodyQuery<D> query(shape, bodies_[body], body, probe.center, own);
-             if (touching || !query.touches(probe.radius, session.work)) return;
+             if (touching || !query.touches(probe.radius, session.work)) return query.clearance();
              touching = true;
              limit = -std::numeric_limits<double>::infinity();
+             return unknown;
            });
   return touching;
 }
@@ -93,6 +94,7 @@ const noexcept {
              const BodyQuery<D> query(shape, bodies_[body], body, probe.center, own);
              query.nearest(nearest, limit, session.work);
              limit = std::min(limit, nearest.upper());
+             return query.clearance();
            });
   const std::optional<Contact> contact = nearest.contact(reach, session.work.exact_decisions);
   if (!contact) return std::nullopt;
@@ -113,9 +115,10 @@ const noexcept requires AnswersSweep<D> {
              const std::optional<Impact> hit = query.first_hit(session.work);
              if (!hit || (first && (hit->fraction > first->fraction ||
                                     (hit->fraction == first->fraction && body > whose))))
-               return;
+               return unknown;
              first = hit;
              whose = body;
+             return unknown;
            });
   if (!first) return std::nullopt;
   if (first->fraction == 0) {
@@ -175,6 +178,7 @@ void Scene<D>::for_each_contact(const Probe& probe, double reach, Session& sessi
                  found(body, contact_on_image(candidate, probe.center, session.work.exact_decisions));
                return false;
              });
+             return unknown;
            });
 }
 

@@ -56,6 +56,11 @@ double SeenBody::reach_in_frame(double reach, double error) const noexcept {
   return (reach + residue_) * (1 + 1.01 * rigid_ + 16 * unit_roundoff) + error;
 }
 
+double SeenBody::slack(double distance) const noexcept {
+  // Each is off by what in_scene takes for an exact distance, and its rounding.
+  return 2.1 * (rigid_ * distance + residue_ + 16 * unit_roundoff * distance);
+}
+
 double SeenBody::surely_within(double reach, double error) const noexcept {
   return (reach - residue_) * (1 - 1.01 * rigid_ - 16 * unit_roundoff) - error;
 }

@@ -34,6 +34,9 @@ class SeenBody {
   DistanceInterval in_scene(double distance, double error) const noexcept;
   /// Returns a distance in the body's frame beyond which no image is within the reach.
   double reach_in_frame(double reach, double error) const noexcept;
+  /// Two triangles that far at most may have images in either order if their distances in the body's frame
+  /// differ by no more than this.
+  double slack(double distance) const noexcept;
   /// Returns a distance in the body's frame within which every image is within the reach; less than 0 where
   /// nothing is known.
   double surely_within(double reach, double error) const noexcept;

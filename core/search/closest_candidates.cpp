@@ -11,6 +11,7 @@ namespace touchmark {
 
 /// Keeps only the exactly nearest where there are more than fit, the first where several are.
 void ClosestCandidates::compact() noexcept {
+  exact_decisions_ |= was_full;
   if (closeness_ == 0) {
     tie_count_ = 0;
     return;

@@ -54,11 +54,22 @@ class ClosestCandidates {
   /// Returns true if the best is surely a nearest one of those taken and, of those that are exactly as near,
   /// the first. `error` is as above.
   bool is_surely_first(double error) const noexcept { return tie_count_ == 0 || beats_ties(error); }
+  /// Calls visit(slot) for the best and for each of those taken that are farther by at most `error`, or, as
+  /// computed, by a little more. Returns false where there were more than there is room for: then some are
+  /// forgotten.
+  template <class Visit>
+  bool visit_close(const Visit& visit) const noexcept {
+    if ((exact_decisions_ & was_full) != 0) return false;
+    visit(at_);
+    for (std::uint32_t i = 0; i < tie_count_; ++i)
+      if (ties_[i].squared_distance <= limit_ && ties_[i].at != at_) visit(ties_[i].at);
+    return true;
+  }
   /// The exactly nearest of those taken is among these: shows `ties` the best and what rounding may have put
   /// behind it.
   void pass_to(NearestOfTies& ties) const noexcept;
   /// How often whole numbers decided what is remembered.
-  std::uint64_t exact_decisions() const noexcept { return exact_decisions_; }
+  std::uint64_t exact_decisions() const noexcept { return exact_decisions_ & ~was_full; }
 
  private:
   struct Tie {
@@ -66,6 +77,7 @@ class ClosestCandidates {
     std::uint32_t at;
   };
   static constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
+  static constexpr std::uint32_t was_full = std::uint32_t{1} << 31;
   static constexpr std::uint32_t max_ties = 64;  ///< about a corner there are some more than six triangles
 
   [[gnu::cold, gnu::noinline]] void compact() noexcept;
@@ -78,7 +90,7 @@ class ClosestCandidates {
   Candidate best_;
   std::uint32_t at_ = nowhere;
   std::uint32_t tie_count_ = 0;
-  std::uint32_t exact_decisions_ = 0;
+  std::uint32_t exact_decisions_ = 0;  ///< and `was_full`, which so takes no time to clear
   const PreparedTriangle* triangles_;
   const Vec3* center_;
   std::array<Tie, max_ties> ties_;

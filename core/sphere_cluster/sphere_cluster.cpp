@@ -77,6 +77,14 @@ std::optional<Contact> SphereCluster::look_for_nearest(const Probe& probe, doubl
   return tree_.nearest(probe.center, reach, followed, work);
 }
 
+bool SphereCluster::look_for_close_triangles(const Vec3& center, double reach, double slack, Session& session,
+                                             CloseTriangles& into) const noexcept {
+  if (!options_.precise || options_.lookup == Lookup::scan) return false;
+  if (!(reach >= 0)) return true;
+  session.question = {LastQuestion::Query::nearest, reach};
+  return tree_.close_triangles(center, reach, slack, session.memory, into, session.work);
+}
+
 std::optional<Impact> SphereCluster::look_for_impact(const Sweep& sweep, Session& session) const noexcept {
   if (!(sweep.radius >= 0)) return std::nullopt;
   if (!options_.precise) return fast_.first_hit(sweep, session.work);

@@ -74,6 +74,18 @@ class SphereCluster {
     if (tree_.is_clear(probe.center, reach, followed)) return std::nullopt;
     return look_for_nearest(probe, reach, followed, work);
   }
+  /// See the concept TellsCloseTriangles: true with a tree, unless there are too many or the slack is too
+  /// much.
+  bool close_triangles(const Vec3& center, double reach, double slack, Session& session,
+                       CloseTriangles& into) const noexcept {
+    into.count = 0;
+    if (tree_.is_clear(center, reach, session.memory)) return true;
+    return look_for_close_triangles(center, reach, slack, session, into);
+  }
+  /// See the concept TellsClearance.
+  double clearance(const Vec3& center, const Session& session) const noexcept {
+    return tree_.clearance(center, session.memory);
+  }
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept {
     if (is_clear(sweep, session)) return std::nullopt;
     return look_for_impact(sweep, session);
@@ -121,6 +133,8 @@ class SphereCluster {
   std::optional<Contact> look_for_nearest(const Probe& probe, double reach, Session& session) const noexcept;
   std::optional<Contact> look_for_nearest(const Probe& probe, double reach, FollowedPoint& followed,
                                           Work& work) const noexcept;
+  bool look_for_close_triangles(const Vec3& center, double reach, double slack, Session& session,
+                                CloseTriangles& into) const noexcept;
   std::optional<Impact> look_for_impact(const Sweep& sweep, Session& session) const noexcept;
   std::size_t look_for_contacts(const Probe& probe, double reach, Session& session,
                                 std::span<Contact> into) const noexcept;

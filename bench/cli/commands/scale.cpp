@@ -15,6 +15,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/cli/commands/scale_bodies.h"
 #include "bench/cli/program.h"
 #include "bench/cli/selector_options.h"
 #include "bench/cli/worker_options.h"
@@ -50,16 +51,9 @@ constexpr double bytes_per_triangle = 1500;
 struct ScaleOptions {
   contestants::Selectors selectors;
   std::string sizes, limit = "60", shrink, out;
-  bool quick = false;
+  bool bodies = false, quick = false;
   WorkerSelectors workers;
 };
-
-double checked_limit(const std::string& text) {
-  const std::optional<double> seconds = support::parse_number(text);
-  if (!seconds || !(*seconds > 0))
-    throw std::invalid_argument(fmt::format("--limit-seconds \"{}\" is not a number above 0, or inf", text));
-  return *seconds;
-}
 
 scaling::Shrinks checked_shrinks(const std::string& text) {
   using scaling::Shrinks;
@@ -289,6 +283,8 @@ void add_scale(CLI::App& program, ProgramContext& context) {
           "reach: radius and reach are as given on the smallest mesh, and shrink as the edges of its "
           "triangles do; all: so does the speed of motion")
       ->type_name("WHAT");
+  command->add_flag("--bodies", options->bodies,
+                    "scenes of 1 body and of each of the sizes instead, still and all moving");
   add_unit(*command, options->selectors.unit);
   command->add_option("--out", options->out, "folder for results.csv, scaling.csv and run.json")
       ->type_name("DIR");
@@ -299,9 +295,20 @@ void add_scale(CLI::App& program, ProgramContext& context) {
       "each contestant, and tells what the query time is made of: looks, their kinds, the time of a look.\n"
       "With --shrink what the reach and the motion add to it can be told apart. scripts/plot DIR draws "
       "them.\n"
+      "With --bodies: what a tick costs, in free space and beside a body, what placing a moved body does, "
+      "and\n"
+      "the bytes of a body, by the number of bodies; into bodies.csv, bodies_growth.csv and run.json. All\n"
+      "contestants run in this program, and their answers are compared with the first one's.\n"
+      "Example: touchmark scale --bodies --sizes 10,100,1k,10k,100k --detector sphere-cluster --out "
+      "out/bodies\n"
       "Example: touchmark scale --sizes 1k,10k,100k,1M --detector grid-group --detector embree --out "
       "out/scaling\n");
-  command->final_callback([options, &context] { context.status = ScaleRun(context, *options).run(); });
+  command->final_callback([options, &context] {
+    context.status = options->bodies
+                         ? run_scale_bodies(context, {options->selectors, options->sizes, options->limit,
+                                                      options->out, options->quick})
+                         : ScaleRun(context, *options).run();
+  });
 }
 
 }  // namespace touchmark::bench::cli

@@ -14,6 +14,7 @@
 #include "bench/experiments/choose/choose_check.h"
 #include "bench/experiments/many/many_check.h"
 #include "bench/experiments/proxy/proxy_check.h"
+#include "bench/experiments/scaling/body_check.h"
 #include "bench/experiments/servo/servo_check.h"
 #include "bench/experiments/stress/stress_check.h"
 #include "bench/experiments/suite/suite_check.h"
@@ -86,6 +87,7 @@ std::string check_json(const std::string& path, validation::Faults& faults) {
 bool is_stress_csv(const fs::path& path) { return path.filename() == "stress.csv"; }
 bool is_servo_csv(const fs::path& path) { return path.filename() == "servo.csv"; }
 bool is_choose_csv(const fs::path& path) { return path.filename() == "choose.csv"; }
+bool is_bodies_csv(const fs::path& path) { return path.filename() == "bodies.csv"; }
 bool is_many_csv(const fs::path& path) { return path.filename() == "many.csv"; }
 bool is_proxy_csv(const fs::path& path) { return path.filename() == "proxy.csv"; }
 bool is_suite_csv(const fs::path& path) { return path.filename() == "suite.csv"; }
@@ -132,6 +134,10 @@ std::string check_csv(const std::string& path, validation::Faults& faults) {
   if (is_suite_csv(path)) {
     suite::check_suite(table, run_json, faults);
     return fmt::format("suite, {} rows", table.records.size());
+  }
+  if (is_bodies_csv(path)) {
+    experiments::scaling::check_bodies(table, faults);
+    return fmt::format("bodies, {} rows", table.records.size());
   }
   if (is_many_csv(path)) {
     many::check_many(table, faults);
@@ -187,7 +193,7 @@ void add_validate(CLI::App& program, ProgramContext& context) {
   command
       ->add_option(
           "path", *paths,
-          "results.csv, stress.csv, servo.csv, choose.csv, suite.csv, proxy.csv, many.csv, "
+          "results.csv, stress.csv, servo.csv, choose.csv, suite.csv, proxy.csv, many.csv, bodies.csv, "
           "run.json, steps.bin, or folders that hold some; other CSV files are checked for their form")
       ->type_name("FILE|DIR")
       ->required();

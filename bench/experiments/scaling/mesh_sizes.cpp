@@ -14,18 +14,18 @@
 namespace touchmark::bench::experiments::scaling {
 namespace {
 
-constexpr std::uint64_t min_triangles = 6;  // of a noisy sphere
+constexpr SizesOf of_noisy_spheres{"triangles", 6, scenes::max_generated_triangles};
 
 /// "1.5M".
-std::optional<std::uint64_t> parse_size(std::string_view text) {
+std::optional<std::uint64_t> parse_size(std::string_view text, const SizesOf& of) {
   double unit = 1;
   if (text.ends_with('k')) unit = 1e3;
   if (text.ends_with('M')) unit = 1e6;
   if (unit > 1) text.remove_suffix(1);
   const double size = support::parse_number(text).value_or(0) * unit;
-  if (!(size >= min_triangles && size <= scenes::max_generated_triangles) || size != std::floor(size)) {
+  if (!(size >= static_cast<double>(of.least) && size <= static_cast<double>(of.most)) ||
+      size != std::floor(size))
     return std::nullopt;
-  }
   return static_cast<std::uint64_t>(size);
 }
 
@@ -34,16 +34,20 @@ std::optional<std::uint64_t> parse_size(std::string_view text) {
 bool comes_in_sizes(const std::string& family) { return family == "noisy-sphere" || family == "soup"; }
 
 std::vector<std::uint64_t> parse_sizes(const std::string& text) {
+  return parse_sizes(text, of_noisy_spheres);
+}
+
+std::vector<std::uint64_t> parse_sizes(const std::string& text, const SizesOf& of) {
   std::vector<std::uint64_t> sizes;
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     const std::string part = text.substr(begin, end - begin);
-    const std::optional<std::uint64_t> size = parse_size(part);
+    const std::optional<std::uint64_t> size = parse_size(part, of);
     if (!size) {
       throw std::invalid_argument(
-          fmt::format("--sizes \"{}\": \"{}\" is not a whole number of triangles from {} to {}, as 5000, 5k "
+          fmt::format("--sizes \"{}\": \"{}\" is not a whole number of {} from {} to {}, as 5000, 5k "
                       "or 1.5M",
-                      text, part, min_triangles, scenes::max_generated_triangles));
+                      text, part, of.what, of.least, of.most));
     }
     sizes.push_back(*size);
     begin = end + 1;

@@ -10,6 +10,14 @@ namespace touchmark::bench::experiments::scaling {
 /// "1k,30k,1.5M": whole numbers of triangles, at least two different ones. Throws std::invalid_argument.
 std::vector<std::uint64_t> parse_sizes(const std::string& text);
 
+/// What sizes are of, and from which to which they are.
+struct SizesOf {
+  const char* what;
+  std::uint64_t least, most;
+};
+/// As above, of what is said. Throws std::invalid_argument.
+std::vector<std::uint64_t> parse_sizes(const std::string& text, const SizesOf& of);
+
 /// The scenes that stand for `names`: noisy-sphere and soup in each of the sizes, dragon in its four
 /// resolutions, all else as it is, from small to large where that is known. `sizes` as for parse_sizes, or
 /// empty for `otherwise`. Throws std::invalid_argument, also for sizes that no name takes.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/search/certified_nearest.h"
 #include "core/sphere_cluster/tree/builder.h"
@@ -144,16 +145,19 @@ bool SphereTree::refill(const Vec3& center, const Vec3& move, float distance, Me
   return true;
 }
 
-/// Ends with exhausted() where the work budget is used up. Always inline, so that no contact is copied.
-template <class Exhausted>
-[[gnu::always_inline]] inline std::optional<Contact> SphereTree::search_nearest(
-    const Vec3& center, double reach, Memory& memory, Work& work, std::uint64_t budget,
-    const Exhausted& exhausted) const noexcept {
+/// Ends with one of what `ends` has for that: nothing(), found(visitor, error, distance), exhausted() where
+/// the work budget is used up, and without() where the hierarchy cannot be searched. Always inline, so that
+/// no contact is copied.
+template <class Ends>
+[[gnu::always_inline]] inline auto SphereTree::search_nearest(const Vec3& center, double reach,
+                                                              Memory& memory, Work& work,
+                                                              std::uint64_t budget,
+                                                              const Ends& ends) const noexcept {
   claim(memory);
   if constexpr (tracing)
     if (visits != nullptr) visits->frame = &frame_;
   const FilterPoint point = frame_.point(center);
-  if (!can_search(point)) return nearest_without(center, reach, work);
+  if (!can_search(point)) return ends.without();
   bool near = false;
   if (memory.is_near()) {
     const double moved = (center - memory.center).norm();
@@ -161,7 +165,7 @@ template <class Exhausted>
   }
   if (!near && (rejects_by_distance_field(point, center, reach, memory) ||
                 (lazy_ && rejects_once_sampled(point, center, reach, memory, budget, work))))
-    return std::nullopt;
+    return ends.nothing();
   const double error = frame_.kernel_error(point.plane_error);
   NearestVisitor visitor(parts_, frame_, center, frame_.limit((reach + error) * (reach + error)), error);
   float unseen = 0;
@@ -176,7 +180,7 @@ template <class Exhausted>
   if (unseen == spheres::exhausted) {
     work += visitor.work;
     memory.forget_distance();
-    return exhausted();
+    return ends.exhausted();
   }
   const ClosestCandidates& candidates = visitor.candidates;
   const double distance = std::sqrt(candidates.best().squared_distance);
@@ -185,31 +189,88 @@ template <class Exhausted>
   memory.upper = distance;
   memory.lower = clearance_from(unseen, distance, clearance_pad(point));
   work += visitor.work;
-  if (!candidates.found()) return std::nullopt;
+  if (!candidates.found()) return ends.nothing();
   memory.slot = candidates.at();
-  if (certified_ && !(is_certain(distance, reach, error) && candidates.is_surely_first(error)))
-    return contact_of(candidates, parts_.triangles, center, reach, distance_error(bounds_, center), ids_,
-                      work);
-  if (distance > reach) return std::nullopt;
-  return contact_at(parts_.triangles[candidates.at()], center,
-                    {visitor.offset, candidates.best().squared_distance}, ids_[candidates.best().index]);
+  return ends.found(visitor, error, distance);
 }
+
+/// A search that ends with a contact.
+template <class Exhausted>
+struct SphereTree::ContactEnds {
+  const SphereTree& tree;
+  const Vec3& center;
+  double reach;
+  Work& work;
+  const Exhausted& exhausted;
+
+  static std::optional<Contact> nothing() noexcept { return std::nullopt; }
+  std::optional<Contact> without() const noexcept { return tree.nearest_without(center, reach, work); }
+  template <class Visitor>
+  [[gnu::always_inline]] std::optional<Contact> found(const Visitor& visitor, double error,
+                                                      double distance) const noexcept {
+    const ClosestCandidates& candidates = visitor.candidates;
+    if (tree.certified_ && !(is_certain(distance, reach, error) && candidates.is_surely_first(error)))
+      return contact_of(candidates, tree.parts_.triangles, center, reach,
+                        distance_error(tree.bounds_, center), tree.ids_, work);
+    if (distance > reach) return std::nullopt;
+    return contact_at(tree.parts_.triangles[candidates.at()], center,
+                      {visitor.offset, candidates.best().squared_distance},
+                      tree.ids_[candidates.best().index]);
+  }
+};
+
+/// A search that ends with the triangles that may be nearest.
+struct SphereTree::CloseEnds {
+  const SphereTree& tree;
+  double reach, slack;
+  CloseTriangles& into;
+
+  bool nothing() const noexcept {
+    into.count = 0;
+    return true;
+  }
+  static bool without() noexcept { return false; }
+  static bool exhausted() noexcept { return false; }
+  template <class Visitor>
+  bool found(const Visitor& visitor, double error, double distance) const noexcept {
+    into.count = 0;
+    if (distance > reach + error) return true;
+    // The search was shown what is farther by at most the error, as computed: half of it is rounding's.
+    if (!(2 * slack <= error)) return false;
+    into.least = distance;
+    into.error = error;
+    bool fits = true;
+    const auto add = [&](std::uint32_t at) {
+      fits = fits && into.count < into.triangle.size();
+      if (fits) into.triangle[into.count++] = tree.parts_.triangles[at].index;
+    };
+    return visitor.candidates.visit_close(add) && fits;
+  }
+};
 
 std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Memory& memory,
                                            Work& work) const noexcept {
+  const auto exhausted = [&] { return fallback().nearest(center, reach, work); };
   return search_nearest(center, reach, memory, work, nearest_limit(),
-                        [&] { return fallback().nearest(center, reach, work); });
+                        ContactEnds<decltype(exhausted)>{*this, center, reach, work, exhausted});
+}
+
+bool SphereTree::close_triangles(const Vec3& center, double reach, double slack, Memory& memory,
+                                 CloseTriangles& into, Work& work) const noexcept {
+  return search_nearest(center, reach, memory, work, nearest_limit(), CloseEnds{*this, reach, slack, into});
 }
 
 SphereTree::WithinBudget SphereTree::nearest_within_budget(const Vec3& center, double reach, Memory& memory,
                                                            Work& work) const noexcept {
-  bool exhausted = false;
-  return {search_nearest(center, reach, memory, work, work_limit(),
-                         [&]() -> std::optional<Contact> {
-                           exhausted = true;
-                           return std::nullopt;
-                         }),
-          exhausted};
+  bool is_exhausted = false;
+  const auto exhausted = [&]() -> std::optional<Contact> {
+    is_exhausted = true;
+    return std::nullopt;
+  };
+  std::optional<Contact> contact =
+      search_nearest(center, reach, memory, work, work_limit(),
+                     ContactEnds<decltype(exhausted)>{*this, center, reach, work, exhausted});
+  return {std::move(contact), is_exhausted};
 }
 
 void SphereTree::prepare(const LastQuestion& question, Memory& memory, Work& work) const noexcept {

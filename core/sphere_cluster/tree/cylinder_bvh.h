@@ -12,6 +12,7 @@
 #include "core/aabb.h"
 #include "core/detector.h"
 #include "core/geometry/point_triangle.h"
+#include "core/search/close_triangles.h"
 #include "core/search/distance_field.h"
 #include "core/search/epoch.h"
 #include "core/search/last_distance.h"
@@ -96,12 +97,21 @@ class SphereTree {
     return list.epoch == epoch_ && list.count == 0 && margin > 0 &&
            (center - list.center).squaredNorm() < margin * margin;
   }
+  /// Bounds the distance from below by what is remembered; 0 where nothing is.
+  double clearance(const Vec3& center, const Memory& memory) const noexcept {
+    if (memory.epoch != epoch_) return 0;
+    const double moved = (center - memory.center).norm() * (1 + 0x1p-50);
+    return (memory.lower - moved) * (1 - 0x1p-50);
+  }
   // All look, even where it is known to be clear. A radius or reach must be at least 0.
   bool touches(const Probe& probe, Memory& memory, Work& work) const noexcept;
   std::optional<Contact> nearest(const Vec3& center, double reach, Memory& memory, Work& work) const noexcept;
   /// Answers of one of many points, of which little is remembered.
   std::optional<Contact> nearest(const Vec3& center, double reach, spheres::FollowedPoint& list,
                                  Work& work) const noexcept;
+  /// See the concept TellsCloseTriangles.
+  bool close_triangles(const Vec3& center, double reach, double slack, Memory& memory, CloseTriangles& into,
+                       Work& work) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, Memory& memory, Work& work) const noexcept;
   std::size_t contacts(const Vec3& center, double reach, Memory& memory, std::span<Contact> into,
                        Work& work) const noexcept;
@@ -142,8 +152,11 @@ class SphereTree {
   float displacement(const Vec3& from, const Vec3& to, const FilterPoint& at) const noexcept;
 
   template <class Exhausted>
-  std::optional<Contact> search_nearest(const Vec3& center, double reach, Memory& memory, Work& work,
-                                        std::uint64_t budget, const Exhausted& exhausted) const noexcept;
+  struct ContactEnds;
+  struct CloseEnds;
+  template <class Ends>
+  auto search_nearest(const Vec3& center, double reach, Memory& memory, Work& work, std::uint64_t budget,
+                      const Ends& ends) const noexcept;
   /// The answer of `nearest`, or that the work budget was exhausted before there was one.
   struct WithinBudget {
     std::optional<Contact> contact;

@@ -151,12 +151,26 @@ TEST_F(SceneCommand, RefusesPosesThatFitNoScene) {
   refuses("0,a,0,0,0,0,0,0,0\n", {"poses.csv:2", "zeros"});
   refuses("0,a,0,0,0,1,0,0,0\n0,a,0,0,0,1,0,0,0\n", {"poses.csv:3", "time_s"});
   refuses("0,a,0,0,0,1,0,0\n", {"poses.csv:2", "8", "9"});
+  // In the middle of a file, after rows that are good.
+  const std::string good = "0,a,0,0,0,1,0,0,0\n1,a,0,0,0,2,0,0,0\n";
+  refuses(good + "0.5,a,0,0,0,1,0,0,0\n", {"poses.csv:4", "time_s"});
+  refuses(good + "2,a,0,0,0,1,inf,0,0\n", {"poses.csv:4", "column qx"});
+  refuses(good + "2,a,0,0,0,-0,0,-0,0\n", {"poses.csv:4", "zeros"});
+  refuses(good + "2,A,0,0,0,1,0,0,0\n", {"poses.csv:4", "'A'"});
+  refuses(good + "nan,a,0,0,0,1,0,0,0\n", {"poses.csv:4", "time_s"});
   expect_bad_input({"query", "--poses", "p.csv", "--detector", "brute-force"}, {"--poses", "--scene"});
   expect_bad_input({"query", "--scene", one, "--mesh", "cube", "--detector", "brute-force"},
                    {"--scene", "--mesh"});
   expect_bad_input({"query", "--scene", "heap:0", "--detector", "brute-force"}, {"heap:0"});
   expect_bad_input({"query", "--scene", "heap:3:motion=mad", "--detector", "brute-force"}, {"mad", "drift"});
   expect_bad_input({"query", "--scene", "hepa", "--detector", "brute-force"}, {"hepa", "heap"});
+}
+
+TEST_F(SceneCommand, CommandsOfOneMeshSaySoInOneLine) {
+  expect_bad_input({"gate", "--baseline", "b.csv", "--scene", "heap:3"}, {"gate", "--scene"});
+  for (const std::string command : {"servo", "choose", "stress", "scale", "update"})
+    expect_bad_input({command, "--scene", "heap:3"}, {command, "--scene", "query, verify and bench"});
+  expect_bad_input({"servo", "--poses", "poses.csv"}, {"servo", "--poses"});
 }
 
 TEST_F(SceneCommand, ListsGeneratedScenesAndMotions) {

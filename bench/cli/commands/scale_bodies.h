@@ -1,0 +1,23 @@
+/// `touchmark scale --bodies`: how ticks, placing and memory grow with the number of bodies.
+#pragma once
+
+#include <string>
+
+#include "bench/cli/program.h"
+#include "bench/contestants/selectors.h"
+
+namespace touchmark::bench::cli {
+
+struct ScaleBodiesOptions {
+  const contestants::Selectors& selectors;
+  std::string sizes, limit, out;
+  bool quick = false;
+};
+
+/// Throws std::invalid_argument for what is not a number above 0, or inf.
+double checked_limit(const std::string& text);
+
+/// An exit status. Throws std::invalid_argument, ResourceError.
+int run_scale_bodies(const ProgramContext& context, const ScaleBodiesOptions& options);
+
+}  // namespace touchmark::bench::cli

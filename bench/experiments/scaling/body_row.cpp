@@ -1,0 +1,162 @@
+#include "bench/experiments/scaling/body_row.h"
+
+#include <array>
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "bench/support/grouping.h"
+#include "bench/support/table.h"
+
+namespace touchmark::bench::experiments::scaling {
+namespace {
+
+using Row = const BodyRow&;
+using R = BodyRow;
+
+template <auto Member>
+std::string plain(Row row) {
+  return fmt::format("{}", row.*Member);
+}
+template <auto Member>
+std::string rounded(Row row) {
+  return fmt::format("{:.4g}", row.*Member);
+}
+template <auto Member>
+std::string optional_number(Row row) {
+  return row.*Member ? fmt::format("{:.4g}", *(row.*Member)) : "";
+}
+
+using results::Presence, results::Kind;
+using results::kinds::any_text, results::kinds::finite, results::kinds::one, results::kinds::positive,
+    results::kinds::positive_count, results::kinds::whole_number;
+constexpr Presence always = Presence::always, optional = Presence::optional;
+constexpr Kind place{[](std::string_view text) { return text == "free" || text == "beside"; },
+                     "one of free, beside"};
+
+// The order is the contract.
+constexpr auto columns = std::to_array<results::Column<R>>({
+    {"schema", [](Row) { return std::to_string(bodies_schema); }, always, one, "1."},
+    {"detector", plain<&R::detector>, always, any_text, "The contestant."},
+    {"options", plain<&R::options>, optional, any_text, "Its options, as they were written."},
+    {"bodies", plain<&R::bodies>, always, positive_count, "Of the scene `field:N`."},
+    {"motion", plain<&R::motion>, always, any_text, "How they move."},
+    {"place", [](Row row) { return std::string(name_of(row.place)); }, always, place,
+     "Where the probe is: `free`, more than a body's size from all, or `beside` one."},
+    {"moved", plain<&R::moved>, always, whole_number, "Bodies that are placed before each frame."},
+    {"frames", plain<&R::frames>, always, whole_number,
+     "How often bodies are placed, in each of the rounds."},
+    {"ticks_per_frame", plain<&R::ticks_a_frame>, always, whole_number, "Queries between two frames."},
+    {"build_ms", rounded<&R::build_ms>, always, finite, "Shapes included."},
+    {"bytes", plain<&R::bytes>, always, whole_number, "Of all of it, by its own count."},
+    {"bytes_per_body", optional_number<&R::bytes_per_body>, optional, finite,
+     "What it takes more than with one body, over the bodies more."},
+    {"publish_ns_per_body", optional_number<&R::publish_ns_per_body>, optional, finite,
+     "Placing a frame's bodies, over their number: the median of the frames."},
+    {"first_tick_ns", rounded<&R::first_tick_ns>, always, finite,
+     "The query right after a frame: the median, without the clock's cost."},
+    {"tick_ns", rounded<&R::tick_ns>, always, finite,
+     "A query after that: the median of the frames' means, no clock between queries."},
+    {"tick_over_one", optional_number<&R::tick_over_one>, optional, finite,
+     "`tick_ns` over that with one body."},
+    {"found", plain<&R::found>, always, whole_number, "Queries of one round with a body in reach."},
+    {"differing", plain<&R::differing>, always, whole_number,
+     "Answers of one round that are not those of the first contestant, to 1e-9."},
+    {"status", plain<&R::status>, always, any_text, "`ok`, `differs`, or why it was not measured."},
+});
+
+struct Quantity {
+  std::string_view name;
+  std::optional<double> (*value)(Row row);
+};
+constexpr std::array quantities{
+    Quantity{"tick_ns", [](Row row) { return std::optional(row.tick_ns); }},
+    Quantity{"first_tick_ns", [](Row row) { return std::optional(row.first_tick_ns); }},
+    Quantity{"publish_ns_per_body", [](Row row) { return row.publish_ns_per_body; }},
+    Quantity{"build_ms", [](Row row) { return std::optional(row.build_ms); }},
+};
+
+using G = BodyGrowth;
+constexpr auto growth_columns = std::to_array<results::Column<G>>({
+    {"schema", [](const G&) { return std::to_string(bodies_schema); }},
+    {"detector", [](const G& growth) { return growth.detector; }},
+    {"options", [](const G& growth) { return growth.options; }},
+    {"motion", [](const G& growth) { return growth.motion; }},
+    {"place", [](const G& growth) { return std::string(name_of(growth.place)); }},
+    {"quantity", [](const G& growth) { return std::string(growth.quantity); }},
+    {"points", [](const G& growth) { return std::to_string(growth.law.points); }},
+    {"exponent", [](const G& growth) { return fmt::format("{:.6g}", growth.law.exponent); }},
+    {"exponent_low",
+     [](const G& growth) {
+       return growth.law.interval ? fmt::format("{:.6g}", growth.law.interval->low) : "";
+     }},
+    {"exponent_high",
+     [](const G&
+            growth) { return growth.law.interval ? fmt::format("{:.6g}", growth.law.interval->high) : ""; }},
+    {"factor", [](const G& growth) { return fmt::format("{:.6g}", growth.law.factor); }},
+});
+
+auto curves_of(const std::vector<BodyRow>& rows) {
+  return support::grouped_by(
+      rows, [](Row row) { return std::tuple(row.motion, row.place, row.detector, row.options); });
+}
+
+}  // namespace
+
+std::string_view name_of(Place place) noexcept { return place == Place::free ? "free" : "beside"; }
+
+std::span<const results::Column<BodyRow>> body_columns() { return columns; }
+
+std::string bodies_csv(const std::vector<BodyRow>& rows) { return results::table_of(columns, rows).csv(); }
+
+std::string bodies_growth_csv(const std::vector<BodyGrowth>& growths) {
+  return results::table_of(growth_columns, growths).csv();
+}
+
+std::vector<BodyGrowth> growth_of(const std::vector<BodyRow>& rows) {
+  std::vector<BodyGrowth> growths;
+  for (const auto& [key, curve] : curves_of(rows)) {
+    for (const Quantity& quantity : quantities) {
+      std::vector<SizedQuantity> measured;
+      for (const BodyRow* row : curve) {
+        const std::optional<double> value = quantity.value(*row);
+        if (row->status == "ok" && value && *value > 0)
+          measured.push_back({static_cast<double>(row->bodies), *value});
+      }
+      const std::optional<PowerLaw> law = fit_power_law(measured);
+      const auto& [motion, place, detector, options] = key;
+      if (law) growths.push_back({detector, options, motion, place, quantity.name, *law});
+    }
+  }
+  return growths;
+}
+
+std::string bodies_table(const std::vector<BodyRow>& rows) {
+  std::string text;
+  for (const auto& [key, of_key] :
+       support::grouped_by(rows, [](Row row) { return std::tuple(row.motion, row.place); })) {
+    support::Table table({"detector", "bodies", "tick ns", "/ one", "first tick ns", "publish ns/body",
+                          "bytes/body", "build ms", "status"});
+    for (const BodyRow* row : of_key)
+      table.add({row->contestant(), std::to_string(row->bodies), rounded<&R::tick_ns>(*row),
+                 optional_number<&R::tick_over_one>(*row), rounded<&R::first_tick_ns>(*row),
+                 optional_number<&R::publish_ns_per_body>(*row), optional_number<&R::bytes_per_body>(*row),
+                 rounded<&R::build_ms>(*row), row->status});
+    text += fmt::format("\nmotion={}, probe {}\n{}", std::get<0>(key),
+                        std::get<1>(key) == Place::free ? "in free space" : "beside a body", table.text());
+  }
+  support::Table exponents({"detector", "motion", "place", "quantity", "exponent [95 %]"});
+  for (const BodyGrowth& growth : growth_of(rows)) {
+    const std::string name =
+        growth.options.empty() ? growth.detector : growth.detector + ":" + growth.options;
+    const std::string interval =
+        growth.law.interval
+            ? fmt::format(" [{:.2f}, {:.2f}]", growth.law.interval->low, growth.law.interval->high)
+            : "";
+    exponents.add({name, growth.motion, std::string(name_of(growth.place)), std::string(growth.quantity),
+                   fmt::format("{:.2f}{}", growth.law.exponent, interval)});
+  }
+  return text + fmt::format("\nquantity = factor * bodies^exponent\n{}", exponents.text());
+}
+
+}  // namespace touchmark::bench::experiments::scaling
