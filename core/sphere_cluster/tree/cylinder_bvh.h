@@ -191,7 +191,7 @@ class SphereTree {
   }
   bool is_sampled_clear(const Sweep& sweep, double length, double reach, Memory& memory) const noexcept;
   bool search_middle(const Sweep& sweep, double length, double reach, std::uint64_t budget, FirstTouch& first,
-                     Memory& memory, Work& work) const noexcept;
+                     const Memory& memory, Work& work) const noexcept;
   bool search_path(const Sweep& sweep, double length, double reach, std::uint64_t budget, FirstTouch& first,
                    Work& work) const noexcept;
 
@@ -223,6 +223,9 @@ class SphereTree {
   template <class Visitor>
   float search_near(const FilterPoint& point, Visitor& visitor, Memory& memory,
                     std::uint64_t budget) const noexcept;
+  template <class Visitor>
+  float search_listed(const FilterPoint& point, Visitor& visitor, const Memory& memory,
+                      std::uint64_t budget) const noexcept;
   template <class Visitor>
   float search_cached(const FilterPoint& point, Visitor& visitor, const spheres::LeafCache& cache, float away,
                       std::uint64_t budget) const noexcept;

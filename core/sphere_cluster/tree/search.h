@@ -85,6 +85,17 @@ template <class Visitor>
   return search_cached(point, visitor, memory.cache, away, budget);
 }
 
+/// As search_near, but it lists no leaves anew: for a search whose budget another has partly spent.
+template <class Visitor>
+[[gnu::always_inline]] inline float SphereTree::search_listed(const FilterPoint& point, Visitor& visitor,
+                                                              const Memory& memory,
+                                                              std::uint64_t budget) const noexcept {
+  const float distance = std::sqrt(visitor.limit) + point.plane_error;
+  const float away = displacement(memory.cache.center, visitor.center, point);
+  if (!(distance + away < memory.cache.covered_radius)) return traverse(point, visitor, budget);
+  return search_cached(point, visitor, memory.cache, away, budget);
+}
+
 template <class Visitor>
 [[gnu::always_inline]] inline float SphereTree::search_cached(const FilterPoint& point, Visitor& visitor,
                                                               const spheres::LeafCache& cache, float away,

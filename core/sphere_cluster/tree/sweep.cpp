@@ -107,10 +107,11 @@ bool SphereTree::is_sampled_clear(const Sweep& sweep, double length, double reac
 /// Looks in a ball about the middle, which is rounded to a point. Returns false when the work budget was
 /// exhausted.
 bool SphereTree::search_middle(const Sweep& sweep, double length, double reach, std::uint64_t budget,
-                               FirstTouch& first, Memory& memory, Work& work) const noexcept {
+                               FirstTouch& first, const Memory& memory, Work& work) const noexcept {
   const double ball = reach + position_error(sweep) + 0.5 * length * (1 + 0x1p-40);
   MiddleVisitor visitor{parts_, position_at(sweep, 0.5), frame_.limit(ball * ball), first};
-  const bool done = search_near(frame_.point(visitor.center), visitor, memory, budget) != spheres::exhausted;
+  const bool done =
+      search_listed(frame_.point(visitor.center), visitor, memory, budget) != spheres::exhausted;
   work += visitor.work;
   return done;
 }
