@@ -85,14 +85,18 @@ template <class Visitor>
   return search_cached(point, visitor, memory.cache, away, budget);
 }
 
-/// As search_near, but it lists no leaves anew: for a search whose budget another has partly spent.
+/// As search_near, for a search whose budget another has partly spent: it lists no leaves anew, and looks at
+/// the listed ones only where it may look at all of them.
 template <class Visitor>
 [[gnu::always_inline]] inline float SphereTree::search_listed(const FilterPoint& point, Visitor& visitor,
                                                               const Memory& memory,
                                                               std::uint64_t budget) const noexcept {
   const float distance = std::sqrt(visitor.limit) + point.plane_error;
   const float away = displacement(memory.cache.center, visitor.center, point);
-  if (!(distance + away < memory.cache.covered_radius)) return traverse(point, visitor, budget);
+  const std::uint64_t all =
+      (1 + spheres::tree_width) * (memory.cache.count + std::uint64_t{spheres::tree_width});
+  if (!(distance + away < memory.cache.covered_radius) || all > budget)
+    return traverse(point, visitor, budget);
   return search_cached(point, visitor, memory.cache, away, budget);
 }
 
