@@ -216,8 +216,8 @@ void ScaleRun::run_mesh(const std::string& name) {
     if (shrinks_ == scaling::Shrinks::reach_and_motion)
       for (std::string& move : moves) move = slowed(move, part);
   }
-  workload::Workload workload = workload::make_workload(
-      results::without_directories(name), std::move(mesh), selection, moves, options_.quick ? 5000 : 20000);
+  workload::Workload workload = workload::make_workload(results::without_directories(name), std::move(mesh),
+                                                        selection, moves, options_.quick ? 5000 : 20000);
   // One curve, whatever speed it has on this mesh.
   for (std::size_t i = 0; i < asked.size(); ++i)
     if (moves[i] != asked[i]) workload.trajectories[i] = asked[i];
