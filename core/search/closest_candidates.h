@@ -90,7 +90,7 @@ class ClosestCandidates {
   Candidate best_;
   std::uint32_t at_ = nowhere;
   std::uint32_t tie_count_ = 0;
-  std::uint32_t exact_decisions_ = 0;  ///< and `was_full`, which so takes no time to clear
+  std::uint32_t exact_decisions_ = 0;  ///< With `was_full` in it, which so takes no time to clear.
   const PreparedTriangle* triangles_;
   const Vec3* center_;
   std::array<Tie, max_ties> ties_;
