@@ -121,6 +121,18 @@ TEST(SideBound, IsTheDistanceToASideOrNothing) {
   EXPECT_EQ(most({6, -1, 0}), std::numeric_limits<double>::infinity());
 }
 
+TEST(SideBound, ASideTooShortForAPlaneHasNoFoot) {
+  const double size = 0x1p-24;  // in this frame only the first side is too short
+  const PreparedTriangle triangle = prepare({0, 0, 0}, {0.9 * size, 0, 0}, {0.45 * size, size, 0}, 0);
+  const FilterFrame frame = FilterFrame::around({{0, 0, 0}, {4, 4, 4}});
+  const TrianglePlanes planes = planes_of(triangle, frame);
+  for (const Vec3& center : {Vec3(0, -2, 1), Vec3(0, -2, 0), Vec3(1, -3, 0.5)}) {
+    const FilterPoint point = frame.point(center);
+    EXPECT_GE(frame.from_frame_rounded_up(side_upper_bound(planes, plane_values(planes, point), point)),
+              std::sqrt(squared_distance(triangle, center)));
+  }
+}
+
 TEST(PlaneFilter, BoundsFromAboveByTheHeightOrAnAcuteCorner) {
   const PreparedTriangle triangle = prepare({0, 0, 0}, {4, 0, 0}, {0, 4, 0}, 0);
   const FilterFrame frame = FilterFrame::around(box_of(triangle));
