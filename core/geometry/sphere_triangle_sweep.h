@@ -42,7 +42,7 @@ inline std::optional<double> sweep_hit(const PreparedTriangle& triangle, const S
 inline bool plane_keeps_apart(const PreparedTriangle& triangle, const Sweep& sweep,
                               const Vec3& normal) noexcept {
   // Heights are off by 32 u S, and the change along the path by as much, with S as for max_early_gap. Below
-  // the least size the normal may be a quotient of squares that are no normal numbers.
+  // the least size products are no normal numbers.
   constexpr double least_size = 0x1p-400, error = 64 * (std::numeric_limits<double>::epsilon() / 2);
   double lowest = std::numeric_limits<double>::infinity(), largest = 0;
   for (const Vec3& corner : triangle.corner) {

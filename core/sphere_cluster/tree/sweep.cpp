@@ -20,10 +20,14 @@ struct MiddleVisitor {
   Work work{};
 
   bool accepts(std::uint32_t) const noexcept { return true; }
-  /// The offset's plane tells most of those that are not touched.
+  /// The offset's plane tells most of those that are not touched. A square below the least has no root that
+  /// would make a unit normal of it.
   void update(std::uint32_t at, const Offset& offset) noexcept {
+    constexpr double least_squared = 0x1p-900;
     const PreparedTriangle& triangle = tree.triangles[at];
-    if (plane_keeps_apart(triangle, first.sweep(), offset.vector / std::sqrt(offset.squared))) return;
+    if (offset.squared > least_squared &&
+        plane_keeps_apart(triangle, first.sweep(), offset.vector / std::sqrt(offset.squared)))
+      return;
     first.consider(triangle, at, work.exact_decisions);
   }
 };

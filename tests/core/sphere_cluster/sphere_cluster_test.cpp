@@ -451,5 +451,18 @@ TEST(SphereCluster, AccountsForItsMemory) {
   }
 }
 
+/// The square of such an offset is no normal number, so no unit normal comes of it.
+TEST(SphereCluster, FindsATriangleThatAShortSweepCrossesAtAnOffsetNearTheLeastNumber) {
+  const TriangleMesh mesh({{1, -1, 0}, {0, 1, -1}, {-1, 0, 1}}, {{0, 1, 2}});
+  const SphereCluster detector = SphereCluster::build(mesh);
+  const Vec3 up(1, 1, 1);
+  for (const double height : {1e-150, 1e-160, 3e-302, 5e-320}) {
+    SphereCluster::Session session;
+    EXPECT_TRUE(detector.first_hit({-height * up, 2 * height * up, 0.25 * height}, session)) << height;
+    EXPECT_TRUE(detector.first_hit({2 * height * up, -height * up, 0.25 * height}, session)) << height;
+    EXPECT_FALSE(detector.first_hit({2 * height * up, 3 * height * up, 0.25 * height}, session)) << height;
+  }
+}
+
 }  // namespace
 }  // namespace touchmark
