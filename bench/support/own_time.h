@@ -9,8 +9,14 @@
 
 namespace touchmark::bench::support {
 
-/// Returns how often this thread has given its core up of its own accord, to sleep or to wait for somebody.
+/// Whether what is timed may have others do its work: a worker of plug-ins says so before it times anything.
+/// A thread of ours gives its core up of its own accord only by accident, where the system is busy.
+inline bool others_may_work = false;
+
+/// Returns how often this thread has given its core up of its own accord, to sleep or to wait for somebody; 0
+/// where nobody else may work for it.
 inline long waits_so_far() noexcept {
+  if (!others_may_work) return 0;
   rusage used{};
   ::getrusage(RUSAGE_THREAD, &used);
   return used.ru_nvcsw;

@@ -139,9 +139,11 @@ TEST_F(Validate, NamesLineColumnAndValueOfAWrongField) {
 
 TEST_F(Validate, WantsNoMeanAboveTheMaximum) {
   // The rate and the share are made to fit, so that only the mean is wrong.
-  const auto with_mean = [](const std::string& share) {
+  const auto with_mean = [](const std::string& share, const std::string& processor = "1000000000") {
     std::string text = with("ns_per_query", 2, "1000000000");
     const std::string fresh = std::exchange(csv(), text);
+    text = with("cpu_ns_per_query", 2, processor);
+    csv() = text;
     text = with("update_rate_hz", 2, "1");
     csv() = text;
     text = with("disturbed_share", 2, share);
@@ -151,6 +153,7 @@ TEST_F(Validate, WantsNoMeanAboveTheMaximum) {
   expect_fault(validate(with_mean("0"), run()),
                "results.csv:2: ns_per_query \"1000000000\" is above ns_max ");
   EXPECT_EQ(validate(with_mean("0.5"), run()).status, 0) << "the row says that it was interrupted";
+  EXPECT_EQ(validate(with_mean("0", "1"), run()).status, 0) << "others had the core while its passes ran";
 }
 
 TEST_F(Validate, WantsEachRowThatWasAskedForOnce) {
