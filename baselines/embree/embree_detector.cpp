@@ -11,7 +11,6 @@
 
 #include <Eigen/Geometry>
 
-// The two differ in nothing that is used here but the folder of their headers.
 #if TOUCHMARK_EMBREE_MAJOR >= 4
 #include <embree4/rtcore.h>
 #else
@@ -20,21 +19,11 @@
 
 #include "baselines/embree/closest_point.h"
 #include "baselines/embree/frame.h"
+#include "baselines/embree/rounding.h"
 #include "core/geometry/point_triangle.h"
 #include "core/mesh_update.h"
 
 namespace touchmark::baselines {
-namespace {
-
-constexpr float float_infinity = std::numeric_limits<float>::infinity();
-
-float rounded_up(double x) noexcept {
-  const auto nearest = static_cast<float>(x);
-  return nearest < x ? std::nextafter(nearest, float_infinity) : nearest;
-}
-float rounded_down(double x) noexcept { return -rounded_up(-x); }
-
-}  // namespace
 
 struct EmbreeDetector::Model {
   Model(const TriangleMesh& mesh, const Options& chosen)

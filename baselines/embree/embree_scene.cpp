@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-// The two differ in nothing that is used here but the folder of their headers.
 #if TOUCHMARK_EMBREE_MAJOR >= 4
 #include <embree4/rtcore.h>
 #else
@@ -17,18 +16,11 @@
 #endif
 
 #include "baselines/embree/frame.h"
+#include "baselines/embree/rounding.h"
 #include "core/geometry/point_triangle.h"
 
 namespace touchmark::baselines {
 namespace {
-
-constexpr float float_infinity = std::numeric_limits<float>::infinity();
-
-float rounded_up(double x) noexcept {
-  const auto nearest = static_cast<float>(x);
-  return nearest < x ? std::nextafter(nearest, float_infinity) : nearest;
-}
-float rounded_down(double x) noexcept { return -rounded_up(-x); }
 
 /// The triangles of one shape, and Embree's scene of them about the middle of their box.
 struct ShapeScene {
