@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cstdint>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -18,6 +19,15 @@ inline std::optional<double> parse_number(std::string_view text) noexcept {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size() || value != value) return std::nullopt;
   return value;
+}
+
+/// Returns the whole text as a number above 0, or inf. Throws std::invalid_argument naming the option where
+/// it is none.
+inline double positive_number(const char* option, const std::string& text) {
+  const std::optional<double> value = parse_number(text);
+  if (!value || !(*value > 0))
+    throw std::invalid_argument(fmt::format("{} \"{}\" is not a number above 0, or inf", option, text));
+  return *value;
 }
 
 /// The whole text as a whole number of 0 or more.

@@ -22,17 +22,18 @@ struct Shape {
   const char* name;
   const char* description;
   Positions (*positions)(Motion);
-  bool has_speed = false;  ///< takes ":speed=S%"
+  double own_speed = 0;  ///< in diagonals a tick; 0: it takes no ":speed=S%"
 };
 
 constexpr Shape shapes[] = {
     {"slide", "in contact along the surface, 0.05 % of the diagonal a tick, the heading wanders", &slide,
-     true},
-    {"approach", "in from 0.3 diagonal, press three times, retract, on to another place", &approach, true},
-    {"hover", "free motion 0.02 to 0.3 diagonal from the surface, 0.1 % a tick", &hover, true},
+     slide_speed},
+    {"approach", "in from 0.3 diagonal, press three times, retract, on to another place", &approach,
+     slide_speed},
+    {"hover", "free motion 0.02 to 0.3 diagonal from the surface, 0.1 % a tick", &hover, hover_speed},
     {"jump", "independent uniform points in 1.2 x the box: no coherence", &jump},
     {"tap", "three quick contacts at each of many random places", &tap},
-    {"edge", "in contact along sharp edges; along any edges where none is sharp", &edge, true},
+    {"edge", "in contact along sharp edges; along any edges where none is sharp", &edge, slide_speed},
     {"cross", "straight through thin parts, four radii a tick", &cross},
 };
 
@@ -71,9 +72,9 @@ std::optional<double> speed_in(const std::string& what, const Shape& shape) {
   if (colon == std::string::npos) return std::nullopt;
   constexpr std::string_view key = "speed=";
   const std::string_view option = std::string_view(what).substr(colon + 1);
-  if (!shape.has_speed || !option.starts_with(key)) {
+  if (shape.own_speed == 0 || !option.starts_with(key)) {
     throw std::invalid_argument("trajectory '" + what + "': " + shape.name +
-                                (shape.has_speed ? " takes speed=S% only" : " takes no option"));
+                                (shape.own_speed > 0 ? " takes speed=S% only" : " takes no option"));
   }
   const std::optional<support::Length> speed = support::parse_length(option.substr(key.size()));
   if (!speed || !speed->percent || !(speed->value >= min_speed_percent) ||
@@ -89,7 +90,7 @@ std::optional<double> speed_in(const std::string& what, const Shape& shape) {
 
 std::vector<TrajectoryInfo> trajectories() {
   std::vector<TrajectoryInfo> list;
-  for (const Shape& shape : shapes) list.push_back({shape.name, shape.description, shape.has_speed});
+  for (const Shape& shape : shapes) list.push_back({shape.name, shape.description, 100 * shape.own_speed});
   return list;
 }
 

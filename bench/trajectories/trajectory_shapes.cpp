@@ -10,9 +10,6 @@
 namespace touchmark::bench::trajectories {
 namespace {
 
-/// Diagonals a tick, where no speed is given: 0.1 m/s on an object of 20 cm.
-constexpr double slide_speed = 0.0005;
-
 /// Short runs move faster, so that they too come down on the surface several times.
 double pace(std::size_t steps) { return std::clamp(static_cast<double>(steps) / 8000, 0.0, 1.0); }
 
@@ -125,7 +122,7 @@ Positions approach(Motion motion) {
 // A step out of the band is taken again with another heading; the step back always exists.
 Positions hover(Motion motion) {
   Surface surface(motion.mesh);
-  const double step = motion.speed.value_or(0.001) * motion.diagonal;
+  const double step = motion.speed.value_or(hover_speed) * motion.diagonal;
   const double nearest = 0.02 * motion.diagonal, farthest = 0.3 * motion.diagonal;
   // The nearest point of a centre stays nearest all the way to it, so this starts in the band for certain.
   const Vec3 outside = motion.mesh.bounds().center() + 2 * motion.diagonal * motion.random.direction();

@@ -11,6 +11,10 @@
 
 namespace touchmark::bench::trajectories {
 
+/// In diagonals a tick, where no speed is given: in contact 0.1 m/s on an object of 20 cm, in free motion
+/// twice that.
+inline constexpr double slide_speed = 0.0005, hover_speed = 0.001;
+
 /// What all of them are given. `steps` positions come back.
 struct Motion {
   const TriangleMesh& mesh;

@@ -49,13 +49,6 @@ struct Extent {
 const Extent usual_extent{60'000, 12, 6000, 15, {8, 3, 8e6, 4e6, 1, 20, 20}};
 const Extent quick_extent{9'000, 2, 2000, 1.5, {5, 3, 3e6, 1.5e6}};
 
-double checked_minutes(const std::string& text) {
-  const std::optional<double> minutes = support::parse_number(text);
-  if (!minutes || !(*minutes > 0))
-    throw std::invalid_argument(fmt::format("--minutes \"{}\" is not a number above 0, or inf", text));
-  return *minutes;
-}
-
 std::size_t checked_cells(const std::string& text) {
   const std::size_t most = suite::every_cell().size();
   if (text == "all") return most;
@@ -69,7 +62,7 @@ std::size_t checked_cells(const std::string& text) {
 Extent extent_of(const SuiteOptions& options) {
   Extent extent = options.quick ? quick_extent : usual_extent;
   if (!options.cells.empty()) extent.cells = checked_cells(options.cells);
-  if (!options.minutes.empty()) extent.minutes = checked_minutes(options.minutes);
+  if (!options.minutes.empty()) extent.minutes = support::positive_number("--minutes", options.minutes);
   return extent;
 }
 

@@ -55,7 +55,7 @@ std::string list(const contestants::Roster& roster) {
       "\ntrajectories: --trajectory NAME, or a motion file: CSV with columns x,y,z and perhaps time_s, "
       "radius\n";
   for (const trajectories::TrajectoryInfo& trajectory : trajectories::trajectories()) {
-    text += fmt::format("  {:<28}{}\n", trajectory.name + (trajectory.has_speed ? "[:speed=S%]" : ""),
+    text += fmt::format("  {:<28}{}\n", trajectory.name + (trajectory.own_percent > 0 ? "[:speed=S%]" : ""),
                         trajectory.description);
   }
   return text;

@@ -64,10 +64,9 @@ scaling::Shrinks checked_shrinks(const std::string& text) {
 
 /// Returns a trajectory that moves at this part of its speed, if it is generated and has one of its own.
 std::string slowed(const std::string& trajectory, double part) {
-  constexpr double default_percent = 0.05;
   for (const trajectories::TrajectoryInfo& known : trajectories::trajectories())
-    if (known.has_speed && known.name == trajectory)
-      return fmt::format("{}:speed={}%", trajectory, default_percent * part);
+    if (known.own_percent > 0 && known.name == trajectory)
+      return fmt::format("{}:speed={}%", trajectory, known.own_percent * part);
   return trajectory;
 }
 
@@ -123,7 +122,7 @@ ScaleRun::ScaleRun(const ProgramContext& context, const ScaleOptions& options)
     : roster_(context.roster),
       options_(options),
       selection_(checked(options.selectors, context.roster)),
-      limit_s_(checked_limit(options.limit)),
+      limit_s_(support::positive_number("--limit-seconds", options.limit)),
       shrinks_(checked_shrinks(options.shrink)),
       meshes_(scaling::meshes_of_sizes(options.selectors.meshes.empty()
                                            ? std::vector<std::string>{"noisy-sphere"}

@@ -72,16 +72,9 @@ int status_of(const std::vector<scaling::BodyRow>& rows, const contestants::Rost
 
 }  // namespace
 
-double checked_limit(const std::string& text) {
-  const std::optional<double> seconds = support::parse_number(text);
-  if (!seconds || !(*seconds > 0))
-    throw std::invalid_argument(fmt::format("--limit-seconds \"{}\" is not a number above 0, or inf", text));
-  return *seconds;
-}
-
 int run_scale_bodies(const ProgramContext& context, const ScaleBodiesOptions& options) {
   refuse_what_is_of_meshes(options.selectors);
-  const double limit_s = checked_limit(options.limit);
+  const double limit_s = support::positive_number("--limit-seconds", options.limit);
   const std::vector<std::size_t> sizes = sizes_of(options);
   std::optional<results::ResultsFolder> folder;
   if (!options.out.empty()) folder.emplace(options.out);

@@ -14,9 +14,6 @@ struct ScaleBodiesOptions {
   bool quick = false;
 };
 
-/// Throws std::invalid_argument for what is not a number above 0, or inf.
-double checked_limit(const std::string& text);
-
 /// An exit status. Throws std::invalid_argument, ResourceError.
 int run_scale_bodies(const ProgramContext& context, const ScaleBodiesOptions& options);
 

@@ -436,6 +436,12 @@ TEST(Trajectories, WithoutASpeedMoveAsWithTheirOwn) {
   const TriangleMesh mesh = torus();
   EXPECT_EQ(make("slide", mesh, 300, 0.02).positions, make("slide:speed=0.05%", mesh, 300, 0.02).positions);
   EXPECT_EQ(make("hover", mesh, 300, 0.02).positions, make("hover:speed=0.1%", mesh, 300, 0.02).positions);
+  // What they say their own speed is, from where their short runs are no faster.
+  for (const TrajectoryInfo& known : trajectories()) {
+    if (known.own_percent == 0) continue;
+    const std::string own = known.name + ":speed=" + std::to_string(known.own_percent) + "%";
+    EXPECT_EQ(make(known.name, mesh, 8000, 0.02).positions, make(own, mesh, 8000, 0.02).positions) << own;
+  }
   EXPECT_NE(make("slide", mesh, 300, 0.02).positions, make("slide:speed=0.06%", mesh, 300, 0.02).positions);
 }
 
