@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -37,13 +38,17 @@ inline std::optional<double> sweep_hit(const PreparedTriangle& triangle, const S
   return sweep_hit(triangle, sweep, limit, uncounted);
 }
 
-/// Does a plane of this normal surely keep ball and triangle apart all the way? Any normal will do, of unit
-/// length to a few roundings; one from the triangle to the path is likely to. Costs a tenth of sweep_hit.
+/// Does the plane normal to this offset, from the triangle to a point of the path, surely keep ball and
+/// triangle apart all the way? Costs a tenth of sweep_hit.
 inline bool plane_keeps_apart(const PreparedTriangle& triangle, const Sweep& sweep,
-                              const Vec3& normal) noexcept {
-  // Heights are off by 32 u S, and the change along the path by as much, with S as for max_early_gap. Below
-  // the least size products are no normal numbers.
-  constexpr double least_size = 0x1p-400, error = 64 * (std::numeric_limits<double>::epsilon() / 2);
+                              const Offset& offset) noexcept {
+  // A square below the least has no root that would make a unit normal of the offset. Above it S is far from
+  // the least numbers, too: no offset is longer than twice S.
+  constexpr double least_squared = 0x1p-900;
+  if (!(offset.squared > least_squared)) return false;
+  const Vec3 normal = offset.vector / std::sqrt(offset.squared);
+  // Heights are off by 32 u S, and the change along the path by as much, with S as for max_early_gap.
+  constexpr double error = 64 * (std::numeric_limits<double>::epsilon() / 2);
   double lowest = std::numeric_limits<double>::infinity(), largest = 0;
   for (const Vec3& corner : triangle.corner) {
     const Vec3 start = sweep.from - corner;
@@ -52,7 +57,7 @@ inline bool plane_keeps_apart(const PreparedTriangle& triangle, const Sweep& swe
   }
   const Vec3 path = sweep.to - sweep.from;
   const double size = largest + path.cwiseAbs().maxCoeff();
-  return size > least_size && lowest + std::min(normal.dot(path), 0.0) - sweep.radius > error * size;
+  return lowest + std::min(normal.dot(path), 0.0) - sweep.radius > error * size;
 }
 
 /// The contact of the ball at this fraction of the path with this triangle. The position is not rounded to a

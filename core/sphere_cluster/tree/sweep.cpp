@@ -20,14 +20,10 @@ struct MiddleVisitor {
   Work work{};
 
   bool accepts(std::uint32_t) const noexcept { return true; }
-  /// The offset's plane tells most of those that are not touched. A square below the least has no root that
-  /// would make a unit normal of it.
+  /// The offset's plane tells most of those that are not touched.
   void update(std::uint32_t at, const Offset& offset) noexcept {
-    constexpr double least_squared = 0x1p-900;
     const PreparedTriangle& triangle = tree.triangles[at];
-    if (offset.squared > least_squared &&
-        plane_keeps_apart(triangle, first.sweep(), offset.vector / std::sqrt(offset.squared)))
-      return;
+    if (plane_keeps_apart(triangle, first.sweep(), offset)) return;
     first.consider(triangle, at, work.exact_decisions);
   }
 };
