@@ -25,7 +25,7 @@ namespace touchmark {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using bench::support::take_list, bench::support::take_text;
+using bench::support::take_list, bench::support::take_number, bench::support::take_text;
 
 static_assert(tracing, "this program is for a core that is compiled with TOUCHMARK_TRACING");
 
@@ -117,16 +117,16 @@ TriangleMesh taken_mesh() {
 Json taken_and_traced() {
   Json json{{"schema", 1}, {"run_id", take_text(stdin)}, {"rows", Json::array()}};
   const TriangleMesh mesh = taken_mesh();
-  std::vector<Trace> traces(take_list<std::uint64_t>(stdin).size());
+  std::vector<Trace> traces(take_number(stdin));
   for (Trace& trace : traces) {
     trace.trajectory = take_text(stdin);
     trace.query = take_text(stdin);
     trace.steps = take_list<Question>(stdin);
   }
   std::map<std::string, std::unique_ptr<NamedDetector>> detectors;
-  const std::size_t rows = take_list<std::uint64_t>(stdin).size();
-  for (std::size_t row = 0; row < rows; ++row) {
-    const Trace& trace = traces.at(take_list<std::uint64_t>(stdin).at(0));
+  const std::uint64_t rows = take_number(stdin);
+  for (std::uint64_t row = 0; row < rows; ++row) {
+    const Trace& trace = traces.at(take_number(stdin));
     const std::string detector = take_text(stdin), options = take_text(stdin);
     const std::vector<std::uint64_t> ranges = take_list<std::uint64_t>(stdin),
                                      wanted = take_list<std::uint64_t>(stdin);

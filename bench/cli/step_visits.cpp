@@ -24,7 +24,7 @@ namespace touchmark::bench::cli {
 namespace {
 
 using measurement::ResultRow;
-using support::put_list, support::put_text;
+using support::put_list, support::put_number, support::put_text;
 
 /// The detectors are built once more, and a larger mesh takes too long for pictures.
 constexpr std::size_t most_triangles = 2'000'000;
@@ -40,10 +40,6 @@ bool is_traced(const ResultRow& row) {
   return row.log != nullptr && !row.log->ns.empty() && row.query != workload::Query::sweep &&
          std::ranges::find(detectors, row.detector) != detectors.end() &&
          row.options.find("lookup=scan") == std::string::npos;
-}
-
-void put_number(std::FILE* to, std::uint64_t number) {
-  put_list(to, std::span<const std::uint64_t>(&number, 1));
 }
 
 void put_mesh(std::FILE* to, const TriangleMesh& mesh) {
@@ -83,11 +79,10 @@ void put_questions(std::FILE* to, const std::string& run_id, const workload::Wor
                    const std::vector<const ResultRow*>& rows) {
   put_text(to, run_id);
   put_mesh(to, workload.mesh);
-  // Lists of nothing but their length.
-  put_list(to, std::span<const std::uint64_t>(std::vector<std::uint64_t>(workload.traces.size())));
+  put_number(to, workload.traces.size());
   for (std::size_t trace = 0; trace < workload.traces.size(); ++trace)
     put_trace(to, workload, trace, workload::name_of(rows.front()->query));
-  put_list(to, std::span<const std::uint64_t>(std::vector<std::uint64_t>(rows.size())));
+  put_number(to, rows.size());
   for (const ResultRow* row : rows) put_row(to, workload, *row);
 }
 

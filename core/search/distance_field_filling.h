@@ -57,7 +57,7 @@ enum class FillingPass { every_other, between_x, between_y, between_z, eighths }
 /// The square of the distance, less the square of the position, is concave: it is the least of functions that
 /// are linear. So it is at least what lies linearly between samples around a point: with t of the way from
 /// one sample to the next, that is t (1 - t) of the square of that way less for the square of the distance.
-/// Where that is nearly what a triangle near there shows, no search is needed.
+/// No search is needed where that is nearly what a triangle near there shows.
 template <class DistanceAt, class IsWanted>
 class DistanceField::Filler {
  public:
@@ -219,7 +219,7 @@ template <class Sampler, class IsWanted>
 void DistanceField::fill_cubes(const Sampler& sampler, const IsWanted& is_wanted, unsigned threads) {
   if (coarse_.size() == 0) return;
   constexpr std::size_t cubes_a_part = 512;
-  // Where the mesh fills its box next to nothing is rejected, with samples of the eighths or without.
+  // Next to nothing is rejected where the mesh fills its box, with samples of the eighths or without.
   constexpr double most_near = 0.85;
   CoarseSamples samples(coarse_.size());
   const auto fill = [&](FillingPass pass, std::uint32_t first_y, std::uint32_t step_y, std::uint32_t first_z,

@@ -29,7 +29,7 @@ touchmark::TriangleMesh plate() {
                                  {{0, 1, 2}, {0, 2, 3}});
 }
 
-/// Where the hand wants the tip at each tick, straight from one row of the file to the next.
+/// Tells where the hand wants the tip at each tick, straight from one row of the file to the next.
 std::vector<Vec3> hand_positions(const char* path) {
   std::vector<Vec3> positions;
   std::ifstream file(path);

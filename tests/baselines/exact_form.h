@@ -19,7 +19,7 @@ inline void expect_the_same(const Contact& actual, const Contact& expected) {
   EXPECT_EQ(actual.normal, expected.normal);
 }
 
-/// Of probes and sweeps in a box of half the edge `size` about `middle`, and on the mesh's corners.
+/// Asks about probes and sweeps in a box of half the edge `size` about `middle`, and on the mesh's corners.
 template <class D>
 void expect_the_bits_of_brute_force(const TriangleMesh& mesh, const D& detector, double size,
                                     const Vec3& middle) {

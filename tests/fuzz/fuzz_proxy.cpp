@@ -38,7 +38,7 @@ double largest_coordinate(const TriangleMesh& mesh) {
   return mesh.bounds().min.cwiseAbs().cwiseMax(mesh.bounds().max.cwiseAbs()).maxCoeff();
 }
 
-/// The same triangles, one of their vertices elsewhere.
+/// Returns the same triangles with one of their vertices elsewhere.
 TriangleMesh moved(const TriangleMesh& mesh, Script& script) {
   std::vector<Vec3> vertices(mesh.vertices().begin(), mesh.vertices().end());
   vertices[script.below(vertices.size())] += 0.25 * mesh.bounds().extent().maxCoeff() * script.vector();
