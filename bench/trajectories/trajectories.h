@@ -15,7 +15,8 @@ namespace touchmark::bench::trajectories {
 struct TrajectoryInfo {
   std::string name;
   std::string description;  ///< one line
-  double own_percent = 0;   ///< of the diagonal a tick, with 8,000 steps or more; 0: it takes no ":speed=S%"
+  /// Percent of the diagonal a tick, with 8,000 steps or more; 0: it takes no ":speed=S%".
+  double own_percent = 0;
 };
 
 /// Returns the trajectories that need no file.

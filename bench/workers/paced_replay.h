@@ -63,7 +63,15 @@ class PacedReplay final : public contestants::StepPacer {
   PacedReplay(const Pace& pace, std::size_t steps, WakeClock& clock, std::span<TickRecord> records) noexcept;
 
   std::optional<std::size_t> next() noexcept override;
-  void took(std::uint64_t ticks, const workload::Answer& answer, const Work& work) noexcept override;
+  void took(std::uint64_t ticks, const workload::Answer& answer, const Work& work) noexcept override {
+    took_step(
+        ticks, [&] { return checksum_of(answer); }, work);
+  }
+  /// Takes what is no answer to a query; `checksum()` is called once the tick's time is known.
+  template <class Sum>
+  void took_step(std::uint64_t ticks, const Sum& checksum, const Work& work) noexcept {
+    record_asked(ticks, work).checksum = checksum();
+  }
 
   /// Ticks with a record: all, unless the loop was ended.
   std::size_t recorded() const noexcept { return recorded_; }
@@ -73,6 +81,12 @@ class PacedReplay final : public contestants::StepPacer {
  private:
   std::int64_t scheduled(std::size_t tick) const noexcept;
   void record_lost(std::int64_t now) noexcept;
+  TickRecord& record_asked(std::uint64_t ticks, const Work& work) noexcept;
+  static std::uint64_t checksum_of(const workload::Answer& answer) noexcept {
+    workload::Checksum checksum;
+    checksum.add(answer);
+    return checksum.value();
+  }
   void do_other_work() noexcept;
 
   Pace pace_;

@@ -1,9 +1,13 @@
 #include "bench/workers/servo_stretch.h"
 
 #include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <optional>
 
 #include <sys/resource.h>
 
+#include "bench/contestants/tick_clock.h"
 #include "bench/workers/real_time.h"
 
 namespace touchmark::bench::workers {
@@ -22,26 +26,51 @@ std::uint64_t more(long before, long after) { return static_cast<std::uint64_t>(
 
 }  // namespace
 
-ServoStretch run_servo(contestants::Contestant& contestant, const workload::QueryTrace& trace,
+void step_paced(contestants::GuidedProxy& proxy, const workload::QueryTrace& trace,
+                PacedReplay& pacer) noexcept {
+  Work seen = proxy.work();
+  while (const std::optional<std::size_t> step = pacer.next()) {
+    const Vec3 goal = trace.steps[*step].probe.center;    // which has just been read from the device
+    std::atomic_signal_fence(std::memory_order_seq_cst);  // read, and not later
+    const std::uint64_t before = contestants::TickClock::now();
+    const ProxyState& state = proxy.step(goal);
+    const std::uint64_t after = contestants::TickClock::now();
+    const Work now = proxy.work();
+    pacer.took_step(
+        after - before, [&] { return contestants::checksum_of(state); },
+        contestants::work_between(seen, now));
+    seen = now;
+  }
+}
+
+ServoStretch run_servo(contestants::Contestant& contestant, std::optional<contestants::GuidedProxy>& proxy,
+                       const std::function<TriangleMesh()>& mesh, const workload::QueryTrace& trace,
                        const request::Servo& request, const OutputBuffers& buffers) {
+  ServoStretch stretch;
+  if (request.proxy.wanted && !request.idle && !proxy) {
+    proxy.emplace(contestant.share(), mesh(), request.proxy.coupling);
+    proxy->place(Vec3(request.proxy.start.data()));
+    stretch.placed = true;
+  }
   static const std::string memory = lock_memory();
-  const std::span<TickRecord> records = buffers.tick_records(std::max(request.warm_up, request.ticks));
+  const std::span<TickRecord> records = buffers.tick_records(request.warm_up + request.ticks);
   std::fill(records.begin(), records.end(), TickRecord{});  // no page fault inside the loop
   MonotonicClock clock;
   const auto run = [&](PacedReplay& replay) {
     if (request.idle) return run_idle(replay);
+    if (request.proxy.wanted) return step_paced(*proxy, trace, replay);
     contestant.replay_paced(trace, replay);
   };
-  ServoStretch stretch;
   stretch.memory = memory;
   const RealTimeScope scope(watchdog_s);
   stretch.scheduler = scope.scheduler();
   Pace pace = request.pace;
   PacedReplay warm_up(pace, trace.steps.size(), clock, records.first(request.warm_up));
   run(warm_up);
+  stretch.warmed = warm_up.recorded();
   pace.first_tick += request.warm_up;
   const rusage before = used_by_this_thread();
-  PacedReplay replay(pace, trace.steps.size(), clock, records.first(request.ticks));
+  PacedReplay replay(pace, trace.steps.size(), clock, records.subspan(request.warm_up));
   run(replay);
   const rusage after = used_by_this_thread();
   stretch.recorded = replay.recorded();

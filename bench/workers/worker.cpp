@@ -18,6 +18,7 @@
 
 #include "bench/contestants/broken.h"
 #include "bench/contestants/build_notes.h"
+#include "bench/contestants/guided_proxy.h"
 #include "bench/contestants/tick_clock.h"
 #include "bench/scenes/deformation.h"
 #include "bench/support/available_memory.h"
@@ -83,7 +84,9 @@ class Worker {
   Timed handle(const request::Sample& request);
   Timed handle(const request::Latency& request);
   ServoStretch handle(const request::Servo& request) {
-    return run_servo(*contestant_, trace_of(request.task), request, *buffers_);
+    return run_servo(
+        *contestant_, proxy_, [&] { return read_mesh(input_.bytes(), layout_); }, trace_of(request.task),
+        request, *buffers_);
   }
   ColdSamples handle(const request::Cold& request) {
     return run_cold(*contestant_, trace_of(request.task), ranges_of(request.task), request, *buffers_,
@@ -117,6 +120,7 @@ class Worker {
   std::vector<bodies::ScheduleView> schedules_;
   std::optional<contestants::ContestantSpec> spec_;
   std::unique_ptr<contestants::Contestant> contestant_;
+  std::optional<contestants::GuidedProxy> proxy_;  ///< over the same detector
 };
 
 Opened Worker::handle(const request::Open& request) {
@@ -135,6 +139,7 @@ Opened Worker::handle(const request::Open& request) {
 }
 
 double Worker::timed_build() {
+  proxy_.reset();
   contestant_.reset();
   roster_->require_memory_for(*spec_, geometry_->triangles());
   const Clock::time_point start = Clock::now();
@@ -208,6 +213,7 @@ Updated Worker::handle(const request::Update& request) {
 Done Worker::handle(const request::Rebuild& request) {
   const TriangleMesh moved = scenes::deformed(read_mesh(input_.bytes(), layout_), request.deformation);
   roster_->require_memory_for(*spec_, moved.size());
+  proxy_.reset();
   contestant_ = roster_->build(*spec_, moved);
   return {};
 }

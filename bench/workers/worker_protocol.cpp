@@ -7,6 +7,8 @@
 
 namespace touchmark {
 
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Coupling, radius, stiffness, static_friction, dynamic_friction, damping,
+                                   tick_s, shading)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Work, cells, spheres, boxes, triangles, exact_decisions)
 
 // JSON has no infinity, so doubles that may be infinite travel as their bits.
@@ -51,8 +53,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Timed, ns_per_query, cpu_ns_per_query, checks
                                    interrupted)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Updated, supported, refused, rounds, build_ms, update_ms,
                                    update_over_build)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ServoStretch, recorded, overrun, minor_faults, major_faults,
-                                   involuntary_switches, scheduler, memory)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ServoStretch, warmed, recorded, placed, overrun, minor_faults,
+                                   major_faults, involuntary_switches, scheduler, memory)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ColdSamples, taken)
 static void to_json(nlohmann::json& json, const Done&) { json = nlohmann::json::object(); }
 static void from_json(const nlohmann::json&, Done&) {}
@@ -71,7 +73,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FirstPass, task)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Time, task, passes)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Sample, task, passes, replays)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Latency, task)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Servo, task, pace, warm_up, ticks, idle)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Proxy, wanted, coupling, start)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Servo, task, pace, warm_up, ticks, idle, proxy)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Cold, task, evicted_bytes, floor_samples, first_sample, min_samples,
                                    max_samples, budget_ns)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Lines, task, samples)

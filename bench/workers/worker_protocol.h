@@ -3,6 +3,7 @@
 /// (mesh, traces, answers, times) goes through shared memory, see shared_workload.h.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
@@ -18,6 +19,7 @@
 #include "bench/workers/shared_workload.h"
 #include "bench/workload/answer.h"
 #include "core/detector.h"
+#include "core/haptics/coupling.h"
 
 namespace touchmark::bench::workers {
 
@@ -104,10 +106,12 @@ struct Updated {
   double update_over_build = 0;  ///< within a round
 };
 
-/// What came of each tick lies in the output buffers as its record.
+/// What came of each tick lies in the output buffers as its record: first those of the warm-up.
 struct ServoStretch {
-  std::size_t recorded = 0;                          ///< ticks with a record
-  bool overrun = false;                              ///< see PacedReplay::overrun
+  std::size_t warmed = 0;    ///< ticks of the warm-up with a record
+  std::size_t recorded = 0;  ///< ticks with a record, which lie behind `warm_up` others
+  bool placed = false;       ///< the proxy was put at its start before
+  bool overrun = false;      ///< see PacedReplay::overrun
   std::uint64_t minor_faults = 0, major_faults = 0;  ///< the thread's, during `ticks`
   std::uint64_t involuntary_switches = 0;            ///< likewise
   std::string scheduler, memory;                     ///< see RealTimeScope and lock_memory
@@ -204,14 +208,23 @@ struct Latency {
   Task task;
 };
 
-/// A stretch of a paced loop. The session goes on from stretch to stretch.
+/// A proxy for a paced loop to step.
+struct Proxy {
+  bool wanted = false;
+  Coupling coupling = {};
+  std::array<double, 3> start = {};  ///< Before its first step it is put there.
+};
+
+/// A stretch of a paced loop. The session goes on from stretch to stretch, and so does the proxy, which is
+/// placed before the first.
 struct Servo {
   using Reply = ServoStretch;
   Task task;
   Pace pace;
-  std::size_t warm_up = 0;  ///< ticks before, of which nothing is told
-  std::size_t ticks = 1;    ///< at most as many as the output has room for
+  std::size_t warm_up = 0;  ///< ticks before, which are not among them
+  std::size_t ticks = 1;    ///< with the warm-up at most as many as the output has room for
   bool idle = false;        ///< nothing is asked
+  Proxy proxy = {};         ///< what is stepped in place of the query
 
   /// What it takes by the clock before the contestant takes any time.
   std::chrono::milliseconds paced_time() const {

@@ -1,7 +1,6 @@
 /// `touchmark proxy`: which proxy crosses a surface, and how often? Every way is replayed by the exact
 /// oracle.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -13,6 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/cli/coupling_options.h"
 #include "bench/cli/program.h"
 #include "bench/experiments/proxy/proxy_csv.h"
 #include "bench/experiments/proxy/proxy_report.h"
@@ -42,7 +42,7 @@ struct ProxyOptions {
   std::vector<std::string> methods, families;
   std::string ticks, seed = "1", detector = "sphere-cluster";
   std::string mesh, trajectory, radius = "0.5%", trace, out;
-  std::string stiffness = "1000", friction = "0", damping = "0", shading = "0";
+  CouplingSelectors coupling;
 };
 
 std::uint64_t checked_count(const char* option, const std::string& text, std::uint64_t least,
@@ -52,21 +52,6 @@ std::uint64_t checked_count(const char* option, const std::string& text, std::ui
     throw std::invalid_argument(
         fmt::format("{} \"{}\" is not a whole number from {} to {}", option, text, least, most));
   return *count;
-}
-
-double checked_number(const char* option, const std::string& text) {
-  const std::optional<double> value = support::parse_number(text);
-  if (!value || !(*value >= 0) || !std::isfinite(*value))
-    throw std::invalid_argument(fmt::format("{} \"{}\" is not a finite number of 0 or more", option, text));
-  return *value;
-}
-
-/// "MU" for both coefficients, or "STATIC,DYNAMIC".
-std::array<double, 2> checked_friction(const std::string& text) {
-  const std::size_t comma = text.find(',');
-  const double at_rest = checked_number("--friction", text.substr(0, comma));
-  return {at_rest,
-          comma == std::string::npos ? at_rest : checked_number("--friction", text.substr(comma + 1))};
 }
 
 proxy::ProxyRequest request_of(const ProxyOptions& options, const contestants::Roster& roster) {
@@ -80,14 +65,7 @@ proxy::ProxyRequest request_of(const ProxyOptions& options, const contestants::R
   request.ticks = checked_count("--ticks", options.ticks.empty() ? "100000" : options.ticks, 1, max_ticks);
   request.seed = checked_count("--seed", options.seed, 0, UINT32_MAX);
   request.detector = options.detector;
-  const std::array<double, 2> friction = checked_friction(options.friction);
-  request.coupling.stiffness = checked_number("--stiffness", options.stiffness);
-  request.coupling.static_friction = friction[0];
-  request.coupling.dynamic_friction = friction[1];
-  request.coupling.damping = checked_number("--damping", options.damping);
-  request.coupling.shading = checked_number("--shading", options.shading);
-  if (request.coupling.shading > 1)
-    throw std::invalid_argument(fmt::format("--shading \"{}\" is above 1", options.shading));
+  request.coupling = checked_coupling(options.coupling);
   return request;
 }
 
@@ -104,11 +82,8 @@ proxy::Course course_of(const ProxyOptions& options, std::uint64_t seed) {
   motion.seed = seed;
   motion.radius = length->in_mesh_units(mesh);
   trajectories::Trajectory trajectory = trajectories::make_trajectory(options.trajectory, mesh, motion);
-  const proxy::WayOracle oracle(mesh);
-  const auto free =
-      std::find_if(trajectory.positions.begin(), trajectory.positions.end(),
-                   [&](const Vec3& goal) { return !oracle.is_within(goal, goal, motion.radius); });
-  const Vec3 start = free != trajectory.positions.end() ? *free : trajectory.positions.front();
+  const std::vector<Vec3>& goals = trajectory.positions;
+  const Vec3 start = proxy::first_free(proxy::WayOracle(mesh), goals, motion.radius).value_or(goals.front());
   return {trajectory.name, std::move(mesh), motion.radius, 0, start, std::move(trajectory.positions)};
 }
 
@@ -209,19 +184,6 @@ std::string lists() {
   return list;
 }
 
-void add_coupling(CLI::App& command, ProxyOptions& options) {
-  const auto option = [&](const char* name, std::string& value, const char* what, const char* type) {
-    command.add_option(name, value, what)->type_name(type)->capture_default_str();
-  };
-  option("--stiffness", options.stiffness, "of the spring between proxy and device, mesh units being metres",
-         "N/m");
-  option("--friction", options.friction, "coefficients, static and dynamic, or one for both", "MU[,MU]");
-  option("--damping", options.damping, "against the device's velocity while in contact", "NS/M");
-  option("--shading", options.shading,
-         "0 to 1, how far our force turns to the normal interpolated between vertices; the way stays",
-         "SHARE");
-}
-
 }  // namespace
 
 void add_proxy(CLI::App& program, ProgramContext& context) {
@@ -250,7 +212,7 @@ void add_proxy(CLI::App& program, ProgramContext& context) {
       ->capture_default_str();
   option("--trace", options->trace, "with --mesh and one method: file for the way, one row a straight piece",
          "FILE");
-  add_coupling(*command, *options);
+  add_coupling(*command, options->coupling);
   option("--out", options->out, "folder for proxy.csv, stab.csv and run.json; scripts/plot draws them",
          "DIR");
   command->footer(

@@ -1,9 +1,6 @@
 /// `touchmark servo`: a paced loop as a haptic device runs it. Does a detector hold the rate, and how surely?
-#include <algorithm>
-#include <cmath>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,12 +8,12 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <sched.h>
 
+#include "bench/cli/commands/servo_options.h"
 #include "bench/cli/program.h"
 #include "bench/cli/repeat_command.h"
-#include "bench/cli/selector_options.h"
 #include "bench/cli/worker_options.h"
+#include "bench/experiments/proxy/proxy_report.h"
 #include "bench/experiments/servo/real_time_host.h"
 #include "bench/experiments/servo/servo_csv.h"
 #include "bench/experiments/servo/servo_report.h"
@@ -27,65 +24,15 @@
 #include "bench/scenes/scenes.h"
 #include "bench/support/denormals.h"
 #include "bench/support/interrupt.h"
-#include "bench/support/numbers.h"
 #include "bench/support/progress.h"
 #include "bench/support/standard_output.h"
 
 namespace touchmark::bench::cli {
 
+namespace proxy = experiments::proxy;
 namespace servo = experiments::servo;
 
 namespace {
-
-constexpr double max_rate_hz = 100'000;
-constexpr double longest_s = 1e6;
-
-struct ServoOptions {
-  contestants::Selectors selectors;
-  std::string seconds = "10", load = "none", work_us = "0", cpu, out;
-  WorkerSelectors workers;
-};
-
-double checked_number(const char* option, const std::string& text, bool zero_too, double most) {
-  const std::optional<double> value = support::parse_number(text);
-  if (!value || !(*value > 0 || (zero_too && *value == 0)) || *value > most)
-    throw std::invalid_argument(fmt::format("{} \"{}\" is not a number {} and at most {:g}", option, text,
-                                            zero_too ? "of 0 or more" : "above 0", most));
-  return *value;
-}
-
-int checked_core(const std::string& text) {
-  if (text.empty()) return results::core_for_workers().value_or(sched_getcpu());
-  const std::optional<std::uint64_t> core = support::parse_count(text);
-  cpu_set_t allowed;
-  if (!core || *core >= CPU_SETSIZE || sched_getaffinity(0, sizeof allowed, &allowed) != 0 ||
-      !CPU_ISSET(static_cast<std::size_t>(*core), &allowed))
-    throw std::invalid_argument(fmt::format("--cpu \"{}\" is no core that this program may use", text));
-  return static_cast<int>(*core);
-}
-
-servo::ServoSettings checked_settings(const ServoOptions& options, int core) {
-  servo::ServoSettings settings;
-  settings.rate_hz = checked_number("--rate", options.selectors.motion.rate, false, max_rate_hz);
-  const double seconds = checked_number("--seconds", options.seconds, false, longest_s);
-  settings.ticks = static_cast<std::uint64_t>(std::max(std::round(seconds * settings.rate_hz), 1.0));
-  settings.work_us = checked_number("--work", options.work_us, true, 1e6);
-  const std::optional<servo::Load> load = servo::load_named(options.load);
-  if (!load)
-    throw std::invalid_argument(fmt::format("--load \"{}\" is not one of none, memory, cpu", options.load));
-  settings.load = *load;
-  if (*load != servo::Load::none && servo::other_cores(core).empty())
-    throw std::invalid_argument(
-        fmt::format("--load {}: there is no other core that this program may use", options.load));
-  return settings;
-}
-
-std::string checked_trajectory(const std::vector<std::string>& names) {
-  if (names.size() > 1)
-    throw std::invalid_argument(
-        fmt::format("--trajectory \"{}\" is one too many: servo takes one", names[1]));
-  return names.empty() ? "slide" : names.front();
-}
 
 nlohmann::ordered_json host_json(const servo::RealTimeHost& host) {
   nlohmann::ordered_json json{{"governor", host.governor},
@@ -129,14 +76,15 @@ class ServoCommand {
 ServoCommand::ServoCommand(const ProgramContext& context, const ServoOptions& options)
     : context_(context),
       options_(options),
-      core_(checked_core(options.cpu)),
+      core_(checked_core(options)),
       settings_(checked_settings(options, core_)),
       selection_(contestants::check(options.selectors, context.roster)),
       mesh_(options.selectors.meshes.empty() ? scenes::default_scene() : options.selectors.meshes.front()),
-      trajectory_(checked_trajectory(options.selectors.trajectories)),
+      trajectory_(checked_trajectory(options)),
       description_(results::begun_run(context.argc, context.argv)),
       host_(servo::read_real_time_host(core_)),
       workload_(workload_by_time()) {
+  if (settings_.proxy) settings_.proxy->radius = workload_.radius;
   if (!options.out.empty()) folder_.emplace(options.out);
   settings_.seed = description_.seed = selection_.seed;
   description_.flushed_to_zero = support::restore_denormals();
@@ -156,6 +104,7 @@ workload::Workload ServoCommand::workload_by_time() {
 /// The commands that answer a tick's step again: along the file of the positions where `touchmark query` does
 /// not make them itself.
 void ServoCommand::name_commands(servo::ServoRun& run) const {
+  if (settings_.proxy) return;  // a step follows from all goals before it
   const bool needs_file = servo::is_resampled_shape(trajectory_, settings_.rate_hz);
   if (needs_file && !folder_) return;
   contestants::Selectors selectors = options_.selectors;
@@ -188,6 +137,11 @@ std::string ServoCommand::run_json(const servo::ServoRun& run) const {
                    {"memory", memory},
                    {"verdict", servo::name_of(servo::verdict_on_all(run.rows()))},
                    {"host", host_json(host_)}};
+  if (settings_.proxy) {
+    json["query"] = servo::proxy_step;
+    json["servo"]["proxy"] = proxy::coupling_json(*settings_.proxy);
+    json["servo"]["proxy"]["method"] = servo::own_proxy;
+  }
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
 }
 
@@ -241,33 +195,9 @@ int ServoCommand::run() {
 
 void add_servo(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<ServoOptions>();
-  options->selectors.motion.rate = "1000";
-  options->selectors.detectors = {"sphere-cluster"};
   CLI::App* command =
       program.add_subcommand("servo", "a paced loop as a device runs it: does a detector hold the rate?");
-  add_selectors(*command, context, options->selectors);
-  command->get_option("--detector")->capture_default_str();
-  command->get_option("--rate")
-      ->description("of the loop; motion goes by time, so motion files with times are resampled to it")
-      ->capture_default_str();
-  command->get_option("--steps")->description(
-      "of the trajectory, which is followed to and fro; default: a tick each, at most 20000");
-  command
-      ->add_option("--seconds", options->seconds,
-                   "of each detector's ticks; its idle loop takes as long again")
-      ->type_name("S")
-      ->capture_default_str();
-  command->add_option("--load", options->load, "what the other cores do meanwhile: none, memory or cpu")
-      ->type_name("LOAD")
-      ->capture_default_str();
-  command->add_option("--work", options->work_us, "other work a tick on the same core, after the answer")
-      ->type_name("US")
-      ->capture_default_str();
-  command->add_option("--cpu", options->cpu, "the core of the loop; default: the last")->type_name("N");
-  add_unit(*command, options->selectors.unit);
-  command->add_option("--out", options->out, "folder for servo.csv and run.json; scripts/plot draws them")
-      ->type_name("DIR");
-  add_worker_selectors(*command, options->workers);
+  add_servo_options(*command, context, *options);
   command->footer(
       "Each tick is late by the time from its scheduled start to its answer. The same loop with nothing\n"
       "asked takes turns, so that the machine's own misses are known. SCHED_FIFO and locked memory are\n"

@@ -1,44 +1,21 @@
 // Ours: core/haptics/proxy.h over one of our detectors, as a contestant of the suite.
+#include "bench/experiments/proxy/certified.h"
+
 #include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <optional>
-#include <span>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "bench/contestants/guided_proxy.h"
 #include "bench/contestants/roster.h"
 #include "bench/experiments/proxy/methods.h"
-#include "core/haptics/force_shading.h"
-#include "core/haptics/proxy.h"
 
 namespace touchmark::bench::experiments::proxy {
 namespace {
-
-/// Any contestant as a detector that a proxy can ask. Its session is its own.
-class AskedContestant {
- public:
-  struct Session {};
-
-  explicit AskedContestant(std::unique_ptr<contestants::Contestant> contestant)
-      : contestant_(std::move(contestant)) {}
-
-  bool touches(const Probe& probe, Session&) const noexcept { return contestant_->touches(probe); }
-  std::optional<Impact> first_hit(const Sweep& sweep, Session&) const noexcept {
-    return contestant_->first_hit(sweep);
-  }
-  std::size_t contacts(const Probe& probe, double reach, Session&, std::span<Contact> into) const noexcept {
-    return contestant_->contacts(probe, reach, into);
-  }
-  void update(const TriangleMesh& mesh) { contestant_->update(mesh); }
-  std::uint64_t work() const { return contestant_->work().total(); }
-
- private:
-  std::unique_ptr<contestants::Contestant> contestant_;
-};
 
 Status status_of(ProxyStatus status) {
   switch (status) {
@@ -75,41 +52,32 @@ class BareQuery {
 
 class Certified final : public ProxyMethod {
  public:
-  Certified(AskedContestant detector, BareQuery bare, const TriangleMesh& mesh, const Coupling& coupling)
-      : mesh_(mesh),
-        shading_(mesh_),
-        detector_(std::move(detector)),
-        bare_(std::move(bare)),
-        proxy_(detector_, coupling, &mesh_, &shading_) {}
+  Certified(std::unique_ptr<contestants::Contestant> contestant, BareQuery bare, const TriangleMesh& mesh,
+            const Coupling& coupling)
+      : bare_(std::move(bare)), proxy_(std::move(contestant), mesh, coupling) {}
 
   void place(const Vec3& position) override { proxy_.place(position); }
-  void step(const Vec3& goal, Step& step) override {
-    const ProxyState& state = proxy_.step(goal, session_);
-    step.way.assign(state.way.begin(), state.way.begin() + static_cast<std::ptrdiff_t>(state.pieces + 1));
-    step.contacts = state.contacts;
-    step.force = state.force;
-    step.status = status_of(state.status);
-  }
+  void step(const Vec3& goal, Step& step) override { take(proxy_.step(goal), step); }
   void update(const TriangleMesh& mesh) override {
-    detector_.update(mesh);
     bare_.update(mesh);
-    mesh_ = mesh;
-    shading_ = ForceShading(mesh_);
-    proxy_.surface_moved(&mesh_);
+    proxy_.update(mesh);
   }
   bool ask_nearest(const Vec3& goal) override { return bare_.ask(goal), true; }
-  std::uint64_t work() const override { return detector_.work(); }
+  std::uint64_t work() const override { return proxy_.work().total(); }
 
  private:
-  TriangleMesh mesh_;
-  ForceShading shading_;
-  AskedContestant detector_;
   BareQuery bare_;
-  AskedContestant::Session session_;
-  Proxy<AskedContestant> proxy_;
+  contestants::GuidedProxy proxy_;
 };
 
 }  // namespace
+
+void take(const ProxyState& state, Step& step) {
+  step.way.assign(state.way.begin(), state.way.begin() + static_cast<std::ptrdiff_t>(state.pieces + 1));
+  step.contacts = state.contacts;
+  step.force = state.force;
+  step.status = status_of(state.status);
+}
 
 std::unique_ptr<ProxyMethod> certified_method(const MethodRequest& request) {
   const contestants::ContestantSpec spec = request.roster.parse(request.detector);
@@ -118,8 +86,7 @@ std::unique_ptr<ProxyMethod> certified_method(const MethodRequest& request) {
     throw std::invalid_argument(fmt::format(
         "{} does not answer touches, sweep and contacts, so our proxy cannot run on it", request.detector));
   BareQuery bare(request.roster.build(spec, request.mesh));
-  return std::make_unique<Certified>(AskedContestant(std::move(built)), std::move(bare), request.mesh,
-                                     request.coupling);
+  return std::make_unique<Certified>(std::move(built), std::move(bare), request.mesh, request.coupling);
 }
 
 }  // namespace touchmark::bench::experiments::proxy

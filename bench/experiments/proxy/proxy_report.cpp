@@ -100,18 +100,21 @@ std::string proxy_faults(const std::vector<Score>& scores) {
   return text;
 }
 
+nlohmann::ordered_json coupling_json(const Coupling& coupling) {
+  return {{"stiffness_n_per_m", coupling.stiffness},
+          {"static_friction", coupling.static_friction},
+          {"dynamic_friction", coupling.dynamic_friction},
+          {"damping_ns_per_m", coupling.damping},
+          {"shading", coupling.shading}};
+}
+
 std::string proxy_json(const results::RunDescription& description, const ProxyRun& run) {
   using Json = nlohmann::ordered_json;
   Json json = results::run_circumstances(description);
   const ProxyRequest& request = run.request();
   json["contestants"] = Json::array();  // methods are told below
-  json["proxy"] = {{"ticks", request.ticks},
-                   {"detector", request.detector},
-                   {"stiffness_n_per_m", request.coupling.stiffness},
-                   {"static_friction", request.coupling.static_friction},
-                   {"dynamic_friction", request.coupling.dynamic_friction},
-                   {"damping_ns_per_m", request.coupling.damping},
-                   {"shading", request.coupling.shading}};
+  json["proxy"] = {{"ticks", request.ticks}, {"detector", request.detector}};
+  json["proxy"].update(coupling_json(request.coupling));
   Json methods = Json::array(), families = Json::array();
   for (const MethodSpec& method : request.methods)
     methods.push_back({{"name", method.text()}, {"meaning", method.info->meaning}});

@@ -38,4 +38,10 @@ double WayOracle::shortfall(const Vec3& at, double radius) const {
   return (radius - truth.high) - truth.low;
 }
 
+std::optional<Vec3> first_free(const WayOracle& oracle, std::span<const Vec3> positions, double radius) {
+  const auto free = std::find_if(positions.begin(), positions.end(),
+                                 [&](const Vec3& at) { return !oracle.is_within(at, at, radius); });
+  return free == positions.end() ? std::nullopt : std::optional(*free);
+}
+
 }  // namespace touchmark::bench::experiments::proxy

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "bench/oracle/oracle.h"
 #include "bench/oracle/triangle_tree.h"
@@ -41,5 +42,9 @@ class WayOracle {
   oracle::Oracle oracle_;
   oracle::TriangleTree tree_;
 };
+
+/// Returns the first of these positions that is free, farther than the radius from the mesh; nothing where
+/// none is.
+std::optional<Vec3> first_free(const WayOracle& oracle, std::span<const Vec3> positions, double radius);
 
 }  // namespace touchmark::bench::experiments::proxy

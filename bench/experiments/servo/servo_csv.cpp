@@ -50,6 +50,11 @@ std::string of_counts(A asked) {
   return asked.row.counts ? count((*asked.row.counts).*Member) : "";
 }
 
+template <auto Member>
+std::string of_proxy(A asked) {
+  return asked.row.proxy ? count((*asked.row.proxy).*Member) : "";
+}
+
 std::string guarantee(A asked) {
   if (!asked.row.accuracy) return "";
   return std::string(measurement::guarantee_name(asked.row.accuracy->guarantee));
@@ -71,6 +76,11 @@ constexpr results::Kind verdict_kind{[](std::string_view text) {
                                      },
                                      "one of holds, does not hold, inconclusive"};
 
+constexpr results::Kind question_kind{
+    [](std::string_view text) { return text == proxy_step || kinds::query.accepts(text); },
+    "one of touches, nearest, sweep, proxy"};
+constexpr results::Kind method_kind{[](std::string_view text) { return text == own_proxy; }, "certified"};
+
 // The order is the contract.
 constexpr auto columns = std::to_array<results::Column<ServoLine>>({
     {"schema", [](A) { return std::to_string(servo_schema); }, always, kinds::one},
@@ -80,7 +90,7 @@ constexpr auto columns = std::to_array<results::Column<ServoLine>>({
     {"mesh", [](A asked) { return asked.row.mesh; }, always},
     {"triangles", [](A asked) { return count(asked.row.triangles); }, always, kinds::whole_number},
     {"trajectory", [](A asked) { return asked.row.trajectory; }, always},
-    {"query", [](A asked) { return std::string(workload::name_of(asked.row.query)); }, always, kinds::query},
+    {"query", [](A asked) { return question_of(asked.settings, asked.row.query); }, always, question_kind},
     {"steps", [](A asked) { return count(asked.row.steps); }, always, kinds::whole_number},
     {"radius", [](A asked) { return count(asked.row.radius); }, always, kinds::length},
     {"reach", [](A asked) { return count(asked.row.reach); }, always, kinds::length},
@@ -131,6 +141,13 @@ constexpr auto columns = std::to_array<results::Column<ServoLine>>({
     {"idle_latency_ns_max", percentile<idle, latency, 10'000>, optional, kinds::whole_number},
     {"idle_involuntary_switches", of_kernel<idle, &LoopResult::involuntary_switches>, optional,
      kinds::whole_number},
+    {"proxy", [](A asked) { return asked.settings.proxy ? std::string(own_proxy) : ""; }, optional,
+     method_kind},
+    {"judged_ticks", of_proxy<&ProxyCounts::ticks>, optional, kinds::whole_number},
+    {"crossings", of_proxy<&ProxyCounts::crossings>, optional, kinds::whole_number},
+    {"violations", of_proxy<&ProxyCounts::violations>, optional, kinds::whole_number},
+    {"contact_ticks", of_proxy<&ProxyCounts::contact_ticks>, optional, kinds::whole_number},
+    {"stuck_ticks", of_proxy<&ProxyCounts::stuck_ticks>, optional, kinds::whole_number},
 });
 
 /// What ties rows of the three files.
@@ -148,6 +165,10 @@ void add_buckets(support::Table& table, const ServoRow& row, const char* loop_na
 }
 
 }  // namespace
+
+std::string question_of(const ServoSettings& settings, workload::Query query) {
+  return std::string(settings.proxy ? proxy_step : workload::name_of(query));
+}
 
 std::span<const results::Column<ServoLine>> servo_columns() { return columns; }
 

@@ -14,11 +14,17 @@ namespace touchmark::bench::experiments::servo {
 
 inline constexpr int servo_schema = 1;
 
+/// What column `query` has where a tick is a proxy's whole step, and column `proxy` then.
+inline constexpr std::string_view proxy_step = "proxy", own_proxy = "certified";
+
 /// A row of the table with what all rows have.
 struct ServoLine {
   const ServoSettings& settings;
   const ServoRow& row;
 };
+
+/// What a tick asks: the query's name, or that it is a proxy's step.
+std::string question_of(const ServoSettings& settings, workload::Query query);
 
 /// The columns of servo.csv.
 std::span<const results::Column<ServoLine>> servo_columns();

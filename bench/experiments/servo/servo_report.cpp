@@ -4,7 +4,6 @@
 
 #include "bench/experiments/servo/servo_csv.h"
 #include "bench/support/table.h"
-#include "bench/workload/query_name.h"
 
 namespace touchmark::bench::experiments::servo {
 namespace {
@@ -43,6 +42,9 @@ std::string why(const ServoRow& row) {
     return fmt::format("the loop was ended, since it found no time to sleep{}",
                        idle_too ? "; nor does it with nothing asked" : "");
   }
+  if (row.proxy && row.violates_guarantee())
+    return fmt::format("{} of {} steps crossed the surface, and {} came nearer to it than the radius",
+                       row.proxy->crossings, row.proxy->ticks, row.proxy->violations);
   if (row.violates_guarantee()) return "its answers are not as exact as claimed";
   const Misses misses = row.misses();
   if (misses.ticks == 0 || misses.idle_ticks == 0) return "nothing was measured";
@@ -55,6 +57,11 @@ std::string why(const ServoRow& row) {
   if (misses.idle_missed > 0)
     text += fmt::format("; the machine itself missed {} of {} ticks with nothing asked", misses.idle_missed,
                         misses.idle_ticks);
+  if (!row.proxy) return text;
+  const ProxyCounts& proxy = *row.proxy;
+  text += fmt::format("; none of {} steps crossed the surface or came nearer than the radius, {} in contact",
+                      proxy.ticks, proxy.contact_ticks);
+  if (proxy.stuck_ticks > 0) text += fmt::format(", {} stuck too near to it", proxy.stuck_ticks);
   return text;
 }
 
@@ -62,8 +69,8 @@ std::string by_work(const ServoRow& row) {
   const std::optional<double> ns = row.ns_by_work_max();
   if (!ns) return "";
   return fmt::format(
-      "; its slowest query took {} us, and the step of most work ({} looked at) takes {:.3g} us by its work",
-      us(row.loop->tally.query().max_ns()), *row.work_max, *ns / 1e3);
+      "; its slowest {} took {} us, and the step of most work ({} looked at) takes {:.3g} us by its work",
+      row.proxy ? "step" : "query", us(row.loop->tally.query().max_ns()), *row.work_max, *ns / 1e3);
 }
 
 std::string name_of(Verdict verdict, const ServoRow& row, double rate_hz) {
@@ -83,8 +90,8 @@ std::string circumstances(const ServoSettings& settings, const workload::Workloa
       "load {}, {:g} us of "
       "other work a tick\n",
       workload.mesh_name, workload.trajectories.front(), workload::trace_text(workload, 0),
-      workload::name_of(rows.front().query), workload::length_text(workload, workload.radius), settings.ticks,
-      settings.rate_hz, core, servo::name_of(settings.load), settings.work_us);
+      question_of(settings, rows.front().query), workload::length_text(workload, workload.radius),
+      settings.ticks, settings.rate_hz, core, servo::name_of(settings.load), settings.work_us);
   for (const ServoRow& row : rows) {
     if (row.scheduler.empty()) continue;
     text += fmt::format("{}; memory: {}\n", row.scheduler, row.memory);
@@ -95,15 +102,16 @@ std::string circumstances(const ServoSettings& settings, const workload::Workloa
 }
 
 std::string loop_table(const ServoSettings& settings, const std::vector<ServoRow>& rows) {
-  support::Table table({"us", "ticks", "missed", "in a row", "late p50", "p99", "p99.9", "max", "query p50",
-                        "p99", "p99.9", "max", "faults", "preempted"});
+  const std::string asked = settings.proxy ? "step" : "query";
+  support::Table table({"us", "ticks", "missed", "in a row", "late p50", "p99", "p99.9", "max",
+                        asked + " p50", "p99", "p99.9", "max", "faults", "preempted"});
   for (const ServoRow& row : rows) {
     if (row.loop) table.add(cells_of(row.contestant(), *row.loop, true));
     if (row.idle) table.add(cells_of("  idle loop", *row.idle, false));
   }
   return fmt::format(
-      "\nlate: from a tick's scheduled start to its answer; missed: later than {:g} us; query: alone\n{}",
-      1e6 / settings.rate_hz, table.text());
+      "\nlate: from a tick's scheduled start to its answer; missed: later than {:g} us; {}: alone\n{}",
+      1e6 / settings.rate_hz, asked, table.text());
 }
 
 std::string worst_ticks(const workload::Workload& workload, const std::vector<ServoRow>& rows) {

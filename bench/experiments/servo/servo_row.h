@@ -12,6 +12,7 @@
 #include "bench/oracle/error_counts.h"
 #include "bench/workload/answer.h"
 #include "core/detector.h"
+#include "core/haptics/coupling.h"
 
 namespace touchmark::bench::experiments::servo {
 
@@ -24,6 +25,14 @@ struct ServoSettings {
   double work_us = 0;            ///< other work a tick on the same core
   Load load = Load::none;
   std::uint64_t seed = 1;
+  std::optional<Coupling> proxy = {};  ///< steps our proxy in place of the query
+};
+
+/// What the oracle found in the ways of a proxy. All ticks that stepped it are judged, warm-ups among them.
+struct ProxyCounts {
+  std::uint64_t ticks = 0;
+  std::uint64_t crossings = 0, violations = 0;  ///< ticks that met a triangle, or came nearer than the radius
+  std::uint64_t contact_ticks = 0, stuck_ticks = 0;
 };
 
 /// A loop's ticks and what the kernel counted meanwhile.
@@ -49,6 +58,7 @@ struct ServoRow {
 
   std::optional<Accuracy> accuracy;           ///< as claimed
   std::optional<oracle::ErrorCounts> counts;  ///< as found
+  std::optional<ProxyCounts> proxy;           ///< A proxy has these, and no answers.
   std::optional<double> work_mean;            ///< looked at, a step of the trajectory
   std::optional<std::uint64_t> work_max;
   std::optional<LoopResult> loop, idle;
@@ -58,6 +68,7 @@ struct ServoRow {
 
   std::string contestant() const { return options.empty() ? detector : detector + ":" + options; }
   bool violates_guarantee() const {
+    if (proxy) return proxy->crossings + proxy->violations > 0;
     return accuracy && counts && !oracle::meets_guarantee(*counts, *accuracy);
   }
   Misses misses() const;

@@ -15,6 +15,17 @@ namespace {
 constexpr std::size_t min_stretch = 16;
 constexpr double warm_up_s = 0.016;
 
+/// The first position of the trajectory that is free. Where none is, beyond the mesh's box: a proxy that
+/// begins too near to the surface stays there for as long as its goals do.
+Vec3 free_start(const workload::Workload& workload, const proxy::WayOracle& oracle, double radius) {
+  std::vector<Vec3> goals;
+  for (const workload::Step& step : workload.traces.front()) goals.push_back(step.probe.center);
+  if (const std::optional<Vec3> free = proxy::first_free(oracle, goals, radius)) return *free;
+  const Vec3 out = goals.front() - workload.mesh.bounds().center();
+  const Vec3 direction = out.norm() > 0 ? Vec3(out.normalized()) : Vec3::UnitZ();
+  return goals.front() + (workload.mesh.diagonal() + 2 * radius) * direction;
+}
+
 std::uint64_t checksum_of(const workload::Answer& answer) {
   workload::Checksum checksum;
   checksum.add(answer);
@@ -32,11 +43,13 @@ ServoRun::ServoRun(const contestants::Roster& roster, const workload::Workload& 
                    workload::Query query, const std::vector<contestants::ContestantSpec>& contestants,
                    const ServoSettings& settings, const workers::WorkerOptions& workers)
     : workload_(workload),
+      roster_(roster),
       query_(query),
       settings_(settings),
-      arena_(workload, workers, std::max<std::size_t>(ticks_a_stretch(settings), min_stretch)),
+      arena_(workload, workers, ticks_a_stretch(settings) + min_stretch),
       checksums_(contestants.size()),
-      next_tick_(contestants.size()) {
+      next_tick_(contestants.size()),
+      replays_(contestants.size()) {
   for (const contestants::ContestantSpec& spec : contestants) {
     processes_.emplace_back(arena_, spec, roster.find(spec.name).worker_program(spec.values));
     ServoRow& row = rows_.emplace_back();
@@ -83,7 +96,27 @@ void ServoRun::verify(std::size_t contestant, ground_truth::GroundTruths& truths
   row.counts = truths.judge(query_, {{0, row.steps}}, answers, *row.accuracy);
 }
 
+void ServoRun::begin_proxies(const std::function<void(const std::string&)>& progress) {
+  way_oracle_.emplace(workload_.mesh);
+  start_ = free_start(workload_, *way_oracle_, settings_.proxy->radius);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    progress(rows_[i].contestant());
+    attempt(i, [&] {
+      rows_[i].accuracy = processes_[i].build().accuracy;
+      std::unique_ptr<contestants::Contestant> contestant;
+      if (processes_[i].spec().plugin.empty())
+        contestant = roster_.build(processes_[i].spec(), workload_.mesh);
+      if (contestant == nullptr || !contestant->guides_proxy())
+        rows_[i].status = "unsupported";
+      else
+        replays_[i] = std::make_unique<ProxyReplay>(workload_, *way_oracle_, std::move(contestant),
+                                                    *settings_.proxy, start_);
+    });
+  }
+}
+
 void ServoRun::verify(const std::function<void(const std::string&)>& progress) {
+  if (settings_.proxy) return begin_proxies(progress);
   const oracle::Oracle oracle(workload_.mesh);
   ground_truth::GroundTruths truths(oracle, workload_.traces.front());
   for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -100,10 +133,12 @@ void ServoRun::run_stretch(std::size_t contestant, bool idle, std::uint64_t tick
   request.warm_up = std::min(min_stretch, static_cast<std::size_t>(std::ceil(warm_up_s * settings_.rate_hz)));
   request.ticks = ticks;
   request.idle = idle;
+  if (settings_.proxy) request.proxy = {true, *settings_.proxy, {start_.x(), start_.y(), start_.z()}};
   const workers::ServoStretch stretch = processes_[contestant].ask(request);
   std::optional<LoopResult>& result = idle ? row.idle : row.loop;
   if (!result) result = LoopResult{TickTally(settings_.rate_hz, processes_[contestant].opened().ns_per_tick)};
-  const std::span<const workers::TickRecord> records = arena_.buffers().tick_records(stretch.recorded);
+  const std::span<const workers::TickRecord> records =
+      arena_.buffers().tick_records(request.warm_up + stretch.recorded).subspan(request.warm_up);
   result->tally.add(records);
   result->minor_faults += stretch.minor_faults;
   result->major_faults += stretch.major_faults;
@@ -114,11 +149,32 @@ void ServoRun::run_stretch(std::size_t contestant, bool idle, std::uint64_t tick
   if (stretch.overrun) row.status = overrun;
   if (idle) return;
   next_tick_[contestant] += request.warm_up + ticks;
+  if (settings_.proxy)
+    judge_proxy(contestant, stretch, request.warm_up);
+  else
+    compare_answers(contestant, records);
+}
+
+void ServoRun::compare_answers(std::size_t contestant, std::span<const workers::TickRecord> records) {
   const std::vector<std::uint64_t>& verified = checksums_[contestant];
   if (std::any_of(records.begin(), records.end(), [&](const workers::TickRecord& record) {
         return record.asked != 0 && record.checksum != verified[record.step];
       }))
-    row.status = "checksum mismatch";
+    rows_[contestant].status = "checksum mismatch";
+}
+
+void ServoRun::judge_proxy(std::size_t contestant, const workers::ServoStretch& stretch,
+                           std::size_t warm_up) {
+  ServoRow& row = rows_[contestant];
+  ProxyReplay& replay = *replays_[contestant];
+  if (stretch.placed) replay.place();
+  const auto records = arena_.buffers().tick_records(warm_up + stretch.recorded);
+  const bool same = replay.follow(records.first(stretch.warmed)) && replay.follow(records.subspan(warm_up));
+  const proxy::Tally& tally = replay.tally();
+  row.proxy = {tally.ticks, tally.crossings, tally.violations, tally.contact_ticks, tally.stuck_ticks};
+  row.work_mean = replay.work_mean();
+  row.work_max = replay.work_max();
+  if (!same) row.status = "checksum mismatch";
 }
 
 void ServoRun::take_turns(const std::vector<std::pair<std::size_t, bool>>& turns, std::uint64_t ticks) {

@@ -4,11 +4,16 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "bench/contestants/contestant_info.h"
+#include "bench/experiments/proxy/way_oracle.h"
+#include "bench/experiments/servo/proxy_replay.h"
 #include "bench/experiments/servo/servo_row.h"
 #include "bench/ground_truth/ground_truth.h"
 #include "bench/workers/contestant_process.h"
@@ -26,8 +31,9 @@ class ServoRun {
            const std::vector<contestants::ContestantSpec>& contestants, const ServoSettings& settings,
            const workers::WorkerOptions& workers);
 
-  /// Builds all of them, and has the oracle judge their answers to every step. Whatever a worker does is its
-  /// row's status; only ResourceError and Interrupted are thrown.
+  /// Builds all of them, and has the oracle judge their answers to every step; the ways of proxies are judged
+  /// once they are gone. Whatever a worker does is its row's status; only ResourceError and Interrupted are
+  /// thrown.
   void verify(const std::function<void(const std::string& contestant)>& progress);
   /// Runs the loops. After Interrupted the rows hold what was finished.
   void run(const std::function<void(std::uint64_t ticks)>& progress);
@@ -38,6 +44,11 @@ class ServoRun {
 
  private:
   void verify(std::size_t contestant, ground_truth::GroundTruths& truths);
+  void begin_proxies(const std::function<void(const std::string& contestant)>& progress);
+  /// Has the oracle judge the ticks of a stretch.
+  void judge_proxy(std::size_t contestant, const workers::ServoStretch& stretch, std::size_t warm_up);
+  /// Compares the answers of a stretch with the verified ones.
+  void compare_answers(std::size_t contestant, std::span<const workers::TickRecord> records);
   /// Runs one stretch of every contestant and of its idle loop, in the order of `turns`.
   void take_turns(const std::vector<std::pair<std::size_t, bool>>& turns, std::uint64_t ticks);
   void find_cause_of_overrun(std::size_t contestant, std::uint64_t ticks);
@@ -48,6 +59,7 @@ class ServoRun {
   workers::Task task() const { return {0, query_, workload_.traces.front().size()}; }
 
   const workload::Workload& workload_;
+  const contestants::Roster& roster_;
   workload::Query query_;
   ServoSettings settings_;
   workers::SharedArena arena_;
@@ -55,6 +67,9 @@ class ServoRun {
   std::vector<ServoRow> rows_;
   std::vector<std::vector<std::uint64_t>> checksums_;  // of each contestant's verified answers, by step
   std::vector<std::uint64_t> next_tick_;               // where on the trajectory each contestant is
+  std::optional<proxy::WayOracle> way_oracle_;         // of proxies, as what follows
+  Vec3 start_ = Vec3::Zero();                          // where they begin
+  std::vector<std::unique_ptr<ProxyReplay>> replays_;
 };
 
 }  // namespace touchmark::bench::experiments::servo

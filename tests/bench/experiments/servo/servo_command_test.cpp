@@ -103,7 +103,51 @@ TEST_F(Servo, AnOverrunIsEndedAndIsTheMachinesWhereNothingWasAsked) {
   expect_valid();
 }
 
+TEST_F(Servo, StepsAProxyAndJudgesEveryStep) {
+  const Outcome outcome = servo({"--proxy", "--method", "certified", "--friction", "0.3,0.2", "--stiffness",
+                                 "500", "--seconds", "0.5"});
+  EXPECT_NE(outcome.status, 2) << outcome.err;
+  const auto rows = read("servo.csv");
+  ASSERT_EQ(rows.size(), 1u);
+  const auto& row = rows.front();
+  EXPECT_EQ(row.at("status"), "ok");
+  EXPECT_EQ(row.at("query"), "proxy");
+  EXPECT_EQ(row.at("proxy"), "certified");
+  EXPECT_EQ(row.at("ticks"), "500");
+  EXPECT_GE(std::stoi(row.at("judged_ticks")) + std::stoi(row.at("lost_ticks")), 500);
+  EXPECT_EQ(row.at("crossings") + row.at("violations"), "00");
+  EXPECT_GT(std::stoi(row.at("contact_ticks")), 0) << "the approach presses";
+  EXPECT_EQ(row.at("stuck_ticks"), "0");
+  const std::string run = content_of(folder_.file("out/run.json"));
+  for (const char* member :
+       {"\"query\": \"proxy\"", "\"stiffness_n_per_m\": 500", "\"dynamic_friction\": 0.2"})
+    EXPECT_NE(run.find(member), std::string::npos) << member << run;
+  expect_valid();
+}
+
+TEST_F(Servo, AProxyBeginsOffTheSurfaceWhereNoGoalIsFree) {
+  servo({"--proxy", "--trajectory", "slide", "--seconds", "0.2"});
+  const auto row = read("servo.csv").at(0);
+  EXPECT_EQ(row.at("stuck_ticks"), "0");
+  EXPECT_EQ(row.at("contact_ticks"), row.at("judged_ticks"));
+}
+
+TEST_F(Servo, ADetectorThatGuidesNoProxyIsUnsupported) {
+  const Outcome outcome = servo({"--proxy", "--detector", "fcl", "--seconds", "0.1"});
+  EXPECT_EQ(outcome.status, 1) << outcome.out;
+  EXPECT_EQ(read("servo.csv").at(0).at("status"), "unsupported");
+  expect_valid();
+}
+
 TEST_F(Servo, RefusesWhatItCannotDo) {
+  expect_bad_input({"servo", "--proxy", "--query", "touches"}, {"--query", "--proxy"});
+  expect_bad_input({"servo", "--proxy", "--reach", "1"}, {"--reach", "--proxy"});
+  expect_bad_input({"servo", "--stiffness", "10"}, {"--stiffness", "--proxy"});
+  expect_bad_input({"servo", "--proxy", "--method", "penalty"}, {"penalty", "certified"});
+  expect_bad_input({"servo", "--proxy", "--method", "certifed"}, {"certifed", "certified"});
+  expect_bad_input({"servo", "--proxy", "--friction", "0.1,0.5"}, {"--friction", "static"});
+  expect_bad_input({"servo", "--proxy", "--shading", "2"}, {"--shading", "2"});
+
   expect_bad_input({"servo", "--rate", "0"}, {"--rate"});
   expect_bad_input({"servo", "--seconds", "none"}, {"--seconds", "none"});
   expect_bad_input({"servo", "--load", "disk"}, {"--load", "disk", "memory"});
@@ -113,7 +157,7 @@ TEST_F(Servo, RefusesWhatItCannotDo) {
 }
 
 TEST_F(Servo, ValidateFindsARowThatContradictsItself) {
-  servo({"--seconds", "0.1"});
+  servo({"--proxy", "--seconds", "0.1"});
   const std::string path = folder_.file("out/servo.csv"), good = content_of(path);
   const auto with = [&](const std::string& column, const std::string& value) {
     support::CsvReader reader(path);
@@ -135,6 +179,11 @@ TEST_F(Servo, ValidateFindsARowThatContradictsItself) {
                                                         {"latency_ns_p99", "0"},
                                                         {"verdict", "perhaps"},
                                                         {"load", "disk"},
+                                                        {"query", "nearest"},
+                                                        {"proxy", "penalty"},
+                                                        {"judged_ticks", "1"},
+                                                        {"crossings", "1000000"},
+                                                        {"violations", "1"},
                                                         {"run_id", "another"}}) {
     const std::string bad = with(column, value);
     folder_.file("out/servo.csv", bad);

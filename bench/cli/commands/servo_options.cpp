@@ -1,0 +1,130 @@
+#include "bench/cli/commands/servo_options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <sched.h>
+
+#include "bench/cli/program.h"
+#include "bench/cli/selector_options.h"
+#include "bench/experiments/proxy/methods.h"
+#include "bench/experiments/servo/load.h"
+#include "bench/experiments/servo/servo_csv.h"
+#include "bench/results/system_info.h"
+#include "bench/support/numbers.h"
+
+namespace touchmark::bench::cli {
+
+namespace proxy = experiments::proxy;
+namespace servo = experiments::servo;
+
+namespace {
+
+constexpr double max_rate_hz = 100'000;
+constexpr double longest_s = 1e6;
+
+double checked_number(const char* option, const std::string& text, bool zero_too, double most) {
+  const std::optional<double> value = support::parse_number(text);
+  if (!value || !(*value > 0 || (zero_too && *value == 0)) || *value > most)
+    throw std::invalid_argument(fmt::format("{} \"{}\" is not a number {} and at most {:g}", option, text,
+                                            zero_too ? "of 0 or more" : "above 0", most));
+  return *value;
+}
+
+/// Workers have our proxy; those of the suite, which notes what it compares, are not made for a loop.
+void check_method(const std::string& method) {
+  if (method.empty() || proxy::method_named(method).text() == servo::own_proxy) return;
+  throw std::invalid_argument(fmt::format(
+      "--method \"{}\": servo steps {} alone; touchmark proxy compares all", method, servo::own_proxy));
+}
+
+void add_proxy_options(CLI::App& command, ServoOptions& options) {
+  CLI::Option* stepped = command.add_flag(
+      "--proxy", options.proxy,
+      "a tick is the whole step of a proxy (touchmark proxy) that follows the trajectory, and not a query");
+  for (const char* of_queries : {"--query", "--reach"}) stepped->excludes(command.get_option(of_queries));
+  command.add_option("--method", options.method, "with --proxy: certified, the only one that servo steps")
+      ->type_name("M")
+      ->needs(stepped);
+  add_coupling(command, options.coupling);
+  for (const char* name : {"--stiffness", "--friction", "--damping", "--shading"})
+    command.get_option(name)->needs(stepped);
+}
+
+}  // namespace
+
+int checked_core(const ServoOptions& options) {
+  const std::string& text = options.cpu;
+  if (text.empty()) return results::core_for_workers().value_or(sched_getcpu());
+  const std::optional<std::uint64_t> core = support::parse_count(text);
+  cpu_set_t allowed;
+  if (!core || *core >= CPU_SETSIZE || sched_getaffinity(0, sizeof allowed, &allowed) != 0 ||
+      !CPU_ISSET(static_cast<std::size_t>(*core), &allowed))
+    throw std::invalid_argument(fmt::format("--cpu \"{}\" is no core that this program may use", text));
+  return static_cast<int>(*core);
+}
+
+servo::ServoSettings checked_settings(const ServoOptions& options, int core) {
+  servo::ServoSettings settings;
+  settings.rate_hz = checked_number("--rate", options.selectors.motion.rate, false, max_rate_hz);
+  const double seconds = checked_number("--seconds", options.seconds, false, longest_s);
+  settings.ticks = static_cast<std::uint64_t>(std::max(std::round(seconds * settings.rate_hz), 1.0));
+  settings.work_us = checked_number("--work", options.work_us, true, 1e6);
+  const std::optional<servo::Load> load = servo::load_named(options.load);
+  if (!load)
+    throw std::invalid_argument(fmt::format("--load \"{}\" is not one of none, memory, cpu", options.load));
+  settings.load = *load;
+  if (*load != servo::Load::none && servo::other_cores(core).empty())
+    throw std::invalid_argument(
+        fmt::format("--load {}: there is no other core that this program may use", options.load));
+  if (options.proxy) {
+    check_method(options.method);
+    settings.proxy = checked_coupling(options.coupling);
+    settings.proxy->tick_s = 1 / settings.rate_hz;
+  }
+  return settings;
+}
+
+std::string checked_trajectory(const ServoOptions& options) {
+  const std::vector<std::string>& names = options.selectors.trajectories;
+  if (names.size() > 1)
+    throw std::invalid_argument(
+        fmt::format("--trajectory \"{}\" is one too many: servo takes one", names[1]));
+  if (!names.empty()) return names.front();
+  return options.proxy ? "approach" : "slide";  // a goal that slides is at the surface, and pushes nothing
+}
+
+void add_servo_options(CLI::App& command, ProgramContext& context, ServoOptions& options) {
+  options.selectors.motion.rate = "1000";
+  options.selectors.detectors = {"sphere-cluster"};
+  add_selectors(command, context, options.selectors);
+  command.get_option("--detector")->capture_default_str();
+  command.get_option("--rate")
+      ->description("of the loop; motion goes by time, so motion files with times are resampled to it")
+      ->capture_default_str();
+  command.get_option("--steps")->description(
+      "of the trajectory, which is followed to and fro; default: a tick each, at most 20000");
+  command
+      .add_option("--seconds", options.seconds, "of each detector's ticks; its idle loop takes as long again")
+      ->type_name("S")
+      ->capture_default_str();
+  command.add_option("--load", options.load, "what the other cores do meanwhile: none, memory or cpu")
+      ->type_name("LOAD")
+      ->capture_default_str();
+  command.add_option("--work", options.work_us, "other work a tick on the same core, after the answer")
+      ->type_name("US")
+      ->capture_default_str();
+  add_proxy_options(command, options);
+  command.add_option("--cpu", options.cpu, "the core of the loop; default: the last")->type_name("N");
+  add_unit(command, options.selectors.unit);
+  command.add_option("--out", options.out, "folder for servo.csv and run.json; scripts/plot draws them")
+      ->type_name("DIR");
+  add_worker_selectors(command, options.workers);
+}
+
+}  // namespace touchmark::bench::cli

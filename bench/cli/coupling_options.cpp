@@ -1,0 +1,63 @@
+#include "bench/cli/coupling_options.h"
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "bench/support/numbers.h"
+
+namespace touchmark::bench::cli {
+namespace {
+
+double checked_number(const char* option, const std::string& text) {
+  const std::optional<double> value = support::parse_number(text);
+  if (!value || !(*value >= 0) || !std::isfinite(*value))
+    throw std::invalid_argument(fmt::format("{} \"{}\" is not a finite number of 0 or more", option, text));
+  return *value;
+}
+
+/// "MU" for both coefficients, or "STATIC,DYNAMIC".
+std::array<double, 2> checked_friction(const std::string& text) {
+  const std::size_t comma = text.find(',');
+  const double at_rest = checked_number("--friction", text.substr(0, comma));
+  const double in_motion =
+      comma == std::string::npos ? at_rest : checked_number("--friction", text.substr(comma + 1));
+  if (in_motion > at_rest)
+    throw std::invalid_argument(
+        fmt::format("--friction \"{}\": the dynamic coefficient is above the static one", text));
+  return {at_rest, in_motion};
+}
+
+}  // namespace
+
+void add_coupling(CLI::App& command, CouplingSelectors& selectors) {
+  const auto option = [&](const char* name, std::string& value, const char* what, const char* type) {
+    command.add_option(name, value, what)->type_name(type)->capture_default_str();
+  };
+  option("--stiffness", selectors.stiffness,
+         "of the spring between proxy and device, mesh units being metres", "N/m");
+  option("--friction", selectors.friction, "coefficients, static and dynamic, or one for both", "MU[,MU]");
+  option("--damping", selectors.damping, "against the device's velocity while in contact", "NS/M");
+  option("--shading", selectors.shading,
+         "0 to 1, how far our force turns to the normal interpolated between vertices; the way stays",
+         "SHARE");
+}
+
+Coupling checked_coupling(const CouplingSelectors& selectors) {
+  Coupling coupling;
+  const std::array<double, 2> friction = checked_friction(selectors.friction);
+  coupling.stiffness = checked_number("--stiffness", selectors.stiffness);
+  coupling.static_friction = friction[0];
+  coupling.dynamic_friction = friction[1];
+  coupling.damping = checked_number("--damping", selectors.damping);
+  coupling.shading = checked_number("--shading", selectors.shading);
+  if (coupling.shading > 1)
+    throw std::invalid_argument(fmt::format("--shading \"{}\" is above 1", selectors.shading));
+  return coupling;
+}
+
+}  // namespace touchmark::bench::cli

@@ -1,0 +1,81 @@
+/// Our proxy over a contestant. Its questions go through one virtual call each.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "bench/contestants/contestant.h"
+#include "core/haptics/force_shading.h"
+#include "core/haptics/proxy.h"
+#include "core/triangle_mesh.h"
+
+namespace touchmark::bench::contestants {
+
+/// Any contestant as a detector that a proxy can ask. Its session is its own.
+class AskedContestant {
+ public:
+  struct Session {};
+
+  explicit AskedContestant(std::unique_ptr<Contestant> contestant) : contestant_(std::move(contestant)) {}
+
+  bool touches(const Probe& probe, Session&) const noexcept { return contestant_->touches(probe); }
+  std::optional<Impact> first_hit(const Sweep& sweep, Session&) const noexcept {
+    return contestant_->first_hit(sweep);
+  }
+  std::size_t contacts(const Probe& probe, double reach, Session&, std::span<Contact> into) const noexcept {
+    return contestant_->contacts(probe, reach, into);
+  }
+  void update(const TriangleMesh& mesh) { contestant_->update(mesh); }
+  Work work() const { return contestant_->work(); }
+
+ private:
+  std::unique_ptr<Contestant> contestant_;
+};
+
+/// A proxy with all that it refers to.
+class GuidedProxy {
+ public:
+  /// The contestant must guide proxies. `mesh` is what it was built of.
+  GuidedProxy(std::unique_ptr<Contestant> contestant, TriangleMesh mesh, const Coupling& coupling)
+      : mesh_(std::move(mesh)),
+        shading_(mesh_),
+        detector_(std::move(contestant)),
+        proxy_(detector_, coupling, &mesh_, &shading_) {}
+  GuidedProxy(const GuidedProxy&) = delete;
+  GuidedProxy& operator=(const GuidedProxy&) = delete;
+
+  void place(const Vec3& position) noexcept { proxy_.place(position); }
+  const ProxyState& step(const Vec3& goal) noexcept { return proxy_.step(goal, session_); }
+  void update(const TriangleMesh& mesh) {
+    detector_.update(mesh);
+    mesh_ = mesh;
+    shading_ = ForceShading(mesh_);
+    proxy_.surface_moved(&mesh_);
+  }
+  Work work() const { return detector_.work(); }
+
+ private:
+  TriangleMesh mesh_;
+  ForceShading shading_;
+  AskedContestant detector_;
+  AskedContestant::Session session_;
+  Proxy<AskedContestant> proxy_;
+};
+
+/// What a tick came to as one number: its way, its contacts and its force, to the bit.
+inline std::uint64_t checksum_of(const ProxyState& state) noexcept {
+  workload::Checksum sum;
+  const auto add = [&sum](const Vec3& v) {
+    for (const double x : {v.x(), v.y(), v.z()}) sum.add({1, 0, 0, x});
+  };
+  for (std::size_t i = 0; i <= state.pieces; ++i) add(state.way[i]);
+  add(state.force);
+  sum.add({static_cast<std::uint32_t>(state.status), static_cast<TriangleId>(state.contacts)});
+  return sum.value();
+}
+
+}  // namespace touchmark::bench::contestants

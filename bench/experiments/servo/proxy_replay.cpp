@@ -1,0 +1,57 @@
+#include "bench/experiments/servo/proxy_replay.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "bench/experiments/proxy/certified.h"
+#include "bench/support/interrupt.h"
+
+namespace touchmark::bench::experiments::servo {
+namespace {
+
+const std::vector<Vec3> unknown_optima;
+
+}  // namespace
+
+ProxyReplay::ProxyReplay(const workload::Workload& workload, const proxy::WayOracle& oracle,
+                         std::unique_ptr<contestants::Contestant> contestant, const Coupling& coupling,
+                         const Vec3& start)
+    : workload_(workload),
+      oracle_(oracle),
+      coupling_(coupling),
+      proxy_(std::move(contestant), workload.mesh, coupling),
+      course_{"", workload.mesh, coupling.radius, 0, start, {}} {}
+
+void ProxyReplay::place() {
+  proxy_.place(course_.start);
+  course_.goals.clear();
+  judge_ = std::make_unique<proxy::Judge>(course_, unknown_optima, coupling_, tally_);
+  judge_->see(oracle_);
+}
+
+bool ProxyReplay::follow(std::span<const workers::TickRecord> ticks) {
+  bool same = true;
+  for (const workers::TickRecord& tick : ticks) {
+    if (tick.asked == 0) continue;
+    support::check_for_interrupt();
+    const Vec3& goal = workload_.traces.front()[tick.step].probe.center;
+    const std::uint64_t before = proxy_.work().total();
+    const ProxyState& state = proxy_.step(goal);
+    const std::uint64_t work = proxy_.work().total() - before;
+    tally_.work += work;
+    work_max_ = std::max(work_max_, work);
+    same = same && contestants::checksum_of(state) == tick.checksum;
+    proxy::take(state, step_);
+    if (course_.goals.size() == 2) course_.goals.erase(course_.goals.begin());
+    course_.goals.push_back(goal);
+    judge_->tick(course_.goals.size() - 1, step_);
+  }
+  return same;
+}
+
+double ProxyReplay::work_mean() const noexcept {
+  return tally_.ticks > 0 ? static_cast<double>(tally_.work) / static_cast<double>(tally_.ticks) : 0;
+}
+
+}  // namespace touchmark::bench::experiments::servo

@@ -1,0 +1,49 @@
+/// What the ticks of a paced proxy came to: the same goals once more, every way judged by the exact oracle.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "bench/contestants/contestant.h"
+#include "bench/contestants/guided_proxy.h"
+#include "bench/experiments/proxy/tally.h"
+#include "bench/experiments/proxy/way_oracle.h"
+#include "bench/workers/paced_replay.h"
+#include "bench/workload/workload.h"
+#include "core/haptics/coupling.h"
+
+namespace touchmark::bench::experiments::servo {
+
+/// A proxy's step depends on all goals before it, and ticks that were lost leave theirs out. So the goals of
+/// the loop are gone through once it has run, by a proxy of the same detector in this process: its ways are
+/// those of the loop where the checksums are the same.
+class ProxyReplay {
+ public:
+  /// Over the first trace. `workload` and `oracle` must outlive it; the contestant must guide proxies.
+  ProxyReplay(const workload::Workload& workload, const proxy::WayOracle& oracle,
+              std::unique_ptr<contestants::Contestant> contestant, const Coupling& coupling,
+              const Vec3& start);
+
+  /// The loop's proxy was put at its start.
+  void place();
+  /// Returns false if a tick of the loop came to something else.
+  bool follow(std::span<const workers::TickRecord> ticks);
+
+  const proxy::Tally& tally() const noexcept { return tally_; }
+  double work_mean() const noexcept;  ///< a tick's
+  std::uint64_t work_max() const noexcept { return work_max_; }
+
+ private:
+  const workload::Workload& workload_;
+  const proxy::WayOracle& oracle_;
+  Coupling coupling_;
+  contestants::GuidedProxy proxy_;
+  proxy::Course course_;  ///< its goals are those of the last tick and of the one before
+  proxy::Tally tally_;
+  std::unique_ptr<proxy::Judge> judge_;
+  proxy::Step step_;
+  std::uint64_t work_max_ = 0;
+};
+
+}  // namespace touchmark::bench::experiments::servo

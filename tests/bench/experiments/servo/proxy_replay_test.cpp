@@ -1,0 +1,118 @@
+/// What is told of a paced proxy: the goals of its loop once more, judged by the oracle.
+#include "bench/experiments/servo/proxy_replay.h"
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "bench/contestants/contestant_of.h"
+#include "bench/contestants/guided_proxy.h"
+#include "bench/scenes/scenes.h"
+#include "bench/workers/servo_stretch.h"
+#include "core/brute_force/brute_force.h"
+#include "tests/bench/experiments/servo/simulated_clock.h"
+
+namespace touchmark::bench::experiments::servo {
+namespace {
+
+constexpr double radius = 0.125;
+constexpr std::int64_t ms = 1'000'000;
+
+/// Sees no surface.
+class Blind {
+ public:
+  struct Options {};
+  struct Session {
+    Work work;
+  };
+  static Blind build(const TriangleMesh&, const Options&) { return {}; }
+  static Blind build(const TriangleMesh&) { return {}; }
+  bool touches(const Probe&, Session&) const noexcept { return false; }
+  std::optional<Impact> first_hit(const Sweep&, Session&) const noexcept { return std::nullopt; }
+  std::size_t contacts(const Probe&, double, Session&, std::span<Contact>) const noexcept { return 0; }
+  std::size_t bytes() const noexcept { return 0; }
+  Accuracy accuracy() const noexcept { return {}; }
+};
+
+/// From above a cube's top straight down through it in 40 steps.
+class ProxyReplayTest : public testing::Test {
+ protected:
+  ProxyReplayTest() : workload_{"cube", scenes::load_mesh("cube", false), radius, {}, {"down"}, {{}}} {
+    for (int i = 0; i <= 40; ++i) workload_.traces[0].push_back({{{0.1, 0.2, 2 - 0.1 * i}, radius}, radius});
+  }
+
+  template <class D>
+  std::unique_ptr<contestants::Contestant> contestant() const {
+    return std::make_unique<contestants::ContestantOf<D>>(D::build(workload_.mesh));
+  }
+  Vec3 start() const { return workload_.traces[0].front().probe.center; }
+  static Coupling coupling() {
+    Coupling coupling;
+    coupling.radius = radius;
+    return coupling;
+  }
+  template <class D>
+  std::vector<workers::TickRecord> loop(SimulatedClock& clock, std::size_t ticks) const {
+    contestants::GuidedProxy proxy(contestant<D>(), workload_.mesh, coupling());
+    proxy.place(start());
+    std::vector<workers::TickRecord> records(ticks);
+    workers::PacedReplay pacer({}, workload_.traces[0].size(), clock, records);
+    workers::step_paced(proxy, {workload::Query::nearest, workload_.traces[0]}, pacer);
+    return records;
+  }
+  template <class D>
+  ProxyReplay replay() const {
+    return ProxyReplay(workload_, oracle_, contestant<D>(), coupling(), start());
+  }
+
+  workload::Workload workload_;
+  proxy::WayOracle oracle_{workload_.mesh};
+};
+
+TEST_F(ProxyReplayTest, ComesToTheSameThoughTicksWereLost) {
+  SimulatedClock clock;
+  clock.late_by[12] = 3 * ms + 1;  // the goals of three ticks are never seen
+  const auto records = loop<BruteForce>(clock, 60);
+  ProxyReplay replay = this->replay<BruteForce>();
+  replay.place();
+  EXPECT_TRUE(replay.follow(std::span(records).first(20)));
+  EXPECT_TRUE(replay.follow(std::span(records).subspan(20)));
+  EXPECT_EQ(replay.tally().ticks, 57u);
+  EXPECT_EQ(replay.tally().crossings + replay.tally().violations, 0u);
+  EXPECT_GT(replay.tally().contact_ticks, 30u) << "the cube's top is at a half; it goes down and back";
+  EXPECT_GT(replay.work_max(), 0u);
+}
+
+TEST_F(ProxyReplayTest, FindsATickThatCameToSomethingElse) {
+  SimulatedClock clock;
+  auto records = loop<BruteForce>(clock, 30);
+  const auto agrees = [&](const std::vector<workers::TickRecord>& ticks) {
+    ProxyReplay replay = this->replay<BruteForce>();
+    replay.place();
+    return replay.follow(ticks);
+  };
+  EXPECT_TRUE(agrees(records));
+  std::vector<workers::TickRecord> unseen = records;
+  unseen.erase(unseen.begin() + 2);
+  EXPECT_FALSE(agrees(unseen)) << "the loop had a goal more";
+  records[7].checksum ^= 1;
+  EXPECT_FALSE(agrees(records));
+}
+
+TEST_F(ProxyReplayTest, CountsTheCrossingsOfADetectorThatSeesNothing) {
+  SimulatedClock clock;
+  const auto records = loop<Blind>(clock, 41);
+  ProxyReplay replay = this->replay<Blind>();
+  replay.place();
+  EXPECT_TRUE(replay.follow(records)) << "that is what the loop did";
+  // Its way goes down through the top face at 0.5 and the bottom one at -0.5.
+  EXPECT_GE(replay.tally().crossings, 2u);
+  EXPECT_GT(replay.tally().violations, replay.tally().crossings);
+}
+
+}  // namespace
+}  // namespace touchmark::bench::experiments::servo
