@@ -285,7 +285,7 @@ Json StepsFile::row_json(const ResultRow& row, const std::vector<ground_truth::S
     }
   }
   return {{"detector", row.detector},
-          {"options", row.options},
+          {"options", row.all_options()},
           {"repeat", row.repeat},
           {"ranges", std::move(ranges)},
           {"ns", times_json(log.ns)},
