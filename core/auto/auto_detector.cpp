@@ -58,7 +58,8 @@ auto AutoDetector::ask_other(Session& session, const Ask& of) const noexcept {
   return answer;
 }
 
-bool AutoDetector::ask_other_touches(const Probe& probe, Session& session) const noexcept {
+bool AutoDetector::look_for_touch(const Probe& probe, Session& session) const noexcept {
+  if (!other_) return spheres_.touches(probe, session);
   return ask_other(session, [&](const auto& form, auto& own) { return form.touches(probe, own); });
 }
 
@@ -68,12 +69,14 @@ std::optional<Contact> AutoDetector::look_for_nearest(const Probe& probe, double
   return ask_other(session, [&](const auto& form, auto& own) { return form.nearest(probe, reach, own); });
 }
 
-std::optional<Impact> AutoDetector::ask_other_first_hit(const Sweep& sweep, Session& session) const noexcept {
+std::optional<Impact> AutoDetector::look_for_impact(const Sweep& sweep, Session& session) const noexcept {
+  if (!other_) return spheres_.first_hit(sweep, session);
   return ask_other(session, [&](const auto& form, auto& own) { return form.first_hit(sweep, own); });
 }
 
-std::size_t AutoDetector::ask_other_contacts(const Probe& probe, double reach, Session& session,
-                                             std::span<Contact> into) const noexcept {
+std::size_t AutoDetector::look_for_contacts(const Probe& probe, double reach, Session& session,
+                                            std::span<Contact> into) const noexcept {
+  if (!other_) return spheres_.contacts(probe, reach, session, into);
   return ask_other(session,
                    [&](const auto& form, auto& own) { return form.contacts(probe, reach, own, into); });
 }

@@ -40,8 +40,7 @@ class AutoDetector {
   // What the sphere-cluster's memory knows to be clear is asked before which form was chosen: another one
   // leaves that memory empty, and then nothing is known. So clear space costs what it costs there.
   bool touches(const Probe& probe, Session& session) const noexcept {
-    if (spheres_.is_clear(probe.center, probe.radius, session)) return false;
-    return other_ ? ask_other_touches(probe, session) : spheres_.touches(probe, session);
+    return !spheres_.is_clear(probe.center, probe.radius, session) && look_for_touch(probe, session);
   }
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept {
     if (spheres_.is_clear(probe.center, reach, session)) return std::nullopt;
@@ -49,13 +48,12 @@ class AutoDetector {
   }
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept {
     if (spheres_.is_clear(sweep, session)) return std::nullopt;
-    return other_ ? ask_other_first_hit(sweep, session) : spheres_.first_hit(sweep, session);
+    return look_for_impact(sweep, session);
   }
   std::size_t contacts(const Probe& probe, double reach, Session& session,
                        std::span<Contact> into) const noexcept {
     if (spheres_.is_clear(probe.center, reach, session)) return 0;
-    return other_ ? ask_other_contacts(probe, reach, session, into)
-                  : spheres_.contacts(probe, reach, session, into);
+    return look_for_contacts(probe, reach, session, into);
   }
   /// See the concept Prepares; the plain tree of boxes has nothing to prepare.
   void prepare(Session& session) const noexcept {
@@ -69,17 +67,18 @@ class AutoDetector {
  private:
   AutoDetector(const Choice& choice, BuiltForm form);
 
-  /// Asks the one of the others that was chosen. These are calls, whose frame nobody else pays for.
+  /// Asks the one of the others that was chosen.
   template <class Ask>
   auto ask_other(Session& session, const Ask& of) const noexcept;
-  [[gnu::noinline]] bool ask_other_touches(const Probe& probe, Session& session) const noexcept;
-  /// Asks whichever was chosen: next to a choice in line, what is clear cost a third more.
+  // These ask whichever was chosen. They are calls: next to a choice in line, what is clear cost up to a
+  // third more.
+  [[gnu::noinline]] bool look_for_touch(const Probe& probe, Session& session) const noexcept;
   [[gnu::noinline]] std::optional<Contact> look_for_nearest(const Probe& probe, double reach,
                                                             Session& session) const noexcept;
-  [[gnu::noinline]] std::optional<Impact> ask_other_first_hit(const Sweep& sweep,
-                                                              Session& session) const noexcept;
-  [[gnu::noinline]] std::size_t ask_other_contacts(const Probe& probe, double reach, Session& session,
-                                                   std::span<Contact> into) const noexcept;
+  [[gnu::noinline]] std::optional<Impact> look_for_impact(const Sweep& sweep,
+                                                          Session& session) const noexcept;
+  [[gnu::noinline]] std::size_t look_for_contacts(const Probe& probe, double reach, Session& session,
+                                                  std::span<Contact> into) const noexcept;
   [[gnu::noinline]] void prepare_other(Session& session) const noexcept;
 
   Choice choice_;

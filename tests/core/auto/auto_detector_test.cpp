@@ -1,6 +1,8 @@
 // What is chosen for a mesh, and that what was chosen answers as it would alone.
 #include "core/auto/auto_detector.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -66,6 +68,11 @@ void expect_answers_of_brute_force(const AutoDetector& detector, const TriangleM
     EXPECT_EQ(detector.touches(probe, session), all.touches(probe, plain));
     EXPECT_TRUE(same(detector.nearest(probe, infinity, session), all.nearest(probe, infinity, plain)));
     EXPECT_TRUE(same(detector.nearest(probe, radius, session), all.nearest(probe, radius, plain)));
+    std::array<Contact, 8> some, expected_some;
+    const std::size_t count = detector.contacts(probe, radius, session, some);
+    ASSERT_EQ(count, all.contacts(probe, radius, plain, expected_some));
+    for (std::size_t i = 0; i < std::min(count, some.size()); ++i)
+      EXPECT_TRUE(same(some[i], expected_some[i])) << "contact " << i;
     const Sweep sweep{before, center, radius};
     const std::optional<Impact> impact = detector.first_hit(sweep, session),
                                 expected = all.first_hit(sweep, plain);
