@@ -22,7 +22,7 @@ using Json = nlohmann::json;
 
 constexpr int cells = 32, steps = 150;  // cells along each edge of the sheet
 constexpr double reach = 0.0625, rounding = 1e-5;
-constexpr double high = 0.1, low = 0.03;  // above what a ball of that radius touches, and below
+constexpr double upper = 0.1, lower = 0.03;  // above what a ball of that radius touches, and below
 
 struct Point {
   double x, y, z;
@@ -57,8 +57,8 @@ std::string motion() {
 
 std::int64_t triangle_under(const Point& p) {
   const int i = static_cast<int>(p.x * cells), k = static_cast<int>(p.y * cells);
-  const int upper = p.y * cells - k > p.x * cells - i ? 1 : 0;  // beyond the diagonal of its cell
-  return 2 * (i * cells + k) + upper;
+  const int beyond = p.y * cells - k > p.x * cells - i ? 1 : 0;  // beyond the diagonal of its cell
+  return 2 * (i * cells + k) + beyond;
 }
 
 double squared_beyond(const Json& box, const Point& p) {
@@ -214,7 +214,7 @@ TEST_F(StepVisits, TheTreeComparedTheTriangleUnderTheProbe) {
 /// Every second step of a sweep goes down through the sheet from where the ball is free, and comes to it over
 /// the point that this returns.
 Point stabbed(int step) {
-  const double fraction = (high - reach) / (high - low);
+  const double fraction = (upper - reach) / (upper - lower);
   const Point from = center_at(step - 1), to = center_at(step);
   return {from.x + fraction * (to.x - from.x), from.y + fraction * (to.y - from.y), 0};
 }
@@ -223,7 +223,7 @@ TEST(SweepVisits, HoldTheTriangleThatIsHitAndNoBoxOverItIsLeftOut) {
   const TemporaryFolder folder;
   std::string csv = "x,y,z\n";
   for (int step = 0; step < steps; ++step)
-    csv += fmt::format("{},{},{}\n", center_at(step).x, center_at(step).y, step % 2 == 0 ? high : low);
+    csv += fmt::format("{},{},{}\n", center_at(step).x, center_at(step).y, step % 2 == 0 ? upper : lower);
   const Outcome finished = run_touchmark(
       {"bench", "--mesh", folder.file("sheet.obj", sheet()), "--trajectory", folder.file("stabs.csv", csv),
        "--query", "sweep", "--radius", fmt::format("{}", reach), "--quick", "--detector", "aabb-tree",
