@@ -84,7 +84,8 @@ Json json_of(std::size_t step, const Visits& visited, const TriangleMesh& mesh) 
 }
 
 /// Returns whether there was a contact, something in reach, or a hit on the way.
-bool ask(const NamedDetector& detector, const Trace& trace, std::size_t step, NamedDetector::Session& session) {
+bool ask(const NamedDetector& detector, const Trace& trace, std::size_t step,
+         NamedDetector::Session& session) {
   const auto center_of = [&](std::size_t i) {
     const Question& asked = trace.steps.at(i);
     return Vec3(asked[0], asked[1], asked[2]);

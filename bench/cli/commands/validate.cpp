@@ -51,9 +51,8 @@ std::vector<std::string> files_below(const std::string& folder) {
   try {
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
       const fs::path& path = entry.path();
-      if (entry.is_regular_file() &&
-          (path.extension() == ".csv" || path.filename() == "run.json" || path.filename() == "steps.bin" ||
-           is_visits(path))) {
+      if (entry.is_regular_file() && (path.extension() == ".csv" || path.filename() == "run.json" ||
+                                      path.filename() == "steps.bin" || is_visits(path))) {
         files.push_back(path.string());
       }
     }
@@ -205,13 +204,14 @@ int validate(const std::vector<std::string>& paths) {
 
 void add_validate(CLI::App& program, ProgramContext& context) {
   const auto paths = std::make_shared<std::vector<std::string>>();
-  CLI::App* command =
-      program.add_subcommand("validate", "check recorded results: CSV files, run.json, steps.bin and visited.json");
+  CLI::App* command = program.add_subcommand(
+      "validate", "check recorded results: CSV files, run.json, steps.bin and visited.json");
   command
       ->add_option(
           "path", *paths,
           "results.csv, stress.csv, servo.csv, choose.csv, suite.csv, proxy.csv, many.csv, bodies.csv, "
-          "run.json, steps.bin, visited.json, or folders that hold some; other CSV files are checked for their form")
+          "run.json, steps.bin, visited.json, or folders that hold some; other CSV files are checked for "
+          "their form")
       ->type_name("FILE|DIR")
       ->required();
   command->footer(

@@ -44,10 +44,11 @@ class StepOutputs : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     const TemporaryFolder folder;
-    const Outcome finished = run_touchmark(
-        {"bench", "--mesh", "icosphere:2", "--quick", "--steps", std::to_string(steps), "--trajectory",
-         "approach", "--detector", "aabb-tree", "--detector", "sphere-cluster:precise=false", "--detector",
-         "auto", "--out", folder.path(), "--steps-out", folder.file("steps.csv"), "--benchmark_min_time=0.001"});
+    const Outcome finished =
+        run_touchmark({"bench", "--mesh", "icosphere:2", "--quick", "--steps", std::to_string(steps),
+                       "--trajectory", "approach", "--detector", "aabb-tree", "--detector",
+                       "sphere-cluster:precise=false", "--detector", "auto", "--out", folder.path(),
+                       "--steps-out", folder.file("steps.csv"), "--benchmark_min_time=0.001"});
     ASSERT_EQ(finished.status, 0) << finished.err;
     results() = content_of(folder.file("results.csv"));
     binary() = content_of(folder.file("steps.bin"));

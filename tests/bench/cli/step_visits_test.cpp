@@ -89,12 +89,27 @@ class StepVisits : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     const TemporaryFolder folder;
-    const Outcome finished =
-        run_touchmark({"bench", "--mesh", folder.file("sheet.obj", sheet()), "--trajectory",
-                       folder.file("motion.csv", motion()), "--radius", fmt::format("{}", reach), "--quick",
-                       "--detector", "aabb-tree", "--detector", "grid-group", "--detector", "sphere-cluster",
-                       "--detector", "auto", "--detector", "brute-force", "--out", folder.path(),
-                       "--benchmark_min_time=0.001"});
+    const Outcome finished = run_touchmark({"bench",
+                                            "--mesh",
+                                            folder.file("sheet.obj", sheet()),
+                                            "--trajectory",
+                                            folder.file("motion.csv", motion()),
+                                            "--radius",
+                                            fmt::format("{}", reach),
+                                            "--quick",
+                                            "--detector",
+                                            "aabb-tree",
+                                            "--detector",
+                                            "grid-group",
+                                            "--detector",
+                                            "sphere-cluster",
+                                            "--detector",
+                                            "auto",
+                                            "--detector",
+                                            "brute-force",
+                                            "--out",
+                                            folder.path(),
+                                            "--benchmark_min_time=0.001"});
     ASSERT_EQ(finished.status, 0) << finished.err;
     visited() = Json::parse(content_of(folder.file("visited.json")));
     results() = content_of(folder.file("results.csv"));
@@ -224,11 +239,11 @@ TEST(SweepVisits, HoldTheTriangleThatIsHitAndNoBoxOverItIsLeftOut) {
   std::string csv = "x,y,z\n";
   for (int step = 0; step < steps; ++step)
     csv += fmt::format("{},{},{}\n", center_at(step).x, center_at(step).y, step % 2 == 0 ? upper : lower);
-  const Outcome finished = run_touchmark(
-      {"bench", "--mesh", folder.file("sheet.obj", sheet()), "--trajectory", folder.file("stabs.csv", csv),
-       "--query", "sweep", "--radius", fmt::format("{}", reach), "--quick", "--detector", "aabb-tree",
-       "--detector", "grid-group", "--detector", "sphere-cluster", "--out", folder.path(),
-       "--benchmark_min_time=0.001"});
+  const Outcome finished =
+      run_touchmark({"bench", "--mesh", folder.file("sheet.obj", sheet()), "--trajectory",
+                     folder.file("stabs.csv", csv), "--query", "sweep", "--radius", fmt::format("{}", reach),
+                     "--quick", "--detector", "aabb-tree", "--detector", "grid-group", "--detector",
+                     "sphere-cluster", "--out", folder.path(), "--benchmark_min_time=0.001"});
   ASSERT_EQ(finished.status, 0) << finished.err;
   const Json visited = Json::parse(content_of(folder.file("visited.json")));
   ASSERT_EQ(visited.at("rows").size(), 3U);
