@@ -5,11 +5,9 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <span>
 #include <string_view>
-#include <system_error>
 
 #include <fmt/format.h>
 #include <spawn.h>
@@ -17,6 +15,7 @@
 #include <unistd.h>
 
 #include "bench/results/steps_surroundings.h"
+#include "bench/support/beside_this_program.h"
 #include "bench/support/raw_lists.h"
 #include "bench/workload/query_name.h"
 
@@ -89,9 +88,7 @@ void put_questions(std::FILE* to, const std::string& run_id, const workload::Wor
 /// Runs the program beside this one with these files as standard input and output. Returns whether it
 /// succeeded.
 bool run_tracer(std::FILE* input, std::FILE* output) {
-  std::error_code ignored;
-  std::string program =
-      (std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / "touchmark-tracer").string();
+  std::string program = support::beside_this_program("touchmark-tracer");
   std::array<char*, 2> arguments{program.data(), nullptr};
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
