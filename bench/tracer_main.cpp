@@ -12,6 +12,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -82,6 +83,31 @@ Json json_of(std::size_t step, const Visits& visited, const TriangleMesh& mesh) 
   return json;
 }
 
+/// Returns whether there was a contact, something in reach, or a hit on the way.
+bool ask(const NamedDetector& detector, const Trace& trace, std::size_t step,
+         NamedDetector::Session& session) {
+  const auto center_of = [&](std::size_t i) {
+    const Question& asked = trace.steps.at(i);
+    return Vec3(asked[0], asked[1], asked[2]);
+  };
+  const auto [x, y, z, radius, reach] = trace.steps.at(step);
+  const Vec3 center(x, y, z);
+  if (trace.query == "touches") return detector.touches({center, radius}, session);
+  if (trace.query == "nearest") return detector.nearest({center, radius}, reach, session).has_value();
+  const Vec3 from = step == 0 ? center : center_of(step - 1);
+  return detector.first_hit({from, center, radius}, session).has_value();
+}
+
+/// Returns what `auto` chose, as its options say, and any other detector as it is.
+std::string form_of(const std::string& detector, const std::string& options) {
+  constexpr std::string_view chose = "chose=";
+  const std::size_t at = options.find(chose);
+  if (detector != "auto" || at == std::string::npos)
+    return options.empty() ? detector : detector + ":" + options;
+  const std::size_t form = at + chose.size();
+  return options.substr(form, options.find(',', form) - form);
+}
+
 /// Asks the steps of the ranges in their order, as the run did, and notes those that are wanted.
 Json visits_of(const NamedDetector& detector, const TriangleMesh& mesh, const Trace& trace,
                std::span<const std::uint64_t> ranges, std::span<const std::uint64_t> wanted) {
@@ -89,13 +115,10 @@ Json visits_of(const NamedDetector& detector, const TriangleMesh& mesh, const Tr
   const std::unique_ptr<NamedDetector::Session> session = detector.begin_session();
   for (std::size_t range = 0; range + 1 < ranges.size(); range += 2) {
     for (std::size_t step = ranges[range]; step < ranges[range + 1]; ++step) {
-      const Question& asked = trace.steps.at(step);
       Visits visited;
       const bool noted = std::ranges::binary_search(wanted, step);
       visits = noted ? &visited : nullptr;
-      const Probe probe{{asked[0], asked[1], asked[2]}, asked[3]};
-      const bool found = trace.query == "touches" ? detector.touches(probe, *session)
-                                                  : detector.nearest(probe, asked[4], *session).has_value();
+      const bool found = ask(detector, trace, step, *session);
       visits = nullptr;
       if (!noted) continue;
       steps.push_back(json_of(step, visited, mesh));
@@ -135,7 +158,7 @@ Json taken_and_traced() {
                                                 {"trajectory", trace.trajectory},
                                                 {"steps", Json::array()}});
     try {
-      const std::string text = options.empty() ? detector : detector + ":" + options;
+      const std::string text = form_of(detector, options);
       std::unique_ptr<NamedDetector>& built = detectors[text];
       if (!built) built = NamedDetector::build(mesh, text);
       told["steps"] = visits_of(*built, mesh, trace, ranges, wanted);

@@ -5,11 +5,9 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <span>
 #include <string_view>
-#include <system_error>
 
 #include <fmt/format.h>
 #include <spawn.h>
@@ -17,6 +15,7 @@
 #include <unistd.h>
 
 #include "bench/results/steps_surroundings.h"
+#include "bench/support/beside_this_program.h"
 #include "bench/support/raw_lists.h"
 #include "bench/workload/query_name.h"
 
@@ -35,9 +34,9 @@ struct Close {
 using File = std::unique_ptr<std::FILE, Close>;
 
 bool is_traced(const ResultRow& row) {
-  constexpr std::array<std::string_view, 3> detectors{"aabb-tree", "grid-group", "sphere-cluster"};
+  constexpr std::array<std::string_view, 4> detectors{"aabb-tree", "auto", "grid-group", "sphere-cluster"};
   // The published forms look at every group or sphere of a probe's cell, or at all.
-  return row.log != nullptr && !row.log->ns.empty() && row.query != workload::Query::sweep &&
+  return row.log != nullptr && !row.log->ns.empty() &&
          std::ranges::find(detectors, row.detector) != detectors.end() &&
          row.options.find("lookup=scan") == std::string::npos;
 }
@@ -66,7 +65,7 @@ void put_row(std::FILE* to, const workload::Workload& workload, const ResultRow&
   const auto trace = std::ranges::find(workload.trajectories, row.trajectory) - workload.trajectories.begin();
   put_number(to, static_cast<std::uint64_t>(trace));
   put_text(to, row.detector);
-  put_text(to, row.options);
+  put_text(to, row.all_options());
   std::vector<std::uint64_t> ranges;
   for (const workload::StepRange& range : row.log->ranges)
     ranges.insert(ranges.end(), {range.begin, range.end});
@@ -89,9 +88,7 @@ void put_questions(std::FILE* to, const std::string& run_id, const workload::Wor
 /// Runs the program beside this one with these files as standard input and output. Returns whether it
 /// succeeded.
 bool run_tracer(std::FILE* input, std::FILE* output) {
-  std::error_code ignored;
-  std::string program =
-      (std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / "touchmark-tracer").string();
+  std::string program = support::beside_this_program("touchmark-tracer");
   std::array<char*, 2> arguments{program.data(), nullptr};
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);

@@ -13,6 +13,7 @@
 #include "bench/measurement/effort.h"
 #include "bench/measurement/piece_times.h"
 #include "bench/measurement/result_row.h"
+#include "bench/measurement/verified_passes.h"
 #include "bench/workers/contestant_process.h"
 #include "bench/workload/sample_plan.h"
 #include "bench/workload/workload.h"
@@ -64,8 +65,16 @@ class Measurement {
   const contestants::ContestantSpec& spec() const noexcept { return process_.spec(); }
 
  private:
+  /// A worker that fails gives the row its status.
   template <class Action>
-  void attempt(Action action);
+  void attempt(Action action) {
+    if (!alive()) return;
+    try {
+      action();
+    } catch (const workers::WorkerFailure& failure) {
+      row_.status = failure.what();
+    }
+  }
   void begin();
   void choose_steps();
   void choose_pieces();
@@ -82,6 +91,7 @@ class Measurement {
   std::vector<double> in_ns(std::span<const std::uint64_t> ticks) const;
   void expect_verified_answers(const workers::Timed& timed);
   void judge(ground_truth::TraceTruths& truths, ground_truth::TraceTruths* rounded);
+  void judge_second_pass(ground_truth::TraceTruths& truths);
 
   const workers::SharedArena& arena_;
   const Effort& effort_;
@@ -92,6 +102,7 @@ class Measurement {
   const workload::SamplePlan& plan_;
   std::vector<workload::StepRange> ranges_;  // those of the task, neighbours joined
   double calibrated_ns_ = 0;
+  VerifiedPasses verified_;
   std::int64_t passes_ = 1;   // a repetition's
   std::int64_t replays_ = 1;  // passes a sample
   double first_pass_ns_ = 0;

@@ -15,8 +15,7 @@ namespace touchmark::bench::trajectories {
 struct TrajectoryInfo {
   std::string name;
   std::string description;  ///< one line
-  /// Percent of the diagonal a tick, with 8,000 steps or more; 0: it takes no ":speed=S%".
-  double own_percent = 0;
+  double own_percent = 0;   ///< its speed, % of the diagonal a tick, with 8,000 steps or more; 0: it has none
 };
 
 /// Returns the trajectories that need no file.

@@ -240,10 +240,10 @@ Timed Worker::handle(const request::Calibrate& request) {
   }
 }
 
-/// The ranges' answers and work, by a fresh session, one after the other in the output buffers.
+/// The ranges' answers and work, one after the other in the output buffers.
 Answered Worker::answered(const workload::QueryTrace& trace, const std::vector<workload::StepRange>& ranges) {
   const std::size_t steps = workload::steps_in(ranges);
-  contestant_->forget();
+  const Work before = contestant_->work();
   std::size_t done = 0;
   for (const workload::StepRange& range : ranges) {
     contestant_->answer(trace, range, buffers_->answers(steps).subspan(done, range.size()),
@@ -252,14 +252,16 @@ Answered Worker::answered(const workload::QueryTrace& trace, const std::vector<w
   }
   workload::Checksum checksum;
   for (const workload::Answer& answer : buffers_->answers(steps)) checksum.add(answer);
-  return {checksum.value(), contestant_->work()};
+  return {checksum.value(), contestants::work_between(before, contestant_->work())};
 }
 
 Answered Worker::handle(const request::Answer& request) {
+  if (request.fresh) contestant_->forget();
   return answered(trace_of(request.task), ranges_of(request.task));
 }
 
 Answered Worker::handle(const request::AnswerAfresh& request) {
+  contestant_->forget();
   return answered(trace_of(request.task), {{request.step, request.step + 1}});
 }
 

@@ -4,9 +4,7 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
-#include <filesystem>
 #include <string_view>
-#include <system_error>
 #include <thread>
 #include <type_traits>
 #include <variant>
@@ -20,6 +18,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "bench/support/beside_this_program.h"
 #include "bench/support/failures.h"
 #include "bench/support/interrupt.h"
 #include "bench/support/system_limit.h"
@@ -33,18 +32,13 @@ constexpr int not_loaded = 127;
 constexpr std::string_view start_error_begin = "[0,{\"error\":", start_error_end = "}]\n";
 static_assert(std::is_same_v<std::variant_alternative_t<0, Reply>, NotStarted>);
 
-std::filesystem::path beside_this_program(const std::string& program) {
-  std::error_code ignored;
-  return std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / program;
-}
-
 /// Everything the child needs, prepared before fork: after it only async-signal-safe calls are allowed.
 struct Exec {
   std::string path;
   std::vector<std::string> arguments;
   std::vector<char*> argv;
 
-  explicit Exec(const WorkerLaunch& launch) : path(beside_this_program(launch.program)) {
+  explicit Exec(const WorkerLaunch& launch) : path(support::beside_this_program(launch.program)) {
     arguments = launch.under;
     arguments.push_back(path);
     path = arguments.front();
@@ -121,7 +115,7 @@ std::string how_it_ended(int status) {
 }  // namespace
 
 bool worker_program_exists(const std::string& program) {
-  return access(beside_this_program(program).c_str(), X_OK) == 0;
+  return access(support::beside_this_program(program).c_str(), X_OK) == 0;
 }
 
 WorkerProcess::WorkerProcess(const WorkerLaunch& launch) : program_(launch.program) {

@@ -169,10 +169,11 @@ struct Calibrate {
   double budget_ns = 0;
 };
 
-/// Answers and work lie in the output buffers then, from a fresh session.
+/// Answers and work lie in the output buffers then, from a fresh session or the one that answered last.
 struct Answer {
   using Reply = Answered;
   Task task;
+  bool fresh = true;
 };
 
 /// The answer to that step alone, by a fresh session; it lies first in the output buffers.

@@ -23,9 +23,6 @@ namespace {
 [[maybe_unused]] void note_box(const Aabb& box, bool entered) {
   if (visits != nullptr) visits->note(box, entered);
 }
-[[maybe_unused]] void note_triangle(const PreparedTriangle& triangle) {
-  if (visits != nullptr) visits->triangles.push_back(triangle.index);
-}
 
 /// A box or subtree that waits, with the bound it was left for.
 struct StackEntry {
@@ -92,7 +89,7 @@ bool AabbTree::touches(const Probe& probe, Session& session) const noexcept {
   WithinRadius is_within(probe.center, probe.radius, error);
   const auto touching = [&](std::uint32_t i) {
     ++work.triangles;
-    if constexpr (tracing) note_triangle(triangles_[i]);
+    if constexpr (tracing) note_triangle(triangles_[i].index);
     const double distance = std::sqrt(squared_distance(triangles_[i], probe.center));
     return certified_ ? is_within(triangles_[i], distance, work.exact_decisions) : distance <= probe.radius;
   };
@@ -137,7 +134,7 @@ std::optional<Contact> AabbTree::nearest(const Probe& probe, double reach, Sessi
   ClosestCandidates candidates(triangles_.data(), center, error);
   const auto consider = [&](std::uint32_t i) {
     ++work.triangles;
-    if constexpr (tracing) note_triangle(triangles_[i]);
+    if constexpr (tracing) note_triangle(triangles_[i].index);
     candidates.update({squared_distance(triangles_[i], center), triangles_[i].index}, i);
   };
   if (session.last < triangles_.size()) consider(session.last);
@@ -187,7 +184,9 @@ std::optional<Impact> AabbTree::first_hit(const Sweep& sweep, Session& session) 
     if (work.boxes + work.triangles > budget) return fallback().first_hit(sweep, work);
     const Node& node = nodes_[stack[--count]];
     ++work.boxes;
-    if (!(enters(node.box, sweep, padded_radius, first.limit()) <= first.limit())) continue;
+    const bool met = enters(node.box, sweep, padded_radius, first.limit()) <= first.limit();
+    if constexpr (tracing) note_box(node.box, met);
+    if (!met) continue;
     if (node.count == 0) {
       stack[count++] = node.first + 1;
       stack[count++] = node.first;

@@ -11,6 +11,7 @@
 #include "core/geometry/point_triangle.h"
 #include "core/geometry/sphere_triangle_sweep.h"
 #include "core/probe.h"
+#include "core/search/tracing.h"
 #include "core/triangle_ids.h"
 
 namespace touchmark {
@@ -33,6 +34,7 @@ class FirstTouch {
   /// Looks at the triangle in this slot; counts where whole numbers decide.
   void consider(const PreparedTriangle& triangle, std::uint32_t slot,
                 std::uint64_t& exact_decisions) noexcept {
+    if constexpr (tracing) note_triangle(triangle.index);
     const std::optional<double> fraction = sweep_hit(triangle, sweep_, limit(), exact_decisions);
     if (!fraction || !(*fraction < fraction_ || (*fraction == fraction_ && triangle.index < index_))) return;
     fraction_ = *fraction;

@@ -52,4 +52,8 @@ struct Visits {
 /// What this thread's queries look at is noted here; null while nobody asks.
 inline thread_local Visits* visits = nullptr;
 
+[[maybe_unused]] inline void note_triangle(std::uint32_t index) {
+  if (visits != nullptr) visits->triangles.push_back(index);
+}
+
 }  // namespace touchmark

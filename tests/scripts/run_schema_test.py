@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""results/run.schema.json as Debian's validator reads it, and whether `touchmark validate` judges alike.
+"""The schemas in results/ as Debian's validator reads them, and whether `touchmark validate` judges alike.
 
 Argument: the program.
 """
@@ -88,6 +88,23 @@ class RunSchema(unittest.TestCase):
             self.assertEqual(self.accepted_by_program(damaged), verdict, (path, value))
             verdicts.add(verdict)
         self.assertEqual(verdicts, {False, True})
+
+
+@unittest.skipIf(jsonschema is None, "python3-jsonschema is missing")
+class VisitedSchema(unittest.TestCase):
+    def test_accepts_what_the_program_writes(self):
+        schema = json.loads((ROOT / "results" / "visited.schema.json").read_text(encoding="utf-8"))
+        jsonschema.Draft7Validator.check_schema(schema)
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([PROGRAM, "bench", "--mesh", "icosphere:1", "--quick", "--steps", "10", "--trajectory", "slide",
+                            "--detector", "grid-group", "--out", folder, "--benchmark_min_time=0.001"],
+                           capture_output=True, check=True)
+            visited = json.loads((pathlib.Path(folder) / "visited.json").read_text(encoding="utf-8"))
+        validator = jsonschema.Draft7Validator(schema)
+        validator.validate(visited)
+        self.assertTrue(visited["rows"][0]["steps"])
+        del visited["rows"][0]["steps"][0]["found"]
+        self.assertFalse(validator.is_valid(visited))
 
 
 if __name__ == "__main__":

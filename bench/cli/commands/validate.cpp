@@ -22,6 +22,7 @@
 #include "bench/results/validation/results_check.h"
 #include "bench/results/validation/run_check.h"
 #include "bench/results/validation/steps_check.h"
+#include "bench/results/validation/visits_check.h"
 #include "bench/support/standard_output.h"
 
 namespace touchmark::bench::cli {
@@ -38,18 +39,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_run_json(const fs::path& path) { return path.extension() == ".json"; }
+bool is_visits(const fs::path& path) { return path.filename() == "visited.json"; }
+
+bool is_run_json(const fs::path& path) { return path.extension() == ".json" && !is_visits(path); }
 
 bool is_steps(const fs::path& path) { return path.extension() == ".bin"; }
 
-/// The CSV files, run.json and steps.bin files anywhere below, in the order of their names.
+/// The CSV files, run.json, steps.bin and visited.json files anywhere below, in the order of their names.
 std::vector<std::string> files_below(const std::string& folder) {
   std::vector<std::string> files;
   try {
     for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
       const fs::path& path = entry.path();
-      if (entry.is_regular_file() &&
-          (path.extension() == ".csv" || path.filename() == "run.json" || path.filename() == "steps.bin")) {
+      if (entry.is_regular_file() && (path.extension() == ".csv" || path.filename() == "run.json" ||
+                                      path.filename() == "steps.bin" || is_visits(path))) {
         files.push_back(path.string());
       }
     }
@@ -154,16 +157,29 @@ std::string check_csv(const std::string& path, validation::Faults& faults) {
                      table.records.size());
 }
 
-std::string check_binary(const std::string& path, validation::Faults& faults) {
-  const fs::path beside = fs::path(path).parent_path() / "results.csv";
+/// The results.csv beside a file; its own faults are reported where it is checked itself.
+std::optional<validation::CsvTable> results_next_to(const fs::path& path) {
+  const fs::path beside = path.parent_path() / "results.csv";
+  if (!fs::exists(beside)) return std::nullopt;
   validation::Faults reported_elsewhere;
-  std::optional<validation::CsvTable> results;
-  if (fs::exists(beside)) results = validation::read_csv_table(beside.string(), reported_elsewhere);
+  return validation::read_csv_table(beside.string(), reported_elsewhere);
+}
+
+std::string check_binary(const std::string& path, validation::Faults& faults) {
+  const std::optional<validation::CsvTable> results = results_next_to(path);
   return validation::check_steps(path, results ? &*results : nullptr, faults);
+}
+
+std::string check_visited(const std::string& path, validation::Faults& faults) {
+  const std::optional<validation::LocatedJson> visits = validation::read_located_json(path, faults);
+  if (!visits) return "visited";
+  const std::optional<validation::CsvTable> results = results_next_to(path);
+  return validation::check_visits(path, *visits, results ? &*results : nullptr, faults);
 }
 
 std::string check_file(const std::string& path, validation::Faults& faults) {
   if (is_run_json(path)) return check_json(path, faults);
+  if (is_visits(path)) return check_visited(path, faults);
   if (is_steps(path)) return check_binary(path, faults);
   return check_csv(path, faults);
 }
@@ -188,13 +204,14 @@ int validate(const std::vector<std::string>& paths) {
 
 void add_validate(CLI::App& program, ProgramContext& context) {
   const auto paths = std::make_shared<std::vector<std::string>>();
-  CLI::App* command =
-      program.add_subcommand("validate", "check recorded results: CSV files, run.json and steps.bin");
+  CLI::App* command = program.add_subcommand(
+      "validate", "check recorded results: CSV files, run.json, steps.bin and visited.json");
   command
       ->add_option(
           "path", *paths,
           "results.csv, stress.csv, servo.csv, choose.csv, suite.csv, proxy.csv, many.csv, bodies.csv, "
-          "run.json, steps.bin, or folders that hold some; other CSV files are checked for their form")
+          "run.json, steps.bin, visited.json, or folders that hold some; other CSV files are checked for "
+          "their form")
       ->type_name("FILE|DIR")
       ->required();
   command->footer(

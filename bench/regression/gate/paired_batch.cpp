@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "bench/ground_truth/ground_truth.h"
+#include "bench/measurement/verified_passes.h"
 #include "bench/support/interleaving.h"
 #include "bench/support/interrupt.h"
 #include "bench/support/random.h"
@@ -62,13 +63,20 @@ class PairedBatches::Contender {
     const workers::Answered answered = attempt([&] { return process_.ask(workers::request::Answer{task_}); });
     const workers::OutputBuffers& buffers = batches_.arena_.buffers();
     const std::size_t count = workload::steps_in(ranges);
-    checksum_ = answered.checksum;
     const oracle::ErrorCounts counts = truths.judge(task_.query, ranges, buffers.answers(count), accuracy_);
     judged_ += counts.judged;
     if (!oracle::meets_guarantee(counts, accuracy_)) {
       fail("gives wrong answers (touchmark verify says which)");
     }
-    return {checksum_, measurement::summarize_work(buffers.work(count), answered.work)};
+    const GateAnswers answers{answered.checksum,
+                              measurement::summarize_work(buffers.work(count), answered.work)};
+    verified_ = attempt([&] {
+      return measurement::verified_passes(process_, task_, answered.checksum, accuracy_, [&] {
+        return oracle::meets_guarantee(truths.judge(task_.query, ranges, buffers.answers(count), accuracy_),
+                                       accuracy_);
+      });
+    });
+    return answers;
   }
 
   /// One turn that is not counted tells how many passes a turn has.
@@ -84,7 +92,7 @@ class PairedBatches::Contender {
  private:
   double timed(std::int64_t passes) {
     const workers::Timed timed = attempt([&] { return process_.ask(workers::request::Time{task_, passes}); });
-    if (!timed.steady || timed.checksum != checksum_) fail("answers otherwise when it is timed");
+    if (!verified_.hold(timed)) fail("answers otherwise when it is timed");
     return timed.cpu_ns_per_query;
   }
 
@@ -92,7 +100,7 @@ class PairedBatches::Contender {
   workers::ContestantProcess process_;
   workers::Task task_;
   Accuracy accuracy_;
-  std::uint64_t checksum_ = 0;
+  measurement::VerifiedPasses verified_;
   std::uint64_t judged_ = 0;
   std::int64_t passes_ = 1;
   std::vector<double> log_ns_;

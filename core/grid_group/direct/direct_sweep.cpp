@@ -8,6 +8,7 @@
 #include "core/geometry/sweep_box.h"
 #include "core/grid_group/direct/direct_grid.h"
 #include "core/search/first_touch.h"
+#include "core/search/tracing.h"
 #include "core/simd/lanes.h"
 
 namespace touchmark::grid {
@@ -75,6 +76,7 @@ class SweepSearch {
         box.max[static_cast<int>(k)] = static_cast<double>(node.max[k][child / 4][child % 4]);
       }
       const double enter = enters(box, in_frame_, padded_radius, first_.limit());
+      if constexpr (tracing) note_box(box, enter <= first_.limit());
       if (enter <= first_.limit())
         stack.insert(base, {static_cast<float>(enter), index * BoxTree::arity + child, level});
     }
@@ -95,6 +97,13 @@ class SweepSearch {
       for (unsigned left = at_most(bounds, within()); left != 0; left &= left - 1)
         consider(at + static_cast<std::uint32_t>(std::countr_zero(left)), work);
     }
+  }
+
+  /// Notes a box that exists.
+  void note_box(const Aabb& box, bool entered) const {
+    if (visits == nullptr || !(box.min.array() <= box.max.array()).all() || !box.max.allFinite()) return;
+    visits->frame = &store_.frame;
+    visits->note_in_frame(box.min, box.max, entered);
   }
 
   void consider(std::uint32_t slot, Work& work) noexcept {

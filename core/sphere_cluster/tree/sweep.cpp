@@ -5,6 +5,7 @@
 #include "core/geometry/sphere_triangle_sweep.h"
 #include "core/geometry/sweep_box.h"
 #include "core/search/first_touch.h"
+#include "core/search/tracing.h"
 #include "core/sphere_cluster/tree/cylinder_bvh.h"
 #include "core/sphere_cluster/tree/search.h"  // IWYU pragma: keep
 
@@ -51,6 +52,8 @@ constexpr float path_error = 16;
 std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, Work& work) const noexcept {
   if (!can_search(sweep.from) || !can_search(sweep.to)) return fallback().first_hit(sweep, work);
   claim(memory);
+  if constexpr (tracing)
+    if (visits != nullptr) visits->frame = &frame_;
   const std::uint64_t before = work.total();
   if (!memory.knows_free(sweep.from, sweep.radius) && !is_clear(sweep.from, sweep.radius, memory)) {
     const WithinBudget start = nearest_within_budget(sweep.from, sweep.radius, memory, work);

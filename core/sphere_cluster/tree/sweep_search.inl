@@ -123,6 +123,7 @@ template <class Visitor>
     const TreeNode& node = tree.nodes[index];
     Stretches stretches;
     unsigned near = children_on(tree.boxes, node, lanes_of_path, until, stretches);
+    if constexpr (tracing) note_children(tree.boxes, node, 0, near);
     visitor.work.spheres += tree_width;
     const std::size_t base = count;
     while (near != 0) {

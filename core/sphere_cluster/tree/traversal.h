@@ -79,10 +79,6 @@ void note_children(bool boxes, const Children& node, std::size_t first, unsigned
   }
 }
 
-[[maybe_unused]] inline void note_triangle(std::uint32_t index) {
-  if (visits != nullptr) visits->triangles.push_back(index);
-}
-
 namespace portable {
 
 inline Offset kernel(const PreparedTriangle& triangle, const Vec3& point) noexcept {

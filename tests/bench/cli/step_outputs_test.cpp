@@ -38,15 +38,17 @@ std::vector<std::map<std::string, std::string>> rows_of(const std::string& csv) 
   return rows;
 }
 
-/// One run for all tests: who is right, and who takes spheres for triangles and so errs.
+/// One run for all tests: who is right, who takes spheres for triangles and so errs, and who chooses its
+/// options.
 class StepOutputs : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     const TemporaryFolder folder;
-    const Outcome finished = run_touchmark(
-        {"bench", "--mesh", "icosphere:2", "--quick", "--steps", std::to_string(steps), "--trajectory",
-         "approach", "--detector", "aabb-tree", "--detector", "sphere-cluster:precise=false", "--out",
-         folder.path(), "--steps-out", folder.file("steps.csv"), "--benchmark_min_time=0.001"});
+    const Outcome finished =
+        run_touchmark({"bench", "--mesh", "icosphere:2", "--quick", "--steps", std::to_string(steps),
+                       "--trajectory", "approach", "--detector", "aabb-tree", "--detector",
+                       "sphere-cluster:precise=false", "--detector", "auto", "--out", folder.path(),
+                       "--steps-out", folder.file("steps.csv"), "--benchmark_min_time=0.001"});
     ASSERT_EQ(finished.status, 0) << finished.err;
     results() = content_of(folder.file("results.csv"));
     binary() = content_of(folder.file("steps.bin"));
@@ -93,6 +95,14 @@ TEST_F(StepOutputs, ValidateFindsThemFine) {
   const Outcome outcome = validate(results(), binary());
   EXPECT_EQ(outcome.status, 0) << outcome.out;
   EXPECT_NE(outcome.out.find("steps.bin: fine (steps of 1 trajectories)"), std::string::npos) << outcome.out;
+}
+
+TEST_F(StepOutputs, TheCsvNamesTheContestantsAsTheResultsDo) {
+  std::set<std::pair<std::string, std::string>> told, expected;
+  for (const auto& row : rows_of(csv())) told.emplace(row.at("detector"), row.at("options"));
+  for (const auto& row : rows_of(results())) expected.emplace(row.at("detector"), row.at("options"));
+  EXPECT_EQ(told, expected);
+  EXPECT_TRUE(expected.contains({"auto", "chose=sphere-cluster"}));
 }
 
 TEST_F(StepOutputs, ValidateFindsEachDamage) {

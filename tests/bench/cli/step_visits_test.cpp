@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -20,6 +22,7 @@ using Json = nlohmann::json;
 
 constexpr int cells = 32, steps = 150;  // cells along each edge of the sheet
 constexpr double reach = 0.0625, rounding = 1e-5;
+constexpr double upper = 0.1, lower = 0.03;  // above what a ball of that radius touches, and below
 
 struct Point {
   double x, y, z;
@@ -52,6 +55,12 @@ std::string motion() {
   return csv;
 }
 
+std::int64_t triangle_under(const Point& p) {
+  const int i = static_cast<int>(p.x * cells), k = static_cast<int>(p.y * cells);
+  const int beyond = p.y * cells - k > p.x * cells - i ? 1 : 0;  // beyond the diagonal of its cell
+  return 2 * (i * cells + k) + beyond;
+}
+
 double squared_beyond(const Json& box, const Point& p) {
   const double at[3] = {p.x, p.y, p.z};
   double sum = 0;
@@ -80,17 +89,43 @@ class StepVisits : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     const TemporaryFolder folder;
-    const Outcome finished =
-        run_touchmark({"bench", "--mesh", folder.file("sheet.obj", sheet()), "--trajectory",
-                       folder.file("motion.csv", motion()), "--radius", fmt::format("{}", reach), "--quick",
-                       "--detector", "aabb-tree", "--detector", "grid-group", "--detector", "sphere-cluster",
-                       "--detector", "brute-force", "--out", folder.path(), "--benchmark_min_time=0.001"});
+    const Outcome finished = run_touchmark({"bench",
+                                            "--mesh",
+                                            folder.file("sheet.obj", sheet()),
+                                            "--trajectory",
+                                            folder.file("motion.csv", motion()),
+                                            "--radius",
+                                            fmt::format("{}", reach),
+                                            "--quick",
+                                            "--detector",
+                                            "aabb-tree",
+                                            "--detector",
+                                            "grid-group",
+                                            "--detector",
+                                            "sphere-cluster",
+                                            "--detector",
+                                            "auto",
+                                            "--detector",
+                                            "brute-force",
+                                            "--out",
+                                            folder.path(),
+                                            "--benchmark_min_time=0.001"});
     ASSERT_EQ(finished.status, 0) << finished.err;
     visited() = Json::parse(content_of(folder.file("visited.json")));
+    results() = content_of(folder.file("results.csv"));
   }
   static Json& visited() {
     static Json json;
     return json;
+  }
+  static std::string& results() {
+    static std::string text;
+    return text;
+  }
+  static Outcome validate(const Json& damaged) {
+    const TemporaryFolder folder;
+    folder.file("results.csv", results());
+    return run_touchmark({"validate", folder.file("visited.json", damaged.dump())});
   }
   static const Json& row(const std::string& detector) {
     for (const Json& one : visited().at("rows"))
@@ -106,7 +141,39 @@ TEST_F(StepVisits, HaveTheTenSlowestStepsOfOurDetectorsAlone) {
     detectors.insert(one.at("detector").get<std::string>());
     EXPECT_EQ(one.at("steps").size(), 10U);
   }
-  EXPECT_EQ(detectors, (std::set<std::string>{"aabb-tree", "grid-group", "sphere-cluster"}));
+  EXPECT_EQ(detectors, (std::set<std::string>{"aabb-tree", "auto", "grid-group", "sphere-cluster"}));
+}
+
+TEST_F(StepVisits, AreWhatValidateExpects) {
+  const Outcome outcome = validate(visited());
+  EXPECT_EQ(outcome.status, 0) << outcome.out;
+  EXPECT_NE(outcome.out.find("visited.json: fine (what 4 rows looked at)"), std::string::npos) << outcome.out;
+}
+
+TEST_F(StepVisits, ValidateFindsEachDamage) {
+  const std::vector<std::pair<std::string, Json>> damages{
+      {"/schema", 2},
+      {"/run_id", "19990101T000000Z-0000"},
+      {"/rows/0/detector", "another"},
+      {"/rows/0/why_not", "in words, though it has steps"},
+      {"/rows/0/steps/0/step", -1},
+      {"/rows/0/steps/1/step", 0},
+      {"/rows/0/steps/0/found", "yes"},
+      {"/rows/0/steps/0/boxes/0/0", 99},
+      {"/rows/0/steps/0/boxes/0/6", 2},
+      {"/rows/0/steps/0/boxes/0", Json::array({1, 2, 3})},
+      {"/rows/0/steps/0/triangles/0", 1.5},
+      {"/rows/0/steps/0/left_out/boxes", 5},
+      {"/rows/0/steps/0/cylinders", Json::array({Json::array({0, 0, 0, 0, 0, 2, 1, 1, 1})})},
+      {"/rows/0/steps/0/groups", Json::array({Json::array({0, 0, 0, 1, 1, 1, 1, 0})})},
+  };
+  for (const auto& [pointer, value] : damages) {
+    Json damaged = visited();
+    damaged[Json::json_pointer(pointer)] = value;
+    const Outcome outcome = validate(damaged);
+    EXPECT_EQ(outcome.status, 1) << pointer << '\n' << outcome.out;
+    EXPECT_NE(outcome.out.find("visited.json:1: /"), std::string::npos) << pointer << '\n' << outcome.out;
+  }
 }
 
 TEST_F(StepVisits, WhatWasEnteredIsWithinReachAndWhatWasNotIsFartherThanTheSheet) {
@@ -118,7 +185,7 @@ TEST_F(StepVisits, WhatWasEnteredIsWithinReachAndWhatWasNotIsFartherThanTheSheet
       const auto check = [&](bool is_entered, double distance) {
         ++(is_entered ? entered : turned_away);
         // The other lists what is near for steps ahead, too.
-        if (is_entered && one.at("detector") != "sphere-cluster") {
+        if (is_entered && one.at("detector") != "sphere-cluster" && one.at("detector") != "auto") {
           EXPECT_LE(distance, reach * (1 + rounding));
         }
         if (!is_entered) {
@@ -154,12 +221,52 @@ TEST_F(StepVisits, ACellHoldsTheProbeAndAGroupThatCoversItLiesUnderIt) {
 
 TEST_F(StepVisits, TheTreeComparedTheTriangleUnderTheProbe) {
   for (const Json& step : row("aabb-tree").at("steps")) {
-    const Point p = center_at(step.at("step"));
-    const int i = static_cast<int>(p.x * cells), k = static_cast<int>(p.y * cells);
-    const int upper = p.y * cells - k > p.x * cells - i ? 1 : 0;  // beyond the diagonal of its cell
     const auto ids = step.at("triangles").get<std::set<std::int64_t>>();
-    EXPECT_TRUE(ids.contains(2 * (i * cells + k) + upper)) << step.at("step");
+    EXPECT_TRUE(ids.contains(triangle_under(center_at(step.at("step"))))) << step.at("step");
   }
+}
+
+/// Every second step of a sweep goes down through the sheet from where the ball is free, and comes to it over
+/// the point that this returns.
+Point stabbed(int step) {
+  const double fraction = (upper - reach) / (upper - lower);
+  const Point from = center_at(step - 1), to = center_at(step);
+  return {from.x + fraction * (to.x - from.x), from.y + fraction * (to.y - from.y), 0};
+}
+
+TEST(SweepVisits, HoldTheTriangleThatIsHitAndNoBoxOverItIsLeftOut) {
+  const TemporaryFolder folder;
+  std::string csv = "x,y,z\n";
+  for (int step = 0; step < steps; ++step)
+    csv += fmt::format("{},{},{}\n", center_at(step).x, center_at(step).y, step % 2 == 0 ? upper : lower);
+  const Outcome finished =
+      run_touchmark({"bench", "--mesh", folder.file("sheet.obj", sheet()), "--trajectory",
+                     folder.file("stabs.csv", csv), "--query", "sweep", "--radius", fmt::format("{}", reach),
+                     "--quick", "--detector", "aabb-tree", "--detector", "grid-group", "--detector",
+                     "sphere-cluster", "--out", folder.path(), "--benchmark_min_time=0.001"});
+  ASSERT_EQ(finished.status, 0) << finished.err;
+  const Json visited = Json::parse(content_of(folder.file("visited.json")));
+  ASSERT_EQ(visited.at("rows").size(), 3U);
+  std::size_t down = 0, boxes = 0;
+  for (const Json& row : visited.at("rows")) {
+    for (const Json& step : row.at("steps")) {
+      const int number = step.at("step");
+      EXPECT_EQ(step.at("found"), number > 0);
+      if (number % 2 == 0) continue;
+      ++down;
+      const Point hit = stabbed(number);
+      const auto ids = step.at("triangles").get<std::set<std::int64_t>>();
+      EXPECT_TRUE(ids.contains(triangle_under(hit))) << row.at("detector") << ' ' << number;
+      for (const Json& box : step.value("boxes", Json::array())) {
+        ++boxes;
+        if (box[6] == 0) {
+          EXPECT_GT(squared_beyond(box, hit), 0) << row.at("detector") << ' ' << number;
+        }
+      }
+    }
+  }
+  EXPECT_GT(down, 5U);
+  EXPECT_GT(boxes, 50U);
 }
 
 TEST_F(StepVisits, OfAnEarlierRunAreTakenAway) {

@@ -92,6 +92,13 @@ TEST_F(Gate, FailsWrongAnswersAndCrashes) {
   }
 }
 
+TEST_F(Gate, TakesAnswersThatDependOnThoseBeforeWithinTheirWord) {
+  const Outcome outcome = gate("settles", {"--write-baseline"});
+  EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  const Outcome failed = gate("drifts", {"--write-baseline"});
+  EXPECT_EQ(failed.status, 1) << failed.out << failed.err;
+}
+
 TEST_F(Gate, RefusesABaselineForSomethingElse) {
   const Outcome absent = gate("paced");
   EXPECT_EQ(absent.status, 2);

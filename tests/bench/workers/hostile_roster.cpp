@@ -29,6 +29,12 @@ namespace {
 /// What the answers so far have cost, in the nanoseconds that their contestants claim to need.
 std::atomic<std::int64_t> spent_ns = 0;
 
+struct Honest {
+  static void at_build() {}
+  static std::optional<Contact> at_answer(std::optional<Contact> contact) { return contact; }
+  static std::int64_t cost_ns() { return 10000; }
+};
+
 /// BruteForce, with something that happens to each answer of `nearest`.
 template <class Misdeed>
 class Misbehaving {
@@ -52,11 +58,6 @@ class Misbehaving {
   BruteForce detector_;
 };
 
-struct Honest {
-  static void at_build() {}
-  static std::optional<Contact> at_answer(std::optional<Contact> contact) { return contact; }
-  static std::int64_t cost_ns() { return 10000; }
-};
 struct Aborts : Honest {
   static std::optional<Contact> at_answer(const std::optional<Contact>&) { std::abort(); }
 };
@@ -134,6 +135,38 @@ struct Stalls : Moody {
   static std::optional<Contact> at_answer(const std::optional<Contact>&) { hang(); }
 };
 
+/// Its word is that distances are right to a thousandth. The first answer of a session and later ones differ
+/// by `Change`, given how many came before.
+template <double (*Change)(int before)>
+class ByHistory {
+ public:
+  struct Options {};
+  struct Session : BruteForce::Session {
+    int answers = 0;
+  };
+
+  static ByHistory build(const TriangleMesh& mesh, const Options&) {
+    return ByHistory(BruteForce::build(mesh));
+  }
+  std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept {
+    spent_ns += Honest::cost_ns();
+    std::optional<Contact> contact = detector_.nearest(probe, reach, session);
+    if (contact) contact->distance *= 1 + Change(session.answers);
+    ++session.answers;
+    return contact;
+  }
+  std::size_t bytes() const noexcept { return detector_.bytes(); }
+  Accuracy accuracy() const noexcept { return {Guarantee::exact, 1e-3, 0, false, false}; }
+
+ private:
+  explicit ByHistory(BruteForce detector) : detector_(std::move(detector)) {}
+  BruteForce detector_;
+};
+
+double once(int before) { return before == 0 ? 0 : 1e-6; }
+double ever_more(int before) { return 1e-9 * before; }
+double much(int before) { return before < 40 ? 0 : 0.1; }  // 40: the steps of the tests
+
 struct TouchesOnly {
   struct Options {};
   using Session = BruteForce::Session;
@@ -189,7 +222,9 @@ const contestants::Roster& hostile_roster() {
        contestant<Misbehaving<HangsAtBuild>>("hangs-at-build"), contestant<Misbehaving<Refuses>>("refuses"),
        contestant<Misbehaving<Lies>>("lies"), contestant<Misbehaving<Fickle>>("fickle"),
        contestant<TouchesOnly>("touches-only"), contestant<Misbehaving<Paced>>("paced"),
-       contestant<Misbehaving<Moody>>("moody"), contestant<Misbehaving<Stalls>>("stalls"), makes_later()});
+       contestant<Misbehaving<Moody>>("moody"), contestant<Misbehaving<Stalls>>("stalls"), makes_later(),
+       contestant<ByHistory<once>>("settles"), contestant<ByHistory<ever_more>>("drifts"),
+       contestant<ByHistory<much>>("lies-later")});
   return all;
 }
 

@@ -93,6 +93,14 @@ TEST(WorkerSurvival, AnswersThatDifferWhenTimedAreAMismatchAndNoResult) {
   EXPECT_EQ(rows[1].status, "ok");
 }
 
+TEST(WorkerSurvival, AnswersMayDependOnThoseBeforeWithinTheirWord) {
+  const std::vector<measurement::ResultRow> rows = rows_of({"settles", "drifts", "lies-later"}, true);
+  EXPECT_EQ(rows[0].status, "ok") << "all passes but the first are the same";
+  EXPECT_TRUE(rows[0].throughput);
+  EXPECT_EQ(rows[1].status, "checksum mismatch") << "no pass was verified whose answers it gave";
+  EXPECT_EQ(rows[2].status, "checksum mismatch") << "its second pass breaks its word";
+}
+
 TEST(WorkerSurvival, AnHonestContestantIsMeasuredInEveryColumn) {
   const std::vector<measurement::ResultRow> rows = rows_of({"honest"}, true);
   ASSERT_EQ(rows.size(), 2U);
