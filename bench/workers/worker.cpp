@@ -80,9 +80,16 @@ class Worker {
   Answered handle(const request::Answer& request);
   Answered handle(const request::AnswerAfresh& request);
   Timed handle(const request::FirstPass& request);
-  Timed handle(const request::Time& request);
-  Timed handle(const request::Sample& request);
-  Timed handle(const request::Latency& request);
+  Timed handle(const request::Time& request) {
+    return measure_throughput(*contestant_, trace_of(request.task), ranges_of(request.task), request.passes);
+  }
+  Timed handle(const request::Sample& request) {
+    return sample_throughput(*contestant_, trace_of(request.task), ranges_of(request.task), request.passes,
+                             request.replays);
+  }
+  Timed handle(const request::Latency& request) {
+    return clock_steps(*contestant_, trace_of(request.task), ranges_of(request.task), *buffers_);
+  }
   ServoStretch handle(const request::Servo& request) {
     return run_servo(
         *contestant_, proxy_, [&] { return read_mesh(input_.bytes(), layout_); }, trace_of(request.task),
@@ -270,19 +277,6 @@ Timed Worker::handle(const request::FirstPass& request) {
   Timed timed = timed_replay(trace_of(request.task), ranges_of(request.task));
   timed.work = contestant_->work();
   return timed;
-}
-
-Timed Worker::handle(const request::Time& request) {
-  return measure_throughput(*contestant_, trace_of(request.task), ranges_of(request.task), request.passes);
-}
-
-Timed Worker::handle(const request::Sample& request) {
-  return sample_throughput(*contestant_, trace_of(request.task), ranges_of(request.task), request.passes,
-                           request.replays);
-}
-
-Timed Worker::handle(const request::Latency& request) {
-  return clock_steps(*contestant_, trace_of(request.task), ranges_of(request.task), *buffers_);
 }
 
 void tell_broken(const std::string& why) noexcept {
