@@ -84,13 +84,8 @@ Comparison::Comparison(const contestants::Roster& roster, const workload::Worklo
       workload_(with_room(workload)),
       effort_(effort),
       seed_(seed),
-      arena_(workload, workers, steps_for_cold(effort)) {
-  if (workload.scene) {
-    scene_ = placed(*workload.scene);
-    scene_oracle_.emplace(ground_truth::scene_oracle(scene_));
-  } else {
-    oracle_.emplace(workload.mesh);
-  }
+      arena_(workload, workers, steps_for_cold(effort)),
+      workload_truths_(workload) {
   for (const contestants::ContestantSpec& spec : contestants) {
     processes_.emplace_back(arena_, spec, roster.find(spec.name).worker_program(spec.values));
   }
@@ -105,9 +100,7 @@ void Comparison::skip(const contestants::ContestantSpec& spec, const std::string
 }
 
 std::unique_ptr<ground_truth::TraceTruths> Comparison::truths_of(std::size_t trace) {
-  if (oracle_) return std::make_unique<ground_truth::GroundTruths>(*oracle_, workload_.traces[trace]);
-  return std::make_unique<ground_truth::SceneTruths>(
-      *scene_oracle_, scene_, workload_.schedules[trace].view(), workload_.traces[trace]);
+  return workload_truths_.of(trace);
 }
 
 std::vector<ResultRow> Comparison::run(std::size_t trace, workload::Query query) {
@@ -251,7 +244,7 @@ Measurement* Comparison::to_control(const std::vector<Measurement*>& measurement
 
 const ground_truth::RoundedScene* Comparison::rounded_scene_of(std::size_t process) {
   std::optional<std::unique_ptr<const ground_truth::RoundedScene>>& rounded = rounded_scenes_[process];
-  if (!oracle_) return nullptr;
+  if (workload_.scene) return nullptr;
   if (!rounded) {
     const contestants::ContestantSpec& spec = processes_[process].spec();
     rounded = rounded_scene(roster_.find(spec.name), spec, workload_.mesh);

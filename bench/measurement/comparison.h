@@ -12,16 +12,13 @@
 #include <utility>
 #include <vector>
 
-#include "bench/bodies/schedule.h"
 #include "bench/contestants/contestant_info.h"
 #include "bench/ground_truth/ground_truth.h"
 #include "bench/ground_truth/rounded_scene.h"
-#include "bench/ground_truth/scene_truths.h"
+#include "bench/ground_truth/workload_truths.h"
 #include "bench/measurement/effort.h"
 #include "bench/measurement/result_row.h"
 #include "bench/measurement/steadiness.h"
-#include "bench/oracle/oracle.h"
-#include "bench/oracle/scene_oracle.h"
 #include "bench/workers/contestant_process.h"
 #include "bench/workload/sample_plan.h"
 #include "bench/workload/workload.h"
@@ -108,9 +105,7 @@ class Comparison {
   std::uint64_t seed_;
   Schedule schedule_ = Schedule::interleaved;
   workers::SharedArena arena_;
-  std::optional<oracle::Oracle> oracle_;             ///< empty for a scene
-  bodies::PlacedScene scene_;                        ///< empty for a mesh
-  std::optional<oracle::SceneOracle> scene_oracle_;  ///< which its truths move
+  ground_truth::WorkloadTruths workload_truths_;
   std::deque<workers::ContestantProcess> processes_;
   std::vector<std::optional<std::unique_ptr<const ground_truth::RoundedScene>>>
       rounded_scenes_;  ///< a process each

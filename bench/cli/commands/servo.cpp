@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/bodies/scene_source.h"
 #include "bench/cli/commands/servo_options.h"
 #include "bench/cli/program.h"
 #include "bench/cli/repeat_command.h"
@@ -94,6 +95,10 @@ ServoCommand::ServoCommand(const ProgramContext& context, const ServoOptions& op
 }
 
 workload::Workload ServoCommand::workload_by_time() {
+  const contestants::Selectors& selectors = options_.selectors;
+  if (!selectors.scene.empty())
+    return servo::scene_workload_by_time(bodies::load_body_scene(selectors.scene, selectors.poses),
+                                         selection_, trajectory_, settings_);
   TriangleMesh mesh = scenes::load_mesh(mesh_, options_.selectors.normalize);
   static_cast<workload::Selection&>(selection_) =
       servo::selection_by_time(selection_, mesh, trajectory_, settings_.rate_hz);

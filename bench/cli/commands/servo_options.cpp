@@ -47,7 +47,7 @@ void add_proxy_options(CLI::App& command, ServoOptions& options) {
   CLI::Option* stepped = command.add_flag(
       "--proxy", options.proxy,
       "a tick is the whole step of a proxy (touchmark proxy) that follows the trajectory, and not a query");
-  for (const char* of_queries : {"--query", "--reach"}) stepped->excludes(command.get_option(of_queries));
+  for (const char* other : {"--query", "--reach", "--scene"}) stepped->excludes(command.get_option(other));
   command.add_option("--method", options.method, "with --proxy: certified, the only one that servo steps")
       ->type_name("M")
       ->needs(stepped);
@@ -103,6 +103,7 @@ void add_servo_options(CLI::App& command, ProgramContext& context, ServoOptions&
   options.selectors.motion.rate = "1000";
   options.selectors.detectors = {"sphere-cluster"};
   add_selectors(command, context, options.selectors);
+  add_scene_selectors(command, options.selectors);
   command.get_option("--detector")->capture_default_str();
   command.get_option("--rate")
       ->description("of the loop; motion goes by time, so motion files with times are resampled to it")

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "bench/ground_truth/workload_truths.h"
 #include "bench/measurement/result_row.h"
-#include "bench/oracle/oracle.h"
 #include "bench/support/random.h"
 
 namespace touchmark::bench::experiments::servo {
@@ -56,7 +56,7 @@ ServoRun::ServoRun(const contestants::Roster& roster, const workload::Workload& 
     row.detector = spec.name;
     row.options = spec.options;
     row.mesh = workload.mesh_name;
-    row.triangles = workload.mesh.size();
+    row.triangles = workload.triangles();
     row.trajectory = workload.trajectories.front();
     row.query = query;
     row.steps = workload.traces.front().size();
@@ -77,7 +77,7 @@ void ServoRun::attempt(std::size_t contestant, Action action) {
   }
 }
 
-void ServoRun::verify(std::size_t contestant, ground_truth::GroundTruths& truths) {
+void ServoRun::verify(std::size_t contestant, ground_truth::TraceTruths& truths) {
   ServoRow& row = rows_[contestant];
   workers::ContestantProcess& process = processes_[contestant];
   const workers::Built& built = process.build();
@@ -117,11 +117,11 @@ void ServoRun::begin_proxies(const std::function<void(const std::string&)>& prog
 
 void ServoRun::verify(const std::function<void(const std::string&)>& progress) {
   if (settings_.proxy) return begin_proxies(progress);
-  const oracle::Oracle oracle(workload_.mesh);
-  ground_truth::GroundTruths truths(oracle, workload_.traces.front());
+  ground_truth::WorkloadTruths workload_truths(workload_);
+  const std::unique_ptr<ground_truth::TraceTruths> truths = workload_truths.of(0);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     progress(rows_[i].contestant());
-    attempt(i, [&] { verify(i, truths); });
+    attempt(i, [&] { verify(i, *truths); });
   }
 }
 

@@ -43,7 +43,7 @@ class ServoRun {
   const std::deque<workers::ContestantProcess>& contestants() const noexcept { return processes_; }
 
  private:
-  void verify(std::size_t contestant, ground_truth::GroundTruths& truths);
+  void verify(std::size_t contestant, ground_truth::TraceTruths& truths);
   void begin_proxies(const std::function<void(const std::string& contestant)>& progress);
   /// Has the oracle judge the ticks of a stretch.
   void judge_proxy(std::size_t contestant, const workers::ServoStretch& stretch, std::size_t warm_up);

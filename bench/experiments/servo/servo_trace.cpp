@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
@@ -29,6 +30,11 @@ void resample(std::vector<workload::Step>& trace, double rate_hz, std::size_t st
   }
 }
 
+std::size_t steps_for(const workload::Selection& selection, const ServoSettings& settings) {
+  return selection.steps.value_or(
+      static_cast<std::size_t>(std::min<std::uint64_t>(settings.ticks, default_steps)));
+}
+
 }  // namespace
 
 bool is_resampled_shape(const std::string& trajectory, double rate_hz) {
@@ -45,11 +51,21 @@ workload::Selection selection_by_time(workload::Selection selection, const Trian
   return selection;
 }
 
+workload::Workload scene_workload_by_time(bodies::GeneratedScene scene, workload::Selection selection,
+                                          const std::string& trajectory, const ServoSettings& settings) {
+  if (is_resampled_shape(trajectory, settings.rate_hz))
+    throw std::invalid_argument(
+        fmt::format("--rate {:g}: over a scene of bodies {} goes at {:g} Hz; a motion file goes at any rate",
+                    settings.rate_hz, trajectory, shape_rate_hz));
+  selection.motion.rate_hz = settings.rate_hz;
+  return workload::make_scene_workload(std::move(scene), selection, {trajectory},
+                                       steps_for(selection, settings));
+}
+
 workload::Workload workload_by_time(std::string mesh_name, TriangleMesh mesh,
                                     const workload::Selection& selection, const std::string& trajectory,
                                     const ServoSettings& settings) {
-  const std::size_t steps = selection.steps.value_or(
-      static_cast<std::size_t>(std::min<std::uint64_t>(settings.ticks, default_steps)));
+  const std::size_t steps = steps_for(selection, settings);
   if (!is_resampled_shape(trajectory, settings.rate_hz))
     return workload::make_workload(std::move(mesh_name), std::move(mesh), selection, {trajectory}, steps);
   workload::Selection of_shape = selection;

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "bench/bodies/generated_bodies.h"
 #include "bench/experiments/servo/servo_row.h"
 #include "bench/workload/selection.h"
 #include "bench/workload/workload.h"
@@ -23,6 +24,11 @@ workload::Selection selection_by_time(workload::Selection selection, const Trian
 workload::Workload workload_by_time(std::string mesh_name, TriangleMesh mesh,
                                     const workload::Selection& selection, const std::string& trajectory,
                                     const ServoSettings& settings);
+
+/// Likewise over bodies, which stand at each tick where they are by its time. Throws std::invalid_argument,
+/// also for a generated trajectory at another rate than its own: it was made over bodies of other times.
+workload::Workload scene_workload_by_time(bodies::GeneratedScene scene, workload::Selection selection,
+                                          const std::string& trajectory, const ServoSettings& settings);
 
 /// True if the steps of `touchmark query` are other ones, since the trajectory was resampled and is no file.
 bool is_resampled_shape(const std::string& trajectory, double rate_hz);
