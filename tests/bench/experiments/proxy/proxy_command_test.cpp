@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/experiments/proxy/proxy_csv.h"
+#include "core/probe.h"
 #include "tests/bench/cli/csv_table.h"
 #include "tests/bench/cli/run_touchmark.h"
 #include "tests/temporary_folder.h"
@@ -125,6 +126,38 @@ TEST(ProxyCommand, StartsAtTheFirstGoalThatIsFree) {
   EXPECT_EQ(rows.back()[8], "0");
   for (std::size_t i = 1; i < rows.size(); ++i)
     EXPECT_GT(std::atof(rows[i][7].c_str()), 0.75) << "never inside";
+}
+
+// Down onto a cube's top beside its middle, in the corner where x and y are positive: so the normals of its
+// vertices lean there, and so does what is interpolated between them.
+TEST(ProxyCommand, ShadingTurnsTheForceAndLeavesTheWay) {
+  const TemporaryFolder folder;
+  folder.file("motion.csv", "x,y,z\n0.3,0.2,0.9\n0.3,0.2,0.7\n0.3,0.2,0.6\n0.3,0.2,0.5\n");
+  const auto trace = [&](const std::string& shading) {
+    const Outcome outcome = run_touchmark({"proxy", "--method", "certified", "--mesh", "cube", "--trajectory",
+                                           folder.file("motion.csv"), "--radius", "0.25", "--shading",
+                                           shading, "--trace", folder.file("trace.csv")});
+    EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+    return table_in(folder.file("trace.csv"));
+  };
+  const auto plain = trace("0"), shaded = trace("1");
+  ASSERT_EQ(plain.size(), shaded.size());
+  std::size_t turned = 0;
+  for (std::size_t i = 1; i < plain.size(); ++i) {
+    for (std::size_t column = 0; column < 9; ++column) EXPECT_EQ(plain[i][column], shaded[i][column]);
+    if (plain[i][9].empty()) continue;  // free, or not the last piece of its step
+    ++turned;
+    const auto force = [i](const auto& rows) {
+      return Vec3(std::atof(rows[i][9].c_str()), std::atof(rows[i][10].c_str()),
+                  std::atof(rows[i][11].c_str()));
+    };
+    EXPECT_NEAR(force(plain).head<2>().norm(), 0, 1e-9) << "the face's normal";
+    EXPECT_GT(force(shaded).x(), 0.1 * force(shaded).z());
+    EXPECT_GT(force(shaded).y(), 0.1 * force(shaded).z());
+    EXPECT_GT(force(shaded).z(), 0);
+    EXPECT_NEAR(force(shaded).norm(), force(plain).norm(), 1e-9 * force(plain).norm());
+  }
+  EXPECT_EQ(turned, 3U);
 }
 
 TEST(ProxyCommand, CertifiedLeavesASurfaceThatItWasPutTooNearTo) {
