@@ -20,4 +20,32 @@ std::uint64_t hash_of(std::span<const Step> trace) {
   return hash.value();
 }
 
+std::uint64_t hash_of_things(const Workload& workload) {
+  if (!workload.scene) return hash_of(workload.mesh);
+  ContentHash hash;
+  for (const auto& shape : workload.scene->shapes) {
+    const std::uint64_t content = hash_of(*shape);
+    hash.add(&content, sizeof content);
+  }
+  for (const bodies::Body& body : workload.scene->bodies) {
+    const std::uint64_t shape = body.shape;
+    hash.add(body.name);
+    hash.add(&shape, sizeof shape);
+    hash.add(body.start.position.data(), 3 * sizeof(double));
+    for (const double component : body.start.orientation) hash.add(component);
+  }
+  return hash.value();
+}
+
+std::uint64_t hash_of_motion(const Workload& workload, std::size_t trace) {
+  const std::uint64_t steps = hash_of(workload.traces[trace]);
+  if (!workload.scene) return steps;
+  ContentHash hash;
+  hash.add(&steps, sizeof steps);
+  const bodies::Schedule& schedule = workload.schedules[trace];
+  hash.add(schedule.first.data(), schedule.first.size() * sizeof schedule.first[0]);
+  hash.add(schedule.moves.data(), schedule.moves.size() * sizeof schedule.moves[0]);
+  return hash.value();
+}
+
 }  // namespace touchmark::bench::workload

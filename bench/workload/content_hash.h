@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "bench/workload/steps.h"
+#include "bench/workload/workload.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::bench::workload {
@@ -38,5 +39,9 @@ class ContentHash {
 std::uint64_t hash_of(const TriangleMesh& mesh);
 /// Over the bits of each step's centre, radius and reach.
 std::uint64_t hash_of(std::span<const Step> trace);
+/// Over the workload's mesh; of a scene over its shapes, and over the bodies and where they are at the start.
+std::uint64_t hash_of_things(const Workload& workload);
+/// Over a trace, and over the places that the bodies of a scene take in its steps.
+std::uint64_t hash_of_motion(const Workload& workload, std::size_t trace);
 
 }  // namespace touchmark::bench::workload

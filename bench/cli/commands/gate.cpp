@@ -11,6 +11,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/bodies/scene_source.h"
 #include "bench/cli/commands/gate_options.h"
 #include "bench/cli/program.h"
 #include "bench/regression/gate/baseline.h"
@@ -43,7 +44,7 @@ class Gate {
   gate::GateKey key_of(const gate::GatePair& pair) const;
   const gate::BaselineRow& expected(const gate::GatePair& pair) const;
   void expect_same_content(const gate::BaselineRow& row, const gate::GatePair& pair) const;
-  gate::PairedBatches batches(const gate::GatePair& pair, std::size_t steps) const;
+  gate::PairedBatches batches(const gate::GatePair& pair, std::size_t steps);
   void check_pair(const gate::GatePair& pair, const gate::BaselineRow& row);
   void write_pair(const gate::GatePair& pair);
   std::string compare_answers(const gate::BaselineRow& row, const gate::GateAnswers& answers) const;
@@ -57,7 +58,7 @@ class Gate {
   workload::Workload workload_;
   std::uint64_t mesh_hash_;
   workers::SharedArena arena_;
-  oracle::Oracle oracle_;
+  ground_truth::WorkloadTruths truths_;
   gate::Baseline baseline_;
   support::ProgressLine progress_;
   std::vector<gate::GateLine> lines_;
@@ -67,12 +68,16 @@ class Gate {
 };
 
 workload::Workload workload_for(const GateOptions& options, const contestants::CheckedSelectors& selection) {
-  const std::string mesh =
-      options.selectors.meshes.empty() ? scenes::default_scene() : options.selectors.meshes.front();
-  const std::vector<std::string>& named = options.selectors.trajectories;
+  constexpr std::size_t steps = 5000;
+  const contestants::Selectors& selectors = options.selectors;
+  const std::vector<std::string> named =
+      selectors.trajectories.empty() ? std::vector<std::string>{"slide"} : selectors.trajectories;
+  if (!selectors.scene.empty())
+    return workload::make_scene_workload(bodies::load_body_scene(selectors.scene, selectors.poses), selection,
+                                         named, steps);
+  const std::string mesh = selectors.meshes.empty() ? scenes::default_scene() : selectors.meshes.front();
   return workload::make_workload(results::without_directories(mesh),
-                                 scenes::load_mesh(mesh, options.selectors.normalize), selection,
-                                 named.empty() ? std::vector<std::string>{"slide"} : named, 5000);
+                                 scenes::load_mesh(mesh, selectors.normalize), selection, named, steps);
 }
 
 workers::WorkerOptions workers_for(const GateOptions& options) {
@@ -105,9 +110,9 @@ Gate::Gate(const contestants::Roster& roster, const GateOptions& options)
       reference_(roster.parse(options.reference)),
       tolerance_(checked_tolerance(options.tolerance)),
       workload_(workload_for(options, selection_)),
-      mesh_hash_(workload::hash_of(workload_.mesh)),
+      mesh_hash_(workload::hash_of_things(workload_)),
       arena_(workload_, workers_for(options)),
-      oracle_(workload_.mesh),
+      truths_(workload_),
       baseline_(baseline_for(options)),
       junit_(options.reports.junit),
       markdown_(options.reports.markdown) {}
@@ -149,13 +154,13 @@ void Gate::expect_same_content(const gate::BaselineRow& row, const gate::GatePai
   };
   expect("mesh", row.key.mesh, row.mesh_hash, mesh_hash_);
   expect("trajectory, radius or reach", row.key.trajectory, row.trace_hash,
-         workload::hash_of(workload_.traces[pair.trace]));
+         workload::hash_of_motion(workload_, pair.trace));
 }
 
-gate::PairedBatches Gate::batches(const gate::GatePair& pair, std::size_t steps) const {
+gate::PairedBatches Gate::batches(const gate::GatePair& pair, std::size_t steps) {
   gate::GateEffort effort;
   effort.rounds = options_.rounds;
-  return {roster_, workload_, arena_, oracle_, pair, effort, steps, selection_.seed};
+  return {roster_, workload_, arena_, truths_, pair, effort, steps, selection_.seed};
 }
 
 /// Less work for the same answers is no fault.
@@ -212,7 +217,7 @@ void Gate::write_pair(const gate::GatePair& pair) {
   if (held == 2) {
     line.verdict = "written";
     line.judgement.batch.ratio = gate::median_ratio(log_ratios, selection_.seed);
-    baseline_.put({line.key, mesh_hash_, workload::hash_of(workload_.traces[pair.trace]), batches.steps(),
+    baseline_.put({line.key, mesh_hash_, workload::hash_of_motion(workload_, pair.trace), batches.steps(),
                    line.judgement.batch.ratio, batches.answers().work, batches.answers().checksum,
                    results::build_info().version, results::build_info().commit,
                    results::system_info().cpu_model});

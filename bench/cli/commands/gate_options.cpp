@@ -33,6 +33,7 @@ double checked_tolerance(const std::string& text) {
 
 void add_gate_options(CLI::App& command, ProgramContext& context, GateOptions& options) {
   add_selectors(command, context, options.selectors);
+  add_scene_selectors(command, options.selectors);
   command.add_option("--reference", options.reference, "the contestant whose time is the unit")
       ->type_name("D")
       ->capture_default_str();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
@@ -56,7 +57,7 @@ class PairedBatches::Contender {
   }
 
   /// Before anything is timed.
-  GateAnswers answer(std::size_t steps, ground_truth::GroundTruths& truths) {
+  GateAnswers answer(std::size_t steps, ground_truth::TraceTruths& truths) {
     task_.steps = steps;
     const std::vector<workload::StepRange> ranges =
         workload::sample_steps(batches_.workload_.traces[task_.trace].size(), steps);
@@ -117,12 +118,12 @@ std::vector<double> differences(const std::vector<double>& a, const std::vector<
 }  // namespace
 
 PairedBatches::PairedBatches(const contestants::Roster& roster, const workload::Workload& workload,
-                             const workers::SharedArena& arena, const oracle::Oracle& oracle, GatePair pair,
-                             const GateEffort& effort, std::size_t steps, std::uint64_t seed)
+                             const workers::SharedArena& arena, ground_truth::WorkloadTruths& truths,
+                             GatePair pair, const GateEffort& effort, std::size_t steps, std::uint64_t seed)
     : roster_(roster),
       workload_(workload),
       arena_(arena),
-      oracle_(oracle),
+      truths_(truths),
       pair_(std::move(pair)),
       effort_(effort),
       steps_(steps),
@@ -142,10 +143,10 @@ Batch PairedBatches::measure() {
   for (Contender& contender : contenders) contender.build();
   auto& [detector, reference, control] = contenders;
   if (steps_ == 0) choose_steps(detector, reference);
-  ground_truth::GroundTruths truths(oracle_, workload_.traces[pair_.trace]);
-  answers_ = detector.answer(steps_, truths);
-  reference.answer(steps_, truths);
-  control.answer(steps_, truths);
+  const std::unique_ptr<ground_truth::TraceTruths> truths = truths_.of(pair_.trace);
+  answers_ = detector.answer(steps_, *truths);
+  reference.answer(steps_, *truths);
+  control.answer(steps_, *truths);
   for (const Contender& contender : contenders) judged_ += contender.judged();
   for (Contender& contender : contenders) contender.warm_up(effort_.turn_ns);
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
+#include "bench/ground_truth/workload_truths.h"
 #include "bench/measurement/result_row.h"
-#include "bench/oracle/oracle.h"
 #include "bench/regression/gate/judge.h"
 #include "bench/workers/contestant_process.h"
 #include "bench/workload/workload.h"
@@ -45,7 +45,7 @@ class PairedBatches {
  public:
   /// All references must outlive it. `steps` 0: as many as both have time for.
   PairedBatches(const contestants::Roster& roster, const workload::Workload& workload,
-                const workers::SharedArena& arena, const oracle::Oracle& oracle, GatePair pair,
+                const workers::SharedArena& arena, ground_truth::WorkloadTruths& truths, GatePair pair,
                 const GateEffort& effort, std::size_t steps, std::uint64_t seed);
 
   /// Starts the three processes anew, so that chance in how memory was laid out is drawn anew, too. Throws
@@ -68,7 +68,7 @@ class PairedBatches {
   const contestants::Roster& roster_;
   const workload::Workload& workload_;
   const workers::SharedArena& arena_;
-  const oracle::Oracle& oracle_;
+  ground_truth::WorkloadTruths& truths_;
   GatePair pair_;
   GateEffort effort_;
   std::size_t steps_;

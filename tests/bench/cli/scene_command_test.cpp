@@ -167,10 +167,33 @@ TEST_F(SceneCommand, RefusesPosesThatFitNoScene) {
 }
 
 TEST_F(SceneCommand, CommandsOfOneMeshSaySoInOneLine) {
-  expect_bad_input({"gate", "--baseline", "b.csv", "--scene", "heap:3"}, {"gate", "--scene"});
   for (const std::string command : {"choose", "stress", "scale", "update"})
-    expect_bad_input({command, "--scene", "heap:3"}, {command, "--scene", "query, verify, bench and servo"});
+    expect_bad_input({command, "--scene", "heap:3"},
+                     {command, "--scene", "query, verify, bench, servo and gate"});
   expect_bad_input({"choose", "--poses", "poses.csv"}, {"choose", "--poses"});
+}
+
+// The bodies and their motion are those of the baseline, or it is refused.
+TEST_F(SceneCommand, AGateOverBodiesTakesABaselineOfTheSameOnesAlone) {
+  const std::string baseline = (folder_ / "baseline.csv").string();
+  const auto gate = [&](const std::string& height, std::vector<std::string> more) {
+    const std::string bodies = scene(plate("a", "[0,0,0]") + "," + plate("b", "[0,0," + height + "]"));
+    more.insert(more.begin(), {"gate", "--scene", bodies, "--steps", "60", "--detector", "sphere-cluster",
+                               "--rounds", "5", "--tolerance", "90%", "--baseline", baseline});
+    return run_touchmark(more);
+  };
+  const Outcome written = gate("0.25", {"--write-baseline"});
+  ASSERT_EQ(written.status, 0) << written.out << written.err;
+  const Outcome same = gate("0.25", {});
+  EXPECT_EQ(same.status, 0) << same.out << same.err;
+  const Outcome elsewhere = gate("0.375", {});
+  EXPECT_EQ(elsewhere.status, 2);
+  EXPECT_NE(elsewhere.err.find("another mesh"), std::string::npos) << elsewhere.err;
+  const std::string poses =
+      write("moves.csv", "time_s,body,x,y,z,qw,qx,qy,qz\n0,b,0,0,0.25,1,0,0,0\n1,b,0,0,0.5,1,0,0,0\n");
+  const Outcome moving = gate("0.25", {"--poses", poses});
+  EXPECT_EQ(moving.status, 2) << "its baseline is of bodies that stand";
+  EXPECT_NE(moving.err.find("another trajectory"), std::string::npos) << moving.err;
 }
 
 TEST_F(SceneCommand, ListsGeneratedScenesAndMotions) {
