@@ -170,7 +170,8 @@ constexpr auto columns = std::to_array<Column<R>>({
      "took too long, or failed, on a smaller mesh; `checksum mismatch`: timed answers differ from the "
      "verified ones"},
     {"ns_per_query", six_digits<&R::throughput, &T::ns_per_query>, timed, positive,
-     "time of a query, elapsed, over these steps; the median of the repetitions. Other work on the machine "
+     "time of a query, elapsed, over these steps; the median of the repetitions. Over a scene the placing of "
+     "what moved before it is in it, as it is not in `ns_p50` to `ns_max`. Other work on the machine "
      "moves it: compare `ns_undisturbed`"},
     {"ns_p50", six_digits<&R::latency, &L::p50>, timed, finite,
      "half of the steps took at most this, each clocked alone, the clock's own cost included; of several "

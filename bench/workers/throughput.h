@@ -21,8 +21,9 @@ Timed measure_throughput(contestants::Contestant& contestant, const workload::Qu
 
 /// Replays all ranges `passes` times, each range timed separately: a sample is the shorter of its elapsed and
 /// its processor time. A range is replayed `replays` times in a sample, more than once only where there is no
-/// other. `samples` holds those of the ranges in turn, pass by pass, each divided by `replays`. The last
-/// range is replayed before, so that the first does not pay for what others did to the caches.
+/// other. Bodies of a scene are placed within a step's time. `samples` holds those of the ranges in turn,
+/// pass by pass, each divided by `replays`. The last range is replayed before, so that the first does not pay
+/// for what others did to the caches.
 Timed sample_throughput(contestants::Contestant& contestant, const workload::QueryTrace& trace,
                         const std::vector<workload::StepRange>& ranges, std::int64_t passes,
                         std::int64_t replays);
