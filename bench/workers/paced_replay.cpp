@@ -33,12 +33,13 @@ std::size_t step_of_tick(std::uint64_t tick, std::size_t steps) noexcept {
   return static_cast<std::size_t>(along <= last ? along : 2 * last - along);
 }
 
-PacedReplay::PacedReplay(const Pace& pace, std::size_t steps, WakeClock& clock,
-                         std::span<TickRecord> records) noexcept
+PacedReplay::PacedReplay(const Pace& pace, std::size_t steps, WakeClock& clock, std::span<TickRecord> records,
+                         const Accuracy& accuracy) noexcept
     : pace_(pace),
       steps_(steps),
       clock_(clock),
       records_(records),
+      accuracy_(accuracy),
       period_ns_(1e9 / pace.rate_hz),
       start_ns_(clock.now_ns()) {
   assert(steps > 0);

@@ -40,7 +40,7 @@ struct TickRecord {
   std::uint32_t step = 0;         ///< the trace's
   std::int64_t latency_ns = 0;    ///< from the scheduled start to the first answer after it
   std::uint64_t query_ticks = 0;  ///< the query alone, by TickClock, one reading included; lost: 0
-  std::uint64_t checksum = 0;     ///< the answer's
+  std::uint64_t checksum = 0;     ///< tick_checksum of the answer
   Work work;
 };
 static_assert(sizeof(TickRecord) <= sizeof(workload::Answer) && std::is_trivially_copyable_v<TickRecord>);
@@ -52,6 +52,15 @@ struct Pace {
   std::size_t overrun_ticks = 50;  ///< a loop that finds no time to sleep before so many in a row is ended
 };
 
+/// Returns what a loop's answers are compared by. Whoever may name any of several equally near triangles
+/// names another one after other ticks, and no two loops have the same: of that only whether there was
+/// something counts.
+inline std::uint64_t tick_checksum(const workload::Answer& answer, const Accuracy& accuracy) noexcept {
+  workload::Checksum checksum;
+  checksum.add(accuracy.names_exactly ? answer : workload::Answer{answer.found});
+  return checksum.value();
+}
+
 /// Returns the step of a tick: along the trace to its end, back to its beginning, and so on.
 std::size_t step_of_tick(std::uint64_t tick, std::size_t steps) noexcept;
 
@@ -60,12 +69,13 @@ std::size_t step_of_tick(std::uint64_t tick, std::size_t steps) noexcept;
 class PacedReplay final : public contestants::StepPacer {
  public:
   /// As many ticks as `records` has room for. The first begins a period from now. At least one step.
-  PacedReplay(const Pace& pace, std::size_t steps, WakeClock& clock, std::span<TickRecord> records) noexcept;
+  PacedReplay(const Pace& pace, std::size_t steps, WakeClock& clock, std::span<TickRecord> records,
+              const Accuracy& accuracy = certified) noexcept;
 
   std::optional<std::size_t> next() noexcept override;
   void took(std::uint64_t ticks, const workload::Answer& answer, const Work& work) noexcept override {
     took_step(
-        ticks, [&] { return checksum_of(answer); }, work);
+        ticks, [&] { return tick_checksum(answer, accuracy_); }, work);
   }
   /// Takes what is no answer to a query; `checksum()` is called once the tick's time is known.
   template <class Sum>
@@ -82,17 +92,13 @@ class PacedReplay final : public contestants::StepPacer {
   std::int64_t scheduled(std::size_t tick) const noexcept;
   void record_lost(std::int64_t now) noexcept;
   TickRecord& record_asked(std::uint64_t ticks, const Work& work) noexcept;
-  static std::uint64_t checksum_of(const workload::Answer& answer) noexcept {
-    workload::Checksum checksum;
-    checksum.add(answer);
-    return checksum.value();
-  }
   void do_other_work() noexcept;
 
   Pace pace_;
   std::size_t steps_;
   WakeClock& clock_;
   std::span<TickRecord> records_;
+  Accuracy accuracy_;  // the answers'
   double period_ns_;
   std::int64_t start_ns_;
   std::size_t tick_ = 0;           // the next one, or the one that is being asked

@@ -56,6 +56,7 @@ ServoStretch run_servo(contestants::Contestant& contestant, std::optional<contes
   const std::span<TickRecord> records = buffers.tick_records(request.warm_up + request.ticks);
   std::fill(records.begin(), records.end(), TickRecord{});  // no page fault inside the loop
   MonotonicClock clock;
+  const Accuracy accuracy = contestant.accuracy();
   const auto run = [&](PacedReplay& replay) {
     if (request.idle) return run_idle(replay);
     if (request.proxy.wanted) return step_paced(*proxy, trace, replay);
@@ -65,12 +66,12 @@ ServoStretch run_servo(contestants::Contestant& contestant, std::optional<contes
   const RealTimeScope scope(watchdog_s);
   stretch.scheduler = scope.scheduler();
   Pace pace = request.pace;
-  PacedReplay warm_up(pace, trace.steps.size(), clock, records.first(request.warm_up));
+  PacedReplay warm_up(pace, trace.steps.size(), clock, records.first(request.warm_up), accuracy);
   run(warm_up);
   stretch.warmed = warm_up.recorded();
   pace.first_tick += request.warm_up;
   const rusage before = used_by_this_thread();
-  PacedReplay replay(pace, trace.steps.size(), clock, records.subspan(request.warm_up));
+  PacedReplay replay(pace, trace.steps.size(), clock, records.subspan(request.warm_up), accuracy);
   run(replay);
   const rusage after = used_by_this_thread();
   stretch.recorded = replay.recorded();

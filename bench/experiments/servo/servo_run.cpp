@@ -26,12 +26,6 @@ Vec3 free_start(const workload::Workload& workload, const proxy::WayOracle& orac
   return goals.front() + (workload.mesh.diagonal() + 2 * radius) * direction;
 }
 
-std::uint64_t checksum_of(const workload::Answer& answer) {
-  workload::Checksum checksum;
-  checksum.add(answer);
-  return checksum.value();
-}
-
 }  // namespace
 
 std::uint64_t ticks_a_stretch(const ServoSettings& settings) {
@@ -92,7 +86,8 @@ void ServoRun::verify(std::size_t contestant, ground_truth::TraceTruths& truths)
       measurement::summarize_work(arena_.buffers().work(row.steps), answered.work);
   row.work_mean = work.mean;
   row.work_max = work.max;
-  for (const workload::Answer& answer : answers) checksums_[contestant].push_back(checksum_of(answer));
+  for (const workload::Answer& answer : answers)
+    checksums_[contestant].push_back(workers::tick_checksum(answer, *row.accuracy));
   row.counts = truths.judge(query_, {{0, row.steps}}, answers, *row.accuracy);
 }
 

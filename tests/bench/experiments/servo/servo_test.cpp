@@ -60,6 +60,17 @@ TEST(PacedReplay, CountsFromTheScheduledStartWhenItWakesUpLate) {
   EXPECT_EQ(latencies(paced({}, 100, 3, clock)), (std::vector<std::int64_t>{1'000, 301'000, 1'000}));
 }
 
+// A ball at equal distance from two triangles: some rivals name the one that they were asked about before.
+TEST(PacedReplay, ComparesATieOfWhoNamesAnyTriangleByItsContactAlone) {
+  workload::Answer one{1}, other{1};
+  one.triangle = 3;
+  other.triangle = 4;
+  const workload::Answer none{};
+  EXPECT_NE(workers::tick_checksum(one, certified), workers::tick_checksum(other, certified));
+  EXPECT_EQ(workers::tick_checksum(one, uncertified), workers::tick_checksum(other, uncertified));
+  EXPECT_NE(workers::tick_checksum(one, uncertified), workers::tick_checksum(none, uncertified));
+}
+
 TEST(PacedReplay, AStallHidesNoneOfTheTicksThatItTook) {
   SimulatedClock clock;
   // The second query takes 3.2 periods: it is late, two ticks are lost, and one begins late within its
