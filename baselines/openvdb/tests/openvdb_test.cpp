@@ -232,6 +232,22 @@ TEST_F(OpenVdbTraps, APlateThinnerThanAVoxelHasNoInside) {
   for (int z = -3; z <= 4; ++z) EXPECT_GT(grid->tree().getValue({0, 0, z}), 0) << z;
 }
 
+/// A box in a box: the distance to the inner one is left out, which `unsigned` has.
+TEST_F(OpenVdbTraps, ALevelSetLeavesOutWhatLiesInsideOfAClosedMesh) {
+  const TriangleMesh outer = box({20, 20, 20}), inner = box({8, 8, 8});
+  std::vector<Vec3> vertices(outer.vertices().begin(), outer.vertices().end());
+  vertices.insert(vertices.end(), inner.vertices().begin(), inner.vertices().end());
+  std::vector<TriangleMesh::Corners> triangles(outer.triangles().begin(), outer.triangles().end());
+  for (const auto& c : inner.triangles()) triangles.push_back({c[0] + 8, c[1] + 8, c[2] + 8});
+  const TriangleMesh both(vertices, triangles);
+  const auto grid = level_set(both);
+  EXPECT_EQ(grid->tree().getValue({0, 0, 9}), -3);
+  const OpenVdbDetector field =
+      OpenVdbDetector::build(both, {.voxel = 1, .band = 3, .distances = Distances::without});
+  OpenVdbDetector::Session session;
+  EXPECT_TRUE(field.nearest({{0, 0, 9}, 0}, 3, session));
+}
+
 TEST_F(OpenVdbTraps, ALevelSetOfAnOpenSurfaceHasNoSign) {
   const auto grid = level_set(square().transformed(40, {-0.5, -0.5, 0.0125}));
   for (int z = -2; z <= 3; ++z) EXPECT_NEAR(grid->tree().getValue({0, 0, z}), std::abs(z - 0.5), 1e-6) << z;
