@@ -17,7 +17,7 @@ struct alignas(64) FollowedPoint {
   static constexpr std::uint32_t capacity = 16;
 
   Epoch epoch;                 ///< the structure that this is about
-  Vec3 center = Vec3::Zero();  ///< where the list was made
+  Vec3 center = Vec3::Zero();  ///< the place about which the list was made
   double covered = 0;          ///< no triangle that is not listed is nearer to the centre; mesh units
   std::uint32_t count = 0;
   std::uint32_t nearest = 0;  ///< the place of what was nearest last
