@@ -27,7 +27,7 @@ struct Division {
   std::size_t bytes;  ///< no more memory than this
 };
 
-/// Where a plane was proved to be good enough (plane_fitter.h), it answers for a cube; else, where that is,
+/// A plane answers for a cube where it was proved to be good enough (plane_fitter.h); else, where that is,
 /// one triangle T. There d(p, T) is what the octree answers for a point p, and d(p) <= d(p, T) the true
 /// distance. d(p)^2 - |p|^2 is concave, as the least of functions that are linear in p, so in a cube it is at
 /// least what its corners' values are in trilinear interpolation; and d(p, T)^2 - |p|^2 is at most |p - q|^2

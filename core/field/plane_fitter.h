@@ -34,7 +34,7 @@ class PlaneFitter {
   struct Cube {
     Vec3 corner;  ///< the lowest
     double edge;
-    double radius;  ///< of the ball about its middle that holds it
+    double radius;  ///< no point of it is farther from its middle
   };
   struct Fit {
     PlaneCell cell;
