@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/bodies/primitives.h"
 #include "bench/scenes/scenes.h"
 #include "bench/support/did_you_mean.h"
 #include "bench/support/text_file.h"
@@ -20,7 +21,13 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::array<std::string_view, 4> body_keys{"name", "mesh", "position", "orientation"};
+/// What every body has, and what is of one kind of shape.
+constexpr std::string_view of_all[] = {"name", "position", "orientation"};
+struct Kind {
+  std::string_view name;
+  std::string_view sizes;  ///< the key of its numbers
+};
+constexpr Kind shape_kinds[] = {{"plane", "size"}, {"box", "size"}};
 
 /// JSON lets an object have a key twice and says nothing of which one counts.
 class KeysOnce {
@@ -90,6 +97,18 @@ std::array<double, size> numbers_of(const Json& body, const char* key, const cha
   return numbers;
 }
 
+/// Sizes are lengths.
+template <std::size_t size>
+std::array<double, size> sizes_of(const Json& body, const char* key, const char* what) {
+  const std::array<double, size> sizes = numbers_of<size>(body, key, what);
+  for (std::size_t i = 0; i < size; ++i) {
+    if (sizes[i] >= least_size && sizes[i] <= largest_size) continue;
+    throw std::invalid_argument(fmt::format("\"{}\": number {} is {}, and a size is from {} to {}", key,
+                                            i + 1, sizes[i], least_size, largest_size));
+  }
+  return sizes;
+}
+
 Placement placement_of(const Json& body) {
   const auto position = numbers_of<3>(body, "position", "x, y, z");
   const auto orientation = numbers_of<4>(body, "orientation", "w, x, y, z");
@@ -103,25 +122,63 @@ std::string resolved(const std::string& mesh, const std::filesystem::path& folde
   return scenes::is_named(mesh) ? mesh : (folder / mesh).string();
 }
 
+const Kind& kind_of(const Json& body) {
+  const std::string name = text_of(body, "shape");
+  const auto* const kind = std::ranges::find(shape_kinds, name, &Kind::name);
+  if (kind != std::end(shape_kinds)) return *kind;
+  std::vector<std::string> names;
+  for (const Kind& known : shape_kinds) names.emplace_back(known.name);
+  throw std::invalid_argument(
+      fmt::format("\"shape\": \"{}\" is none; it is one of {}", name, fmt::join(names, ", ")));
+}
+
+/// A body has a mesh, or a shape with its sizes.
+void expect_body_keys(const Json& body) {
+  std::vector<std::string_view> keys(std::begin(of_all), std::end(of_all));
+  if (body.is_object() && body.contains("shape")) {
+    if (body.contains("mesh")) throw std::invalid_argument("has both \"mesh\" and \"shape\"");
+    keys.insert(keys.end(), {"shape", kind_of(body).sizes});
+  } else {
+    keys.emplace_back("mesh");
+  }
+  expect_keys(body, keys);
+}
+
+TriangleMesh primitive_of(const Json& body) {
+  if (kind_of(body).name == "plane") {
+    const auto size = sizes_of<2>(body, "size", "x, y");
+    return plane_of(size[0], size[1]);
+  }
+  const auto size = sizes_of<3>(body, "size", "x, y, z");
+  return box_of({size[0], size[1], size[2]});
+}
+
 class SceneReader {
  public:
   explicit SceneReader(const std::string& path) : folder_(std::filesystem::path(path).parent_path()) {}
 
   void add(const Json& json) {
-    expect_keys(json, body_keys);
+    expect_body_keys(json);
     Body body{text_of(json, "name"), 0, {}};
     if (!names_.insert(body.name).second) throw std::invalid_argument("another body has this name");
     body.start = placement_of(json);
-    body.shape = shape_of(resolved(text_of(json, "mesh"), folder_));
+    body.shape = shape_of(json);
     scene_.bodies.push_back(std::move(body));
   }
   BodyScene scene() && { return std::move(scene_); }
 
  private:
-  std::size_t shape_of(const std::string& mesh) {
-    const auto [known, is_new] = shapes_.emplace(mesh, scene_.shapes.size());
-    if (is_new) scene_.shapes.push_back(std::make_shared<const TriangleMesh>(scenes::load_scene(mesh)));
-    return known->second;
+  std::size_t shape_of(const Json& json) {
+    const bool is_primitive = json.contains("shape");
+    const std::string mesh = is_primitive ? "" : resolved(text_of(json, "mesh"), folder_);
+    // Sizes are told apart as they are written; a mesh's name never begins like that.
+    const std::string key =
+        is_primitive ? "\n" + json["shape"].dump() + json[kind_of(json).sizes].dump() : mesh;
+    const auto known = shapes_.find(key);
+    if (known != shapes_.end()) return known->second;
+    scene_.shapes.push_back(
+        std::make_shared<const TriangleMesh>(is_primitive ? primitive_of(json) : scenes::load_scene(mesh)));
+    return shapes_[key] = scene_.shapes.size() - 1;
   }
 
   std::filesystem::path folder_;

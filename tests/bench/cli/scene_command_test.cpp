@@ -136,6 +136,43 @@ TEST_F(SceneCommand, RefusesWhatIsNoSceneInOneLine) {
           {"none.off"});
 }
 
+// A box of 2 x 4 x 6 turned by a quarter turn about z, over a floor.
+TEST_F(SceneCommand, TakesBoxesAndPlanesOfTheSizesWritten) {
+  const std::string two =
+      scene(R"({"name":"box","shape":"box","size":[2,4,6],"position":[10,0,0],"orientation":[1,0,0,1]},)"
+            R"({"name":"floor","shape":"plane","size":[8,2],"position":[0,0,-5],"orientation":[1,0,0,0]})");
+  const std::string motion =
+      write("motion.csv", "x,y,z\n7,0,0\n10,3,0\n10,0,5\n10,0,0\n0,0,-3.5\n5,0,-5\n0,1.5,-5\n");
+  const Rows found = rows(two, motion);
+  EXPECT_EQ(found.bodies, (std::vector<std::string>{"box", "box", "box", "box", "floor", "floor", "floor"}));
+  const std::vector<double> distances{1, 2, 2, 1, 1.5, 1, 0.5};
+  for (std::size_t i = 0; i < distances.size(); ++i)
+    EXPECT_NEAR(std::stod(found.distances.at(i)), distances[i], 1e-14) << i;
+  const Outcome verified =
+      run_touchmark({"verify", "--scene", two, "--steps", "40", "--trajectory", "slide"});
+  EXPECT_EQ(verified.status, 0) << verified.out << verified.err;
+}
+
+TEST_F(SceneCommand, RefusesShapesAndSizesThatAreNoneInOneLine) {
+  const std::string motion = write("motion.csv", "x,y,z\n0,0,0\n");
+  const auto refuses = [&](const std::string& members, const std::vector<std::string>& named) {
+    expect_bad_input({"query", "--scene",
+                      scene(R"({"name":"a","position":[0,0,0],"orientation":[1,0,0,0],)" + members + "}"),
+                      "--trajectory", motion, "--detector", "brute-force"},
+                     named);
+  };
+  refuses(R"("shape":"cone","size":[1,1,1])", {"\"a\"", "cone", "plane, box"});
+  refuses(R"("shape":"box","size":[1,1])", {"\"a\"", "size", "2", "3"});
+  refuses(R"("shape":"box","size":[1,-1,1])", {"\"a\"", "size", "number 2", "-1"});
+  refuses(R"("shape":"box","size":[1,0,1])", {"size", "number 2"});
+  refuses(R"("shape":"box","size":[1,1e300,1])", {"size", "number 2", "1e+30"});
+  refuses(R"("shape":"box","size":4)", {"size", "list"});
+  refuses(R"("shape":"box")", {"size", "missing"});
+  refuses(R"("shape":"box","size":[1,1,1],"mesh":"cube")", {"mesh", "shape"});
+  refuses(R"("shape":7)", {"shape", "text"});
+  refuses(R"("mesh":"cube","size":[1,1,1])", {"size"});
+}
+
 TEST_F(SceneCommand, RefusesPosesThatFitNoScene) {
   const std::string one = scene(plate("a", "[0,0,0]"));
   const std::string motion = write("motion.csv", "x,y,z\n0,0,0\n");
