@@ -167,9 +167,8 @@ class SphereTree {
   template <class Visitor>
   bool search_listed(double reach, double error, spheres::FollowedPoint& list,
                      Visitor& visitor) const noexcept;
-  template <class Visitor>
-  bool list_anew(const FilterPoint& point, double reach, double error, spheres::FollowedPoint& list,
-                 Visitor& visitor) const noexcept;
+  bool list_anew(const Vec3& center, double farthest, spheres::FollowedPoint& list,
+                 Work& work) const noexcept;
   bool is_sampled_clear(const FilterPoint& point, const Vec3& center, double reach,
                         spheres::FollowedPoint& list) const noexcept;
   template <class Visitor>

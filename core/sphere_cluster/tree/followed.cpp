@@ -1,12 +1,16 @@
 // The nearest triangle of one of many points, of which little is remembered (followed_point.h). A query looks
-// at those listed near the point that can be nearest now: bounds of their distances shrink by what the point
-// moves, and are refreshed by each look. A list that does not cover what can be is made anew by a search from
-// the root.
+// at those listed near the point that can be nearest now, by the planes that they are behind. A list that
+// does not cover what can be is made anew.
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "core/search/certified_nearest.h"
+#include "core/simd/lanes.h"
+#include "core/simd/prefetch.h"
 #include "core/sphere_cluster/tree/cylinder_bvh.h"
 #include "core/sphere_cluster/tree/search.h"  // IWYU pragma: keep
 #include "core/sphere_cluster/tree/visitors.h"
@@ -14,11 +18,7 @@
 namespace touchmark {
 namespace {
 
-using spheres::FollowedPoint, spheres::NearestVisitor;
-
-/// How much farther than the nearest triangle others are listed, in mean radii of the leaves: more makes
-/// lists that serve longer moves and take longer to make.
-constexpr double listed_margin = 1;
+using spheres::FollowedPoint, spheres::NearestVisitor, spheres::NearTriangles;
 
 double distance_of_best(const NearestVisitor& visitor) noexcept {
   return std::sqrt(visitor.candidates.best().squared_distance);
@@ -29,115 +29,171 @@ struct RefreshingVisitor {
   NearestVisitor& nearest;
   const Vec3& center = nearest.center;
   Work& work = nearest.work;
-  double found = 0;  ///< its distance
+  Offset found{};
 
   static constexpr bool accepts(std::uint32_t) noexcept { return true; }
   void update(std::uint32_t at, const Offset& offset) noexcept {
-    found = std::sqrt(offset.squared);
+    found = offset;
     nearest.update(at, offset);
   }
 };
 
-/// Lists the nearest of all triangles that it is shown, as far as there is room and within the margin.
-struct ListingVisitor {
-  NearestVisitor& nearest;
-  FollowedPoint& list;
-  double reach, margin;
-  const Vec3& center;
-  float limit;
-  Work work{};
-  double unlisted = std::numeric_limits<double>::infinity();  ///< the least distance of those left out
+/// From where the list was made to the point, in the frame.
+struct MoveInFrame {
+  float x, y, z, length;
 
-  static constexpr bool accepts(std::uint32_t) noexcept { return true; }
-  void update(std::uint32_t at, const Offset& found) noexcept {
-    nearest.update(at, found);
-    insert(at, std::sqrt(found.squared));
-    const double best = distance_of_best(nearest);
-    double farthest = std::min(reach, best) + margin;
-    if (list.count == FollowedPoint::capacity)
-      farthest = std::min(farthest, std::max(best, in_mesh(list.distance[list.count - 1])));
-    limit = std::min(limit, nearest.frame.limit(farthest * farthest));
-  }
-
- private:
-  double in_mesh(float distance) const noexcept {
-    return static_cast<double>(distance) * nearest.frame.unit();
-  }
-  void insert(std::uint32_t at, double distance) noexcept {
-    const float rounded_down = nearest.frame.to_frame_rounded_down(distance);
-    std::uint32_t to = list.count;
-    if (to < FollowedPoint::capacity) {
-      ++list.count;
-    } else {
-      if (!(rounded_down < list.distance[to - 1])) {
-        unlisted = std::min(unlisted, in_mesh(rounded_down));
-        return;
-      }
-      unlisted = std::min(unlisted, in_mesh(list.distance[--to]));
-    }
-    for (; to > 0 && rounded_down < list.distance[to - 1]; --to) {
-      list.slot[to] = list.slot[to - 1];
-      list.distance[to] = list.distance[to - 1];
-    }
-    list.slot[to] = at;
-    list.distance[to] = rounded_down;
-  }
+  MoveInFrame(const Vec3& move, double scale) noexcept
+      : x(static_cast<float>(move.x() * scale)),
+        y(static_cast<float>(move.y() * scale)),
+        z(static_cast<float>(move.z() * scale)),
+        length(static_cast<float>(move.norm() * scale * (1 + 0x1p-20))) {}
 };
+
+/// Returns those listed that may be within the limit, as bits. Bounds and what is added to them are off by
+/// less than 2^-20 of what they are and of the move: docs/exactness.md, E14.
+unsigned listed_within(const FollowedPoint& list, const MoveInFrame& move, float limit) noexcept {
+  if (list.count == 0) return 0;
+  const float padded = std::min(limit * (1 + 0x1p-18F) + move.length * 0x1p-18F, spheres::farthest);
+  const Lanes x = broadcast(move.x), y = broadcast(move.y), z = broadcast(move.z);
+  const auto load = [](const float* from) {
+    Lanes lanes;
+    std::memcpy(&lanes, from, sizeof lanes);
+    return lanes;
+  };
+  unsigned near = 0;
+  for (std::uint32_t i = 0; i < FollowedPoint::capacity; i += 4) {
+    const Lanes bound =
+        load(list.bound + i) + x * load(list.x + i) + y * load(list.y + i) + z * load(list.z + i);
+    near |= at_most(bound, padded) << i;
+  }
+  return near;
+}
+
+/// Puts a listed triangle behind the plane across the offset that was found from it.
+void set_plane(FollowedPoint& list, std::uint32_t i, const PreparedTriangle& triangle, const Vec3& point,
+               const Offset& found, const MoveInFrame& move, double error,
+               const FilterFrame& frame) noexcept {
+  const double distance = std::sqrt(found.squared);
+  if (!(distance > error)) return;
+  const Vec3 away = found.vector / distance;
+  list.x[i] = static_cast<float>(away.x());
+  list.y[i] = static_cast<float>(away.y());
+  list.z[i] = static_cast<float>(away.z());
+  const Vec3 rounded(double{list.x[i]}, double{list.y[i]}, double{list.z[i]});
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vec3& corner : triangle.corner) least = std::min(least, rounded.dot(point - corner));
+  const float along = list.x[i] * move.x + list.y[i] * move.y + list.z[i] * move.z;
+  list.bound[i] = static_cast<float>((least - error) * frame.scale()) - along;
+}
+
+/// Keeps the nearest of what was found, as many as there is room for. Returns what is not kept is how near,
+/// squared.
+float keep_nearest(const NearTriangles& found, FollowedPoint& list) noexcept {
+  std::array<std::uint32_t, NearTriangles::capacity> order;
+  for (std::uint32_t i = 0; i < found.count; ++i) {
+    std::uint32_t to = i;
+    for (; to > 0 && found.bound[i] < found.bound[order[to - 1]]; --to) order[to] = order[to - 1];
+    order[to] = i;
+  }
+  list.nearest = 0;
+  list.count = std::min(found.count, FollowedPoint::capacity);
+  for (std::uint32_t i = 0; i < list.count; ++i) {
+    const std::uint32_t from = order[i];
+    list.slot[i] = found.slot[from];
+    list.bound[i] = found.bound[from];
+    list.x[i] = found.x[from];
+    list.y[i] = found.y[from];
+    list.z[i] = found.z[from];
+  }
+  for (std::uint32_t i = list.count; i < FollowedPoint::capacity; ++i) {
+    list.slot[i] = 0;
+    list.bound[i] = std::numeric_limits<float>::infinity();
+    list.x[i] = list.y[i] = list.z[i] = 0;
+  }
+  if (found.count == list.count) return found.unlisted;
+  const float next = found.bound[order[list.count]] * (1 - 0x1p-20F);
+  return std::min(found.unlisted, next * next);
+}
 
 }  // namespace
 
-/// Shows the visitor those listed that may be nearest, and takes the point along. Returns true if nothing
-/// else can be nearest: then nothing that was not shown is within the least distance, or the reach, and the
-/// error.
+/// Shows the visitor those listed that may be nearest. Returns true if nothing else can be nearest: then
+/// nothing that was not shown is within the least distance, or the reach, and the error.
 template <class Visitor>
 bool SphereTree::search_listed(double reach, double error, FollowedPoint& list,
                                Visitor& visitor) const noexcept {
-  const double moved = (visitor.center - list.center).norm() * (1 + 0x1p-40) + error;
-  list.covered -= moved;
-  list.center = visitor.center;
-  const auto moved_in_frame = static_cast<float>(moved * frame_.scale() * (1 + 0x1p-20));
-  for (float& distance : list.distance) distance = distance * (1 - 0x1p-22F) - moved_in_frame;
+  const Vec3 moved = visitor.center - list.center;
+  const MoveInFrame move(moved, frame_.scale());
   const auto limit_within = [&](double distance) {
     const double in_frame = (distance + 4 * error) * frame_.scale() * (1 + 0x1p-20);
     return static_cast<float>(std::min(in_frame, static_cast<double>(spheres::farthest)));
   };
-  float limit = limit_within(reach);
   double farthest = reach;
+  unsigned near = listed_within(list, move, limit_within(reach));
   const auto look_at = [&](std::uint32_t i) {
-    if (list.distance[i] > limit) return;
     RefreshingVisitor refreshing{visitor};
     visit(list.slot[i], refreshing);
-    list.distance[i] = frame_.to_frame_rounded_down(refreshing.found - error);
-    if (!(refreshing.found < farthest)) return;
-    farthest = refreshing.found;
-    limit = limit_within(farthest);
-    list.nearest = i;
+    const double found = std::sqrt(refreshing.found.squared);
+    if (found < farthest) {
+      farthest = found;
+      list.nearest = i;
+    } else if (found > farthest + 4 * error) {
+      set_plane(list, i, parts_.triangles[list.slot[i]], visitor.center, refreshing.found, move, error,
+                frame_);
+      return;
+    }
+    near &= listed_within(list, move, limit_within(farthest));
   };
   // What was nearest the last time is often nearer than the others can be.
-  const std::uint32_t first = list.nearest;
-  if (list.count > 0) look_at(first);
-  for (std::uint32_t i = 0; i < list.count; ++i)
-    if (i != first) look_at(i);
-  return farthest + 4 * error < list.covered;
+  if (const std::uint32_t first = list.nearest; (near >> first & 1) != 0) {
+    near &= ~(1U << first);
+    look_at(first);
+  }
+  for (unsigned left = near; left != 0; left &= left - 1)
+    prefetch_lines(&parts_.triangles[list.slot[std::countr_zero(left)]], sizeof(PreparedTriangle));
+  while (near != 0) {
+    const auto i = static_cast<std::uint32_t>(std::countr_zero(near));
+    near &= near - 1;
+    look_at(i);
+  }
+  const double uncovered = moved.norm() * (1 + 0x1p-40) + error;
+  return farthest + 4 * error + uncovered < list.covered;
 }
 
-/// Shows the visitor all that may be nearest, and lists what is near. Returns false where that is too much
-/// work.
-template <class Visitor>
-bool SphereTree::list_anew(const FilterPoint& point, double reach, double error, FollowedPoint& list,
-                           Visitor& visitor) const noexcept {
-  const double margin = listed_margin * mean_leaf_radius_;
-  const double sampled = static_cast<double>(distances_.upper_bound(point)) * frame_.unit();
-  const double farthest = std::min(reach, sampled) + error + margin;
-  list.count = list.nearest = 0;
+/// Lists what is near the point, or near where it goes, as far as `farthest` and a margin. Returns false
+/// where that is too much.
+bool SphereTree::list_anew(const Vec3& center, double farthest, FollowedPoint& list,
+                           Work& work) const noexcept {
+  const double margin = double{list.margin} * mean_leaf_radius_;
+  Vec3 about = center;
+  double ahead = 0;
+  if (list.epoch == epoch_ && list.count > 0) {
+    const Vec3 moved = center - list.center;
+    ahead = moved.norm();
+    const double part = std::min(0.5, 0.5 * margin / ahead);
+    if (ahead > 0) about += part * moved;
+    ahead *= part;
+  }
   list.epoch = {};
-  ListingVisitor listing{visitor, list, reach, margin, visitor.center, frame_.limit(farthest * farthest)};
-  const float unseen = traverse(point, listing, work_limit());
-  visitor.work += listing.work;
-  if (unseen == spheres::exhausted) return false;
+  FilterPoint point = frame_.point(about);
+  if (!can_search(point)) return false;
+  const double limit = farthest + ahead + margin;
+  NearTriangles found;
+  const bool is_listed =
+      simd_ == Simd::portable
+          ? spheres::portable::list_near(parts_, point, frame_.limit(limit * limit), refill_limit(), found,
+                                         work)
+          : spheres::avx2::list_near(parts_, point, frame_.limit(limit * limit), refill_limit(), found, work);
+  constexpr std::uint32_t few = 12, many = 24;
+  if (!is_listed || found.count > many)
+    list.margin *= 0.5F;
+  else if (found.count < few)
+    list.margin = std::min(1.25F * list.margin, 1.0F);
+  if (!is_listed) return false;
+  const float unlisted = keep_nearest(found, list);
   list.epoch = epoch_;
-  list.center = visitor.center;
-  list.covered = clearance_from(unseen, listing.unlisted, clearance_pad(point));
+  list.center = about;
+  list.covered = clearance_from(unlisted, std::numeric_limits<double>::infinity(), clearance_pad(point));
   return true;
 }
 
@@ -177,17 +233,26 @@ std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Fol
   const FilterPoint point = frame_.point(center);
   if (!can_search(point)) return nearest_without(center, reach, work);
   const double error = frame_.kernel_error(point.plane_error);
-  if (list.epoch == epoch_) {
-    NearestVisitor visitor(parts_, frame_, center, spheres::farthest, error);
-    const bool is_covered = search_listed(reach, error, list, visitor);
-    work += visitor.work;
-    if (is_covered) return contact_found(visitor, center, reach, error, work);
+  NearestVisitor visitor(parts_, frame_, center, frame_.limit((reach + error) * (reach + error)), error);
+  bool is_covered = list.epoch == epoch_ && search_listed(reach, error, list, visitor);
+  if (!is_covered) {
+    if (!visitor.candidates.found() && is_sampled_clear(point, center, reach, list)) return std::nullopt;
+    double farthest = std::min(reach, static_cast<double>(distances_.upper_bound(point)) * frame_.unit());
+    if (visitor.candidates.found()) farthest = std::min(farthest, distance_of_best(visitor));
+    is_covered = list.cooldown == 0 && list_anew(center, farthest + error, list, visitor.work) &&
+                 search_listed(reach, error, list, visitor);
+    if (list.cooldown > 0) {
+      --list.cooldown;
+    } else {
+      list.last_cooldown =
+          is_covered ? 0 : static_cast<std::uint16_t>(std::min(2 * list.last_cooldown + 1, 255));
+      list.cooldown = list.last_cooldown;
+    }
   }
-  if (is_sampled_clear(point, center, reach, list)) return std::nullopt;
-  NearestVisitor visitor(parts_, frame_, center, spheres::farthest, error);
-  const bool is_listed = list_anew(point, reach, error, list, visitor);
+  const bool is_exhausted =
+      !is_covered && traverse(point, visitor, visitor.work.total() + nearest_limit()) == spheres::exhausted;
   work += visitor.work;
-  if (!is_listed) return fallback().nearest(center, reach, work);
+  if (is_exhausted) return fallback().nearest(center, reach, work);
   return contact_found(visitor, center, reach, error, work);
 }
 

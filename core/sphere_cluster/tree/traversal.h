@@ -22,6 +22,7 @@
 #include "core/simd/target.h"
 #include "core/sphere_cluster/tree/binned_sah.h"
 #include "core/sphere_cluster/tree/leaf_cache.h"
+#include "core/sphere_cluster/tree/near_triangles.h"
 #include "core/sphere_cluster/tree/node.h"
 
 namespace touchmark::spheres {

@@ -19,7 +19,7 @@ namespace {
 using bench::workload::Answer;
 
 static_assert(FollowsPoints<SphereCluster>);
-static_assert(sizeof(SphereCluster::FollowedPoint) == 128);
+static_assert(sizeof(SphereCluster::FollowedPoint) == 384);
 
 bool same_bits(const std::optional<Contact>& a, const std::optional<Contact>& b) {
   const Answer left = a ? Answer::of(*a) : Answer{}, right = b ? Answer::of(*b) : Answer{};
@@ -74,6 +74,17 @@ TEST(FollowedPoint, IsAnsweredAlikeWhereDoublesAreFarApart) {
     const Vec3 far = Vec3::Constant(offset);
     const test::NamedMesh scene{"far off", test::soup(200, 0.3, 2).transformed(1, far), 1.3, far};
     expect_walks_alike(SphereCluster::build(scene.mesh), scene, 1e-2, 5);
+  }
+}
+
+/// In the middle of a sphere everything is equally near, and on a fan's axis or among a thousand equal
+/// triangles far more than a list holds.
+TEST(FollowedPoint, IsAnsweredAlikeWhereMoreIsNearThanIsListed) {
+  const test::NamedMesh inside{"inside", test::bumpy_sphere(30, 0, 1), 1e-3};
+  const test::NamedMesh equal{"equal", test::repeated(1000), 1};
+  for (const test::NamedMesh& scene : {inside, equal}) {
+    const auto detector = SphereCluster::build(scene.mesh);
+    for (const double step : {0.0, 1e-4, 0.1}) expect_walks_alike(detector, scene, step, 7);
   }
 }
 

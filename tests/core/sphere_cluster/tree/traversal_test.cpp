@@ -90,6 +90,41 @@ TEST_P(TriangleBounds, FromAboveNeverFallShortOfTheDistance) {
   }
 }
 
+TEST_P(TriangleBounds, HoldAllAroundBehindThePlaneOfAListedTriangle) {
+  CornerCases cases(92);
+  int above_zero = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const CornerCase c = placed(GetParam(), cases, i);
+    const Alone alone(c.triangle);
+    if (!alone.fits || !alone.frame.covers(c.point)) continue;
+    TreeParts parts;
+    parts.blocks.push_back(alone.block);
+    NearTriangles list;
+    portable::Wide unseen{};
+    portable::add_near(parts, TreeRef{TreeRef::block_bit}, portable::broadcast(alone.frame.point(c.point)),
+                       farthest, unseen, list);
+    ASSERT_GE(list.count, 1u) << i;
+    ASSERT_EQ(list.slot[0], 0u) << i;
+    for (int k = 0; k < 8; ++k) {
+      const Vec3 moved = c.point + cases.magnitude(-9, 1) *
+                                       (c.triangle[static_cast<std::size_t>(k % 3)] - c.point).norm() *
+                                       cases.vector();
+      if (!alone.frame.covers(moved)) continue;
+      const Vec3 move = alone.frame.scale() * (moved - c.point);
+      const double bound = double{list.bound[0]} + double{list.x[0]} * move.x() +
+                           double{list.y[0]} * move.y() + double{list.z[0]} * move.z();
+      const double distance = alone.frame.scale() * std::sqrt(squared_distance(alone.triangle, moved));
+      const double error =
+          alone.frame.scale() * alone.frame.kernel_error(alone.frame.point(moved).plane_error);
+      ASSERT_LE(bound, distance * (1 + 0x1p-19) + move.norm() * 0x1p-19 + error) << i << ", " << k;
+      if (bound > 0.5 * distance && distance > 0) ++above_zero;
+    }
+  }
+  if (GetParam().name == "plain") {
+    EXPECT_GT(above_zero, 5000);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Families, TriangleBounds, testing::ValuesIn(corner_case_families()),
                          [](const auto& family) { return family.param.name; });
 
