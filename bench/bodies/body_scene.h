@@ -24,7 +24,7 @@ struct Body {
 
 /// A sphere about the origin of its frame, or a capsule along z: all points so far from a segment.
 struct RoundShape {
-  double half_length = 0;  ///< of the segment; 0: a sphere
+  double half_length = 0;  ///< half the segment; 0: a sphere
   double radius = 0;
 };
 

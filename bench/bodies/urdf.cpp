@@ -44,7 +44,7 @@ class FirstComplaint final : public console_bridge::OutputHandler {
 
 Vec3 vector_of(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
 
-/// Where something stands that has this place in the frame of what stands there.
+/// Returns where something stands that has this place in the frame of what stands there.
 Placement within(const Placement& outer, const urdf::Pose& inner) {
   const urdf::Rotation& r = inner.rotation;
   const Quaternion turn{r.w, r.x, r.y, r.z};

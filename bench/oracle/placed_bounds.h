@@ -15,7 +15,7 @@ struct Seen {
   std::uint32_t shape = 0;
   Pose pose;
   double rigid = 0;
-  double radius = 0;  ///< of a round body
+  double radius = 0;  ///< a round body's, or 0
 };
 
 /// Bounds |singular value - 1| of a rotation: their squares are off 1 by at most the norm of R^T R - I, whose

@@ -20,7 +20,7 @@ class SceneOracle final : public Reference {
   struct Body {
     std::uint32_t shape = 0;
     Pose pose;
-    double radius = 0;  ///< of a round body, whose shape is its axis: core/scene/shape.h
+    double radius = 0;  ///< a round body's, whose shape is its axis: core/scene/shape.h
   };
 
   /// Throws std::invalid_argument for 2^32 triangles or more in all bodies together.

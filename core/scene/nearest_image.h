@@ -49,7 +49,7 @@ class NearestImage {
 
 /// What the kernel says of the distance to a triangle seen from the point.
 DistanceInterval distance_to(const SeenTriangle& seen) noexcept;
-/// The same of the surface, which is so far from the triangle.
+/// What it says of the surface, which is so far from the triangle.
 DistanceInterval distance_to(const SeenTriangle& seen, double radius) noexcept;
 
 /// Is the surface within the radius? Exact.

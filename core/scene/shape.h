@@ -21,7 +21,7 @@ template <Detector D>
 struct Shape {
   std::shared_ptr<const D> detector;  ///< null for a round shape
   std::shared_ptr<const TriangleMesh> mesh;
-  double radius = 0;  ///< of a round shape, whose surface is all that is so far from its axis; else 0
+  double radius = 0;  ///< 0, or a round shape's, whose surface is all that is so far from its axis
 
   /// Throws what D::build throws.
   static Shape build(TriangleMesh mesh, const typename D::Options& options) {

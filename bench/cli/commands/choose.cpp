@@ -171,7 +171,7 @@ const contestants::ContestantSpec& ChooseCommand::spec_of(const choose::Candidat
       [&](const contestants::ContestantSpec& spec) { return spec.text() == candidate.contestant(); });
 }
 
-/// Of the recommended one; where that is no class of the library, of the best one that is, too.
+/// Returns the recommended one's; where that is no class of the library, also that of the best one that is.
 std::string ChooseCommand::code(const std::vector<std::size_t>& ranked) const {
   std::string text;
   for (const std::size_t i : ranked) {

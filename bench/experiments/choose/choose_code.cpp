@@ -66,7 +66,7 @@ Question question_of(const workload::Workload& workload, workload::Query query) 
           fmt::format("first_hit({{from, to, {}}}, session_)", radius)};
 }
 
-/// The same over bodies, which says whose the contact is.
+/// Asks over bodies, and says whose the contact is.
 Question question_about_bodies(const workload::Workload& workload, workload::Query query) {
   Question question = question_of(workload, query);
   for (const auto& [word, with_body] :

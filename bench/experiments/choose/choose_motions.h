@@ -23,7 +23,7 @@ const std::vector<std::string>& usual_motions_over_bodies();
 workload::Workload workload_by_time(const std::string& mesh_name, const TriangleMesh& mesh,
                                     const workload::Selection& selection,
                                     const std::vector<std::string>& motions, double rate_hz);
-/// The same over bodies, which move in the meantime. Throws std::invalid_argument, also for a generated
+/// Over bodies, which move in the meantime. Throws std::invalid_argument, also for a generated
 /// motion at another rate than 1000.
 workload::Workload workload_by_time(bodies::GeneratedScene scene, const workload::Selection& selection,
                                     const std::vector<std::string>& motions, double rate_hz);
