@@ -15,7 +15,7 @@ namespace touchmark::field {
 struct StoredPlane {
   std::array<float, 2> along{};     ///< the normal's lesser coordinates; the third makes it a unit vector
   float offset = 0;                 ///< height of the cube's lowest corner above the plane, mesh units
-  std::array<float, 2> first{};     ///< where the grid begins
+  std::array<float, 2> first{};     ///< the grid begins here
   std::array<float, 2> per_edge{};  ///< so many squares of the grid are in an edge of the smallest cube
   std::uint16_t near = 0;           ///< so many triangles are named, at most 256
   std::uint8_t bits = 0;            ///< so many squares are along each side of the grid: 2^bits
@@ -31,7 +31,7 @@ struct PlaneCell {
 
   StoredPlane stored;
   Vec3 normal = Vec3::Zero();  ///< unit
-  std::array<int, 2> axes{};   ///< of the grid's coordinates
+  std::array<int, 2> axes{};   ///< along which the grid's coordinates are
 
   PlaneCell() = default;
   explicit PlaneCell(const StoredPlane& plane) noexcept : stored(plane) {
