@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -73,19 +74,19 @@ class CellOctree::Divider {
   }
 
   void keep(Tree& tree, std::size_t entry, const PlaneFitter::Fit& fit) const {
-    const std::size_t words = fit.near.size() + (fit.names.size() + 3) / 4;
-    std::vector<Block> blocks(1 + (words + 15) / 16);
-    blocks[0] = Block::of(fit.cell);
-    for (std::size_t i = 0; i < fit.near.size(); ++i) word_of(blocks, i) = fit.near[i];
-    for (std::size_t i = 0; i < fit.names.size(); ++i)
-      word_of(blocks, fit.near.size() + i / 4) |= std::uint32_t{fit.names[i]} << i % 4 * 8;
+    const PlaneCell& plane = fit.cell;
+    std::vector<Block> blocks((plane.words() + 15) / 16);
+    const auto word = [&](std::size_t i) -> std::uint32_t& { return blocks[i / 16].words[i % 16]; };
+    std::memcpy(&word(0), &plane.stored, sizeof plane.stored);
+    std::size_t end = words_of_plane;
+    for (const std::uint32_t triangle : fit.near) word(end++) = triangle;
+    const std::uint32_t bits = plane.bits_of_name();
+    for (std::uint32_t i = 0; i < fit.names.size(); ++i)
+      word(end + i * bits / 32) |= std::uint32_t{fit.names[i]} << i * bits % 32;
     tree.entries[entry] = leaf_bit | plane_bit | static_cast<std::uint32_t>(tree.blocks.size());
     tree.blocks.insert(tree.blocks.end(), blocks.begin(), blocks.end());
     tree.error = std::max(tree.error, fit.error);
     take(blocks.size() * sizeof(Block));
-  }
-  static std::uint32_t& word_of(std::vector<Block>& blocks, std::size_t i) noexcept {
-    return blocks[1 + i / 16].words[i % 16];
   }
 
   void take(std::size_t bytes) const {
@@ -265,7 +266,10 @@ CellOctree::Leaf CellOctree::leaf_at(const Vec3& place) const noexcept {
     leaf.corner[static_cast<int>(axis)] = static_cast<double>(at[axis] >> level << level);
   leaf.edge = static_cast<double>(1U << level);
   leaf.held = entry & ~leaf_bit;
-  if (leaf.is_plane()) leaf.plane = blocks_[leaf.held & ~plane_bit].plane();
+  if (!leaf.is_plane()) return leaf;
+  StoredPlane plane;
+  std::memcpy(static_cast<void*>(&plane), blocks_[leaf.held & ~plane_bit].words.data(), sizeof plane);
+  leaf.plane = PlaneCell(plane);
   return leaf;
 }
 

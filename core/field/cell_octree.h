@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <functional>
 #include <span>
 #include <vector>
@@ -69,9 +68,9 @@ class CellOctree {
   double height(const Leaf& leaf, const Vec3& place) const noexcept {
     return leaf.plane.height(place - leaf.corner, unit_);
   }
-  /// Returns the position in the mesh of a triangle that is within the error of the place's foot on the
-  /// plane.
-  std::uint32_t triangle_near(const Leaf& leaf, const Vec3& place) const noexcept;
+  /// Returns the position in the mesh of a triangle that is within the error of the foot, on the leaf's
+  /// plane, of the place at this height.
+  std::uint32_t triangle_near(const Leaf& leaf, const Vec3& place, double height) const noexcept;
   /// Returns the largest error that was proved of any leaf: at most what was asked for.
   double error() const noexcept { return error_; }
   std::size_t bytes() const noexcept {
@@ -81,21 +80,9 @@ class CellOctree {
  private:
   using Place = std::array<std::uint32_t, 3>;  ///< in edges of the smallest cube
   static constexpr std::uint32_t leaf_bit = 0x80000000U, plane_bit = 0x40000000U;
-  /// A plane; and behind it, as words, the triangles near it, and their places there by the grid's squares,
-  /// four a word.
+  /// Planes begin a block each; see PlaneCell for what is behind them.
   struct alignas(64) Block {
     std::array<std::uint32_t, 16> words{};
-
-    static Block of(const PlaneCell& plane) noexcept {
-      Block block;
-      std::memcpy(block.words.data(), &plane, sizeof plane);
-      return block;
-    }
-    PlaneCell plane() const noexcept {
-      PlaneCell plane;
-      std::memcpy(static_cast<void*>(&plane), words.data(), sizeof plane);
-      return plane;
-    }
   };
   /// The entries of one cube of the lattice, the first, and of what is below it; children by their place
   /// here.
@@ -128,10 +115,13 @@ class CellOctree {
   std::vector<Block> blocks_;
 };
 
-inline std::uint32_t CellOctree::triangle_near(const Leaf& leaf, const Vec3& place) const noexcept {
-  const std::size_t near = (std::size_t{leaf.held & ~plane_bit} + 1) * 16;
-  const std::uint32_t square = leaf.plane.square_of(place - leaf.corner);
-  return word(near + (word(near + leaf.plane.near + square / 4) >> square % 4 * 8 & 0xffU));
+inline std::uint32_t CellOctree::triangle_near(const Leaf& leaf, const Vec3& place,
+                                               double height) const noexcept {
+  const PlaneCell& plane = leaf.plane;
+  const std::size_t near = std::size_t{leaf.held & ~plane_bit} * 16 + words_of_plane;
+  const std::uint32_t bits = plane.bits_of_name();
+  const std::uint32_t at = plane.square_of(place - leaf.corner, height * places_per_length_) * bits;
+  return word(near + (word(near + plane.stored.near + at / 32) >> at % 32 & ((1U << bits) - 1)));
 }
 
 }  // namespace touchmark::field

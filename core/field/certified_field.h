@@ -71,7 +71,7 @@ class CertifiedField {
           const Vec3& normal = session.leaf.plane.normal;
           const double sign = std::copysign(1.0, height);
           return Contact{probe.center - height * normal, sign * normal, std::abs(height),
-                         ids_[octree_.triangle_near(session.leaf, place)]};
+                         ids_[octree_.triangle_near(session.leaf, place, height)]};
         },
         [&](const PreparedTriangle& triangle, const Offset& offset) {
           return contact_at(triangle, probe.center, offset, ids_[triangle.index]);

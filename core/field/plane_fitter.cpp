@@ -28,17 +28,18 @@ struct PlaneFitter::Grid {
 
   /// Returns the foot in the middle of one of 2^bits squares a side.
   Vec3 middle(const PlaneCell& cell, std::uint32_t square) const noexcept {
-    const double squares = static_cast<double>(1U << cell.bits);
-    const std::array<std::uint32_t, 2> at{square & ((1U << cell.bits) - 1), square >> cell.bits};
+    const double squares = static_cast<double>(1U << cell.stored.bits);
+    const std::array<std::uint32_t, 2> at{square & ((1U << cell.stored.bits) - 1),
+                                          square >> cell.stored.bits};
     Vec3 foot = Vec3::Zero();
     for (std::size_t side = 0; side < 2; ++side)
       foot[axes[side]] = first[side] + (at[side] + 0.5) * size[side] / squares;
-    foot[across] = -(cell.normal.dot(foot) + static_cast<double>(cell.offset)) / cell.normal[across];
+    foot[across] = -(cell.normal.dot(foot) + static_cast<double>(cell.stored.offset)) / cell.normal[across];
     return foot;
   }
   /// Returns how far feet in one of the squares are from its middle, at most.
   double half_diagonal(const PlaneCell& cell) const noexcept {
-    const double half = 0.5 / static_cast<double>(1U << cell.bits);
+    const double half = 0.5 / static_cast<double>(1U << cell.stored.bits);
     double most = 0;
     for (const double sign : {1.0, -1.0}) {
       Vec3 to = Vec3::Zero();
@@ -49,17 +50,12 @@ struct PlaneFitter::Grid {
     }
     return most * (1 + 0x1p-10);  // places on the grid are rounded
   }
-  /// Gives the cell the map from its places to squares.
-  void map(PlaneCell& cell, double unit) const noexcept {
+  /// Tells the cell where the squares are.
+  void lay(PlaneCell& cell, double unit) const noexcept {
     for (std::size_t side = 0; side < 2; ++side) {
-      const double a_length = static_cast<double>(1U << cell.bits) / size[side];
-      const double tilt = cell.normal[axes[side]];
-      for (int k = 0; k < 3; ++k) {
-        const double moved = (k == axes[side] ? 1.0 : 0.0) - tilt * cell.normal[k];
-        cell.to_grid[side][static_cast<std::size_t>(k)] = static_cast<float>(moved * unit * a_length);
-      }
-      const double corner = -tilt * static_cast<double>(cell.offset) - first[side];
-      cell.to_grid[side][3] = static_cast<float>(corner * a_length);
+      cell.stored.first[side] = static_cast<float>(first[side] / unit);
+      cell.stored.per_edge[side] =
+          static_cast<float>(static_cast<double>(1U << cell.stored.bits) * unit / size[side]);
     }
   }
 };
@@ -69,9 +65,9 @@ std::optional<PlaneFitter::Fit> PlaneFitter::fit(const Cube& cube, const Sample&
   const Ball ball{cube.corner + Vec3::Constant(0.5 * cube.edge), middle.distance + 2 * cube.radius};
   std::vector<Near> near = triangles_in(ball);
   if (near.size() > most_triangles) return std::nullopt;
-  Fit fit;
-  fit.cell.normal = mean_normal(near, ball, middle);
-  if (!(fit.cell.normal.squaredNorm() > 0.5)) return std::nullopt;
+  const Vec3 normal = mean_normal(near, ball, middle);
+  if (!(normal.squaredNorm() > 0.5)) return std::nullopt;
+  Fit fit{PlaneCell::across(normal), {}, {}, 0};
   for (Near& one : near) one.height = heights_of(triangles_[one.triangle], ball, fit.cell.normal);
   if (!lay_plane(cube, near, fit) || !name_feet(cube, sample, fit)) return std::nullopt;
   fit.error += 8 * limits_.slop;
@@ -91,8 +87,8 @@ bool PlaneFitter::lay_plane(const Cube& cube, std::span<const Near> near, Fit& f
   const bool is_flat = under.most - under.least <= 1.99 * allowed;
   const double wanted = is_flat ? 0.5 * (under.most + under.least) : under.most - 0.5 * allowed;
   const double corner = -0.5 * cube.edge * fit.cell.normal.sum();  // above the middle
-  fit.cell.offset = static_cast<float>(corner - wanted);
-  const double middle = static_cast<double>(fit.cell.offset) - corner;  // above the plane
+  fit.cell.stored.offset = static_cast<float>(corner - wanted);
+  const double middle = static_cast<double>(fit.cell.stored.offset) - corner;  // above the plane
   if (!std::isfinite(middle)) return false;
   Heights of_cube{infinity, -infinity};
   for (std::size_t i = 0; i < 8; ++i) {
@@ -179,8 +175,8 @@ PlaneFitter::Heights PlaneFitter::heights_of(const PreparedTriangle& triangle, c
 
 PlaneFitter::Grid PlaneFitter::grid_over(const Cube& cube, const PlaneCell& cell) const noexcept {
   Grid grid;
-  cell.normal.cwiseAbs().maxCoeff(&grid.across);
-  grid.axes = {(grid.across + 1) % 3, (grid.across + 2) % 3};
+  grid.axes = cell.axes;
+  grid.across = 3 - cell.axes[0] - cell.axes[1];
   for (std::size_t side = 0; side < 2; ++side) {
     double least = infinity, most = -infinity;
     for (std::size_t i = 0; i < 8; ++i) {
@@ -201,14 +197,14 @@ bool PlaneFitter::name_feet(const Cube& cube, const Sampler& sample, Fit& fit) c
   const Grid grid = grid_over(cube, fit.cell);
   const double allowed = limits_.error - 8 * limits_.slop;
   while (grid.half_diagonal(fit.cell) > 0.5 * allowed)
-    if (++fit.cell.bits > PlaneCell::most_bits) return false;
+    if (++fit.cell.stored.bits > PlaneCell::most_bits) return false;
   if (!name_feet(grid, cube, sample, fit)) return false;
   if (fit.near.size() == 1) {
-    fit.cell.bits = 0;
+    fit.cell.stored.bits = 0;
     fit.names.resize(1);
   }
-  fit.cell.near = static_cast<std::uint16_t>(fit.near.size());
-  grid.map(fit.cell, limits_.unit);
+  fit.cell.stored.near = static_cast<std::uint16_t>(fit.near.size());
+  grid.lay(fit.cell, limits_.unit);
   return true;
 }
 
