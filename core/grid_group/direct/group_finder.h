@@ -46,6 +46,8 @@ class GroupFinder {
   /// radii.
   static constexpr double reach_in_radii = 6;
 
+  struct FloatBounds;
+
  private:
   /// The most triangles gathered around one: beyond, it is out of proportion to its neighbours, and the
   /// hierarchy serves it.
@@ -55,6 +57,8 @@ class GroupFinder {
   double find_members(const FaceFrame& face_frame) noexcept;
   bool gather(const Aabb& box) noexcept;
   bool gather_blocks(const Aabb& box) noexcept;
+  bool add_near(std::uint64_t first, std::uint64_t count) noexcept;
+  bool add_block(std::uint32_t block, const FloatBounds& bounds) noexcept;
   bool select_members(const FaceFrame& face_frame, const Prism& prism) noexcept;
   bool is_too_dense(const FaceFrame& face_frame) noexcept;
 
@@ -64,10 +68,11 @@ class GroupFinder {
   Effort effort_;
   Work work_;
 
+  double start_ = 1;  ///< how high the next prism is at first, in sizes of its triangle
   Aabb gathered_;  ///< near_ holds every triangle that reaches into this
   std::size_t near_count_ = 0, member_count_ = 0;
   std::array<std::uint32_t, near_capacity> near_, members_;
-  alignas(16) std::array<float, near_capacity> near_x_, near_y_, near_z_, near_radius_;  ///< their balls
+  alignas(32) std::array<float, near_capacity> near_x_, near_y_, near_z_, near_radius_;  ///< their balls
 };
 
 }  // namespace touchmark::grid
