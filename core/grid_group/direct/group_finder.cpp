@@ -38,7 +38,8 @@ constexpr double growth = 0.3;
 /// large.
 constexpr double first_height = 1.0, min_height = 0.2, shrinking = 0.6;
 constexpr double lowest_height = first_height * shrinking * shrinking * shrinking;
-static_assert(lowest_height > min_height && first_height * shrinking * shrinking * shrinking * shrinking < min_height &&
+static_assert(lowest_height > min_height &&
+              first_height * shrinking * shrinking * shrinking * shrinking < min_height &&
               GroupFinder::max_looks >= 4);
 
 // Of a ball about the triangle the grown triangle is within 1.6 radii, its size below 1.65, so the highest
@@ -125,9 +126,16 @@ double GroupFinder::find_members(const FaceFrame& face_frame) noexcept {
     box.extend(corner - height * face_frame.normal);
   }
   member_count_ = 0;
-  start_ = lowest_height;
+  // One of two that go without a group is an exception; a second one is not.
+  if (failed_) start_ = lowest_height;
+  failed_ = true;
   if (!gather(box.padded(highest.farthest() + exclusion_margin_))) return 0;
   if (!select_members(face_frame, highest)) return 0;
+  failed_ = false;
+  if (start_ < first_height && member_count_ <= Groups::many_members / 2) {
+    start_ = first_height;
+    return find_members(face_frame);
+  }
   while (member_count_ > Groups::many_members && can_shrink(height, face_frame)) {
     height *= shrinking;
     const Prism lower(face_frame, growth, height, exclusion_margin_, store_.frame);
@@ -139,8 +147,8 @@ double GroupFinder::find_members(const FaceFrame& face_frame) noexcept {
     });
     member_count_ = static_cast<std::size_t>(kept - members_.begin());
   }
-  if (member_count_ <= Groups::max_members)
-    start_ = std::min(first_height, height / (shrinking * face_frame.size));
+  failed_ = member_count_ > Groups::max_members;
+  if (!failed_) start_ = std::min(first_height, height / (shrinking * face_frame.size));
   return height;
 }
 
@@ -187,7 +195,8 @@ bool GroupFinder::gather(const Aabb& box) noexcept {
     gathered_ = Aabb();
     return false;
   }
-  const std::size_t whole = (near_count_ + Prism::balls_a_look - 1) / Prism::balls_a_look * Prism::balls_a_look;
+  const std::size_t whole =
+      (near_count_ + Prism::balls_a_look - 1) / Prism::balls_a_look * Prism::balls_a_look;
   for (std::size_t i = 0; i < whole; ++i) {
     const TriangleBall& ball = store_.balls[near_[std::min(i, near_count_ - 1)]];
     near_x_[i] = ball.x;
@@ -202,7 +211,8 @@ bool GroupFinder::gather(const Aabb& box) noexcept {
 bool GroupFinder::add_near(std::uint64_t first, std::uint64_t count) noexcept {
   const std::uint64_t end = std::min<std::uint64_t>(first + count, store_.size());
   if (near_count_ + (end - first) > std::min<std::uint64_t>(max_near, effort_.max_near)) return false;
-  for (std::uint64_t slot = first; slot < end; ++slot) near_[near_count_++] = static_cast<std::uint32_t>(slot);
+  for (std::uint64_t slot = first; slot < end; ++slot)
+    near_[near_count_++] = static_cast<std::uint32_t>(slot);
   return true;
 }
 
@@ -210,9 +220,14 @@ bool GroupFinder::add_near(std::uint64_t first, std::uint64_t count) noexcept {
 bool GroupFinder::add_block(std::uint32_t block, const FloatBounds& bounds) noexcept {
   const std::uint32_t first = block * TriangleStore::block_size;
   const std::uint32_t end = std::min(first + TriangleStore::block_size, store_.size());
-  for (std::uint32_t slot = first; slot < end; slot += 4)
-    for (unsigned in = balls_in(std::span(store_.balls).subspan(slot).first<4>(), bounds); in != 0; in &= in - 1)
-      near_[near_count_++] = slot + static_cast<std::uint32_t>(std::countr_zero(in));
+  // Which balls reach into the box no branch predictor knows.
+  for (std::uint32_t slot = first; slot < end; slot += 4) {
+    const unsigned in = balls_in(std::span(store_.balls).subspan(slot).first<4>(), bounds);
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      near_[near_count_] = slot + i;
+      near_count_ += in >> i & 1;
+    }
+  }
   return near_count_ <= std::min<std::uint64_t>(max_near, effort_.max_near);
 }
 

@@ -68,8 +68,9 @@ class GroupFinder {
   Effort effort_;
   Work work_;
 
-  double start_ = 1;  ///< how high the next prism is at first, in sizes of its triangle
-  Aabb gathered_;  ///< near_ holds every triangle that reaches into this
+  double start_ = 1;     ///< how high the next prism is at first, in sizes of its triangle
+  bool failed_ = false;  ///< the last one has no group
+  Aabb gathered_;        ///< near_ holds every triangle that reaches into this
   std::size_t near_count_ = 0, member_count_ = 0;
   std::array<std::uint32_t, near_capacity> near_, members_;
   alignas(32) std::array<float, near_capacity> near_x_, near_y_, near_z_, near_radius_;  ///< their balls

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-
 #include <cstring>
 
 #include <Eigen/Geometry>
@@ -35,7 +34,9 @@ inline constexpr std::size_t lanes = 8;
 using Wide [[gnu::vector_size(32)]] = float;
 using WideBits [[gnu::vector_size(32)]] = int;
 inline Wide square_root(Wide x) noexcept { return _mm256_sqrt_ps(x); }
-inline unsigned to_bits(WideBits bits) noexcept { return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(bits))); }
+inline unsigned to_bits(WideBits bits) noexcept {
+  return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(bits)));
+}
 inline constexpr unsigned all = 0xff;
 #include "core/grid_group/direct/prism_exclusion.inl"
 }  // namespace avx2
@@ -77,7 +78,7 @@ void Prism::set_points(const FaceFrame& face_frame, double growth, double height
     for (int j = 0; i + j <= cuts; ++j)
       base_[number(i, j)] = corner[0] + (i * (corner[1] - corner[0]) + j * (corner[2] - corner[0])) / cuts;
   }
-  for (std::size_t k = 0; k < PrismPoints::count; ++k) {
+  for (std::size_t k = 0; k < PrismPoints::padded_count; ++k) {
     const std::size_t point = std::min(k, points - 1);  // the last stands for what is left over
     const Vec3 p =
         base_[point % points_an_end] + (point < points_an_end ? -height : height) * face_frame.normal;
@@ -118,7 +119,7 @@ void Prism::set_limits(const FaceFrame& face_frame, double growth, double height
       if (i + j + 1 < cuts) part({{{i + 1, j}, {i, j + 1}, {i + 1, j + 1}}});
     }
   }
-  for (std::size_t k = 0; k < PrismPoints::count; ++k) {
+  for (std::size_t k = 0; k < PrismPoints::padded_count; ++k) {
     const double squared = across[std::min(k, points - 1) % points_an_end] + height * height;
     const double distance = std::sqrt(squared) + 4 * static_cast<double>(points_.plane_error);
     farthest_ = std::max(farthest_, distance);
@@ -144,7 +145,8 @@ void Prism::set_ball_limits(const FaceFrame& face_frame, double height, double e
   }
 }
 
-unsigned Prism::balls_left(const float* x, const float* y, const float* z, const float* radius) const noexcept {
+unsigned Prism::balls_left(const float* x, const float* y, const float* z,
+                           const float* radius) const noexcept {
 #if TOUCHMARK_HAS_AVX2
   if (use_avx2) return avx2::balls_left(corner_limits_, x, y, z, radius);
 #endif

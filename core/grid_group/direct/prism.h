@@ -30,12 +30,14 @@ struct FaceFrame {
   std::array<Vec3, 3> grown(double growth) const noexcept;
 };
 
-/// Points of a prism as plain arrays: what is farther from all of them than each one's limit loses everywhere in it.
+/// Points of a prism as plain arrays: what is farther from all of them than each one's limit loses everywhere
+/// in it.
 struct PrismPoints {
-  static constexpr std::size_t count = 16;
+  static constexpr std::size_t count = 12;
+  static constexpr std::size_t padded_count = 16;  ///< behind the last are its copies
 
-  alignas(64) std::array<float, count> x, y, z;
-  alignas(64) std::array<float, count> limit;  ///< squared
+  alignas(32) std::array<float, padded_count> x, y, z;
+  alignas(32) std::array<float, padded_count> limit;  ///< squared
   float plane_error = 0;
 };
 
@@ -65,7 +67,7 @@ class Prism {
   static constexpr int cuts = 2;
   static constexpr std::size_t points_an_end = (cuts + 1) * (cuts + 2) / 2;
   static constexpr std::size_t points = 2 * points_an_end;
-  static_assert(points <= PrismPoints::count);
+  static_assert(points == PrismPoints::count);
 
   /// Returns the number of the lattice point that is i cuts from corner 0 towards 1 and j towards 2.
   static constexpr std::size_t number(int i, int j) {

@@ -1,47 +1,43 @@
-// The tests of a prism (prism.h), included once an instruction set in a namespace that defines Wide, a vector of `lanes` floats, and
-// its square_root and all_set. The same operations on each point, so that all exclude the same.
+// The tests of a prism (prism.h), included once an instruction set in a namespace that defines Wide, a vector
+// of `lanes` floats, and its square_root, to_bits and all, the bits of all lanes. The same operations on each
+// point, so that all exclude the same.
+
+#include "core/grid_group/direct/ball_bound.inl"
 
 inline Wide load(const float* from) noexcept {
   Wide values;
   std::memcpy(&values, from, sizeof values);
   return values;
 }
-inline Wide max(Wide a, Wide b) noexcept { return a > b ? a : b; }
 inline Wide min(Wide a, Wide b) noexcept { return a < b ? a : b; }
-
-/// How far beyond a triangle's ball the foot of points in its plane surely lies; `height` is the distance to that plane. 0 or less
-/// where it may lie in the ball.
-inline Wide beyond_ball_of(const TriangleBall& ball, Wide x, Wide y, Wide z, Wide height, float plane_error) noexcept {
-  const Wide dx = x - ball.x, dy = y - ball.y, dz = z - ball.z;
-  // |p - c|^2 is off by 2 |p - c| times the rounding of p and c and by five roundings of its own, the height
-  // by plane_error: all together less than twice plane_error |p - c|, plane_error being eight roundings of
-  // |p| + |c|.
-  const Wide error = 2 * plane_error * ((max(dx, -dx) + max(dy, -dy)) + max(dz, -dz));
-  const Wide along = ((dx * dx + dy * dy) + dz * dz) - error - (height + plane_error) * (height + plane_error);
-  return square_root(max(along, Wide{})) - (ball.radius + 4 * plane_error);
-}
 
 inline bool excludes(const PrismPoints& points, const TrianglePlanes& t, const TriangleBall& ball) noexcept {
   for (std::size_t at = 0; at < PrismPoints::count; at += lanes) {
-    const Wide x = load(points.x.data() + at), y = load(points.y.data() + at), z = load(points.z.data() + at), limit = load(points.limit.data() + at);
-    const auto value = [&](int plane) { return ((x * t.x[plane] + y * t.y[plane]) + z * t.z[plane]) + t.offset[plane]; };
+    const Wide x = load(points.x.data() + at), y = load(points.y.data() + at), z = load(points.z.data() + at),
+               limit = load(points.limit.data() + at);
+    const auto value = [&](int plane) {
+      return ((x * t.x[plane] + y * t.y[plane]) + z * t.z[plane]) + t.offset[plane];
+    };
     const Wide face = value(0), distance = max(face, -face);
     const Wide height = max(distance - points.plane_error, Wide{});
     const Wide side_excess = max(value(1), max(value(2), value(3))) - points.plane_error;
     const Wide excess = max(side_excess, Wide{});
     if (to_bits(height * height + excess * excess > limit) == all) continue;
-    const Wide round = max(excess, beyond_ball_of(ball, x, y, z, distance, points.plane_error));
+    const Wide round = max(excess, beyond_ball(ball, x, y, z, distance, points.plane_error));
     if (to_bits(height * height + round * round > limit) != all) return false;
   }
   return true;
 }
 
-inline unsigned balls_left(const std::array<BallLimit, 6>& corners, const float* x, const float* y, const float* z, const float* radius) noexcept {
+inline unsigned balls_left(const std::array<BallLimit, 6>& corners, const float* x, const float* y,
+                           const float* z, const float* radius) noexcept {
   unsigned left = 0;
   for (std::size_t at = 0; at < Prism::balls_a_look; at += lanes) {
-    const Wide ball_x = load(x + at), ball_y = load(y + at), ball_z = load(z + at), ball_radius = load(radius + at);
+    const Wide ball_x = load(x + at), ball_y = load(y + at), ball_z = load(z + at),
+               ball_radius = load(radius + at);
     const auto ahead = [&](const BallLimit& corner) {  // what exceeds 0 is excluded
-      const Wide dx = ball_x - corner.x, dy = ball_y - corner.y, dz = ball_z - corner.z, beyond = ball_radius + corner.limit;
+      const Wide dx = ball_x - corner.x, dy = ball_y - corner.y, dz = ball_z - corner.z,
+                 beyond = ball_radius + corner.limit;
       return (dx * dx + dy * dy + dz * dz) * (1 - 0x1p-20F) - beyond * beyond;
     };
     Wide least = ahead(corners[0]);
