@@ -18,6 +18,10 @@ if(TOUCHMARK_BUILD_BENCH)
   set(touchmark_programs ${CMAKE_INSTALL_LIBDIR}/touchmark)
   install(TARGETS touchmark touchmark-worker touchmark-worker-bullet-float touchmark-worker-plugin touchmark-tracer
           RUNTIME DESTINATION ${touchmark_programs} COMPONENT program)
+  get_property(modules GLOBAL PROPERTY TOUCHMARK_RIVAL_MODULES)
+  if(modules)
+    install(TARGETS ${modules} LIBRARY DESTINATION ${touchmark_programs} COMPONENT program)
+  endif()
   # touchmark_link(COMPONENT NAME TARGET): a relative link in bin, so that the whole may be moved.
   function(touchmark_link component name target)
     file(RELATIVE_PATH to ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_PREFIX}/${target})

@@ -1,0 +1,24 @@
+#include "bench/contestants/rival_module.h"
+
+#include <filesystem>
+#include <stdexcept>
+
+#include <dlfcn.h>
+
+#include "bench/support/beside_this_program.h"
+
+namespace touchmark::bench::contestants {
+
+/// The shared object stays in the process until it ends.
+void* builder_of(const std::string& rival) {
+  const std::filesystem::path path = support::beside_this_program("touchmark-" + rival + ".so");
+  void* const object = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  void* const function = object == nullptr ? nullptr : dlsym(object, "touchmark_build");
+  if (function == nullptr) {
+    const char* const why = dlerror();
+    throw std::runtime_error(rival + " cannot be loaded: " + (why == nullptr ? "no reason is given" : why));
+  }
+  return function;
+}
+
+}  // namespace touchmark::bench::contestants
