@@ -116,9 +116,21 @@ GroupFinder::Found GroupFinder::find(std::uint32_t slot) noexcept {
 Work GroupFinder::take_work() noexcept { return std::exchange(work_, Work{}); }
 
 /// Leaves the members of the highest prism with no more than many, or of the lowest; none when the mesh is
-/// too dense there. Returns the prism's height.
+/// too dense there. Returns the prism's height. Neighbours are alike: higher than one step above the last two
+/// prisms it is only tried where there are few members.
 double GroupFinder::find_members(const FaceFrame& face_frame) noexcept {
-  double height = start_ * face_frame.size;
+  const double start = std::min(first_height, std::max(heights_[0], heights_[1]) / shrinking);
+  double height = find_below(face_frame, start);
+  if (start < first_height && height > 0 && member_count_ <= Groups::many_members / 2)
+    height = find_below(face_frame, first_height);
+  const bool has_group = height > 0 && member_count_ <= Groups::max_members;
+  heights_ = {heights_[1], has_group ? height : shrinking * lowest_height};
+  return height * face_frame.size;
+}
+
+/// Does so with prisms that are at most so high, in sizes of the triangle, and returns its height in these.
+double GroupFinder::find_below(const FaceFrame& face_frame, double start) noexcept {
+  double height = start * face_frame.size;
   const Prism highest(face_frame, growth, height, exclusion_margin_, store_.frame);
   Aabb box;
   for (const Vec3& corner : face_frame.grown(growth)) {
@@ -126,16 +138,8 @@ double GroupFinder::find_members(const FaceFrame& face_frame) noexcept {
     box.extend(corner - height * face_frame.normal);
   }
   member_count_ = 0;
-  // One of two that go without a group is an exception; a second one is not.
-  if (failed_) start_ = lowest_height;
-  failed_ = true;
   if (!gather(box.padded(highest.farthest() + exclusion_margin_))) return 0;
   if (!select_members(face_frame, highest)) return 0;
-  failed_ = false;
-  if (start_ < first_height && member_count_ <= Groups::many_members / 2) {
-    start_ = first_height;
-    return find_members(face_frame);
-  }
   while (member_count_ > Groups::many_members && can_shrink(height, face_frame)) {
     height *= shrinking;
     const Prism lower(face_frame, growth, height, exclusion_margin_, store_.frame);
@@ -147,9 +151,7 @@ double GroupFinder::find_members(const FaceFrame& face_frame) noexcept {
     });
     member_count_ = static_cast<std::size_t>(kept - members_.begin());
   }
-  failed_ = member_count_ > Groups::max_members;
-  if (!failed_) start_ = std::min(first_height, height / (shrinking * face_frame.size));
-  return height;
+  return height / face_frame.size;
 }
 
 /// Returns false, without members, once there are certainly too many even in the lowest prism.

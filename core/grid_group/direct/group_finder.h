@@ -55,6 +55,7 @@ class GroupFinder {
   static constexpr std::size_t near_capacity = max_near + TriangleStore::block_size;
 
   double find_members(const FaceFrame& face_frame) noexcept;
+  double find_below(const FaceFrame& face_frame, double start) noexcept;
   bool gather(const Aabb& box) noexcept;
   bool gather_blocks(const Aabb& box) noexcept;
   bool add_near(std::uint64_t first, std::uint64_t count) noexcept;
@@ -68,8 +69,7 @@ class GroupFinder {
   Effort effort_;
   Work work_;
 
-  double start_ = 1;     ///< how high the next prism is at first, in sizes of its triangle
-  bool failed_ = false;  ///< the last one has no group
+  std::array<double, 2> heights_{1, 1};  ///< of the last two prisms, in sizes of their triangles
   Aabb gathered_;        ///< near_ holds every triangle that reaches into this
   std::size_t near_count_ = 0, member_count_ = 0;
   std::array<std::uint32_t, near_capacity> near_, members_;
