@@ -69,8 +69,8 @@ class GroupFinder {
   Effort effort_;
   Work work_;
 
-  std::array<double, 2> heights_{1, 1};  ///< of the last two prisms, in sizes of their triangles
-  Aabb gathered_;        ///< near_ holds every triangle that reaches into this
+  std::array<double, 2> heights_{1, 1};  ///< the heights of the last two prisms, in sizes of their triangles
+  Aabb gathered_;                        ///< near_ holds every triangle that reaches into this
   std::size_t near_count_ = 0, member_count_ = 0;
   std::array<std::uint32_t, near_capacity> near_, members_;
   alignas(32) std::array<float, near_capacity> near_x_, near_y_, near_z_, near_radius_;  ///< their balls
