@@ -8,6 +8,13 @@ Aabb bounds_of(const BodyScene& scene) {
   Aabb box;
   for (const Body& body : scene.bodies) {
     const Pose pose = pose_of(body.start);
+    if (const auto round = scene.round.find(body.shape); round != scene.round.end()) {
+      Aabb axis;
+      for (const double z : {-round->second.half_length, round->second.half_length})
+        axis.extend(image(pose, {0, 0, z}));
+      box.extend(axis.padded(round->second.radius));
+      continue;
+    }
     for (const Vec3& vertex : scene.shapes[body.shape]->vertices()) box.extend(image(pose, vertex));
   }
   return box;

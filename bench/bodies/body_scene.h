@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -21,16 +22,24 @@ struct Body {
   Placement start;
 };
 
+/// A sphere about the origin of its frame, or a capsule along z: all points so far from a segment.
+struct RoundShape {
+  double half_length = 0;  ///< half the segment; 0: a sphere
+  double radius = 0;
+};
+
 /// The first body is the lowest: of several at the same distance it is the one that is named.
 struct BodyScene {
   std::string name;  ///< the file's without its folders, or what was generated
   std::vector<std::shared_ptr<const TriangleMesh>> shapes;
   std::vector<Body> bodies;  ///< at least one
+  /// The shapes that are round, whose mesh is facets that trajectories are made over: no answer is about it.
+  std::map<std::size_t, RoundShape> round = {};
 
-  /// Triangles of all bodies: those of a shape count for each body that has it.
+  /// Triangles of all bodies: those of a shape count for each body that has it, a round one's axis as one.
   std::size_t triangles() const noexcept {
     std::size_t sum = 0;
-    for (const Body& body : bodies) sum += shapes[body.shape]->size();
+    for (const Body& body : bodies) sum += round.contains(body.shape) ? 1 : shapes[body.shape]->size();
     return sum;
   }
 };

@@ -1,7 +1,10 @@
 #include "bench/bodies/primitives.h"
 
+#include <cstdint>
 #include <utility>
 
+#include "bench/scenes/generated_scenes.h"
+#include "bench/scenes/portable_sincos.h"
 #include "bench/scenes/surface_builder.h"
 
 namespace touchmark::bench::bodies {
@@ -18,6 +21,22 @@ TriangleMesh plane_of(double size_x, double size_y) {
   for (const Vec3& corner : {Vec3(-x, -y, 0), Vec3(x, -y, 0), Vec3(x, y, 0), Vec3(-x, y, 0)})
     surface.add(corner);
   surface.quad(0, 1, 2, 3);
+  return std::move(surface).mesh();
+}
+
+TriangleMesh facets_of(const RoundShape& shape) {
+  if (shape.half_length == 0) return scenes::icosphere(3).transformed(shape.radius, Vec3::Zero());
+  constexpr std::uint32_t around = 32, quarter = 8, rings = 2 * quarter + 1;
+  scenes::Surface surface;
+  scenes::add_patch(surface, around, rings, [&](double turn, double along) {
+    // The lower hemisphere's rings, then the upper one's.
+    const auto ring = static_cast<std::uint32_t>(along * rings + 0.5);
+    const bool upper = ring > quarter;
+    const double height = static_cast<double>(upper ? ring - quarter - 1 : ring) / quarter - (upper ? 0 : 1);
+    const scenes::SinCos across = scenes::portable_sincos(turn), up = scenes::portable_sincos(height / 4);
+    return Vec3(shape.radius * up.cos * across.cos, shape.radius * up.cos * across.sin,
+                shape.radius * up.sin + (upper ? shape.half_length : -shape.half_length));
+  });
   return std::move(surface).mesh();
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string_view>
@@ -25,9 +26,10 @@ using Json = nlohmann::json;
 constexpr std::string_view of_all[] = {"name", "position", "orientation"};
 struct Kind {
   std::string_view name;
-  std::string_view sizes;  ///< the key of its numbers
+  std::vector<std::string_view> sizes;  ///< the keys of its numbers
 };
-constexpr Kind shape_kinds[] = {{"plane", "size"}, {"box", "size"}};
+const Kind shape_kinds[] = {
+    {"plane", {"size"}}, {"box", {"size"}}, {"sphere", {"radius"}}, {"capsule", {"radius", "length"}}};
 
 /// JSON lets an object have a key twice and says nothing of which one counts.
 class KeysOnce {
@@ -97,16 +99,24 @@ std::array<double, size> numbers_of(const Json& body, const char* key, const cha
   return numbers;
 }
 
-/// Sizes are lengths.
+void expect_size(double size, const std::string& what) {
+  if (size >= least_size && size <= largest_size) return;
+  throw std::invalid_argument(
+      fmt::format("{} is {}, and a size is from {} to {}", what, size, least_size, largest_size));
+}
+
 template <std::size_t size>
 std::array<double, size> sizes_of(const Json& body, const char* key, const char* what) {
   const std::array<double, size> sizes = numbers_of<size>(body, key, what);
-  for (std::size_t i = 0; i < size; ++i) {
-    if (sizes[i] >= least_size && sizes[i] <= largest_size) continue;
-    throw std::invalid_argument(fmt::format("\"{}\": number {} is {}, and a size is from {} to {}", key,
-                                            i + 1, sizes[i], least_size, largest_size));
-  }
+  for (std::size_t i = 0; i < size; ++i) expect_size(sizes[i], fmt::format("\"{}\": number {}", key, i + 1));
   return sizes;
+}
+
+double size_of(const Json& body, const char* key) {
+  if (!body[key].is_number()) throw std::invalid_argument(fmt::format("\"{}\" is not a number", key));
+  const auto size = body[key].get<double>();
+  expect_size(size, fmt::format("\"{}\"", key));
+  return size;
 }
 
 Placement placement_of(const Json& body) {
@@ -137,20 +147,36 @@ void expect_body_keys(const Json& body) {
   std::vector<std::string_view> keys(std::begin(of_all), std::end(of_all));
   if (body.is_object() && body.contains("shape")) {
     if (body.contains("mesh")) throw std::invalid_argument("has both \"mesh\" and \"shape\"");
-    keys.insert(keys.end(), {"shape", kind_of(body).sizes});
+    const Kind& kind = kind_of(body);
+    keys.emplace_back("shape");
+    keys.insert(keys.end(), kind.sizes.begin(), kind.sizes.end());
   } else {
     keys.emplace_back("mesh");
   }
   expect_keys(body, keys);
 }
 
-TriangleMesh primitive_of(const Json& body) {
+std::optional<RoundShape> round_shape_of(const Json& body) {
+  const std::string_view name = kind_of(body).name;
+  if (name == "sphere") return RoundShape{0, size_of(body, "radius")};
+  if (name == "capsule") return RoundShape{0.5 * size_of(body, "length"), size_of(body, "radius")};
+  return std::nullopt;
+}
+
+TriangleMesh flat_shape_of(const Json& body) {
   if (kind_of(body).name == "plane") {
     const auto size = sizes_of<2>(body, "size", "x, y");
     return plane_of(size[0], size[1]);
   }
   const auto size = sizes_of<3>(body, "size", "x, y, z");
   return box_of({size[0], size[1], size[2]});
+}
+
+/// Tells shapes apart by their sizes as they are written; a mesh's name never begins like that.
+std::string key_of_primitive(const Json& body) {
+  std::string key = "\n" + body["shape"].dump();
+  for (const std::string_view size : kind_of(body).sizes) key += body[std::string(size)].dump() + "\n";
+  return key;
 }
 
 class SceneReader {
@@ -171,14 +197,18 @@ class SceneReader {
   std::size_t shape_of(const Json& json) {
     const bool is_primitive = json.contains("shape");
     const std::string mesh = is_primitive ? "" : resolved(text_of(json, "mesh"), folder_);
-    // Sizes are told apart as they are written; a mesh's name never begins like that.
-    const std::string key =
-        is_primitive ? "\n" + json["shape"].dump() + json[kind_of(json).sizes].dump() : mesh;
+    const std::string key = is_primitive ? key_of_primitive(json) : mesh;
     const auto known = shapes_.find(key);
     if (known != shapes_.end()) return known->second;
-    scene_.shapes.push_back(
-        std::make_shared<const TriangleMesh>(is_primitive ? primitive_of(json) : scenes::load_scene(mesh)));
-    return shapes_[key] = scene_.shapes.size() - 1;
+    const std::size_t index = scene_.shapes.size();
+    const std::optional<RoundShape> round = is_primitive ? round_shape_of(json) : std::nullopt;
+    if (round) scene_.round.emplace(index, *round);
+    TriangleMesh made = round          ? facets_of(*round)
+                        : is_primitive ? flat_shape_of(json)
+                                       : scenes::load_scene(mesh);
+    scene_.shapes.push_back(std::make_shared<const TriangleMesh>(std::move(made)));
+    shapes_.emplace(key, index);
+    return index;
   }
 
   std::filesystem::path folder_;

@@ -11,6 +11,7 @@
 
 #include "bench/bodies/poses_csv.h"
 #include "bench/bodies/scene_json.h"
+#include "bench/bodies/urdf.h"
 #include "bench/support/did_you_mean.h"
 #include "core/mesh_io/mesh_io.h"
 
@@ -40,6 +41,13 @@ BodyScene read_node_tree(const std::string& path) {
   return scene;
 }
 
+BodyScene read_robot(const std::string& path) {
+  BodyScene scene = read_urdf(path);
+  std::set<std::string> names;
+  for (Body& body : scene.bodies) body.name = unused(body.name, names);
+  return scene;
+}
+
 std::string lower_case(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
   return text;
@@ -61,9 +69,11 @@ GeneratedScene load_unmoved(const std::string& what) {
   if (std::optional<GeneratedScene> generated = generated_scene(what)) return *std::move(generated);
   expect_a_file(what);
   const std::filesystem::path path(what);
+  const std::string ending = lower_case(path.extension().string());
   GeneratedScene loaded;
-  loaded.scene =
-      lower_case(path.extension().string()) == ".json" ? read_scene_json(what) : read_node_tree(what);
+  loaded.scene = ending == ".json"   ? read_scene_json(what)
+                 : ending == ".urdf" ? read_robot(what)
+                                     : read_node_tree(what);
   loaded.scene.name = path.filename().string();
   return loaded;
 }

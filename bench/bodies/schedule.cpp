@@ -39,6 +39,13 @@ Schedule beginning(const Schedule& schedule, std::size_t steps) {
 
 PlacedScene placed(const BodyScene& scene) {
   PlacedScene result{scene.shapes, {}};
+  if (!scene.round.empty()) result.radii.resize(scene.shapes.size());
+  for (const auto& [shape, round] : scene.round) {
+    const double end = round.half_length;
+    result.shapes[shape] = std::make_shared<const TriangleMesh>(
+        std::vector<Vec3>{{0, 0, -end}, {0, 0, end}}, std::vector<TriangleMesh::Corners>{{0, 1, 1}});
+    result.radii[shape] = round.radius;
+  }
   result.bodies.reserve(scene.bodies.size());
   for (const Body& body : scene.bodies)
     result.bodies.push_back({static_cast<std::uint32_t>(body.shape), pose_of(body.start)});

@@ -110,7 +110,10 @@ struct PlacedScene {
   };
   std::vector<std::shared_ptr<const TriangleMesh>> shapes;
   std::vector<PlacedBody> bodies;
-  bool moves = false;  ///< some body is asked to move
+  bool moves = false;              ///< some body is asked to move
+  std::vector<double> radii = {};  ///< one a shape, above 0 where its mesh is a round one's axis; or none
+
+  double radius_of(std::size_t shape) const noexcept { return radii.empty() ? 0 : radii[shape]; }
 };
 
 /// Throws PoseError.

@@ -60,7 +60,7 @@ std::string complaint_about_arguments(const std::string& error, const ProgramCon
     if (error.find(of_scenes) != std::string::npos && error.find("not expected") != std::string::npos &&
         context.argc > 1)
       return fmt::format(
-          "{} takes a mesh alone: {} is of query, verify, bench, servo and gate (touchmark --help)",
+          "{} takes a mesh alone: {} is of query, verify, bench, servo, gate and choose (touchmark --help)",
           context.argv[1], of_scenes);
   }
   return fmt::format("{} (touchmark --help)", error);

@@ -26,9 +26,10 @@ void add_motion_selectors(CLI::App& command, contestants::MotionSelectors& motio
 
 void add_scene_selectors(CLI::App& command, contestants::Selectors& selectors) {
   command
-      .add_option("--scene", selectors.scene,
-                  "bodies in place of --mesh: a name (touchmark list), a .json file or any file with a node "
-                  "tree")
+      .add_option(
+          "--scene", selectors.scene,
+          "bodies in place of --mesh: a name (touchmark list), a .json or .urdf file or any file with a "
+          "node tree")
       ->type_name("SCENE");
   command
       .add_option("--poses", selectors.poses,

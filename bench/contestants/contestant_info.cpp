@@ -205,6 +205,15 @@ std::vector<ContestantSpec> Roster::thorough_set() const {
 std::vector<ContestantSpec> Roster::candidates(workload::Query query) const {
   std::vector<ContestantSpec> specs = forms(&Forms::scaled);
   for (ContestantSpec& spec : forms(&Forms::chosen)) specs.push_back(std::move(spec));
+  return exact_ones(std::move(specs), query);
+}
+
+std::vector<ContestantSpec> Roster::scene_candidates(workload::Query query) const {
+  return exact_ones(forms(&Forms::scenes), query);
+}
+
+std::vector<ContestantSpec> Roster::exact_ones(std::vector<ContestantSpec> specs,
+                                               workload::Query query) const {
   std::erase_if(specs, [&](const ContestantSpec& spec) {
     return spec.claimed != Guarantee::exact || !find(spec.name).answers(query);
   });

@@ -148,6 +148,8 @@ class Roster {
   std::vector<ContestantSpec> thorough_set() const;
   /// Returns those that `choose` measures: exact ones that answer the query.
   std::vector<ContestantSpec> candidates(workload::Query query) const;
+  /// Returns those that it measures over a scene of bodies.
+  std::vector<ContestantSpec> scene_candidates(workload::Query query) const;
   /// Throws ResourceError where there is less memory than the contestant takes for so many triangles. For
   /// what builds it, to be asked before a clock starts: the answer comes from the system.
   void require_memory_for(const ContestantSpec& spec, std::size_t triangles) const;
@@ -157,6 +159,8 @@ class Roster {
 
  private:
   void sort();
+  /// Keeps those that claim exactness and answer the query.
+  std::vector<ContestantSpec> exact_ones(std::vector<ContestantSpec> specs, workload::Query query) const;
 
   std::vector<ContestantInfo> contestants_;
 };

@@ -20,7 +20,12 @@ class OwnScene {
 
   OwnScene(const bodies::PlacedScene& placed, const OptionValues& values, const OptionsOf<D>& options) {
     std::vector<ShapeId> shapes;
-    for (const auto& mesh : placed.shapes) {
+    for (std::size_t i = 0; i < placed.shapes.size(); ++i) {
+      const auto& mesh = placed.shapes[i];
+      if (const double radius = placed.radius_of(i); radius > 0) {
+        shapes.push_back(scene_.add_shape({nullptr, mesh, radius}));
+        continue;
+      }
       auto detector = std::make_shared<const D>(D::build(*mesh, options(*mesh, values)));
       shapes.push_back(scene_.add_shape({std::move(detector), mesh}));
     }

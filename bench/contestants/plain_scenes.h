@@ -87,6 +87,7 @@ class MergedScene {
   }
 
   static TriangleMesh merged(const bodies::PlacedScene& placed) {
+    expect_triangles(placed);
     if (placed.moves) throw std::invalid_argument("its triangles are one mesh, and the bodies move");
     std::vector<Vec3> vertices;
     std::vector<TriangleMesh::Corners> triangles;

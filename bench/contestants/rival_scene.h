@@ -6,7 +6,9 @@
 
 namespace touchmark::bench::contestants {
 
+/// Throws std::invalid_argument for round bodies.
 inline baselines::PosedScene posed(const bodies::PlacedScene& placed) {
+  expect_triangles(placed);
   baselines::PosedScene scene{placed.shapes, {}};
   scene.bodies.reserve(placed.bodies.size());
   for (const bodies::PlacedScene::PlacedBody& body : placed.bodies)

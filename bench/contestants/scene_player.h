@@ -107,6 +107,12 @@ inline void expect_options_of_scenes(const OptionValues& values) {
     throw std::invalid_argument("prepare=true is of one mesh, not of a scene of bodies");
 }
 
+/// Throws std::invalid_argument for a scene with round bodies, of which a contestant does not know.
+inline void expect_triangles(const bodies::PlacedScene& placed) {
+  if (!placed.radii.empty())
+    throw std::invalid_argument("it takes triangles alone, and the scene has spheres or capsules");
+}
+
 /// `make(placed)` returns the scene that is played.
 template <class Make>
 std::unique_ptr<Contestant> scene_contestant(const bodies::PlacedScene& placed, const Make& make) {

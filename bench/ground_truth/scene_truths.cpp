@@ -14,7 +14,8 @@ constexpr std::size_t wrong_answers_kept = 3;
 
 oracle::SceneOracle scene_oracle(const bodies::PlacedScene& scene) {
   std::vector<oracle::SceneOracle::Body> bodies;
-  for (const bodies::PlacedScene::PlacedBody& body : scene.bodies) bodies.push_back({body.shape, body.start});
+  for (const bodies::PlacedScene::PlacedBody& body : scene.bodies)
+    bodies.push_back({body.shape, body.start, scene.radius_of(body.shape)});
   return {scene.shapes, std::move(bodies)};
 }
 

@@ -1,5 +1,6 @@
 #include "bench/oracle/exact_distance.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <utility>
@@ -160,15 +161,104 @@ ExactNearest nearest_of(const Vec3& point, std::span<const AnyTriangle> triangle
   return nearest;
 }
 
+/// The distance to a surface that is so far from a foot: |sqrt(square) - radius|, in grid units.
+struct Height {
+  mpq_class square;
+  mpq_class radius;
+
+  bool outside() const { return square >= radius * radius; }
+};
+
+/// Is sqrt(a) + more < sqrt(b)?
+bool is_less(const mpq_class& a, const mpq_class& more, const mpq_class& b) {
+  if (more >= 0) {  // 2 more sqrt(a) against the rest of b
+    const mpq_class rest = b - a - more * more;
+    return rest > 0 && mpq_class(4 * more * more * a) < rest * rest;
+  }
+  const mpq_class rest = a - b - more * more;  // against -2 more sqrt(b)
+  return rest < 0 || rest * rest < mpq_class(4 * more * more * b);
+}
+
+bool operator<(const Height& a, const Height& b) {
+  if (a.outside() && b.outside()) return is_less(a.square, b.radius - a.radius, b.square);
+  if (!a.outside() && !b.outside()) return is_less(b.square, a.radius - b.radius, a.square);
+  // sqrt(a) + sqrt(b) against the sum of the radii, both squared.
+  const mpq_class sum = a.radius + b.radius, rest = sum * sum - a.square - b.square;
+  const mpq_class product = 4 * a.square * b.square, squared = rest * rest;
+  return a.outside() ? rest > 0 && product < squared : rest < 0 || product > squared;
+}
+
+/// A number as a sum of two doubles, in grid units of 2^exponent.
+std::pair<double, double> halves(const mpf_class& x, int exponent) {
+  signed long power = 0, rest_power = 0;
+  const double first = mpf_get_d_2exp(&power, x.get_mpf_t());
+  mpf_class leading(first, x.get_prec());
+  if (power >= 0) {
+    mpf_mul_2exp(leading.get_mpf_t(), leading.get_mpf_t(), static_cast<mp_bitcnt_t>(power));
+  } else {
+    mpf_div_2exp(leading.get_mpf_t(), leading.get_mpf_t(), static_cast<mp_bitcnt_t>(-power));
+  }
+  const mpf_class beyond(x - leading, x.get_prec());
+  const double rest_fraction = mpf_get_d_2exp(&rest_power, beyond.get_mpf_t());
+  const double rest = std::ldexp(rest_fraction, static_cast<int>(rest_power - power));
+  const double high = first + rest, low = (first - high) + rest;
+  const int scale = static_cast<int>(power) + exponent;
+  return {std::ldexp(high, scale), std::ldexp(low, scale)};
+}
+
+/// To as many digits as a difference of the root and the radius can cancel, and 300 more.
+std::pair<double, double> distance_of(const Height& height, int exponent) {
+  const Integer &numerator = height.square.get_num(), &denominator = height.square.get_den();
+  const mp_bitcnt_t digits =
+      bits(numerator) + 2 * bits(denominator) + 2 * bits(height.radius.get_num()) + 300;
+  const mpf_class square(mpf_class(numerator, digits) / mpf_class(denominator, digits), digits);
+  const mpf_class root(sqrt(square), digits);
+  return halves(mpf_class(abs(mpf_class(root - mpf_class(height.radius, digits), digits)), digits), exponent);
+}
+
+/// A unit vector across the axis.
+Vec3 across(const Vec3& axis) {
+  return axis.isZero(0) ? Vec3::UnitZ() : Vec3((axis / axis.cwiseAbs().maxCoeff()).unitOrthogonal());
+}
+
+ExactNearest nearest_of_surfaces(const Vec3& point, std::span<const PlacedTriangle> triangles) {
+  Grid grid;
+  grid.add(point);
+  for (const PlacedTriangle& t : triangles) grid.add(t);
+  const Vector origin = grid(point);
+  ExactNearest nearest;
+  std::optional<Height> least;
+  Foot best;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    Foot foot = nearest_on(relative(grid, origin, triangles[i]));
+    mpq_class square(foot.square.numerator, foot.square.denominator);
+    square.canonicalize();
+    const Height height{square, mpq_class(grid(triangles[i].radius))};
+    if (least && !(height < *least)) continue;
+    least = height;
+    best = std::move(foot);
+    nearest.which = i;
+  }
+  const PlacedTriangle& which = triangles[nearest.which];
+  std::tie(nearest.high, nearest.low) = distance_of(*least, grid.exponent());
+  const Vec3 outward = best.square.numerator != 0
+                           ? unit(best.direction, best.along > 0)
+                           : across(which.pose->rotation * (which.corners[1] - which.corners[0]));
+  nearest.point = absolute_position(origin, best, grid.exponent()) + which.radius * outward;
+  if (best.square.numerator != 0) nearest.direction = least->outside() ? outward : Vec3(-outward);
+  return nearest;
+}
+
 template <class AnyTriangle>
-std::strong_ordering compare(const Vec3& point, const AnyTriangle& triangle, double radius) {
+std::strong_ordering compare(const Vec3& point, const AnyTriangle& triangle, double radius, double more) {
   if (std::isinf(radius)) return std::strong_ordering::less;
   Grid grid;
   grid.add(point);
   grid.add(triangle);
   grid.add(radius);
+  grid.add(more);
   const Foot foot = nearest_on(relative(grid, grid(point), triangle));
-  const Integer r = grid(radius);
+  const Integer r = grid(radius) + grid(more);
   return exact::order(foot.square.numerator, Integer(r * r * foot.square.denominator));
 }
 
@@ -178,14 +268,17 @@ ExactNearest nearest_exactly(const Vec3& point, std::span<const Triangle> triang
   return nearest_of(point, triangles);
 }
 ExactNearest nearest_exactly(const Vec3& point, std::span<const PlacedTriangle> triangles) {
-  return nearest_of(point, triangles);
+  const bool round = std::ranges::any_of(triangles, [](const PlacedTriangle& t) { return t.radius > 0; });
+  return round ? nearest_of_surfaces(point, triangles) : nearest_of(point, triangles);
 }
 
-std::strong_ordering compare_distance(const Vec3& point, const Triangle& triangle, double radius) {
-  return compare(point, triangle, radius);
+std::strong_ordering compare_distance(const Vec3& point, const Triangle& triangle, double radius,
+                                      double more) {
+  return compare(point, triangle, radius, more);
 }
-std::strong_ordering compare_distance(const Vec3& point, const PlacedTriangle& triangle, double radius) {
-  return compare(point, triangle, radius);
+std::strong_ordering compare_distance(const Vec3& point, const PlacedTriangle& triangle, double radius,
+                                      double more) {
+  return compare(point, triangle, radius, more);
 }
 
 }  // namespace touchmark::bench::oracle

@@ -24,31 +24,34 @@ struct ExactNearest {
 
 /// `point` and all corners finite, at least one triangle.
 ExactNearest nearest_exactly(const Vec3& point, std::span<const Triangle> triangles);
-/// Works on the images of bodies' triangles; so does one of each pair of functions below.
+/// Works on the surfaces of bodies.
 ExactNearest nearest_exactly(const Vec3& point, std::span<const PlacedTriangle> triangles);
 
-/// How the distance from a point to a triangle compares with `radius` >= 0, which may be infinite.
-std::strong_ordering compare_distance(const Vec3& point, const Triangle& triangle, double radius);
-std::strong_ordering compare_distance(const Vec3& point, const PlacedTriangle& triangle, double radius);
+/// How the distance from a point to a triangle compares with the exact sum of `radius`, which may be
+/// infinite, and `more`; the sum is at least 0. One of each pair of functions, here and below, is of the
+/// image of a body's triangle, whatever its radius.
+std::strong_ordering compare_distance(const Vec3& point, const Triangle& triangle, double radius,
+                                      double more = 0);
+std::strong_ordering compare_distance(const Vec3& point, const PlacedTriangle& triangle, double radius,
+                                      double more = 0);
 
-/// How the distance from the segment `from`-`to` to a triangle compares with `radius` >= 0, which may be
-/// infinite. Zero where they cross.
+/// How the distance from the segment `from`-`to` to a triangle compares with the sum.
 std::strong_ordering compare_segment_distance(const Vec3& from, const Vec3& to, const Triangle& triangle,
-                                              double radius);
+                                              double radius, double more = 0);
 std::strong_ordering compare_segment_distance(const Vec3& from, const Vec3& to,
-                                              const PlacedTriangle& triangle, double radius);
+                                              const PlacedTriangle& triangle, double radius, double more = 0);
 
 /// Compares the distance to the part of the path from `from` to `to` up to `fraction` in [0, 1], which ends
 /// at the very point from + fraction (to - from), be it a double or not.
 std::strong_ordering compare_part_distance(const Vec3& from, const Vec3& to, double fraction,
-                                           const Triangle& triangle, double radius);
+                                           const Triangle& triangle, double radius, double more = 0);
 std::strong_ordering compare_part_distance(const Vec3& from, const Vec3& to, double fraction,
-                                           const PlacedTriangle& triangle, double radius);
+                                           const PlacedTriangle& triangle, double radius, double more = 0);
 
 /// Compares the distance to the last point of that part alone.
 std::strong_ordering compare_distance_on_path(const Vec3& from, const Vec3& to, double fraction,
-                                              const Triangle& triangle, double radius);
+                                              const Triangle& triangle, double radius, double more = 0);
 std::strong_ordering compare_distance_on_path(const Vec3& from, const Vec3& to, double fraction,
-                                              const PlacedTriangle& triangle, double radius);
+                                              const PlacedTriangle& triangle, double radius, double more = 0);
 
 }  // namespace touchmark::bench::oracle

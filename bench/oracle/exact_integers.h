@@ -73,6 +73,7 @@ class Grid {
       for (int row = 0; row < 3; ++row)
         for (int column = 0; column < 3; ++column) add_product(t.pose->rotation(row, column), v[column]);
     add(t.pose->translation);
+    add(t.radius);
   }
 
   /// 0 when only zeros were put in.

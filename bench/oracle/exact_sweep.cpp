@@ -92,17 +92,18 @@ std::strong_ordering compare_end(const Configuration& c) {
 /// for.
 template <class AnyTriangle>
 Configuration part_of(const Vec3& from, const Vec3& to, double fraction, const AnyTriangle& triangle,
-                      double radius) {
+                      double radius, double more) {
   Grid grid;
   grid.add(from);
   grid.add(to);
   grid.add(triangle);
   grid.add(radius);
+  grid.add(more);
   const exact::Parts parts = exact::parts_of(fraction);
   Integer part(static_cast<long>(parts.mantissa)), fine(1);
   if (parts.mantissa != 0 && parts.exponent < 0) fine <<= static_cast<mp_bitcnt_t>(-parts.exponent);
   const Vector origin = grid(from);
-  const Integer r = fine * grid(radius);
+  const Integer r = fine * (grid(radius) + grid(more));
   Configuration c{scaled(part, grid(to) - origin), {}, Integer(r * r)};
   const std::array<Vector, 3> corners = grid(triangle);
   for (std::size_t i = 0; i < 3; ++i) c.w[i] = scaled(fine, corners[i] - origin);
@@ -111,17 +112,17 @@ Configuration part_of(const Vec3& from, const Vec3& to, double fraction, const A
 
 template <class AnyTriangle>
 std::strong_ordering compare_on_path(const Vec3& from, const Vec3& to, double fraction,
-                                     const AnyTriangle& triangle, double radius) {
+                                     const AnyTriangle& triangle, double radius, double more) {
   if (std::isinf(radius)) return std::strong_ordering::less;
-  return compare_end(part_of(from, to, fraction, triangle, radius));
+  return compare_end(part_of(from, to, fraction, triangle, radius, more));
 }
 
 template <class AnyTriangle>
 std::strong_ordering compare_part(const Vec3& from, const Vec3& to, double fraction,
-                                  const AnyTriangle& triangle, double radius) {
+                                  const AnyTriangle& triangle, double radius, double more) {
   if (std::isinf(radius)) return std::strong_ordering::less;
-  const Configuration c = part_of(from, to, fraction, triangle, radius);
-  std::strong_ordering least = exact::lesser(compare_distance(from, triangle, radius), compare_end(c));
+  const Configuration c = part_of(from, to, fraction, triangle, radius, more);
+  std::strong_ordering least = exact::lesser(compare_distance(from, triangle, radius, more), compare_end(c));
   if (cross_through_the_face(c)) least = exact::lesser(least, exact::order(Integer(0), c.squared_radius));
   for (std::size_t i = 0; i < 3; ++i) {
     least = exact::lesser(least, compare_corner(c, c.w[i]));
@@ -132,18 +133,19 @@ std::strong_ordering compare_part(const Vec3& from, const Vec3& to, double fract
 
 template <class AnyTriangle>
 std::strong_ordering compare_segment(const Vec3& from, const Vec3& to, const AnyTriangle& triangle,
-                                     double radius) {
+                                     double radius, double more) {
   if (std::isinf(radius)) return std::strong_ordering::less;
-  std::strong_ordering least =
-      exact::lesser(compare_distance(from, triangle, radius), compare_distance(to, triangle, radius));
+  std::strong_ordering least = exact::lesser(compare_distance(from, triangle, radius, more),
+                                             compare_distance(to, triangle, radius, more));
   if (least == std::strong_ordering::less) return least;
   Grid grid;
   grid.add(from);
   grid.add(to);
   grid.add(triangle);
   grid.add(radius);
+  grid.add(more);
   const Vector origin = grid(from);
-  const Integer r = grid(radius);
+  const Integer r = grid(radius) + grid(more);
   const std::array<Vector, 3> corners = grid(triangle);
   const Configuration c{
       grid(to) - origin, {corners[0] - origin, corners[1] - origin, corners[2] - origin}, Integer(r * r)};
@@ -159,30 +161,30 @@ std::strong_ordering compare_segment(const Vec3& from, const Vec3& to, const Any
 }  // namespace
 
 std::strong_ordering compare_distance_on_path(const Vec3& from, const Vec3& to, double fraction,
-                                              const Triangle& triangle, double radius) {
-  return compare_on_path(from, to, fraction, triangle, radius);
+                                              const Triangle& triangle, double radius, double more) {
+  return compare_on_path(from, to, fraction, triangle, radius, more);
 }
 std::strong_ordering compare_distance_on_path(const Vec3& from, const Vec3& to, double fraction,
-                                              const PlacedTriangle& triangle, double radius) {
-  return compare_on_path(from, to, fraction, triangle, radius);
+                                              const PlacedTriangle& triangle, double radius, double more) {
+  return compare_on_path(from, to, fraction, triangle, radius, more);
 }
 
 std::strong_ordering compare_part_distance(const Vec3& from, const Vec3& to, double fraction,
-                                           const Triangle& triangle, double radius) {
-  return compare_part(from, to, fraction, triangle, radius);
+                                           const Triangle& triangle, double radius, double more) {
+  return compare_part(from, to, fraction, triangle, radius, more);
 }
 std::strong_ordering compare_part_distance(const Vec3& from, const Vec3& to, double fraction,
-                                           const PlacedTriangle& triangle, double radius) {
-  return compare_part(from, to, fraction, triangle, radius);
+                                           const PlacedTriangle& triangle, double radius, double more) {
+  return compare_part(from, to, fraction, triangle, radius, more);
 }
 
 std::strong_ordering compare_segment_distance(const Vec3& from, const Vec3& to, const Triangle& triangle,
-                                              double radius) {
-  return compare_segment(from, to, triangle, radius);
+                                              double radius, double more) {
+  return compare_segment(from, to, triangle, radius, more);
 }
 std::strong_ordering compare_segment_distance(const Vec3& from, const Vec3& to,
-                                              const PlacedTriangle& triangle, double radius) {
-  return compare_segment(from, to, triangle, radius);
+                                              const PlacedTriangle& triangle, double radius, double more) {
+  return compare_segment(from, to, triangle, radius, more);
 }
 
 }  // namespace touchmark::bench::oracle

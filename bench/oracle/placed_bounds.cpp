@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "bench/oracle/exact_distance.h"
-
 namespace touchmark::bench::oracle {
 namespace {
 
@@ -65,20 +63,21 @@ RoundedImage rounded(const PlacedTriangle& triangle) noexcept {
 Interval bounds_of(const Vec3& point, const PlacedTriangle& triangle) noexcept {
   const RoundedImage image = rounded(triangle);
   if (!is_finite(image.corners)) return {0, infinity};
-  return widened(distance_interval(point, image.corners), image.error);
+  const Interval to_image = widened(distance_interval(point, image.corners), image.error);
+  const double radius = triangle.radius;
+  if (!(radius > 0)) return to_image;
+  const double beyond = to_image.lo - radius, within = radius - to_image.hi;
+  return widened({std::max(beyond, within), std::max(to_image.hi - radius, radius - to_image.lo)}, 0);
 }
 
 Interval bounds_of(const Vec3& from, const Vec3& to, const PlacedTriangle& triangle) noexcept {
   const RoundedImage image = rounded(triangle);
   if (!is_finite(image.corners)) return {0, infinity};
-  return widened(segment_distance_interval(from, to, image.corners), image.error);
-}
-
-bool is_within(const Vec3& from, const Vec3& to, const PlacedTriangle& triangle, double radius) {
-  const Interval distance = bounds_of(from, to, triangle);
-  if (distance.hi <= radius) return true;
-  if (distance.lo > radius) return false;
-  return compare_segment_distance(from, to, triangle, radius) <= 0;
+  const Interval to_image = widened(segment_distance_interval(from, to, image.corners), image.error);
+  if (!(triangle.radius > 0)) return to_image;
+  // A way that may come nearer to the axis than the surface is may be anywhere.
+  if (!(to_image.lo > triangle.radius)) return {0, infinity};
+  return widened({to_image.lo - triangle.radius, to_image.hi - triangle.radius}, 0);
 }
 
 }  // namespace touchmark::bench::oracle

@@ -15,6 +15,7 @@ struct Seen {
   std::uint32_t shape = 0;
   Pose pose;
   double rigid = 0;
+  double radius = 0;  ///< a round body's, or 0
 };
 
 /// Bounds |singular value - 1| of a rotation: their squares are off 1 by at most the norm of R^T R - I, whose
@@ -36,11 +37,8 @@ struct RoundedImage {
 };
 RoundedImage rounded(const PlacedTriangle& triangle) noexcept;
 
-/// The true distance to the image lies in these.
+/// The true distance to the surface lies in these.
 Interval bounds_of(const Vec3& point, const PlacedTriangle& triangle) noexcept;
 Interval bounds_of(const Vec3& from, const Vec3& to, const PlacedTriangle& triangle) noexcept;
-
-/// Returns true if the distance from the segment to the image is at most `radius`. Exact.
-bool is_within(const Vec3& from, const Vec3& to, const PlacedTriangle& triangle, double radius);
 
 }  // namespace touchmark::bench::oracle

@@ -8,6 +8,7 @@
 
 #include "bench/oracle/exact_distance.h"
 #include "bench/oracle/placed_bounds.h"
+#include "bench/oracle/placed_surface.h"
 
 namespace touchmark::bench::oracle {
 namespace {
@@ -23,12 +24,13 @@ struct SceneOracle::Structure {
   std::vector<Seen> bodies;
   std::vector<std::uint32_t> first;  ///< triangle of each body, and the end of the last one
   Box box;
+  bool round = false;              ///< some body is
   mutable std::uint32_t hint = 0;  ///< a triangle that was near; any will do
 
   PlacedTriangle triangle(std::uint32_t number) const {
     const std::uint32_t body = body_of(number);
     const Seen& seen = bodies[body];
-    return {triangle_of(*shapes[seen.shape], number - first[body]), &seen.pose};
+    return {triangle_of(*shapes[seen.shape], number - first[body]), &seen.pose, seen.radius};
   }
   std::uint32_t body_of(std::uint32_t number) const {
     return static_cast<std::uint32_t>(std::upper_bound(first.begin(), first.end(), number) - first.begin() -
@@ -48,7 +50,8 @@ struct SceneOracle::Structure {
         if (!std::isfinite(error) || !begin.point.allFinite() || !end.point.allFinite()) return 0.0;
         const double distance =
             from == to ? distance_below(one, begin.point) : distance_below(one, begin.point, end.point);
-        return std::max(0.0, (distance - error) * shrunk);
+        const double to_image = (distance - error) * shrunk;
+        return std::max(0.0, to_image - body.radius - 4 * unit_roundoff * (to_image + body.radius));
       };
       trees[body.shape].visit(below, limit, [&](std::uint32_t triangle) { visit(first[i] + triangle); });
     }
@@ -119,9 +122,10 @@ struct SceneOracle::Structure {
 
   double largest_difference(const Vec3& center, std::uint32_t number) const {
     double largest = 0;
-    for (const Vec3& v : rounded(triangle(number)).corners)
+    const PlacedTriangle one = triangle(number);
+    for (const Vec3& v : rounded(one).corners)
       largest = std::max(largest, (v - center).cwiseAbs().maxCoeff());
-    return largest;
+    return largest + one.radius;
   }
 };
 
@@ -134,14 +138,16 @@ SceneOracle::SceneOracle(std::vector<std::shared_ptr<const TriangleMesh>> shapes
   s.box = {Vec3::Constant(infinity), Vec3::Constant(-infinity)};
   for (const Body& body : bodies) {
     s.first.push_back(static_cast<std::uint32_t>(sum));
-    s.bodies.push_back({body.shape, body.pose, rigidity(body.pose.rotation)});
+    s.bodies.push_back({body.shape, body.pose, rigidity(body.pose.rotation), body.radius});
+    s.round = s.round || body.radius > 0;
     const TriangleMesh& shape = *s.shapes[body.shape];
     sum += shape.size();
     if (sum > std::numeric_limits<std::uint32_t>::max())
       throw std::invalid_argument("the bodies have 2^32 triangles or more together, and cannot be judged");
     for (std::uint32_t i = 0; i < shape.size(); ++i) {
       const Box one = box_of(rounded({triangle_of(shape, i), &body.pose}).corners);
-      s.box = {s.box.min.cwiseMin(one.min), s.box.max.cwiseMax(one.max)};
+      s.box = {s.box.min.cwiseMin(one.min - Vec3::Constant(body.radius)),
+               s.box.max.cwiseMax(one.max + Vec3::Constant(body.radius))};
     }
   }
   s.first.push_back(static_cast<std::uint32_t>(sum));
@@ -171,17 +177,14 @@ GroundTruth SceneOracle::solve(const Vec3& center, std::uint32_t triangle) const
 }
 
 bool SceneOracle::within(const GroundTruth& truth, const Vec3& center, double radius) const {
+  // The digits are those of a root, and of what a radius leaves of it.
+  if (structure_->round) return truth.defined && within(truth.triangle, center, radius);
   const std::optional<bool> told = within_by_digits(truth, radius);
   return told ? *told : compare_distance(center, structure_->triangle(truth.triangle), radius) <= 0;
 }
 
 bool SceneOracle::within(std::uint32_t triangle, const Vec3& center, double radius) const {
-  if (!center.allFinite() || !(radius >= 0)) return false;
-  const PlacedTriangle placed = structure_->triangle(triangle);
-  const Interval distance = bounds_of(center, placed);
-  if (distance.hi <= radius) return true;
-  if (distance.lo > radius) return false;
-  return compare_distance(center, placed, radius) <= 0;
+  return center.allFinite() && radius >= 0 && is_within(center, structure_->triangle(triangle), radius);
 }
 
 std::vector<std::uint32_t> SceneOracle::all_within(const Vec3& center, double radius) const {
@@ -201,35 +204,22 @@ bool SceneOracle::segment_within(const Vec3& from, const Vec3& to, double radius
 }
 
 bool SceneOracle::touches_before(const Sweep& sweep, double fraction) const {
-  const Vec3 &from = sweep.from, &to = sweep.to;
-  const double radius = sweep.radius;
-  const auto touched = [&](const PlacedTriangle& triangle) {
-    const std::strong_ordering order = compare_part_distance(from, to, fraction, triangle, radius);
-    if (order != 0) return order < 0;
-    // At the very radius: only from here on?
-    return compare_distance_on_path(from, to, fraction, triangle, radius) != 0 ||
-           compare_part_distance(from, to, std::nextafter(fraction, 0), triangle, radius) <= 0;
-  };
-  return fraction > 0 && structure_->any_on_path(sweep, fraction, false, radius, touched);
+  return fraction > 0 &&
+         structure_->any_on_path(sweep, fraction, false, sweep.radius, [&](const PlacedTriangle& one) {
+           return is_touched_before(sweep, fraction, one);
+         });
 }
 
 bool SceneOracle::within_on_path(const Sweep& sweep, double fraction, double radius) const {
-  return structure_->any_on_path(sweep, fraction, true, radius, [&](const PlacedTriangle& triangle) {
-    return compare_distance_on_path(sweep.from, sweep.to, fraction, triangle, radius) <= 0;
+  return structure_->any_on_path(sweep, fraction, true, radius, [&](const PlacedTriangle& one) {
+    return is_within_on_path(sweep, fraction, one, radius);
   });
 }
 
 bool SceneOracle::surely_crosses(const Vec3& from, const Vec3& to, double margin) const {
   if (!from.allFinite() || !to.allFinite() || !(margin >= 0)) return false;
-  return structure_->any(from, to, 0, [&](const PlacedTriangle& t) {
-    if (!is_within(from, to, t, 0)) return false;
-    if (is_within(from, from, t, margin) || is_within(to, to, t, margin)) return false;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vec3 &a = t.corners[i], &b = t.corners[(i + 1) % 3];
-      if (is_within(from, to, {{a, b, b}, t.pose}, margin)) return false;
-    }
-    return true;
-  });
+  return structure_->any(from, to, 0,
+                         [&](const PlacedTriangle& one) { return is_surely_crossed(from, to, one, margin); });
 }
 
 std::pair<std::size_t, std::size_t> SceneOracle::named_by(const workload::Answer& answer) const {

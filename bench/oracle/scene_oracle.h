@@ -1,6 +1,6 @@
 /// What the right answers are about a scene of bodies as it stands: on the images of the stored triangles
-/// under the stored poses, in exact arithmetic. Doubles only choose which triangles are looked at, by bounds
-/// that hold whatever was rounded.
+/// under the stored poses, or so far from an axis, in exact arithmetic. Doubles only choose which triangles
+/// are looked at, by bounds that hold whatever was rounded.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +20,7 @@ class SceneOracle final : public Reference {
   struct Body {
     std::uint32_t shape = 0;
     Pose pose;
+    double radius = 0;  ///< a round body's, whose shape is its axis: core/scene/shape.h
   };
 
   /// Throws std::invalid_argument for 2^32 triangles or more in all bodies together.

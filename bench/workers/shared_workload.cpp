@@ -70,8 +70,8 @@ std::size_t bodies_begin(const WorkloadLayout& layout) noexcept {
   return (mesh_bytes(layout) + step_bytes(layout) + aligned - 1) / aligned * aligned;
 }
 
-/// A body is its shape and its pose at the start.
-constexpr std::size_t bytes_a_body = sizeof(std::uint64_t) + sizeof(bodies::BodyMove);
+/// A body is its shape, that one's radius where it is round, and the body's pose at the start.
+constexpr std::size_t bytes_a_body = sizeof(std::uint64_t) + sizeof(double) + sizeof(bodies::BodyMove);
 
 std::size_t schedule_bytes(const WorkloadLayout& layout, std::size_t trace) noexcept {
   if (layout.trace_moves[trace] == 0) return 0;
@@ -85,10 +85,10 @@ void put_mesh(Cursor& cursor, const TriangleMesh& mesh) noexcept {
   for (const TriangleId id : mesh.ids()) cursor.put(id);
 }
 
-void put_scene(Cursor& cursor, const workload::Workload& workload) {
-  const bodies::PlacedScene scene = placed(*workload.scene);
+void put_scene(Cursor& cursor, const bodies::PlacedScene& scene, const workload::Workload& workload) {
   for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
     cursor.put(std::uint64_t{scene.bodies[i].shape});
+    cursor.put(scene.radius_of(scene.bodies[i].shape));
     cursor.put(bodies::BodyMove::of(i, scene.bodies[i].start));
   }
   for (const bodies::Schedule& schedule : workload.schedules) {
@@ -148,7 +148,7 @@ WorkloadLayout layout_of(const workload::Workload& workload, std::size_t min_out
     layout.ids = mesh.ids().size();
     return layout;
   }
-  for (const auto& shape : workload.scene->shapes)
+  for (const auto& shape : placed(*workload.scene).shapes)
     layout.shapes.push_back({shape->vertices().size(), shape->size(), shape->ids().size()});
   layout.bodies = workload.scene->bodies.size();
   for (const bodies::Schedule& schedule : workload.schedules)
@@ -160,8 +160,10 @@ SharedMemory write_input(const workload::Workload& workload) {
   const WorkloadLayout layout = layout_of(workload);
   SharedMemory memory = SharedMemory::create(layout.input_bytes());
   Cursor cursor(memory.bytes().data());
+  bodies::PlacedScene scene;
   if (workload.scene) {
-    for (const auto& shape : workload.scene->shapes) put_mesh(cursor, *shape);
+    scene = placed(*workload.scene);
+    for (const auto& shape : scene.shapes) put_mesh(cursor, *shape);
   } else {
     put_mesh(cursor, workload.mesh);
   }
@@ -174,7 +176,7 @@ SharedMemory write_input(const workload::Workload& workload) {
   }
   if (workload.scene) {
     Cursor after(memory.bytes().data() + bodies_begin(layout));
-    put_scene(after, workload);
+    put_scene(after, scene, workload);
   }
   return memory;
 }
@@ -192,6 +194,10 @@ bodies::PlacedScene read_scene(std::span<const std::byte> input, const WorkloadL
   Reader placed(input.data() + bodies_begin(layout));
   for (std::size_t i = 0; i < layout.bodies; ++i) {
     const auto shape = static_cast<std::uint32_t>(placed.get<std::uint64_t>());
+    if (const auto radius = placed.get<double>(); radius > 0) {
+      scene.radii.resize(scene.shapes.size());
+      scene.radii[shape] = radius;
+    }
     scene.bodies.push_back({shape, placed.get<bodies::BodyMove>().pose()});
   }
   scene.moves = std::ranges::any_of(layout.trace_moves, [](std::size_t moves) { return moves > 0; });

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 #include <string>
 
+#include "core/field/plane_fitter.h"
 #include "core/search/parallel.h"
+#include "core/sign/triangle_tree.h"
 
 namespace touchmark::field {
 namespace {
@@ -16,6 +19,7 @@ namespace {
 using Corners = std::array<double, 8>;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double half_diagonal = 0.8660254037844387;  // of a cube of edge 1, rounded up
 constexpr std::uint32_t max_lattice = 32;             // cubes along the longest axis
 constexpr double max_places = 0x1p28;                 // smallest cubes along the longest axis
@@ -27,12 +31,13 @@ bool is_side(std::size_t corner, std::size_t axis) noexcept { return (corner >> 
 /// Divides one cube of the lattice after the other.
 class CellOctree::Divider {
  public:
-  Divider(const CellOctree& octree, const Division& division, double diagonal,
-          std::atomic<std::size_t>& entries)
+  Divider(const CellOctree& octree, const Division& division, double diagonal, const PlaneFitter& planes,
+          std::atomic<std::size_t>& bytes)
       : octree_(octree),
         division_(division),
+        planes_(planes),
         squared_pad_(4 * diagonal * octree.slop_ + 64 * epsilon * diagonal * diagonal),
-        entries_(entries) {}
+        bytes_(bytes) {}
 
   Tree divide(const Place& at, const Corners& distance, const Sampler& sample) const {
     Tree tree;
@@ -45,21 +50,49 @@ class CellOctree::Divider {
   void divide(Tree& tree, std::size_t entry, const Place& at, std::uint32_t level, const Corners& distance,
               const Sampler& sample) const {
     const double edge = std::ldexp(octree_.unit_, static_cast<int>(level));
-    const Sample middle = sample(octree_.position(at) + Vec3::Constant(0.5 * edge));
+    const Vec3 corner = octree_.position(at);
+    const Sample middle = sample(corner + Vec3::Constant(0.5 * edge), infinity);
     const double radius = half_diagonal * edge + octree_.slop_;
     if (middle.distance - radius > division_.band) {
       tree.entries[entry] = leaf_bit | far;
-      ++tree.leaves;
       return;
+    }
+    // Larger cubes need more names than there are; farther off a triangle does for cubes as large.
+    if (edge <= 16 * division_.error && middle.distance <= 2 * edge) {
+      if (const auto fit = planes_.fit({corner, edge, radius}, middle, sample)) {
+        keep(tree, entry, *fit);
+        return;
+      }
     }
     const double error = error_in(at, level, distance, middle, radius);
     if (level == 0 || error <= division_.error) {
       tree.entries[entry] = leaf_bit | middle.triangle;
       tree.error = std::max(tree.error, error);
-      ++tree.leaves;
       return;
     }
     divide_further(tree, entry, at, level, distance, middle.distance, sample);
+  }
+
+  void keep(Tree& tree, std::size_t entry, const PlaneFitter::Fit& fit) const {
+    const PlaneCell& plane = fit.cell;
+    std::vector<Block> blocks((plane.words() + 15) / 16);
+    const auto word = [&](std::size_t i) -> std::uint32_t& { return blocks[i / 16].words[i % 16]; };
+    std::memcpy(&word(0), &plane.stored, sizeof plane.stored);
+    std::size_t end = words_of_plane;
+    for (const std::uint32_t triangle : fit.near) word(end++) = triangle;
+    const std::uint32_t bits = plane.bits_of_name();
+    for (std::uint32_t i = 0; i < fit.names.size(); ++i)
+      word(end + i * bits / 32) |= std::uint32_t{fit.names[i]} << i * bits % 32;
+    tree.entries[entry] = leaf_bit | plane_bit | static_cast<std::uint32_t>(tree.blocks.size());
+    tree.blocks.insert(tree.blocks.end(), blocks.begin(), blocks.end());
+    tree.error = std::max(tree.error, fit.error);
+    take(blocks.size() * sizeof(Block));
+  }
+
+  void take(std::size_t bytes) const {
+    if ((bytes_ += bytes) > division_.bytes)
+      throw std::invalid_argument("field: an error of " + std::to_string(division_.error) +
+                                  " takes more than " + std::to_string(division_.bytes >> 20) + " MiB");
   }
 
   /// Bounds how much farther the middle's triangle can be than the nearest, anywhere in the cube. Neither of
@@ -91,13 +124,11 @@ class CellOctree::Divider {
       if (is_corner) {
         known[i] = distance[part[0] / 2 + part[1] / 2 * 2 + part[2] / 2 * 4];
       } else {
-        known[i] = i == 13 ? in_middle : sample(octree_.position(there)).distance;
+        known[i] = i == 13 ? in_middle : sample(octree_.position(there), infinity).distance;
       }
     }
     const std::size_t first = tree.entries.size();
-    if (sizeof(std::uint32_t) * (entries_ += 8) > division_.bytes)
-      throw std::invalid_argument("field: an error of " + std::to_string(division_.error) +
-                                  " takes more than " + std::to_string(division_.bytes >> 20) + " MiB");
+    take(8 * sizeof(std::uint32_t));
     tree.entries.resize(first + 8);
     tree.entries[entry] = static_cast<std::uint32_t>(first);
     for (std::size_t child = 0; child < 8; ++child) {
@@ -121,8 +152,9 @@ class CellOctree::Divider {
 
   const CellOctree& octree_;
   const Division& division_;
+  const PlaneFitter& planes_;
   double squared_pad_;
-  std::atomic<std::size_t>& entries_;
+  std::atomic<std::size_t>& bytes_;
 };
 
 /// The lattice goes beyond the mesh's box by the band, and its smallest cube is so small that no triangle
@@ -159,22 +191,24 @@ std::vector<double> CellOctree::sample_lattice(const Division& division,
       const Place at{static_cast<std::uint32_t>(x << depth_),
                      static_cast<std::uint32_t>(row % rows << depth_),
                      static_cast<std::uint32_t>(row / rows << depth_)};
-      distances[row * across + x] = samplers[thread](position(at)).distance;
+      distances[row * across + x] = samplers[thread](position(at), infinity).distance;
     }
   });
   return distances;
 }
 
-CellOctree::CellOctree(const Aabb& bounds, const Division& division,
-                       const std::function<Sampler()>& make_sampler) {
-  if (!choose_lattice(bounds, division)) return;
+CellOctree::CellOctree(const TriangleMesh& mesh, std::span<const PreparedTriangle> triangles,
+                       const Division& division, const std::function<Sampler()>& make_sampler) {
+  if (!choose_lattice(mesh.bounds(), division)) return;
+  const sign::TriangleTree tree(mesh);
   std::vector<Sampler> samplers;
   for (unsigned i = 0; i < division.threads; ++i) samplers.push_back(make_sampler());
   const std::vector<double> distances = sample_lattice(division, samplers);
   const std::size_t across = counts_[0] + 1, rows = counts_[1] + 1;
   std::vector<Tree> trees(std::size_t{counts_[0]} * counts_[1] * counts_[2]);
-  std::atomic<std::size_t> entries = trees.size();
-  const Divider divider(*this, division, bounds.padded(division.band).extent().norm(), entries);
+  std::atomic<std::size_t> bytes = trees.size() * sizeof(std::uint32_t);
+  const PlaneFitter planes(tree, triangles, {division.error, unit_, slop_});
+  const Divider divider(*this, division, mesh.bounds().padded(division.band).extent().norm(), planes, bytes);
   in_parallel(trees.size(), division.threads, [&](unsigned thread, std::size_t i) {
     const std::size_t x = i % counts_[0], y = i / counts_[0] % counts_[1], z = i / counts_[0] / counts_[1];
     Corners corners;
@@ -188,23 +222,55 @@ CellOctree::CellOctree(const Aabb& bounds, const Division& division,
   append(trees);
 }
 
-/// Puts the trees behind one another, behind the lattice: there children are by their place among all.
+/// Puts the trees behind one another, behind the lattice: there children and planes are by their place among
+/// all.
 void CellOctree::append(const std::vector<Tree>& trees) {
-  std::size_t size = trees.size();
-  for (const Tree& tree : trees) size += tree.entries.size() - 1;
+  std::size_t size = trees.size(), blocks = 0;
+  for (const Tree& tree : trees) {
+    size += tree.entries.size() - 1;
+    blocks += tree.blocks.size();
+  }
   entries_.resize(size);
+  blocks_.reserve(blocks);
   std::size_t end = trees.size();
   for (std::size_t i = 0; i < trees.size(); ++i) {
     const Tree& tree = trees[i];
     const auto moved = [&](std::uint32_t entry) {
-      return (entry & leaf_bit) != 0 ? entry : entry + static_cast<std::uint32_t>(end) - 1;
+      if ((entry & leaf_bit) == 0) return entry + static_cast<std::uint32_t>(end) - 1;
+      return (entry & plane_bit) != 0 ? entry + static_cast<std::uint32_t>(blocks_.size()) : entry;
     };
     entries_[i] = moved(tree.entries[0]);
     for (std::size_t k = 1; k < tree.entries.size(); ++k) entries_[end + k - 1] = moved(tree.entries[k]);
     end += tree.entries.size() - 1;
+    blocks_.insert(blocks_.end(), tree.blocks.begin(), tree.blocks.end());
     error_ = std::max(error_, tree.error);
-    leaves_ += tree.leaves;
   }
+}
+
+CellOctree::Leaf CellOctree::leaf_at(const Vec3& place) const noexcept {
+  Place at;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double along = place[static_cast<int>(axis)];
+    if (!(along >= 0 && along < end_[axis])) return {};
+    at[axis] = static_cast<std::uint32_t>(along);
+  }
+  const auto [x, y, z] = at;
+  std::uint32_t level = depth_;
+  std::uint32_t entry = entries_[((z >> level) * counts_[1] + (y >> level)) * counts_[0] + (x >> level)];
+  while ((entry & leaf_bit) == 0) {
+    --level;
+    entry = entries_[entry + ((x >> level & 1) | (y >> level & 1) << 1 | (z >> level & 1) << 2)];
+  }
+  Leaf leaf;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    leaf.corner[static_cast<int>(axis)] = static_cast<double>(at[axis] >> level << level);
+  leaf.edge = static_cast<double>(1U << level);
+  leaf.held = entry & ~leaf_bit;
+  if (!leaf.is_plane()) return leaf;
+  StoredPlane plane;
+  std::memcpy(static_cast<void*>(&plane), blocks_[leaf.held & ~plane_bit].words.data(), sizeof plane);
+  leaf.plane = PlaneCell(plane);
+  return leaf;
 }
 
 }  // namespace touchmark::field

@@ -1,4 +1,4 @@
-/// A sampled distance field with a certificate: it answers from memory alone, by one look at a triangle, and
+/// A sampled distance field with a certificate: it answers from memory alone, by a plane or one triangle, and
 /// is never wrong by more than was asked for. Elsewhere, or where that is asked for, an exact detector
 /// answers.
 #pragma once
@@ -17,6 +17,7 @@
 #include "core/detector.h"
 #include "core/field/cell_octree.h"
 #include "core/field/field_options.h"
+#include "core/field/sample.h"
 #include "core/geometry/point_triangle.h"
 #include "core/search/parallel.h"
 #include "core/triangle_mesh.h"
@@ -50,24 +51,32 @@ class CertifiedField {
     built.band_ = division.band;
     built.ids_ = mesh.triangle_ids();
     built.triangles_ = prepare(mesh);
-    built.octree_ = field::CellOctree(mesh.bounds(), division, [&] { return built.sampler(mesh); });
+    built.octree_ = field::CellOctree(mesh, built.triangles_, division, [&] { return built.sampler(mesh); });
     return built;
   }
   static CertifiedField build(const TriangleMesh& mesh) { return build(mesh, Options()); }
 
   bool touches(const Probe& probe, Session& session) const noexcept {
     if (!(probe.radius >= 0)) return false;
-    const Found found = find(probe.center, probe.radius, session);
-    if (!found.ask_exact) return found.triangle != nullptr;
-    return ask(session, [&](auto& exact) { return exact_->touches(probe, exact); });
+    return answer<bool>(
+        probe.center, probe.radius, session, [](const Vec3&, double) { return true; },
+        [](const PreparedTriangle&, const Offset&) { return true; },
+        [&](auto& exact) { return exact_->touches(probe, exact); });
   }
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept {
     if (!(reach >= 0)) return std::nullopt;
-    const Found found = find(probe.center, reach, session);
-    if (found.ask_exact)
-      return ask(session, [&](auto& exact) { return exact_->nearest(probe, reach, exact); });
-    if (found.triangle == nullptr) return std::nullopt;
-    return contact_at(*found.triangle, probe.center, found.offset, ids_[found.triangle->index]);
+    return answer<std::optional<Contact>>(
+        probe.center, reach, session,
+        [&](const Vec3& place, double height) {
+          const Vec3& normal = session.leaf.plane.normal;
+          const double sign = std::copysign(1.0, height);
+          return Contact{probe.center - height * normal, sign * normal, std::abs(height),
+                         ids_[octree_.triangle_near(session.leaf, place, height)]};
+        },
+        [&](const PreparedTriangle& triangle, const Offset& offset) {
+          return contact_at(triangle, probe.center, offset, ids_[triangle.index]);
+        },
+        [&](auto& exact) { return exact_->nearest(probe, reach, exact); });
   }
 
   /// Sweeps are the exact detector's.
@@ -93,35 +102,41 @@ class CertifiedField {
  private:
   explicit CertifiedField(Exact exact) : exact_(std::make_unique<Exact>(std::move(exact))) {}
 
-  /// What the field says: nothing within the reach, a triangle, or that the exact detector is to be asked.
-  struct Found {
-    const PreparedTriangle* triangle = nullptr;
-    Offset offset{};
-    bool ask_exact = false;
-  };
-
-  Found find(const Vec3& center, double reach, Session& session) const noexcept {
+  /// Returns what one of the three says: of a place and its height above the leaf's plane, of a triangle and
+  /// the offset from it, each within the reach, or what the exact detector is asked; else nothing.
+  template <class Answer, class ByPlane, class ByTriangle, class Exactly>
+  Answer answer(const Vec3& center, double reach, Session& session, const ByPlane& by_plane,
+                const ByTriangle& by_triangle, const Exactly& exactly) const noexcept {
     const double margin = session.clear - reach;
     if (margin > 0 && (center - session.center).squaredNorm() < margin * margin) return {};
-    if (octree_.empty()) return {.ask_exact = true};
-    const std::optional<field::CellOctree::Place> place = octree_.place_of(center);
-    if (place && !session.leaf.holds(*place)) {
+    if (octree_.empty()) return ask(session, exactly);
+    const Vec3 place = octree_.place_of(center);
+    if (!session.leaf.holds(place)) {
       ++session.work.cells;
-      session.leaf = octree_.leaf_at(*place);
+      session.leaf = octree_.leaf_at(place);
     }
-    if (!place || session.leaf.triangle == field::CellOctree::far) {
-      if (!center.allFinite() || reach >= band_) return {.ask_exact = true};
-      return clear_by(band_, center, session);
+    if (session.leaf.is_plane()) {
+      const double height = octree_.height(session.leaf, place), distance = std::abs(height);
+      if (distance - octree_.error() > reach)
+        return clear_by<Answer>(distance - octree_.error(), center, session);
+      if (refines_) return ask(session, exactly);
+      return distance <= reach ? Answer(by_plane(place, height)) : Answer();
     }
-    const PreparedTriangle& triangle = triangles_[session.leaf.triangle];
+    if (session.leaf.held == field::CellOctree::far) {
+      if (!center.allFinite() || reach >= band_) return ask(session, exactly);
+      return clear_by<Answer>(band_, center, session);
+    }
+    const PreparedTriangle& triangle = triangles_[session.leaf.held];
     ++session.work.triangles;
     const Offset offset = field::offset_from(triangle, center);
     const double distance = std::sqrt(offset.squared);
-    if (distance - octree_.error() > reach) return clear_by(distance - octree_.error(), center, session);
-    if (refines_) return {.ask_exact = true};
-    return distance <= reach ? Found{&triangle, offset} : Found{};
+    if (distance - octree_.error() > reach)
+      return clear_by<Answer>(distance - octree_.error(), center, session);
+    if (refines_) return ask(session, exactly);
+    return distance <= reach ? Answer(by_triangle(triangle, offset)) : Answer();
   }
-  static Found clear_by(double distance, const Vec3& center, Session& session) noexcept {
+  template <class Answer>
+  static Answer clear_by(double distance, const Vec3& center, Session& session) noexcept {
     session.center = center;
     session.clear = distance * (1 - 0x1p-40);
     return {};
@@ -135,9 +150,10 @@ class CertifiedField {
   }
 
   field::Sampler sampler(const TriangleMesh& mesh) const {
-    return [this, &mesh, session = std::make_shared<typename Exact::Session>()](const Vec3& point) {
-      const std::optional<Contact> contact =
-          exact_->nearest({point, 0}, std::numeric_limits<double>::infinity(), *session);
+    return [this, &mesh, session = std::make_shared<typename Exact::Session>()](const Vec3& point,
+                                                                                double reach) {
+      const std::optional<Contact> contact = exact_->nearest({point, 0}, reach, *session);
+      if (!contact) return field::Sample{std::numeric_limits<double>::infinity(), point, 0};
       return field::Sample{contact->distance, contact->point, triangle_of(mesh, *contact, point)};
     };
   }

@@ -26,6 +26,10 @@ Contact exact_contact(const ImageCandidate& candidate, const Vec3& point) noexce
     const Vec3 normal = face_normal(prepare(corner[0], corner[1], corner[2], candidate.triangle));
     contact.normal = (candidate.posed.pose->rotation * normal).normalized();
   }
+  const double radius = candidate.posed.radius;
+  if (!(radius > 0)) return contact;
+  contact = lifted(contact, radius);
+  contact.distance = std::abs((closest.distance - DoubleDouble{radius, 0}).rounded());
   return contact;
 }
 
@@ -43,10 +47,12 @@ std::weak_ordering NearestImage::compare(const ImageCandidate& a, const ImageCan
   const std::weak_ordering by_bounds = order_of(a.distance, b.distance);
   if (by_bounds != 0) return by_bounds;
   const bool one_pose = a.posed.pose == b.posed.pose || *a.posed.pose == *b.posed.pose;
-  if (one_pose && surely_tied(a.posed.corner, a.seen, b.posed.corner, b.seen))
+  if (one_pose && a.posed.radius == b.posed.radius &&
+      surely_tied(a.posed.corner, a.seen, b.posed.corner, b.seen))
     return std::weak_ordering::equivalent;
   // What the detector said of one that was alone is wider than what the image tells.
-  const std::weak_ordering by_images = order_of(distance_to(a.seen), distance_to(b.seen));
+  const std::weak_ordering by_images =
+      order_of(distance_to(a.seen, a.posed.radius), distance_to(b.seen, b.posed.radius));
   if (by_images != 0) return by_images;
   ++exact_decisions;
   return compare_exactly(a.posed, b.posed, point_);
@@ -65,7 +71,8 @@ void NearestImage::consider(const ImageCandidate& candidate, std::uint64_t& exac
 std::optional<Contact> NearestImage::contact(double reach, std::uint64_t& exact_decisions) const noexcept {
   if (!best_) return std::nullopt;
   ImageCandidate best = *best_;
-  if (best.distance.lower <= reach && reach < best.distance.upper) best.distance = distance_to(best.seen);
+  if (best.distance.lower <= reach && reach < best.distance.upper)
+    best.distance = distance_to(best.seen, best.posed.radius);
   if (!is_within(best, point_, reach, exact_decisions)) return std::nullopt;
   return contact_on_image(*best_, point_, exact_decisions);
 }
@@ -76,6 +83,22 @@ DistanceInterval distance_to(const SeenTriangle& seen) noexcept {
   const double distance = std::sqrt(squared_distance(prepared, Vec3::Zero()));
   const double error = distance_error(seen.largest) + seen.error;
   return {distance - error, distance + error};
+}
+
+DistanceInterval distance_to(const SeenTriangle& seen, double radius) noexcept {
+  const DistanceInterval axis = distance_to(seen);
+  if (!(radius > 0)) return axis;
+  const double rounding = 4 * unit_roundoff * (axis.upper + radius);
+  const double beyond = axis.lower - radius, within = radius - axis.upper;
+  return {std::max(beyond, within) - rounding, std::max(axis.upper - radius, radius - axis.lower) + rounding};
+}
+
+Contact lifted(Contact on_axis, double radius) noexcept {
+  const double height = on_axis.distance - radius;
+  on_axis.point += radius * on_axis.normal;
+  if (height < 0) on_axis.normal = -on_axis.normal;
+  on_axis.distance = std::abs(height);
+  return on_axis;
 }
 
 bool is_within(const ImageCandidate& candidate, const Vec3& point, double radius,
@@ -95,11 +118,13 @@ Contact contact_on_image(const ImageCandidate& candidate, const Vec3& point,
     const PreparedTriangle prepared = prepare(corner[0], corner[1], corner[2], candidate.triangle);
     const Vec3 origin = Vec3::Zero();
     const Offset offset = offset_from(prepared, origin);
-    // From there on the kernel's distance is within 16 u M: docs/exactness.md, E5.
-    if (std::sqrt(offset.squared) > distance_error(largest)) {
+    // From there on the kernel's distance is within 16 u M: docs/exactness.md, E5. Deep in a round body the
+    // direction must be as good, far from whose surface it is told.
+    const bool is_round = candidate.posed.radius > 0;
+    if (std::sqrt(offset.squared) > (is_round ? 0x1p20 : 1) * distance_error(largest)) {
       Contact contact = contact_at(prepared, origin, offset, candidate.id);
       contact.point += point;
-      return contact;
+      return is_round ? lifted(contact, candidate.posed.radius) : contact;
     }
   }
   ++exact_decisions;

@@ -49,14 +49,19 @@ class NearestImage {
 
 /// What the kernel says of the distance to a triangle seen from the point.
 DistanceInterval distance_to(const SeenTriangle& seen) noexcept;
+/// What it says of the surface, which is so far from the triangle.
+DistanceInterval distance_to(const SeenTriangle& seen, double radius) noexcept;
 
-/// Is the image within the radius? Exact.
+/// Is the surface within the radius? Exact.
 bool is_within(const ImageCandidate& candidate, const Vec3& point, double radius,
                std::uint64_t& exact_decisions) noexcept;
 
-/// The contact on the image, its distance within 32 u M of the true one, M the largest coordinate difference
-/// between the point and the image's corners.
+/// The contact on the surface, its distance within 32 u M of the true one, M the largest coordinate
+/// difference between the point and the image's corners, and a round body's radius on top.
 Contact contact_on_image(const ImageCandidate& candidate, const Vec3& point,
                          std::uint64_t& exact_decisions) noexcept;
+
+/// The contact on the surface of a round body of this radius, of that with its axis.
+Contact lifted(Contact on_axis, double radius) noexcept;
 
 }  // namespace touchmark

@@ -1,95 +1,70 @@
 #include "core/scene/posed_predicates.h"
 
-#include <algorithm>
-#include <climits>
 #include <cmath>
-#include <cstddef>
 
 #include "core/exact/big_integer.h"
 #include "core/exact/exact_closest_point.h"
-#include "core/exact/integer_lattice.h"
+#include "core/scene/image_lattice.h"
 
 namespace touchmark {
 namespace {
 
-using exact::BigInteger;
 using exact::Corners;
-using exact::Parts;
 using exact::Vector;
-
-/// Coordinates of images: polynomials of degree 2.
-constexpr int image_degree = 2;
-using Coordinate = BigInteger<image_degree>;
-
-/// The coarsest power of two of which all plain numbers put in and all products of a rotation's entry and a
-/// corner's coordinate are multiples.
-class ImageLattice {
- public:
-  void add(double x) noexcept {
-    if (x != 0) exponent_ = std::min(exponent_, Parts(x).exponent);
-  }
-  void add(const Vec3& v) noexcept {
-    for (const double x : {v.x(), v.y(), v.z()}) add(x);
-  }
-  void add(const PosedTriangle& triangle) noexcept {
-    add(triangle.pose->translation);
-    int entries = 0, coordinates = 0;  // at most 0, so that their sum is no more than either
-    for (const double entry : triangle.pose->rotation.reshaped()) include(entry, entries);
-    for (const Vec3& corner : triangle.corner)
-      for (const double x : {corner.x(), corner.y(), corner.z()}) include(x, coordinates);
-    exponent_ = std::min(exponent_, entries + coordinates);
-  }
-
-  int exponent() const noexcept { return exponent_ == INT_MAX ? 0 : exponent_; }
-  Coordinate operator()(double x) const noexcept { return of(x, 1, 0); }
-  Vector<image_degree> operator()(const Vec3& v) const noexcept {
-    return {(*this)(v.x()), (*this)(v.y()), (*this)(v.z())};
-  }
-  /// Returns the images of the corners as seen from the origin given.
-  Corners<image_degree> operator()(const PosedTriangle& triangle,
-                                   const Vector<image_degree>& origin) const noexcept {
-    Corners<image_degree> images;
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto row = static_cast<Eigen::Index>(k);
-        Coordinate sum = (*this)(triangle.pose->translation[row]) - origin[k];
-        for (Eigen::Index j = 0; j < 3; ++j)
-          sum = sum + product(triangle.pose->rotation(row, j), triangle.corner[i][j]);
-        images[i][k] = sum;
-      }
-    }
-    return images;
-  }
-
- private:
-  static void include(double x, int& exponent) noexcept {
-    if (x != 0) exponent = std::min(exponent, Parts(x).exponent);
-  }
-  /// Returns x times the factor times 2^shift.
-  Coordinate of(double x, exact::Limb factor, int shift) const noexcept {
-    if (x == 0) return {};
-    const Parts parts(x);
-    return Coordinate::of(parts.mantissa, static_cast<unsigned>(parts.exponent + shift - exponent()), x < 0)
-        .times(factor);
-  }
-  Coordinate product(double entry, double x) const noexcept {
-    if (entry == 0) return {};
-    const Parts parts(entry);
-    const Coordinate magnitude = of(x, parts.mantissa, parts.exponent);
-    return entry < 0 ? -magnitude : magnitude;
-  }
-
-  int exponent_ = INT_MAX;
-};
 
 bool all_finite(const PosedTriangle& triangle, const Vec3& point) noexcept {
   return point.allFinite() && triangle.corner[0].allFinite() && triangle.corner[1].allFinite() &&
          triangle.corner[2].allFinite();
 }
 
-exact::ExactClosestPoint<image_degree> closest_of(const ImageLattice& lattice, const PosedTriangle& triangle,
-                                                  const Vec3& point) noexcept {
+using Closest = exact::ExactClosestPoint<image_degree>;
+
+Closest closest_of(const ImageLattice& lattice, const PosedTriangle& triangle, const Vec3& point) noexcept {
   return exact::exact_closest_point<image_degree>(lattice(triangle, lattice(point)));
+}
+
+/// How the distance compares with this one, which is at least 0.
+std::strong_ordering compare(const Closest& closest, const Coordinate& distance) noexcept {
+  return closest.numerator <=> distance * distance * closest.denominator;
+}
+
+/// Is the distance to the surface, which is so far from the image, at most r?
+bool is_within(const Closest& closest, const Coordinate& radius, const Coordinate& r) noexcept {
+  if (compare(closest, radius + r) > 0) return false;
+  return r >= radius || compare(closest, radius - r) >= 0;
+}
+
+/// How sqrt(a) + more compares with sqrt(b). Where `more` is at least 0 that is 2 more sqrt(a) against what
+/// b exceeds a + more^2 by, both times the denominators; where that is not below 0 their squares tell.
+std::strong_ordering compare_roots(const Closest& a, const Coordinate& more, const Closest& b) noexcept {
+  if (more.sign() < 0) return 0 <=> compare_roots(b, -more, a);
+  const auto denominator = a.denominator * b.denominator;
+  const auto excess = b.numerator * a.denominator - a.numerator * b.denominator - more * more * denominator;
+  if (excess.sign() < 0) return std::strong_ordering::greater;
+  const auto squared = (more * more) * (a.numerator * a.denominator) * (b.denominator * b.denominator);
+  return squared.times(4) <=> excess * excess;
+}
+
+/// How sqrt(a) + sqrt(b) compares with the sum, which is at least 0: as 2 sqrt(a b) with what its square
+/// exceeds a + b by.
+std::strong_ordering compare_sum_of_roots(const Closest& a, const Closest& b,
+                                          const Coordinate& sum) noexcept {
+  const auto denominator = a.denominator * b.denominator;
+  const auto excess = sum * sum * denominator - a.numerator * b.denominator - b.numerator * a.denominator;
+  if (excess.sign() < 0) return std::strong_ordering::greater;
+  return ((a.numerator * b.numerator) * denominator).times(4) <=> excess * excess;
+}
+
+/// How the distances to two surfaces compare, each so far from its image.
+std::strong_ordering compare_surfaces(const Closest& a, const Coordinate& radius_a, const Closest& b,
+                                      const Coordinate& radius_b) noexcept {
+  const bool outside_a = compare(a, radius_a) >= 0, outside_b = compare(b, radius_b) >= 0;
+  if (outside_a != outside_b) {
+    const std::strong_ordering order = compare_sum_of_roots(a, b, radius_a + radius_b);
+    return outside_a ? order : 0 <=> order;
+  }
+  const std::strong_ordering order = compare_roots(a, radius_b - radius_a, b);
+  return outside_a ? order : 0 <=> order;
 }
 
 }  // namespace
@@ -101,9 +76,7 @@ bool within_exactly(const PosedTriangle& triangle, const Vec3& point, double rad
   lattice.add(triangle);
   lattice.add(point);
   lattice.add(radius);
-  const exact::ExactClosestPoint<image_degree> closest = closest_of(lattice, triangle, point);
-  const Coordinate r = lattice(radius);
-  return closest.numerator <= r * r * closest.denominator;
+  return is_within(closest_of(lattice, triangle, point), lattice(triangle.radius), lattice(radius));
 }
 
 bool path_within_exactly(const PosedTriangle& triangle, const Vec3& from, const Vec3& to, double fraction,
@@ -121,9 +94,23 @@ bool path_within_exactly(const PosedTriangle& triangle, const Vec3& from, const 
   const Vector<image_degree> origin = lattice(from);
   exact::ExactPath<image_degree> path{times(lattice(to) - origin, part), lattice(triangle, origin), {}};
   for (Vector<image_degree>& corner : path.w) corner = times(corner, fine);
-  const Coordinate r = lattice(radius).times(fine);
-  path.squared_radius = r * r;
-  return comes_within(path);
+  const Coordinate own = lattice(triangle.radius).times(fine), r = lattice(radius).times(fine);
+  path.squared_radius = (own + r) * (own + r);
+  if (!comes_within(path)) return false;
+  if (r >= own) return true;
+  // The distance to the image is convex along the way: greatest at an end.
+  const auto reaches_the_surface = [&](const Corners<image_degree>& w) {
+    return compare(exact::exact_closest_point<image_degree>(w), own - r) >= 0;
+  };
+  return reaches_the_surface(path.w) ||
+         reaches_the_surface({path.w[0] - path.path, path.w[1] - path.path, path.w[2] - path.path});
+}
+
+bool lies_inside(const PosedTriangle& triangle, const Vec3& point) noexcept {
+  ImageLattice lattice;
+  lattice.add(triangle);
+  lattice.add(point);
+  return compare(closest_of(lattice, triangle, point), lattice(triangle.radius)) < 0;
 }
 
 std::strong_ordering compare_exactly(const PosedTriangle& a, const PosedTriangle& b,
@@ -132,7 +119,9 @@ std::strong_ordering compare_exactly(const PosedTriangle& a, const PosedTriangle
   lattice.add(a);
   lattice.add(b);
   lattice.add(point);
-  return compare(closest_of(lattice, a, point), closest_of(lattice, b, point));
+  const Closest of_a = closest_of(lattice, a, point), of_b = closest_of(lattice, b, point);
+  if (a.radius == b.radius && a.radius == 0) return exact::compare(of_a, of_b);
+  return compare_surfaces(of_a, lattice(a.radius), of_b, lattice(b.radius));
 }
 
 ClosestPoint closest_point_exactly(const PosedTriangle& triangle, const Vec3& point) noexcept {

@@ -16,6 +16,7 @@
 #include "core/scene/body_sweep.h"
 #include "core/scene/near_bodies.h"
 #include "core/scene/pose.h"
+#include "core/scene/round_body.h"
 #include "core/scene/scene_bodies.h"
 #include "core/scene/shape.h"
 #include "core/scene/shape_table.h"
@@ -68,9 +69,9 @@ class Scene {
   static Scene build(const TriangleMesh& mesh) { return build(mesh, Options()); }
 
   /// Any number of bodies may have it. Throws SceneError for a shape that lacks its detector or its mesh, or
-  /// whose detector is not exact.
+  /// whose detector is not exact, and for a round one whose radius is not positive and finite.
   ShapeId add_shape(Shape<D> shape) {
-    const Aabb bounds = shape.mesh ? shape.mesh->bounds() : Aabb();
+    const Aabb bounds = shape.mesh ? shape.bounds() : Aabb();
     shape = ShapeTable<D>::checked(std::move(shape), bounds);
     const ShapeId id = bodies_.add_shape(bounds);
     shapes_.add(std::move(shape));
@@ -189,6 +190,11 @@ class Scene {
   template <class Ask>
   void ask_near(const Vec3& from, const Vec3& to, const double& limit, Session& session,
                 const Ask& ask) const noexcept;
+
+  /// Returns what ask(query) does, the query being one body's about one point.
+  template <class Ask>
+  double with_query(const Shape<D>& shape, std::uint32_t body, const Vec3& point, typename D::Session& own,
+                    const Ask& ask) const noexcept;
 
   /// Calls found(body, contact) for each triangle within the reach.
   template <class Found>

@@ -67,17 +67,28 @@ void Scene<D>::ask_near(const Vec3& from, const Vec3& to, const double& limit, S
 
 template <Detector D>
 requires AnswersNearest<D> && AnswersContacts<D>
+template <class Ask>
+double Scene<D>::with_query(const Shape<D>& shape, std::uint32_t body, const Vec3& point,
+                            typename D::Session& own, const Ask& ask) const noexcept {
+  if (shape.is_round()) return ask(RoundBody(shape, bodies_[body], body, point));
+  return ask(BodyQuery<D>(shape, bodies_[body], body, point, own));
+}
+
+template <Detector D>
+requires AnswersNearest<D> && AnswersContacts<D>
 bool Scene<D>::touches(const Probe& probe, Session& session) const noexcept {
   if (!(probe.radius >= 0) || !probe.center.allFinite()) return false;
   bool touching = false;
   double limit = probe.radius;
   ask_near(probe.center, probe.center, limit, session,
            [&](const Shape<D>& shape, std::uint32_t body, typename D::Session& own) {
-             const BodyQuery<D> query(shape, bodies_[body], body, probe.center, own);
-             if (touching || !query.touches(probe.radius, session.work)) return query.clearance();
-             touching = true;
-             limit = -std::numeric_limits<double>::infinity();
-             return unknown;
+             const auto found = [&](const auto& query) {
+               if (touching || !query.touches(probe.radius, session.work)) return query.clearance();
+               touching = true;
+               limit = -std::numeric_limits<double>::infinity();
+               return unknown;
+             };
+             return with_query(shape, body, probe.center, own, found);
            });
   return touching;
 }
@@ -91,10 +102,11 @@ const noexcept {
   double limit = reach;
   ask_near(probe.center, probe.center, limit, session,
            [&](const Shape<D>& shape, std::uint32_t body, typename D::Session& own) {
-             const BodyQuery<D> query(shape, bodies_[body], body, probe.center, own);
-             query.nearest(nearest, limit, session.work);
-             limit = std::min(limit, nearest.upper());
-             return query.clearance();
+             return with_query(shape, body, probe.center, own, [&](const auto& query) {
+               query.nearest(nearest, limit, session.work);
+               limit = std::min(limit, nearest.upper());
+               return query.clearance();
+             });
            });
   const std::optional<Contact> contact = nearest.contact(reach, session.work.exact_decisions);
   if (!contact) return std::nullopt;
@@ -111,8 +123,10 @@ const noexcept requires AnswersSweep<D> {
   const double limit = sweep.radius;
   ask_near(sweep.from, sweep.to, limit, session,
            [&](const Shape<D>& shape, std::uint32_t body, typename D::Session& own) {
-             const BodySweep<D> query(shape, bodies_[body], body, sweep, own);
-             const std::optional<Impact> hit = query.first_hit(session.work);
+             const std::optional<Impact> hit =
+                 shape.is_round()
+                     ? RoundBody(shape, bodies_[body], body, sweep.from).first_hit(sweep, session.work)
+                     : BodySweep<D>(shape, bodies_[body], body, sweep, own).first_hit(session.work);
              if (!hit || (first && (hit->fraction > first->fraction ||
                                     (hit->fraction == first->fraction && body > whose))))
                return unknown;
@@ -172,13 +186,14 @@ void Scene<D>::for_each_contact(const Probe& probe, double reach, Session& sessi
   if (!(reach >= 0) || !probe.center.allFinite()) return;
   ask_near(probe.center, probe.center, reach, session,
            [&](const Shape<D>& shape, std::uint32_t body, typename D::Session& own) {
-             const BodyQuery<D> query(shape, bodies_[body], body, probe.center, own);
-             query.for_each_within(reach, [&](const ImageCandidate& candidate) {
-               if (is_within(candidate, probe.center, reach, session.work.exact_decisions))
-                 found(body, contact_on_image(candidate, probe.center, session.work.exact_decisions));
-               return false;
+             return with_query(shape, body, probe.center, own, [&](const auto& query) {
+               query.for_each_within(reach, [&](const ImageCandidate& candidate) {
+                 if (is_within(candidate, probe.center, reach, session.work.exact_decisions))
+                   found(body, contact_on_image(candidate, probe.center, session.work.exact_decisions));
+                 return false;
+               });
+               return unknown;
              });
-             return unknown;
            });
 }
 
@@ -211,7 +226,7 @@ void Scene<D>::prepare(Session& session) const noexcept requires Prepares<D> {
     auto& asked = session.asked[entry.slot];
     const Shape<D>* shape =
         bodies_.has(entry.id) && asked.epoch == bodies_.epoch() ? shapes_.built(asked.shape) : nullptr;
-    if (shape == nullptr || asked.shape != bodies_[entry.id.index].shape) return;
+    if (shape == nullptr || shape->is_round() || asked.shape != bodies_[entry.id.index].shape) return;
     shape->detector->prepare(asked.session);
     session.work += asked.session.work;
     asked.session.work = {};

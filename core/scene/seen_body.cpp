@@ -88,10 +88,14 @@ SeenTriangle SeenCorners::operator()(const TriangleCorners& triangle) const noex
     longest = std::max({longest, way.norm(), seen.corner[i].norm()});
   }
   seen.largest = longest;
-  // One rounding of the way, three of each product's row and one of the sum: below 8 u of its length.
   const bool fits = longest >= 0x1p-132 && longest <= 0x1p231;
-  seen.error = fits ? 8.1 * unit_roundoff * longest + rest_error_ : std::numeric_limits<double>::infinity();
+  seen.error = fits ? error_at(longest) : std::numeric_limits<double>::infinity();
   return seen;
+}
+
+double SeenCorners::error_at(double longest) const noexcept {
+  // One rounding of the way, three of each product's row and one of the sum: below 8 u of its length.
+  return 8.1 * unit_roundoff * longest + rest_error_;
 }
 
 bool surely_tied(const TriangleCorners& a, const SeenTriangle& seen_a, const TriangleCorners& b,

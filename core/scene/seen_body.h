@@ -62,6 +62,8 @@ class SeenCorners {
  public:
   explicit SeenCorners(const SeenBody& body) noexcept;
   SeenTriangle operator()(const TriangleCorners& triangle) const noexcept;
+  /// What a corner so far from the point may be off by, also where a triangle's fourth powers underflow.
+  double error_at(double longest) const noexcept;
 
  private:
   const SeenBody* body_;

@@ -3,21 +3,25 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "core/aabb.h"
 #include "core/detector.h"
+#include "core/scene/pose.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark {
 
 /// A mesh in its own frame with a detector over it. The mesh is kept, since what is decided exactly is
-/// decided on its stored vertices.
+/// decided on its stored vertices. Or a round shape, whose mesh is one triangle without area, its axis.
 template <Detector D>
 struct Shape {
-  std::shared_ptr<const D> detector;
+  std::shared_ptr<const D> detector;  ///< null for a round shape
   std::shared_ptr<const TriangleMesh> mesh;
+  double radius = 0;  ///< 0, or a round shape's, whose surface is all that is so far from its axis
 
   /// Throws what D::build throws.
   static Shape build(TriangleMesh mesh, const typename D::Options& options) {
@@ -25,6 +29,24 @@ struct Shape {
     return {std::make_shared<const D>(D::build(*shared, options)), shared};
   }
   static Shape build(TriangleMesh mesh) { return build(std::move(mesh), typename D::Options()); }
+  /// Returns a capsule about the segment, or a sphere where its ends are one point. Throws MeshError for an
+  /// end that is not finite; Scene::add_shape refuses a radius that is not positive and finite.
+  static Shape round(const Vec3& from, const Vec3& to, double radius) {
+    return {nullptr,
+            std::make_shared<const TriangleMesh>(std::vector<Vec3>{from, to},
+                                                 std::vector<TriangleMesh::Corners>{{0, 1, 1}}),
+            radius};
+  }
+
+  bool is_round() const noexcept { return radius != 0; }
+  /// Returns the box that holds the mesh, or the round surface under whatever counts as a rotation.
+  Aabb bounds() const noexcept {
+    const Aabb& box = mesh->bounds();
+    if (!is_round()) return box;
+    const double largest = box.min.cwiseAbs().cwiseMax(box.max.cwiseAbs()).maxCoeff();
+    return box.padded(radius * (1 + 2 * max_rigid_error) +
+                      4 * std::numeric_limits<double>::epsilon() * largest);
+  }
 };
 
 /// A shape that is made when a probe first comes near one of its bodies.

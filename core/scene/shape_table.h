@@ -12,6 +12,7 @@
 
 #include "core/detector.h"
 #include "core/scene/body.h"
+#include "core/scene/round_body.h"
 #include "core/scene/shape.h"
 
 namespace touchmark {
@@ -84,19 +85,24 @@ class ShapeTable {
     for (std::uint32_t i = 0; i < entries_.size(); ++i) {
       const Shape<D>* shape = built(i);
       if (shape == nullptr) continue;
-      bytes += shape->detector->bytes() + shape->mesh->vertices().size_bytes() +
-               shape->mesh->triangles().size_bytes() + shape->mesh->ids().size_bytes();
+      if (shape->detector) bytes += shape->detector->bytes();
+      bytes += shape->mesh->vertices().size_bytes() + shape->mesh->triangles().size_bytes() +
+               shape->mesh->ids().size_bytes();
     }
     return bytes;
   }
 
-  /// Throws SceneError for a shape that lacks its detector or its mesh, whose detector is not exact, or whose
-  /// mesh is not within the bounds.
+  /// Throws SceneError for a shape that lacks its detector or its mesh, whose detector is not exact, or which
+  /// is not within the bounds; and for a round one whose mesh is no axis or whose radius is out of range.
   static Shape<D> checked(Shape<D> shape, const Aabb& bounds) {
-    if (!shape.detector || !shape.mesh) throw SceneError("a shape lacks its detector or its mesh");
-    if (shape.detector->accuracy().guarantee != Guarantee::exact)
+    if (!shape.mesh || (!shape.detector && !shape.is_round()))
+      throw SceneError("a shape lacks its detector or its mesh");
+    if (shape.is_round()) {
+      expect_round(*shape.mesh, shape.radius);
+    } else if (shape.detector->accuracy().guarantee != Guarantee::exact) {
       throw SceneError("a shape's detector does not claim exactness, which a scene builds on");
-    if (!bounds.contains(shape.mesh->bounds().min) || !bounds.contains(shape.mesh->bounds().max))
+    }
+    if (const Aabb own = shape.bounds(); !bounds.contains(own.min) || !bounds.contains(own.max))
       throw SceneError("a shape's mesh is not within the bounds that its source gave");
     return shape;
   }

@@ -249,13 +249,17 @@ class Install(unittest.TestCase):
         program = BUILD / "bin" / "touchmark"
         if not program.exists():
             self.skipTest("the program is not built")
-        for contestant, query in (("sphere-cluster:prepare=true,clustering=2%,simd=portable", "nearest"),
-                                  ("grid-group:lookup=scan,shape=centered-sphere,cell=0.5,side=on", "nearest"),
-                                  ("grid-group:bytes_per_triangle=200,build=lazy", "touches"),
-                                  ("aabb-tree:leaf_size=8,certified=false", "sweep"), ("brute-force", "sweep")):
+        mesh, bodies = ("--mesh", "icosphere:1", "--rate", "1"), ("--scene", "heap:3")
+        for contestant, query, scene in (
+                ("sphere-cluster:prepare=true,clustering=2%,simd=portable", "nearest", mesh),
+                ("grid-group:lookup=scan,shape=centered-sphere,cell=0.5,side=on", "nearest", mesh),
+                ("grid-group:bytes_per_triangle=200,build=lazy", "touches", mesh),
+                ("aabb-tree:leaf_size=8,certified=false", "sweep", mesh), ("brute-force", "sweep", mesh),
+                ("sphere-cluster:clustering=2%", "nearest", bodies), ("grid-group:cell=0.5", "sweep", bodies),
+                ("aabb-tree", "touches", bodies)):
             with self.subTest(contestant), tempfile.TemporaryDirectory() as out:
-                run(program, "choose", "--mesh", "icosphere:1", "--trajectory", "slide", "--steps", "20", "--quick",
-                    "--rate", "1", "--share", "1", "--query", query, "--detector", contestant, "--out", out)
+                run(program, "choose", *scene, "--trajectory", "slide", "--steps", "20", "--quick",
+                    "--share", "1", "--query", query, "--detector", contestant, "--out", out)
                 code = pathlib.Path(out, "choose.cpp").read_text(encoding="utf-8")
                 for compiler in COMPILERS:
                     flags = ["-std=c++20", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", f"-I{self.include}"]

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bench/bodies/scene_source.h"
 #include "bench/cli/program.h"
 #include "bench/cli/selector_options.h"
 #include "bench/cli/worker_options.h"
@@ -87,7 +88,8 @@ std::optional<double> checked_memory(const std::string& given) {
 std::vector<std::string> motions_of(const ChooseOptions& options) {
   std::vector<std::string> motions = options.motions;
   motions.insert(motions.end(), options.selectors.trajectories.begin(), options.selectors.trajectories.end());
-  return motions.empty() ? choose::usual_motions() : motions;
+  if (!motions.empty()) return motions;
+  return options.selectors.scene.empty() ? choose::usual_motions() : choose::usual_motions_over_bodies();
 }
 
 measurement::Effort effort_for(bool quick) {
@@ -113,6 +115,7 @@ class ChooseCommand {
  private:
   choose::Asked asked() const { return {workload_, description_.query, limits_}; }
   const contestants::ContestantSpec& spec_of(const choose::Candidate& candidate) const;
+  std::string code(const std::vector<std::size_t>& ranked) const;
   void measure();
   void save(const measurement::Comparison& comparison) const;
   std::string run_json(const measurement::Comparison& comparison) const;
@@ -131,6 +134,10 @@ class ChooseCommand {
 
 workload::Workload workload_for(const ChooseOptions& options, const workload::Selection& selection,
                                 double rate_hz) {
+  const contestants::Selectors& selectors = options.selectors;
+  if (!selectors.scene.empty())
+    return choose::workload_by_time(bodies::load_body_scene(selectors.scene, selectors.poses), selection,
+                                    motions_of(options), rate_hz);
   const std::string mesh =
       options.selectors.meshes.empty() ? scenes::default_scene() : options.selectors.meshes.front();
   return choose::workload_by_time(results::without_directories(mesh),
@@ -149,7 +156,9 @@ ChooseCommand::ChooseCommand(const ProgramContext& context, const ChooseOptions&
   if (!options.out.empty()) folder_.emplace(options.out);
   description_.query = selection_.queries.front();
   if (options.selectors.detectors.empty())
-    selection_.contestants = context.roster.candidates(description_.query);
+    selection_.contestants = options.selectors.scene.empty()
+                                 ? context.roster.candidates(description_.query)
+                                 : context.roster.scene_candidates(description_.query);
   description_.flushed_to_zero = support::restore_denormals();
   description_.seed = selection_.seed;
   description_.effort = effort_for(options.quick);
@@ -160,6 +169,19 @@ const contestants::ContestantSpec& ChooseCommand::spec_of(const choose::Candidat
   return *std::find_if(
       selection_.contestants.begin(), selection_.contestants.end(),
       [&](const contestants::ContestantSpec& spec) { return spec.text() == candidate.contestant(); });
+}
+
+/// Returns the recommended one's; where that is no class of the library, also that of the best one that is.
+std::string ChooseCommand::code(const std::vector<std::size_t>& ranked) const {
+  std::string text;
+  for (const std::size_t i : ranked) {
+    const contestants::ContestantSpec& spec = spec_of(candidates_[i]);
+    const bool is_class = !context_.roster.find(spec.name).library.name.empty();
+    if (text.empty() || is_class)
+      text += choose::code_for(context_.roster, spec, workload_, description_.query);
+    if (is_class || !workload_.scene) break;
+  }
+  return text;
 }
 
 void ChooseCommand::measure() {
@@ -204,9 +226,7 @@ void ChooseCommand::save(const measurement::Comparison& comparison) const {
   if (!description_.finished) return;
   folder_->write_file("choose.csv", choose::choose_csv(description_.run_id, asked(), candidates_));
   const std::vector<std::size_t> ranked = choose::ranking(candidates_, limits_);
-  if (!ranked.empty())
-    folder_->write_file("choose.cpp", choose::code_for(context_.roster, spec_of(candidates_[ranked.front()]),
-                                                       workload_, description_.query));
+  if (!ranked.empty()) folder_->write_file("choose.cpp", code(ranked));
 }
 
 int ChooseCommand::report() const {
@@ -214,9 +234,7 @@ int ChooseCommand::report() const {
   out.write('\n' + choose::candidate_table(asked(), candidates_) + '\n' +
             choose::recommendation(asked(), candidates_));
   const std::vector<std::size_t> ranked = choose::ranking(candidates_, limits_);
-  if (!ranked.empty())
-    out.write('\n' + choose::code_for(context_.roster, spec_of(candidates_[ranked.front()]), workload_,
-                                      description_.query));
+  if (!ranked.empty()) out.write('\n' + code(ranked));
   out.finish();
   return ranked.empty() ? support::exit_check_failed : support::exit_done;
 }
@@ -243,6 +261,7 @@ void add_choose(CLI::App& program, ProgramContext& context) {
   CLI::App* command =
       program.add_subcommand("choose", "which detector, with which options, for this part on this machine?");
   add_selectors(*command, context, options->selectors);
+  add_scene_selectors(*command, options->selectors);
   add_unit(*command, options->selectors.unit);
   command->get_option("--rate")
       ->description("of the servo loop; motion goes by time, so motion files with times are resampled to it")
@@ -250,7 +269,7 @@ void add_choose(CLI::App& program, ProgramContext& context) {
   command->get_option("--trajectory")
       ->description(
           "as --motion, or a name (touchmark list); repeatable; default: slide, fast-slide (ten "
-          "times as fast), approach, hover and cross");
+          "times as fast; not over a scene of bodies), approach, hover and cross");
   command->get_option("--detector")
       ->description("a candidate as NAME[:key=value,...]; repeatable; default: ours and the exact rivals");
   command->add_option("--motion", options->motions, "how your hand moves: a motion file; repeatable")
@@ -271,7 +290,8 @@ void add_choose(CLI::App& program, ProgramContext& context) {
       "motion 99.9 % of warm queries and 99 % of those with all caches emptied keep within the share. The\n"
       "fastest of those is recommended; of candidates less than 15 % apart the one that takes less memory.\n"
       "Exit status 1: none holds.\n"
-      "Example: touchmark choose --mesh part.stl --motion hand.csv --rate 1000 --share 10% --memory 50MB\n");
+      "Example: touchmark choose --mesh part.stl --motion hand.csv --rate 1000 --share 10% --memory 50MB\n"
+      "         touchmark choose --scene parts.json --poses parts.csv --motion hand.csv\n");
   command->final_callback([options, &context] { context.status = ChooseCommand(context, *options).run(); });
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -64,6 +66,70 @@ Question question_of(const workload::Workload& workload, workload::Query query) 
           fmt::format("first_hit({{from, to, {}}}, session_)", radius)};
 }
 
+/// Asks over bodies, and says whose the contact is.
+Question question_about_bodies(const workload::Workload& workload, workload::Query query) {
+  Question question = question_of(workload, query);
+  for (const auto& [word, with_body] :
+       {std::pair{"nearest(", "nearest_body("}, std::pair{"first_hit(", "first_hit_body("},
+        std::pair{"::Contact>", "::BodyContact>"}, std::pair{"::Impact>", "::BodyImpact>"}}) {
+    for (std::string* const text : {&question.answer, &question.call}) {
+      const std::size_t at = text->find(word);
+      if (at != std::string::npos) text->replace(at, std::string_view(word).size(), with_body);
+    }
+  }
+  return question;
+}
+
+/// Says of what is no class of the library where its calls are.
+std::string no_class(const contestants::ContestantInfo& info, const std::string& contestant) {
+  return info.scenes_only
+             ? fmt::format(
+                   "// {} is no class of the library ({}); bench/contestants/plain_scenes.h holds the "
+                   "calls that were measured.\n",
+                   contestant, info.summary)
+             : fmt::format(
+                   "// {} is another library ({}); baselines/{} holds the calls that were measured.\n",
+                   contestant, info.summary, info.name);
+}
+
+std::string options_function(const std::string& type, const contestants::ContestantInfo& info,
+                             const contestants::OptionValues& values) {
+  return fmt::format(
+      "  static {0}::Options options_for([[maybe_unused]] const touchmark::TriangleMesh& mesh) {{\n"
+      "    {0}::Options options;\n{1}    return options;\n  }}\n",
+      type, statements(info, values));
+}
+
+std::string scene_code_for(const contestants::ContestantInfo& info, const contestants::ContestantSpec& spec,
+                           const workload::Workload& workload, workload::Query query) {
+  const std::string type = "touchmark::" + info.library.name;
+  const Question question = question_about_bodies(workload, query);
+  std::vector<std::string> headers{info.library.header, "pose", "probe", "scene", "triangle_mesh"};
+  std::sort(headers.begin(), headers.end());
+  std::string text = fmt::format(
+      "// {}, as touchmark choose recommends it for these bodies. Lengths are in the scene's units.\n",
+      spec.text());
+  text += "#include <limits>\n#include <optional>\n#include <utility>\n\n";
+  for (const std::string& header : headers) text += fmt::format("#include <touchmark/{}.h>\n", header);
+  text += fmt::format(
+      "\nclass HapticContacts {{\n public:\n"
+      "  using Scene = touchmark::Scene<{0}>;\n\n"
+      "  // Any number of bodies may have the shape.\n"
+      "  touchmark::ShapeId add_shape(touchmark::TriangleMesh mesh) {{\n"
+      "    const {0}::Options options = options_for(mesh);\n"
+      "    return scene_.add_shape(touchmark::Shape<{0}>::build(std::move(mesh), options));\n  }}\n"
+      "  // touchmark::pose_of(position, w, x, y, z) makes the pose.\n"
+      "  touchmark::BodyId add(touchmark::ShapeId shape, const touchmark::Pose& pose) {{ return "
+      "scene_.add(shape, pose); }}\n"
+      "  // Between two calls of ask; touchmark/shared_scene.h is for another thread.\n"
+      "  void move(touchmark::BodyId body, const touchmark::Pose& pose) {{ scene_.move(body, pose); }}\n\n"
+      "  // Once a tick, by the thread of one haptic point.\n"
+      "  {1} ask({2}) noexcept {{\n    return scene_.{3};\n  }}\n\n private:\n{4}\n"
+      "  Scene scene_;\n  Scene::Session session_;\n}};\n",
+      type, question.answer, question.parameters, question.call, options_function(type, info, spec.values));
+  return text;
+}
+
 bool is_on(const contestants::OptionValues& values, const std::string& key) {
   const auto found = values.all().find(key);
   return found != values.all().end() && found->second == "true";
@@ -74,9 +140,8 @@ bool is_on(const contestants::OptionValues& values, const std::string& key) {
 std::string code_for(const contestants::Roster& roster, const contestants::ContestantSpec& spec,
                      const workload::Workload& workload, workload::Query query) {
   const contestants::ContestantInfo& info = roster.find(spec.name);
-  if (info.library.name.empty())
-    return fmt::format("// {} is another library ({}); baselines/{} holds the calls that were measured.\n",
-                       spec.text(), info.summary, info.name);
+  if (info.library.name.empty()) return no_class(info, spec.text());
+  if (workload.scene) return scene_code_for(info, spec, workload, query);
   const bool sides = contestants::asks_for_side(spec.values);
   const std::string type = "touchmark::" + info.library.name;
   const std::string detector = sides ? fmt::format("touchmark::Signed<{}>", type) : type;
@@ -99,12 +164,8 @@ std::string code_for(const contestants::Roster& roster, const contestants::Conte
     text +=
         "\n  // After the force has gone to the device, in the idle rest of the tick.\n"
         "  void prepare() noexcept { detector_.prepare(session_); }\n";
-  text += fmt::format(
-      "\n private:\n  static {0}::Options options_for([[maybe_unused]] const touchmark::TriangleMesh& mesh) "
-      "{{\n"
-      "    {0}::Options options;\n{1}    return options;\n  }}\n\n"
-      "  {2} detector_;\n  {2}::Session session_;\n}};\n",
-      type, statements(info, spec.values), detector);
+  text += fmt::format("\n private:\n{0}\n  {1} detector_;\n  {1}::Session session_;\n}};\n",
+                      options_function(type, info, spec.values), detector);
   return text;
 }
 

@@ -8,9 +8,9 @@
 
 namespace touchmark::bench::experiments::choose {
 
-/// Returns a source file that compiles against the installed library; for another library's detector, and
-/// for options that no program sets, a line that says so. The probe's radius and the reach are the
-/// workload's.
+/// Returns a source file that compiles against the installed library, with a Scene where the workload is of
+/// bodies; for another library's detector, and for options that no program sets, a line that says so. The
+/// probe's radius and the reach are the workload's.
 std::string code_for(const contestants::Roster& roster, const contestants::ContestantSpec& spec,
                      const workload::Workload& workload, workload::Query query);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include "bench/experiments/servo/servo_trace.h"
@@ -33,6 +34,21 @@ workload::Workload make_fast_slide(const std::string& mesh_name, const TriangleM
 const std::vector<std::string>& usual_motions() {
   static const std::vector<std::string> motions{"slide", fast_slide, "approach", "hover", "cross"};
   return motions;
+}
+
+const std::vector<std::string>& usual_motions_over_bodies() {
+  static const std::vector<std::string> motions{"slide", "approach", "hover", "cross"};
+  return motions;
+}
+
+workload::Workload workload_by_time(bodies::GeneratedScene scene, const workload::Selection& selection,
+                                    const std::vector<std::string>& motions, double rate_hz) {
+  servo::ServoSettings settings;
+  settings.rate_hz = rate_hz;
+  settings.ticks = servo::default_steps;
+  if (std::ranges::find(motions, fast_slide) != motions.end())
+    throw std::invalid_argument("fast-slide is over one mesh: over a scene of bodies write a motion file");
+  return servo::scene_workload_by_time(std::move(scene), selection, motions, settings);
 }
 
 workload::Workload workload_by_time(const std::string& mesh_name, const TriangleMesh& mesh,

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/bodies/generated_bodies.h"
 #include "bench/workload/selection.h"
 #include "bench/workload/workload.h"
 #include "core/triangle_mesh.h"
@@ -14,10 +15,17 @@ namespace touchmark::bench::experiments::choose {
 /// ("fast-slide"), pressing, free, and through thin parts.
 const std::vector<std::string>& usual_motions();
 
+/// Returns those over a scene of bodies, whose poses are by time: without the faster slide.
+const std::vector<std::string>& usual_motions_over_bodies();
+
 /// All motions by time, a position a tick of the rate; names of trajectories, of files, or fast-slide. Throws
 /// std::invalid_argument.
 workload::Workload workload_by_time(const std::string& mesh_name, const TriangleMesh& mesh,
                                     const workload::Selection& selection,
+                                    const std::vector<std::string>& motions, double rate_hz);
+/// Over bodies, which move in the meantime. Throws std::invalid_argument, also for a generated
+/// motion at another rate than 1000.
+workload::Workload workload_by_time(bodies::GeneratedScene scene, const workload::Selection& selection,
                                     const std::vector<std::string>& motions, double rate_hz);
 
 }  // namespace touchmark::bench::experiments::choose

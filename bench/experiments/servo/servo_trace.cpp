@@ -52,13 +52,16 @@ workload::Selection selection_by_time(workload::Selection selection, const Trian
 }
 
 workload::Workload scene_workload_by_time(bodies::GeneratedScene scene, workload::Selection selection,
-                                          const std::string& trajectory, const ServoSettings& settings) {
-  if (is_resampled_shape(trajectory, settings.rate_hz))
-    throw std::invalid_argument(
-        fmt::format("--rate {:g}: over a scene of bodies {} goes at {:g} Hz; a motion file goes at any rate",
-                    settings.rate_hz, trajectory, shape_rate_hz));
+                                          const std::vector<std::string>& trajectories,
+                                          const ServoSettings& settings) {
+  for (const std::string& trajectory : trajectories) {
+    if (is_resampled_shape(trajectory, settings.rate_hz))
+      throw std::invalid_argument(fmt::format(
+          "--rate {:g}: over a scene of bodies {} goes at {:g} Hz; a motion file goes at any rate",
+          settings.rate_hz, trajectory, shape_rate_hz));
+  }
   selection.motion.rate_hz = settings.rate_hz;
-  return workload::make_scene_workload(std::move(scene), selection, {trajectory},
+  return workload::make_scene_workload(std::move(scene), selection, trajectories,
                                        steps_for(selection, settings));
 }
 

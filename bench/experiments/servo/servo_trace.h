@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "bench/bodies/generated_bodies.h"
 #include "bench/experiments/servo/servo_row.h"
@@ -28,7 +29,8 @@ workload::Workload workload_by_time(std::string mesh_name, TriangleMesh mesh,
 /// Likewise over bodies, which stand at each tick where they are by its time. Throws std::invalid_argument,
 /// also for a generated trajectory at another rate than its own: it was made over bodies of other times.
 workload::Workload scene_workload_by_time(bodies::GeneratedScene scene, workload::Selection selection,
-                                          const std::string& trajectory, const ServoSettings& settings);
+                                          const std::vector<std::string>& trajectories,
+                                          const ServoSettings& settings);
 
 /// True if the steps of `touchmark query` are other ones, since the trajectory was resampled and is no file.
 bool is_resampled_shape(const std::string& trajectory, double rate_hz);

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "core/geometry/distance_error.h"
@@ -41,11 +43,15 @@ struct SweepVisitor {
   void consider(std::uint32_t at) noexcept { first.consider(tree.triangles[at], at, work.exact_decisions); }
 };
 
-/// A ball about the middle of a longer path meets more than the path does.
-constexpr double longest_in_leaf_radii = 0.5;
+/// A ball about the middle of a longer path meets more than the path does: more in its length, and in the
+/// radius about as much as their product.
+constexpr double longest_in_leaf_radii = 0.5, largest_product_in_leaf_radii = 0.25;
+/// More work than this about the middle shows that leaves are long and near to one another, so that their
+/// radius misleads: the path is looked along instead.
+constexpr std::uint64_t middle_budget = 1024;
 
-/// In plane_errors of both ends together: the sum of all rounding is below 4 of them.
-constexpr float path_error = 16;
+/// In plane_errors of both ends together: the sum of all rounding is below 5 of them.
+constexpr float path_error = 8;
 
 }  // namespace
 
@@ -66,9 +72,13 @@ std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, 
   if (is_sampled_clear(sweep, length, reach, memory)) return std::nullopt;
   const std::uint64_t budget = remaining(work_limit(), work.total() - before);
   FirstTouch first(sweep);
-  const bool done = length <= longest_in_leaf_radii * mean_leaf_radius_
-                        ? search_middle(sweep, length, reach, budget, first, memory, work)
-                        : search_path(sweep, length, reach, budget, first, work);
+  const bool is_short =
+      length <= longest_in_leaf_radii * mean_leaf_radius_ &&
+      length * reach <= largest_product_in_leaf_radii * mean_leaf_radius_ * mean_leaf_radius_;
+  const bool done =
+      (is_short &&
+       search_middle(sweep, length, reach, std::min(budget, middle_budget), first, memory, work)) ||
+      search_path(sweep, length, reach, remaining(work_limit(), work.total() - before), first, work);
   if (!done) {
     work.triangles += parts_.triangles.size();
     for (std::uint32_t at = 0; at < parts_.triangles.size(); ++at)

@@ -4,9 +4,13 @@
 /// The root of a sum of two squares is less than this too small.
 inline constexpr float rounded_up = 1 + 0x1p-20F;
 
+/// One over how fast a coordinate changes, as a magnitude. What changes less over a length of 1 than 2^-40,
+/// far below the path's error, is taken to change by as much.
+inline Wide inverse_of(Wide rise) noexcept { return (Wide{} + 1) / max(max(rise, -rise), Wide{} + 0x1p-40F); }
+
 /// A path in every lane.
 struct PathLanes {
-  Wide x, y, z, direction_x, direction_y, direction_z, reach;
+  Wide x, y, z, direction_x, direction_y, direction_z, inverse_x, inverse_y, inverse_z, reach;
 
   explicit PathLanes(const Path& path) noexcept
       : x(Wide{} + path.from.x),
@@ -15,6 +19,9 @@ struct PathLanes {
         direction_x(Wide{} + path.direction_x),
         direction_y(Wide{} + path.direction_y),
         direction_z(Wide{} + path.direction_z),
+        inverse_x(inverse_of(direction_x)),
+        inverse_y(inverse_of(direction_y)),
+        inverse_z(inverse_of(direction_z)),
         reach(Wide{} + path.reach) {}
 };
 
@@ -23,19 +30,22 @@ struct Stretches {
   alignas(64) std::array<float, tree_width> begin, end;
 };
 
-/// Returns the least magnitude between two values of what is linear in between.
-inline Wide least_magnitude(Wide a, Wide b) noexcept {
-  return a * b > 0 ? min(max(a, -a), max(b, -b)) : Wide{};
-}
+/// A part of the path in each lane.
+struct Part {
+  Wide begin, end;
 
-/// Returns true where what is `at` a coordinate of the path at its start and changes by `rise` a length comes
-/// within `limit` of 0 between two lengths.
-inline WideBits comes_within(Wide limit, Wide at, Wide rise, Wide begin, Wide end) noexcept {
-  return least_magnitude(at + begin * rise, at + end * rise) <= limit;
-}
+  /// Cuts off where what is `at` a coordinate of the path at its start, and changes by `rise` a length, is
+  /// farther than `limit` from 0. What is below 0 leaves nothing.
+  void keep_within(Wide limit, Wide at, Wide rise, Wide inverse) noexcept {
+    const Wide rising = rise < 0 ? -at : at;
+    begin = max(begin, (-limit - rising) * inverse);
+    end = min(end, (limit - rising) * inverse);
+  }
+};
 
 /// Returns those children that the ball may reach into before `until`, as bits. Such a child's ball is within
-/// reach of the path, and on that stretch the path comes within reach of its slab, or of all three of its box.
+/// reach of the path, and there is a stretch on which the path is within reach of its slab, or of all three
+/// of its box.
 inline unsigned children_on(bool boxes, const TreeNode& node, const PathLanes& path, float until,
                             Stretches& stretches) noexcept {
   unsigned found = 0;
@@ -43,47 +53,75 @@ inline unsigned children_on(bool boxes, const TreeNode& node, const PathLanes& p
     const Wide x = path.x - load(node.x + at), y = path.y - load(node.y + at), z = path.z - load(node.z + at);
     const Wide half = load(node.half + at), across = load(node.radius + at);
     const Wide third = boxes ? load(node.normal_x + at) : Wide{};
-    const Wide radius =
-        square_root(across * across + half * half + third * third) * rounded_up + path.reach;
+    const Wide radius = square_root(across * across + half * half + third * third) * rounded_up + path.reach;
     const Wide along = -(x * path.direction_x + y * path.direction_y + z * path.direction_z);
-    const Wide nearest = min(max(along, Wide{}), Wide{} + until);
-    const Wide off_x = x + nearest * path.direction_x, off_y = y + nearest * path.direction_y,
-               off_z = z + nearest * path.direction_z;
-    const Wide begin = min(max(along - radius, Wide{}), Wide{} + until);
-    const Wide end = min(max(along + radius, Wide{}), Wide{} + until);
-    WideBits near = off_x * off_x + off_y * off_y + off_z * off_z <= radius * radius;
+    const Wide off_x = x + along * path.direction_x, off_y = y + along * path.direction_y,
+               off_z = z + along * path.direction_z;
+    const Wide squared = radius * radius - (off_x * off_x + off_y * off_y + off_z * off_z);
+    const Wide chord = square_root(max(squared, Wide{}));
+    Part part{max(along - chord, Wide{}), min(along + chord, Wide{} + until)};
     if (boxes) {
-      near &= comes_within(half + path.reach, x, path.direction_x, begin, end) &
-              comes_within(across + path.reach, y, path.direction_y, begin, end) &
-              comes_within(third + path.reach, z, path.direction_z, begin, end);
+      part.keep_within(half + path.reach, x, path.direction_x, path.inverse_x);
+      part.keep_within(across + path.reach, y, path.direction_y, path.inverse_y);
+      part.keep_within(third + path.reach, z, path.direction_z, path.inverse_z);
     } else {
       const Wide normal_x = load(node.normal_x + at), normal_y = load(node.normal_y + at),
                  normal_z = load(node.normal_z + at);
       const Wide height = x * normal_x + y * normal_y + z * normal_z;
       const Wide rise =
           path.direction_x * normal_x + path.direction_y * normal_y + path.direction_z * normal_z;
-      near &= comes_within(half + path.reach, height, rise, begin, end);
+      part.keep_within(half + path.reach, height, rise, inverse_of(rise));
     }
-    store(stretches.begin.data() + at, begin);
-    store(stretches.end.data() + at, end);
+    const WideBits near = (squared >= 0) & (part.begin <= part.end);
+    store(stretches.begin.data() + at, part.begin);
+    store(stretches.end.data() + at, part.end);
     found |= to_bits(near) << at;
   }
   return found;
 }
 
+/// What is linear along a stretch, at its begin and its end.
+struct Linear {
+  Wide begin, end;
+};
+
+/// Rounding of where two tangents cross, as a share of the values at both ends.
+inline constexpr float tangent_error = 0x1p-18F;
+
+/// Returns a lower bound of height^2 + excess^2 along the stretch, both less an error towards 0: a sum of
+/// convex functions, so nowhere below the tangents at its ends.
+inline Wide least_squared(const Linear& height, const Linear& excess, Wide error) noexcept {
+  const Wide h0 = max(max(height.begin, -height.begin) - error, Wide{}),
+             h1 = max(max(height.end, -height.end) - error, Wide{}),
+             e0 = max(excess.begin - error, Wide{}), e1 = max(excess.end - error, Wide{});
+  const Wide climb = height.end - height.begin, widening = excess.end - excess.begin;
+  const Wide first = h0 * h0 + e0 * e0, last = h1 * h1 + e1 * e1;
+  // Half the slopes there, as a fall and a rise.
+  const Wide fall = h0 * (height.begin < 0 ? climb : -climb) - e0 * widening;
+  const Wide rise = h1 * (height.end < 0 ? -climb : climb) + e1 * widening;
+  const Wide crossing = first - fall * ((first - last + 2 * rise) / (fall + rise));
+  const Wide least = min(first, last);
+  return (fall > 0) & (rise > 0) ? min(crossing, least) - tangent_error * (first + last) : least;
+}
+
 /// Returns those of a block's triangles that the ball may reach on a stretch, given as its ends, as bits. A
-/// plane's value is linear in between.
+/// plane's value is linear in between, and off by less than half the path's error.
 inline unsigned triangles_on(const TriangleBlock& block, const Point& begin, const Point& end,
                              float reach) noexcept {
   unsigned found = 0;
   for (std::size_t at = 0; at < tree_width; at += lanes) {
-    Wide side = Wide{};
-    for (std::size_t k = 1; k < 4; ++k)
-      side = max(side, min(planes_at(block, k, at, begin).value, planes_at(block, k, at, end).value));
-    const Wide face = planes_at(block, 0, at, begin).value, face_at_end = planes_at(block, 0, at, end).value;
-    const Wide height = max(least_magnitude(face, face_at_end) - begin.plane_error, Wide{});
-    const Wide excess = max(side - begin.plane_error, Wide{});
-    found |= to_bits(height * height + excess * excess <= Wide{} + reach * reach) << at;
+    const auto plane = [&](std::size_t k) {
+      return Linear{planes_at(block, k, at, begin).value, planes_at(block, k, at, end).value};
+    };
+    // Of the sides that which is beyond most.
+    Linear excess = plane(1);
+    for (std::size_t k = 2; k < 4; ++k) {
+      const Linear side = plane(k);
+      const WideBits is_more = side.begin + side.end > excess.begin + excess.end;
+      excess = {is_more ? side.begin : excess.begin, is_more ? side.end : excess.end};
+    }
+    const Wide least = least_squared(plane(0), excess, begin.plane_error / 2);
+    found |= to_bits(least <= Wide{} + reach * reach) << at;
   }
   return found;
 }
@@ -114,9 +152,9 @@ template <class Visitor>
     const std::uint32_t index = next.ref.index();
     if (next.ref.is_block()) {
       visitor.work.triangles += tree_width;
-      unsigned near = triangles_on(tree.blocks[index], point_at(next.begin), point_at(next.end), path.reach);
-      for (unsigned left = near; left != 0;)
-        prefetch(tree.triangles[index * tree_width + pop_lowest(left)]);
+      unsigned near = triangles_on(tree.blocks[index], point_at(next.begin),
+                                   point_at(std::min(next.end, until)), path.reach);
+      for (unsigned left = near; left != 0;) prefetch(tree.triangles[index * tree_width + pop_lowest(left)]);
       while (near != 0) visitor.consider(index * tree_width + pop_lowest(near));
       continue;
     }

@@ -153,6 +153,38 @@ TEST_F(SceneCommand, TakesBoxesAndPlanesOfTheSizesWritten) {
   EXPECT_EQ(verified.status, 0) << verified.out << verified.err;
 }
 
+// A sphere of radius 2, whose surface is what counts, and a capsule of 4 + 2 x 1 that lies along x.
+TEST_F(SceneCommand, TakesSpheresAndCapsulesAsSurfaces) {
+  const std::string two = scene(
+      R"({"name":"ball","shape":"sphere","radius":2,"position":[0,0,0],"orientation":[1,0,0,0]},)"
+      R"({"name":"bar","shape":"capsule","radius":1,"length":4,"position":[10,0,0],"orientation":[1,0,1,0]})");
+  const std::string motion = write("motion.csv", "x,y,z\n0,0,5\n0,1.5,0\n0,0,0\n10,0,3\n15,0,0\n10,0,0\n");
+  const Rows found = rows(two, motion);
+  EXPECT_EQ(found.bodies, (std::vector<std::string>{"ball", "ball", "ball", "bar", "bar", "bar"}));
+  const std::vector<double> distances{3, 0.5, 2, 2, 2, 1};
+  for (std::size_t i = 0; i < distances.size(); ++i)
+    EXPECT_NEAR(std::stod(found.distances.at(i)), distances[i], 1e-14) << i;
+}
+
+// Moving and still, beside a mesh, by way of every query. Who takes triangles alone says so.
+TEST_F(SceneCommand, VerifiesRoundBodiesExactly) {
+  const std::string many = scene(
+      plate("plate", "[0,0,0]") + "," +
+      R"({"name":"ball","shape":"sphere","radius":0.5,"position":[0.2,0,0.5],"orientation":[1,0,0,0]},)"
+      R"({"name":"twin","shape":"sphere","radius":0.5,"position":[0.2,0,0.5],"orientation":[1,0,1,0]},)"
+      R"({"name":"bar","shape":"capsule","radius":0.3,"length":2,"position":[1,1,0],"orientation":[1,0.2,1,0]})");
+  const std::string poses = write("poses.csv",
+                                  "time_s,body,x,y,z,qw,qx,qy,qz\n0,bar,1,1,0,1,0.2,1,0\n"
+                                  "0.05,bar,0,0,0.1,1,0,0,0\n");
+  const Outcome outcome =
+      run_touchmark({"verify", "--scene", many, "--poses", poses, "--steps", "60", "--trajectory", "jump",
+                     "--trajectory", "slide", "--radius", "2%", "--detector", "sphere-cluster", "--detector",
+                     "brute-force", "--detector", "looped"});
+  EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  EXPECT_NE(outcome.out.find("720 answers judged exactly"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("nothing judged"), std::string::npos) << outcome.out;
+}
+
 TEST_F(SceneCommand, RefusesShapesAndSizesThatAreNoneInOneLine) {
   const std::string motion = write("motion.csv", "x,y,z\n0,0,0\n");
   const auto refuses = [&](const std::string& members, const std::vector<std::string>& named) {
@@ -161,7 +193,7 @@ TEST_F(SceneCommand, RefusesShapesAndSizesThatAreNoneInOneLine) {
                       "--trajectory", motion, "--detector", "brute-force"},
                      named);
   };
-  refuses(R"("shape":"cone","size":[1,1,1])", {"\"a\"", "cone", "plane, box"});
+  refuses(R"("shape":"cone","size":[1,1,1])", {"\"a\"", "cone", "plane, box, sphere, capsule"});
   refuses(R"("shape":"box","size":[1,1])", {"\"a\"", "size", "2", "3"});
   refuses(R"("shape":"box","size":[1,-1,1])", {"\"a\"", "size", "number 2", "-1"});
   refuses(R"("shape":"box","size":[1,0,1])", {"size", "number 2"});
@@ -170,6 +202,11 @@ TEST_F(SceneCommand, RefusesShapesAndSizesThatAreNoneInOneLine) {
   refuses(R"("shape":"box")", {"size", "missing"});
   refuses(R"("shape":"box","size":[1,1,1],"mesh":"cube")", {"mesh", "shape"});
   refuses(R"("shape":7)", {"shape", "text"});
+  refuses(R"("shape":"sphere","radius":0)", {"\"a\"", "radius", "0"});
+  refuses(R"("shape":"sphere","radius":[1])", {"radius", "number"});
+  refuses(R"("shape":"sphere","size":[1,1,1])", {"size"});
+  refuses(R"("shape":"capsule","radius":1)", {"length", "missing"});
+  refuses(R"("shape":"capsule","radius":1,"length":-2)", {"length", "-2"});
   refuses(R"("mesh":"cube","size":[1,1,1])", {"size"});
 }
 
@@ -204,10 +241,32 @@ TEST_F(SceneCommand, RefusesPosesThatFitNoScene) {
 }
 
 TEST_F(SceneCommand, CommandsOfOneMeshSaySoInOneLine) {
-  for (const std::string command : {"choose", "stress", "scale", "update"})
+  for (const std::string command : {"stress", "scale", "update"})
     expect_bad_input({command, "--scene", "heap:3"},
-                     {command, "--scene", "query, verify, bench, servo and gate"});
-  expect_bad_input({"choose", "--poses", "poses.csv"}, {"choose", "--poses"});
+                     {command, "--scene", "query, verify, bench, servo, gate and choose"});
+  expect_bad_input({"stress", "--poses", "poses.csv"}, {"stress", "--poses"});
+}
+
+// Any processor answers within a tick at 1000 Hz, warm or cold. Whose code is no class names where it is.
+TEST_F(SceneCommand, ChoosesForBodiesThatMoveAndPrintsAScene) {
+  const std::string one = scene(plate("moved", "[0,0,0.25]") + "," + plate("still", "[0,0,0]"));
+  const std::string poses = write("poses.csv",
+                                  "time_s,body,x,y,z,qw,qx,qy,qz\n0,moved,0,0,0.25,1,0,0,0\n"
+                                  "0.2,moved,0,0,0.5,1,0,0,0\n");
+  const std::string out = (folder_ / "chosen").string();
+  const Outcome outcome = run_touchmark({"choose", "--scene", one, "--poses", poses, "--trajectory", "slide",
+                                         "--quick", "--steps", "200", "--share", "100%", "--detector",
+                                         "sphere-cluster", "--detector", "merged", "--out", out});
+  ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  EXPECT_NE(outcome.out.find("\nrecommended: sphere-cluster"), std::string::npos) << outcome.out;
+  for (const char* const code : {"touchmark::Scene<touchmark::SphereCluster>",
+                                 "std::optional<touchmark::BodyContact>", "scene_.nearest_body({center, "})
+    EXPECT_NE(outcome.out.find(code), std::string::npos) << code << outcome.out;
+  const Outcome valid = run_touchmark({"validate", out});
+  EXPECT_EQ(valid.status, 0) << valid.out << valid.err;
+  expect_bad_input({"choose", "--scene", one, "--trajectory", "fast-slide"}, {"fast-slide", "scene"});
+  expect_bad_input({"choose", "--scene", one, "--trajectory", "slide", "--rate", "500"}, {"500", "slide"});
+  expect_bad_input({"choose", "--poses", poses}, {"--poses", "--scene"});
 }
 
 // The bodies and their motion are those of the baseline, or it is refused.
@@ -259,6 +318,47 @@ TEST_F(SceneCommand, ReadsTheNodesOfAFile) {
   expect_bad_input({"query", "--scene", write("scaled.gltf", gltf(R"("scale":[2,2,2])")), "--trajectory",
                     motion, "--detector", "brute-force"},
                    {"scaled.gltf", "tip", "scales"});
+}
+
+// An arm whose second joint turns by a quarter turn about z and moves along the turned x. Collision geometry
+// comes before the visual one, which is all that the hand has.
+TEST_F(SceneCommand, ReadsARobotAtTheZeroPositionsOfItsJoints) {
+  const auto robot = [&](const std::string& tip) {
+    return write("arm.urdf",
+                 R"(<robot name="arm"><link name="base"><visual><geometry><sphere radius="9"/></geometry>)"
+                 R"(</visual><collision><geometry><box size="2 2 2"/></geometry></collision></link>)"
+                 R"(<link name="elbow"><collision><origin xyz="4 0 0"/><geometry><sphere radius="1"/>)"
+                 R"(</geometry></collision><collision><origin xyz="0 4 0"/><geometry>)"
+                 R"(<cylinder radius="1" length="2"/></geometry></collision></link><link name="hand">)"
+                 R"(<visual><geometry>)" +
+                     tip +
+                     R"(</geometry></visual></link><joint name="a" type="revolute"><parent link="base"/>)"
+                     R"(<child link="elbow"/><origin xyz="10 0 0" rpy="0 0 1.5707963267948966"/>)"
+                     R"(<axis xyz="0 0 1"/><limit effort="1" velocity="1" lower="-1" upper="1"/></joint>)"
+                     R"(<joint name="b" type="fixed"><parent link="elbow"/><child link="hand"/>)"
+                     R"(<origin xyz="20 0 0"/></joint></robot>)");
+  };
+  const std::string motion = write("motion.csv", "x,y,z\n0,3,0\n10,6,0\n4,0,0\n10.25,20.25,3\n");
+  if (run_touchmark({"query", "--scene", robot(R"(<sphere radius="1"/>)"), "--trajectory", motion,
+                     "--detector", "brute-force"})
+          .err.find("liburdfdom") != std::string::npos)
+    GTEST_SKIP() << "built without liburdfdom";
+  const Rows found = rows(robot(R"(<mesh filename="plate.off" scale="1 -1 2"/>)"), motion);
+  EXPECT_EQ(found.bodies, (std::vector<std::string>{"base", "elbow", "elbow#2", "hand"}));
+  const std::vector<double> distances{2, 1, 1, 3};
+  for (std::size_t i = 0; i < distances.size(); ++i)
+    EXPECT_NEAR(std::stod(found.distances.at(i)), distances[i], 2e-3) << i;
+  const auto refuses = [&](const std::string& scene, const std::vector<std::string>& named) {
+    expect_bad_input({"query", "--scene", scene, "--trajectory", motion, "--detector", "brute-force"}, named);
+  };
+  refuses(robot(R"(<mesh filename="package://arm/hand.stl"/>)"),
+          {"arm.urdf", "\"hand\"", "package://arm/hand.stl"});
+  refuses(robot(R"(<mesh filename="none.off"/>)"), {"arm.urdf", "\"hand\"", "none.off"});
+  refuses(robot(R"(<box size="1 0 1"/>)"), {"arm.urdf", "\"hand\"", "box", "0"});
+  refuses(robot(R"(<mesh filename="plate.off" scale="1 0 1"/>)"), {"\"hand\"", "scale"});
+  refuses(write("none.urdf", "<robot name='r'><link name='a'/></robot>"), {"none.urdf", "geometry"});
+  refuses(write("half.urdf", "<robot name='r'><link name="), {"half.urdf", "no URDF"});
+  refuses(write("empty.urdf", ""), {"empty.urdf"});
 }
 
 TEST_F(SceneCommand, VerifiesAPlainLoopOverMovingBodies) {

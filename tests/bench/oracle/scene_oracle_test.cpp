@@ -70,6 +70,48 @@ TEST(SceneOracle, MeasuresToTheExactImageOfAPoint) {
   }
 }
 
+// A sphere's surface, of which both sides are outside: 3-4-5 triangles have roots that are whole numbers.
+TEST(SceneOracle, MeasuresToASurfaceFromEitherSide) {
+  const auto axis = triangle({-1, 0, 0}, {1, 0, 0}, {1, 0, 0});
+  const Pose pose = pose_of({0, 0, 0}, 1, 0, 0, 0);
+  const SceneOracle oracle(Shapes{axis}, {{0, pose, 2}});
+  const auto at = [&](const Vec3& center) { return oracle.solve(center); };
+  EXPECT_EQ(at({4, 4, 0}).high, 3);
+  EXPECT_EQ(at({0, 1.5, 0}).high, 0.5);
+  EXPECT_EQ(at({0, 1.5, 0}).direction, Vec3(0, -1, 0));
+  EXPECT_EQ(at({0, 1.5, 0}).point, Vec3(0, 2, 0));
+  EXPECT_EQ(at({0.5, 0, 0}).high, 2);
+  const Vec3 inside(0, 1.5, 0);
+  EXPECT_TRUE(oracle.within(at(inside), inside, 0.5));
+  EXPECT_FALSE(oracle.within(at(inside), inside, std::nextafter(0.5, 0)));
+  EXPECT_TRUE(oracle.segment_within({0, 1, 0}, {0, 3, 0}, 0));
+  EXPECT_FALSE(oracle.segment_within({0, 1, 0}, {0, -1, 0}, 0.5)) << "inside all the way";
+  EXPECT_TRUE(oracle.segment_within({-5, 2, 0}, {5, 2, 0}, 0)) << "it grazes";
+  EXPECT_FALSE(oracle.segment_within({-5, std::nextafter(2, 3), 0}, {5, std::nextafter(2, 3), 0}, 0));
+  const Sweep out{{0, 0, 0}, {0, 4, 0}, 1};
+  EXPECT_FALSE(oracle.touches_before(out, 0.25)) << "at 1 of 4 it is one radius below the surface";
+  EXPECT_TRUE(oracle.touches_before(out, 0.26));
+  EXPECT_TRUE(oracle.within_on_path(out, 0.25, 1));
+  EXPECT_FALSE(oracle.within_on_path(out, 0.24, 1));
+  EXPECT_TRUE(oracle.surely_crosses({0, 0, 0}, {0, 4, 0}, 1.5));
+  EXPECT_FALSE(oracle.surely_crosses({0, 0, 0}, {0, 4, 0}, 2.5));
+}
+
+// Roots of which no double is the difference: the nearer one by a hair, and the first of those as far.
+TEST(SceneOracle, TellsTheNearerOfTwoSurfaces) {
+  const auto point = triangle({0, 0, 0}, {0, 0, 0}, {0, 0, 0});
+  const auto stands = [](const Vec3& position) { return pose_of(position, 1, 0, 0, 0); };
+  SceneOracle oracle(Shapes{point}, {{0, stands({1, 1, 0}), 0.25}, {0, stands({-1, 1, 0}), 0.25}});
+  EXPECT_EQ(oracle.solve(Vec3(0, 0, 0)).triangle, 0U);
+  EXPECT_EQ(oracle.solve(Vec3(-0x1p-300, 0, 0)).triangle, 1U);
+  // From within a large one and without a small one, by square roots of 2.
+  SceneOracle nested(Shapes{point}, {{0, stands({0, 0, 0}), 2}, {0, stands({2, 2, 0}), 0.5}});
+  const double within = 2 - std::sqrt(2), without = std::sqrt(2) - 0.5;
+  EXPECT_LT(within, without);
+  EXPECT_EQ(nested.solve(Vec3(1, 1, 0)).triangle, 0U);
+  EXPECT_NEAR(nested.solve(Vec3(1, 1, 0)).high, within, 1e-15);
+}
+
 TEST(SceneOracle, NamesTheLowestBodyOfThoseAtOnePlace) {
   const auto shape = triangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
   std::mt19937_64 random(2);

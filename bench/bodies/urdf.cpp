@@ -1,0 +1,179 @@
+#include "bench/bodies/urdf.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <console_bridge/console.h>
+#include <fmt/format.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include "bench/bodies/primitives.h"
+#include "bench/scenes/surface_builder.h"
+#include "bench/support/text_file.h"
+#include "core/mesh_io/mesh_io.h"
+
+namespace touchmark::bench::bodies {
+namespace {
+
+/// Keeps the library's first complaint, which it would print.
+class FirstComplaint final : public console_bridge::OutputHandler {
+ public:
+  FirstComplaint() { console_bridge::useOutputHandler(this); }
+  FirstComplaint(const FirstComplaint&) = delete;
+  FirstComplaint& operator=(const FirstComplaint&) = delete;
+  ~FirstComplaint() override { console_bridge::restorePreviousOutputHandler(); }
+
+  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR && text_.empty())
+      text_ = text.substr(0, text.find('\n'));
+  }
+  const std::string& text() const noexcept { return text_; }
+
+ private:
+  std::string text_;
+};
+
+Vec3 vector_of(const urdf::Vector3& v) { return {v.x, v.y, v.z}; }
+
+/// Returns where something stands that has this place in the frame of what stands there.
+Placement within(const Placement& outer, const urdf::Pose& inner) {
+  const urdf::Rotation& r = inner.rotation;
+  const Quaternion turn{r.w, r.x, r.y, r.z};
+  return {image(pose_of(outer), vector_of(inner.position)), normalized(product(outer.orientation, turn))};
+}
+
+void expect_sizes(std::string_view shape, std::initializer_list<double> sizes) {
+  for (const double size : sizes) {
+    if (size >= least_size && size <= largest_size) continue;
+    throw std::invalid_argument(
+        fmt::format("{}: {} is no size, which is from {} to {}", shape, size, least_size, largest_size));
+  }
+}
+
+TriangleMesh cylinder(double length, double radius) {
+  expect_sizes("cylinder", {length, radius});
+  scenes::Surface surface;
+  scenes::add_tube(surface, {{0, 0, -0.5 * length}, {0, 0, 0.5 * length}}, radius, cylinder_sides);
+  return std::move(surface).mesh();
+}
+
+/// Each coordinate times its own factor.
+TriangleMesh stretched(const TriangleMesh& mesh, const Vec3& factors) {
+  if (!factors.allFinite() || (factors.array() == 0).any())
+    throw std::invalid_argument("a mesh's scale is 0 or not finite");
+  std::vector<Vec3> vertices;
+  for (const Vec3& v : mesh.vertices()) vertices.emplace_back(v.cwiseProduct(factors));
+  return {std::move(vertices),
+          {mesh.triangles().begin(), mesh.triangles().end()},
+          {mesh.ids().begin(), mesh.ids().end()}};
+}
+
+class UrdfReader {
+ public:
+  explicit UrdfReader(const std::string& path) : folder_(std::filesystem::path(path).parent_path()) {}
+
+  void add(const urdf::Link& link, const Placement& place) {
+    link_ = link.name;
+    std::vector<std::pair<urdf::Pose, urdf::GeometrySharedPtr>> parts;
+    for (const auto& part : link.collision_array) parts.emplace_back(part->origin, part->geometry);
+    if (parts.empty())
+      for (const auto& part : link.visual_array) parts.emplace_back(part->origin, part->geometry);
+    for (const auto& [origin, geometry] : parts) {
+      if (!geometry) throw std::invalid_argument("has an element without geometry");
+      const Placement stands = within(place, origin);
+      if (!stands.position.allFinite() || !std::isfinite(dot(stands.orientation, stands.orientation)))
+        throw std::invalid_argument("does not stand at numbers that are finite");
+      scene_.bodies.push_back({link.name, shape_of(*geometry), stands});
+    }
+    for (const auto& joint : link.child_joints) {
+      const auto child = std::ranges::find(link.child_links, joint->child_link_name,
+                                           [](const urdf::LinkSharedPtr& one) { return one->name; });
+      if (child != link.child_links.end())
+        add(**child, within(place, joint->parent_to_joint_origin_transform));
+    }
+  }
+  /// Returns how messages begin.
+  std::string where() const { return link_.empty() ? "" : fmt::format("link \"{}\": ", link_); }
+  BodyScene scene() && { return std::move(scene_); }
+
+ private:
+  std::size_t added(std::optional<RoundShape> round, TriangleMesh mesh) {
+    const std::size_t index = scene_.shapes.size();
+    if (round) scene_.round.emplace(index, *round);
+    scene_.shapes.push_back(std::make_shared<const TriangleMesh>(std::move(mesh)));
+    return index;
+  }
+
+  std::size_t shape_of(const urdf::Geometry& geometry) {
+    switch (geometry.type) {
+      case urdf::Geometry::BOX: {
+        const Vec3 size = vector_of(dynamic_cast<const urdf::Box&>(geometry).dim);
+        expect_sizes("box", {size.x(), size.y(), size.z()});
+        return added(std::nullopt, box_of(size));
+      }
+      case urdf::Geometry::SPHERE: {
+        const RoundShape sphere{0, dynamic_cast<const urdf::Sphere&>(geometry).radius};
+        expect_sizes("sphere", {sphere.radius});
+        return added(sphere, facets_of(sphere));
+      }
+      case urdf::Geometry::CYLINDER: {
+        const auto& one = dynamic_cast<const urdf::Cylinder&>(geometry);
+        return added(std::nullopt, cylinder(one.length, one.radius));
+      }
+      case urdf::Geometry::MESH:
+        return mesh_of(dynamic_cast<const urdf::Mesh&>(geometry));
+    }
+    throw std::invalid_argument("has geometry of a kind that is not known");
+  }
+
+  std::size_t mesh_of(const urdf::Mesh& mesh) {
+    std::string name = mesh.filename;
+    constexpr std::string_view file = "file://";
+    if (name.starts_with(file)) name.erase(0, file.size());
+    if (name.find("://") != std::string::npos)
+      throw std::invalid_argument(
+          fmt::format("mesh \"{}\": packages are not looked up; write a path, from the URDF's folder", name));
+    const Vec3 scale = vector_of(mesh.scale);
+    const auto key = std::tuple(name, scale.x(), scale.y(), scale.z());
+    if (const auto known = meshes_.find(key); known != meshes_.end()) return known->second;
+    return meshes_[key] = added(std::nullopt, stretched(load_mesh(folder_ / name), scale));
+  }
+
+  std::filesystem::path folder_;
+  BodyScene scene_;
+  std::string link_;
+  std::map<std::tuple<std::string, double, double, double>, std::size_t> meshes_;
+};
+
+}  // namespace
+
+BodyScene read_urdf(const std::string& path) {
+  const std::string text = support::read_text_file(path);
+  const FirstComplaint complaint;
+  const urdf::ModelInterfaceSharedPtr robot = urdf::parseURDF(text);
+  if (!robot || !robot->getRoot())
+    throw std::invalid_argument(fmt::format("{}: is no URDF: {}", path, complaint.text()));
+  UrdfReader reader(path);
+  try {
+    reader.add(*robot->getRoot(), {});
+  } catch (const MeshError& error) {
+    throw MeshError(fmt::format("{}: {}{}", path, reader.where(), error.what()));
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("{}: {}{}", path, reader.where(), error.what()));
+  }
+  BodyScene scene = std::move(reader).scene();
+  if (scene.bodies.empty())
+    throw std::invalid_argument(path + ": no link of the robot has collision or visual geometry");
+  return scene;
+}
+
+}  // namespace touchmark::bench::bodies
