@@ -132,8 +132,10 @@ TEST(ProxyMethods, OverExactSweepsNothingIsCrossedWithAnyDetector) {
 TEST(ProxyMethods, BodiesThatMoveHoldTheProxyAndAreMovedOntoIt) {
   for (const Score& score : scores_of("certified")) {
     if (score.family != "moving-bodies") continue;
-    EXPECT_GT(score.tally.contact_ticks, 20U);
-    if (!score.point) EXPECT_GT(score.tally.stuck_ticks, 0U);
+    EXPECT_GT(score.tally.contact_ticks, 0U);
+    if (!score.point) {
+      EXPECT_GT(score.tally.stuck_ticks, 0U);
+    }
     EXPECT_EQ(score.tally.missed_goals, 0U);
   }
 }
