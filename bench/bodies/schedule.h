@@ -112,7 +112,9 @@ struct PlacedScene {
   std::vector<PlacedBody> bodies;
   bool moves = false;              ///< some body is asked to move
   std::vector<double> radii = {};  ///< one a shape, above 0 where its mesh is a round one's axis; or none
+  std::vector<bool> near = {};     ///< one a shape: is a body of it ever near a probe? None: it is not known.
 
+  bool is_near(std::size_t shape) const noexcept { return near.empty() || near[shape]; }
   double radius_of(std::size_t shape) const noexcept { return radii.empty() ? 0 : radii[shape]; }
 };
 

@@ -1,5 +1,6 @@
 #include "bench/contestants/build_notes.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace touchmark::bench::contestants {
@@ -17,7 +18,9 @@ std::string& last_choice() {
 
 }  // namespace
 
-void remark(std::string text) { kept().push_back(std::move(text)); }
+void remark(std::string text) {
+  if (std::ranges::find(kept(), text) == kept().end()) kept().push_back(std::move(text));
+}
 
 std::vector<std::string> take_remarks() { return std::exchange(kept(), {}); }
 

@@ -7,6 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "bench/contestants/build_notes.h"
 #include "bench/contestants/scene_player.h"
 #include "core/scene/scene.h"
 
@@ -18,17 +21,26 @@ class OwnScene {
  public:
   using Session = typename Scene<D>::Session;
 
+  /// Builds the shapes of which a body is ever near a probe. Should a query need another one, it builds it.
   OwnScene(const bodies::PlacedScene& placed, const OptionValues& values, const OptionsOf<D>& options) {
     std::vector<ShapeId> shapes;
+    std::size_t meshes = 0, built = 0;
     for (std::size_t i = 0; i < placed.shapes.size(); ++i) {
       const auto& mesh = placed.shapes[i];
       if (const double radius = placed.radius_of(i); radius > 0) {
         shapes.push_back(scene_.add_shape({nullptr, mesh, radius}));
         continue;
       }
-      auto detector = std::make_shared<const D>(D::build(*mesh, options(*mesh, values)));
-      shapes.push_back(scene_.add_shape({std::move(detector), mesh}));
+      const auto make = [=] {
+        return Shape<D>{std::make_shared<const D>(D::build(*mesh, options(*mesh, values))), mesh};
+      };
+      ++meshes;
+      built += placed.is_near(i) ? 1 : 0;
+      shapes.push_back(placed.is_near(i) ? scene_.add_shape(make())
+                                         : scene_.add_shape(ShapeSource<D>{mesh->bounds(), make}));
     }
+    if (built < meshes)
+      remark(fmt::format("{} of {} shapes are built: no probe comes near a body of another", built, meshes));
     for (const bodies::PlacedScene::PlacedBody& body : placed.bodies)
       ids_.push_back(scene_.add(shapes[body.shape], body.start));
   }

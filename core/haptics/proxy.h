@@ -2,8 +2,8 @@
 ///
 /// The invariant, decided exactly each tick: every straight piece of its way is farther from the surface than
 /// the radius. A piece is gone only after a detector that decides exactly has said that its sweep meets
-/// nothing; everything else only suggests where to try. docs/proxy.md has the argument and what it leaves
-/// open.
+/// nothing, or how far a slightly larger ball meets nothing; everything else only suggests where to try.
+/// docs/proxy.md has the argument and what it leaves open.
 ///
 ///   const auto detector = touchmark::SphereCluster::build(mesh);
 ///   touchmark::SphereCluster::Session session;
@@ -73,8 +73,9 @@ class Proxy {
   bool touches(double distance, typename D::Session& session) const noexcept {
     return detector_->touches({motion_.position(), distance}, session);
   }
-  std::optional<Impact> first_hit(const Vec3& to, typename D::Session& session) const noexcept {
-    return detector_->first_hit({motion_.position(), to, motion_.kept()}, session);
+  std::optional<Impact> first_hit(const Vec3& to, typename D::Session& session,
+                                  double margin = 0) const noexcept {
+    return detector_->first_hit({motion_.position(), to, motion_.kept() + margin}, session);
   }
 
   /// Chooses the distance that this tick keeps: the radius, or where that is not free the largest of a few
@@ -96,7 +97,13 @@ class Proxy {
 
   void slide(typename D::Session& session) noexcept {
     while (const std::optional<Vec3> target = motion_.next_target()) {
-      const std::optional<Impact> impact = first_hit(*target, session);
+      double margin = motion_.margin(*target);
+      std::optional<Impact> impact = first_hit(*target, session, margin);
+      // It stands within the margin: without one, the sweep may still be free.
+      if (margin > 0 && impact && impact->fraction == 0) {
+        margin = 0;
+        impact = first_hit(*target, session);
+      }
       if (!impact) {
         motion_.go(*target);
         if (motion_.is_at_goal()) return;
@@ -106,7 +113,7 @@ class Proxy {
       for (int retreat = 0; retreat < ProxyMotion::max_retreats; ++retreat) {
         const std::optional<Vec3> to = motion_.approach(*target, *impact, retreat);
         if (!to) break;
-        if (first_hit(*to, session)) continue;
+        if (margin == 0 && first_hit(*to, session)) continue;
         motion_.go(*to);
         look_around(session);
         break;

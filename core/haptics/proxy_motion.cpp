@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/geometry/sphere_triangle_sweep.h"
+
 namespace touchmark {
 namespace {
 
 /// A tick tries so often; what is still left is for the next one.
-constexpr int max_rounds = 16;
+constexpr int max_rounds = 8;
 /// One slide is enough on planes. On a curve of the ball's own each comes nearer by a share: what so many in
 /// a row have not reached is left to the next tick.
 constexpr int max_slides = 3;
@@ -98,6 +100,14 @@ void ProxyMotion::go(const Vec3& to) noexcept {
   if (!planes_.empty()) ++slides_;
   state_.position = state_.way[++state_.pieces] = to;
   has_moved_ = true;
+}
+
+/// The piece from here to the rounded end is nowhere farther than position_error from the sweep's own way,
+/// and of the margin one rounding is lost where it is added to the distance kept.
+double ProxyMotion::margin(const Vec3& target) const noexcept {
+  const double margin = skin_ / 8;
+  const double needed = position_error({position(), target, kept_}) + 0x1p-50 * kept_;
+  return target != goal_ && needed < margin ? margin : 0;
 }
 
 std::optional<Vec3> ProxyMotion::approach(const Vec3& target, const Impact& impact,

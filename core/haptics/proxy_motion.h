@@ -67,6 +67,10 @@ class ProxyMotion {
   /// Goes to a point that is surely free to go to.
   void go(const Vec3& to) noexcept;
   bool is_at_goal() const noexcept { return state_.position == goal_; }
+  /// Returns by how much larger a ball to sweep to a target with: by so much that up to where it is met the
+  /// way is surely free for the proxy, however `approach` rounds. 0 where the goal itself is the target,
+  /// which is to be reached where it is free, and where coordinates are too far for that.
+  double margin(const Vec3& target) const noexcept;
   /// Returns where to go towards a target that something is in the way of: the fraction rounded down, and
   /// back from there by what lets doubles decide. Each `retreat` is farther back; nothing where that is
   /// nowhere.

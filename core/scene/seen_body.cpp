@@ -11,6 +11,9 @@ namespace {
 
 constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 
+/// A sum of absolute values is no less than the norm, and takes no root.
+double length_above(const Vec3& v) noexcept { return v.cwiseAbs().sum(); }
+
 /// The corners' places in both triangles where they are the same stored point.
 struct SharedCorner {
   std::size_t in_a, in_b;
@@ -68,25 +71,32 @@ double SeenBody::surely_within(double reach, double error) const noexcept {
 SeenCorners::SeenCorners(const SeenBody& body) noexcept : body_(&body) {
   const Pose& pose = body.pose();
   for (int k = 0; k < 3; ++k) {
+    // A compensated sum (Ogita, Rump and Oishi 2005): what each step rounds off is added at the end.
     DoubleDouble sum = two_sum(pose.translation[k], -body.point()[k]);
-    for (int j = 0; j < 3; ++j) sum = sum + two_product(pose.rotation(k, j), body.center()[j]);
+    for (int j = 0; j < 3; ++j) {
+      const DoubleDouble product = two_product(pose.rotation(k, j), body.center()[j]);
+      const DoubleDouble next = two_sum(sum.high, product.high);
+      sum = {next.high, sum.low + (next.low + product.low)};
+    }
     rest_[k] = sum.rounded();
   }
-  const double scale = body.center().norm() + pose.translation.norm() + body.point().norm();
+  const double scale =
+      length_above(body.center()) + length_above(pose.translation) + length_above(body.point());
   // Above that, double-doubles lose their lower halves.
   constexpr double largest = 0x1p900;
-  rest_error_ = scale < largest ? 2 * unit_roundoff * rest_.norm() + 0x1p-98 * scale + 0x1p-960
+  rest_error_ = scale < largest ? 2 * unit_roundoff * length_above(rest_) + 0x1p-98 * scale + 0x1p-960
                                 : std::numeric_limits<double>::infinity();
 }
 
 SeenTriangle SeenCorners::operator()(const TriangleCorners& triangle) const noexcept {
   SeenTriangle seen;
-  double longest = 0;
+  double squared = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3 way = triangle[i] - body_->center();
     seen.corner[i] = body_->pose().rotation * way + rest_;
-    longest = std::max({longest, way.norm(), seen.corner[i].norm()});
+    squared = std::max({squared, way.squaredNorm(), seen.corner[i].squaredNorm()});
   }
+  const double longest = std::sqrt(squared);
   seen.largest = longest;
   const bool fits = longest >= 0x1p-132 && longest <= 0x1p231;
   seen.error = fits ? error_at(longest) : std::numeric_limits<double>::infinity();

@@ -80,6 +80,8 @@ void take(const ProxyState& state, Step& step) {
 }
 
 std::unique_ptr<ProxyMethod> certified_method(const MethodRequest& request) {
+  if (!request.bodies.empty())
+    if (std::unique_ptr<ProxyMethod> over_bodies = certified_over_bodies(request)) return over_bodies;
   const contestants::ContestantSpec spec = request.roster.parse(request.detector);
   std::unique_ptr<contestants::Contestant> built = request.roster.build(spec, request.mesh);
   if (!built->guides_proxy())

@@ -27,6 +27,10 @@ struct Course {
   /// The mesh changes after every so many ticks; 0: never. `moved(n)` is the mesh after the n-th change.
   std::size_t update_every = 0;
   std::function<TriangleMesh(std::size_t)> moved = nullptr;
+  /// Meshes of bodies that move, one after another as `mesh` has them; empty: it is no such course. Each is
+  /// moved by `places(n)` after the n-th change. The sums are exact, so that both tell the same surface.
+  std::vector<TriangleMesh> bodies = {};
+  std::function<std::vector<Vec3>(std::size_t)> places = nullptr;
 };
 
 /// Makes courses of about `ticks` in all. Equal seeds and numbers give equal ones, on every machine.

@@ -30,6 +30,8 @@ constexpr std::array list{
     Family{"tremor", "a hand's tremor inside and at the surface", &tremors},
     Family{"friction", "friction of 0.1 to 1", &friction},
     Family{"deforming", "a surface that changes its shape every ten ticks", &deforming},
+    Family{"moving-bodies", "bodies that move between ticks, into the ball and on it from two sides",
+           &moving_bodies},
 };
 
 }  // namespace

@@ -33,6 +33,9 @@ struct MethodRequest {
   const Coupling& coupling;
   const MethodOptions& options;
   const std::string& detector;  ///< one of ours, asked by those that claim never to cross
+  /// Meshes of the bodies that `mesh` consists of, where it does, and where they are.
+  std::span<const TriangleMesh> bodies = {};
+  std::span<const Vec3> places = {};
 };
 
 using MakeMethod = std::unique_ptr<ProxyMethod> (*)(const MethodRequest& request);
@@ -78,6 +81,9 @@ std::unique_ptr<ProxyMethod> god_object_method(const MethodRequest& request);
 std::unique_ptr<ProxyMethod> virtual_proxy_method(const MethodRequest& request);
 std::unique_ptr<ProxyMethod> finger_proxy_method(const MethodRequest& request);
 std::unique_ptr<ProxyMethod> certified_method(const MethodRequest& request);
+/// As certified_method, over a scene of the bodies; null for a detector that is not named plainly, or takes
+/// no scenes.
+std::unique_ptr<ProxyMethod> certified_over_bodies(const MethodRequest& request);
 std::unique_ptr<ProxyMethod> engine_sweep_method(const MethodRequest& request);
 
 }  // namespace touchmark::bench::experiments::proxy

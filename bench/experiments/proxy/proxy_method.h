@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,11 @@ class ProxyMethod {
   virtual void step(const Vec3& goal, Step& step) = 0;
   /// Follows a mesh whose vertices have moved; the proxy stays where it is.
   virtual void update(const TriangleMesh& mesh) = 0;
+  /// Follows bodies that have moved, of which the mesh is made; the proxy stays where it is.
+  virtual void move(std::span<const Vec3> places, const TriangleMesh& mesh) {
+    static_cast<void>(places);
+    update(mesh);
+  }
   /// Asks a second detector of its kind for the nearest contact at the goal, however far: the bare query that
   /// its tick is compared with. Returns false where it has no detector.
   virtual bool ask_nearest(const Vec3& goal) { return static_cast<void>(goal), false; }

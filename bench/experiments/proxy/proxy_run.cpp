@@ -32,17 +32,22 @@ void run_course(const contestants::Roster& roster, const Course& course, const s
                 const MethodSpec& method, const Coupling& coupling, const std::string& detector, Tally& tally,
                 const Seen& seen) {
   auto oracle = std::make_unique<const WayOracle>(course.mesh);
+  const std::vector<Vec3> places = course.places ? course.places(0) : std::vector<Vec3>();
   const std::unique_ptr<ProxyMethod> proxy =
-      method.info->make({roster, course.mesh, coupling, method.values, detector});
+      method.info->make({roster, course.mesh, coupling, method.values, detector, course.bodies, places});
   proxy->place(course.start);
   Judge judge(course, optima, coupling, tally);
   judge.see(*oracle);
   Step step;
   for (std::size_t tick = 0; tick < course.goals.size(); ++tick) {
     if (course.update_every > 0 && tick > 0 && tick % course.update_every == 0) {
-      const TriangleMesh mesh = course.moved(tick / course.update_every);
+      const std::size_t change = tick / course.update_every;
+      const TriangleMesh mesh = course.moved(change);
       auto next = std::make_unique<const WayOracle>(mesh);
-      proxy->update(mesh);
+      if (course.places)
+        proxy->move(course.places(change), mesh);
+      else
+        proxy->update(mesh);
       judge.see(*next);  // which still asks the last one
       oracle = std::move(next);
     }

@@ -10,7 +10,26 @@
 #include "core/simd/lanes.h"
 
 namespace touchmark::grid {
+
+/// A box rounded inwards: to compare its sides with other floats is to compare those of the box itself.
+struct GroupFinder::FloatBounds {
+  explicit FloatBounds(const Aabb& box) noexcept {
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double low = box.min[static_cast<int>(k)], high = box.max[static_cast<int>(k)];
+      min[k] = static_cast<float>(low);
+      if (static_cast<double>(min[k]) < low) min[k] = std::nextafter(min[k], infinity);
+      max[k] = static_cast<float>(high);
+      if (static_cast<double>(max[k]) > high) max[k] = std::nextafter(max[k], -infinity);
+    }
+  }
+
+  std::array<float, 3> min, max;
+};
+
 namespace {
+
+using FloatBounds = GroupFinder::FloatBounds;
 
 /// Beyond the sides by this part of the inradius: more keeps a sliding probe longer with one group, and makes
 /// the groups larger.
@@ -18,7 +37,9 @@ constexpr double growth = 0.3;
 /// Over and under the triangle by this part of its size at first, and by less where the groups would be too
 /// large.
 constexpr double first_height = 1.0, min_height = 0.2, shrinking = 0.6;
-static_assert(first_height * shrinking * shrinking * shrinking * shrinking < min_height &&
+constexpr double lowest_height = first_height * shrinking * shrinking * shrinking;
+static_assert(lowest_height > min_height &&
+              first_height * shrinking * shrinking * shrinking * shrinking < min_height &&
               GroupFinder::max_looks >= 4);
 
 // Of a ball about the triangle the grown triangle is within 1.6 radii, its size below 1.65, so the highest
@@ -36,32 +57,23 @@ Lanes load(const float* from) noexcept {
   return lanes;
 }
 
-/// A box rounded inwards: to compare its sides with other floats is to compare those of the box itself.
-struct FloatBounds {
-  explicit FloatBounds(const Aabb& box) noexcept {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double low = box.min[static_cast<int>(k)], high = box.max[static_cast<int>(k)];
-      min[k] = static_cast<float>(low);
-      if (static_cast<double>(min[k]) < low) min[k] = std::nextafter(min[k], infinity);
-      max[k] = static_cast<float>(high);
-      if (static_cast<double>(max[k]) > high) max[k] = std::nextafter(max[k], -infinity);
-    }
-  }
-
-  std::array<float, 3> min, max;
+/// Which of eight children have boxes that are not apart from another, and which of these lie in it.
+struct ChildrenIn {
+  unsigned reaching, within;
 };
 
-/// Bit i is set for a child whose box is not apart from this one.
-unsigned children_in(const EightBoxes& boxes, const FloatBounds& box) noexcept {
-  unsigned apart = 0;
+ChildrenIn children_in(const EightBoxes& boxes, const FloatBounds& box) noexcept {
+  unsigned apart = 0, beyond = 0;
   for (std::size_t half = 0; half < 2; ++half) {
-    LaneBits lanes{};
-    for (std::size_t k = 0; k < 3; ++k)
-      lanes |= (boxes.min[k][half] > box.max[k]) | (boxes.max[k][half] < box.min[k]);
-    apart |= to_bits(lanes) << (4 * half);
+    LaneBits is_apart{}, is_beyond{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      is_apart |= (boxes.min[k][half] > box.max[k]) | (boxes.max[k][half] < box.min[k]);
+      is_beyond |= (boxes.min[k][half] < box.min[k]) | (boxes.max[k][half] > box.max[k]);
+    }
+    apart |= to_bits(is_apart) << (4 * half);
+    beyond |= to_bits(is_beyond) << (4 * half);
   }
-  return ~apart & 0xffU;
+  return {~apart & 0xffU, ~(apart | beyond) & 0xffU};
 }
 
 /// Bit i is set for a ball that reaches into the box, as do those of all triangles that do.
@@ -104,9 +116,21 @@ GroupFinder::Found GroupFinder::find(std::uint32_t slot) noexcept {
 Work GroupFinder::take_work() noexcept { return std::exchange(work_, Work{}); }
 
 /// Leaves the members of the highest prism with no more than many, or of the lowest; none when the mesh is
-/// too dense there. Returns the prism's height.
+/// too dense there. Returns the prism's height. Neighbours are alike: higher than one step above the last two
+/// prisms it is only tried where there are few members.
 double GroupFinder::find_members(const FaceFrame& face_frame) noexcept {
-  double height = first_height * face_frame.size;
+  const double start = std::min(first_height, std::max(heights_[0], heights_[1]) / shrinking);
+  double height = find_below(face_frame, start);
+  if (start < first_height && height > 0 && member_count_ <= Groups::many_members / 2)
+    height = find_below(face_frame, first_height);
+  const bool has_group = height > 0 && member_count_ <= Groups::max_members;
+  heights_ = {heights_[1], has_group ? height : shrinking * lowest_height};
+  return height * face_frame.size;
+}
+
+/// Does so with prisms that are at most so high, in sizes of the triangle, and returns its height in these.
+double GroupFinder::find_below(const FaceFrame& face_frame, double start) noexcept {
+  double height = start * face_frame.size;
   const Prism highest(face_frame, growth, height, exclusion_margin_, store_.frame);
   Aabb box;
   for (const Vec3& corner : face_frame.grown(growth)) {
@@ -127,16 +151,15 @@ double GroupFinder::find_members(const FaceFrame& face_frame) noexcept {
     });
     member_count_ = static_cast<std::size_t>(kept - members_.begin());
   }
-  return height;
+  return height / face_frame.size;
 }
 
 /// Returns false, without members, once there are certainly too many even in the lowest prism.
 bool GroupFinder::select_members(const FaceFrame& face_frame, const Prism& prism) noexcept {
   work_.triangles += near_count_;
   std::size_t asked_at = Groups::max_members + 8;
-  for (std::size_t at = 0; at < near_count_; at += 4) {
-    unsigned left =
-        prism.balls_left(load(&near_x_[at]), load(&near_y_[at]), load(&near_z_[at]), load(&near_radius_[at]));
+  for (std::size_t at = 0; at < near_count_; at += Prism::balls_a_look) {
+    unsigned left = prism.balls_left(&near_x_[at], &near_y_[at], &near_z_[at], &near_radius_[at]);
     for (; left != 0; left &= left - 1) {
       const std::size_t i = at + static_cast<std::size_t>(std::countr_zero(left));
       if (i >= near_count_) break;  // behind the last are its copies
@@ -174,7 +197,8 @@ bool GroupFinder::gather(const Aabb& box) noexcept {
     gathered_ = Aabb();
     return false;
   }
-  const std::size_t whole = near_count_ == 0 ? 0 : (near_count_ + 3) / 4 * 4;
+  const std::size_t whole =
+      (near_count_ + Prism::balls_a_look - 1) / Prism::balls_a_look * Prism::balls_a_look;
   for (std::size_t i = 0; i < whole; ++i) {
     const TriangleBall& ball = store_.balls[near_[std::min(i, near_count_ - 1)]];
     near_x_[i] = ball.x;
@@ -183,6 +207,30 @@ bool GroupFinder::gather(const Aabb& box) noexcept {
     near_radius_[i] = ball.radius;
   }
   return true;
+}
+
+/// Adds slots whose triangles all reach into the box.
+bool GroupFinder::add_near(std::uint64_t first, std::uint64_t count) noexcept {
+  const std::uint64_t end = std::min<std::uint64_t>(first + count, store_.size());
+  if (near_count_ + (end - first) > std::min<std::uint64_t>(max_near, effort_.max_near)) return false;
+  for (std::uint64_t slot = first; slot < end; ++slot)
+    near_[near_count_++] = static_cast<std::uint32_t>(slot);
+  return true;
+}
+
+/// Adds those of a block whose balls reach into the box.
+bool GroupFinder::add_block(std::uint32_t block, const FloatBounds& bounds) noexcept {
+  const std::uint32_t first = block * TriangleStore::block_size;
+  const std::uint32_t end = std::min(first + TriangleStore::block_size, store_.size());
+  // Which balls reach into the box no branch predictor knows.
+  for (std::uint32_t slot = first; slot < end; slot += 4) {
+    const unsigned in = balls_in(std::span(store_.balls).subspan(slot).first<4>(), bounds);
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      near_[near_count_] = slot + i;
+      near_count_ += in >> i & 1;
+    }
+  }
+  return near_count_ <= std::min<std::uint64_t>(max_near, effort_.max_near);
 }
 
 bool GroupFinder::gather_blocks(const Aabb& box) noexcept {
@@ -202,21 +250,18 @@ bool GroupFinder::gather_blocks(const Aabb& box) noexcept {
     boxes_seen += BoxTree::arity;
     work_.boxes += BoxTree::arity;
     if (boxes_seen > effort_.max_boxes) return false;
-    for (unsigned left = children_in(boxes, bounds); left != 0; left &= left - 1) {
-      const std::uint32_t child =
-          node.index * BoxTree::arity + static_cast<std::uint32_t>(std::countr_zero(left));
-      if (node.level > 0) {
+    const ChildrenIn in = children_in(boxes, bounds);
+    const std::uint64_t slots_a_child = std::uint64_t{TriangleStore::block_size} << (3 * node.level);
+    for (unsigned left = in.reaching; left != 0; left &= left - 1) {
+      const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
+      const std::uint32_t child = node.index * BoxTree::arity + i;
+      if ((in.within >> i & 1) != 0) {
+        if (!add_near(child * slots_a_child, slots_a_child)) return false;
+      } else if (node.level > 0) {
         stack[count++] = {node.level - 1, child};
-        continue;
+      } else if (!add_block(child, bounds)) {
+        return false;
       }
-      const std::uint32_t first = child * TriangleStore::block_size;
-      for (std::uint32_t slot = first; slot < std::min(first + TriangleStore::block_size, store_.size());
-           slot += 4) {
-        for (unsigned in = balls_in(std::span(store_.balls).subspan(slot).first<4>(), bounds); in != 0;
-             in &= in - 1)
-          near_[near_count_++] = slot + static_cast<std::uint32_t>(std::countr_zero(in));
-      }
-      if (near_count_ > std::min<std::uint64_t>(max_near, effort_.max_near)) return false;
     }
   }
   return true;

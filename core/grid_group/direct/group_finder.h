@@ -46,6 +46,8 @@ class GroupFinder {
   /// radii.
   static constexpr double reach_in_radii = 6;
 
+  struct FloatBounds;
+
  private:
   /// The most triangles gathered around one: beyond, it is out of proportion to its neighbours, and the
   /// hierarchy serves it.
@@ -53,8 +55,11 @@ class GroupFinder {
   static constexpr std::size_t near_capacity = max_near + TriangleStore::block_size;
 
   double find_members(const FaceFrame& face_frame) noexcept;
+  double find_below(const FaceFrame& face_frame, double start) noexcept;
   bool gather(const Aabb& box) noexcept;
   bool gather_blocks(const Aabb& box) noexcept;
+  bool add_near(std::uint64_t first, std::uint64_t count) noexcept;
+  bool add_block(std::uint32_t block, const FloatBounds& bounds) noexcept;
   bool select_members(const FaceFrame& face_frame, const Prism& prism) noexcept;
   bool is_too_dense(const FaceFrame& face_frame) noexcept;
 
@@ -64,10 +69,11 @@ class GroupFinder {
   Effort effort_;
   Work work_;
 
-  Aabb gathered_;  ///< near_ holds every triangle that reaches into this
+  std::array<double, 2> heights_{1, 1};  ///< the heights of the last two prisms, in sizes of their triangles
+  Aabb gathered_;                        ///< near_ holds every triangle that reaches into this
   std::size_t near_count_ = 0, member_count_ = 0;
   std::array<std::uint32_t, near_capacity> near_, members_;
-  alignas(16) std::array<float, near_capacity> near_x_, near_y_, near_z_, near_radius_;  ///< their balls
+  alignas(32) std::array<float, near_capacity> near_x_, near_y_, near_z_, near_radius_;  ///< their balls
 };
 
 }  // namespace touchmark::grid

@@ -7,6 +7,10 @@
 namespace touchmark::grid {
 namespace {
 
+using Wide = Lanes;
+Wide square_root(Wide x) noexcept { return simd::sqrt(x); }
+#include "core/grid_group/direct/ball_bound.inl"
+
 bool several(std::uint64_t bits) noexcept { return (bits & (bits - 1)) != 0; }
 
 }  // namespace

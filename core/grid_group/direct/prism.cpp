@@ -2,10 +2,49 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include <Eigen/Geometry>
 
+#include "core/simd/dispatch.h"
+#include "core/simd/target.h"
+
+#if TOUCHMARK_HAS_AVX2
+#include <immintrin.h>
+#endif
+
 namespace touchmark::grid {
+namespace {
+
+namespace portable {
+inline constexpr std::size_t lanes = 4;
+using Wide = Lanes;
+inline Wide square_root(Wide x) noexcept { return simd::sqrt(x); }
+using touchmark::to_bits;
+inline constexpr unsigned all = 0xf;
+#include "core/grid_group/direct/prism_exclusion.inl"
+}  // namespace portable
+
+#if TOUCHMARK_HAS_AVX2
+const bool use_avx2 = widest_simd() >= Simd::avx2;
+
+TOUCHMARK_TARGET("avx2")
+namespace avx2 {
+inline constexpr std::size_t lanes = 8;
+using Wide [[gnu::vector_size(32)]] = float;
+using WideBits [[gnu::vector_size(32)]] = int;
+inline Wide square_root(Wide x) noexcept { return _mm256_sqrt_ps(x); }
+inline unsigned to_bits(WideBits bits) noexcept {
+  return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(bits)));
+}
+inline constexpr unsigned all = 0xff;
+#include "core/grid_group/direct/prism_exclusion.inl"
+}  // namespace avx2
+TOUCHMARK_END_TARGET
+#endif
+
+}  // namespace
+
 FaceFrame::FaceFrame(const PreparedTriangle& triangle, const FilterFrame& frame) noexcept
     : normal(triangle.normal) {
   for (std::size_t i = 0; i < 3; ++i) corner[i] = frame.to_frame(triangle.corner[i]);
@@ -39,14 +78,14 @@ void Prism::set_points(const FaceFrame& face_frame, double growth, double height
     for (int j = 0; i + j <= cuts; ++j)
       base_[number(i, j)] = corner[0] + (i * (corner[1] - corner[0]) + j * (corner[2] - corner[0])) / cuts;
   }
-  for (std::size_t k = 0; k < 4 * vectors; ++k) {
+  for (std::size_t k = 0; k < PrismPoints::padded_count; ++k) {
     const std::size_t point = std::min(k, points - 1);  // the last stands for what is left over
     const Vec3 p =
         base_[point % points_an_end] + (point < points_an_end ? -height : height) * face_frame.normal;
-    x_[k / 4][k % 4] = static_cast<float>(p.x());
-    y_[k / 4][k % 4] = static_cast<float>(p.y());
-    z_[k / 4][k % 4] = static_cast<float>(p.z());
-    plane_error_ = std::max(plane_error_, frame.plane_error(p));
+    points_.x[k] = static_cast<float>(p.x());
+    points_.y[k] = static_cast<float>(p.y());
+    points_.z[k] = static_cast<float>(p.z());
+    points_.plane_error = std::max(points_.plane_error, frame.plane_error(p));
   }
 }
 
@@ -80,16 +119,16 @@ void Prism::set_limits(const FaceFrame& face_frame, double growth, double height
       if (i + j + 1 < cuts) part({{{i + 1, j}, {i, j + 1}, {i + 1, j + 1}}});
     }
   }
-  for (std::size_t k = 0; k < 4 * vectors; ++k) {
+  for (std::size_t k = 0; k < PrismPoints::padded_count; ++k) {
     const double squared = across[std::min(k, points - 1) % points_an_end] + height * height;
-    const double distance = std::sqrt(squared) + 4 * static_cast<double>(plane_error_);
+    const double distance = std::sqrt(squared) + 4 * static_cast<double>(points_.plane_error);
     farthest_ = std::max(farthest_, distance);
-    limit_[k / 4][k % 4] = static_cast<float>(distance * distance);
+    points_.limit[k] = static_cast<float>(distance * distance);
   }
   // To lose by `exclusion_margin` at distance x, the square must lose by margin (2x + margin), wherever x is
   // in the prism.
   const auto pad = static_cast<float>(exclusion_margin * (2 * farthest_ + exclusion_margin));
-  for (Lanes& limit : limit_) limit = (limit + pad) * (1 + 0x1p-20f);
+  for (float& limit : points_.limit) limit = (limit + pad) * (1 + 0x1p-20f);
 }
 
 void Prism::set_ball_limits(const FaceFrame& face_frame, double height, double exclusion_margin) noexcept {
@@ -102,35 +141,23 @@ void Prism::set_ball_limits(const FaceFrame& face_frame, double height, double e
     const double distance = std::sqrt((p - face_frame.incenter).squaredNorm() +
                                       exclusion_margin * (2 * farthest + exclusion_margin));
     corner_limits_[i] = {static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()),
-                         static_cast<float>(distance + 4 * static_cast<double>(plane_error_))};
+                         static_cast<float>(distance + 4 * static_cast<double>(points_.plane_error))};
   }
 }
 
-unsigned Prism::balls_left(Lanes x, Lanes y, Lanes z, Lanes radius) const noexcept {
-  const auto ahead = [&](const BallLimit& at) {  // what exceeds 0 is excluded
-    const Lanes dx = x - at.x, dy = y - at.y, dz = z - at.z, beyond = radius + at.limit;
-    return (dx * dx + dy * dy + dz * dz) * (1 - 0x1p-20f) - beyond * beyond;
-  };
-  Lanes least = ahead(corner_limits_[0]);
-  for (std::size_t i = 1; i < 6; ++i) least = simd::min(least, ahead(corner_limits_[i]));
-  return at_most(least, 0);
+unsigned Prism::balls_left(const float* x, const float* y, const float* z,
+                           const float* radius) const noexcept {
+#if TOUCHMARK_HAS_AVX2
+  if (use_avx2) return avx2::balls_left(corner_limits_, x, y, z, radius);
+#endif
+  return portable::balls_left(corner_limits_, x, y, z, radius);
 }
 
-bool Prism::excludes(const TrianglePlanes& t, const TriangleBall& ball) const noexcept {
-  const Lanes zero = {0, 0, 0, 0};
-  for (std::size_t i = 0; i < vectors; ++i) {
-    const auto value = [&](int plane) {
-      return ((x_[i] * t.x[plane] + y_[i] * t.y[plane]) + z_[i] * t.z[plane]) + t.offset[plane];
-    };
-    const Lanes face = value(0), distance = simd::max(face, -face);
-    const Lanes height = simd::max(distance - plane_error_, zero);
-    const Lanes side_excess = simd::max(value(1), simd::max(value(2), value(3))) - plane_error_;
-    const Lanes excess = simd::max(side_excess, zero);
-    if (all_exceed(height * height + excess * excess, limit_[i])) continue;
-    const Lanes round = simd::max(excess, beyond_ball(ball, x_[i], y_[i], z_[i], distance, plane_error_));
-    if (!all_exceed(height * height + round * round, limit_[i])) return false;
-  }
-  return true;
+bool Prism::excludes(const TrianglePlanes& triangle, const TriangleBall& ball) const noexcept {
+#if TOUCHMARK_HAS_AVX2
+  if (use_avx2) return avx2::excludes(points_, triangle, ball);
+#endif
+  return portable::excludes(points_, triangle, ball);
 }
 
 }  // namespace touchmark::grid

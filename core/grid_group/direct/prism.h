@@ -30,6 +30,22 @@ struct FaceFrame {
   std::array<Vec3, 3> grown(double growth) const noexcept;
 };
 
+/// Points of a prism as plain arrays: what is farther from all of them than each one's limit loses everywhere
+/// in it.
+struct PrismPoints {
+  static constexpr std::size_t count = 12;
+  static constexpr std::size_t padded_count = 16;  ///< behind the last are its copies
+
+  alignas(32) std::array<float, padded_count> x, y, z;
+  alignas(32) std::array<float, padded_count> limit;  ///< squared
+  float plane_error = 0;
+};
+
+/// A point, and the distance from it beyond which a ball loses there.
+struct BallLimit {
+  float x, y, z, limit;
+};
+
 class Prism {
  public:
   /// The prism reaches from `height` under the grown triangle to `height` over it. A triangle that is left
@@ -40,8 +56,9 @@ class Prism {
 
   /// Is the triangle surely not nearest anywhere in the prism?
   bool excludes(const TrianglePlanes& triangle, const TriangleBall& ball) const noexcept;
-  /// A quick look at four balls first: bit i is set unless the same holds for whatever is in ball i.
-  unsigned balls_left(Lanes x, Lanes y, Lanes z, Lanes radius) const noexcept;
+  /// A quick look at eight balls first: bit i is set unless the same holds for whatever is in ball i.
+  unsigned balls_left(const float* x, const float* y, const float* z, const float* radius) const noexcept;
+  static constexpr std::size_t balls_a_look = 8;
   /// No point of the prism is farther than this from its triangle.
   double farthest() const noexcept { return farthest_; }
 
@@ -50,8 +67,7 @@ class Prism {
   static constexpr int cuts = 2;
   static constexpr std::size_t points_an_end = (cuts + 1) * (cuts + 2) / 2;
   static constexpr std::size_t points = 2 * points_an_end;
-  static constexpr std::size_t vectors = (points + 3) / 4;
-  using AtPoints = std::array<Lanes, vectors>;
+  static_assert(points == PrismPoints::count);
 
   /// Returns the number of the lattice point that is i cuts from corner 0 towards 1 and j towards 2.
   static constexpr std::size_t number(int i, int j) {
@@ -65,14 +81,8 @@ class Prism {
   void set_ball_limits(const FaceFrame& face_frame, double height, double exclusion_margin) noexcept;
 
   std::array<Vec3, points_an_end> base_;
-  AtPoints x_, y_, z_;
-  AtPoints limit_;  ///< squared distances beyond which a triangle loses
-  /// A point, and the distance from it beyond which a ball loses there.
-  struct BallLimit {
-    float x, y, z, limit;
-  };
+  PrismPoints points_;
   std::array<BallLimit, 6> corner_limits_;
-  float plane_error_ = 0;
   double farthest_ = 0;
 };
 

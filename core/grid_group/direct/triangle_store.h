@@ -8,7 +8,6 @@
 #include "core/aabb.h"
 #include "core/geometry/point_triangle.h"
 #include "core/search/plane_filter.h"
-#include "core/simd/lanes.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::grid {
@@ -18,21 +17,6 @@ namespace touchmark::grid {
 struct TriangleBall {
   float x, y, z, radius;
 };
-
-/// How far beyond a triangle's ball the foot of four points in its plane surely lies; `height` is the
-/// distance to that plane. 0 or less where it may lie in the ball.
-inline Lanes beyond_ball(const TriangleBall& ball, Lanes x, Lanes y, Lanes z, Lanes height,
-                         float plane_error) noexcept {
-  const auto magnitude = [](Lanes v) { return simd::max(v, -v); };
-  const Lanes dx = x - ball.x, dy = y - ball.y, dz = z - ball.z;
-  // |p - c|^2 is off by 2 |p - c| times the rounding of p and c and by five roundings of its own, the height
-  // by plane_error: all together less than twice plane_error |p - c|, plane_error being eight roundings of
-  // |p| + |c|.
-  const Lanes error = 2 * plane_error * (magnitude(dx) + magnitude(dy) + magnitude(dz));
-  const Lanes along =
-      ((dx * dx + dy * dy) + dz * dz) - error - (height + plane_error) * (height + plane_error);
-  return simd::sqrt(simd::max(along, Lanes{0, 0, 0, 0})) - (ball.radius + 4 * plane_error);
-}
 
 /// Slots are positions in an order that halves the mesh again and again across its longest side;
 /// `exact[slot].index` is the position in the mesh. `planes` and `balls` are filled up to whole blocks with

@@ -39,8 +39,8 @@ inline void add_near(const TreeParts& tree, TreeRef ref, const Point& p, float l
   list.count += static_cast<std::uint32_t>(std::popcount(near));
 }
 
-/// Lists what is within the limit of the point, squared. Returns false where there is too much of it, or where
-/// `work` comes to more than the budget.
+/// Lists what is within the limit of the point, squared. Returns false where there is too much of it, or
+/// where `work` comes to more than the budget.
 inline bool list_near(const TreeParts& tree, const FilterPoint& point, float limit, std::uint64_t budget,
                       NearTriangles& list, Work& work) noexcept {
   const Point p = broadcast(point);
@@ -59,7 +59,8 @@ inline bool list_near(const TreeParts& tree, const FilterPoint& point, float lim
     }
     if (count + tree_width > queue.size()) return false;
     const TreeNode& node = tree.nodes[queue[next].index()];
-    unsigned near = within([&](std::size_t at) { return child_bounds(tree.boxes, node, at, p); }, limit, unseen);
+    unsigned near =
+        within([&](std::size_t at) { return child_bounds(tree.boxes, node, at, p); }, limit, unseen);
     work.spheres += tree_width;
     if constexpr (tracing) note_children(tree.boxes, node, 0, near);
     while (near != 0) {

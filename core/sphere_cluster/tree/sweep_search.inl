@@ -101,7 +101,7 @@ inline Wide least_squared(const Linear& height, const Linear& excess, Wide error
   const Wide rise = h1 * (height.end < 0 ? -climb : climb) + e1 * widening;
   const Wide crossing = first - fall * ((first - last + 2 * rise) / (fall + rise));
   const Wide least = min(first, last);
-  return (fall > 0) & (rise > 0) ? min(crossing, least) - tangent_error * (first + last) : least;
+  return ((fall > 0) & (rise > 0)) ? min(crossing, least) - tangent_error * (first + last) : least;
 }
 
 /// Returns those of a block's triangles that the ball may reach on a stretch, given as its ends, as bits. A

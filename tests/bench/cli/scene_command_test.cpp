@@ -185,6 +185,41 @@ TEST_F(SceneCommand, VerifiesRoundBodiesExactly) {
   EXPECT_NE(outcome.out.find("nothing judged"), std::string::npos) << outcome.out;
 }
 
+// Forty boxes in a row, no two of a size; the probe stays over the first three, at the end one comes to it.
+TEST_F(SceneCommand, BuildsTheShapesThatAreEverNearAndSaysHowMany) {
+  std::string row;
+  for (int i = 0; i < 40; ++i)
+    row += (i > 0 ? "," : "") + (R"({"name":"b)" + std::to_string(i)) + R"(","shape":"box","size":[1,1,)" +
+           std::to_string(1 + 0.001 * i) + R"(],"position":[)" + std::to_string(10 * i) +
+           R"(,0,0],"orientation":[1,0,0,0]})";
+  const std::string many = scene(row);
+  const std::string motion = write("motion.csv", "x,y,z\n0,0,1\n10,0,1\n20,0,1\n20,0,90\n");
+  const std::string poses = write("poses.csv",
+                                  "time_s,body,x,y,z,qw,qx,qy,qz\n0.002,b30,300,0,0,1,0,0,0\n"
+                                  "0.003,b30,20,0,88,1,0,0,0\n");
+  const auto remarks = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments{"query",    "--scene", many,         "--trajectory",  motion,
+                                       "--radius", "3",       "--detector", "sphere-cluster"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run_touchmark(arguments);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.err;
+  };
+  EXPECT_NE(remarks({}).find("3 of 40 shapes are built"), std::string::npos) << remarks({});
+  EXPECT_NE(remarks({"--poses", poses}).find("4 of 40 shapes are built"), std::string::npos);
+  // The way between two steps passes all that is in between.
+  EXPECT_NE(remarks({"--query", "sweep"}).find("3 of 40 shapes are built"), std::string::npos);
+  EXPECT_NE(remarks({"--reach", "inf"}).find(" of 40 shapes are built"), std::string::npos);
+  const std::string jump = write("jump.csv", "x,y,z\n0,0,1\n390,0,1\n");
+  EXPECT_EQ(run_touchmark({"query", "--scene", many, "--trajectory", jump, "--radius", "3", "--query",
+                           "sweep", "--detector", "sphere-cluster"})
+                .err.find("shapes are built"),
+            std::string::npos);
+  const Outcome verified = run_touchmark({"verify", "--scene", many, "--poses", poses, "--trajectory", motion,
+                                          "--radius", "3", "--detector", "sphere-cluster"});
+  EXPECT_EQ(verified.status, 0) << verified.out << verified.err;
+}
+
 TEST_F(SceneCommand, RefusesShapesAndSizesThatAreNoneInOneLine) {
   const std::string motion = write("motion.csv", "x,y,z\n0,0,0\n");
   const auto refuses = [&](const std::string& members, const std::vector<std::string>& named) {

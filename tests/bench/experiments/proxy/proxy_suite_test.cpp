@@ -61,6 +61,28 @@ TEST(ProxyCourses, KnowTheOptimumOfEveryTickWhereFreeSpaceIsConvex) {
   }
 }
 
+/// No rounding is between a body that is moved and the mesh that the oracle sees.
+TEST(ProxyCourses, AmongBodiesHaveTheMovedBodiesForTheirMesh) {
+  for (const Course& course : family_named("moving-bodies").make(3, ticks)) {
+    for (const std::size_t change : {0, 1, 17}) {
+      const TriangleMesh mesh = course.moved(change);
+      const std::vector<Vec3> places = course.places(change);
+      ASSERT_EQ(places.size(), course.bodies.size());
+      std::size_t at = 0;
+      for (std::size_t body = 0; body < places.size(); ++body)
+        for (const auto& corners : course.bodies[body].triangles()) {
+          for (std::size_t k = 0; k < 3; ++k)
+            for (int axis = 0; axis < 3; ++axis)
+              EXPECT_EQ(static_cast<long double>(mesh.corner(at, k)[axis]),
+                        static_cast<long double>(course.bodies[body].vertices()[corners[k]][axis]) +
+                            static_cast<long double>(places[body][axis]));
+          ++at;
+        }
+      EXPECT_EQ(at, mesh.size());
+    }
+  }
+}
+
 /// Every score of one method over all families.
 std::vector<Score> scores_of(const std::string& method, const std::string& detector = "sphere-cluster") {
   ProxyRequest request;
@@ -83,7 +105,7 @@ TEST(ProxyMethods, WithoutAProxyEveryFamilyIsCrossed) {
 
 TEST(ProxyMethods, RuspinisBallComesTooNearByRoundingOnlyAndNeverPops) {
   for (const Score& score : scores_of("virtual-proxy")) {
-    if (score.point || score.family == "deforming") continue;
+    if (score.point || score.family == "deforming" || score.family == "moving-bodies") continue;
     EXPECT_EQ(score.tally.pops, 0U) << score.family;
     EXPECT_LT(score.tally.max_shortfall, 1e-9) << score.family;
   }
@@ -104,6 +126,17 @@ TEST(ProxyMethods, OverExactSweepsNothingIsCrossedWithAnyDetector) {
       EXPECT_EQ(score.tally.violations, 0U) << detector << ", " << score.family;
       EXPECT_LT(score.tally.max_optimum_error, 1e-10) << detector << ", " << score.family;
     }
+  }
+}
+
+TEST(ProxyMethods, BodiesThatMoveHoldTheProxyAndAreMovedOntoIt) {
+  for (const Score& score : scores_of("certified")) {
+    if (score.family != "moving-bodies") continue;
+    EXPECT_GT(score.tally.contact_ticks, 0U);
+    if (!score.point) {
+      EXPECT_GT(score.tally.stuck_ticks, 0U);
+    }
+    EXPECT_EQ(score.tally.missed_goals, 0U);
   }
 }
 

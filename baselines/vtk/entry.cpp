@@ -1,0 +1,44 @@
+#include "bench/contestants/entry.h"
+
+#include <stdexcept>
+#include <string>
+
+#include "baselines/vtk/vtk_detector.h"
+#include "bench/contestants/rival_module.h"
+#include "bench/contestants/rival_options.h"
+#include "bench/support/available_memory.h"
+
+namespace touchmark::bench::contestants {
+
+ContestantInfo vtk_entry() {
+  using baselines::VtkDetector;
+  using Locator = VtkDetector::Locator;
+  static const Names<Locator> locators{{"static", Locator::fixed}, {"implicit", Locator::implicit}};
+  static const std::string module = "vtk";
+  ContestantInfo info;
+  info.name = module;
+  info.rank = 120;
+  info.summary = "VTK: its static cell locator, or its implicit distance of a mesh";
+  info.accuracy = "approximate";
+  info.queries = queries_of<VtkDetector>();
+  info.options = {choice("locator", locators,
+                         "static: vtkStaticCellLocator within a radius; implicit: "
+                         "vtkImplicitPolyDataDistance, at any distance; no triangle is named"),
+                  {"cells", OptionKind::count, {}, "0", "of static: triangles a bin; 0: VTK's own 10"},
+                  query_option()};
+  info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
+    constexpr std::size_t most_cells = 1'000'000;
+    if (values.count("cells") > most_cells) throw std::invalid_argument("cells is more than a million");
+    const VtkDetector::Options options{chosen(values, "locator", locators),
+                                       static_cast<std::uint32_t>(values.count("cells")), asking(values)};
+    return contestant_of_module(module, mesh, options);
+  };
+  info.bytes_per_triangle = [](const OptionValues&) {
+    builder_of(module);  // This is asked before a clock starts, and loading takes long.
+    return support::min_bytes_per_triangle;
+  };
+  info.forms = {.verified = {"", "locator=implicit"}, .frontier = {"", "cells=1", "locator=implicit"}};
+  return info;
+}
+
+}  // namespace touchmark::bench::contestants

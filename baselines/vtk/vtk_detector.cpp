@@ -1,0 +1,195 @@
+#include "baselines/vtk/vtk_detector.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <tbb/task_arena.h>
+#include <vtkCellArray.h>
+#include <vtkGenericCell.h>
+#include <vtkImplicitPolyDataDistance.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkStaticCellLocator.h>
+
+#include "core/geometry/point_triangle.h"
+#include "core/triangle_ids.h"
+#include "core/triangle_mesh.h"
+
+namespace touchmark::baselines {
+namespace {
+
+/// So that triangles as near as the last contact's stay within, whatever VTK computes of it.
+constexpr double a_little_more = 1 + 1e-6;
+
+/// The judge takes it for none.
+constexpr TriangleId unknown_triangle = std::numeric_limits<TriangleId>::max();
+
+vtkNew<vtkPolyData> poly_data(const TriangleMesh& mesh) {
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();  // VTK's default is single precision.
+  for (const Vec3& vertex : mesh.vertices()) points->InsertNextPoint(vertex.data());
+  vtkNew<vtkCellArray> triangles;
+  for (const TriangleMesh::Corners& corners : mesh.triangles())
+    triangles->InsertNextCell({vtkIdType{corners[0]}, vtkIdType{corners[1]}, vtkIdType{corners[2]}});
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetPolys(triangles);
+  return data;
+}
+
+}  // namespace
+
+struct VtkDetector::Model {
+  Model(const TriangleMesh& mesh, const Options& chosen)
+      : options(chosen), bounds(mesh.bounds()), data(poly_data(mesh)) {
+    if (options.locator == Locator::implicit) {
+      distance->SetInput(data);
+      return;
+    }
+    triangles = prepare(mesh);
+    ids = mesh.triangle_ids();
+    if (options.cells > 0) locator->SetNumberOfCellsPerNode(static_cast<int>(options.cells));
+    locator->SetDataSet(data);
+    // One thread, as everybody else builds with: Debian's VTK takes those of TBB, and the header that would
+    // say so is no C++20.
+    tbb::task_arena alone(1);
+    alone.execute([&] { locator->BuildLocator(); });
+    // Made at the first look otherwise, which is too late for threads that share it.
+    data->BuildCells();
+  }
+
+  Options options;
+  Aabb bounds;
+  vtkNew<vtkPolyData> data;
+  vtkNew<vtkStaticCellLocator> locator;
+  vtkNew<vtkImplicitPolyDataDistance> distance;
+  std::vector<PreparedTriangle> triangles;  ///< none of `implicit`, which names none
+  TriangleIds ids;
+};
+
+struct VtkDetector::Session::State {
+  vtkNew<vtkGenericCell> cell;
+  std::uint32_t last = no_triangle;  ///< The triangle of the last contact.
+};
+
+VtkDetector::Session::Session() noexcept = default;
+VtkDetector::Session::Session(Session&&) noexcept = default;
+VtkDetector::Session& VtkDetector::Session::operator=(Session&&) noexcept = default;
+VtkDetector::Session::~Session() = default;
+
+VtkDetector::VtkDetector(std::unique_ptr<Model> model) noexcept : model_(std::move(model)) {}
+VtkDetector::VtkDetector(VtkDetector&&) noexcept = default;
+VtkDetector& VtkDetector::operator=(VtkDetector&&) noexcept = default;
+VtkDetector::~VtkDetector() = default;
+
+VtkDetector VtkDetector::build(const TriangleMesh& mesh, const Options& options) {
+  if (mesh.size() == 0) throw MeshError("vtk: the mesh has no triangles, and VTK's locators want some");
+  return VtkDetector(std::make_unique<Model>(mesh, options));
+}
+
+VtkDetector::Session::State& VtkDetector::state(Session& session) {
+  if (!session.state_) session.state_ = std::make_unique<Session::State>();
+  return *session.state_;
+}
+
+std::optional<double> VtkDetector::reach_from(const Vec3& center, double reach) const noexcept {
+  const Model& model = *model_;
+  if (model.options.query == Asking::checked && out_of_reach(model.bounds, center, reach))
+    return std::nullopt;
+  const double finite = finite_reach(model.bounds, center, reach);
+  if (!answerable(center, finite)) return std::nullopt;
+  return finite;
+}
+
+/// The closest point of all triangles that VTK finds in the ball. It finds nothing within a radius of 0.
+std::optional<Contact> VtkDetector::nearest_in_ball(const Vec3& center, double radius,
+                                                    Session::State& state) const noexcept {
+  const Model& model = *model_;
+  std::array<double, 3> from{center.x(), center.y(), center.z()}, point;
+  vtkIdType triangle = -1;
+  int part = 0, inside = 0;
+  double squared = 0;
+  const double within = std::max(a_little_more * radius, 0x1p-40 * model.bounds.diagonal());
+  if (model.locator->FindClosestPointWithinRadius(from.data(), within, point.data(), state.cell, triangle,
+                                                  part, squared, inside) == 0)
+    return std::nullopt;
+  const Vec3 at(point[0], point[1], point[2]);
+  const double distance = (center - at).norm();
+  if (!(distance <= radius)) return std::nullopt;
+  state.last = static_cast<std::uint32_t>(triangle);
+  const Vec3 normal =
+      distance > 0 ? Vec3((center - at) / distance) : face_normal(model.triangles[state.last]);
+  return Contact{at, normal, distance, model.ids[state.last]};
+}
+
+/// The closest point of all triangles, as the signed distance has it.
+std::optional<Contact> VtkDetector::nearest_of_all(const Vec3& center, double reach) const noexcept {
+  std::array<double, 3> from{center.x(), center.y(), center.z()}, point;
+  model_->distance->EvaluateFunctionAndGetClosestPoint(from.data(), point.data());
+  const Vec3 at(point[0], point[1], point[2]);
+  const double distance = (center - at).norm();
+  if (!(distance <= reach)) return std::nullopt;
+  if (distance > 0) return Contact{at, (center - at) / distance, distance, unknown_triangle};
+  std::array<double, 3> normal;
+  model_->distance->EvaluateGradient(from.data(), normal.data());
+  return Contact{at, Vec3(normal[0], normal[1], normal[2]).normalized(), distance, unknown_triangle};
+}
+
+bool VtkDetector::touches(const Probe& probe, Session& session) const noexcept {
+  const Model& model = *model_;
+  const std::optional<double> radius = reach_from(probe.center, probe.radius);
+  if (!radius) return false;
+  if (model.options.locator == Locator::implicit) return nearest_of_all(probe.center, *radius).has_value();
+  Session::State& state = VtkDetector::state(session);
+  if (model.options.query == Asking::checked && state.last < model.triangles.size()) {
+    ++session.work.triangles;
+    const double distance = std::sqrt(squared_distance(model.triangles[state.last], probe.center));
+    if (a_little_more * distance <= *radius) return true;
+  }
+  return nearest_in_ball(probe.center, *radius, state).has_value();
+}
+
+std::optional<Contact> VtkDetector::nearest(const Probe& probe, double reach,
+                                            Session& session) const noexcept {
+  const Model& model = *model_;
+  const std::optional<double> finite = reach_from(probe.center, reach);
+  if (model.options.locator == Locator::implicit)
+    return finite ? nearest_of_all(probe.center, *finite) : std::nullopt;
+  Session::State& state = VtkDetector::state(session);
+  if (!finite) {
+    state.last = no_triangle;
+    return std::nullopt;
+  }
+  double within = *finite;
+  if (model.options.query == Asking::checked && state.last < model.triangles.size()) {
+    ++session.work.triangles;
+    within = std::min(within,
+                      a_little_more * std::sqrt(squared_distance(model.triangles[state.last], probe.center)));
+  }
+  const auto ask = [&](double radius) { return nearest_in_ball(probe.center, radius, state); };
+  std::optional<Contact> contact = nearest_by_growing(model.bounds, probe.center, within, ask);
+  // What VTK thinks of the last triangle may be more than what it is.
+  if (!contact && within < *finite) contact = nearest_by_growing(model.bounds, probe.center, *finite, ask);
+  if (!contact) state.last = no_triangle;
+  return contact;
+}
+
+std::size_t VtkDetector::bytes() const noexcept {
+  const Model& model = *model_;
+  return std::size_t{1024} * model.data->GetActualMemorySize() +
+         model.triangles.capacity() * sizeof(PreparedTriangle) + model.ids.bytes();
+}
+
+Accuracy VtkDetector::accuracy() const noexcept {
+  // The closest point is a place, rounded to its coordinates, after some arithmetic with differences of such.
+  const double largest = model_->bounds.min.cwiseAbs().cwiseMax(model_->bounds.max.cwiseAbs()).maxCoeff();
+  constexpr double roundoff = std::numeric_limits<double>::epsilon() / 2;
+  return {Guarantee::approximate, 4 * kernel_relative_error, 8 * roundoff * largest};
+}
+
+}  // namespace touchmark::baselines

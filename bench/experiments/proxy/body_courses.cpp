@@ -1,0 +1,131 @@
+// Courses among bodies that move between the ticks: pushed into the proxy, and closing on it from two sides.
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "bench/experiments/proxy/course_makers.h"
+#include "bench/scenes/generated_scenes.h"
+#include "bench/scenes/portable_sincos.h"
+
+namespace touchmark::bench::experiments::proxy {
+namespace {
+
+constexpr std::uint64_t course_seed = 1000;
+constexpr std::size_t count = 4;
+
+/// Vertices and places are multiples of this, and so small that their sums are exact: a body that is moved
+/// and a mesh that is summed are the same surface.
+constexpr double grid = 0x1p-30;
+
+Vec3 on_grid(const Vec3& at) { return (at / grid).array().round() * grid; }
+
+TriangleMesh on_grid(const TriangleMesh& mesh) {
+  std::vector<Vec3> vertices;
+  for (const Vec3& vertex : mesh.vertices()) vertices.push_back(on_grid(vertex));
+  return {std::move(vertices), {mesh.triangles().begin(), mesh.triangles().end()}};
+}
+
+/// To and fro, so many changes a period.
+struct Swing {
+  Vec3 about, by;
+  double period, phase;
+
+  Vec3 at(std::size_t change) const {
+    const double turns = static_cast<double>(change) / period + phase;
+    return on_grid(about + scenes::portable_sincos(turns - std::floor(turns)).sin * by);
+  }
+};
+
+struct Swinging {
+  std::vector<TriangleMesh> bodies;
+  std::vector<Swing> swings;
+
+  void add(const TriangleMesh& mesh, const Swing& swing) {
+    bodies.push_back(on_grid(mesh));
+    swings.push_back(swing);
+  }
+};
+
+/// Two slabs that close on what is between them, nearer than the ball is wide, and a block that comes in from
+/// the side.
+Swinging press(double radius, support::Random& random) {
+  const double half = scene_size / 2, thick = scene_size / 10;
+  const double least = random.between(0.2, 1.2) * radius + 0.002 * scene_size;
+  const double swing = random.between(1, 4) * radius + 0.02 * scene_size, period = 20 + random.between(0, 60);
+  scenes::Surface slab, block;
+  scenes::add_box(slab, {-half, -half, -thick}, {half, half, 0});
+  scenes::add_box(block, {0, -half / 4, -half / 4}, {half, half / 4, half / 4});
+  const TriangleMesh below = std::move(slab).mesh();
+  Swinging made;
+  const Vec3 up = Vec3::UnitZ();
+  made.add(below, {-(least + swing) * up, swing * up, period, 0});
+  made.add(below, {(least + swing + thick) * up, -swing * up, period, 0});
+  made.add(std::move(block).mesh(),
+           {half * Vec3::UnitX(), 0.9 * half * Vec3::UnitX(), 30 + random.between(0, 50), random.unit()});
+  return made;
+}
+
+/// Solids that pass one another, and through the middle.
+Swinging crowd(support::Random& random) {
+  Swinging made;
+  for (std::size_t i = 0; i < 5; ++i) {
+    const TriangleMesh mesh = i % 2 == 0 ? scenes::noisy_sphere(100) : scenes::cube();
+    const TriangleMesh solid =
+        placed(mesh, random.between(0.2, 0.5) * scene_size / mesh.diagonal(), any_frame(random));
+    made.add(solid, {0.3 * scene_size * random.unit() * random.direction(),
+                     random.between(0.1, 0.5) * scene_size * random.direction(), 40 + random.between(0, 160),
+                     random.unit()});
+  }
+  return made;
+}
+
+std::vector<Vec3> places_of(const Swinging& made, std::size_t change) {
+  std::vector<Vec3> places;
+  for (const Swing& swing : made.swings) places.push_back(swing.at(change));
+  return places;
+}
+
+TriangleMesh mesh_of(const Swinging& made, std::size_t change) {
+  const std::vector<Vec3> places = places_of(made, change);
+  scenes::Surface surface;
+  for (std::size_t i = 0; i < made.bodies.size(); ++i) surface.part(made.bodies[i], 1, places[i]);
+  return std::move(surface).mesh();
+}
+
+}  // namespace
+
+std::vector<Course> moving_bodies(std::uint64_t seed, std::size_t ticks) {
+  constexpr std::array<std::size_t, count> changes_every{1, 2, 5, 3};
+  std::vector<Course> made;
+  for (std::size_t i = 0; i < count; ++i) {
+    support::Random random(seed * course_seed + 480 + i);
+    const double radius = radius_of(i, scene_size);
+    const auto swinging = std::make_shared<const Swinging>(i < 2 ? press(radius, random) : crowd(random));
+    const Vec3 start(0, 0, 1.5 * scene_size);
+    Motion motion(start, share_of(ticks, count));
+    while (!motion.done()) {
+      motion.line(0.2 * scene_size * random.unit() * random.direction(), 10 + random.below(40));
+      motion.rest(random.below(30));
+      if (random.below(4) == 0) motion.line(scene_size * random.direction(), 20);
+    }
+    Course course{fmt::format("{} {}", i < 2 ? "press" : "crowd", i),
+                  mesh_of(*swinging, 0),
+                  radius,
+                  0,
+                  start,
+                  std::move(motion).take()};
+    course.update_every = changes_every.at(i);
+    course.moved = [swinging](std::size_t change) { return mesh_of(*swinging, change); };
+    course.bodies = swinging->bodies;
+    course.places = [swinging](std::size_t change) { return places_of(*swinging, change); };
+    made.push_back(std::move(course));
+  }
+  return made;
+}
+
+}  // namespace touchmark::bench::experiments::proxy
