@@ -22,21 +22,6 @@
 namespace touchmark::baselines {
 namespace {
 
-/// The mesh as the library's converter asks for it, in voxels.
-struct MeshInVoxels {
-  const TriangleMesh& mesh;
-  Vec3 origin;
-  double voxels_per_length;
-
-  std::size_t polygonCount() const { return mesh.size(); }
-  std::size_t pointCount() const { return mesh.vertices().size(); }
-  std::size_t vertexCount(std::size_t) const { return 3; }
-  void getIndexSpacePoint(std::size_t triangle, std::size_t corner, openvdb::Vec3d& place) const {
-    const Vec3 at = (mesh.corner(triangle, static_cast<int>(corner)) - origin) * voxels_per_length;
-    place = {at.x(), at.y(), at.z()};
-  }
-};
-
 /// How the space about a mesh is divided.
 struct Division {
   Aabb bounds;
@@ -66,6 +51,18 @@ void require_length(const char* name, double length) {
     throw std::invalid_argument(std::string("openvdb: ") + name + " is " + std::to_string(length) +
                                 " mesh units, not a number above 0");
 }
+
+/// The mesh in voxels from the middle of its box. In this form the library has its converter compiled.
+struct MeshInVoxels {
+  MeshInVoxels(const TriangleMesh& mesh, const Division& division) {
+    for (const Vec3& vertex : mesh.vertices())
+      points.push_back(single((vertex - division.origin) * division.voxels_per_length));
+    for (const TriangleMesh::Corners& c : mesh.triangles()) triangles.emplace_back(c[0], c[1], c[2]);
+  }
+
+  std::vector<openvdb::Vec3s> points;
+  std::vector<openvdb::Vec3I> triangles;
+};
 
 double area(const TriangleMesh& mesh) {
   double sum = 0;
@@ -124,9 +121,13 @@ struct OpenVdbDetector::Model {
       const auto transform = openvdb::math::Transform::createLinearTransform(1);
       const auto half_width = static_cast<float>(division.band + beyond_band);
       const int flags = options.distances == Distances::without ? openvdb::tools::UNSIGNED_DISTANCE_FIELD : 0;
+      const MeshInVoxels given(mesh, division);
+      openvdb::util::NullInterrupter never;
       distances = openvdb::tools::meshToVolume<openvdb::FloatGrid>(
-          MeshInVoxels{mesh, division.origin, division.voxels_per_length}, *transform, half_width, half_width,
-          flags, polygons.get());
+          never,
+          openvdb::tools::QuadAndTriangleDataAdapter<openvdb::Vec3s, openvdb::Vec3I>(given.points,
+                                                                                     given.triangles),
+          *transform, half_width, half_width, flags, polygons.get());
     });
     if (keeps_polygons) distances.reset();
     bytes = (keeps_polygons ? polygons->memUsage() : distances->memUsage()) +

@@ -16,6 +16,9 @@ KINDS = {  # kind: colour, marker
     "fcl": ("#3f97d0", ">"),
     "libccd+aabb": ("#7a1f4f", "X"),
     "chai3d": ("#5a8f00", "<"),
+    "field": ("#0060a8", "P"),
+    "openvdb": ("#c43a5a", "d"),
+    "vtk": ("#6a7f2a", "H"),
     None: ("#8060c0", "h"),  # all others
     "grid-group as published": ("#c04a00", "s"),
     "sphere-cluster as published": ("#0060a8", "o"),
@@ -42,6 +45,9 @@ KNOWN = {
             "bv=rss,method=distance"],
     "libccd+aabb": ["", "algorithm=mpr", "tolerance=1e-8", "tolerance=1e-2", "iterations=5", "tolerance=1e-8,iterations=20",
                     "algorithm=mpr,tolerance=1e-2", "algorithm=mpr,tolerance=1e-8"],
+    "field": ["", "error=0.3%", "answers=exact", "error=2%"],
+    "openvdb": ["", "voxel=0.25%", "contact=polygon", "voxel=0.5%", "voxel=2%", "voxel=0.125%", "voxel=0.25%,contact=polygon"],
+    "vtk": ["", "cells=1", "locator=implicit"],
 }
 TONES = 5  # in which a detector that is not known looks for a place of its own
 
