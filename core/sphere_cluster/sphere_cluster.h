@@ -62,7 +62,8 @@ class SphereCluster {
   // Inline as far as clear space and what is beyond the mesh's box: there a query is a few comparisons, less
   // than a call.
   bool touches(const Probe& probe, Session& session) const noexcept {
-    return !is_clear(probe.center, probe.radius, session) && look_for_touch(probe, session);
+    if (is_clear(probe.center, probe.radius, session)) return false;
+    return tree_.is_touching(probe.center, probe.radius, session.memory) || look_for_touch(probe, session);
   }
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept {
     if (is_clear(probe.center, reach, session)) return std::nullopt;

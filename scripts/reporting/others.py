@@ -19,6 +19,10 @@ SHOWN = {
     "update.csv": ("Updates", ["detector", "options", "share", "status", "build_ms", "update_ms", "update_over_build",
                               "ns_per_query_updated", "ns_per_query_built"]),
     "many.csv": ("Many points", None),
+    "bodies.csv": ("Growth with the number of bodies", ["detector", "options", "bodies", "motion", "place", "tick_ns", "tick_over_one",
+                                                        "first_tick_ns", "publish_ns_per_body", "bytes_per_body", "differing", "status"]),
+    "bodies_growth.csv": ("How fast that grows", ["detector", "options", "motion", "place", "quantity", "exponent", "exponent_low",
+                                                  "exponent_high"]),
     "choose.csv": ("Choice", ["rank", "detector", "options", "verdict", "ns_p999", "bytes"]),
 }
 LONG = 25  # rows: more are kept in a frame that scrolls

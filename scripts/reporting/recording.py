@@ -9,7 +9,8 @@ from .steps_file import Damaged, StepsFile
 from .visits import Unreadable, Visits
 
 NEEDED = ["detector", "options", "mesh", "trajectory", "query", "status", "steps"]
-OTHERS = ["suite.csv", "proxy.csv", "stab.csv", "servo.csv", "stress.csv", "scaling.csv", "choose.csv", "update.csv", "many.csv"]
+OTHERS = ["suite.csv", "proxy.csv", "stab.csv", "servo.csv", "stress.csv", "scaling.csv", "bodies.csv", "bodies_growth.csv",
+          "choose.csv", "update.csv", "many.csv"]
 RATES_HZ = [1000, 4000, 10000]
 
 

@@ -290,6 +290,12 @@ class Page(InFolder):
         self.assertIn('<td>p</td><td></td><td data-v="6">6</td>', page)
         self.assertIn('<td data-v="8">8</td>', page)
 
+    def test_growth_with_the_number_of_bodies_is_shown(self):
+        (self.folder / "bodies.csv").write_text("schema,detector,bodies,tick_over_one\n1,grid-group,100,1.25\n", encoding="utf-8")
+        page = self.page()
+        self.assertIn("Growth with the number of bodies", page)
+        self.assertIn('<td data-v="1.25">1.25</td>', page)
+
     def test_a_run_json_of_other_shapes_leaves_its_facts_out(self):
         self.write()
         for about in ([], {"steadiness": 5}, {"load_average": "x", "clock": 5, "command_line": 3}, {"steadiness": [{"control": None}, 5]},

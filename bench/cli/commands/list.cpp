@@ -46,7 +46,8 @@ std::string list(const contestants::Roster& roster) {
     text += fmt::format("  {:<28}{}{}\n", scene.name, scene.description,
                         scene.available ? "" : "  (not installed)");
   }
-  text += "\nscenes of bodies: --scene NAME[:motion=M], a .json or .urdf file, or any file with a node tree\n";
+  text +=
+      "\nscenes of bodies: --scene NAME[:motion=M], a .json or .urdf file, or any file with a node tree\n";
   for (const bodies::BodySceneInfo& scene : bodies::body_scenes())
     text += fmt::format("  {:<28}{}\n", scene.name, scene.description);
   for (const bodies::BodySceneInfo& motion : bodies::body_motions())

@@ -77,6 +77,13 @@ class SphereTree {
     const double margin = memory.lower - reach;
     return memory.epoch == epoch_ && margin > 0 && (center - memory.center).squaredNorm() < margin * margin;
   }
+  /// Is it known, without looking, that a triangle is within the radius? The point and that triangle are
+  /// within some radii of the mesh then, where clearance_pad is less than this pad and grows by less than
+  /// this factor.
+  bool is_touching(const Vec3& center, double radius, const Memory& memory) const noexcept {
+    const double margin = (radius - 0x1p-40 * radius_) * (1 - 0x1p-38) - memory.upper;
+    return memory.epoch == epoch_ && margin > 0 && (center - memory.center).squaredNorm() < margin * margin;
+  }
   /// Is that known of a whole path? A ball that holds both its ends holds all of it.
   bool is_clear(const Sweep& sweep, const Memory& memory) const noexcept {
     return is_clear(sweep.from, sweep.radius, memory) && is_clear(sweep.to, sweep.radius, memory);

@@ -85,12 +85,15 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
     if (visits != nullptr) visits->frame = &frame_;
   const FilterPoint point = frame_.point(center);
   if (!can_search(point)) return nearest_without(center, radius, work).has_value();
-  if (memory.is_near() && still_touches(point, probe, memory, work)) return true;
+  const bool was_near = memory.is_near();
+  if (was_near &&
+      (accepts_by_distance_field(point, center, radius, memory) || still_touches(point, probe, memory, work)))
+    return true;
   std::uint64_t budget = work_limit();
   if (rejects_by_distance_field(point, center, radius, memory) ||
       (lazy_ && rejects_once_sampled(point, center, radius, memory, budget, work)))
     return false;
-  if (accepts_by_distance_field(point, center, radius, memory)) return true;
+  if (!was_near && accepts_by_distance_field(point, center, radius, memory)) return true;
   const double error = frame_.kernel_error(point.plane_error);
   TouchVisitor visitor(parts_, center, radius, error, certified_);
   visitor.limit = frame_.limit((radius + error) * (radius + error));
@@ -112,12 +115,11 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
   return true;
 }
 
-/// Does what was near last still touch? By how far it was, else by its planes, else by the kernel.
+/// Does what was near last still touch? By its planes, else by the kernel.
 [[gnu::always_inline]] inline bool SphereTree::still_touches(const FilterPoint& point, const Probe& probe,
                                                              Memory& memory, Work& work) const noexcept {
   const Vec3& center = probe.center;
-  const double radius = probe.radius, moved = (center - memory.center).norm();
-  if ((memory.upper + moved) * (1 + 0x1p-40) + clearance_pad(point) <= radius) return true;
+  const double radius = probe.radius;
   const double error = frame_.kernel_error(point.plane_error);
   if (memory.touched_slot == memory.slot) {
     ++work.triangles;
@@ -131,7 +133,7 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
       remember_touch(center, 0, farthest, memory);
       return true;
     }
-  } else if (!(std::abs(memory.upper - moved) <= radius)) {
+  } else if (!(std::abs(memory.upper - (center - memory.center).norm()) <= radius)) {
     return false;  // it came from elsewhere
   }
   TouchVisitor visitor(parts_, center, radius, error, certified_);

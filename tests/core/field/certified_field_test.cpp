@@ -121,9 +121,9 @@ TEST(CertifiedField, NamesATriangleThatItsPointIsNear) {
   }
 }
 
-/// A plate of two triangles with a square hole of this width, whose edges no corner of a cube lies on.
-TriangleMesh plate_with_hole(double width) {
-  const double from = 0.1037, to = from + width;
+/// A plate with a square hole of this width that begins there along both axes.
+TriangleMesh plate_with_hole(double from, double width) {
+  const double to = from + width;
   const std::vector<Vec3> vertices = {{-1, -1, 0},     {1, -1, 0},    {1, 1, 0},   {-1, 1, 0},
                                       {from, from, 0}, {to, from, 0}, {to, to, 0}, {from, to, 0}};
   return {vertices, {{0, 1, 4}, {1, 5, 4}, {1, 2, 5}, {2, 6, 5}, {2, 3, 6}, {3, 7, 6}, {3, 0, 7}, {0, 4, 7}}};
@@ -131,15 +131,45 @@ TriangleMesh plate_with_hole(double width) {
 
 TEST(CertifiedField, SeesHolesThatAreWiderThanItsError) {
   constexpr double error = 0.02;
-  for (const double width : {0.01, 0.03, 0.05, 0.08, 0.2}) {
-    const TriangleMesh mesh = plate_with_hole(width);
-    const auto field = Field::build(mesh, with(error, 0.3));
-    const Vec3 middle(0.1037 + width / 2, 0.1037 + width / 2, 0);
+  test::Random random(10);
+  for (const double width : {0.01, 0.03, 0.04, 0.045, 0.05, 0.06, 0.08, 0.2}) {
+    const double from = 0.1037 + 0.3 * width;
+    const auto field = Field::build(plate_with_hole(from, width), with(error, 0.1));
     Field::Session session;
-    const auto answer = field.nearest({middle, 0}, 0.25, session);
-    ASSERT_TRUE(answer) << width;
-    EXPECT_NEAR(answer->distance, width / 2, error) << width;
-    EXPECT_EQ(field.touches({middle, width / 2 - 1.01 * error}, session), false) << width;
+    for (int i = 0; i < 100; ++i) {
+      Vec3 in_hole = 0.499 * random.point(1);
+      if (i == 0) in_hole = Vec3::Zero();
+      const Vec3 point =
+          Vec3(from + width / 2, from + width / 2, 0) + width * Vec3(in_hole.x(), in_hole.y(), 0);
+      const double distance = width * (0.5 - std::max(std::abs(in_hole.x()), std::abs(in_hole.y())));
+      const auto answer = field.nearest({point, 0}, 0.095, session);
+      if (distance > 0.09) continue;  // the plate ends beyond the reach, as far as the error goes
+      ASSERT_TRUE(answer) << width;
+      EXPECT_NEAR(answer->distance, distance, field.error() + 1e-12) << width;
+    }
+  }
+}
+
+/// A wall stands beside a flat floor, no higher than a probe over the floor may be: the floor's plane answers
+/// for the probe only where the wall is farther.
+TEST(CertifiedField, SeesWallsBesideAFloor) {
+  constexpr double error = 0.02;
+  test::Random random(11);
+  for (const double height : {0.03, 0.1, 0.2}) {
+    const TriangleMesh mesh({{-1, -1, 0}, {0, -1, 0}, {0, 1, 0}, {-1, 1, 0}, {0, -1, height}, {0, 1, height}},
+                            {{0, 1, 2}, {0, 2, 3}, {1, 4, 5}, {1, 5, 2}});
+    const auto field = Field::build(mesh, with(error, 0.3));
+    Field::Session session;
+    for (int i = 0; i < 3000; ++i) {
+      const Vec3 at = random.point(1);
+      const Vec3 point(-0.1 + 0.1 * at.x(), 0.5 * at.y(), 0.15 + 0.15 * at.z());
+      const double beyond_wall = std::max(point.z() - height, 0.0);
+      const double distance = std::min(point.z(), std::hypot(point.x(), beyond_wall));
+      const auto answer = field.nearest({point, 0}, 0.29, session);
+      if (distance > 0.27) continue;
+      ASSERT_TRUE(answer) << height;
+      EXPECT_NEAR(answer->distance, distance, field.error() + 1e-12) << height;
+    }
   }
 }
 

@@ -161,6 +161,32 @@ TEST(SphereClusterShortcuts, ATouchBySamplesMayFollowASearchInVain) {
   }
 }
 
+/// Straight away from what was near the distance grows by all that the point moves: the shortcut by that is
+/// at its end just where contact is.
+TEST(SphereClusterShortcuts, ATouchThatMovesStraightAwayEndsWhereTheDistanceDoes) {
+  test::Random random(32);
+  for (int i = 0; i < 300; ++i) {
+    const double scale = std::ldexp(1.0, i % 61 - 30);
+    const Vec3 by = scale * (i % 4 == 0 ? random.point(std::ldexp(1.0, i % 40)) : Vec3::Zero());
+    const TriangleMesh mesh = moved(test::soup(3, 1, static_cast<std::uint32_t>(i)), scale, by);
+    const SphereCluster detector = SphereCluster::build(mesh);
+    const BruteForce all = BruteForce::build(mesh);
+    BruteForce::Session plain;
+    for (int k = 0; k < 20; ++k) {
+      const Vec3 from = by + scale * random.point(2);
+      const auto near = all.nearest({from, 0}, infinity, plain);
+      SphereCluster::Session session;
+      EXPECT_TRUE(detector.touches({from, near->distance * (1 + 1e-12)}, session));
+      const Vec3 to = from + random.between(0, 1e-3) * (from - near->point);
+      const double distance = all.nearest({to, 0}, infinity, plain)->distance;
+      for (const double radius : {distance, std::nextafter(distance, 0), std::nextafter(distance, infinity),
+                                  distance * (1 - 1e-14), distance * (1 + 1e-9)})
+        EXPECT_EQ(detector.touches({to, radius}, session), all.touches({to, radius}, plain))
+            << i << ", " << k;
+    }
+  }
+}
+
 TEST(SphereClusterShortcuts, TheBoxIsThatOfTheUpdatedMesh) {
   const TriangleMesh before = test::bumpy_sphere(8, 0, 1);
   std::vector<Vec3> vertices(before.vertices().begin(), before.vertices().end());
