@@ -70,12 +70,12 @@ EIGEN = ["-isystem", "/usr/include/eigen3"]
 FUSED = ["-mfma", "-ffp-contract=fast"]  # as GCC has it with -march=native on most processors
 
 # Inline functions that a program compiles with its own flags and in which a product and a sum may be fused. Half of a
-# number is exact. The queries only compare a displacement with what their detector knows to be free, which leaves
-# 2^-40 and more of it for rounding.
+# number is exact. The queries only compare a displacement with what their detector knows to be free, or to be in contact,
+# which leaves 2^-40 and more of it for rounding.
 # Templates that only pass these queries on have the same comparisons in them.
 FUSED_WITHOUT_HARM = re.compile(r"(auto |bool |void |std::optional<[\w:]+> )?"
                                 r"touchmark::((Aabb::center|grid::DirectMemory::moved_less|"
-                                r"(SphereTree|grid::DirectGrid)::is_clear|SphereTree::is_beyond_box|ManySessions<.*>::ask|"
+                                r"(SphereTree|grid::DirectGrid)::is_clear|SphereTree::is_(beyond_box|touching)|ManySessions<.*>::ask|"
                                 r"(GridGroup|SphereCluster|AutoDetector|Signed<.*>)::(touches|nearest|first_hit|contacts|is_clear))\(|"
                                 r"AutoDetector::ask<|nearest_many<)")
 
