@@ -62,6 +62,10 @@ def main():
     parser.add_argument("--all-killers", action="store_true", help="run every program, print all that kill")
     arguments = parser.parse_args()
     mutants = [m for m in mutate.read_list(arguments.listing) if arguments.only in (None, m["name"])]
+    names = {program.name for program in arguments.programs}
+    for mutant in mutants:
+        if mutant.get("killer", arguments.programs[0].name) not in names:
+            parser.error(f"{mutant['name']}: its killer is {mutant['killer']}, none of {', '.join(sorted(names))}")
     start = time.monotonic()
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         asleep = list(pool.map(lambda program: run(program, None), arguments.programs))

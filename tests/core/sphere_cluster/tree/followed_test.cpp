@@ -88,6 +88,24 @@ TEST(FollowedPoint, IsAnsweredAlikeWhereMoreIsNearThanIsListed) {
   }
 }
 
+/// Between two plates, from one towards the other: what is listed near the first is long within what the list
+/// was made for when the second, which is not listed, is nearer.
+TEST(FollowedPoint, SeesThatSomethingElseIsNearerAfterItMoved) {
+  const TriangleMesh mesh({{-2, -2, 0}, {2, -2, 0}, {0, 2, 0}, {-2, -2, 1}, {2, -2, 1}, {0, 2, 1}},
+                          {{0, 1, 2}, {3, 4, 5}});
+  const auto detector = SphereCluster::build(mesh);
+  for (const double step : {0.01, 0.05, 0.15, 0.35}) {
+    SphereCluster::FollowedPoint followed;
+    Work work;
+    for (double z = 0.2003; z < 0.9; z += step) {
+      const auto contact = detector.nearest({Vec3(0, -0.5, z), 0}, 2, followed, work);
+      ASSERT_TRUE(contact) << step;
+      EXPECT_EQ(contact->triangle, z < 0.5 ? 0U : 1U) << step << ", " << z;
+      EXPECT_NEAR(contact->distance, std::min(z, 1 - z), 1e-15) << step << ", " << z;
+    }
+  }
+}
+
 TEST(FollowedPoint, LooksAtFewTrianglesWhereItHardlyMoves) {
   const auto detector = SphereCluster::build(test::bumpy_sphere(60, 0.02, 4));
   SphereCluster::FollowedPoint followed;
