@@ -19,7 +19,6 @@
 #include "core/field/field_options.h"
 #include "core/field/sample.h"
 #include "core/geometry/point_triangle.h"
-#include "core/search/parallel.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark {

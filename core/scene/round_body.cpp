@@ -1,6 +1,5 @@
 #include "core/scene/round_body.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
