@@ -83,7 +83,11 @@ void define_scene(py::module_& module) {
   using Released = py::call_guard<py::gil_scoped_release>;
   py::class_<BatchScene>(module, "Scene")
       .def(py::init<>())
-      .def("add_shape", &BatchScene::add_shape, "mesh"_a, Released())
+      .def("add_mesh", &BatchScene::add_mesh, "mesh"_a, Released())
+      .def("add_plane", &BatchScene::add_plane, "size_x"_a, "size_y"_a, Released())
+      .def("add_box", &BatchScene::add_box, "size_x"_a, "size_y"_a, "size_z"_a, Released())
+      .def("add_sphere", &BatchScene::add_sphere, "radius"_a, Released())
+      .def("add_capsule", &BatchScene::add_capsule, "radius"_a, "length"_a, Released())
       .def("add", &add, "shape"_a, "pose"_a.noconvert())
       .def("move", &move, "body"_a, "pose"_a.noconvert())
       .def("remove", &BatchScene::remove, "body"_a, Released())

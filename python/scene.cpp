@@ -6,8 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "core/scene/shape.h"
-
 namespace touchmark::python {
 namespace {
 
@@ -22,8 +20,25 @@ BodyId body_of(std::int64_t number) {
 
 }  // namespace
 
-std::size_t BatchScene::add_shape(const TriangleMesh& mesh) {
-  Shape<SphereCluster> shape = Shape<SphereCluster>::build(mesh);  // no batch waits for this
+std::size_t BatchScene::add_mesh(const TriangleMesh& mesh) {
+  return add_shape(Shape<SphereCluster>::build(mesh));  // no batch waits for the build
+}
+
+std::size_t BatchScene::add_plane(double size_x, double size_y) {
+  return add_shape(Shape<SphereCluster>::plane(size_x, size_y));
+}
+
+std::size_t BatchScene::add_box(double size_x, double size_y, double size_z) {
+  return add_shape(Shape<SphereCluster>::box({size_x, size_y, size_z}));
+}
+
+std::size_t BatchScene::add_sphere(double radius) { return add_shape(Shape<SphereCluster>::sphere(radius)); }
+
+std::size_t BatchScene::add_capsule(double radius, double length) {
+  return add_shape(Shape<SphereCluster>::capsule(radius, length));
+}
+
+std::size_t BatchScene::add_shape(Shape<SphereCluster> shape) {
   const std::unique_lock alone(lock_);
   scene_.add_shape(std::move(shape));
   return shapes_++;

@@ -10,6 +10,7 @@
 #include "python/detector.h"
 
 #include "core/scene/scene.h"
+#include "core/scene/shape.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 #include "core/triangle_mesh.h"
 
@@ -21,8 +22,12 @@ namespace touchmark::python {
 /// A body is a number: 0 for the first, and never one that a removed body had.
 class BatchScene {
  public:
-  /// Throws what the detector's build throws. Returns the number of the shape.
-  std::size_t add_shape(const TriangleMesh& mesh);
+  // Each returns the number of the shape, and throws SceneError for a size that is out of range.
+  std::size_t add_mesh(const TriangleMesh& mesh);
+  std::size_t add_plane(double size_x, double size_y);
+  std::size_t add_box(double size_x, double size_y, double size_z);
+  std::size_t add_sphere(double radius);
+  std::size_t add_capsule(double radius, double length);
   /// These throw SceneError and PoseError.
   std::int64_t add(std::size_t shape, const Pose& pose);
   void move(std::int64_t body, const Pose& pose);
@@ -40,6 +45,7 @@ class BatchScene {
 
  private:
   using Bodies = Scene<SphereCluster>;
+  std::size_t add_shape(Shape<SphereCluster> shape);
   template <class Ask>
   bool ask_all(std::size_t count, const Effort& effort, const Ask& ask) const;
 

@@ -16,6 +16,7 @@
 #include "bench/scenes/scenes.h"
 #include "bench/support/did_you_mean.h"
 #include "bench/support/text_file.h"
+#include "core/scene/primitives.h"
 
 namespace touchmark::bench::bodies {
 namespace {
@@ -100,9 +101,9 @@ std::array<double, size> numbers_of(const Json& body, const char* key, const cha
 }
 
 void expect_size(double size, const std::string& what) {
-  if (size >= least_size && size <= largest_size) return;
-  throw std::invalid_argument(
-      fmt::format("{} is {}, and a size is from {} to {}", what, size, least_size, largest_size));
+  if (size >= least_primitive_size && size <= largest_primitive_size) return;
+  throw std::invalid_argument(fmt::format("{} is {}, and a size is from {} to {}", what, size,
+                                          least_primitive_size, largest_primitive_size));
 }
 
 template <std::size_t size>
@@ -166,10 +167,10 @@ std::optional<RoundShape> round_shape_of(const Json& body) {
 TriangleMesh flat_shape_of(const Json& body) {
   if (kind_of(body).name == "plane") {
     const auto size = sizes_of<2>(body, "size", "x, y");
-    return plane_of(size[0], size[1]);
+    return plane_mesh(size[0], size[1]);
   }
   const auto size = sizes_of<3>(body, "size", "x, y, z");
-  return box_of({size[0], size[1], size[2]});
+  return box_mesh({size[0], size[1], size[2]});
 }
 
 /// Tells shapes apart by their sizes as they are written; a mesh's name never begins like that.

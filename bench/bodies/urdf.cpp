@@ -20,6 +20,7 @@
 #include "bench/scenes/surface_builder.h"
 #include "bench/support/text_file.h"
 #include "core/mesh_io/mesh_io.h"
+#include "core/scene/primitives.h"
 
 namespace touchmark::bench::bodies {
 namespace {
@@ -53,9 +54,9 @@ Placement within(const Placement& outer, const urdf::Pose& inner) {
 
 void expect_sizes(std::string_view shape, std::initializer_list<double> sizes) {
   for (const double size : sizes) {
-    if (size >= least_size && size <= largest_size) continue;
-    throw std::invalid_argument(
-        fmt::format("{}: {} is no size, which is from {} to {}", shape, size, least_size, largest_size));
+    if (size >= least_primitive_size && size <= largest_primitive_size) continue;
+    throw std::invalid_argument(fmt::format("{}: {} is no size, which is from {} to {}", shape, size,
+                                            least_primitive_size, largest_primitive_size));
   }
 }
 
@@ -118,7 +119,7 @@ class UrdfReader {
       case urdf::Geometry::BOX: {
         const Vec3 size = vector_of(dynamic_cast<const urdf::Box&>(geometry).dim);
         expect_sizes("box", {size.x(), size.y(), size.z()});
-        return added(std::nullopt, box_of(size));
+        return added(std::nullopt, box_mesh(size));
       }
       case urdf::Geometry::SPHERE: {
         const RoundShape sphere{0, dynamic_cast<const urdf::Sphere&>(geometry).radius};

@@ -58,6 +58,13 @@ inline Vec3 point(const double coordinates[3]) noexcept {
 inline void store(const Vec3& from, double to[3]) noexcept {
   for (int k = 0; k < 3; ++k) to[k] = from[k];
 }
+inline void store_contact(const Contact& from, touchmark_contact& to) noexcept {
+  store(from.point, to.point);
+  store(from.normal, to.normal);
+  to.distance = from.distance;
+  to.triangle = from.triangle;
+  to.side = static_cast<std::int32_t>(from.side);
+}
 
 }  // namespace touchmark::c
 

@@ -53,14 +53,6 @@ void expect_count(const char* what, std::size_t count) {
   throw std::invalid_argument(std::to_string(count) + " " + what + "; there can be 4294967295 at most");
 }
 
-void store_contact(const Contact& from, touchmark_contact& to) noexcept {
-  store(from.point, to.point);
-  store(from.normal, to.normal);
-  to.distance = from.distance;
-  to.triangle = from.triangle;
-  to.side = static_cast<std::int32_t>(from.side);
-}
-
 /// What is wrong with a query's arguments has become the last error.
 bool refuses(const char* function, const touchmark_session* session, const double* center,
              const char* center_name, const char* size_name, double size) noexcept {

@@ -34,6 +34,13 @@ typedef struct touchmark_session touchmark_session;
 /// its detector alive. Only one thread may use a proxy at a time.
 typedef struct touchmark_proxy touchmark_proxy;
 
+/// Bodies in poses, asked as one: each a shape, which any number of bodies may share. Nobody may change it
+/// while a query runs.
+typedef struct touchmark_scene touchmark_scene;
+/// What one haptic point remembers of a scene between ticks, as a touchmark_session. It keeps its scene
+/// alive.
+typedef struct touchmark_scene_session touchmark_scene_session;
+
 /// What queries return: found or touching, not so, or an error.
 enum { TOUCHMARK_YES = 1, TOUCHMARK_NO = 0, TOUCHMARK_ERROR = -1 };
 
@@ -47,12 +54,12 @@ enum {
   TOUCHMARK_SIDE_UNDECIDED = 4 /**< the mesh does not say */
 };
 
-/// The point of the mesh nearest to a probe's centre.
+/// The point of a mesh, or of a scene's bodies, nearest to a probe's centre.
 typedef struct touchmark_contact {
-  double point[3];   ///< on the mesh
+  double point[3];   ///< on the surface
   double normal[3];  ///< unit, from the point towards the centre; the face normal where they coincide
   double distance;   ///< from the centre to the point, 0 or more
-  uint32_t triangle; /**< its place among the mesh's triangles, from 0; the lowest of those equally near */
+  uint32_t triangle; /**< its place among its mesh's triangles, from 0; the lowest of those equally near */
   int32_t side;      ///< one of TOUCHMARK_SIDE_...
 } touchmark_contact;
 
@@ -160,6 +167,60 @@ TOUCHMARK_API int touchmark_proxy_place(touchmark_proxy* proxy, const double pos
 /// the surface as it is then. Fails for a proxy that was never placed.
 TOUCHMARK_API int touchmark_proxy_step(touchmark_proxy* proxy, const double goal[3],
                                        touchmark_proxy_state* state);
+
+/// Makes a scene without bodies.
+TOUCHMARK_API touchmark_scene* touchmark_scene_create(void);
+/// Frees a scene, once the last of its sessions is freed.
+TOUCHMARK_API void touchmark_scene_free(touchmark_scene* scene);
+/// Returns how many bodies there are; 0 for NULL.
+TOUCHMARK_API size_t touchmark_scene_size(const touchmark_scene* scene);
+/// Returns the memory that bodies and shapes take, in bytes; 0 for NULL.
+TOUCHMARK_API size_t touchmark_scene_bytes(const touchmark_scene* scene);
+
+/// Each of these five adds a shape, stores its number, and returns TOUCHMARK_YES or TOUCHMARK_ERROR. This one
+/// is a mesh, searched by "sphere-cluster". The other shapes lie about the origin of the body's frame, and
+/// their sizes are from 1e-30 to 1e30; only their surfaces count, from within as from without.
+TOUCHMARK_API int touchmark_scene_add_mesh(touchmark_scene* scene, const touchmark_mesh* mesh,
+                                           uint32_t* shape);
+/// Adds a rectangle of two triangles in the plane z = 0, its corners at half the sizes to either side.
+TOUCHMARK_API int touchmark_scene_add_plane(touchmark_scene* scene, double size_x, double size_y,
+                                            uint32_t* shape);
+/// Adds a box of 12 triangles, its corners at half the sizes to either side.
+TOUCHMARK_API int touchmark_scene_add_box(touchmark_scene* scene, double size_x, double size_y, double size_z,
+                                          uint32_t* shape);
+/// Adds a sphere. Nothing of it is made of triangles: a contact's triangle is 0.
+TOUCHMARK_API int touchmark_scene_add_sphere(touchmark_scene* scene, double radius, uint32_t* shape);
+/// Adds a capsule: all points so far from the segment of that length along z, so that it is length + 2 radius
+/// long. A contact's triangle is 0.
+TOUCHMARK_API int touchmark_scene_add_capsule(touchmark_scene* scene, double radius, double length,
+                                              uint32_t* shape);
+
+/// Adds a body and stores its number, which no other body of the scene ever has. `orientation` is a
+/// quaternion w, x, y, z of any length but zero; NULL is one that turns nothing. Fails for numbers that are
+/// not finite. Returns TOUCHMARK_YES or TOUCHMARK_ERROR, as the next two do.
+TOUCHMARK_API int touchmark_scene_add(touchmark_scene* scene, uint32_t shape, const double position[3],
+                                      const double orientation[4], uint64_t* body);
+/// Puts a body elsewhere. Both parts of its pose are given anew.
+TOUCHMARK_API int touchmark_scene_move(touchmark_scene* scene, uint64_t body, const double position[3],
+                                       const double orientation[4]);
+/// Removes a body. Its shape stays.
+TOUCHMARK_API int touchmark_scene_remove(touchmark_scene* scene, uint64_t body);
+
+/// Begins a session. Takes memory; queries do not.
+TOUCHMARK_API touchmark_scene_session* touchmark_scene_session_create(const touchmark_scene* scene);
+/// Frees a session.
+TOUCHMARK_API void touchmark_scene_session_free(touchmark_scene_session* session);
+/// Is a body at most the radius away?
+TOUCHMARK_API int touchmark_scene_touches(touchmark_scene_session* session, const double center[3],
+                                          double radius);
+/// As touchmark_nearest, of all bodies; stores whose the contact is in `body`, which may be NULL. Of several
+/// bodies at the same distance it is the one that was added first, unless it has the place of one removed.
+TOUCHMARK_API int touchmark_scene_nearest(touchmark_scene_session* session, const double center[3],
+                                          double reach, touchmark_contact* contact, uint64_t* body);
+/// As touchmark_first_hit, the bodies standing where they are.
+TOUCHMARK_API int touchmark_scene_first_hit(touchmark_scene_session* session, const double from[3],
+                                            const double to[3], double radius, touchmark_impact* impact,
+                                            uint64_t* body);
 
 #ifdef __cplusplus
 }

@@ -11,6 +11,7 @@
 #include "core/aabb.h"
 #include "core/detector.h"
 #include "core/scene/pose.h"
+#include "core/scene/primitives.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark {
@@ -36,6 +37,19 @@ struct Shape {
             std::make_shared<const TriangleMesh>(std::vector<Vec3>{from, to},
                                                  std::vector<TriangleMesh::Corners>{{0, 1, 1}}),
             radius};
+  }
+  // The primitives of primitives.h. Each throws SceneError for a size that is out of range.
+  static Shape plane(double size_x, double size_y) { return build(plane_mesh(size_x, size_y)); }
+  static Shape box(const Vec3& size) { return build(box_mesh(size)); }
+  static Shape sphere(double radius) {
+    expect_primitive_size("sphere", "radius", radius);
+    return round(Vec3::Zero(), Vec3::Zero(), radius);
+  }
+  /// Returns all points so far from the segment of this length along z about the origin.
+  static Shape capsule(double radius, double length) {
+    expect_primitive_size("capsule", "radius", radius);
+    expect_primitive_size("capsule", "length", length);
+    return round({0, 0, -0.5 * length}, {0, 0, 0.5 * length}, radius);
   }
 
   bool is_round() const noexcept { return radius != 0; }

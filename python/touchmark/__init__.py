@@ -15,6 +15,7 @@ nor on the threads.
 """
 from __future__ import annotations
 
+import dataclasses
 import enum
 from typing import Any, NamedTuple, Union
 
@@ -23,8 +24,9 @@ import numpy.typing as npt
 
 from . import _native
 
-__all__ = ["AabbTree", "BodyHit", "BodyNearest", "BruteForce", "Contacts", "Detector", "FirstHit", "GridGroup", "Mesh",
-           "Nearest", "Proxy", "ProxyState", "ProxyStatus", "Scene", "Side", "SphereCluster"]
+__all__ = ["AabbTree", "BodyHit", "BodyNearest", "Box", "BruteForce", "Capsule", "Contacts", "Detector", "FirstHit",
+           "GridGroup", "Mesh", "Nearest", "Plane", "Proxy", "ProxyState", "ProxyStatus", "Scene", "Side", "Sphere",
+           "SphereCluster"]
 __version__: str = _native.version
 
 Length = Union[float, str]
@@ -100,7 +102,7 @@ class BodyNearest(NamedTuple):
     point: npt.NDArray[np.float64]
     normal: npt.NDArray[np.float64]
     triangle: npt.NDArray[np.int64]
-    """Row of the `faces` of the body's mesh."""
+    """Row of the `faces` of the body's mesh; 0 of a sphere and a capsule."""
     body: npt.NDArray[np.int64]
     """As `Scene.add` returned it; -1 where nothing is found."""
 
@@ -376,39 +378,103 @@ class BruteForce(Detector):
         super().__init__(mesh)
 
 
-class Scene:
-    """Bodies that move, asked as one: each a mesh in a pose. Meshes are searched by sphere clusters.
+@dataclasses.dataclass(frozen=True)
+class Plane:
+    """A rectangle about the origin in the plane z = 0, which faces +z: two triangles. size: along x and y."""
 
-    Any number of bodies may have one mesh, which is searched in once. Python threads may ask and change a scene at the same
-    time: a change waits for the batches that run, and a batch sees no change that is made meanwhile.
+    size: tuple[float, float]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "size", _lengths("size", self.size, 2))
+
+
+@dataclasses.dataclass(frozen=True)
+class Box:
+    """A box about the origin, of 12 triangles. size: along x, y and z."""
+
+    size: tuple[float, float, float]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "size", _lengths("size", self.size, 3))
+
+
+@dataclasses.dataclass(frozen=True)
+class Sphere:
+    """All points that far from the origin. There are no triangles: the one that answers name is 0."""
+
+    radius: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "radius", _lengths("radius", self.radius, 0)[0])
+
+
+@dataclasses.dataclass(frozen=True)
+class Capsule:
+    """All points that far from the segment of that length along z about the origin: length + 2 radius long in all."""
+
+    radius: float
+    length: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "radius", _lengths("radius", self.radius, 0)[0])
+        object.__setattr__(self, "length", _lengths("length", self.length, 0)[0])
+
+
+def _lengths(name: str, value: Any, count: int) -> tuple[float, ...]:
+    """Of `count` numbers, or of one alone where that is 0."""
+    array = _real(name, value)
+    shape = (count,) if count else ()
+    if array.shape != shape:
+        raise ValueError(f"{name} has the shape {array.shape}; it must be {shape if count else 'one number'}")
+    return tuple(float(number) for number in np.atleast_1d(array))
+
+
+class Scene:
+    """Bodies that move, asked as one: each a shape in a pose. Meshes are searched by sphere clusters.
+
+    Any number of bodies may have one mesh, which is searched in once, or primitives of the same sizes. Python threads may ask
+    and change a scene at the same time: a change waits for the batches that run, and a batch sees no change that is made
+    meanwhile.
     """
 
     __slots__ = ("_native", "_shapes")
 
     def __init__(self) -> None:
         self._native = _native.Scene()
-        self._shapes: dict[Mesh, int] = {}  # which keeps the meshes alive
+        self._shapes: dict[Union[Mesh, Plane, Box, Sphere, Capsule], int] = {}  # which keeps the meshes alive
 
-    def add(self, mesh: Mesh, position: npt.ArrayLike = (0.0, 0.0, 0.0),
+    def add(self, shape: Union[Mesh, Plane, Box, Sphere, Capsule], position: npt.ArrayLike = (0.0, 0.0, 0.0),
             orientation: npt.ArrayLike = (1.0, 0.0, 0.0, 0.0)) -> int:
         """Adds a body and returns its number: 0 for the first, and never one that a removed body had.
 
-        position: where the mesh's origin is. orientation: a quaternion w, x, y, z of any length but zero.
+        shape: a Mesh, or a Plane, Box, Sphere or Capsule, whose sizes must be from 1e-30 to 1e30. position: where the
+        shape's origin is. orientation: a quaternion w, x, y, z of any length but zero.
         """
-        if not isinstance(mesh, Mesh):
-            raise TypeError(f"a body is a touchmark.Mesh, not a {type(mesh).__name__}")
+        if not isinstance(shape, (Mesh, Plane, Box, Sphere, Capsule)):
+            raise TypeError(f"a body is a touchmark.Mesh, Plane, Box, Sphere or Capsule, not a {type(shape).__name__}")
         pose = _pose(position, orientation)
-        shape = self._shapes.get(mesh)
-        if shape is None:
-            shape = self._shapes[mesh] = self._native.add_shape(mesh._native)
-        return self._native.add(shape, pose)
+        number = self._shapes.get(shape)
+        if number is None:
+            number = self._shapes[shape] = self._add_shape(shape)
+        return self._native.add(number, pose)
+
+    def _add_shape(self, shape: Union[Mesh, Plane, Box, Sphere, Capsule]) -> int:
+        if isinstance(shape, Mesh):
+            return self._native.add_mesh(shape._native)
+        if isinstance(shape, Plane):
+            return self._native.add_plane(*shape.size)
+        if isinstance(shape, Box):
+            return self._native.add_box(*shape.size)
+        if isinstance(shape, Sphere):
+            return self._native.add_sphere(shape.radius)
+        return self._native.add_capsule(shape.radius, shape.length)
 
     def move(self, body: int, position: npt.ArrayLike, orientation: npt.ArrayLike = (1.0, 0.0, 0.0, 0.0)) -> None:
         """Puts a body elsewhere: both parts of its pose are given anew."""
         self._native.move(body, _pose(position, orientation))
 
     def remove(self, body: int) -> None:
-        """Removes a body. Its mesh stays, for bodies that are added later."""
+        """Removes a body. Its shape stays, for bodies that are added later."""
         self._native.remove(body)
 
     def pose(self, body: int) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:

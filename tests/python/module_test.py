@@ -314,6 +314,49 @@ class Scenes(unittest.TestCase):
         at = np.array([4.5, 0.3, -0.2]) + hit.fraction[0] * (np.array([-2, 0, 0]) - [4.5, 0.3, -0.2])
         self.assertAlmostEqual(self.truth(self.POSES, at[None]).min(), 0.01, places=9)
 
+    def test_primitives_are_as_far_as_geometry_has_it(self):
+        position, orientation = (1.0, -2.0, 0.5), (0.3, -0.5, 0.2, 0.9)
+        points = np.random.default_rng(10).uniform(-4, 4, (500, 3))
+        seen = (points - position) @ turn(orientation)  # in the body's frame
+        half = np.array([0.5, 1.0, 1.5])
+        beyond = np.abs(seen) - half
+        box = np.where((beyond < 0).all(axis=1), -beyond.max(axis=1), np.linalg.norm(np.maximum(beyond, 0), axis=1))
+        flat = np.linalg.norm(np.concatenate([np.maximum(np.abs(seen[:, :2]) - half[:2], 0), seen[:, 2:]], axis=1), axis=1)
+        along = seen - np.stack([0 * seen[:, 0], 0 * seen[:, 0], np.clip(seen[:, 2], -0.5, 0.5)], axis=1)
+        for shape, truth, triangles in ((touchmark.Box((1, 2, 3)), box, 12), (touchmark.Plane(2 * half[:2]), flat, 2),
+                                        (touchmark.Sphere(2), np.abs(np.linalg.norm(seen, axis=1) - 2), 1),
+                                        (touchmark.Capsule(1.5, 1), np.abs(np.linalg.norm(along, axis=1) - 1.5), 1)):
+            with self.subTest(shape):
+                scene = touchmark.Scene()
+                body = scene.add(shape, position, orientation)
+                found = scene.nearest(points)
+                np.testing.assert_allclose(found.distance, truth, rtol=0, atol=1e-13)
+                np.testing.assert_allclose(found.point + found.normal * found.distance[:, None], points, atol=1e-13)
+                np.testing.assert_array_equal(found.body, body)
+                np.testing.assert_array_equal(scene.touches(points, 0.5), truth <= 0.5)
+                self.assertEqual(set(found.triangle) - set(range(triangles)), set())
+
+    def test_primitives_of_the_same_sizes_share_a_shape(self):
+        scene = touchmark.Scene()
+        scene.add(touchmark.Box((1, 2, 3)))
+        one = scene.nbytes
+        for x in range(1, 100):
+            scene.add(touchmark.Box(np.array([1.0, 2.0, 3.0])), (9.0 * x, 0, 0))
+        self.assertLess((scene.nbytes - one) / 99, 500)
+        self.assertEqual(len(scene), 100)
+
+    def test_sizes_of_primitives_that_are_none_are_refused(self):
+        for make, message in ((lambda: touchmark.Box((1, 2)), r"size has the shape \(2,\); it must be \(3,\)"),
+                              (lambda: touchmark.Plane(1.0), r"size has the shape \(\); it must be \(2,\)"),
+                              (lambda: touchmark.Sphere([1.0]), "radius has the shape .* one number"),
+                              (lambda: touchmark.Sphere("large"), "radius holds"),
+                              (lambda: touchmark.Scene().add(touchmark.Sphere(0)), "the radius of a sphere is 0"),
+                              (lambda: touchmark.Scene().add(touchmark.Capsule(1, -1)), "the length of a capsule is -1"),
+                              (lambda: touchmark.Scene().add(touchmark.Box((1, np.nan, 1))), "the size of a box is nan"),
+                              (lambda: touchmark.Scene().add(touchmark.Plane((1, 1e31))), "the size of a plane is")):
+            with self.subTest(message), self.assertRaisesRegex(ValueError, message):
+                make()
+
     def test_an_empty_scene_touches_nothing(self):
         scene = touchmark.Scene()
         self.assertFalse(scene.nearest(POINTS).found.any())
