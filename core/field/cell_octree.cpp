@@ -75,18 +75,21 @@ class CellOctree::Divider {
 
   void keep(Tree& tree, std::size_t entry, const PlaneFitter::Fit& fit) const {
     const PlaneCell& plane = fit.cell;
-    std::vector<Block> blocks((plane.words() + 15) / 16);
-    const auto word = [&](std::size_t i) -> std::uint32_t& { return blocks[i / 16].words[i % 16]; };
+    const std::size_t first = tree.blocks.size();
+    const std::size_t blocks = (plane.words() + words_a_block - 1) / words_a_block;
+    tree.blocks.resize(first + blocks);
+    const auto word = [&](std::size_t i) -> std::uint32_t& {
+      return tree.blocks[first + i / words_a_block].words[i % words_a_block];
+    };
     std::memcpy(&word(0), &plane.stored, sizeof plane.stored);
     std::size_t end = words_of_plane;
     for (const std::uint32_t triangle : fit.near) word(end++) = triangle;
     const std::uint32_t bits = plane.bits_of_name();
     for (std::uint32_t i = 0; i < fit.names.size(); ++i)
       word(end + i * bits / 32) |= std::uint32_t{fit.names[i]} << i * bits % 32;
-    tree.entries[entry] = leaf_bit | plane_bit | static_cast<std::uint32_t>(tree.blocks.size());
-    tree.blocks.insert(tree.blocks.end(), blocks.begin(), blocks.end());
+    tree.entries[entry] = leaf_bit | plane_bit | static_cast<std::uint32_t>(first);
     tree.error = std::max(tree.error, fit.error);
-    take(blocks.size() * sizeof(Block));
+    take(blocks * sizeof(Block));
   }
 
   void take(std::size_t bytes) const {
@@ -271,6 +274,26 @@ CellOctree::Leaf CellOctree::leaf_at(const Vec3& place) const noexcept {
   std::memcpy(static_cast<void*>(&plane), blocks_[leaf.held & ~plane_bit].words.data(), sizeof plane);
   leaf.plane = PlaneCell(plane);
   return leaf;
+}
+
+double CellOctree::height(const Leaf& leaf, const Vec3& place) const noexcept {
+  return leaf.plane.height(place - leaf.corner, unit_);
+}
+
+std::uint32_t CellOctree::triangle_near(const Leaf& leaf, const Vec3& in_leaf, double height) const noexcept {
+  const PlaneCell& plane = leaf.plane;
+  const std::size_t near = std::size_t{leaf.held & ~plane_bit} * words_a_block + words_of_plane;
+  const std::uint32_t bits = plane.bits_of_name();
+  const std::uint32_t at = plane.square_of(in_leaf, height * places_per_length_) * bits;
+  return word(near + (word(near + plane.stored.near + at / 32) >> at % 32 & ((1U << bits) - 1)));
+}
+
+Contact CellOctree::contact(const Leaf& leaf, const Vec3& point, const Vec3& place,
+                            double height) const noexcept {
+  const Vec3& normal = leaf.plane.normal;
+  const double sign = std::copysign(1.0, height);
+  return {point - height * normal, sign * normal, std::abs(height),
+          triangle_near(leaf, place - leaf.corner, height)};
 }
 
 }  // namespace touchmark::field

@@ -44,6 +44,7 @@ class CellOctree {
     PlaneCell plane;           ///< if it is one
 
     bool is_plane() const noexcept { return (held & plane_bit) != 0; }
+    bool is_none() const noexcept { return held == far; }
     bool holds(const Vec3& place) const noexcept {
       const Vec3 in = place - corner;
       return in.x() >= 0 && in.x() < edge && in.y() >= 0 && in.y() < edge && in.z() >= 0 && in.z() < edge;
@@ -65,12 +66,11 @@ class CellOctree {
   /// that holds none.
   Leaf leaf_at(const Vec3& place) const noexcept;
   /// Returns how far a place in a leaf with a plane is above that plane, in mesh units: negative below.
-  double height(const Leaf& leaf, const Vec3& place) const noexcept {
-    return leaf.plane.height(place - leaf.corner, unit_);
-  }
-  /// Returns the position in the mesh of a triangle that is within the error of the foot, on the leaf's
-  /// plane, of the place at this height.
-  std::uint32_t triangle_near(const Leaf& leaf, const Vec3& place, double height) const noexcept;
+  double height(const Leaf& leaf, const Vec3& place) const noexcept;
+  /// Returns the contact of a point with the leaf's plane: at the point's foot, on its side, and with the
+  /// position in the mesh of a triangle that is within the error of that foot. The place is where the point
+  /// is, and the height how far above the plane.
+  Contact contact(const Leaf& leaf, const Vec3& point, const Vec3& place, double height) const noexcept;
   /// Returns the largest error that was proved of any leaf: at most what was asked for.
   double error() const noexcept { return error_; }
   std::size_t bytes() const noexcept {
@@ -80,9 +80,10 @@ class CellOctree {
  private:
   using Place = std::array<std::uint32_t, 3>;  ///< in edges of the smallest cube
   static constexpr std::uint32_t leaf_bit = 0x80000000U, plane_bit = 0x40000000U;
+  static constexpr std::size_t words_a_block = 16;
   /// Planes begin a block each; see PlaneCell for what is behind them.
   struct alignas(64) Block {
-    std::array<std::uint32_t, 16> words{};
+    std::array<std::uint32_t, words_a_block> words{};
   };
   /// The entries of one cube of the lattice, the first, and of what is below it; children by their place
   /// here.
@@ -96,7 +97,10 @@ class CellOctree {
   bool choose_lattice(const Aabb& bounds, const Division& division) noexcept;
   std::vector<double> sample_lattice(const Division& division, std::vector<Sampler>& samplers) const;
   void append(const std::vector<Tree>& trees);
-  std::uint32_t word(std::size_t at) const noexcept { return blocks_[at / 16].words[at % 16]; }
+  std::uint32_t word(std::size_t at) const noexcept {
+    return blocks_[at / words_a_block].words[at % words_a_block];
+  }
+  std::uint32_t triangle_near(const Leaf& leaf, const Vec3& in_leaf, double height) const noexcept;
   Vec3 position(const Place& at) const noexcept {
     return origin_ +
            unit_ * Vec3(static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2]));
@@ -114,14 +118,5 @@ class CellOctree {
   std::vector<std::uint32_t> entries_;
   std::vector<Block> blocks_;
 };
-
-inline std::uint32_t CellOctree::triangle_near(const Leaf& leaf, const Vec3& place,
-                                               double height) const noexcept {
-  const PlaneCell& plane = leaf.plane;
-  const std::size_t near = std::size_t{leaf.held & ~plane_bit} * 16 + words_of_plane;
-  const std::uint32_t bits = plane.bits_of_name();
-  const std::uint32_t at = plane.square_of(place - leaf.corner, height * places_per_length_) * bits;
-  return word(near + (word(near + plane.stored.near + at / 32) >> at % 32 & ((1U << bits) - 1)));
-}
 
 }  // namespace touchmark::field

@@ -67,10 +67,9 @@ class CertifiedField {
     return answer<std::optional<Contact>>(
         probe.center, reach, session,
         [&](const Vec3& place, double height) {
-          const Vec3& normal = session.leaf.plane.normal;
-          const double sign = std::copysign(1.0, height);
-          return Contact{probe.center - height * normal, sign * normal, std::abs(height),
-                         ids_[octree_.triangle_near(session.leaf, place, height)]};
+          Contact contact = octree_.contact(session.leaf, probe.center, place, height);
+          contact.triangle = ids_[contact.triangle];
+          return contact;
         },
         [&](const PreparedTriangle& triangle, const Offset& offset) {
           return contact_at(triangle, probe.center, offset, ids_[triangle.index]);
@@ -110,29 +109,29 @@ class CertifiedField {
     if (margin > 0 && (center - session.center).squaredNorm() < margin * margin) return {};
     if (octree_.empty()) return ask(session, exactly);
     const Vec3 place = octree_.place_of(center);
-    if (!session.leaf.holds(place)) {
+    const field::CellOctree::Leaf& leaf = session.leaf;
+    if (!leaf.holds(place)) {
       ++session.work.cells;
       session.leaf = octree_.leaf_at(place);
     }
-    if (session.leaf.is_plane()) {
-      const double height = octree_.height(session.leaf, place), distance = std::abs(height);
-      if (distance - octree_.error() > reach)
-        return clear_by<Answer>(distance - octree_.error(), center, session);
-      if (refines_) return ask(session, exactly);
-      return distance <= reach ? Answer(by_plane(place, height)) : Answer();
-    }
-    if (session.leaf.held == field::CellOctree::far) {
+    if (leaf.is_none()) {
       if (!center.allFinite() || reach >= band_) return ask(session, exactly);
       return clear_by<Answer>(band_, center, session);
     }
-    const PreparedTriangle& triangle = triangles_[session.leaf.held];
+    const auto decide = [&](double distance, const auto& found) -> Answer {
+      if (distance - octree_.error() > reach)
+        return clear_by<Answer>(distance - octree_.error(), center, session);
+      if (refines_) return ask(session, exactly);
+      return distance <= reach ? Answer(found()) : Answer();
+    };
+    if (leaf.is_plane()) {
+      const double height = octree_.height(leaf, place);
+      return decide(std::abs(height), [&] { return by_plane(place, height); });
+    }
+    const PreparedTriangle& triangle = triangles_[leaf.held];
     ++session.work.triangles;
     const Offset offset = field::offset_from(triangle, center);
-    const double distance = std::sqrt(offset.squared);
-    if (distance - octree_.error() > reach)
-      return clear_by<Answer>(distance - octree_.error(), center, session);
-    if (refines_) return ask(session, exactly);
-    return distance <= reach ? Answer(by_triangle(triangle, offset)) : Answer();
+    return decide(std::sqrt(offset.squared), [&] { return by_triangle(triangle, offset); });
   }
   template <class Answer>
   static Answer clear_by(double distance, const Vec3& center, Session& session) noexcept {

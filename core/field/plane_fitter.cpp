@@ -77,15 +77,14 @@ std::optional<PlaneFitter::Fit> PlaneFitter::fit(const Cube& cube, const Sample&
 /// Lays the plane through the middle of what the cube's points may be over, if that is flat enough for points
 /// on both sides; else just below the top of it.
 bool PlaneFitter::lay_plane(const Cube& cube, std::span<const Near> near, Fit& fit) const noexcept {
-  const double allowed = limits_.error - 8 * limits_.slop;
   Heights under{infinity, -infinity};
   for (const Near& one : near) {
     const double off = std::max(std::abs(one.height.least), std::abs(one.height.most));
     if (one.distance * one.distance - off * off > cube.radius * cube.radius) continue;
     under = {std::min(under.least, one.height.least), std::max(under.most, one.height.most)};
   }
-  const bool is_flat = under.most - under.least <= 1.99 * allowed;
-  const double wanted = is_flat ? 0.5 * (under.most + under.least) : under.most - 0.5 * allowed;
+  const bool is_flat = under.most - under.least <= 1.99 * allowed_;
+  const double wanted = is_flat ? 0.5 * (under.most + under.least) : under.most - 0.5 * allowed_;
   const double corner = -0.5 * cube.edge * fit.cell.normal.sum();  // above the middle
   fit.cell.stored.offset = static_cast<float>(corner - wanted);
   const double middle = static_cast<double>(fit.cell.stored.offset) - corner;  // above the plane
@@ -100,9 +99,9 @@ bool PlaneFitter::lay_plane(const Cube& cube, std::span<const Near> near, Fit& f
     const Outlier above{one.distance, one.height.most + middle, middle, of_cube.most};
     const Outlier below{one.distance, -(one.height.least + middle), -middle, -of_cube.least};
     for (const Outlier& side : {above, below}) {
-      if (side.top_of_cube <= allowed) continue;
-      if (side.top > allowed && !is_out_of_the_way(side, cube.radius)) return false;
-      fit.error = std::max(fit.error, std::min(side.top, allowed));
+      if (side.top_of_cube <= allowed_) continue;
+      if (side.top > allowed_ && !is_out_of_the_way(side, cube.radius)) return false;
+      fit.error = std::max(fit.error, std::min(side.top, allowed_));
     }
   }
   return true;
@@ -114,13 +113,12 @@ bool PlaneFitter::lay_plane(const Cube& cube, std::span<const Near> near, Fit& f
 /// + (h(p) - h(x))^2 >= (h(p) - t)^2, which is L^2 >= (h(x) - t) (2 h(p) - t - h(x)). The right side is
 /// greatest at the cube's top, and there at the triangle's top or where both are the same.
 bool PlaneFitter::is_out_of_the_way(const Outlier& outlier, double radius) const noexcept {
-  const double allowed = limits_.error - 8 * limits_.slop;
-  const double off = std::max(std::abs(allowed - outlier.middle), std::abs(outlier.top - outlier.middle));
+  const double off = std::max(std::abs(allowed_ - outlier.middle), std::abs(outlier.top - outlier.middle));
   const double distance = outlier.distance - 4 * limits_.slop;
   const double along = std::sqrt(std::max(distance * distance - off * off, 0.0)) - radius - 8 * limits_.slop;
   const double top = std::min(outlier.top, outlier.top_of_cube);
   return along > 0 &&
-         along * along >= (1 + 0x1p-20) * (top - allowed) * (2 * outlier.top_of_cube - allowed - top);
+         along * along >= (1 + 0x1p-20) * (top - allowed_) * (2 * outlier.top_of_cube - allowed_ - top);
 }
 
 std::vector<PlaneFitter::Near> PlaneFitter::triangles_in(const Ball& ball) const {
@@ -195,10 +193,9 @@ PlaneFitter::Grid PlaneFitter::grid_over(const Cube& cube, const PlaneCell& cell
 /// Finds a triangle for each square of the grid, the squares as large as the error allows.
 bool PlaneFitter::name_feet(const Cube& cube, const Sampler& sample, Fit& fit) const {
   const Grid grid = grid_over(cube, fit.cell);
-  const double allowed = limits_.error - 8 * limits_.slop;
-  while (grid.half_diagonal(fit.cell) > 0.5 * allowed)
+  while (grid.half_diagonal(fit.cell) > 0.5 * allowed_)
     if (++fit.cell.stored.bits > PlaneCell::most_bits) return false;
-  if (!name_feet(grid, cube, sample, fit)) return false;
+  if (!name_squares(grid, cube, sample, fit)) return false;
   if (fit.near.size() == 1) {
     fit.cell.stored.bits = 0;
     fit.names.resize(1);
@@ -208,8 +205,8 @@ bool PlaneFitter::name_feet(const Cube& cube, const Sampler& sample, Fit& fit) c
   return true;
 }
 
-bool PlaneFitter::name_feet(const Grid& grid, const Cube& cube, const Sampler& sample, Fit& fit) const {
-  const double allowed = limits_.error - 8 * limits_.slop - grid.half_diagonal(fit.cell);
+bool PlaneFitter::name_squares(const Grid& grid, const Cube& cube, const Sampler& sample, Fit& fit) const {
+  const double allowed = allowed_ - grid.half_diagonal(fit.cell);
   double farthest = 0;
   for (std::uint32_t i = 0; i < fit.cell.squares(); ++i) {
     const Sample there = sample(cube.corner + grid.middle(fit.cell, i), allowed);

@@ -46,7 +46,7 @@ class PlaneFitter {
   /// The tree and the triangles, in the mesh's order, outlive the fitter.
   PlaneFitter(const sign::TriangleTree& tree, std::span<const PreparedTriangle> triangles,
               const Limits& limits) noexcept
-      : tree_(tree), triangles_(triangles), limits_(limits) {}
+      : tree_(tree), triangles_(triangles), limits_(limits), allowed_(limits.error - 8 * limits.slop) {}
 
   /// Returns nothing where no plane was proved to be good enough.
   std::optional<Fit> fit(const Cube& cube, const Sample& middle, const Sampler& sample) const;
@@ -78,12 +78,13 @@ class PlaneFitter {
   bool lay_plane(const Cube& cube, std::span<const Near> near, Fit& fit) const noexcept;
   bool is_out_of_the_way(const Outlier& outlier, double radius) const noexcept;
   bool name_feet(const Cube& cube, const Sampler& sample, Fit& fit) const;
-  bool name_feet(const Grid& grid, const Cube& cube, const Sampler& sample, Fit& fit) const;
+  bool name_squares(const Grid& grid, const Cube& cube, const Sampler& sample, Fit& fit) const;
   Grid grid_over(const Cube& cube, const PlaneCell& cell) const noexcept;
 
   const sign::TriangleTree& tree_;
   std::span<const PreparedTriangle> triangles_;
   Limits limits_;
+  double allowed_;  ///< the error, less what rounding takes of it
 };
 
 }  // namespace touchmark::field

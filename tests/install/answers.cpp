@@ -11,6 +11,7 @@
 #include <touchmark/aabb_tree.h>
 #include <touchmark/auto_detector.h>
 #include <touchmark/brute_force.h>
+#include <touchmark/certified_field.h>
 #include <touchmark/clustering.h>
 #include <touchmark/float_tree.h>
 #include <touchmark/grid_group.h>
@@ -151,6 +152,9 @@ int main() {
   spheres.lookup = SphereCluster::Lookup::scan;
   ask("sphere cluster, scan", SphereCluster::build(mesh, spheres));
   ask("auto", AutoDetector::build(mesh));
+  CertifiedField<SphereCluster>::Options coarse;
+  coarse.error = 0.015625;
+  ask("field", CertifiedField<SphereCluster>::build(mesh, coarse));
   ask("signed grid group", Signed<GridGroup>::build(mesh));
   ask("signed sphere cluster", Signed<SphereCluster>::build(mesh));
   try {
