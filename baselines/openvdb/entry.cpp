@@ -5,7 +5,6 @@
 #include "baselines/openvdb/openvdb_detector.h"
 #include "bench/contestants/rival_module.h"
 #include "bench/contestants/rival_options.h"
-#include "bench/support/available_memory.h"
 
 namespace touchmark::bench::contestants {
 
@@ -36,10 +35,7 @@ ContestantInfo openvdb_entry() {
                                            chosen(values, "contact", contacts), asking(values)};
     return contestant_of_module(module, mesh, options);
   };
-  info.bytes_per_triangle = [](const OptionValues&) {
-    builder_of(module);  // This is asked before a clock starts, and loading takes tens of milliseconds.
-    return support::min_bytes_per_triangle;
-  };
+  info.load = [] { builder_of(module); };
   info.forms = {.verified = {"", "contact=polygon"},
                 .frontier = {"voxel=2%", "", "voxel=0.5%", "voxel=0.25%", "voxel=0.125%", "contact=polygon",
                              "voxel=0.25%,contact=polygon"},

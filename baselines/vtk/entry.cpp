@@ -6,7 +6,6 @@
 #include "baselines/vtk/vtk_detector.h"
 #include "bench/contestants/rival_module.h"
 #include "bench/contestants/rival_options.h"
-#include "bench/support/available_memory.h"
 
 namespace touchmark::bench::contestants {
 
@@ -33,10 +32,7 @@ ContestantInfo vtk_entry() {
                                        static_cast<std::uint32_t>(values.count("cells")), asking(values)};
     return contestant_of_module(module, mesh, options);
   };
-  info.bytes_per_triangle = [](const OptionValues&) {
-    builder_of(module);  // This is asked before a clock starts, and loading takes long.
-    return support::min_bytes_per_triangle;
-  };
+  info.load = [] { builder_of(module); };
   info.forms = {.verified = {"", "locator=implicit"}, .frontier = {"", "cells=1", "locator=implicit"}};
   return info;
 }

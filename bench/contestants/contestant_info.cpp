@@ -220,8 +220,10 @@ std::vector<ContestantSpec> Roster::exact_ones(std::vector<ContestantSpec> specs
   return specs;
 }
 
-void Roster::require_memory_for(const ContestantSpec& spec, std::size_t triangles) const {
-  support::require_memory_for_triangles(triangles, find(spec.name).bytes_per_triangle(spec.values));
+void Roster::prepare_to_build(const ContestantSpec& spec, std::size_t triangles) const {
+  const ContestantInfo& contestant = find(spec.name);
+  contestant.load();
+  support::require_memory_for_triangles(triangles, contestant.bytes_per_triangle(spec.values));
 }
 
 std::unique_ptr<Contestant> Roster::build(const ContestantSpec& spec, const TriangleMesh& mesh) const {

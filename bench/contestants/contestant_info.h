@@ -91,6 +91,8 @@ struct ContestantInfo {
   std::vector<OptionInfo> options;
   /// Throws std::invalid_argument or MeshError for options or a mesh it refuses. Empty: not built in.
   BuildContestant build;
+  /// Loads what takes long to load; may be called again.
+  std::function<void()> load = [] {};
   BuildSceneContestant build_scene = {};  ///< builds one over a scene of bodies; empty: it takes none
   bool scenes_only = false;               ///< True if it takes scenes of bodies and refuses a mesh alone.
   /// What it surely takes, and so must be there before it is built.
@@ -150,9 +152,9 @@ class Roster {
   std::vector<ContestantSpec> candidates(workload::Query query) const;
   /// Returns those that it measures over a scene of bodies.
   std::vector<ContestantSpec> scene_candidates(workload::Query query) const;
-  /// Throws ResourceError where there is less memory than the contestant takes for so many triangles. For
-  /// what builds it, to be asked before a clock starts: the answer comes from the system.
-  void require_memory_for(const ContestantSpec& spec, std::size_t triangles) const;
+  /// Does what is to be done before a clock starts and the contestant is built: loads its library, and throws
+  /// ResourceError where there is less memory than it takes for so many triangles.
+  void prepare_to_build(const ContestantSpec& spec, std::size_t triangles) const;
   /// Throws what the contestant's build throws, or std::invalid_argument when it is not built in.
   std::unique_ptr<Contestant> build(const ContestantSpec& spec, const TriangleMesh& mesh) const;
   std::unique_ptr<Contestant> build(const ContestantSpec& spec, const bodies::PlacedScene& scene) const;

@@ -24,7 +24,7 @@ Updated time_updates(contestants::Contestant& contestant, const contestants::Ros
   std::vector<double> builds, updates, ratios;
   try {
     contestant.update(rest);
-    roster.require_memory_for(spec, moved.size());
+    roster.prepare_to_build(spec, moved.size());
     const Clock::time_point start = Clock::now();
     while (builds.size() < min_rounds || (builds.size() < max_rounds && ns_since(start) < enough_ns)) {
       const double there = timed_update(moved), back = timed_update(rest);

@@ -148,7 +148,7 @@ Opened Worker::handle(const request::Open& request) {
 double Worker::timed_build() {
   proxy_.reset();
   contestant_.reset();
-  roster_->require_memory_for(*spec_, geometry_->triangles());
+  roster_->prepare_to_build(*spec_, geometry_->triangles());
   const Clock::time_point start = Clock::now();
   contestant_ = geometry_->build(*roster_, *spec_);
   return ns_since(start);
@@ -219,7 +219,7 @@ Updated Worker::handle(const request::Update& request) {
 
 Done Worker::handle(const request::Rebuild& request) {
   const TriangleMesh moved = scenes::deformed(read_mesh(input_.bytes(), layout_), request.deformation);
-  roster_->require_memory_for(*spec_, moved.size());
+  roster_->prepare_to_build(*spec_, moved.size());
   proxy_.reset();
   contestant_ = roster_->build(*spec_, moved);
   return {};

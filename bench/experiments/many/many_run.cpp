@@ -57,7 +57,7 @@ ManyRun::ManyRun(const contestants::Roster& roster, const std::vector<contestant
     const contestants::ContestantInfo& info = roster.find(spec.name);
     if (info.built() && info.worker_program(spec.values) != contestants::default_worker_program)
       throw std::invalid_argument(fmt::format("--detector \"{}\" needs a program of its own", spec.text()));
-    roster.require_memory_for(spec, mesh.size());
+    roster.prepare_to_build(spec, mesh.size());
     asked_.push_back({spec, roster.build(spec, mesh)});
     if (!asked_.back().contestant->answers(workload::Query::nearest))
       throw std::invalid_argument(fmt::format("--detector \"{}\" does not answer nearest", spec.text()));

@@ -79,8 +79,8 @@ TEST(Roster, RefusesWhatIsNotKeyEqualsValueOrComesTwice) {
 TEST(Roster, RefusesAContestantThatTakesMoreMemoryThanThereIs) {
   const Roster roster = small_roster();
   const ContestantSpec frugal = roster.parse("grid-group"), greedy = roster.parse("grid-group:bytes=1e30");
-  EXPECT_NO_THROW(roster.require_memory_for(frugal, 1000));
-  EXPECT_THROW(roster.require_memory_for(greedy, 1000), support::ResourceError);
+  EXPECT_NO_THROW(roster.prepare_to_build(frugal, 1000));
+  EXPECT_THROW(roster.prepare_to_build(greedy, 1000), support::ResourceError);
 }
 
 TEST(Roster, LeavesOutOfTheDefaultSetWhatIsNotBuilt) {
