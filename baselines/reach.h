@@ -18,7 +18,8 @@ namespace touchmark::baselines {
 /// cannot depend on that. plain: the rival is asked whatever the point.
 enum class Asking { checked, plain };
 
-/// In a session: there was no contact last.
+/// In a session: there was no contact last. In an answer: the library names no triangle, and the judge looks
+/// for none.
 inline constexpr std::uint32_t no_triangle = std::numeric_limits<std::uint32_t>::max();
 
 /// True if the mesh is farther away than the reach along some axis. Rounding keeps the order of numbers, so

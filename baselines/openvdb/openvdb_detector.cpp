@@ -39,9 +39,6 @@ constexpr double beyond_band = 2;
 /// voxel there.
 constexpr double most_along = 0x1p14;
 
-/// The judge takes it for none.
-constexpr TriangleId unknown_triangle = std::numeric_limits<TriangleId>::max();
-
 openvdb::Vec3f single(const Vec3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
@@ -252,7 +249,7 @@ std::optional<Contact> OpenVdbDetector::nearest(const Probe& probe, double reach
   const double distance = std::abs(*found) * division.voxel;
   if (!(distance <= reach)) return std::nullopt;
   const Vec3 away = session.state_->direction_at(single(*place), *found < 0);
-  return Contact{probe.center - distance * away, away, distance, unknown_triangle};
+  return Contact{probe.center - distance * away, away, distance, no_triangle};
 }
 
 std::size_t OpenVdbDetector::bytes() const noexcept { return model_->bytes; }

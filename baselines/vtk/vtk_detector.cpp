@@ -27,7 +27,6 @@ namespace {
 constexpr double a_little_more = 1 + 1e-6;
 
 /// The judge takes it for none.
-constexpr TriangleId unknown_triangle = std::numeric_limits<TriangleId>::max();
 
 vtkNew<vtkPolyData> poly_data(const TriangleMesh& mesh) {
   vtkNew<vtkPoints> points;
@@ -134,10 +133,10 @@ std::optional<Contact> VtkDetector::nearest_of_all(const Vec3& center, double re
   const Vec3 at(point[0], point[1], point[2]);
   const double distance = (center - at).norm();
   if (!(distance <= reach)) return std::nullopt;
-  if (distance > 0) return Contact{at, (center - at) / distance, distance, unknown_triangle};
+  if (distance > 0) return Contact{at, (center - at) / distance, distance, no_triangle};
   std::array<double, 3> normal;
   model_->distance->EvaluateGradient(from.data(), normal.data());
-  return Contact{at, Vec3(normal[0], normal[1], normal[2]).normalized(), distance, unknown_triangle};
+  return Contact{at, Vec3(normal[0], normal[1], normal[2]).normalized(), distance, no_triangle};
 }
 
 bool VtkDetector::touches(const Probe& probe, Session& session) const noexcept {
