@@ -223,8 +223,9 @@ bool Oracle::segment_within(const Vec3& from, const Vec3& to, double radius) con
   structure_->tree.visit([&](const Box& box) { return distance_below(box, from, to); }, limit,
                          [&](std::uint32_t triangle) {
                            if (surely) return;
-                           const Interval distance =
-                               segment_distance_interval(from, to, triangle_of(mesh(), triangle));
+                           const Triangle corners = triangle_of(mesh(), triangle);
+                           if (distance_below(box_of(corners), from, to) > radius) return;  // far cheaper
+                           const Interval distance = segment_distance_interval(from, to, corners);
                            if (distance.hi <= radius) {
                              surely = true;
                              limit = -1;  // nothing more to visit

@@ -45,7 +45,9 @@ double distance_below(const Box& box, const Vec3& point) noexcept {
 double distance_below(const Box& box, const Vec3& from, const Vec3& to) noexcept {
   const Vec3 low = from.cwiseMin(to), high = from.cwiseMax(to);
   const double from_box = length_below((box.min - high).cwiseMax(low - box.max).cwiseMax(0));
-  // A slanting path's own box says little: measure to a ball around the box instead.
+  // What a path no longer than the box may slant is little.
+  if ((high - low).maxCoeff() <= (box.max - box.min).maxCoeff()) return from_box;
+  // Else its own box says little: measure to a ball around the box instead.
   const Vec3 center = 0.5 * box.min + 0.5 * box.max;
   const double radius = length_above((box.max - center).cwiseMax(center - box.min));
   const Interval to_center = segment_distance_interval(from, to, {center, center, center});

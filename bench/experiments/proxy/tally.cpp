@@ -41,7 +41,7 @@ void Judge::see(const WayOracle& oracle) {
   const bool was_fine = oracle_ == nullptr || excused_ || !violates(position_);
   oracle_ = &oracle;
   excused_ = was_fine && violates(position_);
-  side_ = oracle.side(position_);
+  clear_at_ = position_;
   crossed_since_ = false;
 }
 
@@ -103,9 +103,8 @@ void Judge::judge_side(const Step& step, bool crossed) {
     popped = oracle_->surely_crosses(step.way[i - 1], step.way[i], margin);
   const Vec3& at = step.position();
   if (!oracle_->is_within(at, at, margin)) {
-    const std::optional<Side> side = oracle_->side(at);
-    popped = popped || (side && side_ && *side != *side_);
-    side_ = side;
+    popped = popped || oracle_->side(clear_at_) != oracle_->side(at);
+    clear_at_ = at;
     crossed_since_ = false;
   }
   if (popped) ++tally_.pops;

@@ -62,8 +62,10 @@ class Judge {
   const WayOracle* oracle_ = nullptr;
   Vec3 position_, force_ = Vec3::Zero();
   bool excused_ = false;
-  bool crossed_since_ = false;  ///< since the side was known last
-  std::optional<Side> side_;    ///< the side it was on when last clear of the surface
+  /// The place where it was last clear of the surface, or seen first: on which side is asked after a crossing
+  /// only, as it takes exact arithmetic over the whole mesh.
+  Vec3 clear_at_ = Vec3::Zero();
+  bool crossed_since_ = false;
   std::size_t rested_ = 0;
   double energy_ = 0;
 };
