@@ -7,6 +7,14 @@
 
 namespace touchmark {
 
+// Here, where it is asked most.
+double Clearance::remaining(const Vec3& point, const SceneBodies& bodies) const noexcept {
+  // A few roundings of the way and of both differences; what is not a number clears nothing.
+  constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+  const double spent = (point - center).norm() + (bodies.motion() - motion);
+  return lower - spent - rounding * (spent + (lower < 0x1p1000 ? lower : 0));
+}
+
 double lower_distance(const SceneBodies& bodies, std::uint32_t body, const Vec3& point) noexcept {
   const PlacedBody& placed = bodies[body];
   const SeenBody seen(placed.pose, double{placed.rigid}, point);
@@ -32,16 +40,23 @@ NearBodies::Looked NearBodies::list(const Vec3& point, double reach, const Scene
   const std::size_t count_before = count_;
   count_ = 0;
   Looked looked;
-  const auto farthest = [&] {
-    return count_ < room ? std::numeric_limits<double>::infinity() : entries_[room - 1].lower;
-  };
+  // No body is among the nearest that is farther than all that fill the list now.
+  double limit = std::numeric_limits<double>::infinity();
+  const auto is_there = [&](const Entry& entry) { return bodies.has(entry.id); };
+  if (count_before == room && std::ranges::all_of(before, is_there)) {
+    limit = 0;
+    for (const Entry& entry : before) limit = std::max(limit, lower_distance(bodies, entry.id.index, point));
+    looked.bodies += room;
+  }
+  const auto farthest = [&] { return count_ < room ? limit : entries_[room - 1].lower; };
   looked.boxes = bodies.tree().for_each_within({point, point}, farthest(), [&](std::uint32_t body) {
     ++looked.bodies;
     const double lower = lower_distance(bodies, body, point);
-    if (lower < farthest()) add({bodies.id(body), room, lower, {}});
+    if (lower < farthest() || (lower == limit && count_ < room)) add({bodies.id(body), room, lower, {}});
     return farthest();
   });
   others_ = Clearance::at(point, farthest(), bodies);
+  know_all_are_there(bodies);
   // Who was listed before keeps its slot.
   std::array<bool, room> taken{};
   for (Entry& entry : listed()) {
@@ -77,15 +92,17 @@ std::size_t NearBodies::look_again(const Vec3& point, double reach, const SceneB
   const bool is_parted = listed_last_.clears(point, reach, bodies);
   const auto begin = entries_.begin(), end = begin + static_cast<std::ptrdiff_t>(count_);
   const auto removed = [&](const Entry& entry) { return !bodies.has(entry.id); };
-  if (is_parted) {
+  const bool are_all_there = epoch_ == bodies.epoch() && removals_ == bodies.removals();
+  if (is_parted && !are_all_there) {
     const auto near_end = begin + static_cast<std::ptrdiff_t>(near_count_);
     const auto kept = std::remove_if(begin, near_end, removed);
     count_ -= static_cast<std::size_t>(near_end - kept);
     std::move(near_end, end, kept);
     near_count_ = static_cast<std::size_t>(kept - begin);
-  } else {
+  } else if (!is_parted) {
     count_ = static_cast<std::size_t>(std::remove_if(begin, end, removed) - begin);
     near_count_ = count_;
+    know_all_are_there(bodies);
   }
   for (Entry& entry : near()) {
     entry.lower = entry.seen.epoch == bodies.epoch() ? entry.seen.remaining(point, bodies) : 0;

@@ -11,6 +11,7 @@
 #include "core/scene/body.h"
 #include "core/scene/clearance.h"
 #include "core/scene/scene_bodies.h"
+#include "core/search/epoch.h"
 
 namespace touchmark {
 
@@ -64,6 +65,10 @@ class NearBodies {
 
  private:
   void add(const Entry& entry) noexcept;
+  void know_all_are_there(const SceneBodies& bodies) noexcept {
+    epoch_ = bodies.epoch();
+    removals_ = bodies.removals();
+  }
   /// Lists first those that may soon be within the reach, and says how far the others are.
   void part(const Vec3& point, double reach, const SceneBodies& bodies) noexcept;
 
@@ -73,6 +78,8 @@ class NearBodies {
   Clearance all_;
   Clearance listed_last_;  ///< about those listed after the near ones
   Clearance others_;
+  Epoch epoch_;                 ///< of the scene that had all that are listed
+  std::uint64_t removals_ = 0;  ///< when it had lost so many bodies
 };
 
 }  // namespace touchmark

@@ -9,13 +9,14 @@ namespace touchmark {
 namespace {
 
 constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
-float raised_to_float(double x) noexcept {
-  return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity());
-}
+/// Returns a float that is no less than x, which is far from where floats underflow: two of its roundings
+/// more.
+float raised_to_float(double x) noexcept { return static_cast<float>(x * (1 + 0x1p-22)); }
 
-double sum_rounded_up(double a, double b) noexcept { return std::nextafter(a + b, infinity); }
+/// Of numbers that are at least 0: a double times 1 + 2^-52 is the next one at least, and sums that underflow
+/// are exact.
+double sum_rounded_up(double a, double b) noexcept { return (a + b) * (1 + 0x1p-52); }
 
 }  // namespace
 
@@ -23,10 +24,11 @@ ShapeId SceneBodies::add_shape(const Aabb& bounds) {
   const auto index = static_cast<std::uint32_t>(shapes_.size());
   if (bounds.empty() || !bounds.min.allFinite() || !bounds.max.allFinite())
     throw SceneError("shape " + std::to_string(index) + " has no finite bounds");
-  ShapeBounds shape{bounds, bounds.center(), {}, 0};
+  ShapeBounds shape{bounds, bounds.center(), {}, 0, 0};
   // Both differences count, since the centre is rounded.
   shape.half = (bounds.max - shape.center).cwiseMax(shape.center - bounds.min) * (1 + 4 * unit_roundoff);
   shape.radius = shape.half.norm() * (1 + 4 * unit_roundoff);
+  shape.center_size = shape.center.cwiseAbs().sum();
   shapes_.push_back(shape);
   return {index};
 }
@@ -39,8 +41,10 @@ BodyId SceneBodies::add(ShapeId shape, const Pose& pose) {
   std::uint32_t index = 0;
   if (free_.empty()) {
     index = static_cast<std::uint32_t>(bodies_.size());
+    // By a sixteenth, not by half or all: memory counts more than the time of adding. Also so that remove
+    // takes none.
+    if (bodies_.size() == bodies_.capacity()) reserve(bodies_.size() + bodies_.size() / 16 + 4);
     bodies_.emplace_back();
-    free_.reserve(bodies_.capacity());  // so that remove takes no memory
   } else {
     std::ranges::pop_heap(free_, std::greater<>());
     index = free_.back();
@@ -59,7 +63,7 @@ BodyId SceneBodies::add(ShapeId shape, const Pose& pose) {
 }
 
 void SceneBodies::move(BodyId id, const Pose& pose) {
-  expect(id);
+  if (!has(id)) expect(id);  // apart, so that it is inlined
   PlacedBody& body = bodies_[id.index];
   const double rigid = expect_rigid(pose);
   const ShapeBounds& shape = shapes_[body.shape];
@@ -82,6 +86,7 @@ void SceneBodies::remove(BodyId id) {
   body.shape = PlacedBody::no_shape;
   ++body.generation;
   --count_;
+  ++removals_;
   free_.push_back(id.index);
   std::ranges::push_heap(free_, std::greater<>());
 }
@@ -108,6 +113,7 @@ void SceneBodies::follow(const SceneBodies& other, std::span<const std::uint32_t
   if (free_ != other.free_) free_ = other.free_;
   count_ = other.count_;
   additions_ = other.additions_;
+  removals_ = other.removals_;
   motion_ = other.motion_;
   motion_before_span_ = other.motion_before_span_;
   span_ = other.span_;
@@ -134,10 +140,11 @@ std::size_t SceneBodies::bytes() const noexcept {
 Aabb SceneBodies::bounds_in_scene(const ShapeBounds& shape, const Pose& pose) const noexcept {
   const Vec3 center = image(pose, shape.center);
   const Vec3 half = pose.rotation.cwiseAbs() * shape.half;
+  // No entry of a rotation is above 1 by more than the 2^-32 that it may be off.
   const Vec3 rounding =
-      8 * unit_roundoff *
-      (pose.rotation.cwiseAbs() * shape.center.cwiseAbs() + pose.translation.cwiseAbs() + half);
-  return {center - half - rounding, center + half + rounding};
+      8 * unit_roundoff * (Vec3::Constant(1.01 * shape.center_size) + pose.translation.cwiseAbs() + half);
+  const Vec3 padded = half + rounding * (1 + 4 * unit_roundoff);
+  return {center - padded, center + padded};
 }
 
 /// A point x of the ball about c moves by R' x + t' - R x - t = (R' - R) (x - c) + (R' - R) c + t' - t.
@@ -146,10 +153,12 @@ double SceneBodies::motion_between(const ShapeBounds& shape, const Pose& from,
   const Eigen::Matrix3d turn = to.rotation - from.rotation;
   const Vec3 shift = to.translation - from.translation;
   const Vec3 of_center = turn * shape.center + shift;
-  // Each difference is off by one rounding of itself, the product by three and the sum by one of its terms.
+  // Each difference is off by one rounding of itself, the product by three and the sum by one of its terms. A
+  // sum of absolute values is no less than the norm, and takes no root.
+  const double turned = turn.norm();
   const double rounding =
-      8 * unit_roundoff * (turn.norm() * (shape.center.norm() + shape.radius) + shift.norm());
-  return (of_center.norm() + turn.norm() * shape.radius) * (1 + 16 * unit_roundoff) + rounding;
+      8 * unit_roundoff * (turned * (shape.center_size + shape.radius) + shift.cwiseAbs().sum());
+  return (of_center.norm() + turned * shape.radius) * (1 + 16 * unit_roundoff) + rounding;
 }
 
 void SceneBodies::count_motion(PlacedBody& body, double motion) noexcept {

@@ -57,6 +57,8 @@ class SceneBodies {
   double motion() const noexcept { return motion_; }
   /// How many bodies were ever added.
   std::uint64_t additions() const noexcept { return additions_; }
+  /// How many bodies were ever removed.
+  std::uint64_t removals() const noexcept { return removals_; }
   /// Tells scenes apart.
   const Epoch& epoch() const noexcept { return epoch_; }
 
@@ -64,7 +66,8 @@ class SceneBodies {
   struct ShapeBounds {
     Aabb bounds;
     Vec3 center, half;
-    double radius = 0;  ///< a ball so large about the centre holds the bounds
+    double radius = 0;       ///< a ball so large about the centre holds the bounds
+    double center_size = 0;  ///< the sum of the centre's absolute coordinates
   };
 
   Aabb bounds_in_scene(const ShapeBounds& shape, const Pose& pose) const noexcept;
@@ -77,7 +80,7 @@ class SceneBodies {
   std::vector<std::uint32_t> free_;  ///< a heap, the lowest on top
   BodyTree tree_;
   std::size_t count_ = 0;
-  std::uint64_t additions_ = 0;
+  std::uint64_t additions_ = 0, removals_ = 0;
   double motion_ = 0;
   double motion_before_span_ = 0;
   std::uint32_t span_ = 1;

@@ -89,7 +89,7 @@ int run_scale_bodies(const ProgramContext& context, const ScaleBodiesOptions& op
   std::vector<std::string> runs;
   bool interrupted = false;
   try {
-    for (const std::string motion : {"still", "all"}) {
+    for (const std::string motion : {"still", "one", "drift", "all"}) {
       for (const std::size_t size : sizes) {
         const std::vector<scaling::BodyRow> more =
             run.run(size, motion, limit_s, [&](const std::string& contestant) {
