@@ -10,16 +10,17 @@
 
 namespace touchmark {
 
-/// All bodies that it is about were at least `lower` from `center` when the scene's motion was `motion`.
+/// All bodies that it is about were at least `lower` from `center` when the scene had seen so many moves.
 struct Clearance {
   Epoch epoch;
   std::uint64_t additions = 0;  ///< a body that was added later is not covered
   Vec3 center = Vec3::Zero();
-  double motion = 0;
+  std::uint64_t moves = 0;
+  double motion = 0;  ///< before the span of moves of that time: others of that span may still come
   double lower = -std::numeric_limits<double>::infinity();
 
   static Clearance at(const Vec3& center, double lower, const SceneBodies& bodies) noexcept {
-    return {bodies.epoch(), bodies.additions(), center, bodies.motion(), lower};
+    return {bodies.epoch(), bodies.additions(), center, bodies.moves(), bodies.motion_before_span(), lower};
   }
   bool is_about(const SceneBodies& bodies) const noexcept {
     return epoch == bodies.epoch() && additions == bodies.additions();

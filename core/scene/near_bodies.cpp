@@ -11,7 +11,8 @@ namespace touchmark {
 double Clearance::remaining(const Vec3& point, const SceneBodies& bodies) const noexcept {
   // A few roundings of the way and of both differences; what is not a number clears nothing.
   constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
-  const double spent = (point - center).norm() + (bodies.motion() - motion);
+  const double moved = bodies.moves() == moves ? 0 : bodies.motion() - motion;
+  const double spent = (point - center).norm() + moved;
   return lower - spent - rounding * (spent + (lower < 0x1p1000 ? lower : 0));
 }
 

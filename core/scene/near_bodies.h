@@ -78,7 +78,7 @@ class NearBodies {
   Clearance all_;
   Clearance listed_last_;  ///< about those listed after the near ones
   Clearance others_;
-  Epoch epoch_;                 ///< of the scene that had all that are listed
+  Epoch epoch_;                 ///< the scene's that had all that are listed
   std::uint64_t removals_ = 0;  ///< when it had lost so many bodies
 };
 

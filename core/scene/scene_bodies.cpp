@@ -14,8 +14,8 @@ constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 /// more.
 float raised_to_float(double x) noexcept { return static_cast<float>(x * (1 + 0x1p-22)); }
 
-/// Of numbers that are at least 0: a double times 1 + 2^-52 is the next one at least, and sums that underflow
-/// are exact.
+/// Takes numbers that are at least 0. A double times 1 + 2^-52 is the next one at least, and sums that
+/// underflow are exact.
 double sum_rounded_up(double a, double b) noexcept { return (a + b) * (1 + 0x1p-52); }
 
 }  // namespace
@@ -114,6 +114,7 @@ void SceneBodies::follow(const SceneBodies& other, std::span<const std::uint32_t
   count_ = other.count_;
   additions_ = other.additions_;
   removals_ = other.removals_;
+  moves_ = other.moves_;
   motion_ = other.motion_;
   motion_before_span_ = other.motion_before_span_;
   span_ = other.span_;
@@ -162,10 +163,8 @@ double SceneBodies::motion_between(const ShapeBounds& shape, const Pose& from,
 }
 
 void SceneBodies::count_motion(PlacedBody& body, double motion) noexcept {
-  if (body.moved_in_span == span_) {
-    ++span_;
-    motion_before_span_ = motion_;
-  }
+  if (body.moved_in_span == span_) end_span();
+  ++moves_;
   body.moved_in_span = span_;
   motion_ = std::max(motion_, sum_rounded_up(motion_before_span_, motion));
 }

@@ -52,9 +52,18 @@ class SceneBodies {
   const BodyTree& tree() const noexcept { return tree_; }
   std::size_t bytes() const noexcept;
 
-  /// Grows with the moves: between two readings no point of any body has moved by more than the difference.
-  /// Moves count together in spans in which no body is moved twice, and of a span only the widest counts.
+  /// Grows with the moves. They count together in spans in which no body is moved twice, and of a span only
+  /// the widest counts. So no point of any body moves by more than what this is later less what
+  /// motion_before_span() is now, but not than what both readings of this differ by.
   double motion() const noexcept { return motion_; }
+  double motion_before_span() const noexcept { return motion_before_span_; }
+  /// Returns how many moves there were.
+  std::uint64_t moves() const noexcept { return moves_; }
+  /// Moves from now on count as of another span.
+  void end_span() noexcept {
+    ++span_;
+    motion_before_span_ = motion_;
+  }
   /// How many bodies were ever added.
   std::uint64_t additions() const noexcept { return additions_; }
   /// How many bodies were ever removed.
@@ -80,7 +89,7 @@ class SceneBodies {
   std::vector<std::uint32_t> free_;  ///< a heap, the lowest on top
   BodyTree tree_;
   std::size_t count_ = 0;
-  std::uint64_t additions_ = 0, removals_ = 0;
+  std::uint64_t additions_ = 0, removals_ = 0, moves_ = 0;
   double motion_ = 0;
   double motion_before_span_ = 0;
   std::uint32_t span_ = 1;

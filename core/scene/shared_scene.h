@@ -82,7 +82,9 @@ class SharedScene {
   /// Shows all changes since the last call at once. Takes no memory and waits for nobody.
   void publish() noexcept {
     if (is_behind_) return;  // nothing has changed: the other copy is older
-    published_.store(1 - published_.load());
+    const std::size_t next = 1 - published_.load();
+    copies_[next].bodies_.end_span();  // what sessions see of this frame, later moves are not part of
+    published_.store(next);
     is_behind_ = true;
   }
 

@@ -179,5 +179,18 @@ TEST(Scene, AnswersNothingToWhatIsNoNumber) {
   EXPECT_TRUE(scene.nearest({{0, 0, 1e300}, 0}, HUGE_VAL, session));
 }
 
+// Moves count together in spans in which no body is moved twice, of which only the widest counts.
+TEST(Scene, SeesABodyThatMovesAfterAnotherMovedAsFarAndAQuestionBetween) {
+  Scene<BruteForce> scene;
+  const ShapeId shape = scene.add_shape(Shape<BruteForce>::build(square()));
+  const BodyId first = scene.add(shape, at(100, 0, 0)), second = scene.add(shape, at(0, 0, 10));
+  Scene<BruteForce>::Session session;
+  scene.move(first, at(200, 0, 0));
+  EXPECT_FALSE(scene.touches({{0, 0, 0}, 0.5}, session));
+  scene.move(second, at(0, 0, 0.25));
+  EXPECT_TRUE(scene.touches({{0, 0, 0}, 0.5}, session));
+  EXPECT_EQ(scene.nearest_body({{0, 0, 0}, 0}, 0.5, session)->body, second);
+}
+
 }  // namespace
 }  // namespace touchmark

@@ -135,5 +135,20 @@ TEST(SharedScene, IsOneFrameToEveryReaderWhileAnotherThreadPublishes) {
   EXPECT_EQ(torn, 0);
 }
 
+TEST(SharedScene, SeesABodyThatMovesInTheFrameAfterAnotherMovedAsFar) {
+  SharedScene<BruteForce> scene;
+  const ShapeId shape = scene.add_shape(Shape<BruteForce>::build(square()));
+  const BodyId first = scene.add(shape, {Eigen::Matrix3d::Identity(), {100, 0, 0}});
+  const BodyId second = scene.add(shape, {Eigen::Matrix3d::Identity(), {0, 0, 10}});
+  scene.publish();
+  Scene<BruteForce>::Session session;
+  scene.move(first, {Eigen::Matrix3d::Identity(), {200, 0, 0}});
+  scene.publish();
+  EXPECT_FALSE(scene.read()->touches({{0, 0, 0}, 0.5}, session));
+  scene.move(second, {Eigen::Matrix3d::Identity(), {0, 0, 0.25}});
+  scene.publish();
+  EXPECT_TRUE(scene.read()->touches({{0, 0, 0}, 0.5}, session));
+}
+
 }  // namespace
 }  // namespace touchmark
