@@ -285,8 +285,9 @@ void add_scale(CLI::App& program, ProgramContext& context) {
           "reach: radius and reach are as given on the smallest mesh, and shrink as the edges of its "
           "triangles do; all: so does the speed of motion")
       ->type_name("WHAT");
-  command->add_flag("--bodies", options->bodies,
-                    "scenes of 1 body and of each of the sizes instead, still and all moving");
+  command->add_flag(
+      "--bodies", options->bodies,
+      "scenes of 1 body and of each of the sizes instead, with motions still, one, drift and all");
   add_unit(*command, options->selectors.unit);
   command->add_option("--out", options->out, "folder for results.csv, scaling.csv and run.json")
       ->type_name("DIR");

@@ -26,15 +26,18 @@ class ScaleBodies : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(ScaleBodies, MeasuresEachNumberStillAndMovingFreeAndBeside) {
+TEST_F(ScaleBodies, MeasuresEachNumberWithEachMotionFreeAndBeside) {
   const Outcome outcome = scale({"--sizes", "2,20", "--detector", "sphere-cluster", "--detector", "looped"});
   ASSERT_EQ(outcome.status, 0) << outcome.out << outcome.err;
   std::vector<Fields> expected;
-  for (const std::string motion : {"still", "all"})
+  const auto moved = [](const std::string& motion, const std::string& bodies) {
+    return motion == "still" ? "0" : motion == "one" ? "1" : bodies;
+  };
+  for (const std::string motion : {"still", "one", "drift", "all"})
     for (const std::string bodies : {"1", "2", "20"})
       for (const std::string detector : {"sphere-cluster", "looped"})
         for (const std::string place : {"free", "beside"})
-          expected.push_back({detector, bodies, motion, place, motion == "all" ? bodies : "0", "0", "ok"});
+          expected.push_back({detector, bodies, motion, place, moved(motion, bodies), "0", "ok"});
   EXPECT_EQ(read({"detector", "bodies", "motion", "place", "moved", "differing", "status"}), expected);
   // Beside a body every query finds it, in free space none does.
   for (const Fields& row : read({"place", "found", "frames", "ticks_per_frame"}))
@@ -48,7 +51,7 @@ TEST_F(ScaleBodies, SaysWhoTakesNoMovingBodiesAndGoesOn) {
   const Outcome outcome = scale({"--sizes", "2,3", "--detector", "sphere-cluster", "--detector", "merged"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   for (const Fields& row : read({"detector", "motion", "status"}))
-    EXPECT_EQ(row[2].starts_with("refused"), row[0] == "merged" && row[1] == "all") << row[2];
+    EXPECT_EQ(row[2].starts_with("refused"), row[0] == "merged" && row[1] != "still") << row[2];
 }
 
 TEST_F(ScaleBodies, RefusesWhatIsOfMeshesInOneLine) {
