@@ -56,11 +56,13 @@ class BodySweep {
     const Aabb& bounds = shape_.mesh->bounds();
     const double error = std::max(distance_error(accuracy, bounds, from_.seen().center()),
                                   distance_error(accuracy, bounds, to_.center()));
-    const Sweep wider = in_frame(farther.reach_in_frame(sweep_.radius, error));
+    // A detector that decides exactly is off by nothing where it decides whether a sweep hits.
+    const double of_sweep = accuracy.decides_exactly ? 0 : error;
+    const Sweep wider = in_frame(farther.reach_in_frame(sweep_.radius, of_sweep));
     const std::optional<Impact> hit = shape_.detector->first_hit(wider, session_);
     if (!hit) return std::nullopt;
     // Of an image at the radius the distance in the frame is no less than this.
-    const double inner = farther.surely_within(sweep_.radius, error);
+    const double inner = farther.surely_within(sweep_.radius, of_sweep);
     if (!(inner >= 0 && shape_.detector->first_hit(in_frame(inner), session_)) && !comes_within(error, work))
       return std::nullopt;
     const SeenCorners corners(from_.seen());
