@@ -65,7 +65,7 @@ TrianglePlanes planes_of(const PreparedTriangle& triangle, const FilterFrame& fr
       set_plane(static_cast<int>(i) + 1, Vec3::Zero(), 0);
       continue;
     }
-    const Vec3 outward = side.cross(triangle.normal) / length;
+    const Vec3 outward = side.cross(triangle.normal) * (1 / length);
     // The farthest corner, not the side's own: rounding must not leave one outside.
     const double farthest = std::max({outward.dot(v[0]), outward.dot(v[1]), outward.dot(v[2])});
     set_plane(static_cast<int>(i) + 1, outward, -farthest);

@@ -153,9 +153,9 @@ void gather_members(const Assignment& assignment, SphereClusters& clusters) {
   }
 }
 
-SphereClusters one_a_triangle(const TriangleMesh& mesh) {
+SphereClusters one_a_triangle(const TriangleMesh& mesh, unsigned threads) {
   SphereClusters clusters;
-  clusters.spheres = triangle_spheres(mesh);
+  clusters.spheres = triangle_spheres(mesh, threads);
   clusters.first.resize(mesh.size() + 1);
   std::iota(clusters.first.begin(), clusters.first.end(), 0U);
   clusters.members.assign(clusters.first.begin(), clusters.first.end() - 1);
@@ -197,8 +197,9 @@ std::vector<std::uint32_t> breadth_first_order(const TriangleMesh& mesh) {
   return order;
 }
 
-SphereClusters cluster_spheres(const TriangleMesh& mesh, double distance, VisitOrder order) {
-  if (!(distance > 0)) return one_a_triangle(mesh);
+SphereClusters cluster_spheres(const TriangleMesh& mesh, double distance, VisitOrder order,
+                               unsigned threads) {
+  if (!(distance > 0)) return one_a_triangle(mesh, threads);
   const std::vector<Vec3> centers = centroids(mesh);
   const Assignment assignment = follow_leaders(mesh, centers, distance, order);
   SphereClusters clusters;
@@ -217,7 +218,8 @@ double average_tightness(const TriangleMesh& mesh, const SphereClusters& cluster
   double sum = 0;
   for (std::size_t i = 0; i < clusters.size(); ++i) {
     const Sphere& sphere = clusters.spheres[i];
-    for (const std::uint32_t triangle : clusters.triangles_of(i))
+    sum += sphere.radius;  // the leader's centroid is the centre
+    for (const std::uint32_t triangle : clusters.triangles_of(i).subspan(1))
       sum += sphere.radius - safe_norm(centroid(mesh, triangle) - sphere.center);
   }
   return sum / static_cast<double>(clusters.members.size());

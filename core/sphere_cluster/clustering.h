@@ -39,9 +39,10 @@ enum class VisitOrder { breadth_first, mesh };
 /// lowest one not yet visited.
 std::vector<std::uint32_t> breadth_first_order(const TriangleMesh& mesh);
 
-/// `distance` >= 0 and finite, in mesh units; 0 leaves one sphere a triangle, in the mesh's order.
+/// `distance` >= 0 and finite, in mesh units; 0 leaves one sphere a triangle, in the mesh's order. The same
+/// bits with any number of threads.
 SphereClusters cluster_spheres(const TriangleMesh& mesh, double distance,
-                               VisitOrder order = VisitOrder::breadth_first);
+                               VisitOrder order = VisitOrder::breadth_first, unsigned threads = 1);
 
 /// The paper's average tightness: over every sphere and each of its triangles, the mean of the sphere's
 /// radius minus the distance from its centre to the triangle's centroid. 0 is tightest.

@@ -22,7 +22,7 @@ SphereCluster SphereCluster::build(const TriangleMesh& mesh, const Options& opti
   SphereCluster detector;
   detector.options_ = options;
   detector.connectivity_ = Connectivity(mesh);
-  detector.clusters_ = cluster_spheres(mesh, options.clustering, options.order);
+  detector.clusters_ = cluster_spheres(mesh, options.clustering, options.order, threads);
   detector.tightness_ = average_tightness(mesh, detector.clusters_);
   if (!options.precise) {
     detector.fast_ = FastLevel(mesh, detector.clusters_);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/search/parallel.h"
+
 namespace touchmark {
 
 Vec3 centroid(const TriangleMesh& mesh, std::size_t triangle) noexcept {
@@ -23,13 +25,15 @@ double radius_around(const TriangleMesh& mesh, std::size_t triangle, const Vec3&
   return radius;
 }
 
-std::vector<Sphere> triangle_spheres(const TriangleMesh& mesh) {
-  std::vector<Sphere> spheres;
-  spheres.reserve(mesh.size());
-  for (std::size_t i = 0; i < mesh.size(); ++i) {
-    const Vec3 center = centroid(mesh, i);
-    spheres.push_back({center, radius_around(mesh, i, center)});
-  }
+std::vector<Sphere> triangle_spheres(const TriangleMesh& mesh, unsigned threads) {
+  constexpr std::size_t triangles_a_piece = 4096;
+  std::vector<Sphere> spheres(mesh.size());
+  in_ranges(mesh.size(), triangles_a_piece, threads, [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
+      const Vec3 center = centroid(mesh, i);
+      spheres[i] = {center, radius_around(mesh, i, center)};
+    }
+  });
   return spheres;
 }
 

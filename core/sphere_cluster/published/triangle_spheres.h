@@ -17,7 +17,7 @@ std::vector<Vec3> centroids(const TriangleMesh& mesh);
 /// The least radius about `center`, rounded up, that holds the triangle.
 double radius_around(const TriangleMesh& mesh, std::size_t triangle, const Vec3& center) noexcept;
 
-/// Returns the spheres in the mesh's order.
-std::vector<Sphere> triangle_spheres(const TriangleMesh& mesh);
+/// Returns the spheres in the mesh's order. The same bits with any number of threads.
+std::vector<Sphere> triangle_spheres(const TriangleMesh& mesh, unsigned threads = 1);
 
 }  // namespace touchmark

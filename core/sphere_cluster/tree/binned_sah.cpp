@@ -129,11 +129,14 @@ TriangleSplitter::Box TriangleSplitter::cluster_bounds(const TriangleRange& rang
   return all;
 }
 
-/// The cheapest of the positions between two bins; nothing when all of the range is in one bin.
+/// The cheapest of the positions between two bins; nothing when all of the range is in one bin. Of a long
+/// range a sample tells, every third or fifth.
 std::optional<TriangleSplitter::Cut> TriangleSplitter::cheapest_cut(const TriangleRange& range, Key key,
                                                                     const Bins& bins) const noexcept {
+  constexpr std::uint32_t long_range = 1024, longer_range = 4096;
+  const std::uint32_t step = range.size() < long_range ? 1 : range.size() < longer_range ? 3 : 5;
   std::array<std::array<Bin, bins_an_axis>, 3> bin;
-  for (std::uint32_t i = range.begin; i < range.end; ++i) {
+  for (std::uint32_t i = range.begin; i < range.end; i += step) {
     const LaneBits at = bins_of(key_of(items_[i], key), bins.origin, bins.scale);
     const Box box = box_of(items_[i]);
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -153,16 +156,16 @@ std::optional<TriangleSplitter::Cut> TriangleSplitter::cheapest_cut(const Triang
       left.add(bin[axis][b - 1]);
       if (left.count == 0 || !(left.cost() + right_cost[b] < least)) continue;
       least = left.cost() + right_cost[b];
-      cheapest = {static_cast<int>(axis), b, left.count};
+      cheapest = {static_cast<int>(axis), b};
     }
   }
   return cheapest;
 }
 
-/// Left of the position whatever is less along the axis: by its bin, and then the few that are one too many
-/// on a side.
-void TriangleSplitter::partition_at(const TriangleRange& range, std::uint32_t position, Key key,
-                                    const Bins& bins, const Cut& cut) {
+/// Puts left whatever is less along the axis: by its bin, and then the few that fill a block. Returns where
+/// the right begins.
+std::uint32_t TriangleSplitter::partition_at(const TriangleRange& range, Key key, const Bins& bins,
+                                             const Cut& cut) {
   const float origin = bins.origin[cut.axis], scale = bins.scale[cut.axis];
   // As bins_of has it: what is in the last bin is beyond every cut, so nothing needs to be put there.
   const auto first_bin_right = static_cast<float>(cut.bin);
@@ -178,6 +181,7 @@ void TriangleSplitter::partition_at(const TriangleRange& range, std::uint32_t po
   }
   std::copy(scratch_.data() + range.begin, right, left);
   const auto found = static_cast<std::uint32_t>(left - items_.data());
+  const std::uint32_t position = range.whole_blocks(found - range.begin);
   const auto less = [&](const Item& a, const Item& b) {
     const float x = key_of(a, key, cut.axis), y = key_of(b, key, cut.axis);
     return x != y ? x < y : a.triangle < b.triangle;
@@ -188,6 +192,7 @@ void TriangleSplitter::partition_at(const TriangleRange& range, std::uint32_t po
                       [&](const Item& a, const Item& b) { return less(b, a); });
   else
     std::partial_sort(left, items_.data() + position, items_.data() + range.end, less);
+  return position;
 }
 
 /// Partitions at any position along the axis.
@@ -218,17 +223,11 @@ std::pair<TriangleRange, TriangleRange> TriangleSplitter::split(const TriangleRa
   // A little less than whole bins, so that the last number is in the last bin.
   const Lanes per_extent = broadcast(static_cast<float>(bins_an_axis) * (1 - 0x1p-20F)) / extent;
   const Bins bins{box.min, extent > Lanes{} ? per_extent : Lanes{}};
-  // Whole blocks on the left.
-  const auto position_of = [&](std::uint32_t left) {
-    const std::uint32_t blocks = (left + tree_width / 2) / tree_width;
-    const std::uint32_t max_blocks = (range.size() - 1) / tree_width;
-    return range.begin + tree_width * std::clamp(blocks, 1U, max_blocks);
-  };
   std::optional<Cut> cut;
   if (range.depth < max_uneven_splits) cut = cheapest_cut(range, key, bins);
-  const std::uint32_t position = position_of(cut ? cut->left : range.size() / 2);
+  std::uint32_t position = range.whole_blocks(range.size() / 2);
   if (cut) {
-    partition_at(range, position, key, bins, *cut);
+    position = partition_at(range, key, bins, *cut);
   } else {
     const int longer = extent[1] > extent[0] ? 1 : 0;
     halve(range, position, key, extent[2] > extent[longer] ? 2 : longer);

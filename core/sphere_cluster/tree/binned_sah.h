@@ -1,6 +1,7 @@
 /// Splits ranges of triangles for the hierarchy, by the surface area heuristic over bins.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "core/search/plane_filter.h"
 #include "core/simd/lanes.h"
 #include "core/sphere_cluster/clustering.h"
+#include "core/sphere_cluster/tree/node.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::spheres {
@@ -21,6 +23,13 @@ struct TriangleRange {
   std::uint32_t number = 0;  ///< the split's, parents before their children
 
   std::uint32_t size() const noexcept { return end - begin; }
+  /// Returns the place in the range that leaves about so many triangles on the left, in whole blocks. The
+  /// range must hold more than one block.
+  std::uint32_t whole_blocks(std::uint32_t left) const noexcept {
+    const std::uint32_t blocks = (left + tree_width / 2) / tree_width;
+    const std::uint32_t max_blocks = (size() - 1) / tree_width;
+    return begin + tree_width * std::clamp(blocks, 1U, max_blocks);
+  }
 };
 
 /// Puts triangles in an order in which they are split again and again, until each range is a block.
@@ -61,7 +70,6 @@ class TriangleSplitter {
   struct Cut {
     int axis;
     std::size_t bin;
-    std::uint32_t left;  ///< triangles
   };
   /// Cuts a box in bins along each axis.
   struct Bins {
@@ -87,8 +95,7 @@ class TriangleSplitter {
   float key_of(const Item& item, Key key, int axis) const noexcept;
   Box cluster_bounds(const TriangleRange& range) const noexcept;
   std::optional<Cut> cheapest_cut(const TriangleRange& range, Key key, const Bins& bins) const noexcept;
-  void partition_at(const TriangleRange& range, std::uint32_t position, Key key, const Bins& bins,
-                    const Cut& cut);
+  std::uint32_t partition_at(const TriangleRange& range, Key key, const Bins& bins, const Cut& cut);
   void halve(const TriangleRange& range, std::uint32_t position, Key key, int axis);
 
   std::vector<Item> items_;
