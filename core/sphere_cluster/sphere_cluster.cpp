@@ -22,15 +22,18 @@ SphereCluster SphereCluster::build(const TriangleMesh& mesh, const Options& opti
   SphereCluster detector;
   detector.options_ = options;
   detector.connectivity_ = Connectivity(mesh);
-  detector.clusters_ = cluster_spheres(mesh, options.clustering, options.order, threads);
-  detector.tightness_ = average_tightness(mesh, detector.clusters_);
+  const bool is_lazy = options.construction == Construction::lazy && options.clustering == 0;
+  if (!is_lazy) {
+    detector.clusters_ = cluster_spheres(mesh, options.clustering, options.order, threads);
+    detector.tightness_ = average_tightness(mesh, detector.clusters_);
+  }
   if (!options.precise) {
     detector.fast_ = FastLevel(mesh, detector.clusters_);
   } else if (options.lookup == Lookup::scan) {
     detector.scan_ = SphereScan(mesh, detector.clusters_);
   } else {
     detector.tree_ =
-        SphereTree(mesh, detector.clusters_,
+        SphereTree(mesh, is_lazy ? nullptr : &detector.clusters_,
                    {options.widest, options.certified, options.construction == Construction::lazy, threads});
   }
   return detector;

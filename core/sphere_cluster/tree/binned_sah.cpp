@@ -48,41 +48,75 @@ struct Bin {
 
 TriangleSplitter::TriangleSplitter(const TriangleMesh& mesh, const SphereClusters& clusters,
                                    const FilterFrame& frame, unsigned threads)
-    : items_(mesh.size()),
-      scratch_(mesh.size()),
+    : own_items_(mesh.size()),
+      own_scratch_(mesh.size()),
+      own_splits_((mesh.size() + tree_width - 1) / tree_width),
+      items_(own_items_),
+      scratch_(own_scratch_),
       cluster_keys_(clusters.size() < mesh.size() ? clusters.size() : 0),
-      splits_((mesh.size() + tree_width - 1) / tree_width - 1) {
+      splits_(own_splits_) {
   constexpr std::size_t clusters_a_piece = 1024;
   in_ranges(clusters.size(), clusters_a_piece, threads,
             [&](std::size_t first, std::size_t end) { add_items(mesh, clusters, frame, first, end); });
+  split_all(threads);
+}
+
+TriangleSplitter::TriangleSplitter(const TriangleMesh& mesh, const FilterFrame& frame, std::uint32_t smallest,
+                                   unsigned threads)
+    : smallest_(smallest),
+      own_items_(mesh.size()),
+      own_scratch_(mesh.size()),
+      own_splits_((mesh.size() + tree_width - 1) / tree_width),
+      items_(own_items_),
+      scratch_(own_scratch_),
+      splits_(own_splits_) {
+  constexpr std::size_t triangles_a_piece = 4096;
+  in_ranges(mesh.size(), triangles_a_piece, threads, [&](std::size_t first, std::size_t end) {
+    for (auto i = static_cast<std::uint32_t>(first); i < end; ++i) items_[i] = item_of(mesh, i, frame, i);
+  });
+  split_all(threads);
+}
+
+TriangleSplitter::TriangleSplitter(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles,
+                                   const FilterFrame& frame, Workspace& workspace) noexcept
+    : items_(std::span(workspace.items).first(triangles.size())),
+      scratch_(workspace.scratch),
+      splits_(workspace.splits) {
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    items_[i] = item_of(mesh, triangles[i], frame, triangles[i]);
+  split_to_smallest(all());
+}
+
+void TriangleSplitter::split_all(unsigned threads) {
   split_in_parallel(
       all(), threads, [this](const TriangleRange& range) { return split(range); },
-      [this](const TriangleRange& range) { split_to_blocks(range); });
+      [this](const TriangleRange& range) { split_to_smallest(range); });
+}
+
+TriangleSplitter::Item TriangleSplitter::item_of(const TriangleMesh& mesh, std::uint32_t triangle,
+                                                 const FilterFrame& frame, std::uint32_t cluster) noexcept {
+  Item item{{}, triangle, {}, cluster};
+  const Eigen::Vector3f a = frame.to_frame(mesh.corner(triangle, 0)).cast<float>(),
+                        b = frame.to_frame(mesh.corner(triangle, 1)).cast<float>(),
+                        c = frame.to_frame(mesh.corner(triangle, 2)).cast<float>();
+  for (int k = 0; k < 3; ++k) {
+    item.min[static_cast<std::size_t>(k)] = std::min({a[k], b[k], c[k]});
+    item.max[static_cast<std::size_t>(k)] = std::max({a[k], b[k], c[k]});
+  }
+  return item;
 }
 
 /// Adds the triangles of clusters [first, end), at the places of their cluster.
 void TriangleSplitter::add_items(const TriangleMesh& mesh, const SphereClusters& clusters,
                                  const FilterFrame& frame, std::size_t first, std::size_t end) {
-  const auto local = [&](const Vec3& point) {
-    const Vec3 p = frame.to_frame(point);
-    return std::array{static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())};
-  };
   Item* to = items_.data() + clusters.first[first];
   for (auto cluster = static_cast<std::uint32_t>(first); cluster < end; ++cluster) {
     if (!cluster_keys_.empty()) {
-      const std::array<float, 3> center = local(clusters.spheres[cluster].center);
+      const Eigen::Vector3f center = frame.to_frame(clusters.spheres[cluster].center).cast<float>();
       cluster_keys_[cluster] = 2 * Lanes{center[0], center[1], center[2], 0};
     }
-    for (const std::uint32_t triangle : clusters.triangles_of(cluster)) {
-      const std::array<float, 3> a = local(mesh.corner(triangle, 0)), b = local(mesh.corner(triangle, 1)),
-                                 c = local(mesh.corner(triangle, 2));
-      Item item{{}, triangle, {}, cluster};
-      for (std::size_t k = 0; k < 3; ++k) {
-        item.min[k] = std::min({a[k], b[k], c[k]});
-        item.max[k] = std::max({a[k], b[k], c[k]});
-      }
-      *to++ = item;
-    }
+    for (const std::uint32_t triangle : clusters.triangles_of(cluster))
+      *to++ = item_of(mesh, triangle, frame, cluster);
   }
 }
 
@@ -236,11 +270,28 @@ std::pair<TriangleRange, TriangleRange> TriangleSplitter::split(const TriangleRa
   return halves(range);
 }
 
-void TriangleSplitter::split_to_blocks(const TriangleRange& range) {
-  if (range.size() <= tree_width) return;
+void TriangleSplitter::split_to_smallest(const TriangleRange& range) {
+  if (range.size() <= smallest_) return;
   const auto [left, right] = split(range);
-  split_to_blocks(left);
-  split_to_blocks(right);
+  split_to_smallest(left);
+  split_to_smallest(right);
+}
+
+TriangleRange TriangleSplitter::block_of(TriangleRange range) {
+  for (bool takes_left = false; range.size() > tree_width; takes_left = !takes_left) {
+    const auto [left, right] = split(range);
+    range = takes_left ? left : right;
+  }
+  return range;
+}
+
+std::pair<Lanes, Lanes> TriangleSplitter::box(const TriangleRange& range) const noexcept {
+  Box all = box_of(items_[range.begin]);
+  for (std::uint32_t i = range.begin + 1; i < range.end; ++i) {
+    const Box one = box_of(items_[i]);
+    all = {simd::min(all.min, one.min), simd::max(all.max, one.max)};
+  }
+  return {all.min, all.max};
 }
 
 std::pair<TriangleRange, TriangleRange> TriangleSplitter::halves(const TriangleRange& range) const noexcept {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -42,6 +43,21 @@ class TriangleSplitter {
 
   TriangleSplitter(const TriangleMesh& mesh, const SphereClusters& clusters, const FilterFrame& frame,
                    unsigned threads);
+  /// Splits without clusters, until ranges are at most so long, a multiple of a block.
+  TriangleSplitter(const TriangleMesh& mesh, const FilterFrame& frame, std::uint32_t smallest,
+                   unsigned threads);
+  struct Workspace;
+  /// Splits some of a mesh's triangles in memory of the caller's, which has room for them.
+  TriangleSplitter(const TriangleMesh& mesh, std::span<const std::uint32_t> triangles,
+                   const FilterFrame& frame, Workspace& workspace) noexcept;
+  TriangleSplitter(const TriangleSplitter&) = delete;
+  TriangleSplitter& operator=(const TriangleSplitter&) = delete;
+
+  std::uint32_t smallest() const noexcept { return smallest_; }
+  /// Splits a range on, here and there, until it is a block.
+  TriangleRange block_of(TriangleRange range);
+  /// Returns the box of a range's triangles, their corners rounded to the nearest.
+  std::pair<Lanes, Lanes> box(const TriangleRange& range) const noexcept;
 
   TriangleRange all() const noexcept { return {0, static_cast<std::uint32_t>(items_.size()), 0, 0}; }
   /// The mesh's triangle at a position in the order.
@@ -85,10 +101,13 @@ class TriangleSplitter {
     Box all, middles;
   };
 
+  static Item item_of(const TriangleMesh& mesh, std::uint32_t triangle, const FilterFrame& frame,
+                      std::uint32_t cluster) noexcept;
   void add_items(const TriangleMesh& mesh, const SphereClusters& clusters, const FilterFrame& frame,
                  std::size_t first, std::size_t end);
+  void split_all(unsigned threads);
   std::pair<TriangleRange, TriangleRange> split(const TriangleRange& range);
-  void split_to_blocks(const TriangleRange& range);
+  void split_to_smallest(const TriangleRange& range);
   Bounds bounds_of(const TriangleRange& range) const noexcept;
   static Box box_of(const Item& item) noexcept;
   Lanes key_of(const Item& item, Key key) const noexcept;
@@ -98,10 +117,20 @@ class TriangleSplitter {
   std::uint32_t partition_at(const TriangleRange& range, Key key, const Bins& bins, const Cut& cut);
   void halve(const TriangleRange& range, std::uint32_t position, Key key, int axis);
 
-  std::vector<Item> items_;
-  std::vector<Item> scratch_;        ///< room for as many
+  std::uint32_t smallest_ = tree_width;
+  std::vector<Item> own_items_, own_scratch_;
+  std::vector<Split> own_splits_;
+  std::span<Item> items_;
+  std::span<Item> scratch_;          ///< room for as many
   std::vector<Lanes> cluster_keys_;  ///< empty when every triangle is its own cluster
-  std::vector<Split> splits_;        ///< by number; one less than there are blocks
+  std::span<Split> splits_;          ///< by number; one less than there are blocks
+};
+
+struct TriangleSplitter::Workspace {
+  static constexpr std::size_t capacity = 512;  ///< triangles
+
+  std::array<Item, capacity> items, scratch;
+  std::array<Split, capacity / tree_width> splits;
 };
 
 }  // namespace touchmark::spheres

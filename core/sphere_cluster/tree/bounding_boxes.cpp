@@ -59,12 +59,6 @@ void add_block(Hull& hull, const TreeParts& parts, std::uint32_t block, const Fi
   }
 }
 
-/// Bounds of the same blocks.
-struct BothBounds {
-  std::vector<BoundingCylinder> cylinders;
-  std::vector<BoundingBox> boxes;
-};
-
 /// Bounds the blocks below some nodes, about so many or all, evenly among the others.
 BothBounds sampled_bounds(const TreeParts& parts, const TriangleMesh& mesh, const FilterFrame& frame) {
   constexpr std::size_t fewest = 64, most_apart = 32;
@@ -109,8 +103,17 @@ void set_child(TreeNode& node, std::size_t i, const BoundingBox& box) noexcept {
   node.normal_y[i] = node.normal_z[i] = 0;
 }
 
+BoundingBox box_between(const Vector3f& low, const Vector3f& high) noexcept {
+  Hull hull;
+  hull.add(low, high);
+  return hull.box();
+}
+
 bool boxes_serve_better(const TreeParts& parts, const TriangleMesh& mesh, const FilterFrame& frame) {
-  const BothBounds bounds = sampled_bounds(parts, mesh, frame);
+  return boxes_serve_better(sampled_bounds(parts, mesh, frame));
+}
+
+bool boxes_serve_better(const BothBounds& bounds) noexcept {
   double margin = 0;
   for (const BoundingCylinder& one : bounds.cylinders) margin += double{one.radius};
   margin *= comparing_margin / static_cast<double>(std::max<std::size_t>(bounds.cylinders.size(), 1));

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <utility>
 #include <vector>
 
 #include "core/search/parallel.h"
 #include "core/sphere_cluster/tree/binned_sah.h"
 #include "core/sphere_cluster/tree/bounding_boxes.h"
+#include "core/sphere_cluster/tree/node_splitting.h"
 #include "core/sphere_cluster/tree/node_writer.h"
 
 namespace touchmark::spheres {
@@ -43,7 +43,7 @@ class Builder {
     const auto index = static_cast<std::uint32_t>(parts_.nodes.size());
     parts_.nodes.emplace_back();
     std::array<TriangleRange, tree_width> children;
-    const std::size_t count = split_into(range, children);
+    const std::size_t count = split_into(splitter_, range, children);
     for (std::size_t i = count; i < tree_width; ++i) parts_.nodes[index].clear(i);
     for (std::uint32_t i = 0; i < count; ++i)
       children_.push_back({index, i, children[i].begin, children[i].end});
@@ -53,36 +53,9 @@ class Builder {
                                 ? TreeRef{children[i].begin / tree_width | TreeRef::block_bit}
                                 : TreeRef{add_node(children[i])};
       parts_.nodes[index].child[i] = child;
+      parts_.nodes[index].half[i] = 0;  // something is there
     }
     return index;
-  }
-
-  /// Splits the range that is most likely to be looked into, again and again.
-  std::size_t split_into(TriangleRange range, std::array<TriangleRange, tree_width>& children) {
-    std::array<float, tree_width> area;
-    // Of a range that is a block already nobody asks.
-    const auto area_of = [&](const TriangleRange& r) {
-      return r.size() > tree_width ? splitter_.area(r) : 0.0F;
-    };
-    children[0] = range;
-    area[0] = area_of(range);
-    std::size_t count = 1;
-    while (count < tree_width) {
-      std::size_t widest = count;
-      for (std::size_t i = 0; i < count; ++i)
-        if (children[i].size() > tree_width && (widest == count || area[i] > area[widest])) widest = i;
-      if (widest == count) break;
-      const auto [left, right] = splitter_.halves(children[widest]);
-      children[widest] = left;
-      children[count] = right;
-      area[widest] = area_of(left);
-      area[count] = area_of(right);
-      ++count;
-    }
-    // In the splitter's order, so that the last block is the one that need not be full.
-    std::sort(children.begin(), children.begin() + count,
-              [](const TriangleRange& a, const TriangleRange& b) { return a.begin < b.begin; });
-    return count;
   }
 
   void bound_by_cylinders() {
@@ -114,18 +87,9 @@ class Builder {
     parts_.triangles.resize(mesh_.size());
     parts_.blocks.resize((mesh_.size() + tree_width - 1) / tree_width);
     in_ranges(parts_.blocks.size(), blocks_a_piece, threads_, [&](std::size_t first, std::size_t end) {
-      for (std::size_t block = first; block < end; ++block) set_block(block);
+      for (std::size_t block = first; block < end; ++block)
+        set_block(parts_, block, mesh_, frame_, [&](std::size_t at) { return splitter_.triangle(static_cast<std::uint32_t>(at)); });
     });
-  }
-
-  void set_block(std::size_t index) noexcept {
-    TriangleBlock& block = parts_.blocks[index];
-    std::fill(std::begin(block.offset[0]), std::end(block.offset[0]), std::numeric_limits<float>::max());
-    const std::size_t first = index * tree_width, end = std::min(first + tree_width, mesh_.size());
-    for (std::size_t at = first; at < end; ++at) {
-      parts_.triangles[at] = prepare(mesh_, splitter_.triangle(static_cast<std::uint32_t>(at)));
-      set_triangle(block, at - first, planes_of(parts_.triangles[at], frame_));
-    }
   }
 
   const TriangleMesh& mesh_;

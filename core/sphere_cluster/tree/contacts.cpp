@@ -28,14 +28,14 @@ std::size_t SphereTree::contacts(const Vec3& center, double reach, Memory& memor
                                  Work& work) const noexcept {
   claim(memory);
   const FilterPoint point = frame_.point(center);
-  if (!can_search(point)) return fallback().contacts(center, reach, into, work);
+  if (!can_search(point)) return fallback(work).contacts(center, reach, into, work);
   const double clearance = static_cast<double>(distances_.lower_bound(point)) * frame_.unit();
   if (clearance > reach) {
     remember_touch(center, clearance, infinity, memory);
     return 0;
   }
   ContactsWithin found({parts_.triangles, bounds_, ids_, center, reach, into, certified_});
-  if (std::isinf(found.error())) return fallback().contacts(center, reach, into, work);
+  if (std::isinf(found.error())) return fallback(work).contacts(center, reach, into, work);
   const double farthest = reach + frame_.kernel_error(point.plane_error);
   ContactsVisitor visitor{found, center, frame_.limit(farthest * farthest)};
   search_near(point, visitor, memory, any_work);

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "core/search/certified_nearest.h"
 #include "core/sphere_cluster/tree/builder.h"
+#include "core/sphere_cluster/tree/lazy_builder.h"
 #include "core/sphere_cluster/tree/search.h"  // IWYU pragma: keep
 #include "core/sphere_cluster/tree/visitors.h"
 
@@ -32,7 +36,7 @@ double radius_of_leaf(const spheres::TreeNode& node, std::size_t child, bool box
 
 }  // namespace
 
-SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters, const Options& options)
+SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters* clusters, const Options& options)
     : epoch_(Epoch::next()),
       simd_(std::min(options.widest, widest_simd())),
       searchable_(FilterFrame::fits(mesh.bounds())),
@@ -42,14 +46,32 @@ SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters,
       threads_(options.threads),
       ids_(mesh.triangle_ids()) {
   if (!searchable_) {
-    parts_.triangles = touchmark::prepare(mesh);
+    const std::vector<PreparedTriangle> prepared = touchmark::prepare(mesh);
+    parts_.triangles.assign(prepared.begin(), prepared.end());
     return;
   }
   frame_ = FilterFrame::around(mesh.bounds());
   measure_box();
-  parts_ = spheres::build_tree(mesh, clusters, frame_, threads_);
+  parts_ = build_parts(mesh, clusters);
   measure_leaves();
   fill_distances();
+}
+
+spheres::TreeParts SphereTree::build_parts(const TriangleMesh& mesh, const SphereClusters* clusters) const {
+  if (clusters != nullptr) return spheres::build_tree(mesh, *clusters, frame_, threads_);
+  if (std::optional<spheres::TreeParts> top = spheres::build_top(mesh, frame_, threads_)) {
+    // Where a search starts that knows of nothing near.
+    Work unreported;
+    spheres::built_part(*top, 0, unreported);
+    return *std::move(top);
+  }
+  return spheres::build_tree(mesh, cluster_spheres(mesh, 0, VisitOrder::mesh, threads_), frame_, threads_);
+}
+
+/// All triangles must be there, where all are looked at.
+LinearScan SphereTree::fallback(Work& work) const noexcept {
+  spheres::build_rest(parts_, work);
+  return {parts_.triangles, bounds_, ids_, certified_};
 }
 
 void SphereTree::measure_box() noexcept {
@@ -61,10 +83,12 @@ void SphereTree::measure_box() noexcept {
 
 void SphereTree::measure_leaves() noexcept {
   double sum = 0;
-  for (const spheres::TreeNode& node : parts_.nodes)
+  const std::size_t nodes = parts_.unbuilt.empty() ? parts_.nodes.size() : 0;
+  for (const spheres::TreeNode& node : std::span(parts_.nodes).first(nodes))
     for (std::size_t i = 0; i < spheres::tree_width; ++i)
       if (node.child[i].is_block()) sum += radius_of_leaf(node, i, parts_.boxes);
-  const double mean = sum / static_cast<double>(parts_.blocks.size());
+  const double mean = parts_.unbuilt.empty() ? sum / static_cast<double>(parts_.blocks.size())
+                                             : parts_.unbuilt.mean_leaf_radius;
   mean_leaf_radius_ = mean / frame_.scale();
   parts_.far = static_cast<float>(far_in_leaf_radii * far_in_leaf_radii * mean * mean);
 }
@@ -250,7 +274,7 @@ struct SphereTree::CloseEnds {
 
 std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Memory& memory,
                                            Work& work) const noexcept {
-  const auto exhausted = [&] { return fallback().nearest(center, reach, work); };
+  const auto exhausted = [&] { return fallback(work).nearest(center, reach, work); };
   return search_nearest(center, reach, memory, work, nearest_limit(),
                         ContactEnds<decltype(exhausted)>{*this, center, reach, work, exhausted});
 }
@@ -303,13 +327,15 @@ void SphereTree::refill_ahead(Memory& memory, Work& work) const noexcept {
 /// Looks at every triangle, where the hierarchy cannot be searched.
 std::optional<Contact> SphereTree::nearest_without(const Vec3& center, double reach,
                                                    Work& work) const noexcept {
+  spheres::build_rest(parts_, work);
   return nearest_of_all(parts_.triangles, bounds_, center, reach, ids_, work);
 }
 
 std::size_t SphereTree::bytes() const noexcept {
   return parts_.nodes.capacity() * sizeof(spheres::TreeNode) +
          parts_.blocks.capacity() * sizeof(spheres::TriangleBlock) +
-         parts_.triangles.capacity() * sizeof(PreparedTriangle) + distances_.bytes() + ids_.bytes();
+         parts_.triangles.capacity() * sizeof(PreparedTriangle) + parts_.unbuilt.bytes() + distances_.bytes() +
+         ids_.bytes();
 }
 
 }  // namespace touchmark

@@ -64,7 +64,8 @@ class SphereTree {
   };
 
   SphereTree() = default;
-  SphereTree(const TriangleMesh& mesh, const SphereClusters& clusters, const Options& options);
+  /// Without clusters each triangle is its own one, and with `lazy` parts of the tree are left to the queries.
+  SphereTree(const TriangleMesh& mesh, const SphereClusters* clusters, const Options& options);
 
   /// Takes the same triangles, some of them elsewhere. What memories hold of before is not believed any more.
   /// Returns false where the mesh is now of another size or at another position: nothing has changed then,
@@ -181,7 +182,8 @@ class SphereTree {
   template <class Visitor>
   std::optional<Contact> contact_found(const Visitor& visitor, const Vec3& center, double reach, double error,
                                        Work& work) const noexcept;
-  LinearScan fallback() const noexcept { return {parts_.triangles, bounds_, ids_, certified_}; }
+  spheres::TreeParts build_parts(const TriangleMesh& mesh, const SphereClusters* clusters) const;
+  [[gnu::noinline, gnu::cold]] LinearScan fallback(Work& work) const noexcept;
   std::uint64_t work_limit() const noexcept { return work_budget(parts_.triangles.size()); }
   /// Bounds what a query for the nearest takes. A descent looks at each node and block once at most, and so
   /// at no more than this, since a node has two children at least; a list is no longer than that. What it

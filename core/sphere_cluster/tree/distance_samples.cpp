@@ -124,6 +124,7 @@ void SphereTree::refill_distances(const spheres::MovedTriangles& moved) {
 }
 
 bool SphereTree::update(const TriangleMesh& mesh) {
+  if (!parts_.unbuilt.empty()) return false;  // it is built anew in less time than all of it moves
   if (!searchable_ || !FilterFrame::fits(mesh.bounds()) || !frame_.widen(mesh.bounds())) return false;
   epoch_ = Epoch::next();
   bounds_ = mesh.bounds();

@@ -252,7 +252,7 @@ std::optional<Contact> SphereTree::nearest(const Vec3& center, double reach, Fol
   const bool is_exhausted =
       !is_covered && traverse(point, visitor, visitor.work.total() + nearest_limit()) == spheres::exhausted;
   work += visitor.work;
-  if (is_exhausted) return fallback().nearest(center, reach, work);
+  if (is_exhausted) return fallback(work).nearest(center, reach, work);
   return contact_found(visitor, center, reach, error, work);
 }
 

@@ -58,7 +58,7 @@ inline bool list_near(const TreeParts& tree, const FilterPoint& point, float lim
       continue;
     }
     if (count + tree_width > queue.size()) return false;
-    const TreeNode& node = tree.nodes[queue[next].index()];
+    const TreeNode& node = tree.nodes[node_of(tree, queue[next], work)];
     unsigned near =
         within([&](std::size_t at) { return child_bounds(tree.boxes, node, at, p); }, limit, unseen);
     work.spheres += tree_width;

@@ -8,21 +8,28 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
+#include <new>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "core/geometry/point_triangle.h"
+#include "core/sphere_cluster/tree/unbuilt_parts.h"
 
 namespace touchmark::spheres {
 
 inline constexpr std::uint32_t tree_width = 8;
 
-/// A child: a node, or block b of the triangles, those from 8 b on. All blocks are full but the last.
+/// A child: a node, or block b of the triangles, those from 8 b on, or a part of the tree that may not be
+/// built yet (lazy_builder.h). All blocks are full but the last.
 struct TreeRef {
-  static constexpr std::uint32_t block_bit = 0x80000000U;
+  static constexpr std::uint32_t block_bit = 0x80000000U, part_bit = 0x40000000U;
   std::uint32_t bits;
 
   bool is_block() const noexcept { return (bits & block_bit) != 0; }
-  std::uint32_t index() const noexcept { return bits & ~block_bit; }
+  bool is_part() const noexcept { return (bits & part_bit) != 0; }
+  std::uint32_t index() const noexcept { return bits & ~(block_bit | part_bit); }
 };
 
 /// Up to eight children, each bounded by a cylinder: the points within `radius` of the axis through the
@@ -48,10 +55,32 @@ struct alignas(64) TriangleBlock {
   float x[4][tree_width], y[4][tree_width], z[4][tree_width], offset[4][tree_width];
 };
 
+/// Leaves elements as they are until they are set: most memory of a tree that is built lazily is not touched
+/// before a query is there.
+template <class T>
+struct UnsetAllocator : std::allocator<T> {
+  template <class Other>
+  struct rebind {
+    using other = UnsetAllocator<Other>;
+  };
+  /// Of types that need no destructor, and whose members are all set before they are read.
+  template <class U>
+  void construct(U*) noexcept {
+    static_assert(std::is_trivially_destructible_v<U>);
+  }
+  template <class U, class... Arguments>
+  void construct(U* at, Arguments&&... arguments) {
+    ::new (static_cast<void*>(at)) U(std::forward<Arguments>(arguments)...);
+  }
+};
+template <class T>
+using UnsetVector = std::vector<T, UnsetAllocator<T>>;
+
 struct TreeParts {
-  std::vector<TreeNode> nodes;  ///< the root comes first
-  std::vector<TriangleBlock> blocks;
-  std::vector<PreparedTriangle> triangles;  ///< in the order of the blocks
+  UnbuiltParts unbuilt;         ///< comes first: a copy has what was built when it began
+  UnsetVector<TreeNode> nodes;  ///< the root comes first
+  UnsetVector<TriangleBlock> blocks;
+  UnsetVector<PreparedTriangle> triangles;  ///< in the order of the blocks
   bool boxes = false;                       ///< true: children are bounded by boxes instead of cylinders
   /// From so far on, squared, a closer look at corners pays: many triangles are nearly as near.
   float far = std::numeric_limits<float>::infinity();

@@ -1,9 +1,12 @@
 /// How triangles and bounds get into the hierarchy's arrays, when it is built and when it is moved.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -66,6 +69,22 @@ inline void set_triangle(TriangleBlock& block, std::size_t i, const TrianglePlan
     block.y[k][i] = planes.y[k];
     block.z[k][i] = planes.z[k];
     block.offset[k][i] = planes.offset[k];
+  }
+}
+
+/// Prepares the triangles of a block, triangle(slot) of the mesh, and writes their planes.
+template <class TriangleIn>
+void set_block(TreeParts& parts, std::size_t index, const TriangleMesh& mesh, const FilterFrame& frame,
+               const TriangleIn& triangle) noexcept {
+  TriangleBlock& block = parts.blocks[index];
+  const std::size_t first = index * tree_width, end = std::min(first + tree_width, parts.triangles.size());
+  if (end - first < tree_width) {
+    block = {};
+    std::fill(std::begin(block.offset[0]), std::end(block.offset[0]), std::numeric_limits<float>::max());
+  }
+  for (std::size_t at = first; at < end; ++at) {
+    parts.triangles[at] = prepare(mesh, triangle(at));
+    set_triangle(block, at - first, planes_of(parts.triangles[at], frame));
   }
 }
 

@@ -56,14 +56,14 @@ constexpr float path_error = 8;
 }  // namespace
 
 std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, Work& work) const noexcept {
-  if (!can_search(sweep.from) || !can_search(sweep.to)) return fallback().first_hit(sweep, work);
+  if (!can_search(sweep.from) || !can_search(sweep.to)) return fallback(work).first_hit(sweep, work);
   claim(memory);
   if constexpr (tracing)
     if (visits != nullptr) visits->frame = &frame_;
   const std::uint64_t before = work.total();
   if (!memory.knows_free(sweep.from, sweep.radius) && !is_clear(sweep.from, sweep.radius, memory)) {
     const WithinBudget start = nearest_within_budget(sweep.from, sweep.radius, memory, work);
-    if (start.exhausted) return fallback().first_hit(sweep, work);
+    if (start.exhausted) return fallback(work).first_hit(sweep, work);
     if (start.contact) return Impact{0, *start.contact};
   }
   if (is_clear(sweep, memory)) return std::nullopt;
@@ -80,6 +80,7 @@ std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, 
        search_middle(sweep, length, reach, std::min(budget, middle_budget), first, memory, work)) ||
       search_path(sweep, length, reach, remaining(work_limit(), work.total() - before), first, work);
   if (!done) {
+    spheres::build_rest(parts_, work);
     work.triangles += parts_.triangles.size();
     for (std::uint32_t at = 0; at < parts_.triangles.size(); ++at)
       first.consider(parts_.triangles[at], at, work.exact_decisions);

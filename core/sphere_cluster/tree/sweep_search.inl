@@ -158,7 +158,7 @@ template <class Visitor>
       while (near != 0) visitor.consider(index * tree_width + pop_lowest(near));
       continue;
     }
-    const TreeNode& node = tree.nodes[index];
+    const TreeNode& node = tree.nodes[node_of(tree, next.ref, visitor.work)];
     Stretches stretches;
     unsigned near = children_on(tree.boxes, node, lanes_of_path, until, stretches);
     if constexpr (tracing) note_children(tree.boxes, node, 0, near);

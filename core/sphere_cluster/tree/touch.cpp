@@ -103,7 +103,7 @@ bool SphereTree::touches(const Probe& probe, Memory& memory, Work& work) const n
   if (visitor.kept_at == nowhere && visitor.open_count > 0) decide_open(visitor, error, work);
   if (unseen == spheres::exhausted || visitor.leaves_too_many_open()) {
     memory.forget_distance();
-    return fallback().touches(probe, work);
+    return fallback(work).touches(probe, work);
   }
   if (visitor.kept_at == nowhere) {
     remember_touch(center, clearance_from(unseen, visitor.least, clearance_pad(point)), infinity, memory);

@@ -21,6 +21,7 @@
 #include "core/simd/prefetch.h"
 #include "core/simd/target.h"
 #include "core/sphere_cluster/tree/binned_sah.h"
+#include "core/sphere_cluster/tree/lazy_builder.h"
 #include "core/sphere_cluster/tree/leaf_cache.h"
 #include "core/sphere_cluster/tree/near_triangles.h"
 #include "core/sphere_cluster/tree/node.h"

@@ -166,6 +166,11 @@ inline void prefetch(const PreparedTriangle& triangle) noexcept {
   prefetch_lines(&triangle, sizeof triangle);
 }
 
+/// Returns the node of a child that is none of the blocks.
+inline std::uint32_t node_of(const TreeParts& tree, TreeRef ref, Work& work) noexcept {
+  return ref.is_part() ? built_part(tree, ref.index(), work) : ref.index();
+}
+
 /// Takes the lowest bit off and returns its number.
 inline std::uint32_t pop_lowest(unsigned& bits) noexcept {
   const auto lowest = static_cast<std::uint32_t>(std::countr_zero(bits));
@@ -277,7 +282,8 @@ template <class Visitor>
       return exhausted;
     } else if (next.ref.is_block()) {
       if (visit_block(tree, next.ref.index(), p, unseen, visitor)) break;
-    } else if (enter_node(tree, tree.nodes[next.ref.index()], p, unseen, visitor, next, stack, count)) {
+    } else if (enter_node(tree, tree.nodes[node_of(tree, next.ref, visitor.work)], p, unseen, visitor, next, stack,
+                          count)) {
       continue;
     }
     if (count == 0) break;
@@ -318,7 +324,7 @@ inline bool refill(const TreeParts& tree, const FilterPoint& point, std::uint64_
     for (unsigned deeper = near & ~blocks; deeper != 0;) {
       const TreeRef child = node.child[pop_lowest(deeper)];
       prefetch(tree, child);
-      stack[count++] = child.index();
+      stack[count++] = node_of(tree, child, work);
     }
     if (blocks == 0) continue;
     const auto more = static_cast<std::uint32_t>(std::popcount(blocks));

@@ -1,0 +1,211 @@
+#include "core/sphere_cluster/tree/lazy_builder.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "core/search/parallel.h"
+#include "core/sphere_cluster/tree/binned_sah.h"
+#include "core/sphere_cluster/tree/bounding_boxes.h"
+#include "core/sphere_cluster/tree/node_splitting.h"
+#include "core/sphere_cluster/tree/node_writer.h"
+
+namespace touchmark::spheres {
+namespace {
+
+constexpr std::uint32_t part_size = UnbuiltParts::part_size;
+static_assert(part_size <= TriangleSplitter::Workspace::capacity);
+
+/// Returns the most nodes over so many blocks. Of n nodes, all but the root with two blocks at least, those
+/// with fewer than eight children have blocks alone, and each of the others has eight: n (1 + 6/8) is at most
+/// the number of blocks.
+constexpr std::uint32_t most_nodes(std::uint32_t triangles) noexcept {
+  const std::uint32_t blocks = (triangles + tree_width - 1) / tree_width;
+  return 1 + blocks * 4 / 7;
+}
+
+Eigen::Vector3f vector_of(const Lanes& lanes) noexcept { return {lanes[0], lanes[1], lanes[2]}; }
+
+BoundingBox box_of(const TriangleSplitter& splitter, const TriangleRange& range) noexcept {
+  const auto [low, high] = splitter.box(range);
+  return box_between(vector_of(low), vector_of(high));
+}
+
+class TopBuilder {
+ public:
+  TopBuilder(const TriangleMesh& mesh, const FilterFrame& frame, unsigned threads)
+      : mesh_(mesh), frame_(frame), threads_(threads), splitter_(mesh, frame, part_size, threads) {}
+
+  std::optional<TreeParts> build() {
+    add_node(splitter_.all());
+    if (!boxes_serve_better(sampled_bounds())) return std::nullopt;
+    tree_.boxes = true;
+    bound();
+    leave_parts();
+    return std::move(tree_);
+  }
+
+ private:
+  std::uint32_t add_node(const TriangleRange& range) {
+    const auto index = static_cast<std::uint32_t>(tree_.nodes.size());
+    tree_.nodes.emplace_back();
+    std::array<TriangleRange, tree_width> children;
+    const std::size_t count = split_into(splitter_, range, children);
+    for (std::size_t i = count; i < tree_width; ++i) tree_.nodes[index].clear(i);
+    for (std::size_t i = 0; i < count; ++i) {
+      TreeRef child;
+      if (children[i].size() <= part_size) {
+        child = {static_cast<std::uint32_t>(ranges_.size()) | TreeRef::part_bit};
+        ranges_.push_back(children[i]);
+      } else {
+        child = {add_node(children[i])};
+      }
+      tree_.nodes[index].child[i] = child;
+      tree_.nodes[index].half[i] = 0;  // something is there
+    }
+    return index;
+  }
+
+  /// Bounds a block of some of the parts.
+  BothBounds sampled_bounds() {
+    constexpr std::size_t samples = 32;
+    BoundOfTriangles around(mesh_, frame_);
+    BothBounds bounds;
+    const std::size_t apart = 1 + ranges_.size() / samples;
+    double sum = 0;
+    for (std::size_t i = 0; i < ranges_.size(); i += apart) {
+      const TriangleRange block = splitter_.block_of(ranges_[i]);
+      for (std::uint32_t at = block.begin; at < block.end; ++at) around.add(splitter_.triangle(at));
+      bounds.cylinders.push_back(around.bound());
+      bounds.boxes.push_back(box_of(splitter_, block));
+      sum += double{bounds.boxes.back().half.norm()};
+    }
+    tree_.unbuilt.mean_leaf_radius = sum / static_cast<double>(bounds.boxes.size());
+    return bounds;
+  }
+
+  void bound() {
+    constexpr std::size_t parts_a_piece = 16;
+    std::vector<BoundingBox> boxes(ranges_.size());
+    in_ranges(ranges_.size(), parts_a_piece, threads_, [&](std::size_t first, std::size_t end) {
+      for (std::size_t i = first; i < end; ++i) boxes[i] = box_of(splitter_, ranges_[i]);
+    });
+    // Children come after their parents.
+    for (std::size_t at = tree_.nodes.size(); at-- > 0;) {
+      TreeNode& node = tree_.nodes[at];
+      for (std::size_t i = 0; i < tree_width; ++i) {
+        if (node.half[i] < 0) continue;
+        const TreeRef child = node.child[i];
+        set_child(node, i, child.is_part() ? boxes[child.index()] : box_below(tree_, child, frame_));
+      }
+    }
+  }
+
+  void leave_parts() {
+    UnbuiltParts& unbuilt = tree_.unbuilt;
+    unbuilt.mesh = std::make_shared<const TriangleMesh>(mesh_);
+    unbuilt.frame = frame_;
+    unbuilt.states.assign(ranges_.size(), LazyState::unbuilt());
+    auto node = static_cast<std::uint32_t>(tree_.nodes.size());
+    unbuilt.parts.reserve(ranges_.size());
+    for (const TriangleRange& range : ranges_) {
+      unbuilt.parts.push_back({range.begin, range.end, node});
+      node += most_nodes(range.size());
+    }
+    tree_.nodes.resize(node);
+    tree_.blocks.resize((mesh_.size() + tree_width - 1) / tree_width);
+    tree_.triangles.resize(mesh_.size());
+    unbuilt.order.resize(mesh_.size());
+    for (std::uint32_t i = 0; i < mesh_.size(); ++i) unbuilt.order[i] = splitter_.triangle(i);
+  }
+
+  const TriangleMesh& mesh_;
+  const FilterFrame& frame_;
+  unsigned threads_;
+  TriangleSplitter splitter_;
+  std::vector<TriangleRange> ranges_;  ///< of the parts
+  TreeParts tree_;
+};
+
+class PartBuilder {
+ public:
+  /// Nobody reads yet what is written: the elements of a constant tree's arrays.
+  PartBuilder(const TreeParts& tree, const UnbuiltParts::Part& part) noexcept
+      : tree_(const_cast<TreeParts&>(tree)),
+        part_(part),
+        triangles_(std::span(tree.unbuilt.order).subspan(part.begin, part.end - part.begin)),
+        splitter_(*tree.unbuilt.mesh, triangles_, tree.unbuilt.frame, workspace_),
+        next_(part.node) {}
+
+  void build() noexcept {
+    const UnbuiltParts& unbuilt = tree_.unbuilt;
+    add_node(splitter_.all());
+    const auto triangle = [&](std::size_t at) {
+      return splitter_.triangle(static_cast<std::uint32_t>(at) - part_.begin);
+    };
+    for (std::uint32_t at = part_.begin; at < part_.end; at += tree_width)
+      set_block(tree_, at / tree_width, *unbuilt.mesh, unbuilt.frame, triangle);
+    for (std::uint32_t at = next_; at-- > part_.node;) {
+      TreeNode& node = tree_.nodes[at];
+      for (std::size_t i = 0; i < tree_width; ++i)
+        if (!(node.half[i] < 0)) set_child(node, i, box_below(tree_, node.child[i], unbuilt.frame));
+    }
+  }
+
+ private:
+  std::uint32_t add_node(const TriangleRange& range) noexcept {
+    const std::uint32_t index = next_++;
+    TreeNode& node = tree_.nodes[index];
+    std::array<TriangleRange, tree_width> children;
+    const std::size_t count = split_into(splitter_, range, children);
+    for (std::size_t i = count; i < tree_width; ++i) node.clear(i);
+    for (std::size_t i = 0; i < count; ++i) {
+      node.child[i] = children[i].size() <= tree_width
+                          ? TreeRef{(part_.begin + children[i].begin) / tree_width | TreeRef::block_bit}
+                          : TreeRef{add_node(children[i])};
+      node.half[i] = 0;  // something is there
+    }
+    return index;
+  }
+
+  TreeParts& tree_;
+  const UnbuiltParts::Part& part_;
+  std::span<const std::uint32_t> triangles_;
+  TriangleSplitter::Workspace workspace_;
+  TriangleSplitter splitter_;
+  std::uint32_t next_;
+};
+
+}  // namespace
+
+std::optional<TreeParts> build_top(const TriangleMesh& mesh, const FilterFrame& frame, unsigned threads) {
+  // Fewer are built as quickly.
+  constexpr std::size_t least_parts = 4;
+  if (mesh.size() < least_parts * part_size) return std::nullopt;
+  return TopBuilder(mesh, frame, threads).build();
+}
+
+std::uint32_t built_part(const TreeParts& tree, std::uint32_t part, Work& work) noexcept {
+  const UnbuiltParts::Part& built = tree.unbuilt.parts[part];
+  const LazyState& state = tree.unbuilt.states[part];
+  if (state.is_built()) return built.node;
+  if (state.claim()) {
+    PartBuilder(tree, built).build();
+    work.triangles += built.end - built.begin;
+    state.finish();
+  } else {
+    while (!state.is_built()) std::this_thread::yield();
+  }
+  return built.node;
+}
+
+void build_rest(const TreeParts& tree, Work& work) noexcept {
+  for (std::uint32_t part = 0; part < tree.unbuilt.parts.size(); ++part) built_part(tree, part, work);
+}
+
+}  // namespace touchmark::spheres

@@ -1,0 +1,25 @@
+/// Builds the top of a hierarchy, and the parts below it when a query comes there.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/detector.h"
+#include "core/search/plane_filter.h"
+#include "core/sphere_cluster/tree/node.h"
+#include "core/triangle_mesh.h"
+
+namespace touchmark::spheres {
+
+/// Returns a tree of boxes whose parts are left to be built; nothing where the mesh is small, or where
+/// cylinders bound its triangles better. The same bits with any number of threads.
+std::optional<TreeParts> build_top(const TriangleMesh& mesh, const FilterFrame& frame, unsigned threads);
+
+/// Returns the root of a part, which it builds if nobody did. It counts a look at each of the part's
+/// triangles. Any thread may call it at any time; where another thread is just building the part, it waits.
+[[gnu::noinline]] std::uint32_t built_part(const TreeParts& tree, std::uint32_t part, Work& work) noexcept;
+
+/// Builds all parts that are left.
+void build_rest(const TreeParts& tree, Work& work) noexcept;
+
+}  // namespace touchmark::spheres

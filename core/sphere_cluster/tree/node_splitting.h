@@ -1,0 +1,42 @@
+/// How a range of triangles becomes the children of a node.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "core/sphere_cluster/tree/binned_sah.h"
+#include "core/sphere_cluster/tree/node.h"
+
+namespace touchmark::spheres {
+
+/// Splits the range that is most likely to be looked into, again and again, until there are eight or none can
+/// be split. Returns how many there are, in the splitter's order, so that the last block is the one that need
+/// not be full.
+inline std::size_t split_into(const TriangleSplitter& splitter, const TriangleRange& range,
+                              std::array<TriangleRange, tree_width>& children) noexcept {
+  const std::uint32_t smallest = splitter.smallest();
+  std::array<float, tree_width> area;
+  // Of a range that is not split nobody asks.
+  const auto area_of = [&](const TriangleRange& r) { return r.size() > smallest ? splitter.area(r) : 0.0F; };
+  children[0] = range;
+  area[0] = area_of(range);
+  std::size_t count = 1;
+  while (count < tree_width) {
+    std::size_t widest = count;
+    for (std::size_t i = 0; i < count; ++i)
+      if (children[i].size() > smallest && (widest == count || area[i] > area[widest])) widest = i;
+    if (widest == count) break;
+    const auto [left, right] = splitter.halves(children[widest]);
+    children[widest] = left;
+    children[count] = right;
+    area[widest] = area_of(left);
+    area[count] = area_of(right);
+    ++count;
+  }
+  std::sort(children.begin(), children.begin() + count,
+            [](const TriangleRange& a, const TriangleRange& b) { return a.begin < b.begin; });
+  return count;
+}
+
+}  // namespace touchmark::spheres
