@@ -70,10 +70,7 @@ TriangleSplitter::TriangleSplitter(const TriangleMesh& mesh, const FilterFrame& 
       items_(own_items_),
       scratch_(own_scratch_),
       splits_(own_splits_) {
-  constexpr std::size_t triangles_a_piece = 4096;
-  in_ranges(mesh.size(), triangles_a_piece, threads, [&](std::size_t first, std::size_t end) {
-    for (auto i = static_cast<std::uint32_t>(first); i < end; ++i) items_[i] = item_of(mesh, i, frame, i);
-  });
+  add_items(mesh, frame, threads);
   split_all(threads);
 }
 
@@ -104,6 +101,28 @@ TriangleSplitter::Item TriangleSplitter::item_of(const TriangleMesh& mesh, std::
     item.max[static_cast<std::size_t>(k)] = std::max({a[k], b[k], c[k]});
   }
   return item;
+}
+
+/// Adds all triangles. Corners that triangles share are rounded once.
+void TriangleSplitter::add_items(const TriangleMesh& mesh, const FilterFrame& frame, unsigned threads) {
+  constexpr std::size_t a_piece = 4096;
+  const std::span<const Vec3> vertices = mesh.vertices();
+  std::vector<Lanes> rounded(vertices.size());
+  in_ranges(vertices.size(), a_piece, threads, [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
+      const Eigen::Vector3f at = frame.to_frame(vertices[i]).cast<float>();
+      rounded[i] = Lanes{at.x(), at.y(), at.z(), 0};
+    }
+  });
+  in_ranges(mesh.size(), a_piece, threads, [&](std::size_t first, std::size_t end) {
+    for (std::size_t i = first; i < end; ++i) {
+      const TriangleMesh::Corners& corners = mesh.triangles()[i];
+      const Lanes a = rounded[corners[0]], b = rounded[corners[1]], c = rounded[corners[2]];
+      const Lanes min = simd::min(a, simd::min(b, c)), max = simd::max(a, simd::max(b, c));
+      const auto triangle = static_cast<std::uint32_t>(i);
+      items_[i] = {{min[0], min[1], min[2]}, triangle, {max[0], max[1], max[2]}, triangle};
+    }
+  });
 }
 
 /// Adds the triangles of clusters [first, end), at the places of their cluster.
@@ -145,7 +164,7 @@ float TriangleSplitter::key_of(const Item& item, Key key, int axis) const noexce
 TriangleSplitter::Bounds TriangleSplitter::bounds_of(const TriangleRange& range) const noexcept {
   Box all = box_of(items_[range.begin]);
   Box middles{all.min + all.max, all.min + all.max};
-  for (std::uint32_t i = range.begin + 1; i < range.end; ++i) {
+  for (std::uint32_t i = range.begin; i < range.end; i += sample_step(range)) {
     const Box box = box_of(items_[i]);
     const Lanes middle = box.min + box.max;
     all = {simd::min(all.min, box.min), simd::max(all.max, box.max)};
@@ -156,7 +175,7 @@ TriangleSplitter::Bounds TriangleSplitter::bounds_of(const TriangleRange& range)
 
 TriangleSplitter::Box TriangleSplitter::cluster_bounds(const TriangleRange& range) const noexcept {
   Box all{cluster_keys_[items_[range.begin].cluster], cluster_keys_[items_[range.begin].cluster]};
-  for (std::uint32_t i = range.begin + 1; i < range.end; ++i) {
+  for (std::uint32_t i = range.begin; i < range.end; i += sample_step(range)) {
     const Lanes at = cluster_keys_[items_[i].cluster];
     all = {simd::min(all.min, at), simd::max(all.max, at)};
   }
@@ -164,13 +183,11 @@ TriangleSplitter::Box TriangleSplitter::cluster_bounds(const TriangleRange& rang
 }
 
 /// The cheapest of the positions between two bins; nothing when all of the range is in one bin. Of a long
-/// range a sample tells, every third or fifth.
+/// range a sample tells.
 std::optional<TriangleSplitter::Cut> TriangleSplitter::cheapest_cut(const TriangleRange& range, Key key,
                                                                     const Bins& bins) const noexcept {
-  constexpr std::uint32_t long_range = 1024, longer_range = 4096;
-  const std::uint32_t step = range.size() < long_range ? 1 : range.size() < longer_range ? 3 : 5;
   std::array<std::array<Bin, bins_an_axis>, 3> bin;
-  for (std::uint32_t i = range.begin; i < range.end; i += step) {
+  for (std::uint32_t i = range.begin; i < range.end; i += sample_step(range)) {
     const LaneBits at = bins_of(key_of(items_[i], key), bins.origin, bins.scale);
     const Box box = box_of(items_[i]);
     for (std::size_t axis = 0; axis < 3; ++axis)

@@ -63,7 +63,7 @@ class TriangleSplitter {
   /// The mesh's triangle at a position in the order.
   std::uint32_t triangle(std::uint32_t position) const noexcept { return items_[position].triangle; }
   // What follows is asked of `all` and what it is split into; the range must hold more than one block.
-  /// Returns half of the area of the range's box, a measure of how often a search looks into it.
+  /// Returns about half of the area of the range's box, a measure of how often a search looks into it.
   float area(const TriangleRange& range) const noexcept { return splits_[range.number].area; }
   /// The left part holds whole blocks.
   std::pair<TriangleRange, TriangleRange> halves(const TriangleRange& range) const noexcept;
@@ -96,19 +96,25 @@ class TriangleSplitter {
     float area;
     std::uint32_t middle;  ///< the first triangle of the right part
   };
-  /// What a range lies in, and the boxes' middles, times two.
+  /// What a sample of a range lies in, and its boxes' middles, times two.
   struct Bounds {
     Box all, middles;
   };
 
   static Item item_of(const TriangleMesh& mesh, std::uint32_t triangle, const FilterFrame& frame,
                       std::uint32_t cluster) noexcept;
+  void add_items(const TriangleMesh& mesh, const FilterFrame& frame, unsigned threads);
   void add_items(const TriangleMesh& mesh, const SphereClusters& clusters, const FilterFrame& frame,
                  std::size_t first, std::size_t end);
   void split_all(unsigned threads);
   std::pair<TriangleRange, TriangleRange> split(const TriangleRange& range);
   void split_to_smallest(const TriangleRange& range);
   Bounds bounds_of(const TriangleRange& range) const noexcept;
+  /// A cut is chosen by every item of a short range, and by so many of a long one, or twice as many.
+  std::uint32_t sample_step(const TriangleRange& range) const noexcept {
+    const std::uint32_t least = smallest_ > tree_width ? 192 : 1024;
+    return 2 * (range.size() / (2 * least)) + 1;
+  }
   static Box box_of(const Item& item) noexcept;
   Lanes key_of(const Item& item, Key key) const noexcept;
   float key_of(const Item& item, Key key, int axis) const noexcept;
