@@ -1,8 +1,9 @@
 /// Lazy construction: the first query that misses a part of a constant structure builds it, while others
 /// read.
 ///
-/// A reader finds the part either unbuilt, and answers without it, or built. So answers never depend on who
-/// came first, nothing waits, and nothing takes memory.
+/// A reader finds the part either unbuilt, and answers without it, or built; where nothing can stand in for
+/// it (sphere_cluster/tree/lazy_builder.h), it waits. So answers never depend on who came first, and nothing
+/// takes memory.
 #pragma once
 
 #include <atomic>

@@ -23,10 +23,10 @@ class SphereCluster {
     scan,  ///< as published: every sphere, then the triangles of those that the probe meets
     tree   ///< a hierarchy over them, nearest first
   };
-  /// When distances around the mesh are sampled, tree only. Answers are the same.
+  /// When the hierarchy is built and distances around the mesh are sampled, tree only. Answers are the same.
   enum class Construction {
     whole,  ///< all in build()
-    lazy    ///< around a point by the first query there that needs it, by two rough searches at most
+    lazy    ///< by the first query that comes there: parts of 512 triangles, and two rough searches at most
   };
   /// What `build` may be told; the defaults are the fast exact form.
   struct Options {
@@ -123,7 +123,7 @@ class SphereCluster {
   Accuracy accuracy() const noexcept;
 
   /// The clustered spheres, for drawing and for the paper's tables; of the mesh that was built, not of
-  /// updates where the hierarchy followed.
+  /// updates where the hierarchy followed. Lazy construction without clustering makes none, and no tightness.
   const SphereClusters& clusters() const noexcept { return clusters_; }
   /// The paper's measure of how closely they fit; see average_tightness.
   double tightness() const noexcept { return tightness_; }

@@ -40,7 +40,8 @@ std::vector<OptionInfo> options() {
               "precise"),
       certified_option(),
       in_code(choice("build", constructions(),
-                     "tree; lazy: distances all around are sampled by the first queries that want them"),
+                     "tree; lazy: parts of it are built, and distances sampled, by the first queries that "
+                     "want them"),
               "construction", "SphereCluster::Construction"),
       choice(
           "prepare", no_or_yes,

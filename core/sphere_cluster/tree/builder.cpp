@@ -88,7 +88,8 @@ class Builder {
     parts_.blocks.resize((mesh_.size() + tree_width - 1) / tree_width);
     in_ranges(parts_.blocks.size(), blocks_a_piece, threads_, [&](std::size_t first, std::size_t end) {
       for (std::size_t block = first; block < end; ++block)
-        set_block(parts_, block, mesh_, frame_, [&](std::size_t at) { return splitter_.triangle(static_cast<std::uint32_t>(at)); });
+        set_block(parts_, block, mesh_, frame_,
+                  [&](std::size_t at) { return splitter_.triangle(static_cast<std::uint32_t>(at)); });
     });
   }
 

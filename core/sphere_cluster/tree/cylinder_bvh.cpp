@@ -334,8 +334,8 @@ std::optional<Contact> SphereTree::nearest_without(const Vec3& center, double re
 std::size_t SphereTree::bytes() const noexcept {
   return parts_.nodes.capacity() * sizeof(spheres::TreeNode) +
          parts_.blocks.capacity() * sizeof(spheres::TriangleBlock) +
-         parts_.triangles.capacity() * sizeof(PreparedTriangle) + parts_.unbuilt.bytes() + distances_.bytes() +
-         ids_.bytes();
+         parts_.triangles.capacity() * sizeof(PreparedTriangle) + parts_.unbuilt.bytes() +
+         distances_.bytes() + ids_.bytes();
 }
 
 }  // namespace touchmark

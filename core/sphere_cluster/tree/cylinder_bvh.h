@@ -64,7 +64,8 @@ class SphereTree {
   };
 
   SphereTree() = default;
-  /// Without clusters each triangle is its own one, and with `lazy` parts of the tree are left to the queries.
+  /// Without clusters each triangle is its own one, and with `lazy` parts of the tree are left to the
+  /// queries.
   SphereTree(const TriangleMesh& mesh, const SphereClusters* clusters, const Options& options);
 
   /// Takes the same triangles, some of them elsewhere. What memories hold of before is not believed any more.

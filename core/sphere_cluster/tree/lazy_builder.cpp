@@ -128,7 +128,7 @@ class TopBuilder {
   const FilterFrame& frame_;
   unsigned threads_;
   TriangleSplitter splitter_;
-  std::vector<TriangleRange> ranges_;  ///< of the parts
+  std::vector<TriangleRange> ranges_;  ///< what the parts hold
   TreeParts tree_;
 };
 

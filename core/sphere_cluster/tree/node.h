@@ -63,7 +63,8 @@ struct UnsetAllocator : std::allocator<T> {
   struct rebind {
     using other = UnsetAllocator<Other>;
   };
-  /// Of types that need no destructor, and whose members are all set before they are read.
+  /// Does nothing: a type without a destructor, all of whose members are set before they are read, needs
+  /// nothing.
   template <class U>
   void construct(U*) noexcept {
     static_assert(std::is_trivially_destructible_v<U>);

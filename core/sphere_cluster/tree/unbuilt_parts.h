@@ -14,15 +14,15 @@ namespace touchmark::spheres {
 
 /// What a tree needs to build the rest of itself. It is empty where the tree is whole.
 struct UnbuiltParts {
-  /// Triangles [begin, end) of the tree's order, in whole blocks. Its nodes follow one another from `node` on,
-  /// which is their root.
+  /// Triangles [begin, end) of the tree's order, in whole blocks. Its nodes follow one another from `node`
+  /// on, which is their root.
   struct Part {
     std::uint32_t begin, end, node;
   };
   /// Building a part of so many triangles takes a query 0.1 to 0.3 ms.
   static constexpr std::uint32_t part_size = 512;
 
-  std::vector<LazyState> states;  ///< of the parts
+  std::vector<LazyState> states;  ///< how far each part is
   std::vector<Part> parts;
   std::vector<std::uint32_t> order;  ///< the mesh's triangles, one part's after the other's
   std::shared_ptr<const TriangleMesh> mesh;
