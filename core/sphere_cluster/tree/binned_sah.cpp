@@ -92,15 +92,10 @@ void TriangleSplitter::split_all(unsigned threads) {
 
 TriangleSplitter::Item TriangleSplitter::item_of(const TriangleMesh& mesh, std::uint32_t triangle,
                                                  const FilterFrame& frame, std::uint32_t cluster) noexcept {
-  Item item{{}, triangle, {}, cluster};
-  const Eigen::Vector3f a = frame.to_frame(mesh.corner(triangle, 0)).cast<float>(),
-                        b = frame.to_frame(mesh.corner(triangle, 1)).cast<float>(),
-                        c = frame.to_frame(mesh.corner(triangle, 2)).cast<float>();
-  for (int k = 0; k < 3; ++k) {
-    item.min[static_cast<std::size_t>(k)] = std::min({a[k], b[k], c[k]});
-    item.max[static_cast<std::size_t>(k)] = std::max({a[k], b[k], c[k]});
-  }
-  return item;
+  const auto corner = [&](int k) { return frame.to_frame(mesh.corner(triangle, k)).cast<float>().eval(); };
+  const Eigen::Vector3f a = corner(0), b = corner(1), c = corner(2);
+  const Eigen::Vector3f min = a.cwiseMin(b).cwiseMin(c), max = a.cwiseMax(b).cwiseMax(c);
+  return {{min[0], min[1], min[2]}, triangle, {max[0], max[1], max[2]}, cluster};
 }
 
 /// Adds all triangles. Corners that triangles share are rounded once.
@@ -128,7 +123,7 @@ void TriangleSplitter::add_items(const TriangleMesh& mesh, const FilterFrame& fr
 /// Adds the triangles of clusters [first, end), at the places of their cluster.
 void TriangleSplitter::add_items(const TriangleMesh& mesh, const SphereClusters& clusters,
                                  const FilterFrame& frame, std::size_t first, std::size_t end) {
-  Item* to = items_.data() + clusters.first[first];
+  Item* to = &items_[clusters.first[first]];
   for (auto cluster = static_cast<std::uint32_t>(first); cluster < end; ++cluster) {
     if (!cluster_keys_.empty()) {
       const Eigen::Vector3f center = frame.to_frame(clusters.spheres[cluster].center).cast<float>();
@@ -303,12 +298,12 @@ TriangleRange TriangleSplitter::block_of(TriangleRange range) {
 }
 
 std::pair<Lanes, Lanes> TriangleSplitter::box(const TriangleRange& range) const noexcept {
-  Box all = box_of(items_[range.begin]);
-  for (std::uint32_t i = range.begin + 1; i < range.end; ++i) {
-    const Box one = box_of(items_[i]);
-    all = {simd::min(all.min, one.min), simd::max(all.max, one.max)};
+  std::pair<Lanes, Lanes> all{broadcast(infinity), broadcast(-infinity)};
+  for (const Item& item : items_.subspan(range.begin, range.size())) {
+    const Box one = box_of(item);
+    all = {simd::min(all.first, one.min), simd::max(all.second, one.max)};
   }
-  return {all.min, all.max};
+  return all;
 }
 
 std::pair<TriangleRange, TriangleRange> TriangleSplitter::halves(const TriangleRange& range) const noexcept {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/search/certified_nearest.h"
-#include "core/sphere_cluster/tree/builder.h"
 #include "core/sphere_cluster/tree/lazy_builder.h"
 #include "core/sphere_cluster/tree/search.h"  // IWYU pragma: keep
 #include "core/sphere_cluster/tree/visitors.h"
@@ -22,76 +21,10 @@ using spheres::NearestVisitor;
 /// before they are used.
 constexpr double max_move_in_leaf_radii = 4;
 
-/// See TreeParts::far.
-constexpr double far_in_leaf_radii = 1;
-
 /// The next tick may be this much longer than the last one and still need no refill.
 constexpr float ticks_prepared = 2;
 
-/// A box's is half its diagonal: about the radius of the coin that it holds.
-double radius_of_leaf(const spheres::TreeNode& node, std::size_t child, bool boxes) noexcept {
-  const Vec3 half(double{node.half[child]}, double{node.radius[child]}, double{node.normal_x[child]});
-  return boxes ? half.norm() : half.y();
-}
-
 }  // namespace
-
-SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters* clusters, const Options& options)
-    : epoch_(Epoch::next()),
-      simd_(std::min(options.widest, widest_simd())),
-      searchable_(FilterFrame::fits(mesh.bounds())),
-      bounds_(mesh.bounds()),
-      certified_(options.certified),
-      lazy_(options.lazy),
-      threads_(options.threads),
-      ids_(mesh.triangle_ids()) {
-  if (!searchable_) {
-    const std::vector<PreparedTriangle> prepared = touchmark::prepare(mesh);
-    parts_.triangles.assign(prepared.begin(), prepared.end());
-    return;
-  }
-  frame_ = FilterFrame::around(mesh.bounds());
-  measure_box();
-  parts_ = build_parts(mesh, clusters);
-  measure_leaves();
-  fill_distances();
-}
-
-spheres::TreeParts SphereTree::build_parts(const TriangleMesh& mesh, const SphereClusters* clusters) const {
-  if (clusters != nullptr) return spheres::build_tree(mesh, *clusters, frame_, threads_);
-  if (std::optional<spheres::TreeParts> top = spheres::build_top(mesh, frame_, threads_)) {
-    // Where a search starts that knows of nothing near.
-    Work unreported;
-    spheres::built_part(*top, 0, unreported);
-    return *std::move(top);
-  }
-  return spheres::build_tree(mesh, cluster_spheres(mesh, 0, VisitOrder::mesh, threads_), frame_, threads_);
-}
-
-/// All triangles must be there, where all are looked at.
-LinearScan SphereTree::fallback(Work& work) const noexcept {
-  spheres::build_rest(parts_, work);
-  return {parts_.triangles, bounds_, ids_, certified_};
-}
-
-void SphereTree::measure_box() noexcept {
-  constexpr double margin = 0x1p-20, longest = 0x1p20;
-  radius_ = frame_.radius() * frame_.unit();
-  box_margin_ = margin * radius_;
-  longest_beyond_box_ = (longest * radius_) * (longest * radius_);
-}
-
-void SphereTree::measure_leaves() noexcept {
-  double sum = 0;
-  const std::size_t nodes = parts_.unbuilt.empty() ? parts_.nodes.size() : 0;
-  for (const spheres::TreeNode& node : std::span(parts_.nodes).first(nodes))
-    for (std::size_t i = 0; i < spheres::tree_width; ++i)
-      if (node.child[i].is_block()) sum += radius_of_leaf(node, i, parts_.boxes);
-  const double mean = parts_.unbuilt.empty() ? sum / static_cast<double>(parts_.blocks.size())
-                                             : parts_.unbuilt.mean_leaf_radius;
-  mean_leaf_radius_ = mean / frame_.scale();
-  parts_.far = static_cast<float>(far_in_leaf_radii * far_in_leaf_radii * mean * mean);
-}
 
 /// Does a point that moves so far a tick stay among the leaves that are listed for it?
 bool SphereTree::is_slow(const Vec3& move) const noexcept {
