@@ -61,7 +61,7 @@ void add_block(Hull& hull, const TreeParts& parts, std::uint32_t block, const Fi
 
 /// Bounds the blocks below some nodes, about so many or all, evenly among the others.
 BothBounds sampled_bounds(const TreeParts& parts, const TriangleMesh& mesh, const FilterFrame& frame) {
-  constexpr std::size_t fewest = 64, most_apart = 32;
+  constexpr std::size_t fewest = 256, most_apart = 8;
   const std::size_t apart = std::clamp<std::size_t>(parts.nodes.size() / fewest, 1, most_apart);
   BoundOfTriangles around(mesh, frame);
   BothBounds bounds;
