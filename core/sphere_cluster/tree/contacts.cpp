@@ -29,17 +29,22 @@ std::size_t SphereTree::contacts(const Vec3& center, double reach, Memory& memor
   claim(memory);
   const FilterPoint point = frame_.point(center);
   if (!can_search(point)) return fallback(work).contacts(center, reach, into, work);
-  const double clearance = static_cast<double>(distances_.lower_bound(point)) * frame_.unit();
-  if (clearance > reach) {
-    remember_touch(center, clearance, infinity, memory);
-    return 0;
+  const double error = frame_.kernel_error(point.plane_error);
+  if (!is_listed(center, center, reach + 2 * error, memory.neighborhood)) {
+    const double clearance = sampled_clearance(point);
+    if (clearance > reach) {
+      remember_touch(center, clearance, infinity, memory);
+      return 0;
+    }
   }
   ContactsWithin found({parts_.triangles, bounds_, ids_, center, reach, into, certified_});
   if (std::isinf(found.error())) return fallback(work).contacts(center, reach, into, work);
-  const double farthest = reach + frame_.kernel_error(point.plane_error);
-  ContactsVisitor visitor{found, center, frame_.limit(farthest * farthest)};
-  search_near(point, visitor, memory, any_work);
-  work += visitor.work;
+  if (!contacts_listed(center, reach, error, found, memory, work)) {
+    const double farthest = reach + error;
+    ContactsVisitor visitor{found, center, frame_.limit(farthest * farthest)};
+    search_near(point, visitor, memory, any_work);
+    work += visitor.work;
+  }
   const std::size_t count = found.finish(work);
   if (found.nearest())
     remember_nearest(center, found.nearest()->slot, found.nearest()->distance, clearance_pad(point), memory);

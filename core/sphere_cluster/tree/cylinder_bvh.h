@@ -23,10 +23,12 @@
 #include "core/sphere_cluster/clustering.h"
 #include "core/sphere_cluster/tree/followed_point.h"
 #include "core/sphere_cluster/tree/leaf_cache.h"
+#include "core/sphere_cluster/tree/neighborhood.h"
 #include "core/sphere_cluster/tree/node.h"
 
 namespace touchmark {
 
+class ContactsWithin;
 class FirstTouch;
 
 namespace spheres {
@@ -44,6 +46,7 @@ class SphereTree {
     Vec3 free_center = Vec3::Zero();
     double free_radius = -1;
     spheres::LeafCache cache;
+    spheres::Neighborhood neighborhood;
     /// The planes of the triangle that `touches` found last, in one line, and its slot.
     TrianglePlanes touched{};
     std::uint32_t touched_slot = std::numeric_limits<std::uint32_t>::max();
@@ -198,9 +201,23 @@ class SphereTree {
   double sampled_clearance(const FilterPoint& point) const noexcept {
     return static_cast<double>(distances_.lower_bound(point)) * frame_.unit();
   }
+  template <class Places>
+  void find_places(const Vec3& from, const Vec3& to, double reach, const spheres::Neighborhood& list,
+                   Places& places) const noexcept;
+  bool is_listed(const Vec3& from, const Vec3& to, double reach,
+                 const spheres::Neighborhood& list) const noexcept;
+  bool list_around(const Vec3& from, const Vec3& to, double reach, std::uint64_t budget,
+                   spheres::Neighborhood& list, Work& work) const noexcept;
+  void renew_bound(const Vec3& point, const Offset& found, double error, std::uint32_t place,
+                 spheres::Neighborhood& list) const noexcept;
+  bool sweep_listed(const Sweep& sweep, double reach, std::uint64_t budget, FirstTouch& first, Memory& memory,
+                    Work& work) const noexcept;
+  bool contacts_listed(const Vec3& center, double reach, double error, ContactsWithin& found, Memory& memory,
+                       Work& work) const noexcept;
   bool is_sampled_clear(const Sweep& sweep, double length, double reach, Memory& memory) const noexcept;
   bool search_middle(const Sweep& sweep, double length, double reach, std::uint64_t budget, FirstTouch& first,
                      const Memory& memory, Work& work) const noexcept;
+  std::optional<Impact> conclude(const FirstTouch& first, Memory& memory, Work& work) const noexcept;
   bool search_path(const Sweep& sweep, double length, double reach, std::uint64_t budget, FirstTouch& first,
                    Work& work) const noexcept;
 

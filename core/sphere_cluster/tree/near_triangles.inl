@@ -2,8 +2,9 @@
 // measured: the planes of the blocks bound them well enough.
 
 /// Adds those of a block that are within the limit, squared, and may write a block's worth beyond.
+template <class List>
 inline void add_near(const TreeParts& tree, TreeRef ref, const Point& p, float limit, Wide& unseen,
-                     NearTriangles& list) noexcept {
+                     List& list) noexcept {
   const TriangleBlock& block = tree.blocks[ref.index()];
   alignas(64) std::array<float, tree_width> bound, x, y, z;
   const unsigned near = within(
@@ -41,12 +42,13 @@ inline void add_near(const TreeParts& tree, TreeRef ref, const Point& p, float l
 
 /// Lists what is within the limit of the point, squared. Returns false where there is too much of it, or
 /// where `work` comes to more than the budget.
+template <class List>
 inline bool list_near(const TreeParts& tree, const FilterPoint& point, float limit, std::uint64_t budget,
-                      NearTriangles& list, Work& work) noexcept {
+                      List& list, Work& work) noexcept {
   const Point p = broadcast(point);
   Wide unseen = Wide{} + farthest;
   // First come, first served: what is fetched ahead has time to arrive.
-  std::array<TreeRef, NearTriangles::max_queue> queue;
+  std::array<TreeRef, List::max_queue> queue;
   std::size_t count = 1;
   queue[0] = TreeRef{0};
   for (std::size_t next = 0; next < count; ++next) {
@@ -54,7 +56,7 @@ inline bool list_near(const TreeParts& tree, const FilterPoint& point, float lim
     if (queue[next].is_block()) {
       work.triangles += tree_width;
       add_near(tree, queue[next], p, limit, unseen, list);
-      if (list.count > NearTriangles::capacity) return false;
+      if (list.count > List::capacity) return false;
       continue;
     }
     if (count + tree_width > queue.size()) return false;

@@ -61,6 +61,10 @@ std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, 
   if constexpr (tracing)
     if (visits != nullptr) visits->frame = &frame_;
   const std::uint64_t before = work.total();
+  const double reach = padded_sweep_radius(sweep, largest_difference(bounds_, sweep));
+  FirstTouch first(sweep);
+  if (sweep_listed(sweep, reach, work_limit(), first, memory, work))
+    return conclude(first, memory, work);
   if (!memory.knows_free(sweep.from, sweep.radius) && !is_clear(sweep.from, sweep.radius, memory)) {
     const WithinBudget start = nearest_within_budget(sweep.from, sweep.radius, memory, work);
     if (start.exhausted) return fallback(work).first_hit(sweep, work);
@@ -68,10 +72,8 @@ std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, 
   }
   if (is_clear(sweep, memory)) return std::nullopt;
   const double length = (sweep.to - sweep.from).norm();
-  const double reach = padded_sweep_radius(sweep, largest_difference(bounds_, sweep));
   if (is_sampled_clear(sweep, length, reach, memory)) return std::nullopt;
   const std::uint64_t budget = remaining(work_limit(), work.total() - before);
-  FirstTouch first(sweep);
   const bool is_short =
       length <= longest_in_leaf_radii * mean_leaf_radius_ &&
       length * reach <= largest_product_in_leaf_radii * mean_leaf_radius_ * mean_leaf_radius_;
@@ -85,6 +87,13 @@ std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, 
     for (std::uint32_t at = 0; at < parts_.triangles.size(); ++at)
       first.consider(parts_.triangles[at], at, work.exact_decisions);
   }
+  return conclude(first, memory, work);
+}
+
+/// Remembers where the ball is free at the end, or returns what it meets.
+std::optional<Impact> SphereTree::conclude(const FirstTouch& first, Memory& memory,
+                                           Work& work) const noexcept {
+  const Sweep& sweep = first.sweep();
   if (certified_ && !first.found()) {
     memory.free_center = sweep.to;
     memory.free_radius = sweep.radius;

@@ -24,6 +24,7 @@
 #include "core/sphere_cluster/tree/lazy_builder.h"
 #include "core/sphere_cluster/tree/leaf_cache.h"
 #include "core/sphere_cluster/tree/near_triangles.h"
+#include "core/sphere_cluster/tree/neighborhood.h"
 #include "core/sphere_cluster/tree/node.h"
 
 namespace touchmark::spheres {

@@ -1,0 +1,206 @@
+// Sweeps and contacts among the triangles listed around a point (neighborhood.h). A list is made for whoever
+// asks for contacts, of what is a little farther than asked, so that the next questions are about the same.
+#include "core/sphere_cluster/tree/neighborhood.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "core/geometry/sphere_triangle_sweep.h"
+#include "core/search/contacts_within.h"
+#include "core/search/first_touch.h"
+#include "core/simd/prefetch.h"
+#include "core/sphere_cluster/tree/cylinder_bvh.h"
+#include "core/sphere_cluster/tree/search.h"  // IWYU pragma: keep
+
+namespace touchmark {
+namespace {
+
+using spheres::MoveFromCenter, spheres::Neighborhood;
+
+/// Tells what was found of the triangle it was shown.
+struct MeasuringVisitor {
+  const Vec3& center;
+  Work& work;
+  Offset found{};
+
+  static constexpr bool accepts(std::uint32_t) noexcept { return true; }
+  void update(std::uint32_t, const Offset& offset) noexcept { found = offset; }
+};
+
+MoveFromCenter in_frame(const Vec3& move, double scale) noexcept {
+  return {static_cast<float>(move.x() * scale), static_cast<float>(move.y() * scale),
+          static_cast<float>(move.z() * scale)};
+}
+
+/// The places of the triangles that a question is about.
+struct Places {
+  std::array<std::uint32_t, Neighborhood::padded_capacity> at;
+  std::uint32_t count = 0;
+};
+
+}  // namespace
+
+/// Bounds and what is added to them are off by less than 2^-20 of what they are and of the moves:
+/// docs/exactness.md, E14.
+template <class Places>
+void SphereTree::find_places(const Vec3& from, const Vec3& to, double reach, const Neighborhood& list,
+                             Places& places) const noexcept {
+  const Vec3 begin = from - list.center, end = to - list.center;
+  const double longest = std::sqrt(std::max(begin.squaredNorm(), end.squaredNorm()));
+  const double limit = (reach * (1 + 0x1p-17) + longest * 0x1p-17) * frame_.scale();
+  const auto rounded = static_cast<float>(std::min(limit, static_cast<double>(spheres::farthest)));
+  const MoveFromCenter first = in_frame(begin, frame_.scale()), last = in_frame(end, frame_.scale());
+  places.count = simd_ == Simd::portable
+                     ? spheres::portable::places_within(list, first, last, rounded, places.at.data())
+                     : spheres::avx2::places_within(list, first, last, rounded, places.at.data());
+  for (std::uint32_t i = 0; i < places.count; ++i)
+    prefetch_lines(&parts_.triangles[list.slot[places.at[i]]], sizeof(PreparedTriangle));
+}
+
+/// Is everything within the reach of the way between two points listed? A ball that holds both ends holds the
+/// way.
+bool SphereTree::is_listed(const Vec3& from, const Vec3& to, double reach,
+                           const Neighborhood& list) const noexcept {
+  const double room = (list.covered - reach) * (1 - 0x1p-40);
+  return room > 0 && (from - list.center).squaredNorm() < room * room &&
+         (to - list.center).squaredNorm() < room * room;
+}
+
+/// Lists what is within the reach of the way between two points, and a margin that is for the next questions:
+/// most of it ahead. Returns false where that is too much.
+bool SphereTree::list_around(const Vec3& from, const Vec3& to, double reach, std::uint64_t budget,
+                             Neighborhood& list, Work& work) const noexcept {
+  constexpr std::uint32_t few = 40, many = 96;
+  constexpr int most_tries = 3;
+  constexpr std::uint16_t longest_cooldown = 15;
+  if (list.cooldown > 0) {
+    --list.cooldown;
+    return false;
+  }
+  const Vec3 way = to - from;
+  const double length = way.norm();
+  list.covered = -1;
+  list.measured_count = 0;
+  for (int left = most_tries; left > 0; --left) {
+    const double margin = double{list.margin} * mean_leaf_radius_;
+    const double ahead = 0.5 * length + (length > 0 ? 0.5 * margin : 0.0);
+    Vec3 about = length > 0 ? Vec3(from + (ahead / length) * way) : from;
+    if (!can_search(about)) about = from;
+    const FilterPoint point = frame_.point(about);
+    const double limit = reach + std::max(ahead, length) + margin + frame_.kernel_error(point.plane_error);
+    list.count = 0;
+    list.unlisted = spheres::farthest;
+    Work spent;
+    const bool is_listed =
+        simd_ == Simd::portable
+            ? spheres::portable::list_near(parts_, point, frame_.limit(limit * limit), budget, list, spent)
+            : spheres::avx2::list_near(parts_, point, frame_.limit(limit * limit), budget, list, spent);
+    work += spent;
+    budget = remaining(budget, spent.total());
+    if (!is_listed || list.count > many)
+      list.margin *= 0.5F;
+    else if (list.count < few)
+      list.margin = std::min(1.25F * list.margin, 1.0F);
+    if (!is_listed) continue;
+    list.last_cooldown = 0;
+    list.finish();
+    list.center = about;
+    list.covered =
+        clearance_from(list.unlisted, std::numeric_limits<double>::infinity(), clearance_pad(point));
+    return true;
+  }
+  list.last_cooldown =
+      static_cast<std::uint16_t>(std::min<int>(2 * list.last_cooldown + 1, longest_cooldown));
+  list.cooldown = list.last_cooldown;
+  return false;
+}
+
+/// Puts a listed triangle behind the plane across the offset that was found from it at a point.
+void SphereTree::renew_bound(const Vec3& point, const Offset& found, double error, std::uint32_t place,
+                           Neighborhood& list) const noexcept {
+  const double distance = std::sqrt(found.squared);
+  if (!(distance > error)) return;
+  const Vec3 away = found.vector / distance;
+  list.x[place] = static_cast<float>(away.x());
+  list.y[place] = static_cast<float>(away.y());
+  list.z[place] = static_cast<float>(away.z());
+  const Vec3 rounded(double{list.x[place]}, double{list.y[place]}, double{list.z[place]});
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vec3& corner : parts_.triangles[list.slot[place]].corner)
+    least = std::min(least, rounded.dot(list.center - corner));
+  list.bound[place] = static_cast<float>((least - error) * frame_.scale());
+}
+
+/// Looks for the first touch among the listed triangles. Returns false where they may not be all there are.
+bool SphereTree::sweep_listed(const Sweep& sweep, double reach, std::uint64_t budget, FirstTouch& first,
+                              Memory& memory, Work& work) const noexcept {
+  Neighborhood& list = memory.neighborhood;
+  if (!(list.contacts_reach >= 0) || !certified_ || !is_slow(sweep.from - list.measured_at)) return false;
+  const double error =
+      frame_.kernel_error(std::max(frame_.point(sweep.from).plane_error, frame_.point(sweep.to).plane_error));
+  const double farthest = reach + 2 * error;
+  if (!is_listed(sweep.from, sweep.to, farthest, list) &&
+      !(list_around(sweep.from, sweep.to, std::max(farthest, list.contacts_reach), budget, list, work) &&
+        is_listed(sweep.from, sweep.to, farthest, list)))
+    return false;
+  Places places;
+  find_places(sweep.from, sweep.to, farthest, list, places);
+  const bool is_measured = sweep.from == list.measured_at;
+  std::uint32_t next = 0;
+  for (std::uint32_t i = 0; i < places.count; ++i) {
+    const std::uint32_t place = places.at[i], slot = list.slot[place];
+    const PreparedTriangle& triangle = parts_.triangles[slot];
+    ++work.triangles;
+    while (next < list.measured_count && list.measured[next].place < place) ++next;
+    if (is_measured && next < list.measured_count && list.measured[next].place == place) {
+      if (plane_keeps_apart(triangle, sweep, list.measured[next].offset)) continue;
+    } else {
+      const Vec3 away(double{list.x[place]}, double{list.y[place]}, double{list.z[place]});
+      const Vec3& end = away.dot(sweep.to - sweep.from) < 0 ? sweep.to : sweep.from;
+      MeasuringVisitor visitor{end, work};
+      visit(slot, visitor);
+      if (plane_keeps_apart(triangle, sweep, visitor.found)) {
+        renew_bound(end, visitor.found, error, place, list);
+        continue;
+      }
+    }
+    first.consider(triangle, slot, work.exact_decisions);
+  }
+  return true;
+}
+
+/// Shows all triangles within the reach, of those listed. Returns false where they may not be all there are.
+bool SphereTree::contacts_listed(const Vec3& center, double reach, double error, ContactsWithin& found,
+                                 Memory& memory, Work& work) const noexcept {
+  Neighborhood& list = memory.neighborhood;
+  const bool pays = list.contacts_reach >= 0 && is_slow(center - list.measured_at);
+  list.contacts_reach = reach;
+  list.measured_at = center;
+  list.measured_count = 0;
+  const double farthest = reach + 2 * error;
+  if (!is_listed(center, center, farthest, list) &&
+      !(pays && list_around(center, center, farthest, refill_limit(), list, work) &&
+        is_listed(center, center, farthest, list)))
+    return false;
+  Places places;
+  find_places(center, center, farthest, list, places);
+  for (std::uint32_t i = 0; i < places.count; ++i) {
+    const std::uint32_t place = places.at[i], slot = list.slot[place];
+    MeasuringVisitor visitor{center, work};
+    visit(slot, visitor);
+    const double distance = std::sqrt(visitor.found.squared);
+    if (distance > reach + 4 * error) {
+      renew_bound(center, visitor.found, error, place, list);
+      continue;
+    }
+    if (list.measured_count < list.measured.size())
+      list.measured[list.measured_count++] = {place, visitor.found};
+    found.consider(slot, visitor.found, work);
+  }
+  return true;
+}
+
+}  // namespace touchmark

@@ -1,0 +1,47 @@
+/// What a session that asks for contacts remembers of the triangles around: those in a ball, each behind a
+/// plane that bounds its distance all around, so that sweeps and contacts in that ball look at few of them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/geometry/point_triangle.h"
+#include "core/probe.h"
+#include "core/sphere_cluster/tree/near_triangles.h"
+
+namespace touchmark::spheres {
+
+/// Forgetting it changes the cost of the next answer, never the answer. Bounds are about `center`.
+struct Neighborhood : NearTrianglesUpTo<256> {
+  Vec3 center = Vec3::Zero();  ///< in the mesh's frame
+  double covered = -1;         ///< no triangle that is not listed is nearer to the centre; below 0: no list
+  double contacts_reach = -1;  ///< of the contacts asked for last; below 0: none were
+  float margin = 0.2F;         ///< how far beyond what is asked to list next, in mean radii of the leaves
+  std::uint16_t cooldown = 0,
+                last_cooldown = 0;  ///< queries until the next list, after there were too many triangles
+
+  /// What was found of those within the reach at the last contacts, in the order of their places in the list.
+  struct Measured {
+    std::uint32_t place;
+    Offset offset;
+  };
+  Vec3 measured_at = Vec3::Zero();
+  std::uint32_t measured_count = 0;
+  std::array<Measured, 16> measured;
+
+  /// Fills up the last eight with what is infinitely far.
+  void finish() noexcept {
+    for (std::uint32_t i = count; i % tree_width != 0; ++i) {
+      slot[i] = 0;
+      bound[i] = std::numeric_limits<float>::infinity();
+      x[i] = y[i] = z[i] = 0;
+    }
+  }
+};
+
+/// From the centre of a neighborhood to a point, in the tree's frame.
+struct MoveFromCenter {
+  float x, y, z;
+};
+
+}  // namespace touchmark::spheres
