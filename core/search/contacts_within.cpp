@@ -9,6 +9,21 @@
 #include "core/search/shared_feature.h"
 
 namespace touchmark {
+namespace {
+
+/// Bounds what both computed distances are off by, of 48 u M each (docs/exactness.md, E1) with M of either
+/// triangle, and their roots' rounding. Less than distance_error by as much as the triangles are nearer than
+/// the mesh's box reaches.
+double error_of_both(const PreparedTriangle& a, const PreparedTriangle& b, const Vec3& center) noexcept {
+  constexpr double relative_error = 128 * (std::numeric_limits<double>::epsilon() / 2), underflow = 0x1p-200;
+  double largest = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    largest = std::max({largest, (center - a.corner[i]).cwiseAbs().maxCoeff(),
+                        (center - b.corner[i]).cwiseAbs().maxCoeff()});
+  return largest >= 0x1p-132 ? relative_error * largest + underflow : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
 
 ContactsWithin::ContactsWithin(const ContactsQuestion& question) noexcept
     : question_(question),
@@ -42,7 +57,14 @@ bool ContactsWithin::is_before(const Contact& a, const Contact& b) const noexcep
   if (std::abs(a.distance - b.distance) > error_) return a.distance < b.distance;
   if (!question_.decides_exactly)
     return Candidate{a.distance, first.index} < Candidate{b.distance, other.index};
-  if (!is_scaled_ && surely_share_nearest(first, other, question_.center)) return first.index < other.index;
+  if (!is_scaled_) {
+    // Where the nearest place is one that they share, the kernel gives the same bits.
+    if (a.normal.x() == b.normal.x()) {
+      if (surely_share_nearest(first, other, question_.center)) return first.index < other.index;
+    } else if (std::abs(a.distance - b.distance) > error_of_both(first, other, question_.center)) {
+      return a.distance < b.distance;
+    }
+  }
   NearestOfTies both(question_.center);
   both.consider(first);
   both.consider(other);

@@ -73,7 +73,7 @@ bool SphereTree::is_listed(const Vec3& from, const Vec3& to, double reach,
 /// most of it ahead. Returns false where that is too much.
 bool SphereTree::list_around(const Vec3& from, const Vec3& to, double reach, std::uint64_t budget,
                              Neighborhood& list, Work& work) const noexcept {
-  constexpr std::uint32_t few = 40, many = 96;
+  constexpr std::uint32_t few = 64, many = 160;
   constexpr int most_tries = 3;
   constexpr std::uint16_t longest_cooldown = 15;
   if (list.cooldown > 0) {
