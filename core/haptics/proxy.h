@@ -79,20 +79,23 @@ class Proxy {
   }
 
   /// Chooses the distance that this tick keeps: the radius, or where that is not free the largest of a few
-  /// shares of it that is. Returns false on the surface itself.
+  /// shares of it that is. What the last tick kept is still free. Returns false on the surface itself.
   bool choose_kept(typename D::Session& session) noexcept {
     const double radius = motion_.coupling().radius;
     motion_.keep(radius);
     if (!motion_.may_touch()) return true;
-    if (!touches(radius, session)) {
-      motion_.is_off();
-      return true;
+    std::optional<int> eighths = motion_.free_eighths();
+    if (eighths) {
+      while (*eighths < 8 && !touches(radius * (*eighths + 1) / 8, session)) ++*eighths;
+    } else {
+      eighths = 8;
+      while (touches(motion_.kept(), session)) {
+        if (--*eighths < 0 || !(motion_.kept() > 0)) return false;
+        motion_.keep(radius * *eighths / 8);
+      }
     }
-    for (int eighths = 7; eighths >= 0 && motion_.kept() > 0; --eighths) {
-      motion_.keep(radius * eighths / 8);
-      if (!touches(motion_.kept(), session)) return true;
-    }
-    return false;
+    motion_.is_free_by(*eighths);
+    return true;
   }
 
   void slide(typename D::Session& session) noexcept {

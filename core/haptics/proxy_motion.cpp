@@ -39,6 +39,7 @@ void ProxyMotion::surface_moved(const TriangleMesh* mesh) noexcept {
   planes_.clear();
   same_goal_ = 0;
   may_touch_ = true;
+  free_eighths_.reset();
   rests_ = false;
 }
 

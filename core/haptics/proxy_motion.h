@@ -57,7 +57,15 @@ class ProxyMotion {
   void keep(double distance) noexcept { kept_ = distance; }
   /// It was put there, or the surface has moved: is it off?
   bool may_touch() const noexcept { return may_touch_; }
-  void is_off() noexcept { may_touch_ = false; }
+  /// The largest share of the radius known to be free where it stands, in eighths; nothing where it was just
+  /// put there, or the surface has just moved.
+  const std::optional<int>& free_eighths() const noexcept { return free_eighths_; }
+  /// It is free by so many eighths of the radius: this tick keeps that. With all of them it is off.
+  void is_free_by(int eighths) noexcept {
+    free_eighths_ = eighths;
+    kept_ = coupling_.radius * eighths / 8;
+    may_touch_ = eighths < 8;
+  }
 
   /// Begins a tick. Returns false where there is nothing to be found out: the goal and all else are as they
   /// were when it came to rest, or the goal is no number.
@@ -109,9 +117,10 @@ class ProxyMotion {
   double skin_ = 0;        ///< so far off it stays besides, so that doubles decide most questions
   double last_slide_ = 0;  ///< length of the tick's last piece, if that was along planes
   int rounds_ = 0;
-  int slides_ = 0;          ///< along planes, since something was met
-  int same_goal_ = 0;       ///< ticks since the goal last changed
-  bool may_touch_ = true;   ///< it was put there, or the surface has moved
+  int slides_ = 0;         ///< along planes, since something was met
+  int same_goal_ = 0;      ///< ticks since the goal last changed
+  bool may_touch_ = true;  ///< it was put there, or the surface has moved
+  std::optional<int> free_eighths_;
   bool has_moved_ = false;  ///< since the last target was chosen
   bool has_slid_ = false;   ///< friction allows one slide a tick
   bool rests_ = false;      ///< the last tick did not move it

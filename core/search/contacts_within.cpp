@@ -1,6 +1,9 @@
 #include "core/search/contacts_within.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <optional>
 
 #include "core/exact/distance_predicates.h"

@@ -120,7 +120,7 @@ bool SphereTree::list_around(const Vec3& from, const Vec3& to, double reach, std
 
 /// Puts a listed triangle behind the plane across the offset that was found from it at a point.
 void SphereTree::renew_bound(const Vec3& point, const Offset& found, double error, std::uint32_t place,
-                           Neighborhood& list) const noexcept {
+                             Neighborhood& list) const noexcept {
   const double distance = std::sqrt(found.squared);
   if (!(distance > error)) return;
   const Vec3 away = found.vector / distance;
@@ -148,6 +148,8 @@ bool SphereTree::sweep_listed(const Sweep& sweep, double reach, std::uint64_t bu
     return false;
   Places places;
   find_places(sweep.from, sweep.to, farthest, list, places);
+  const Vec3 way = sweep.to - sweep.from;
+  const double squared_way = way.squaredNorm();
   const bool is_measured = sweep.from == list.measured_at;
   std::uint32_t next = 0;
   for (std::uint32_t i = 0; i < places.count; ++i) {
@@ -155,17 +157,29 @@ bool SphereTree::sweep_listed(const Sweep& sweep, double reach, std::uint64_t bu
     const PreparedTriangle& triangle = parts_.triangles[slot];
     ++work.triangles;
     while (next < list.measured_count && list.measured[next].place < place) ++next;
-    if (is_measured && next < list.measured_count && list.measured[next].place == place) {
-      if (plane_keeps_apart(triangle, sweep, list.measured[next].offset)) continue;
+    Offset offset;
+    Vec3 end = sweep.from;
+    const bool is_known = is_measured && next < list.measured_count && list.measured[next].place == place;
+    if (is_known) {
+      offset = list.measured[next].offset;
     } else {
       const Vec3 away(double{list.x[place]}, double{list.y[place]}, double{list.z[place]});
-      const Vec3& end = away.dot(sweep.to - sweep.from) < 0 ? sweep.to : sweep.from;
+      if (away.dot(way) < 0) end = sweep.to;
       MeasuringVisitor visitor{end, work};
       visit(slot, visitor);
-      if (plane_keeps_apart(triangle, sweep, visitor.found)) {
-        renew_bound(end, visitor.found, error, place, list);
-        continue;
-      }
+      offset = visitor.found;
+    }
+    if (plane_keeps_apart(triangle, sweep, offset)) {
+      if (!is_known) renew_bound(end, offset, error, place, list);
+      continue;
+    }
+    // Of the way, the place nearest to what was found is often about where the triangle is nearest.
+    const double part = std::clamp((end - offset.vector - sweep.from).dot(way) / squared_way, 0.0, 1.0);
+    if (part > 0) {
+      const Vec3 nearer = sweep.from + part * way;
+      MeasuringVisitor visitor{nearer, work};
+      visit(slot, visitor);
+      if (plane_keeps_apart(triangle, sweep, visitor.found)) continue;
     }
     first.consider(triangle, slot, work.exact_decisions);
   }
@@ -182,7 +196,7 @@ bool SphereTree::contacts_listed(const Vec3& center, double reach, double error,
   list.measured_count = 0;
   const double farthest = reach + 2 * error;
   if (!is_listed(center, center, farthest, list) &&
-      !(pays && list_around(center, center, farthest, refill_limit(), list, work) &&
+      !(pays && list_around(center, center, farthest, refill_limit() / 2, list, work) &&
         is_listed(center, center, farthest, list)))
     return false;
   Places places;

@@ -63,8 +63,7 @@ std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, 
   const std::uint64_t before = work.total();
   const double reach = padded_sweep_radius(sweep, largest_difference(bounds_, sweep));
   FirstTouch first(sweep);
-  if (sweep_listed(sweep, reach, work_limit(), first, memory, work))
-    return conclude(first, memory, work);
+  if (sweep_listed(sweep, reach, work_limit() / 2, first, memory, work)) return conclude(first, memory, work);
   if (!memory.knows_free(sweep.from, sweep.radius) && !is_clear(sweep.from, sweep.radius, memory)) {
     const WithinBudget start = nearest_within_budget(sweep.from, sweep.radius, memory, work);
     if (start.exhausted) return fallback(work).first_hit(sweep, work);
