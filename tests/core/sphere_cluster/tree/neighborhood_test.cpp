@@ -62,9 +62,9 @@ TEST(Neighborhood, ChangesNoBitOfContactsAndSweepsAlongAWalk) {
     const double size = scene.mesh.diagonal();
     for (const double radius : {0.003, 0.05, 0.4})
       for (const double step : {1e-5, 0.002, 0.1})
-        expect_brute_force_on_a_walk(scene.mesh, radius * size, step * size,
-                                     scene.name + ", radius " + std::to_string(radius) + ", step " +
-                                         std::to_string(step));
+        expect_brute_force_on_a_walk(
+            scene.mesh, radius * size, step * size,
+            scene.name + ", radius " + std::to_string(radius) + ", step " + std::to_string(step));
   }
 }
 
