@@ -112,7 +112,7 @@ class TriangleSplitter {
   Bounds bounds_of(const TriangleRange& range) const noexcept;
   /// A cut is chosen by every item of a short range, and by so many of a long one, or twice as many.
   std::uint32_t sample_step(const TriangleRange& range) const noexcept {
-    const std::uint32_t least = smallest_ > tree_width ? 192 : 1024;
+    const std::uint32_t least = smallest_ > tree_width ? 192 : 4096;
     return 2 * (range.size() / (2 * least)) + 1;
   }
   static Box box_of(const Item& item) noexcept;

@@ -208,7 +208,7 @@ class SphereTree {
                  const spheres::Neighborhood& list) const noexcept;
   bool list_around(const Vec3& from, const Vec3& to, double reach, std::uint64_t budget,
                    spheres::Neighborhood& list, Work& work) const noexcept;
-  void renew_bound(const Vec3& point, const Offset& found, double error, std::uint32_t place,
+  void renew_bound(const Offset& found, double error, std::uint32_t place,
                    spheres::Neighborhood& list) const noexcept;
   bool sweep_listed(const Sweep& sweep, double reach, std::uint64_t budget, FirstTouch& first, Memory& memory,
                     Work& work) const noexcept;

@@ -119,7 +119,7 @@ bool SphereTree::list_around(const Vec3& from, const Vec3& to, double reach, std
 }
 
 /// Puts a listed triangle behind the plane across the offset that was found from it at a point.
-void SphereTree::renew_bound(const Vec3& point, const Offset& found, double error, std::uint32_t place,
+void SphereTree::renew_bound(const Offset& found, double error, std::uint32_t place,
                              Neighborhood& list) const noexcept {
   const double distance = std::sqrt(found.squared);
   if (!(distance > error)) return;
@@ -170,7 +170,7 @@ bool SphereTree::sweep_listed(const Sweep& sweep, double reach, std::uint64_t bu
       offset = visitor.found;
     }
     if (plane_keeps_apart(triangle, sweep, offset)) {
-      if (!is_known) renew_bound(end, offset, error, place, list);
+      if (!is_known) renew_bound(offset, error, place, list);
       continue;
     }
     // Of the way, the place nearest to what was found is often about where the triangle is nearest.
@@ -207,7 +207,7 @@ bool SphereTree::contacts_listed(const Vec3& center, double reach, double error,
     visit(slot, visitor);
     const double distance = std::sqrt(visitor.found.squared);
     if (distance > reach + 4 * error) {
-      renew_bound(center, visitor.found, error, place, list);
+      renew_bound(visitor.found, error, place, list);
       continue;
     }
     if (list.measured_count < list.measured.size())

@@ -427,5 +427,13 @@ TEST_F(SceneCommand, WritesRowsOfAComparison) {
   EXPECT_EQ(valid.status, 0) << valid.out << valid.err;
 }
 
+/// Bodies far larger than the probe: what a sweep takes for their rounding counts beside its own bound.
+TEST_F(SceneCommand, VerifyFindsNoSweepThatStopsTooEarlyInAHeapOfMovingBodies) {
+  const Outcome outcome =
+      run_touchmark({"verify", "--scene", "heap:200:motion=all", "--trajectory", "slide", "--query", "sweep",
+                     "--steps", "300", "--detector", "sphere-cluster"});
+  EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+}
+
 }  // namespace
 }  // namespace touchmark::bench::cli
