@@ -5,8 +5,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <string>
-#include <utility>
 
 #include "core/c/handles.h"
 #include "core/c/touchmark.h"

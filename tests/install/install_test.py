@@ -76,7 +76,7 @@ FUSED = ["-mfma", "-ffp-contract=fast"]  # as GCC has it with -march=native on m
 FUSED_WITHOUT_HARM = re.compile(r"(auto |bool |void |std::optional<[\w:]+> )?"
                                 r"touchmark::((Aabb::center|grid::DirectMemory::moved_less|"
                                 r"(SphereTree|grid::DirectGrid)::is_clear|SphereTree::is_(beyond_box|touching)|ManySessions<.*>::ask|"
-                                r"(GridGroup|SphereCluster|AutoDetector|Signed<.*>|CertifiedField<.*>)::(touches|nearest|first_hit|contacts|is_clear))\(|"
+                                r"(GridGroup|SphereCluster|AutoDetector|Signed<.*>|CertifiedField<.*>)::(touches|nearest|first_hit|contacts|is_clear|sampler))\(|"
                                 r"AutoDetector::ask<|nearest_many<)")
 
 

@@ -5,7 +5,6 @@
 #include <optional>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include "core/search/certified_nearest.h"
 #include "core/sphere_cluster/tree/lazy_builder.h"

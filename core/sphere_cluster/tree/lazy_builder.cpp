@@ -1,6 +1,5 @@
 #include "core/sphere_cluster/tree/lazy_builder.h"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <memory>
