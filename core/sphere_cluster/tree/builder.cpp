@@ -1,7 +1,6 @@
 #include "core/sphere_cluster/tree/builder.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 #include <vector>
 
@@ -42,19 +41,13 @@ class Builder {
   std::uint32_t add_node(TriangleRange range) {
     const auto index = static_cast<std::uint32_t>(parts_.nodes.size());
     parts_.nodes.emplace_back();
-    std::array<TriangleRange, tree_width> children;
-    const std::size_t count = split_into(splitter_, range, children);
-    for (std::size_t i = count; i < tree_width; ++i) parts_.nodes[index].clear(i);
-    for (std::uint32_t i = 0; i < count; ++i)
-      children_.push_back({index, i, children[i].begin, children[i].end});
-    for (std::size_t i = 0; i < count; ++i) {
+    std::uint32_t i = 0;
+    add_children(parts_, index, splitter_, range, [&](const TriangleRange& child) {
+      children_.push_back({index, i++, child.begin, child.end});
       // Blocks are in the splitter's order, and begin where one would if all were full.
-      const TreeRef child = children[i].size() <= tree_width
-                                ? TreeRef{children[i].begin / tree_width | TreeRef::block_bit}
-                                : TreeRef{add_node(children[i])};
-      parts_.nodes[index].child[i] = child;
-      parts_.nodes[index].half[i] = 0;  // something is there
-    }
+      return child.size() <= tree_width ? TreeRef{child.begin / tree_width | TreeRef::block_bit}
+                                        : TreeRef{add_node(child)};
+    });
     return index;
   }
 

@@ -201,15 +201,12 @@ class SphereTree {
   double sampled_clearance(const FilterPoint& point) const noexcept {
     return static_cast<double>(distances_.lower_bound(point)) * frame_.unit();
   }
-  template <class Places>
   void find_places(const Vec3& from, const Vec3& to, double reach, const spheres::Neighborhood& list,
-                   Places& places) const noexcept;
+                   spheres::PlacesInList& places) const noexcept;
   bool is_listed(const Vec3& from, const Vec3& to, double reach,
                  const spheres::Neighborhood& list) const noexcept;
   bool list_around(const Vec3& from, const Vec3& to, double reach, std::uint64_t budget,
                    spheres::Neighborhood& list, Work& work) const noexcept;
-  void renew_bound(const Offset& found, double error, std::uint32_t place,
-                   spheres::Neighborhood& list) const noexcept;
   bool sweep_listed(const Sweep& sweep, double reach, std::uint64_t budget, FirstTouch& first, Memory& memory,
                     Work& work) const noexcept;
   bool contacts_listed(const Vec3& center, double reach, double error, ContactsWithin& found, Memory& memory,

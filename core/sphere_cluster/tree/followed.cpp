@@ -12,6 +12,7 @@
 #include "core/simd/lanes.h"
 #include "core/simd/prefetch.h"
 #include "core/sphere_cluster/tree/cylinder_bvh.h"
+#include "core/sphere_cluster/tree/listed_plane.h"
 #include "core/sphere_cluster/tree/search.h"  // IWYU pragma: keep
 #include "core/sphere_cluster/tree/visitors.h"
 
@@ -69,21 +70,13 @@ unsigned listed_within(const FollowedPoint& list, const MoveInFrame& move, float
   return near;
 }
 
-/// Puts a listed triangle behind the plane across the offset that was found from it.
+/// Puts a listed triangle behind the plane across the offset that was found from it at a point that has moved
+/// so far from the list's.
 void set_plane(FollowedPoint& list, std::uint32_t i, const PreparedTriangle& triangle, const Vec3& point,
                const Offset& found, const MoveInFrame& move, double error,
                const FilterFrame& frame) noexcept {
-  const double distance = std::sqrt(found.squared);
-  if (!(distance > error)) return;
-  const Vec3 away = found.vector / distance;
-  list.x[i] = static_cast<float>(away.x());
-  list.y[i] = static_cast<float>(away.y());
-  list.z[i] = static_cast<float>(away.z());
-  const Vec3 rounded(double{list.x[i]}, double{list.y[i]}, double{list.z[i]});
-  double least = std::numeric_limits<double>::infinity();
-  for (const Vec3& corner : triangle.corner) least = std::min(least, rounded.dot(point - corner));
-  const float along = list.x[i] * move.x + list.y[i] * move.y + list.z[i] * move.z;
-  list.bound[i] = static_cast<float>((least - error) * frame.scale()) - along;
+  if (!spheres::set_plane_across(list, i, triangle, point, found, error, frame.scale())) return;
+  list.bound[i] -= list.x[i] * move.x + list.y[i] * move.y + list.z[i] * move.z;
 }
 
 /// Keeps the nearest of what was found, as many as there is room for. Returns what is not kept is how near,

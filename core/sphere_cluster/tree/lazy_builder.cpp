@@ -1,6 +1,5 @@
 #include "core/sphere_cluster/tree/lazy_builder.h"
 
-#include <array>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -53,20 +52,11 @@ class TopBuilder {
   std::uint32_t add_node(const TriangleRange& range) {
     const auto index = static_cast<std::uint32_t>(tree_.nodes.size());
     tree_.nodes.emplace_back();
-    std::array<TriangleRange, tree_width> children;
-    const std::size_t count = split_into(splitter_, range, children);
-    for (std::size_t i = count; i < tree_width; ++i) tree_.nodes[index].clear(i);
-    for (std::size_t i = 0; i < count; ++i) {
-      TreeRef child;
-      if (children[i].size() <= part_size) {
-        child = {static_cast<std::uint32_t>(ranges_.size()) | TreeRef::part_bit};
-        ranges_.push_back(children[i]);
-      } else {
-        child = {add_node(children[i])};
-      }
-      tree_.nodes[index].child[i] = child;
-      tree_.nodes[index].half[i] = 0;  // something is there
-    }
+    add_children(tree_, index, splitter_, range, [&](const TriangleRange& child) {
+      if (child.size() > part_size) return TreeRef{add_node(child)};
+      ranges_.push_back(child);
+      return TreeRef{static_cast<std::uint32_t>(ranges_.size() - 1) | TreeRef::part_bit};
+    });
     return index;
   }
 
@@ -159,16 +149,11 @@ class PartBuilder {
  private:
   std::uint32_t add_node(const TriangleRange& range) noexcept {
     const std::uint32_t index = next_++;
-    TreeNode& node = tree_.nodes[index];
-    std::array<TriangleRange, tree_width> children;
-    const std::size_t count = split_into(splitter_, range, children);
-    for (std::size_t i = count; i < tree_width; ++i) node.clear(i);
-    for (std::size_t i = 0; i < count; ++i) {
-      node.child[i] = children[i].size() <= tree_width
-                          ? TreeRef{(part_.begin + children[i].begin) / tree_width | TreeRef::block_bit}
-                          : TreeRef{add_node(children[i])};
-      node.half[i] = 0;  // something is there
-    }
+    add_children(tree_, index, splitter_, range, [&](const TriangleRange& child) {
+      return child.size() <= tree_width
+                 ? TreeRef{(part_.begin + child.begin) / tree_width | TreeRef::block_bit}
+                 : TreeRef{add_node(child)};
+    });
     return index;
   }
 

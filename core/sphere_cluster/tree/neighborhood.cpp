@@ -13,12 +13,13 @@
 #include "core/search/first_touch.h"
 #include "core/simd/prefetch.h"
 #include "core/sphere_cluster/tree/cylinder_bvh.h"
+#include "core/sphere_cluster/tree/listed_plane.h"
 #include "core/sphere_cluster/tree/search.h"  // IWYU pragma: keep
 
 namespace touchmark {
 namespace {
 
-using spheres::MoveFromCenter, spheres::Neighborhood;
+using spheres::MoveFromCenter, spheres::Neighborhood, spheres::PlacesInList, spheres::set_plane_across;
 
 /// Tells what was found of the triangle it was shown.
 struct MeasuringVisitor {
@@ -35,19 +36,12 @@ MoveFromCenter in_frame(const Vec3& move, double scale) noexcept {
           static_cast<float>(move.z() * scale)};
 }
 
-/// The places of the triangles that a question is about.
-struct Places {
-  std::array<std::uint32_t, Neighborhood::padded_capacity> at;
-  std::uint32_t count = 0;
-};
-
 }  // namespace
 
 /// Bounds and what is added to them are off by less than 2^-20 of what they are and of the moves:
 /// docs/exactness.md, E14.
-template <class Places>
 void SphereTree::find_places(const Vec3& from, const Vec3& to, double reach, const Neighborhood& list,
-                             Places& places) const noexcept {
+                             PlacesInList& places) const noexcept {
   const Vec3 begin = from - list.center, end = to - list.center;
   const double longest = std::sqrt(std::max(begin.squaredNorm(), end.squaredNorm()));
   const double limit = (reach * (1 + 0x1p-17) + longest * 0x1p-17) * frame_.scale();
@@ -118,22 +112,6 @@ bool SphereTree::list_around(const Vec3& from, const Vec3& to, double reach, std
   return false;
 }
 
-/// Puts a listed triangle behind the plane across the offset that was found from it at a point.
-void SphereTree::renew_bound(const Offset& found, double error, std::uint32_t place,
-                             Neighborhood& list) const noexcept {
-  const double distance = std::sqrt(found.squared);
-  if (!(distance > error)) return;
-  const Vec3 away = found.vector / distance;
-  list.x[place] = static_cast<float>(away.x());
-  list.y[place] = static_cast<float>(away.y());
-  list.z[place] = static_cast<float>(away.z());
-  const Vec3 rounded(double{list.x[place]}, double{list.y[place]}, double{list.z[place]});
-  double least = std::numeric_limits<double>::infinity();
-  for (const Vec3& corner : parts_.triangles[list.slot[place]].corner)
-    least = std::min(least, rounded.dot(list.center - corner));
-  list.bound[place] = static_cast<float>((least - error) * frame_.scale());
-}
-
 /// Looks for the first touch among the listed triangles. Returns false where they may not be all there are.
 bool SphereTree::sweep_listed(const Sweep& sweep, double reach, std::uint64_t budget, FirstTouch& first,
                               Memory& memory, Work& work) const noexcept {
@@ -146,7 +124,7 @@ bool SphereTree::sweep_listed(const Sweep& sweep, double reach, std::uint64_t bu
       !(list_around(sweep.from, sweep.to, std::max(farthest, list.contacts_reach), budget, list, work) &&
         is_listed(sweep.from, sweep.to, farthest, list)))
     return false;
-  Places places;
+  PlacesInList places;
   find_places(sweep.from, sweep.to, farthest, list, places);
   const Vec3 way = sweep.to - sweep.from;
   const double squared_way = way.squaredNorm();
@@ -170,10 +148,10 @@ bool SphereTree::sweep_listed(const Sweep& sweep, double reach, std::uint64_t bu
       offset = visitor.found;
     }
     if (plane_keeps_apart(triangle, sweep, offset)) {
-      if (!is_known) renew_bound(offset, error, place, list);
+      if (!is_known) set_plane_across(list, place, triangle, list.center, offset, error, frame_.scale());
       continue;
     }
-    // Of the way, the place nearest to what was found is often about where the triangle is nearest.
+    // The place of the way that is nearest to what was found is often about where the triangle is nearest.
     const double part = std::clamp((end - offset.vector - sweep.from).dot(way) / squared_way, 0.0, 1.0);
     if (part > 0) {
       const Vec3 nearer = sweep.from + part * way;
@@ -199,7 +177,7 @@ bool SphereTree::contacts_listed(const Vec3& center, double reach, double error,
       !(pays && list_around(center, center, farthest, refill_limit() / 2, list, work) &&
         is_listed(center, center, farthest, list)))
     return false;
-  Places places;
+  PlacesInList places;
   find_places(center, center, farthest, list, places);
   for (std::uint32_t i = 0; i < places.count; ++i) {
     const std::uint32_t place = places.at[i], slot = list.slot[place];
@@ -207,7 +185,8 @@ bool SphereTree::contacts_listed(const Vec3& center, double reach, double error,
     visit(slot, visitor);
     const double distance = std::sqrt(visitor.found.squared);
     if (distance > reach + 4 * error) {
-      renew_bound(visitor.found, error, place, list);
+      set_plane_across(list, place, parts_.triangles[slot], list.center, visitor.found, error,
+                       frame_.scale());
       continue;
     }
     if (list.measured_count < list.measured.size())

@@ -39,6 +39,12 @@ struct Neighborhood : NearTrianglesUpTo<256> {
   }
 };
 
+/// The places in a list of the triangles that a question is about.
+struct PlacesInList {
+  std::array<std::uint32_t, Neighborhood::padded_capacity> at;
+  std::uint32_t count = 0;
+};
+
 /// From the centre of a neighborhood to a point, in the tree's frame.
 struct MoveFromCenter {
   float x, y, z;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "core/sphere_cluster/tree/binned_sah.h"
 #include "core/sphere_cluster/tree/node.h"
@@ -17,7 +18,7 @@ inline std::size_t split_into(const TriangleSplitter& splitter, const TriangleRa
                               std::array<TriangleRange, tree_width>& children) noexcept {
   const std::uint32_t smallest = splitter.smallest();
   std::array<float, tree_width> area;
-  // Of a range that is not split nobody asks.
+  // Nobody asks for the area of a range that is not split.
   const auto area_of = [&](const TriangleRange& r) { return r.size() > smallest ? splitter.area(r) : 0.0F; };
   children[0] = range;
   area[0] = area_of(range);
@@ -37,6 +38,21 @@ inline std::size_t split_into(const TriangleSplitter& splitter, const TriangleRa
   std::sort(children.begin(), children.begin() + count,
             [](const TriangleRange& a, const TriangleRange& b) { return a.begin < b.begin; });
   return count;
+}
+
+/// Splits a range into the children of a node, each of which is what child_of(range) returns; their bounds
+/// are still to be set. child_of may add nodes.
+template <class ChildOf>
+void add_children(TreeParts& tree, std::uint32_t node, const TriangleSplitter& splitter,
+                  const TriangleRange& range, const ChildOf& child_of) {
+  std::array<TriangleRange, tree_width> children;
+  const std::size_t count = split_into(splitter, range, children);
+  for (std::size_t i = count; i < tree_width; ++i) tree.nodes[node].clear(i);
+  for (std::size_t i = 0; i < count; ++i) {
+    const TreeRef child = child_of(children[i]);
+    tree.nodes[node].child[i] = child;
+    tree.nodes[node].half[i] = 0;  // something is there
+  }
 }
 
 }  // namespace touchmark::spheres

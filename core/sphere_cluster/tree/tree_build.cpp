@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -17,10 +16,19 @@ namespace {
 /// See TreeParts::far.
 constexpr double far_in_leaf_radii = 1;
 
-/// A box's is half its diagonal: about the radius of the coin that it holds.
+/// Returns the radius of a leaf in the frame. A box's is half its diagonal: about the radius of the coin that
+/// it holds.
 double radius_of_leaf(const spheres::TreeNode& node, std::size_t child, bool boxes) noexcept {
   const Vec3 half(double{node.half[child]}, double{node.radius[child]}, double{node.normal_x[child]});
   return boxes ? half.norm() : half.y();
+}
+
+double mean_leaf_radius_of(const spheres::TreeParts& whole) noexcept {
+  double sum = 0;
+  for (const spheres::TreeNode& node : whole.nodes)
+    for (std::size_t i = 0; i < spheres::tree_width; ++i)
+      if (node.child[i].is_block()) sum += radius_of_leaf(node, i, whole.boxes);
+  return sum / static_cast<double>(whole.blocks.size());
 }
 
 }  // namespace
@@ -49,7 +57,7 @@ SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters* clusters,
 spheres::TreeParts SphereTree::build_parts(const TriangleMesh& mesh, const SphereClusters* clusters) const {
   if (clusters != nullptr) return spheres::build_tree(mesh, *clusters, frame_, threads_);
   if (std::optional<spheres::TreeParts> top = spheres::build_top(mesh, frame_, threads_)) {
-    // Where a search starts that knows of nothing near.
+    // A search that knows of nothing near starts there.
     Work unreported;
     spheres::built_part(*top, 0, unreported);
     return *std::move(top);
@@ -71,13 +79,7 @@ void SphereTree::measure_box() noexcept {
 }
 
 void SphereTree::measure_leaves() noexcept {
-  double sum = 0;
-  const std::size_t nodes = parts_.unbuilt.empty() ? parts_.nodes.size() : 0;
-  for (const spheres::TreeNode& node : std::span(parts_.nodes).first(nodes))
-    for (std::size_t i = 0; i < spheres::tree_width; ++i)
-      if (node.child[i].is_block()) sum += radius_of_leaf(node, i, parts_.boxes);
-  const double mean = parts_.unbuilt.empty() ? sum / static_cast<double>(parts_.blocks.size())
-                                             : parts_.unbuilt.mean_leaf_radius;
+  const double mean = parts_.unbuilt.empty() ? mean_leaf_radius_of(parts_) : parts_.unbuilt.mean_leaf_radius;
   mean_leaf_radius_ = mean / frame_.scale();
   parts_.far = static_cast<float>(far_in_leaf_radii * far_in_leaf_radii * mean * mean);
 }
