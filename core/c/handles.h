@@ -52,6 +52,11 @@ Result guarded(const char* function, Result failed, const Make& make) noexcept {
   return failed;
 }
 
+/// Returns true if a query's session or centre is NULL, or its radius or reach is none. What is wrong has
+/// become the last error.
+bool refuses(const char* function, const void* session, const double* center, const char* center_name,
+             const char* size_name, double size) noexcept;
+
 inline Vec3 point(const double coordinates[3]) noexcept {
   return {coordinates[0], coordinates[1], coordinates[2]};
 }

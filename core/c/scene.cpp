@@ -55,21 +55,6 @@ int add_shape(const char* function, touchmark_scene* scene, std::uint32_t* shape
   });
 }
 
-/// What is wrong with a query's arguments has become the last error.
-bool refuses(const char* function, const touchmark_scene_session* session, const double* center,
-             const char* center_name, const char* size_name, double size) noexcept {
-  if (session == nullptr) {
-    fail_for_null(function, "session");
-  } else if (center == nullptr) {
-    fail_for_null(function, center_name);
-  } else if (!(size >= 0)) {
-    fail_for_size(function, size_name, size);
-  } else {
-    return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 touchmark_scene* touchmark_scene_create(void) {

@@ -46,6 +46,20 @@ int fail_for_size(const char* function, const char* argument, double value) noex
   return fail(message.data());
 }
 
+bool refuses(const char* function, const void* session, const double* center, const char* center_name,
+             const char* size_name, double size) noexcept {
+  if (session == nullptr) {
+    fail_for_null(function, "session");
+  } else if (center == nullptr) {
+    fail_for_null(function, center_name);
+  } else if (!(size >= 0)) {
+    fail_for_size(function, size_name, size);
+  } else {
+    return false;
+  }
+  return true;
+}
+
 namespace {
 
 void expect_count(const char* what, std::size_t count) {
@@ -53,20 +67,12 @@ void expect_count(const char* what, std::size_t count) {
   throw std::invalid_argument(std::to_string(count) + " " + what + "; there can be 4294967295 at most");
 }
 
-/// What is wrong with a query's arguments has become the last error.
-bool refuses(const char* function, const touchmark_session* session, const double* center,
-             const char* center_name, const char* size_name, double size) noexcept {
-  if (session == nullptr) {
-    fail_for_null(function, "session");
-  } else if (center == nullptr) {
-    fail_for_null(function, center_name);
-  } else if (!(size >= 0)) {
-    fail_for_size(function, size_name, size);
-  } else if (!session->held->usable) {
-    fail(unusable);
-  } else {
-    return false;
-  }
+/// Also refuses a detector that cannot be asked any more.
+bool refuses_query(const char* function, const touchmark_session* session, const double* center,
+                   const char* center_name, const char* size_name, double size) noexcept {
+  if (refuses(function, session, center, center_name, size_name, size)) return true;
+  if (session->held->usable) return false;
+  fail(unusable);
   return true;
 }
 
@@ -159,14 +165,14 @@ touchmark_session* touchmark_session_create(const touchmark_detector* detector) 
 void touchmark_session_free(touchmark_session* session) { delete session; }
 
 int touchmark_touches(touchmark_session* session, const double center[3], double radius) {
-  if (refuses(__func__, session, center, "center", "radius", radius)) return TOUCHMARK_ERROR;
+  if (refuses_query(__func__, session, center, "center", "radius", radius)) return TOUCHMARK_ERROR;
   return session->detector().touches({point(center), radius}, *session->memory) ? TOUCHMARK_YES
                                                                                 : TOUCHMARK_NO;
 }
 
 int touchmark_nearest(touchmark_session* session, const double center[3], double reach,
                       touchmark_contact* contact) {
-  if (refuses(__func__, session, center, "center", "reach", reach)) return TOUCHMARK_ERROR;
+  if (refuses_query(__func__, session, center, "center", "reach", reach)) return TOUCHMARK_ERROR;
   const std::optional<touchmark::Contact> found =
       session->detector().nearest({point(center), 0}, reach, *session->memory);
   if (!found) return TOUCHMARK_NO;
@@ -176,7 +182,7 @@ int touchmark_nearest(touchmark_session* session, const double center[3], double
 
 int touchmark_first_hit(touchmark_session* session, const double from[3], const double to[3], double radius,
                         touchmark_impact* impact) {
-  if (refuses(__func__, session, from, "from", "radius", radius)) return TOUCHMARK_ERROR;
+  if (refuses_query(__func__, session, from, "from", "radius", radius)) return TOUCHMARK_ERROR;
   if (to == nullptr) return fail_for_null(__func__, "to");
   const std::optional<touchmark::Impact> found =
       session->detector().first_hit({point(from), point(to), radius}, *session->memory);
@@ -190,7 +196,7 @@ int touchmark_first_hit(touchmark_session* session, const double from[3], const 
 
 int touchmark_contacts(touchmark_session* session, const double center[3], double reach,
                        touchmark_contact* contacts, size_t capacity, size_t* count) {
-  if (refuses(__func__, session, center, "center", "reach", reach)) return TOUCHMARK_ERROR;
+  if (refuses_query(__func__, session, center, "center", "reach", reach)) return TOUCHMARK_ERROR;
   if (contacts == nullptr && capacity > 0) return fail_for_null(__func__, "contacts");
   if (count == nullptr) return fail_for_null(__func__, "count");
   return guarded(__func__, int{TOUCHMARK_ERROR}, [&] {
