@@ -101,7 +101,7 @@ std::array<double, size> numbers_of(const Json& body, const char* key, const cha
 }
 
 void expect_size(double size, const std::string& what) {
-  if (size >= least_primitive_size && size <= largest_primitive_size) return;
+  if (is_primitive_size(size)) return;
   throw std::invalid_argument(fmt::format("{} is {}, and a size is from {} to {}", what, size,
                                           least_primitive_size, largest_primitive_size));
 }

@@ -54,7 +54,7 @@ Placement within(const Placement& outer, const urdf::Pose& inner) {
 
 void expect_sizes(std::string_view shape, std::initializer_list<double> sizes) {
   for (const double size : sizes) {
-    if (size >= least_primitive_size && size <= largest_primitive_size) continue;
+    if (is_primitive_size(size)) continue;
     throw std::invalid_argument(fmt::format("{}: {} is no size, which is from {} to {}", shape, size,
                                             least_primitive_size, largest_primitive_size));
   }

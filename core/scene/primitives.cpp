@@ -20,7 +20,7 @@ void add_quad(std::vector<Corners>& triangles, const std::uint32_t (&corner)[4])
 }  // namespace
 
 void expect_primitive_size(const char* shape, const char* size, double value) {
-  if (value >= least_primitive_size && value <= largest_primitive_size) return;
+  if (is_primitive_size(value)) return;
   std::ostringstream out;
   out << "the " << size << " of a " << shape << " is " << value << "; it must be from "
       << least_primitive_size << " to " << largest_primitive_size;

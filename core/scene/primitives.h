@@ -10,6 +10,11 @@ namespace touchmark {
 /// What a size of a primitive may be, so that nothing that is worked out of one leaves the range of double.
 inline constexpr double least_primitive_size = 1e-30, largest_primitive_size = 1e30;
 
+/// Returns true if a size is in that range.
+constexpr bool is_primitive_size(double size) noexcept {
+  return size >= least_primitive_size && size <= largest_primitive_size;
+}
+
 /// Throws SceneError for a size that is out of range, naming the shape, the size and its value.
 void expect_primitive_size(const char* shape, const char* size, double value);
 
