@@ -42,11 +42,15 @@ double distance_below(const Box& box, const Vec3& point) noexcept {
   return length_below((box.min - point).cwiseMax(point - box.max).cwiseMax(0));
 }
 
-double distance_below(const Box& box, const Vec3& from, const Vec3& to) noexcept {
+double distance_of_boxes_below(const Box& box, const Vec3& from, const Vec3& to) noexcept {
   const Vec3 low = from.cwiseMin(to), high = from.cwiseMax(to);
-  const double from_box = length_below((box.min - high).cwiseMax(low - box.max).cwiseMax(0));
-  // What a path no longer than the box may slant is little.
-  if ((high - low).maxCoeff() <= (box.max - box.min).maxCoeff()) return from_box;
+  return length_below((box.min - high).cwiseMax(low - box.max).cwiseMax(0));
+}
+
+double distance_below(const Box& box, const Vec3& from, const Vec3& to) noexcept {
+  const double from_box = distance_of_boxes_below(box, from, to);
+  // The box of a path that is no longer than this one holds little more than the path.
+  if ((to - from).cwiseAbs().maxCoeff() <= (box.max - box.min).maxCoeff()) return from_box;
   // Else its own box says little: measure to a ball around the box instead.
   const Vec3 center = 0.5 * box.min + 0.5 * box.max;
   const double radius = length_above((box.max - center).cwiseMax(center - box.min));

@@ -24,6 +24,8 @@ inline Box box_of(const Triangle& t) noexcept {
 double distance_below(const Box& box, const Vec3& point) noexcept;
 /// Returns a lower bound of the distance from the segment `from`-`to` to the box.
 double distance_below(const Box& box, const Vec3& from, const Vec3& to) noexcept;
+/// Returns one that is found faster, and tells less of a long segment: the distance of its own box.
+double distance_of_boxes_below(const Box& box, const Vec3& from, const Vec3& to) noexcept;
 
 class TriangleTree {
  public:
