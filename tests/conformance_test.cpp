@@ -201,8 +201,8 @@ void examine_in_processes(const contestants::ContestantSpec& spec, const Exam& e
                           const Ended& ended) {
   const std::size_t parts = exam.parts().size(), steps = exam.parts().front().steps.size();
   const SharedRoom room(parts, steps);
-  contestants::roster().prepare_to_build(spec,
-                                         exam.mesh().size());  // loads its library once for all children
+  // It loads the contestant's library once for all children.
+  contestants::roster().prepare_to_build(spec, exam.mesh().size());
   for (std::size_t next = 0; next < parts;) {
     const pid_t child = fork();
     if (child == 0) testify(spec, exam, next, room);

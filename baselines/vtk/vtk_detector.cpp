@@ -26,8 +26,6 @@ namespace {
 /// So that triangles as near as the last contact's stay within, whatever VTK computes of it.
 constexpr double a_little_more = 1 + 1e-6;
 
-/// The judge takes it for none.
-
 vtkNew<vtkPolyData> poly_data(const TriangleMesh& mesh) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();  // VTK's default is single precision.

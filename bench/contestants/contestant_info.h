@@ -91,7 +91,7 @@ struct ContestantInfo {
   std::vector<OptionInfo> options;
   /// Throws std::invalid_argument or MeshError for options or a mesh it refuses. Empty: not built in.
   BuildContestant build;
-  /// Loads what takes long to load; may be called again.
+  /// Loads its library, where that takes long and is left until it is built. May be called again.
   std::function<void()> load = [] {};
   BuildSceneContestant build_scene = {};  ///< builds one over a scene of bodies; empty: it takes none
   bool scenes_only = false;               ///< True if it takes scenes of bodies and refuses a mesh alone.

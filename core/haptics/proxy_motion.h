@@ -117,13 +117,13 @@ class ProxyMotion {
   double skin_ = 0;        ///< so far off it stays besides, so that doubles decide most questions
   double last_slide_ = 0;  ///< length of the tick's last piece, if that was along planes
   int rounds_ = 0;
-  int slides_ = 0;         ///< along planes, since something was met
-  int same_goal_ = 0;      ///< ticks since the goal last changed
-  bool may_touch_ = true;  ///< it was put there, or the surface has moved
-  std::optional<int> free_eighths_;
-  bool has_moved_ = false;  ///< since the last target was chosen
-  bool has_slid_ = false;   ///< friction allows one slide a tick
-  bool rests_ = false;      ///< the last tick did not move it
+  int slides_ = 0;                   ///< along planes, since something was met
+  int same_goal_ = 0;                ///< ticks since the goal last changed
+  bool may_touch_ = true;            ///< it was put there, or the surface has moved
+  std::optional<int> free_eighths_;  ///< see free_eighths()
+  bool has_moved_ = false;           ///< since the last target was chosen
+  bool has_slid_ = false;            ///< friction allows one slide a tick
+  bool rests_ = false;               ///< the last tick did not move it
 };
 
 }  // namespace touchmark

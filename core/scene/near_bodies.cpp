@@ -7,7 +7,7 @@
 
 namespace touchmark {
 
-// Here, where it is asked most.
+// It is defined here so that it is inlined where it is asked most.
 double Clearance::remaining(const Vec3& point, const SceneBodies& bodies) const noexcept {
   // A few roundings of the way and of both differences; what is not a number clears nothing.
   constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
@@ -41,7 +41,7 @@ NearBodies::Looked NearBodies::list(const Vec3& point, double reach, const Scene
   const std::size_t count_before = count_;
   count_ = 0;
   Looked looked;
-  // No body is among the nearest that is farther than all that fill the list now.
+  // A body that is farther than all that fill the list now is none of the nearest.
   double limit = std::numeric_limits<double>::infinity();
   const auto is_there = [&](const Entry& entry) { return bodies.has(entry.id); };
   if (count_before == room && std::ranges::all_of(before, is_there)) {

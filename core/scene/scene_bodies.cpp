@@ -41,8 +41,8 @@ BodyId SceneBodies::add(ShapeId shape, const Pose& pose) {
   std::uint32_t index = 0;
   if (free_.empty()) {
     index = static_cast<std::uint32_t>(bodies_.size());
-    // By a sixteenth, not by half or all: memory counts more than the time of adding. Also so that remove
-    // takes none.
+    // Room grows by a sixteenth only, since memory counts more than the time of adding. There is room in
+    // free_, too, so that remove takes none.
     if (bodies_.size() == bodies_.capacity()) reserve(bodies_.size() + bodies_.size() / 16 + 4);
     bodies_.emplace_back();
   } else {
@@ -63,7 +63,7 @@ BodyId SceneBodies::add(ShapeId shape, const Pose& pose) {
 }
 
 void SceneBodies::move(BodyId id, const Pose& pose) {
-  if (!has(id)) expect(id);  // apart, so that it is inlined
+  if (!has(id)) expect(id);  // which is long, and has is inlined
   PlacedBody& body = bodies_[id.index];
   const double rigid = expect_rigid(pose);
   const ShapeBounds& shape = shapes_[body.shape];

@@ -52,14 +52,14 @@ class SceneBodies {
   const BodyTree& tree() const noexcept { return tree_; }
   std::size_t bytes() const noexcept;
 
-  /// Grows with the moves. They count together in spans in which no body is moved twice, and of a span only
-  /// the widest counts. So no point of any body moves by more than what this is later less what
-  /// motion_before_span() is now, but not than what both readings of this differ by.
+  /// Grows with the moves, which count together in spans: in a span no body is moved twice, and only its
+  /// widest move counts. How far any point of any body has moved since a reading is bounded by this, less
+  /// what motion_before_span() was then. Two readings of this alone bound nothing, as a span may go on.
   double motion() const noexcept { return motion_; }
   double motion_before_span() const noexcept { return motion_before_span_; }
   /// Returns how many moves there were.
   std::uint64_t moves() const noexcept { return moves_; }
-  /// Moves from now on count as of another span.
+  /// Lets the moves from now on count as of another span.
   void end_span() noexcept {
     ++span_;
     motion_before_span_ = motion_;

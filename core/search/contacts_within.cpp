@@ -61,7 +61,7 @@ bool ContactsWithin::is_before(const Contact& a, const Contact& b) const noexcep
   if (!question_.decides_exactly)
     return Candidate{a.distance, first.index} < Candidate{b.distance, other.index};
   if (!is_scaled_) {
-    // Where the nearest place is one that they share, the kernel gives the same bits.
+    // The kernel gives the same bits for triangles that share the place that is nearest.
     if (a.normal.x() == b.normal.x()) {
       if (surely_share_nearest(first, other, question_.center)) return first.index < other.index;
     } else if (std::abs(a.distance - b.distance) > error_of_both(first, other, question_.center)) {
