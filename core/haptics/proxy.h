@@ -40,8 +40,8 @@ concept GuidesProxy = requires(const D& detector, const Probe& probe, const Swee
 };
 // clang-format on
 
-/// One proxy over one detector, which must outlive it. Steps take no memory and are bounded: each asks at
-/// most `max_questions`.
+/// One proxy over one detector, which must outlive it. Steps take no memory, and each
+/// asks a bounded number of questions.
 template <GuidesProxy D>
 class Proxy {
  public:

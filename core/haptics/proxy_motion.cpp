@@ -64,7 +64,7 @@ bool ProxyMotion::begin(const Vec3& goal) noexcept {
   skin_ = 0x1p-43 * size_ + 0x1p-48 * largest(goal);
   last_slide_ = 0;
   rounds_ = slides_ = 0;
-  has_slid_ = false;
+  has_slid_ = has_descended_ = false;
   return true;
 }
 
@@ -80,11 +80,26 @@ bool ProxyMotion::is_surely_blocked() const noexcept {
   });
 }
 
+/// After the last slide along a curve the proxy is off it: what is left is to go straight on, to where the
+/// surface holds it. Nothing where it does already.
+std::optional<Vec3> ProxyMotion::descent() noexcept {
+  constexpr double negligible = 1e-6;
+  const double near = kept_ + std::max(4 * skin_, negligible * kept_);
+  const Vec3 way = goal_ - position();
+  if (std::ranges::any_of(planes_.all(), [&](const ContactPlane& plane) {
+        return plane.height(position()) <= near && plane.normal.dot(way) < 0;
+      }))
+    return std::nullopt;
+  planes_.clear();
+  has_descended_ = true;
+  has_moved_ = false;
+  return goal_;
+}
+
 std::optional<Vec3> ProxyMotion::next_target() noexcept {
   if (rounds_ == 0 && !planes_.empty() && !is_surely_blocked()) planes_.clear();
-  if (has_slid_ || slides_ == max_slides || rounds_++ == max_rounds ||
-      state_.pieces == ProxyState::max_pieces)
-    return std::nullopt;
+  if (has_descended_ || state_.pieces == ProxyState::max_pieces) return std::nullopt;
+  if (has_slid_ || slides_ == max_slides || rounds_++ == max_rounds) return descent();
   Vec3 target = planes_.nearest_to(goal_, position(), kept_ + skin_, skin_ / 8);
   if (!planes_.empty() && coupling_.has_friction()) {
     target = held_by_friction(position(), target, goal_, coupling_);

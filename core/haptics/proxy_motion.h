@@ -97,6 +97,7 @@ class ProxyMotion {
 
  private:
   bool is_surely_blocked() const noexcept;
+  std::optional<Vec3> descent() noexcept;
   std::optional<Vec3> face_normal(TriangleId id) const noexcept;
   double normal_error(double distance) const noexcept;
   std::optional<Vec3> normal_at(const Contact& contact) const noexcept;
@@ -123,6 +124,7 @@ class ProxyMotion {
   std::optional<int> free_eighths_;  ///< see free_eighths()
   bool has_moved_ = false;           ///< since the last target was chosen
   bool has_slid_ = false;            ///< friction allows one slide a tick
+  bool has_descended_ = false;       ///< its last piece was straight for the goal
   bool rests_ = false;               ///< the last tick did not move it
 };
 

@@ -95,6 +95,9 @@ constexpr auto columns = std::to_array<results::Column<Score>>({
     {"query_p50_ns", bare_percentile<500>, optional, whole_number,
      "The bare `nearest` of the same detector, without a limit of reach, at the same goals between the ticks."},
     {"query_p999_ns", bare_percentile<999>, optional, whole_number, ""},
+    {"stopped_short", counted<&T::stopped_short>, always, whole_number,
+     "Ticks that end off their goal though straight on towards it a thousandth of the radius, or for a point a "
+     "millionth of the diagonal, was free; exact."},
 });
 
 }  // namespace

@@ -9,6 +9,8 @@ namespace {
 
 /// A share of the diagonal: beyond it no rounding of coordinates explains on which side a proxy is.
 constexpr double clear_of_rounding = 1e-9;
+/// So much of the radius, or of the diagonal where there is none, is not left to go by a proxy that is held.
+constexpr double share_of_radius = 1e-3, share_of_diagonal = 1e-6;
 constexpr std::size_t settled = 10;  ///< ticks after which a proxy is to rest with its goal
 
 }  // namespace
@@ -67,10 +69,21 @@ void Judge::tick(std::size_t index, const Step& step) {
   position_ = step.position();
 }
 
+/// While a crossing leaves it open where the proxy is, nothing is said.
+void Judge::judge_end(const Step& step, const Vec3& goal) {
+  const Vec3& at = step.position();
+  if (at == goal || excused_ || crossed_since_) return;
+  const double radius = course_.radius;
+  if (!oracle_->is_within(position_, goal, radius)) ++tally_.missed_goals;
+  const double little = radius > 0 ? share_of_radius * radius : share_of_diagonal * oracle_->diagonal();
+  const Vec3 left = goal - at;
+  const Vec3 on = at + std::min(1.0, little / left.norm()) * left;
+  if (on != at && !oracle_->is_within(at, on, radius)) ++tally_.stopped_short;
+}
+
 void Judge::judge_way(const Step& step, const Vec3& goal) {
   const double radius = course_.radius;
-  const bool may_have_reached = step.position() != goal && !excused_ && !crossed_since_;
-  if (may_have_reached && !oracle_->is_within(position_, goal, radius)) ++tally_.missed_goals;
+  judge_end(step, goal);
   if (step.way.size() == 1) return;  // it rests
   bool crossed = false, violated = false;
   for (std::size_t i = 1; i < step.way.size(); ++i) {

@@ -21,6 +21,8 @@ struct Tally {
   double max_shortfall = 0;        ///< m, by how much at a tick's end
   std::uint64_t missed_goals = 0;  ///< ticks that end off a goal though the straight way to it was free;
                                    ///< none are counted while a crossing leaves it open where the proxy is
+  /// Ticks that end off their goal though straight on towards it more was free than any skin explains.
+  std::uint64_t stopped_short = 0;
   std::uint64_t contact_ticks = 0, stuck_ticks = 0, unanswered = 0;
   std::uint64_t rest_ticks = 0;     ///< ticks whose goal has rested for ten ticks or more
   std::uint64_t jitters = 0;        ///< those at which the proxy moved, by one bit or more
@@ -49,6 +51,7 @@ class Judge {
   void tick(std::size_t index, const Step& step);
 
  private:
+  void judge_end(const Step& step, const Vec3& goal);
   void judge_way(const Step& step, const Vec3& goal);
   void judge_side(const Step& step, bool crossed);
   void judge_rest(std::size_t index, const Step& step);
