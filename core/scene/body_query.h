@@ -49,12 +49,11 @@ class BodyQuery {
     return distance.lower > reach ? std::nullopt : std::optional(distance);
   }
 
-  /// Shows all triangles that can be the nearest of the scene, where that is within the limit.
-  void nearest(NearestImage& nearest, double limit, Work& work) const noexcept {
+  /// Shows all triangles that can be the nearest of the scene, where that is within the limit. It looks
+  /// farther by this part of the mesh's diagonal, so that `clearance` has more to say.
+  void nearest(NearestImage& nearest, double limit, double ahead, Work& work) const noexcept {
     if constexpr (TellsCloseTriangles<D>) {
       CloseTriangles close;
-      // Somewhat farther, so that the body need not be asked again while the point stays about there.
-      constexpr double ahead = 0.1;
       const double farther = limit + ahead * shape_.mesh->bounds().diagonal();
       if (shape_.detector->close_triangles(seen_.center(), seen_.reach_in_frame(farther, error_),
                                            slack(farther), session_, close)) {

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <utility>
+
+#include "core/simd/lanes.h"
 
 namespace touchmark {
 namespace {
@@ -18,33 +21,41 @@ float rounded_up(double x) noexcept { return -rounded_down(-x); }
 
 }  // namespace
 
-/// A region in the boxes' frame, and what rounding it may cost.
+/// A region in the boxes' frame, and what rounding it may cost. In single precision, as the boxes are.
 class BodyTree::Region {
  public:
-  Region(const Aabb& region, const Vec3& origin) noexcept
-      : min_(region.min - origin), max_(region.max - origin) {
-    constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
-    pad_ = 8 * unit_roundoff * (min_.cwiseAbs().sum() + max_.cwiseAbs().sum());
-  }
-  double squared_distance(const Box& box) const noexcept {
-    double sum = 0;
+  Region(const Aabb& region, const Vec3& origin) noexcept {
+    const Vec3 min = region.min - origin, max = region.max - origin;
+    // The differences are off by a double's rounding, and as floats by one of theirs, which is the greater.
+    pad_ = 0x1p-22 * (min.cwiseAbs().sum() + max.cwiseAbs().sum()) + 0x1p-120;
+    // In the fourth lane nothing exceeds anything.
     for (int k = 0; k < 3; ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      // What is no number is no excess.
-      const double above = double{box.min[i]} - max_[k], below = min_[k] - double{box.max[i]};
-      const double excess = std::max(above > 0 ? above : 0, below > 0 ? below : 0);
-      sum += excess * excess;
+      min_[k + 1] = static_cast<float>(min[k]);
+      max_[k] = static_cast<float>(max[k]);
     }
-    return sum;
   }
-  /// Returns what squared_distance of a box within the limit cannot exceed.
-  double squared_limit(double limit) const noexcept {
-    const double padded = (limit + pad_) * (1 + 0x1p-48);
-    return limit >= 0 ? padded * padded + 0x1p-1000 : -1;
+  float squared_distance(const Box& box) const noexcept {
+    static_assert(sizeof(Box) == 6 * sizeof(float));
+    Lanes low, high;  // minimum and one more, one more and maximum
+    std::memcpy(&low, box.min.data(), sizeof low);
+    std::memcpy(&high, &box.min[2], sizeof high);
+    const Lanes above = low - max_, below = min_ - high, zero{};
+    // What is no number is no excess.
+    const Lanes over = above > zero ? above : zero, under = below > zero ? below : zero;
+    const Lanes squares = over * over + under * under;
+    return (squares[0] + squares[1]) + (squares[2] + squares[3]);
+  }
+  /// Returns what squared_distance of a box within the limit cannot exceed: each excess is off by a rounding
+  /// and its square, relatively, by six.
+  float squared_limit(double limit) const noexcept {
+    const double padded = (limit + pad_) * (1 + 0x1p-20);
+    const double squared = padded * padded + 0x1p-120;
+    if (!(limit >= 0)) return -1;
+    return squared < 0x1p127 ? static_cast<float>(squared * (1 + 0x1p-23)) : infinity;
   }
 
  private:
-  Vec3 min_, max_;
+  Lanes min_ = broadcast(-infinity), max_ = broadcast(infinity);
   double pad_;
 };
 
@@ -52,31 +63,32 @@ std::uint64_t BodyTree::walk(const Aabb& region, double limit, void* object,
                              double (*visit)(void*, std::uint32_t) noexcept) const noexcept {
   struct Pending {
     Ref ref;
-    double squared;
+    float squared;
   };
   std::uint64_t boxes = 0;
   if (root_ == none) return boxes;
   const Region seen(region, *origin_);
   std::array<Pending, max_height> stack;
   std::size_t count = 0;
-  double squared_limit = seen.squared_limit(limit);
-  Pending next{root_, 0};
+  float squared_limit = seen.squared_limit(limit);
+  Ref next = root_;
   while (true) {
-    if (next.squared <= squared_limit) {
-      if (!is_leaf(next.ref)) {
-        const Node& node = nodes_[next.ref];
-        boxes += 2;
-        Pending first{node.child[0], seen.squared_distance(box(node.child[0]))};
-        Pending second{node.child[1], seen.squared_distance(box(node.child[1]))};
-        if (second.squared < first.squared) std::swap(first, second);
-        stack[count++] = second;
-        next = first;
-        continue;
-      }
-      squared_limit = seen.squared_limit(visit(object, body_of(next.ref)));
+    while (!is_leaf(next)) {
+      const Node& node = nodes_[next];
+      boxes += 2;
+      const float first = seen.squared_distance(box(node.child[0]));
+      const float second = seen.squared_distance(box(node.child[1]));
+      const std::size_t nearer = second < first ? 1 : 0;
+      const float least = std::min(first, second), greatest = std::max(first, second);
+      if (!(least <= squared_limit)) break;
+      if (greatest <= squared_limit) stack[count++] = {node.child[1 - nearer], greatest};
+      next = node.child[nearer];
     }
-    if (count == 0) return boxes;
-    next = stack[--count];
+    if (is_leaf(next)) squared_limit = seen.squared_limit(visit(object, body_of(next)));
+    do {
+      if (count == 0) return boxes;
+      next = stack[--count].ref;
+    } while (!(stack[count].squared <= squared_limit));
   }
 }
 

@@ -36,6 +36,24 @@ void NearBodies::add(const Entry& entry) noexcept {
   entries_[at] = entry;
 }
 
+bool NearBodies::pays_to_list(const Vec3& point) noexcept {
+  // A list is made where it may serve so many ticks. Where it would not, it is tried again in a while.
+  constexpr double ticks_listed = 4, growth_of_gap = 1.01;
+  // One query that moves less, such as a second one at a place, is not the end of jumps.
+  step_ = was_asked_ ? std::max((point - last_).norm(), 0.5 * step_) : 0;
+  was_asked_ = true;
+  last_ = point;
+  is_jumping_ = !(ticks_listed * step_ <= gap_);
+  if (is_jumping_) gap_ *= growth_of_gap;
+  return !is_jumping_;
+}
+
+void NearBodies::learn_gap(double reach) noexcept {
+  constexpr double least = 0x1p-10;
+  const double gap = others_.lower - reach;
+  gap_ = gap > least * reach ? gap : least * reach;  // also where it is no number
+}
+
 NearBodies::Looked NearBodies::list(const Vec3& point, double reach, const SceneBodies& bodies) noexcept {
   const std::array<Entry, room> before = entries_;
   const std::size_t count_before = count_;

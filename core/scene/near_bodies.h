@@ -52,6 +52,13 @@ class NearBodies {
   /// Returns the slot of a body, or `room` for one that is not listed.
   std::size_t slot_of(const BodyId& id) const noexcept;
 
+  /// Would a list of the nearest bodies serve some more ticks as long as this one? It is asked once a query.
+  bool pays_to_list(const Vec3& point) noexcept;
+  /// Said the last call of pays_to_list no?
+  bool is_jumping() const noexcept { return is_jumping_; }
+  /// Learns by how much the bodies that are not listed are beyond what was asked.
+  void learn_gap(double reach) noexcept;
+
   /// Lists the bodies nearest to the point by their bounds. Returns how many boxes and bodies it looked at.
   struct Looked {
     std::uint64_t boxes = 0, bodies = 0;
@@ -80,6 +87,10 @@ class NearBodies {
   Clearance others_;
   Epoch epoch_;                 ///< the scene's that had all that are listed
   std::uint64_t removals_ = 0;  ///< when it had lost so many bodies
+  Vec3 last_ = Vec3::Zero();    ///< where pays_to_list was asked last
+  double step_ = 0;
+  bool was_asked_ = false, is_jumping_ = false;
+  double gap_ = std::numeric_limits<double>::infinity();  ///< what a list is good for, as was seen
 };
 
 }  // namespace touchmark

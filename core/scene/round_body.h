@@ -31,7 +31,7 @@ class RoundBody {
   bool touches(double radius, Work& work) const noexcept {
     return is_within(candidate_, point_, radius, work.exact_decisions);
   }
-  void nearest(NearestImage& nearest, double limit, Work& work) const noexcept {
+  void nearest(NearestImage& nearest, double limit, double /*ahead*/, Work& work) const noexcept {
     if (candidate_.distance.lower <= limit) nearest.consider(candidate_, work.exact_decisions);
   }
   double clearance() const noexcept { return candidate_.distance.lower; }

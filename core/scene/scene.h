@@ -41,6 +41,8 @@ requires AnswersNearest<D> && AnswersContacts<D>
 class Scene {
  public:
   using Options = typename D::Options;
+  /// Bodies that are not listed share so many memories, by their shapes.
+  static constexpr std::size_t unlisted_room = 8;
   /// What one haptic point remembers between ticks.
   struct Session {
     Work work;
@@ -51,7 +53,7 @@ class Scene {
       std::uint32_t shape = PlacedBody::no_shape;
       typename D::Session session;
     };
-    std::array<Asked, NearBodies::room + 1> asked;  ///< by slot; the last is for bodies that are not listed
+    std::array<Asked, NearBodies::room + unlisted_room> asked;  ///< by slot; the last for what is not listed
   };
 
   Scene() = default;
@@ -163,7 +165,10 @@ class Scene {
     auto& asked = session.asked[slot];
     const std::uint32_t shape = bodies_[body].shape;
     if (asked.shape != shape || asked.epoch != bodies_.epoch()) {
-      asked.session = {};
+      if constexpr (requires { asked.session.forget(); })
+        asked.session.forget();
+      else
+        asked.session = {};
       asked.shape = shape;
       asked.epoch = bodies_.epoch();
     }
@@ -184,6 +189,9 @@ class Scene {
   template <class Ask>
   void ask_listed(const Vec3& from, double length, const double& limit, Session& session,
                   std::span<const BodyId> done, const Ask& ask) const noexcept;
+  template <class LeftOut, class Ask>
+  void ask_unlisted(const Vec3& from, const Vec3& to, double length, const double& limit, Session& session,
+                    const LeftOut& is_left_out, const Ask& ask) const noexcept;
   /// Calls ask(shape, body, detector session) for every body that can be within the limit of the way from
   /// `from` to `to`, which ask may lower. It returns a bound of the body's distance from `from`, or
   /// `unknown`.

@@ -27,6 +27,23 @@ void Scene<D>::ask_listed(const Vec3& from, double length, const double& limit, 
 
 template <Detector D>
 requires AnswersNearest<D> && AnswersContacts<D>
+template <class LeftOut, class Ask>
+void Scene<D>::ask_unlisted(const Vec3& from, const Vec3& to, double length, const double& limit,
+                            Session& session, const LeftOut& is_left_out, const Ask& ask) const noexcept {
+  Aabb region;
+  region.extend(from);
+  region.extend(to);
+  session.work.boxes += bodies_.tree().for_each_within(region, limit, [&](std::uint32_t body) {
+    if (is_left_out(body)) return limit;
+    ++session.work.bodies;
+    if (lower_distance(bodies_, body, from) <= limit + length)
+      this->ask(NearBodies::room + bodies_[body].shape % unlisted_room, body, session, ask);
+    return limit;
+  });
+}
+
+template <Detector D>
+requires AnswersNearest<D> && AnswersContacts<D>
 template <class Ask>
 void Scene<D>::ask_near(const Vec3& from, const Vec3& to, const double& limit, Session& session,
                         const Ask& ask) const noexcept {
@@ -34,12 +51,17 @@ void Scene<D>::ask_near(const Vec3& from, const Vec3& to, const double& limit, S
   const double length = path_length(from, to);
   // 1. Free space: every body is surely farther.
   if (near.all_are_beyond(from, limit + length, bodies_)) return;
-  // 2. The nearest few as they were last listed.
+  // 2. Jumps: all that can be within reach, of which nothing is remembered.
+  if (!near.pays_to_list(from)) {
+    ask_unlisted(from, to, length, limit, session, [](std::uint32_t) { return false; }, ask);
+    return;
+  }
+  // 3. The nearest few as they were last listed.
   std::array<BodyId, NearBodies::room> done;
   std::size_t done_count = 0;
   session.work.bodies += near.look_again(from, limit + length, bodies_);
   ask_listed(from, length, limit, session, {}, ask);
-  // 3. The nearest few of now, where others may have come as near.
+  // 4. The nearest few of now, where others may have come as near.
   if (limit >= 0 && !near.others_are_beyond(from, limit + length, bodies_)) {
     for (const NearBodies::Entry& entry : near.near())
       if (entry.lower <= limit + length) done[done_count++] = entry.id;
@@ -47,21 +69,12 @@ void Scene<D>::ask_near(const Vec3& from, const Vec3& to, const double& limit, S
     session.work.bodies += looked.bodies;
     session.work.boxes += looked.boxes;
     ask_listed(from, length, limit, session, std::span(done).first(done_count), ask);
+    near.learn_gap(std::max(limit, 0.0) + length);
   }
-  // 4. All, where those are not all that are near.
-  if (limit >= 0 && !near.others_are_beyond(from, limit + length, bodies_)) {
-    Aabb region;
-    region.extend(from);
-    region.extend(to);
-    session.work.boxes += bodies_.tree().for_each_within(region, limit, [&](std::uint32_t body) {
-      if (near.slot_of(bodies_.id(body)) == NearBodies::room) {
-        ++session.work.bodies;
-        if (lower_distance(bodies_, body, from) <= limit + length)
-          this->ask(NearBodies::room, body, session, ask);
-      }
-      return limit;
-    });
-  }
+  // 5. All, where those are not all that are near.
+  if (limit >= 0 && !near.others_are_beyond(from, limit + length, bodies_))
+    ask_unlisted(from, to, length, limit, session,
+                 [&](std::uint32_t body) { return near.slot_of(bodies_.id(body)) < NearBodies::room; }, ask);
   near.conclude(from, bodies_);
 }
 
@@ -100,10 +113,12 @@ const noexcept {
   if (!(reach >= 0) || !probe.center.allFinite()) return std::nullopt;
   NearestImage nearest(probe.center);
   double limit = reach;
+  // Somewhat farther, so that a body need not be asked again while the point stays about there.
+  constexpr double ahead = 0.1;
   ask_near(probe.center, probe.center, limit, session,
            [&](const Shape<D>& shape, std::uint32_t body, typename D::Session& own) {
              return with_query(shape, body, probe.center, own, [&](const auto& query) {
-               query.nearest(nearest, limit, session.work);
+               query.nearest(nearest, limit, session.near.is_jumping() ? 0 : ahead, session.work);
                limit = std::min(limit, nearest.upper());
                return query.clearance();
              });

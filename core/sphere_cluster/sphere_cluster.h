@@ -44,6 +44,12 @@ class SphereCluster {
     Work work;
     LastQuestion question;
     SphereTree::Memory memory;
+
+    /// Forgets all but the counters.
+    void forget() noexcept {
+      question = {};
+      memory.start_anew();
+    }
   };
 
   /// What is remembered of one of many points, in two cache lines.

@@ -31,7 +31,7 @@ bool SphereTree::is_slow(const Vec3& move) const noexcept {
 }
 
 void SphereTree::start_anew(Memory& memory) const noexcept {
-  memory = {};
+  memory.start_anew();
   memory.epoch = epoch_;
 }
 

@@ -53,6 +53,16 @@ class SphereTree {
     /// The mesh's box answered last, and so is asked first.
     bool beyond_box = false;
 
+    /// Becomes as a new one is, and that in a few stores.
+    void start_anew() noexcept {
+      static_cast<LastDistance&>(*this) = {};
+      move = free_center = Vec3::Zero();
+      free_radius = -1;
+      cache.start_anew();
+      neighborhood.start_anew();
+      touched_slot = std::numeric_limits<std::uint32_t>::max();
+      beyond_box = false;
+    }
     /// Is it known that a ball there does not touch?
     bool knows_free(const Vec3& at, double radius) const noexcept {
       return radius <= free_radius && at == free_center;

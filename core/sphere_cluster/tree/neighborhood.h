@@ -13,10 +13,12 @@ namespace touchmark::spheres {
 
 /// Forgetting it changes the cost of the next answer, never the answer. Bounds are about `center`.
 struct Neighborhood : NearTrianglesUpTo<256> {
+  static constexpr float first_margin = 0.2F;
+
   Vec3 center = Vec3::Zero();  ///< in the mesh's frame
   double covered = -1;         ///< no triangle that is not listed is nearer to the centre; below 0: no list
   double contacts_reach = -1;  ///< reach of the contacts asked for last; below 0: none were
-  float margin = 0.2F;         ///< how far beyond what is asked to list next, in mean radii of the leaves
+  float margin = first_margin;  ///< how far beyond what is asked to list next, in mean radii of the leaves
   std::uint16_t cooldown = 0,
                 last_cooldown = 0;  ///< queries until the next list, after there were too many triangles
 
@@ -29,6 +31,14 @@ struct Neighborhood : NearTrianglesUpTo<256> {
   std::uint32_t measured_count = 0;
   std::array<Measured, 16> measured;
 
+  /// Becomes as a new one is, for which the arrays need not be cleared.
+  void start_anew() noexcept {
+    center = measured_at = Vec3::Zero();
+    covered = contacts_reach = -1;
+    count = measured_count = 0;
+    margin = first_margin;
+    cooldown = last_cooldown = 0;
+  }
   /// Fills up the last eight with what is infinitely far.
   void finish() noexcept {
     for (std::uint32_t i = count; i % tree_width != 0; ++i) {
