@@ -52,6 +52,10 @@ class NearBodies {
   /// Returns the slot of a body, or `room` for one that is not listed.
   std::size_t slot_of(const BodyId& id) const noexcept;
 
+  /// All bodies are at least so far from there, as was found otherwise.
+  void know_clear(const Vec3& point, double lower, const SceneBodies& bodies) noexcept {
+    all_ = Clearance::at(point, lower, bodies);
+  }
   /// Would a list of the nearest bodies serve some more ticks as long as this one? It is asked once a query.
   bool pays_to_list(const Vec3& point) noexcept;
   /// Said the last call of pays_to_list no?

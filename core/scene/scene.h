@@ -15,6 +15,7 @@
 #include "core/scene/body_query.h"
 #include "core/scene/body_sweep.h"
 #include "core/scene/near_bodies.h"
+#include "core/scene/near_surface.h"
 #include "core/scene/pose.h"
 #include "core/scene/round_body.h"
 #include "core/scene/scene_bodies.h"
@@ -47,6 +48,7 @@ class Scene {
   struct Session {
     Work work;
     NearBodies near;
+    NearSurface surface;
     /// What is remembered of one body: its shape, and the session that asks it.
     struct Asked {
       Epoch epoch;
@@ -198,6 +200,13 @@ class Scene {
   template <class Ask>
   void ask_near(const Vec3& from, const Vec3& to, const double& limit, Session& session,
                 const Ask& ask) const noexcept;
+
+  /// Lists the triangles of bodies around the point for the queries to come, where that may pay.
+  bool list_surface(const Vec3& point, double reach, Session& session) const noexcept;
+  /// Returns what `ask` does, which asks the list, that is made anew where it cannot tell.
+  template <class Ask>
+  NearSurface::Found ask_surface(const Vec3& point, double reach, Session& session,
+                                 const Ask& ask) const noexcept;
 
   /// Returns what ask(query) does, the query being one body's about one point.
   template <class Ask>

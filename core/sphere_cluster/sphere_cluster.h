@@ -89,6 +89,12 @@ class SphereCluster {
     if (tree_.is_clear(center, reach, session.memory)) return true;
     return look_for_close_triangles(center, reach, slack, session, into);
   }
+  /// See the concept ListsTriangles: with a tree alone.
+  bool list_triangles(const Vec3& center, double radius, Session& session,
+                      ListedTriangles& into) const noexcept {
+    return options_.precise && options_.lookup == Lookup::tree &&
+           tree_.list_triangles(center, radius, into, session.work);
+  }
   /// See the concept TellsClearance.
   double clearance(const Vec3& center, const Session& session) const noexcept {
     return tree_.clearance(center, session.memory);

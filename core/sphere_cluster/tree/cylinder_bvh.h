@@ -29,6 +29,7 @@
 namespace touchmark {
 
 class ContactsWithin;
+struct ListedTriangles;
 class FirstTouch;
 
 namespace spheres {
@@ -134,6 +135,8 @@ class SphereTree {
   /// See the concept TellsCloseTriangles.
   bool close_triangles(const Vec3& center, double reach, double slack, Memory& memory, CloseTriangles& into,
                        Work& work) const noexcept;
+  /// See the concept ListsTriangles.
+  bool list_triangles(const Vec3& center, double radius, ListedTriangles& into, Work& work) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, Memory& memory, Work& work) const noexcept;
   std::size_t contacts(const Vec3& center, double reach, Memory& memory, std::span<Contact> into,
                        Work& work) const noexcept;

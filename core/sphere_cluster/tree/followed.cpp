@@ -12,7 +12,7 @@
 #include "core/simd/lanes.h"
 #include "core/simd/prefetch.h"
 #include "core/sphere_cluster/tree/cylinder_bvh.h"
-#include "core/sphere_cluster/tree/listed_plane.h"
+#include "core/search/listed_plane.h"
 #include "core/sphere_cluster/tree/search.h"  // IWYU pragma: keep
 #include "core/sphere_cluster/tree/visitors.h"
 
@@ -75,7 +75,7 @@ unsigned listed_within(const FollowedPoint& list, const MoveInFrame& move, float
 void set_plane(FollowedPoint& list, std::uint32_t i, const PreparedTriangle& triangle, const Vec3& point,
                const Offset& found, const MoveInFrame& move, double error,
                const FilterFrame& frame) noexcept {
-  if (!spheres::set_plane_across(list, i, triangle, point, found, error, frame.scale())) return;
+  if (!set_plane_across(list, i, triangle, point, found, error, frame.scale())) return;
   list.bound[i] -= list.x[i] * move.x + list.y[i] * move.y + list.z[i] * move.z;
 }
 

@@ -13,13 +13,13 @@
 #include "core/search/first_touch.h"
 #include "core/simd/prefetch.h"
 #include "core/sphere_cluster/tree/cylinder_bvh.h"
-#include "core/sphere_cluster/tree/listed_plane.h"
+#include "core/search/listed_plane.h"
 #include "core/sphere_cluster/tree/search.h"  // IWYU pragma: keep
 
 namespace touchmark {
 namespace {
 
-using spheres::MoveFromCenter, spheres::Neighborhood, spheres::PlacesInList, spheres::set_plane_across;
+using spheres::MoveFromCenter, spheres::Neighborhood, spheres::PlacesInList;
 
 /// Tells what was found of the triangle it was shown.
 struct MeasuringVisitor {

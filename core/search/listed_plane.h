@@ -9,7 +9,7 @@
 #include "core/geometry/point_triangle.h"
 #include "core/probe.h"
 
-namespace touchmark::spheres {
+namespace touchmark {
 
 /// Puts triangle i of a list behind the plane across the offset that was found from it, whose error is
 /// bounded. Its bound is then about `point`; `scale` is the frame's. Returns false, and changes nothing,
@@ -30,4 +30,4 @@ bool set_plane_across(List& list, std::uint32_t i, const PreparedTriangle& trian
   return true;
 }
 
-}  // namespace touchmark::spheres
+}  // namespace touchmark
