@@ -91,7 +91,7 @@ class NearBodies {
   Clearance others_;
   Epoch epoch_;                 ///< the scene's that had all that are listed
   std::uint64_t removals_ = 0;  ///< when it had lost so many bodies
-  Vec3 last_ = Vec3::Zero();    ///< where pays_to_list was asked last
+  Vec3 last_ = Vec3::Zero();    ///< the point that pays_to_list was asked about last
   double step_ = 0;
   bool was_asked_ = false, is_jumping_ = false;
   double gap_ = std::numeric_limits<double>::infinity();  ///< what a list is good for, as was seen

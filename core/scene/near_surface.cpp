@@ -58,8 +58,7 @@ NearSurface::Found NearSurface::nearest(const Vec3& point, double reach, const S
   const double error = list_.error();
   if (!(best <= reach + error)) return nothing(move);
   remember(point, best, bodies);
-  const std::optional<BodyContact> found =
-      contact_of(closest(best + 2 * error), point, reach, bodies, work);
+  const std::optional<BodyContact> found = contact_of(closest(best + 2 * error), point, reach, bodies, work);
   if (!found) return nothing(move);
   contact = *found;
   return Found::contact;
@@ -84,9 +83,8 @@ NearSurface::Found NearSurface::touches(const Vec3& point, double radius, const 
   const std::uint32_t first = last_;
   bool touching = first < list_.count() && is_sure(first);
   if (!touching) {
-    for_each_place(list_.within(move, radius), [&](std::uint32_t place) {
-      touching = touching || (place != first && is_sure(place));
-    });
+    for_each_place(list_.within(move, radius),
+                   [&](std::uint32_t place) { touching = touching || (place != first && is_sure(place)); });
   }
   const std::span<Measured> close = touching ? std::span<Measured>() : closest(radius + error);
   if (touching || touches_exactly(close, point, radius, bodies, work)) {
@@ -107,8 +105,9 @@ ImageCandidate NearSurface::candidate(const Measured& measured, const SeenCorner
   result.body = body.index;
   result.triangle = triangle;
   result.id = body.mesh->id(triangle);
-  result.posed = {{body.mesh->corner(triangle, 0), body.mesh->corner(triangle, 1), body.mesh->corner(triangle, 2)},
-                  &pose};
+  result.posed = {
+      {body.mesh->corner(triangle, 0), body.mesh->corner(triangle, 1), body.mesh->corner(triangle, 2)},
+      &pose};
   result.seen = corners(result.posed.corner);
   const double error = list_.error();
   result.distance = {measured.distance - error, measured.distance + error};
@@ -120,13 +119,21 @@ bool NearSurface::touches_exactly(std::span<const Measured> close, const Vec3& p
   return std::ranges::any_of(close, [&](const Measured& measured) {
     const PlacedBody& placed = bodies[list_.body_of(measured.place).index];
     const SeenBody seen(placed.pose, double{placed.rigid}, point);
-    return is_within(candidate(measured, SeenCorners(seen), placed.pose), point, radius, work.exact_decisions);
+    return is_within(candidate(measured, SeenCorners(seen), placed.pose), point, radius,
+                     work.exact_decisions);
   });
 }
 
 std::optional<BodyContact> NearSurface::contact_of(std::span<const Measured> close, const Vec3& point,
                                                    double reach, const SceneBodies& bodies,
                                                    Work& work) const noexcept {
+  if (close.size() == 1) {
+    const PlacedBody& placed = bodies[list_.body_of(close.front().place).index];
+    const SeenBody seen(placed.pose, double{placed.rigid}, point);
+    const ImageCandidate only = candidate(close.front(), SeenCorners(seen), placed.pose);
+    if (!is_within(only, point, reach, work.exact_decisions)) return std::nullopt;
+    return BodyContact{bodies.id(only.body), contact_on_image(only, point, work.exact_decisions)};
+  }
   NearestImage nearest(point);
   std::optional<SeenBody> seen;
   std::optional<SeenCorners> corners;
@@ -177,7 +184,7 @@ std::optional<double> NearSurface::start(const Vec3& point, double reach,
 }
 
 void NearSurface::finish(const SceneBodies& bodies) noexcept {
-  constexpr std::uint32_t few = 12, many = 48;
+  constexpr std::uint32_t few = 16, many = 64;
   constexpr double least = 1, most = 64;
   if (list_.count() > many || !is_complete())
     steps_ahead_ = std::max(0.5 * steps_ahead_, least);

@@ -153,11 +153,12 @@ class NearSurface {
   SceneState listed_;      ///< when the list was made
   SceneState remembered_;  ///< when `upper_` was found
   Vec3 center_ = Vec3::Zero(), point_ = Vec3::Zero();
-  double upper_ = 0;      ///< distance of the nearest from `point_`, where the scene still is as remembered
+  double upper_ = 0;  ///< distance of the nearest from `point_`, where the scene still is as remembered
   double clearance_ = 0, needed_ = 0;
   double steps_ahead_ = 16;  ///< how far beyond what is asked to list
   std::uint32_t last_ = 0, served_ = 0;
-  std::uint32_t cooldown_ = 0, last_cooldown_ = 0;  ///< queries until the next list, after one that did not serve
+  std::uint32_t cooldown_ = 0,
+                last_cooldown_ = 0;  ///< queries until the next list, after one that did not serve
   std::uint32_t measured_count_ = 0;
   std::array<Measured, SurfaceList::capacity> measured_;
 };

@@ -53,7 +53,8 @@ void Scene<D>::ask_near(const Vec3& from, const Vec3& to, const double& limit, S
   if (near.all_are_beyond(from, limit + length, bodies_)) return;
   // 2. Jumps: all that can be within reach, of which nothing is remembered.
   if (!near.pays_to_list(from)) {
-    ask_unlisted(from, to, length, limit, session, [](std::uint32_t) { return false; }, ask);
+    ask_unlisted(
+        from, to, length, limit, session, [](std::uint32_t) { return false; }, ask);
     return;
   }
   // 3. The nearest few as they were last listed.
@@ -73,8 +74,9 @@ void Scene<D>::ask_near(const Vec3& from, const Vec3& to, const double& limit, S
   }
   // 5. All, where those are not all that are near.
   if (limit >= 0 && !near.others_are_beyond(from, limit + length, bodies_))
-    ask_unlisted(from, to, length, limit, session,
-                 [&](std::uint32_t body) { return near.slot_of(bodies_.id(body)) < NearBodies::room; }, ask);
+    ask_unlisted(
+        from, to, length, limit, session,
+        [&](std::uint32_t body) { return near.slot_of(bodies_.id(body)) < NearBodies::room; }, ask);
   near.conclude(from, bodies_);
 }
 

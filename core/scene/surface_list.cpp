@@ -84,8 +84,8 @@ SurfaceList::Bits SurfaceList::within(const Move& move, double limit) const noex
   const Lanes x = broadcast(move.x), y = broadcast(move.y), z = broadcast(move.z);
   Bits near{};
   for (std::uint32_t i = 0; i < count_; i += 4) {
-    const Lanes bound = load(&plane_.bound[i]) + x * load(&plane_.x[i]) + y * load(&plane_.y[i]) +
-                        z * load(&plane_.z[i]);
+    const Lanes bound =
+        load(&plane_.bound[i]) + x * load(&plane_.x[i]) + y * load(&plane_.y[i]) + z * load(&plane_.z[i]);
     near[i / 64] |= std::uint64_t{at_most(bound, farthest)} << (i % 64);
   }
   return near;
@@ -103,7 +103,8 @@ double SurfaceList::clearance(const Move& move) const noexcept {
   for (std::uint32_t i = 0; i < count_; i += 4)
     least = simd::min(least, load(&plane_.bound[i]) + x * load(&plane_.x[i]) + y * load(&plane_.y[i]) +
                                  z * load(&plane_.z[i]));
-  const double listed = double{simd::reduce_min(least)} * (1 - 0x1p-18) - 0x1p-18 * move.length - plane_error_;
+  const double listed =
+      double{simd::reduce_min(least)} * (1 - 0x1p-18) - 0x1p-18 * move.length - plane_error_;
   return std::min(listed, covered_ - move.length) - 4 * error_;
 }
 
@@ -121,7 +122,8 @@ double SurfaceList::measure(std::uint32_t place, double limit, InFrames& point) 
   const PreparedTriangle& triangle = *triangle_[place];
   const Offset found = offset_from(triangle, point.of(body_[place], body));
   const double distance = std::sqrt(found.squared);
-  if (distance > limit + 4 * error_ && set_plane_across(plane_, place, triangle, body.center, found, error_, 1))
+  if (distance > limit + 4 * error_ &&
+      set_plane_across(plane_, place, triangle, body.center, found, error_, 1))
     turn(place, point.pose(body));
   return distance;
 }

@@ -11,8 +11,8 @@
 
 namespace touchmark {
 
-/// In no order, none twice. Triangle i is at least bound[i] + (x[i], y[i], z[i]) . d from where is d away from
-/// the centre, but for the error and 2^-20 of what that is and of d; (x, y, z) is a unit vector, or 0.
+/// In no order, none twice. Triangle i is at least bound[i] + (x[i], y[i], z[i]) . d from where is d away
+/// from the centre, but for the error and 2^-20 of what that is and of d; (x, y, z) is a unit vector, or 0.
 struct ListedTriangles {
   static constexpr std::uint32_t capacity = 128;
 
@@ -23,8 +23,8 @@ struct ListedTriangles {
   double error = 0;    ///< mesh units
 };
 
-/// `list_triangles` lists all triangles within a ball, and perhaps some more. Returns false where there are too
-/// many, or where it cannot say so.
+/// `list_triangles` lists all triangles within a ball, and perhaps some more. Returns false where there are
+/// too many, or where it cannot say so.
 template <class D>
 concept ListsTriangles = requires(const D& detector, const Vec3& center, double radius,
                                   typename D::Session& session, ListedTriangles& into) {

@@ -9,10 +9,10 @@
 #include <limits>
 
 #include "core/search/certified_nearest.h"
+#include "core/search/listed_plane.h"
 #include "core/simd/lanes.h"
 #include "core/simd/prefetch.h"
 #include "core/sphere_cluster/tree/cylinder_bvh.h"
-#include "core/search/listed_plane.h"
 #include "core/sphere_cluster/tree/search.h"  // IWYU pragma: keep
 #include "core/sphere_cluster/tree/visitors.h"
 

@@ -20,10 +20,11 @@ bool SphereTree::list_triangles(const Vec3& center, double radius, ListedTriangl
     into.covered = static_cast<double>(distances_.tight_lower_bound(point)) * frame_.unit();
   if (into.covered > limit) return true;
   spheres::NearTrianglesUpTo<ListedTriangles::capacity> found;
-  const bool is_listed =
-      simd_ == Simd::portable
-          ? spheres::portable::list_near(parts_, point, frame_.limit(limit * limit), nearest_limit(), found, work)
-          : spheres::avx2::list_near(parts_, point, frame_.limit(limit * limit), nearest_limit(), found, work);
+  const bool is_listed = simd_ == Simd::portable
+                             ? spheres::portable::list_near(parts_, point, frame_.limit(limit * limit),
+                                                            nearest_limit(), found, work)
+                             : spheres::avx2::list_near(parts_, point, frame_.limit(limit * limit),
+                                                        nearest_limit(), found, work);
   if (!is_listed) return false;
   into.count = found.count;
   for (std::uint32_t i = 0; i < found.count; ++i) {
@@ -33,7 +34,8 @@ bool SphereTree::list_triangles(const Vec3& center, double radius, ListedTriangl
     into.y[i] = found.y[i];
     into.z[i] = found.z[i];
   }
-  into.covered = clearance_from(found.unlisted, std::numeric_limits<double>::infinity(), clearance_pad(point));
+  into.covered =
+      clearance_from(found.unlisted, std::numeric_limits<double>::infinity(), clearance_pad(point));
   return true;
 }
 

@@ -11,9 +11,9 @@
 #include "core/geometry/sphere_triangle_sweep.h"
 #include "core/search/contacts_within.h"
 #include "core/search/first_touch.h"
+#include "core/search/listed_plane.h"
 #include "core/simd/prefetch.h"
 #include "core/sphere_cluster/tree/cylinder_bvh.h"
-#include "core/search/listed_plane.h"
 #include "core/sphere_cluster/tree/search.h"  // IWYU pragma: keep
 
 namespace touchmark {

@@ -15,9 +15,9 @@ namespace touchmark::spheres {
 struct Neighborhood : NearTrianglesUpTo<256> {
   static constexpr float first_margin = 0.2F;
 
-  Vec3 center = Vec3::Zero();  ///< in the mesh's frame
-  double covered = -1;         ///< no triangle that is not listed is nearer to the centre; below 0: no list
-  double contacts_reach = -1;  ///< reach of the contacts asked for last; below 0: none were
+  Vec3 center = Vec3::Zero();   ///< in the mesh's frame
+  double covered = -1;          ///< no triangle that is not listed is nearer to the centre; below 0: no list
+  double contacts_reach = -1;   ///< reach of the contacts asked for last; below 0: none were
   float margin = first_margin;  ///< how far beyond what is asked to list next, in mean radii of the leaves
   std::uint16_t cooldown = 0,
                 last_cooldown = 0;  ///< queries until the next list, after there were too many triangles

@@ -62,11 +62,11 @@ TriangleMesh ball(int n, double bumps, double scale) {
 
 struct Setting {
   const char* name;
-  double scale = 1;           ///< of everything
+  double scale = 1;            ///< of everything
   Vec3 offset = Vec3::Zero();  ///< of everything
-  double crowd = 0.5;         ///< how far bodies are apart
-  double rigid_off = 0;       ///< what rotations are off
-  bool twins = false;         ///< every body is there twice
+  double crowd = 0.5;          ///< how far bodies are apart
+  double rigid_off = 0;        ///< what rotations are off
+  bool twins = false;          ///< every body is there twice
 };
 
 class NearSurfaces : public testing::TestWithParam<Setting> {
@@ -85,7 +85,8 @@ class NearSurfaces : public testing::TestWithParam<Setting> {
     Random random(7);
     for (int i = 0; i < 27; ++i) {
       const Vec3 cell(i % 3, i / 3 % 3, i / 9);
-      Pose pose = random.pose(GetParam().scale * (GetParam().crowd * cell + random.vector(0.1)) + GetParam().offset);
+      Pose pose =
+          random.pose(GetParam().scale * (GetParam().crowd * cell + random.vector(0.1)) + GetParam().offset);
       pose.rotation(0, 1) += GetParam().rigid_off;
       const ShapeId shape{static_cast<std::uint32_t>(random.below(GetParam().twins ? 2 : 4))};
       for (int copies = GetParam().twins ? 2 : 1; copies > 0; --copies) {
@@ -181,8 +182,7 @@ TEST(NearSurface, ASlowWayLooksAtFewBodies) {
   Scene<SphereCluster> scene;
   const ShapeId shape = scene.add_shape(Shape<SphereCluster>::build(ball(12, 0.05, 1)));
   Random random(3);
-  for (int i = 0; i < 64; ++i)
-    scene.add(shape, random.pose(0.5 * Vec3(i % 4, i / 4 % 4, i / 16)));
+  for (int i = 0; i < 64; ++i) scene.add(shape, random.pose(0.5 * Vec3(i % 4, i / 4 % 4, i / 16)));
   Scene<SphereCluster>::Session session;
   Vec3 point(0.8, 0.7, 0.75);
   const Vec3 step(1e-4, 2e-4, -1e-4);
