@@ -224,4 +224,5 @@ class Scene {
 
 }  // namespace touchmark
 
-#include "core/scene/scene_queries.h"  // IWYU pragma: export
+#include "core/scene/scene_queries.h"    // IWYU pragma: export
+#include "core/scene/surface_queries.h"  // IWYU pragma: export

@@ -1,0 +1,63 @@
+/// How a scene's queries use the list of triangles around a point. Included by scene.h.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/scene/scene.h"
+#include "core/scene/seen_body.h"
+#include "core/search/listed_triangles.h"
+
+namespace touchmark {
+
+template <Detector D>
+requires AnswersNearest<D> && AnswersContacts<D>
+bool Scene<D>::list_surface(const Vec3& point, double reach, Session& session) const noexcept {
+  if (session.near.is_jumping()) return false;
+  const std::optional<double> radius = session.surface.start(point, reach, bodies_);
+  if (!radius) return false;
+  const Vec3& center = session.surface.center();
+  SurfaceList& list = session.surface.list();
+  ListedTriangles listed;
+  // What is not built yet, round or too much leaves the list less complete.
+  const auto add = [&](std::uint32_t body, double lower) {
+    const PlacedBody& placed = bodies_[body];
+    const Shape<D>* shape = shapes_.built(placed.shape);
+    if (shape == nullptr || shape->is_round()) return list.leave_out(lower);
+    const SeenBody seen(placed.pose, double{placed.rigid}, center);
+    typename D::Session& own = session_of(NearBodies::room + placed.shape % unlisted_room, body, session);
+    if (!shape->detector->list_triangles(seen.center(), seen.reach_in_frame(*radius, 0), own, listed) ||
+        !list.add(body, seen, *shape->mesh, listed))
+      list.leave_out(lower);
+    session.work += own.work;
+    own.work = {};
+  };
+  session.work.boxes += bodies_.tree().for_each_within({center, center}, *radius, [&](std::uint32_t body) {
+    ++session.work.bodies;
+    const double lower = lower_distance(bodies_, body, center);
+    if (lower <= *radius) add(body, lower);
+    if (session.surface.is_complete()) return *radius;
+    list.leave_out(0);  // the others, which are not looked at any more
+    return -1.0;
+  });
+  session.surface.finish(bodies_);
+  return true;
+}
+
+template <Detector D>
+requires AnswersNearest<D> && AnswersContacts<D>
+template <class Ask>
+NearSurface::Found Scene<D>::ask_surface(const Vec3& point, double reach, Session& session,
+                                         const Ask& ask) const noexcept {
+  using Found = NearSurface::Found;
+  if constexpr (ListsTriangles<D>) {
+    if (session.near.all_are_beyond(point, reach, bodies_)) return Found::nothing;
+    Found answer = ask(session.surface);
+    if (answer == Found::unknown && list_surface(point, reach, session)) answer = ask(session.surface);
+    if (answer == Found::nothing) session.near.know_clear(point, session.surface.clearance(), bodies_);
+    return answer;
+  }
+  return Found::unknown;
+}
+
+}  // namespace touchmark
