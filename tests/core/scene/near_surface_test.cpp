@@ -1,7 +1,5 @@
 // A scene that stands, asked along ways: what a session lists around its point must change no answer. The
 // answers are those of the same bodies over brute force, which lists nothing, bit for bit.
-#include "core/scene/near_surface.h"
-
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -130,13 +128,14 @@ TEST_P(NearSurfaces, ChangeNoAnswerAlongWaysAndAtChanges) {
     const double reach = way % 4 == 3 ? infinity : scale * random.between(0, 0.2);
     for (int tick = 0; tick < 60 && !HasFailure(); ++tick, point += step) {
       SCOPED_TRACE(testing::Message() << "way " << way << ", tick " << tick);
-      // One far off, one near, one that goes and comes again.
-      if (tick % 20 == 19) {
-        const std::size_t which = random.below(ids.size());
-        Pose pose = listing.pose(ids[which]);
+      // The one that is nearest, or any.
+      if (tick % 8 == 7) {
+        const auto near = plain.nearest_body({point, 0}, infinity, plain_session);
+        const BodyId which = tick % 16 == 7 ? near->body : ids[random.below(ids.size())];
+        Pose pose = listing.pose(which);
         pose.translation += random.vector(0.02) * scale;
-        listing.move(ids[which], pose);
-        plain.move(ids[which], pose);
+        listing.move(which, pose);
+        plain.move(which, pose);
       }
       expect_alike(point, reach);
     }
