@@ -69,8 +69,7 @@ proxy::ProxyRequest request_of(const ProxyOptions& options, const contestants::R
   return request;
 }
 
-/// The user's own mesh and motion. The proxy starts at the first goal that is free; where none is, at the
-/// first.
+/// The user's own mesh and motion.
 proxy::Course course_of(const ProxyOptions& options, std::uint64_t seed) {
   TriangleMesh mesh = scenes::load_mesh(options.mesh, false);
   const std::optional<support::Length> length = support::parse_length(options.radius);
@@ -83,7 +82,7 @@ proxy::Course course_of(const ProxyOptions& options, std::uint64_t seed) {
   motion.radius = length->in_mesh_units(mesh);
   trajectories::Trajectory trajectory = trajectories::make_trajectory(options.trajectory, mesh, motion);
   const std::vector<Vec3>& goals = trajectory.positions;
-  const Vec3 start = proxy::first_free(proxy::WayOracle(mesh), goals, motion.radius).value_or(goals.front());
+  const Vec3 start = proxy::free_start(proxy::WayOracle(mesh), goals, motion.radius);
   return {trajectory.name, std::move(mesh), motion.radius, 0, start, std::move(trajectory.positions)};
 }
 
@@ -206,7 +205,10 @@ void add_proxy(CLI::App& program, ProgramContext& context) {
   option("--detector", options->detector, "which of ours answers methods that claim never to cross", "D")
       ->capture_default_str();
   option("--mesh", options->mesh, "instead of families: a scene or a file, with --trajectory", "MESH");
-  option("--trajectory", options->trajectory, "a name (touchmark list) or a motion file: the goals", "T");
+  option("--trajectory", options->trajectory,
+         "a name (touchmark list) or a motion file: the goals; the proxy starts at the first that is free, or "
+         "where none is free outward from the first",
+         "T");
   option("--radius", options->radius, "the ball's, with --mesh; mesh units or % of the box diagonal",
          "LENGTH")
       ->capture_default_str();

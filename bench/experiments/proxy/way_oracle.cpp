@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "bench/oracle/exact_distance.h"
 #include "bench/oracle/interval_distance.h"
 
@@ -40,10 +42,33 @@ double WayOracle::shortfall(const Vec3& at, double radius) const {
   return (radius - truth.high) - truth.low;
 }
 
-std::optional<Vec3> first_free(const WayOracle& oracle, std::span<const Vec3> positions, double radius) {
-  const auto free = std::find_if(positions.begin(), positions.end(),
-                                 [&](const Vec3& at) { return !oracle.is_within(at, at, radius); });
-  return free == positions.end() ? std::nullopt : std::optional(*free);
+WayOracle::WayOut WayOracle::way_out(const Vec3& at) const {
+  const oracle::GroundTruth truth = oracle_.solve(at);
+  Vec3 direction = truth.direction;
+  if (direction.isZero()) {
+    const Vec3 corner = mesh_.corner(truth.triangle, 0);
+    direction = (mesh_.corner(truth.triangle, 1) - corner)
+                    .cross(mesh_.corner(truth.triangle, 2) - corner)
+                    .stableNormalized();
+    // A triangle without an area: any way out of the box will do.
+    if (direction.isZero()) direction = Vec3::UnitZ();
+  } else if (side(at) == Side::inside) {
+    direction = -direction;
+  }
+  return {truth.point, direction};
+}
+
+Vec3 free_start(const WayOracle& oracle, std::span<const Vec3> goals, double radius) {
+  const auto is_free = [&](const Vec3& at) { return !oracle.is_within(at, at, radius); };
+  const auto first = std::find_if(goals.begin(), goals.end(), is_free);
+  if (first != goals.end()) return *first;
+  constexpr double least_share = 0x1p-20;
+  const WayOracle::WayOut out = oracle.way_out(goals.front());
+  // Nothing of the mesh is near beyond its box, so that this ends.
+  for (double beyond = least_share * (oracle.diagonal() + radius);; beyond *= 2) {
+    const Vec3 start = out.from + (radius + beyond) * out.direction;
+    if (is_free(start)) return start;
+  }
 }
 
 }  // namespace touchmark::bench::experiments::proxy

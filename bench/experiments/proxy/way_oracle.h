@@ -35,6 +35,13 @@ class WayOracle {
   /// The side of a closed mesh; nothing where it is not closed.
   std::optional<Side> side(const Vec3& at) const { return oracle_.side(at); }
 
+  /// The nearest place of the mesh, and a unit vector from there away from the mesh, over the position where
+  /// that is outside or not known to be inside.
+  struct WayOut {
+    Vec3 from, direction;
+  };
+  WayOut way_out(const Vec3& at) const;
+
   double diagonal() const { return mesh_.diagonal(); }
 
  private:
@@ -43,8 +50,10 @@ class WayOracle {
   oracle::TriangleTree tree_;
 };
 
-/// Returns the first of these positions that is free, farther than the radius from the mesh; nothing where
-/// none is.
-std::optional<Vec3> first_free(const WayOracle& oracle, std::span<const Vec3> positions, double radius);
+/// Returns where a proxy that is to follow these goals, at least one, is free from the start: farther than the
+/// radius from the mesh. That is the first goal that is free. Where none is, it is a place outward from the
+/// first goal, as far as that takes: on the line from the nearest point of the mesh through the goal, or from
+/// inside a closed mesh the other way.
+Vec3 free_start(const WayOracle& oracle, std::span<const Vec3> goals, double radius);
 
 }  // namespace touchmark::bench::experiments::proxy

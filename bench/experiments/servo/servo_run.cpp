@@ -15,15 +15,10 @@ namespace {
 constexpr std::size_t min_stretch = 16;
 constexpr double warm_up_s = 0.016;
 
-/// The first position of the trajectory that is free. Where none is, beyond the mesh's box: a proxy that
-/// begins too near to the surface stays there for as long as its goals do.
-Vec3 free_start(const workload::Workload& workload, const proxy::WayOracle& oracle, double radius) {
+std::vector<Vec3> goals_of(const workload::Workload& workload) {
   std::vector<Vec3> goals;
   for (const workload::Step& step : workload.traces.front()) goals.push_back(step.probe.center);
-  if (const std::optional<Vec3> free = proxy::first_free(oracle, goals, radius)) return *free;
-  const Vec3 out = goals.front() - workload.mesh.bounds().center();
-  const Vec3 direction = out.norm() > 0 ? Vec3(out.normalized()) : Vec3::UnitZ();
-  return goals.front() + (workload.mesh.diagonal() + 2 * radius) * direction;
+  return goals;
 }
 
 }  // namespace
@@ -93,7 +88,7 @@ void ServoRun::verify(std::size_t contestant, ground_truth::TraceTruths& truths)
 
 void ServoRun::begin_proxies(const std::function<void(const std::string&)>& progress) {
   way_oracle_.emplace(workload_.mesh);
-  start_ = free_start(workload_, *way_oracle_, settings_.proxy->radius);
+  start_ = proxy::free_start(*way_oracle_, goals_of(workload_), settings_.proxy->radius);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     progress(rows_[i].contestant());
     attempt(i, [&] {

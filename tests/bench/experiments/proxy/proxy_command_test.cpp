@@ -1,5 +1,8 @@
 /// `touchmark proxy` as a user runs it.
+#include <array>
+#include <cstddef>
 #include <cstdlib>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -160,18 +163,35 @@ TEST(ProxyCommand, ShadingTurnsTheForceAndLeavesTheWay) {
   EXPECT_EQ(turned, 3U);
 }
 
-TEST(ProxyCommand, CertifiedLeavesASurfaceThatItWasPutTooNearTo) {
+TEST(ProxyCommand, StartsFreeOutwardFromTheFirstGoalWhereNoGoalIsFree) {
+  // Above the cube's upper face, z = 0.5, within the radius; and inside of it.
+  for (const char* first : {"0.625", "0.5", "0.45"}) {
+    const TemporaryFolder folder;
+    folder.file("motion.csv", "x,y,z\n0,0," + std::string(first) + "\n0.1,0,0.6\n0.2,0,0.55\n");
+    const Outcome outcome =
+        run_touchmark({"proxy", "--method", "certified", "--mesh", "cube", "--trajectory",
+                       folder.file("motion.csv"), "--radius", "0.25", "--trace", folder.file("trace.csv")});
+    EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+    const auto rows = table_in(folder.file("trace.csv"));
+    ASSERT_GE(rows.size(), 4U);
+    for (std::size_t i = 1; i < rows.size(); ++i) {
+      EXPECT_GT(std::atof(rows[i][7].c_str()), 0.75) << "the ball is off the face";
+      EXPECT_LT(std::atof(rows[i][7].c_str()), 0.75 + 1e-5);
+    }
+    EXPECT_NEAR(std::atof(rows.back()[5].c_str()), 0.2, 1e-9) << "it follows its goal along the face";
+  }
+}
+
+TEST(ProxyCommand, MovesOnASlideOfWhichNoGoalIsFree) {
   const TemporaryFolder folder;
-  folder.file("motion.csv", "x,y,z\n0,0,0.625\n0,0,0.6\n0,0,0.625\n0,0,0.7\n");
   const Outcome outcome =
-      run_touchmark({"proxy", "--method", "certified", "--mesh", "cube", "--trajectory",
-                     folder.file("motion.csv"), "--radius", "0.25", "--trace", folder.file("trace.csv")});
+      run_touchmark({"proxy", "--method", "certified", "--mesh", "torus:20x10", "--trajectory", "slide",
+                     "--radius", "1%", "--ticks", "300", "--trace", folder.file("trace.csv")});
   EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
   const auto rows = table_in(folder.file("trace.csv"));
-  ASSERT_GE(rows.size(), 5U);
-  // At the start an eighth of a unit is free below it, three eighths of the radius are kept: 0.09375.
-  for (std::size_t i = 1; i < rows.size(); ++i) EXPECT_GT(std::atof(rows[i][7].c_str()), 0.59375);
-  EXPECT_EQ(rows.back()[7], "0.7") << "its way there is free of the distance that it keeps";
+  std::set<std::array<std::string, 3>> places;
+  for (std::size_t i = 1; i < rows.size(); ++i) places.insert({rows[i][5], rows[i][6], rows[i][7]});
+  EXPECT_GE(places.size(), 250U) << "a proxy that is stuck rests";
 }
 
 TEST(ProxyCommand, CertifiedCrossesNothingOverAScenesOwnMotion) {
