@@ -205,10 +205,11 @@ void add_proxy(CLI::App& program, ProgramContext& context) {
   option("--detector", options->detector, "which of ours answers methods that claim never to cross", "D")
       ->capture_default_str();
   option("--mesh", options->mesh, "instead of families: a scene or a file, with --trajectory", "MESH");
-  option("--trajectory", options->trajectory,
-         "a name (touchmark list) or a motion file: the goals; the proxy starts at the first that is free, or "
-         "where none is free outward from the first",
-         "T");
+  option(
+      "--trajectory", options->trajectory,
+      "a name (touchmark list) or a motion file: the goals; the proxy starts at the first that is free, or "
+      "where none is free outward from the first",
+      "T");
   option("--radius", options->radius, "the ball's, with --mesh; mesh units or % of the box diagonal",
          "LENGTH")
       ->capture_default_str();

@@ -50,10 +50,10 @@ class WayOracle {
   oracle::TriangleTree tree_;
 };
 
-/// Returns where a proxy that is to follow these goals, at least one, is free from the start: farther than the
-/// radius from the mesh. That is the first goal that is free. Where none is, it is a place outward from the
-/// first goal, as far as that takes: on the line from the nearest point of the mesh through the goal, or from
-/// inside a closed mesh the other way.
+/// Returns where a proxy that is to follow these goals, at least one, is free from the start: farther than
+/// the radius from the mesh. That is the first goal that is free. Where none is, it is a place outward from
+/// the first goal, as far as that takes: on the line from the nearest point of the mesh through the goal, or
+/// from inside a closed mesh the other way.
 Vec3 free_start(const WayOracle& oracle, std::span<const Vec3> goals, double radius);
 
 }  // namespace touchmark::bench::experiments::proxy
