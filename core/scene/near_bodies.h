@@ -40,6 +40,8 @@ class NearBodies {
   bool all_are_beyond(const Vec3& point, double reach, const SceneBodies& bodies) const noexcept {
     return all_.clears(point, reach, bodies);
   }
+  /// Returns the place from which that was found.
+  const Vec3& center_of_all() const noexcept { return all_.center; }
   /// Are those that are not listed?
   bool others_are_beyond(const Vec3& point, double reach, const SceneBodies& bodies) const noexcept {
     return others_.clears(point, reach, bodies);

@@ -145,7 +145,8 @@ class Scene {
   std::size_t contacts(const Probe& probe, double reach, Session& session,
                        std::span<Contact> into) const noexcept;
 
-  /// Prepares what was asked last of the nearest body.
+  /// Prepares what was asked last of the nearest body; in free space, what says that all bodies are far. Who
+  /// moves many bodies in a tick's thread calls it after that, since publishing them uses the caches.
   void prepare(Session& session) const noexcept requires Prepares<D>;
 
   std::size_t bytes() const noexcept { return bodies_.bytes() + shapes_.bytes(); }

@@ -252,6 +252,14 @@ const noexcept {
 template <Detector D>
 requires AnswersNearest<D> && AnswersContacts<D>
 void Scene<D>::prepare(Session& session) const noexcept requires Prepares<D> {
+  // In free space a query is one comparison, and what it reads is small; but who publishes a frame leaves it
+  // and its code outside the caches. To ask again brings them back.
+  if (const Vec3 center = session.near.center_of_all(); session.near.all_are_beyond(center, 0, bodies_)) {
+    touches({center, 0}, session);
+    nearest_body({center, 0}, 0, session);
+    if constexpr (AnswersSweep<D>) first_hit_body({center, center, 0}, session);
+    return;
+  }
   for (const NearBodies::Entry& entry : session.near.near().first(session.near.near().empty() ? 0 : 1)) {
     auto& asked = session.asked[entry.slot];
     const Shape<D>* shape =

@@ -119,6 +119,26 @@ TEST(Scene, InFreeSpaceLooksAtNoBodyHoweverManyThereAreAndAllMove) {
   EXPECT_EQ(session.work.total(), before);
 }
 
+TEST(Scene, PreparesInFreeSpaceWithoutALookAtABodyAndAnswersAsBefore) {
+  Scene<SphereCluster> scene;
+  const ShapeId shape = scene.add_shape(Shape<SphereCluster>::build(square()));
+  const BodyId body = scene.add(shape, at(0, 0, 0));
+  for (int i = 1; i < 100; ++i) scene.add(shape, at(0, 0, -3 * i));
+  Scene<SphereCluster>::Session session;
+  const Probe probe{{0, 0, 1}, 0.25};
+  for (int tick = 0; tick < 3; ++tick) EXPECT_FALSE(scene.touches(probe, session));
+  const Work before = session.work;
+  scene.move(body, at(0, 0, 0.5));
+  scene.prepare(session);
+  EXPECT_EQ(session.work.bodies, before.bodies);
+  EXPECT_FALSE(scene.touches(probe, session));
+  scene.move(body, at(0, 0, 0.75));
+  scene.prepare(session);
+  EXPECT_TRUE(scene.touches(probe, session));
+  scene.prepare(session);
+  EXPECT_EQ(scene.nearest_body(probe, 1, session)->contact.distance, 0.25);
+}
+
 TEST(Scene, OfTenThousandBodiesBuildsTheShapesOfTheTenThatAreNear) {
   Scene<BruteForce> scene;
   scene.reserve(10000);
