@@ -51,6 +51,16 @@ class ClosestCandidates {
     return true;
   }
 
+  /// Takes a triangle that is exactly as far as the best, with the same kernel distance: the first of the two
+  /// stays.
+  void take_as_far(std::uint32_t index, std::uint32_t at) noexcept {
+    if (index >= best_.index) return;
+    best_.index = index;
+    at_ = at;
+  }
+  /// Bounds how far apart the squares of two distances are that differ by at most the error.
+  double closeness() const noexcept { return closeness_; }
+
   /// Returns true if the best is surely a nearest one of those taken and, of those that are exactly as near,
   /// the first. `error` is as above.
   bool is_surely_first(double error) const noexcept { return tie_count_ == 0 || beats_ties(error); }

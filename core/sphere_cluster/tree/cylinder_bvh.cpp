@@ -124,6 +124,7 @@ template <class Ends>
     return ends.nothing();
   const double error = frame_.kernel_error(point.plane_error);
   NearestVisitor visitor(parts_, frame_, center, frame_.limit((reach + error) * (reach + error)), error);
+  visitor.names_all = Ends::names_all;
   float unseen = 0;
   if (near) {
     visit(memory.slot, visitor);
@@ -159,6 +160,7 @@ struct SphereTree::ContactEnds {
   Work& work;
   const Exhausted& exhausted;
 
+  static constexpr bool names_all = false;
   static std::optional<Contact> nothing() noexcept { return std::nullopt; }
   std::optional<Contact> without() const noexcept { return tree.nearest_without(center, reach, work); }
   template <class Visitor>
@@ -181,6 +183,7 @@ struct SphereTree::CloseEnds {
   double reach, slack;
   CloseTriangles& into;
 
+  static constexpr bool names_all = true;
   bool nothing() const noexcept {
     into.count = 0;
     return true;

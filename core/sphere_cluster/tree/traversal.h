@@ -54,9 +54,12 @@ inline constexpr float farthest = std::numeric_limits<float>::max();
 /// same for n.v, twice, and n's own length.
 inline constexpr float difference_pad = 1 - 16 * 0x1p-24F;
 
-/// Rounding of a corner's bound, of which no term is negative: the cosine is off by 8 u at most, two for each
-/// of the normals and three of its own, so its square by 16 u and what it is a factor of by 8; ten roundings.
-inline constexpr float sine_error = 0x1p-18F, corner_factor = 1 - 32 * 0x1p-24F;
+/// A bound above this part of the limit may be that of a triangle as far as the nearest.
+inline constexpr float nearly = 1 - 0x1p-5F;
+
+/// Rounding of a corner's bound, of which no term is negative: the cosine is off by 10 u at most, so its
+/// square by 20 u; what is past the tip by less than 8 plane errors: docs/exactness.md, E10.
+inline constexpr float sine_error = 0x1p-18F, tip_margin = 8, corner_factor = 1 - 32 * 0x1p-24F;
 
 /// Notes eight children, of a node or cached, from `first` on; those of `near` are entered.
 template <class Children>

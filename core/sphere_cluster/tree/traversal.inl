@@ -75,27 +75,23 @@ inline Wide triangle_bounds(const TriangleBlock& block, std::size_t at, const Po
   return height * height + excess * excess;
 }
 
-/// Returns lower bounds that use what is known beyond corners below 90 degrees, for twice as many
-/// instructions. Whatever is s > 0 beyond a side with the outward normal n and t > 0 beyond the next with m,
-/// in the face's plane, is as far from where these meet as (s^2 + t^2 - 2 st c) / (1 - c^2), squared, at
-/// least, with c = n.m below 0.
+/// Returns lower bounds that use what is known beyond corners, for twice as many instructions. What is s
+/// beyond a side with the outward normal n and t beyond the next one with m, in the face's plane, with t > s c
+/// and s > t c for c = n.m, is nearest to where these meet: s^2 + (t - s c)^2 / (1 - c^2) away, squared.
 inline Wide corner_bounds(const TriangleBlock& block, std::size_t at, const Point& p) noexcept {
   const Wide face = planes_at(block, 0, at, p).value;
   std::array<Planes, 3> side;
-  std::array<Wide, 3> excess;
-  Wide across{};
+  for (std::size_t i = 0; i < 3; ++i) side[i] = planes_at(block, i + 1, at, p);
+  const Wide excess = max(max(side[0].value, max(side[1].value, side[2].value)) - p.plane_error, Wide{});
+  Wide across = excess * excess;
   for (std::size_t i = 0; i < 3; ++i) {
-    side[i] = planes_at(block, i + 1, at, p);
-    excess[i] = max(side[i].value - p.plane_error, Wide{});
-    across = max(across, excess[i] * excess[i]);
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = i == 2 ? 0 : i + 1;
-    const Wide s = excess[i], t = excess[j];
-    const Wide cosine = cosine_between(side[i], side[j]);
-    const Wide squared = off_corner(s, t, cosine) / ((1 + sine_error) - cosine * cosine);
-    const Wide product = min(min(s, t), -cosine);
-    across = product > 0 ? max(across, squared) : across;
+    const Planes &one = side[i], &other = side[i == 2 ? 0 : i + 1];
+    const Wide cosine = cosine_between(one, other);
+    // With s the greater of the two the second condition follows from the first, but for rounding.
+    const Wide s = max(one.value, other.value), t = min(one.value, other.value);
+    const Wide past_tip = (t - s * cosine) - tip_margin * p.plane_error, beyond = max(s - p.plane_error, Wide{});
+    const Wide squared = beyond * beyond + past_tip * past_tip / ((1 + sine_error) - cosine * cosine);
+    across = past_tip > 0 ? max(across, squared) : across;
   }
   const Wide height = max(max(face, -face) - p.plane_error, Wide{});
   return height * height + across * corner_factor;
@@ -192,6 +188,13 @@ inline void visit(const TreeParts& tree, std::uint32_t at, Visitor& visitor) noe
   if (visitor.accepts(at)) visitor.update(at, kernel(tree.triangles[at], visitor.center));
 }
 
+/// Does the visitor know without the kernel that the triangle is as far as the nearest?
+template <class Visitor>
+inline bool takes_as_far(std::uint32_t at, Visitor& visitor) noexcept {
+  if constexpr (requires { visitor.takes_as_far(at); }) return visitor.takes_as_far(at);
+  return false;
+}
+
 /// Shows the visitor what a block has within its limit. Returns true where that ends the search.
 template <class Visitor>
 [[gnu::always_inline]] inline bool visit_block(const TreeParts& tree, std::uint32_t index, const Point& p,
@@ -222,10 +225,14 @@ template <class Visitor>
     const std::uint32_t other = pop_lowest(left);
     first = bound[other] < bound[first] ? other : first;
   }
-  visit(tree, index * tree_width + first, visitor);
+  const auto show = [&](std::uint32_t k) {
+    const std::uint32_t slot = index * tree_width + k;
+    if (!(far && bound[k] > visitor.limit * nearly && takes_as_far(slot, visitor))) visit(tree, slot, visitor);
+  };
+  show(first);
   near &= ~(1U << first);
   near &= within([&](std::size_t at) { return load(bound.data() + at); }, visitor.limit, unseen);
-  while (near != 0) visit(tree, index * tree_width + pop_lowest(near), visitor);
+  while (near != 0) show(pop_lowest(near));
   return false;
 }
 
@@ -386,14 +393,17 @@ template <class Visitor>
   for (std::size_t k = 0; k < count; ++k) prefetch(tree.triangles[left[k]]);
   std::size_t first = 0;
   for (std::size_t k = 1; k < count; ++k) first = bound[k] < bound[first] ? k : first;
-  visit(tree, left[first], visitor);
+  const auto show = [&](std::size_t k) {
+    if (!(bound[k] > visitor.limit * nearly && takes_as_far(left[k], visitor))) visit(tree, left[k], visitor);
+  };
+  show(first);
   float skipped = farthest;
   for (std::size_t k = 0; k < count; ++k) {
     if (k == first) continue;
     if (bound[k] > visitor.limit)
       skipped = std::min(skipped, bound[k]);
     else
-      visit(tree, left[k], visitor);
+      show(k);
   }
   unseen = min(unseen, Wide{} + skipped);
 }
@@ -428,7 +438,10 @@ float search_cached(const TreeParts& tree, const FilterPoint& point, const LeafC
     std::array<std::uint32_t, LeafCache::padded_capacity * tree_width> left;
     const std::size_t left_count = filter(tree, near_blocks, p, limit, unseen, left.data());
     for (std::size_t k = 0; k < left_count; ++k) prefetch(tree.triangles[left[k]]);
-    for (std::size_t k = 0; k < left_count; ++k) visit(tree, left[k], visitor);
+    // Few are left as a rule. Where there are more, it is often for a corner that they have.
+    constexpr std::size_t few = 3;
+    for (std::size_t k = 0; k < left_count; ++k)
+      if (k < few || !takes_as_far(left[k], visitor)) visit(tree, left[k], visitor);
   }
   const float covered_radius = std::max(cache.covered_radius - moved, 0.0F);
   return std::min(covered_radius * covered_radius, reduce_min(unseen));

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 
 #include "core/detector.h"
 #include "core/geometry/point_triangle.h"
 #include "core/search/closest_candidates.h"
 #include "core/search/plane_filter.h"
+#include "core/search/shared_corner.h"
 #include "core/sphere_cluster/tree/node.h"
 
 // Unnamed, though in a header, so that the compiler knows all callers of what is instantiated for a visitor.
@@ -24,6 +26,9 @@ struct NearestVisitor {
   ClosestCandidates candidates;
   Work work;
   Vec3 offset;  ///< to the nearest so far
+  SharedCorner corner;
+  std::uint32_t corner_of = std::numeric_limits<std::uint32_t>::max();  ///< the slot that it was asked of
+  bool names_all = false;  ///< it is asked for all that are as far as the nearest, not for the first
 
   /// Not an aggregate, whose initialization would clear all of what is yet to be written.
   NearestVisitor(const TreeParts& parts, const FilterFrame& tree_frame, const Vec3& point, float first_limit,
@@ -35,6 +40,18 @@ struct NearestVisitor {
         candidates(parts.triangles.data(), point, error) {}
 
   bool accepts(std::uint32_t at) const noexcept { return at != candidates.at(); }
+  /// Is it known, without the kernel, that the triangle is as far as the nearest? Then it is taken.
+  [[gnu::noinline]] bool takes_as_far(std::uint32_t at) noexcept {
+    if (names_all || !candidates.found()) return false;
+    if (corner_of != candidates.at()) {
+      corner_of = candidates.at();
+      corner = SharedCorner(tree.triangles[corner_of], center, offset, candidates.closeness());
+    }
+    if (!corner.is_nearest_of(tree.triangles[at])) return false;
+    candidates.take_as_far(tree.triangles[at].index, at);
+    corner_of = candidates.at();
+    return true;
+  }
   void update(std::uint32_t at, const Offset& found) noexcept {
     if (!candidates.update({found.squared, tree.triangles[at].index}, at)) return;
     offset = found.vector;

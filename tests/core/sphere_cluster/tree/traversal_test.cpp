@@ -128,19 +128,26 @@ TEST_P(TriangleBounds, HoldAllAroundBehindThePlaneOfAListedTriangle) {
 INSTANTIATE_TEST_SUITE_P(Families, TriangleBounds, testing::ValuesIn(corner_case_families()),
                          [](const auto& family) { return family.param.name; });
 
-TEST(CornerBounds, AreTheDistanceOffASharpCorner) {
-  const Alone alone({Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(2, 4, 0)});
-  for (const Vec3& center :
-       {Vec3(-3, -1, 0.5), Vec3(7, -1, -2), Vec3(2, 9, 1), Vec3(2, 1, 3), Vec3(2, -3, 4)}) {
-    const FilterPoint point = alone.frame.point(center);
-    const double squared = squared_distance(alone.triangle, center);
-    EXPECT_NEAR(alone.frame.squared(first_of(portable::corner_bounds, alone.block, point)) / squared, 1, 1e-4)
-        << center.transpose();
+TEST(CornerBounds, AreTheDistanceWhateverTheCorner) {
+  const std::array<std::array<Vec3, 3>, 2> triangles = {
+      {{Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(2, 4, 0)}, {Vec3(0, 0, 0), Vec3(4, 0, 0), Vec3(2, 0.5, 0)}}};
+  for (const std::array<Vec3, 3>& corners : triangles) {
+    const Alone alone(corners);
+    CornerCases cases(93);
+    for (int i = 0; i < 2000; ++i) {
+      const Vec3 center = alone.triangle.corner[0] + 20 * cases.vector();
+      const FilterPoint point = alone.frame.point(center);
+      const double squared = squared_distance(alone.triangle, center);
+      EXPECT_NEAR(alone.frame.squared(first_of(portable::corner_bounds, alone.block, point)) / squared, 1,
+                  2e-4)
+          << center.transpose();
+    }
   }
   // Where it takes both sides, the greater excess alone falls short.
-  const FilterPoint below = alone.frame.point({-3, -1, 0.5});
-  EXPECT_LT(first_of(portable::triangle_bounds, alone.block, below),
-            0.9F * first_of(portable::corner_bounds, alone.block, below));
+  const Alone sharp(triangles[0]);
+  const FilterPoint below = sharp.frame.point({-3, -1, 0.5});
+  EXPECT_LT(first_of(portable::triangle_bounds, sharp.block, below),
+            0.9F * first_of(portable::corner_bounds, sharp.block, below));
 }
 
 }  // namespace
