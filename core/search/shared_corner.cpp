@@ -4,9 +4,10 @@
 
 namespace touchmark {
 
-SharedCorner::SharedCorner(const PreparedTriangle& triangle, const Vec3& point, const Vec3& offset,
-                           double margin) noexcept
-    : offset_(&offset), margin_(margin) {
+void SharedCorner::look_at(const PreparedTriangle& triangle, const Vec3& point, const Vec3& offset,
+                           double margin) noexcept {
+  offset_ = &offset;
+  margin_ = margin;
   for (std::size_t i = 0; i < 3; ++i)
     if (point - triangle.corner[i] == offset && is_behind(triangle, i)) corner_ = &triangle.corner[i];
 }

@@ -439,7 +439,7 @@ float search_cached(const TreeParts& tree, const FilterPoint& point, const LeafC
     const std::size_t left_count = filter(tree, near_blocks, p, limit, unseen, left.data());
     for (std::size_t k = 0; k < left_count; ++k) prefetch(tree.triangles[left[k]]);
     // Few are left as a rule. Where there are more, it is often for a corner that they have.
-    constexpr std::size_t few = 3;
+    constexpr std::size_t few = 6;
     for (std::size_t k = 0; k < left_count; ++k)
       if (k < few || !takes_as_far(left[k], visitor)) visit(tree, left[k], visitor);
   }

@@ -41,21 +41,27 @@ struct NearestVisitor {
 
   bool accepts(std::uint32_t at) const noexcept { return at != candidates.at(); }
   /// Is it known, without the kernel, that the triangle is as far as the nearest? Then it is taken.
-  [[gnu::noinline]] bool takes_as_far(std::uint32_t at) noexcept {
-    if (names_all || !candidates.found()) return false;
-    if (corner_of != candidates.at()) {
-      corner_of = candidates.at();
-      corner = SharedCorner(tree.triangles[corner_of], center, offset, candidates.closeness());
-    }
-    if (!corner.is_nearest_of(tree.triangles[at])) return false;
-    candidates.take_as_far(tree.triangles[at].index, at);
-    corner_of = candidates.at();
-    return true;
+  bool takes_as_far(std::uint32_t at) noexcept {
+    if (corner_of == candidates.at() && !corner.is_known()) return false;
+    return looks_as_far(at);
   }
   void update(std::uint32_t at, const Offset& found) noexcept {
     if (!candidates.update({found.squared, tree.triangles[at].index}, at)) return;
     offset = found.vector;
     limit = std::min(limit, frame.limit(found.squared));
+  }
+
+ private:
+  [[gnu::noinline]] bool looks_as_far(std::uint32_t at) noexcept {
+    if (names_all || !candidates.found()) return false;
+    if (corner_of != candidates.at()) {
+      corner_of = candidates.at();
+      corner.find(tree.triangles[corner_of], center, offset, candidates.closeness());
+    }
+    if (!corner.is_known() || !corner.is_nearest_of(tree.triangles[at])) return false;
+    candidates.take_as_far(tree.triangles[at].index, at);
+    corner_of = candidates.at();
+    return true;
   }
 };
 

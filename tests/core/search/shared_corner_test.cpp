@@ -21,7 +21,9 @@ double margin_of(const PreparedTriangle& a, const PreparedTriangle& b, const Vec
 
 bool has_shared_corner(const PreparedTriangle& a, const PreparedTriangle& b, const Vec3& point) {
   const Offset offset = offset_from(a, point);
-  return SharedCorner(a, point, offset.vector, margin_of(a, b, point)).is_nearest_of(b);
+  SharedCorner corner;
+  corner.find(a, point, offset.vector, margin_of(a, b, point));
+  return corner.is_known() && corner.is_nearest_of(b);
 }
 
 TEST(SharedCorner, IsTheTipOfAConeThatThePointIsBeyond) {
