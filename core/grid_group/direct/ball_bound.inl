@@ -5,7 +5,8 @@ inline Wide max(Wide a, Wide b) noexcept { return a > b ? a : b; }
 
 /// How far beyond a triangle's ball the foot of points in its plane surely lies; `height` is the distance to
 /// that plane. 0 or less where it may lie in the ball.
-inline Wide beyond_ball(const TriangleBall& ball, Wide x, Wide y, Wide z, Wide height,
+template <class Ball>
+inline Wide beyond_ball(const Ball& ball, Wide x, Wide y, Wide z, Wide height,
                         float plane_error) noexcept {
   const Wide dx = x - ball.x, dy = y - ball.y, dz = z - ball.z;
   // |p - c|^2 is off by 2 |p - c| times the rounding of p and c and by five roundings of its own, the height

@@ -132,7 +132,7 @@ void DirectGrid::make_group(std::uint32_t slot, std::uint64_t budget, Work& work
   if (!groups_.claim(slot)) return;
   const std::uint64_t share = budget / (1 + GroupFinder::max_looks);
   GroupFinder finder(store_, tree_, exclusion_margin_,
-                     {.sharing = 0, .max_boxes = std::min(share, max_lazy_looks), .max_near = share});
+                     {.shares = false, .max_boxes = std::min(share, max_lazy_looks), .max_near = share});
   const GroupFinder::Found found = finder.find(slot);
   groups_.put(slot, found.members, found.height, found.margin);
   work += finder.take_work();

@@ -28,7 +28,7 @@ Groups GroupBuilder::make(const FindOrKeep& find_or_keep) {
     const std::size_t size = std::min(store_.size() - begin, slots_a_piece * pieces_a_wave);
     for (Piece& piece : wave) piece = {};
     in_ranges(size, slots_a_piece, threads_, [&](std::size_t first, std::size_t end) {
-      GroupFinder finder(store_, tree_, exclusion_margin_, {.sharing = 0.2});
+      GroupFinder finder(store_, tree_, exclusion_margin_, {.shares = true});
       for (auto slot = static_cast<std::uint32_t>(begin + first); slot < begin + end; ++slot)
         wave[first / slots_a_piece].add(slot, find_or_keep(finder, slot));
     });

@@ -40,7 +40,7 @@ constexpr double first_height = 1.0, min_height = 0.2, shrinking = 0.6;
 constexpr double lowest_height = first_height * shrinking * shrinking * shrinking;
 static_assert(lowest_height > min_height &&
               first_height * shrinking * shrinking * shrinking * shrinking < min_height &&
-              GroupFinder::max_looks >= 4);
+              GroupFinder::max_looks >= 2 * 4);
 
 // Of a ball about the triangle the grown triangle is within 1.6 radii, its size below 1.65, so the highest
 // prism within 3.25; and no point of that is farther than 2.25 from the triangle. What is nearest there comes
@@ -102,7 +102,8 @@ GroupFinder::Found GroupFinder::find(std::uint32_t slot) noexcept {
   const bool visible =
       growth * face_frame.inradius > static_cast<double>(store_.frame.plane_error(face_frame.incenter));
   if (face_frame.normal.isZero(0) || !visible) return {};
-  const double height = find_members(face_frame);
+  boxes_seen_ = 0;
+  const double height = find_members(slot, face_frame);
   if (member_count_ == 0 || member_count_ > Groups::max_members) return {};
   for (std::size_t i = member_count_; i < Groups::rounded_up(member_count_); ++i)
     members_[i] = members_[member_count_ - 1];
@@ -118,87 +119,130 @@ Work GroupFinder::take_work() noexcept { return std::exchange(work_, Work{}); }
 /// Leaves the members of the highest prism with no more than many, or of the lowest; none when the mesh is
 /// too dense there. Returns the prism's height. Neighbours are alike: higher than one step above the last two
 /// prisms it is only tried where there are few members.
-double GroupFinder::find_members(const FaceFrame& face_frame) noexcept {
+double GroupFinder::find_members(std::uint32_t slot, const FaceFrame& face_frame) noexcept {
   const double start = std::min(first_height, std::max(heights_[0], heights_[1]) / shrinking);
-  double height = find_below(face_frame, start);
+  double height = find_below(slot, face_frame, start);
   if (start < first_height && height > 0 && member_count_ <= Groups::many_members / 2)
-    height = find_below(face_frame, first_height);
-  const bool has_group = height > 0 && member_count_ <= Groups::max_members;
-  heights_ = {heights_[1], has_group ? height : shrinking * lowest_height};
+    height = find_below(slot, face_frame, first_height);
+  heights_ = {heights_[1], height > 0 ? height : shrinking * lowest_height};
   return height * face_frame.size;
 }
 
 /// Does so with prisms that are at most so high, in sizes of the triangle, and returns its height in these.
-double GroupFinder::find_below(const FaceFrame& face_frame, double start) noexcept {
-  double height = start * face_frame.size;
-  const Prism highest(face_frame, growth, height, exclusion_margin_, store_.frame);
-  Aabb box;
-  for (const Vec3& corner : face_frame.grown(growth)) {
-    box.extend(corner + height * face_frame.normal);
-    box.extend(corner - height * face_frame.normal);
-  }
+double GroupFinder::find_below(std::uint32_t slot, const FaceFrame& face_frame, double start) noexcept {
   member_count_ = 0;
-  if (!gather(box.padded(highest.farthest() + exclusion_margin_))) return 0;
-  if (!select_members(face_frame, highest)) return 0;
-  while (member_count_ > Groups::many_members && can_shrink(height, face_frame)) {
-    height *= shrinking;
-    const Prism lower(face_frame, growth, height, exclusion_margin_, store_.frame);
-    // What a higher prism can do without, a lower one can.
-    work_.triangles += member_count_;
-    const auto end = members_.begin() + static_cast<std::ptrdiff_t>(member_count_);
-    const auto kept = std::remove_if(members_.begin(), end, [&](std::uint32_t slot) {
-      return lower.excludes(store_.planes[slot], store_.balls[slot]);
-    });
-    member_count_ = static_cast<std::size_t>(kept - members_.begin());
+  for (double height = start * face_frame.size;; height *= shrinking) {
+    const Prism prism(face_frame, growth, height, exclusion_margin_, store_.frame);
+    Aabb box;
+    for (const Vec3& corner : face_frame.grown(growth)) {
+      box.extend(corner + height * face_frame.normal);
+      box.extend(corner - height * face_frame.normal);
+    }
+    if (gather(slot, face_frame, box.padded(prism.farthest() + exclusion_margin_)))
+      return select_members(face_frame, prism, height) / face_frame.size;
+    if (!can_shrink(height, face_frame)) return 0;
   }
-  return height / face_frame.size;
 }
 
-/// Returns false, without members, once there are certainly too many even in the lowest prism.
-bool GroupFinder::select_members(const FaceFrame& face_frame, const Prism& prism) noexcept {
+/// Lowers the prism as soon as it has too many members, so that none is looked at twice without need. Returns
+/// the height, or 0, without members, if there are too many even in the lowest prism.
+double GroupFinder::select_members(const FaceFrame& face_frame, const Prism& highest,
+                                   double height) noexcept {
+  constexpr std::size_t look = Prism::triangles_a_look;
   work_.triangles += near_count_;
-  std::size_t asked_at = Groups::max_members + 8;
-  for (std::size_t at = 0; at < near_count_; at += Prism::balls_a_look) {
-    unsigned left = prism.balls_left(&near_x_[at], &near_y_[at], &near_z_[at], &near_radius_[at]);
-    for (; left != 0; left &= left - 1) {
-      const std::size_t i = at + static_cast<std::size_t>(std::countr_zero(left));
-      if (i >= near_count_) break;  // behind the last are its copies
-      const std::uint32_t slot = near_[i];
-      if (!prism.excludes(store_.planes[slot], store_.balls[slot])) members_[member_count_++] = slot;
+  Prism prism = highest;
+  std::array<std::uint32_t, 2 * look> open;  // slots that balls leave open
+  std::size_t open_count = 0;
+  for (std::size_t at = 0; at < near_count_; at += look) {
+    const unsigned left = prism.balls_left(&near_x_[at], &near_y_[at], &near_z_[at], &near_radius_[at]);
+    const std::size_t count = std::min(look, near_count_ - at);  // behind the last are its copies
+    // Which are left no branch predictor knows.
+    for (std::size_t i = 0; i < count; ++i) {
+      open[open_count] = near_[at + i];
+      open_count += left >> i & 1;
     }
-    if (member_count_ < asked_at) continue;
-    if (is_too_dense(face_frame)) {
-      member_count_ = 0;
-      return false;
+    const bool ends = at + look >= near_count_;
+    while (open_count >= look || (ends && open_count > 0)) {
+      const std::size_t tested = std::min(look, open_count);
+      std::fill(open.begin() + static_cast<std::ptrdiff_t>(open_count), open.end(), open[0]);
+      add_members(prism, open.data(), tested);
+      open_count -= tested;
+      std::copy_n(open.begin() + look, look, open.begin());
+      while (member_count_ > Groups::many_members && can_shrink(height, face_frame)) {
+        height *= shrinking;
+        prism = Prism(face_frame, growth, height, exclusion_margin_, store_.frame);
+        keep_members(prism);
+      }
+      if (member_count_ > Groups::max_members) {
+        member_count_ = 0;
+        return 0;
+      }
     }
-    asked_at = 2 * member_count_;
   }
-  return true;
+  return height;
 }
 
-/// Do more of the members belong to the lowest prism than a group may have?
-bool GroupFinder::is_too_dense(const FaceFrame& face_frame) noexcept {
-  double height = first_height * face_frame.size;
-  while (can_shrink(height, face_frame)) height *= shrinking;
-  const Prism lowest(face_frame, growth, height, exclusion_margin_, store_.frame);
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < member_count_ && count <= Groups::max_members; ++i) {
-    ++work_.triangles;
-    if (!lowest.excludes(store_.planes[members_[i]], store_.balls[members_[i]])) ++count;
+/// Adds those of the slots that the prism cannot do without. Eight are read.
+void GroupFinder::add_members(const Prism& prism, const std::uint32_t* slots, std::size_t count) noexcept {
+  const unsigned excluded = prism.excluded(slots, store_.planes.data(), store_.balls.data());
+  for (std::size_t i = 0; i < count; ++i) {
+    members_[member_count_] = slots[i];
+    member_count_ += ~excluded >> i & 1;
   }
-  return count > Groups::max_members;
+}
+
+/// Leaves those that the prism cannot do without: what a higher prism can do without, a lower one can.
+void GroupFinder::keep_members(const Prism& prism) noexcept {
+  constexpr std::size_t look = Prism::triangles_a_look;
+  const std::size_t count = std::exchange(member_count_, 0);
+  work_.triangles += count;
+  for (std::size_t at = 0; at < count; at += look) {
+    std::array<std::uint32_t, look> slots;
+    for (std::size_t i = 0; i < look; ++i) slots[i] = members_[std::min(at + i, count - 1)];
+    add_members(prism, slots.data(), std::min(look, count - at));
+  }
 }
 
 /// Makes near_ hold every triangle that reaches into the box, or says that they are too many.
-bool GroupFinder::gather(const Aabb& box) noexcept {
+bool GroupFinder::gather(std::uint32_t slot, const FaceFrame& face_frame, const Aabb& box) noexcept {
   if (gathered_.contains(box.min) && gathered_.contains(box.max)) return true;
-  gathered_ = box.padded(effort_.sharing * box.extent().maxCoeff());
-  if (!gather_blocks(gathered_)) {
-    gathered_ = Aabb();
-    return false;
+  if (effort_.shares && slot >= alone_until_) {
+    gathered_ = shared_box(slot, face_frame, box);
+    if (gather_blocks(gathered_)) return load_balls(), true;
+    alone_until_ = (slot / TriangleStore::block_size + 1) * TriangleStore::block_size;
   }
-  const std::size_t whole =
-      (near_count_ + Prism::balls_a_look - 1) / Prism::balls_a_look * Prism::balls_a_look;
+  gathered_ = box;
+  if (gather_blocks(gathered_)) return load_balls(), true;
+  gathered_ = Aabb();
+  return false;
+}
+
+/// Returns a box that probably holds those of the slots behind this one in its block, too.
+Aabb GroupFinder::shared_box(std::uint32_t slot, const FaceFrame& face_frame,
+                             const Aabb& box) const noexcept {
+  Aabb own;
+  for (const Vec3& corner : face_frame.corner) own.extend(corner);
+  const Vec3 around = (own.min - box.min).cwiseMax(box.max - own.max);
+  const float radius = store_.balls[slot].radius;
+  const std::uint32_t end =
+      std::min((slot / TriangleStore::block_size + 1) * TriangleStore::block_size, store_.size());
+  Aabb shared = box;
+  for (std::uint32_t other = slot + 1; other < end; ++other) {
+    const float larger = store_.balls[other].radius / radius;
+    if (larger > 2) continue;
+    const Vec3 padding = static_cast<double>(larger) * around;
+    for (const Vec3& in_mesh : store_.exact[other].corner) {
+      const Vec3 corner = store_.frame.to_frame(in_mesh);
+      shared.extend(corner - padding);
+      shared.extend(corner + padding);
+    }
+  }
+  return shared;
+}
+
+void GroupFinder::load_balls() noexcept {
+  constexpr std::size_t look = Prism::triangles_a_look;
+  const std::size_t whole = (near_count_ + look - 1) / look * look;
   for (std::size_t i = 0; i < whole; ++i) {
     const TriangleBall& ball = store_.balls[near_[std::min(i, near_count_ - 1)]];
     near_x_[i] = ball.x;
@@ -206,7 +250,6 @@ bool GroupFinder::gather(const Aabb& box) noexcept {
     near_z_[i] = ball.z;
     near_radius_[i] = ball.radius;
   }
-  return true;
 }
 
 /// Adds slots whose triangles all reach into the box.
@@ -243,13 +286,12 @@ bool GroupFinder::gather_blocks(const Aabb& box) noexcept {
   std::array<Node, 8 * 11> stack;
   std::size_t count = 1;
   stack[0] = {static_cast<std::uint32_t>(tree_.levels()) - 1, 0};
-  std::uint64_t boxes_seen = 0;
   while (count > 0) {
     const Node node = stack[--count];
     const EightBoxes& boxes = tree_.node(node.level, node.index);
-    boxes_seen += BoxTree::arity;
+    boxes_seen_ += BoxTree::arity;
     work_.boxes += BoxTree::arity;
-    if (boxes_seen > effort_.max_boxes) return false;
+    if (boxes_seen_ > effort_.max_boxes) return false;
     const ChildrenIn in = children_in(boxes, bounds);
     const std::uint64_t slots_a_child = std::uint64_t{TriangleStore::block_size} << (3 * node.level);
     for (unsigned left = in.reaching; left != 0; left &= left - 1) {

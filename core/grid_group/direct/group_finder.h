@@ -18,14 +18,14 @@ namespace touchmark::grid {
 class GroupFinder {
  public:
   struct Effort {
-    /// Neighbours in the order are neighbours in space: so much farther than for a group, in extents of its
-    /// surroundings, triangles are gathered, to serve the next groups too.
-    double sharing = 0;
+    /// Neighbours in the order are neighbours in space: what is gathered for one slot is to serve all those
+    /// of its block that come after it.
+    bool shares = false;
     std::uint64_t max_boxes = ~std::uint64_t{0};  ///< are looked at to gather; past that there is no group
     std::uint64_t max_near = ~std::uint64_t{0};   ///< are gathered, likewise
   };
   /// Each triangle gathered is looked at no more often than this.
-  static constexpr std::uint64_t max_looks = 6;
+  static constexpr std::uint64_t max_looks = 8;
 
   /// `exclusion_margin`: by how much, in the frame, a triangle must lose to be left out.
   GroupFinder(const TriangleStore& store, const BoxTree& tree, double exclusion_margin,
@@ -49,19 +49,21 @@ class GroupFinder {
   struct FloatBounds;
 
  private:
-  /// The most triangles gathered around one: beyond, it is out of proportion to its neighbours, and the
-  /// hierarchy serves it.
-  static constexpr std::size_t max_near = 1024;
+  /// The most triangles gathered: where there are more around the lowest prism, a group would be too large.
+  static constexpr std::size_t max_near = 384;
   static constexpr std::size_t near_capacity = max_near + TriangleStore::block_size;
 
-  double find_members(const FaceFrame& face_frame) noexcept;
-  double find_below(const FaceFrame& face_frame, double start) noexcept;
-  bool gather(const Aabb& box) noexcept;
+  double find_members(std::uint32_t slot, const FaceFrame& face_frame) noexcept;
+  double find_below(std::uint32_t slot, const FaceFrame& face_frame, double start) noexcept;
+  bool gather(std::uint32_t slot, const FaceFrame& face_frame, const Aabb& box) noexcept;
+  Aabb shared_box(std::uint32_t slot, const FaceFrame& face_frame, const Aabb& box) const noexcept;
   bool gather_blocks(const Aabb& box) noexcept;
   bool add_near(std::uint64_t first, std::uint64_t count) noexcept;
   bool add_block(std::uint32_t block, const FloatBounds& bounds) noexcept;
-  bool select_members(const FaceFrame& face_frame, const Prism& prism) noexcept;
-  bool is_too_dense(const FaceFrame& face_frame) noexcept;
+  void load_balls() noexcept;
+  double select_members(const FaceFrame& face_frame, const Prism& highest, double height) noexcept;
+  void add_members(const Prism& prism, const std::uint32_t* slots, std::size_t count) noexcept;
+  void keep_members(const Prism& prism) noexcept;
 
   const TriangleStore& store_;
   const BoxTree& tree_;
@@ -71,9 +73,12 @@ class GroupFinder {
 
   std::array<double, 2> heights_{1, 1};  ///< the heights of the last two prisms, in sizes of their triangles
   Aabb gathered_;                        ///< near_ holds every triangle that reaches into this
+  std::uint32_t alone_until_ = 0;        ///< slots before this one gather for themselves
+  std::uint64_t boxes_seen_ = 0;         ///< for the group looked for
   std::size_t near_count_ = 0, member_count_ = 0;
-  std::array<std::uint32_t, near_capacity> near_, members_;
+  std::array<std::uint32_t, near_capacity> near_;
   alignas(32) std::array<float, near_capacity> near_x_, near_y_, near_z_, near_radius_;  ///< their balls
+  std::array<std::uint32_t, Groups::max_members + 2 * Prism::triangles_a_look> members_;
 };
 
 }  // namespace touchmark::grid

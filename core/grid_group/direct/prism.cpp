@@ -22,6 +22,15 @@ using Wide = Lanes;
 inline Wide square_root(Wide x) noexcept { return simd::sqrt(x); }
 using touchmark::to_bits;
 inline constexpr unsigned all = 0xf;
+inline Wide load_fours(const std::array<const float*, lanes>& rows, std::size_t i) noexcept {
+  Wide row;
+  std::memcpy(&row, rows[i], sizeof row);
+  return row;
+}
+inline Wide interleave_low(Wide a, Wide b) noexcept { return __builtin_shufflevector(a, b, 0, 4, 1, 5); }
+inline Wide interleave_high(Wide a, Wide b) noexcept { return __builtin_shufflevector(a, b, 2, 6, 3, 7); }
+inline Wide join_low(Wide a, Wide b) noexcept { return __builtin_shufflevector(a, b, 0, 1, 4, 5); }
+inline Wide join_high(Wide a, Wide b) noexcept { return __builtin_shufflevector(a, b, 2, 3, 6, 7); }
 #include "core/grid_group/direct/prism_exclusion.inl"
 }  // namespace portable
 
@@ -38,6 +47,13 @@ inline unsigned to_bits(WideBits bits) noexcept {
   return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(bits)));
 }
 inline constexpr unsigned all = 0xff;
+inline Wide load_fours(const std::array<const float*, lanes>& rows, std::size_t i) noexcept {
+  return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(rows[i])), _mm_loadu_ps(rows[i + 4]), 1);
+}
+inline Wide interleave_low(Wide a, Wide b) noexcept { return _mm256_unpacklo_ps(a, b); }
+inline Wide interleave_high(Wide a, Wide b) noexcept { return _mm256_unpackhi_ps(a, b); }
+inline Wide join_low(Wide a, Wide b) noexcept { return _mm256_shuffle_ps(a, b, 0x44); }
+inline Wide join_high(Wide a, Wide b) noexcept { return _mm256_shuffle_ps(a, b, 0xee); }
 #include "core/grid_group/direct/prism_exclusion.inl"
 }  // namespace avx2
 TOUCHMARK_END_TARGET
@@ -78,10 +94,8 @@ void Prism::set_points(const FaceFrame& face_frame, double growth, double height
     for (int j = 0; i + j <= cuts; ++j)
       base_[number(i, j)] = corner[0] + (i * (corner[1] - corner[0]) + j * (corner[2] - corner[0])) / cuts;
   }
-  for (std::size_t k = 0; k < PrismPoints::padded_count; ++k) {
-    const std::size_t point = std::min(k, points - 1);  // the last stands for what is left over
-    const Vec3 p =
-        base_[point % points_an_end] + (point < points_an_end ? -height : height) * face_frame.normal;
+  for (std::size_t k = 0; k < points; ++k) {
+    const Vec3 p = base_[k % points_an_end] + (k < points_an_end ? -height : height) * face_frame.normal;
     points_.x[k] = static_cast<float>(p.x());
     points_.y[k] = static_cast<float>(p.y());
     points_.z[k] = static_cast<float>(p.z());
@@ -119,11 +133,11 @@ void Prism::set_limits(const FaceFrame& face_frame, double growth, double height
       if (i + j + 1 < cuts) part({{{i + 1, j}, {i, j + 1}, {i + 1, j + 1}}});
     }
   }
-  for (std::size_t k = 0; k < PrismPoints::padded_count; ++k) {
-    const double squared = across[std::min(k, points - 1) % points_an_end] + height * height;
-    const double distance = std::sqrt(squared) + 4 * static_cast<double>(points_.plane_error);
+  for (std::size_t k = 0; k < points_an_end; ++k) {
+    const double distance =
+        std::sqrt(across[k] + height * height) + 4 * static_cast<double>(points_.plane_error);
     farthest_ = std::max(farthest_, distance);
-    points_.limit[k] = static_cast<float>(distance * distance);
+    points_.limit[k] = points_.limit[k + points_an_end] = static_cast<float>(distance * distance);
   }
   // To lose by `exclusion_margin` at distance x, the square must lose by margin (2x + margin), wherever x is
   // in the prism.
@@ -153,11 +167,13 @@ unsigned Prism::balls_left(const float* x, const float* y, const float* z,
   return portable::balls_left(corner_limits_, x, y, z, radius);
 }
 
-bool Prism::excludes(const TrianglePlanes& triangle, const TriangleBall& ball) const noexcept {
+unsigned Prism::excluded(const std::uint32_t* slots, const TrianglePlanes* planes,
+                         const TriangleBall* balls) const noexcept {
 #if TOUCHMARK_HAS_AVX2
-  if (use_avx2) return avx2::excludes(points_, triangle, ball);
+  if (use_avx2) return avx2::excluded(points_, slots, planes, balls);
 #endif
-  return portable::excludes(points_, triangle, ball);
+  return portable::excluded(points_, slots, planes, balls) |
+         portable::excluded(points_, slots + portable::lanes, planes, balls) << portable::lanes;
 }
 
 }  // namespace touchmark::grid

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "core/geometry/point_triangle.h"
 #include "core/grid_group/direct/triangle_store.h"
@@ -34,10 +35,9 @@ struct FaceFrame {
 /// in it.
 struct PrismPoints {
   static constexpr std::size_t count = 12;
-  static constexpr std::size_t padded_count = 16;  ///< behind the last are its copies
 
-  alignas(32) std::array<float, padded_count> x, y, z;
-  alignas(32) std::array<float, padded_count> limit;  ///< squared
+  std::array<float, count> x, y, z;
+  std::array<float, count> limit;  ///< squared
   float plane_error = 0;
 };
 
@@ -54,11 +54,13 @@ class Prism {
   Prism(const FaceFrame& face_frame, double growth, double height, double exclusion_margin,
         const FilterFrame& frame) noexcept;
 
-  /// Is the triangle surely not nearest anywhere in the prism?
-  bool excludes(const TrianglePlanes& triangle, const TriangleBall& ball) const noexcept;
+  /// Bit i of eight is set where the triangle in slot i is surely not nearest anywhere in the prism. Planes
+  /// and balls are those of a TriangleStore.
+  unsigned excluded(const std::uint32_t* slots, const TrianglePlanes* planes,
+                    const TriangleBall* balls) const noexcept;
   /// A quick look at eight balls first: bit i is set unless the same holds for whatever is in ball i.
   unsigned balls_left(const float* x, const float* y, const float* z, const float* radius) const noexcept;
-  static constexpr std::size_t balls_a_look = 8;
+  static constexpr std::size_t triangles_a_look = 8;
   /// No point of the prism is farther than this from its triangle.
   double farthest() const noexcept { return farthest_; }
 
