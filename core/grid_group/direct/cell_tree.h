@@ -13,6 +13,7 @@
 #include "core/aabb.h"
 #include "core/detector.h"
 #include "core/grid_group/direct/box_tree.h"
+#include "core/grid_group/direct/groups.h"
 #include "core/grid_group/direct/triangle_store.h"
 #include "core/search/lazy_construction.h"
 
@@ -23,6 +24,7 @@ struct CellOptions {
   std::size_t max_bytes = 0;
   bool lazy = false;  ///< leaves hold what their parents know, until built
   unsigned threads = 1;
+  const Groups* groups = nullptr;  ///< if built: where there are none, cells need not be small
 };
 
 /// The triangle nearest to a cell's middle, and how far it is: what a query starts from.

@@ -40,13 +40,18 @@ DirectGrid DirectGrid::build(const TriangleMesh& mesh, const DirectOptions& opti
   grid.max_bytes_ = bytes_for(mesh, options.bytes_per_triangle);
   const auto left = [&] { return grid.max_bytes_ - std::min(grid.max_bytes_, grid.bytes()); };
 
-  grid.cells_ = CellTree::build(grid.store_, grid.tree_,
-                                {options.cell * frame.scale(), left() / 4, options.lazy, options.threads});
-  if (!options.lazy && left() >= DistanceField::max_bytes(mesh.size())) grid.fill_distances();
+  // Groups tell where cells are of use, but cells and samples have the first call on the bytes.
+  const std::size_t for_cells = left() / 4;
   grid.exclusion_margin_ = exclusion_margin_for(mesh, frame);
   GroupBuilder builder(grid.store_, grid.tree_, grid.exclusion_margin_, left(), options.threads);
-  grid.groups_ = options.lazy ? builder.unbuilt() : builder.build();
-  grid.coarsened_ = grid.cells_.coarsened() || builder.ran_out();
+  Groups groups = options.lazy ? Groups() : builder.build();
+  grid.cells_ = CellTree::build(grid.store_, grid.tree_,
+                                {options.cell * frame.scale(), for_cells, options.lazy, options.threads,
+                                 options.lazy ? nullptr : &groups});
+  if (!options.lazy && left() >= DistanceField::max_bytes(mesh.size())) grid.fill_distances();
+  const bool dropped = groups.fit(left());
+  grid.groups_ = options.lazy ? builder.unbuilt(left()) : std::move(groups);
+  grid.coarsened_ = grid.cells_.coarsened() || builder.ran_out() || dropped;
   return grid;
 }
 

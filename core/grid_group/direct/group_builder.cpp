@@ -42,10 +42,10 @@ Groups GroupBuilder::build() {
   return make([](GroupFinder& finder, std::uint32_t slot) { return finder.find(slot); });
 }
 
-Groups GroupBuilder::unbuilt() const {
+Groups GroupBuilder::unbuilt(std::size_t max_bytes) const {
   // Room for as many as most meshes' groups have in the mean, and a third more.
   constexpr std::size_t members_a_group = 32;
-  const std::size_t left = max_bytes_ - std::min(max_bytes_, store_.size() * sizeof(Group));
+  const std::size_t left = max_bytes - std::min(max_bytes, store_.size() * sizeof(Group));
   return {store_.size(), std::min(left / sizeof(std::uint32_t), members_a_group * store_.size())};
 }
 
@@ -53,7 +53,7 @@ Groups GroupBuilder::unbuilt() const {
 /// come so near to keep their members.
 Groups GroupBuilder::rebuild(const Groups& groups, const std::vector<Aabb>& moved) {
   if (groups.is_lazy()) {
-    Groups all = unbuilt();
+    Groups all = unbuilt(max_bytes_);
     for (std::uint32_t slot = 0; slot < store_.size(); ++slot) {
       if (groups.is_unbuilt(slot) || changes(slot, moved)) continue;
       const Group& kept = groups.of(slot);

@@ -24,8 +24,8 @@ class GroupBuilder {
         threads_(threads) {}
 
   Groups build();
-  /// None yet, and room for them.
-  Groups unbuilt() const;
+  /// None yet, and room for them in so many bytes.
+  Groups unbuilt(std::size_t max_bytes) const;
   /// Returns the groups of the same triangles after some moved within these boxes of the frame. With lazy
   /// construction those that changed are unbuilt again.
   Groups rebuild(const Groups& groups, const std::vector<Aabb>& moved);

@@ -102,9 +102,12 @@ GroupFinder::Found GroupFinder::find(std::uint32_t slot) noexcept {
   const bool visible =
       growth * face_frame.inradius > static_cast<double>(store_.frame.plane_error(face_frame.incenter));
   if (face_frame.normal.isZero(0) || !visible) return {};
+  if (effort_.shares && failures_ >= TriangleStore::block_size && slot % TriangleStore::block_size != 0)
+    return {};
   boxes_seen_ = 0;
   const double height = find_members(slot, face_frame);
-  if (member_count_ == 0 || member_count_ > Groups::max_members) return {};
+  failures_ = member_count_ == 0 ? failures_ + 1 : 0;
+  if (member_count_ == 0) return {};
   for (std::size_t i = member_count_; i < Groups::rounded_up(member_count_); ++i)
     members_[i] = members_[member_count_ - 1];
   // Rounded down, so that single precision covers no point outside.

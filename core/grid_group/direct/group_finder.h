@@ -19,7 +19,8 @@ class GroupFinder {
  public:
   struct Effort {
     /// Neighbours in the order are neighbours in space: what is gathered for one slot is to serve all those
-    /// of its block that come after it.
+    /// of its block that come after it, and after a block's worth of slots without a group only the first
+    /// slot of a block is looked at, until there is one.
     bool shares = false;
     std::uint64_t max_boxes = ~std::uint64_t{0};  ///< are looked at to gather; past that there is no group
     std::uint64_t max_near = ~std::uint64_t{0};   ///< are gathered, likewise
@@ -74,6 +75,7 @@ class GroupFinder {
   std::array<double, 2> heights_{1, 1};  ///< the heights of the last two prisms, in sizes of their triangles
   Aabb gathered_;                        ///< near_ holds every triangle that reaches into this
   std::uint32_t alone_until_ = 0;        ///< slots before this one gather for themselves
+  unsigned failures_ = 0;                ///< slots without a group since the last with one
   std::uint64_t boxes_seen_ = 0;         ///< for the group looked for
   std::size_t near_count_ = 0, member_count_ = 0;
   std::array<std::uint32_t, near_capacity> near_;

@@ -36,4 +36,22 @@ void Groups::put(std::uint32_t slot, std::span<const std::uint32_t> members, flo
   group.state_.finish();
 }
 
+bool Groups::fit(std::size_t max_bytes) {
+  const std::size_t whole = members_.size();
+  std::size_t members = whole, count = count_.load();
+  for (std::size_t slot = groups_.size(); slot-- > 0 && count > 0;) {
+    if (groups_.size() * sizeof(Group) + members * sizeof(std::uint32_t) <= max_bytes) break;
+    Group& last = groups_[slot];
+    if (last.count() == 0) continue;
+    members = last.first_;
+    last = Group();
+    --count;
+  }
+  if (members == whole) return false;
+  members_.resize(members);
+  members_.shrink_to_fit();
+  count_ = count;
+  return true;
+}
+
 }  // namespace touchmark::grid

@@ -76,6 +76,10 @@ class Groups {
   void put(std::uint32_t slot, std::span<const std::uint32_t> members, float height,
            float margin) const noexcept;
 
+  /// Drops the last ones, of those built at once, until the rest takes no more than this. Returns true if
+  /// some were dropped.
+  bool fit(std::size_t max_bytes);
+
   bool is_lazy() const noexcept { return lazy_; }
   /// Returns how many groups have members.
   std::size_t count() const noexcept { return count_.load(); }
