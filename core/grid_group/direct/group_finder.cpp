@@ -1,35 +1,14 @@
 #include "core/grid_group/direct/group_finder.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <utility>
 
 #include "core/simd/lanes.h"
 
 namespace touchmark::grid {
-
-/// A box rounded inwards: to compare its sides with other floats is to compare those of the box itself.
-struct GroupFinder::FloatBounds {
-  explicit FloatBounds(const Aabb& box) noexcept {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double low = box.min[static_cast<int>(k)], high = box.max[static_cast<int>(k)];
-      min[k] = static_cast<float>(low);
-      if (static_cast<double>(min[k]) < low) min[k] = std::nextafter(min[k], infinity);
-      max[k] = static_cast<float>(high);
-      if (static_cast<double>(max[k]) > high) max[k] = std::nextafter(max[k], -infinity);
-    }
-  }
-
-  std::array<float, 3> min, max;
-};
-
 namespace {
-
-using FloatBounds = GroupFinder::FloatBounds;
 
 /// Beyond the sides by this part of the inradius: more keeps a sliding probe longer with one group, and makes
 /// the groups larger.
@@ -55,43 +34,6 @@ Lanes load(const float* from) noexcept {
   Lanes lanes;
   std::memcpy(&lanes, from, sizeof lanes);
   return lanes;
-}
-
-/// Which of eight children have boxes that are not apart from another, and which of these lie in it.
-struct ChildrenIn {
-  unsigned reaching, within;
-};
-
-ChildrenIn children_in(const EightBoxes& boxes, const FloatBounds& box) noexcept {
-  unsigned apart = 0, beyond = 0;
-  for (std::size_t half = 0; half < 2; ++half) {
-    LaneBits is_apart{}, is_beyond{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      is_apart |= (boxes.min[k][half] > box.max[k]) | (boxes.max[k][half] < box.min[k]);
-      is_beyond |= (boxes.min[k][half] < box.min[k]) | (boxes.max[k][half] > box.max[k]);
-    }
-    apart |= to_bits(is_apart) << (4 * half);
-    beyond |= to_bits(is_beyond) << (4 * half);
-  }
-  return {~apart & 0xffU, ~(apart | beyond) & 0xffU};
-}
-
-/// Bit i is set for a ball that reaches into the box, as do those of all triangles that do.
-unsigned balls_in(std::span<const TriangleBall, 4> balls, const FloatBounds& box) noexcept {
-  const Lanes a = load(&balls[0].x), b = load(&balls[1].x), c = load(&balls[2].x), d = load(&balls[3].x);
-  const Lanes ab_low = __builtin_shufflevector(a, b, 0, 4, 1, 5);
-  const Lanes ab_high = __builtin_shufflevector(a, b, 2, 6, 3, 7);
-  const Lanes cd_low = __builtin_shufflevector(c, d, 0, 4, 1, 5);
-  const Lanes cd_high = __builtin_shufflevector(c, d, 2, 6, 3, 7);
-  const std::array<Lanes, 3> center = {__builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5),
-                                       __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7),
-                                       __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5)};
-  // Coordinates are below 4: their roundings, those of the ball and of the box inwards are below 2^-20.
-  const Lanes radius = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7) * (1 + 0x1p-20F) + 0x1p-19F;
-  LaneBits apart{};
-  for (std::size_t k = 0; k < 3; ++k)
-    apart |= (center[k] + radius < box.min[k]) | (center[k] - radius > box.max[k]);
-  return ~to_bits(apart) & 0xfU;
 }
 
 }  // namespace
@@ -142,47 +84,63 @@ double GroupFinder::find_below(std::uint32_t slot, const FaceFrame& face_frame, 
       box.extend(corner - height * face_frame.normal);
     }
     if (gather(slot, face_frame, box.padded(prism.farthest() + exclusion_margin_)))
-      return select_members(face_frame, prism, height) / face_frame.size;
+      return select_members(slot, face_frame, prism, height) / face_frame.size;
     if (!can_shrink(height, face_frame)) return 0;
   }
 }
 
 /// Lowers the prism as soon as it has too many members, so that none is looked at twice without need. Returns
 /// the height, or 0, without members, if there are too many even in the lowest prism.
-double GroupFinder::select_members(const FaceFrame& face_frame, const Prism& highest,
+double GroupFinder::select_members(std::uint32_t own, const FaceFrame& face_frame, const Prism& highest,
                                    double height) noexcept {
   constexpr std::size_t look = Prism::triangles_a_look;
-  work_.triangles += near_count_;
+  const std::size_t open_count = open_by_balls(own, highest);
   Prism prism = highest;
-  std::array<std::uint32_t, 2 * look> open;  // slots that balls leave open
-  std::size_t open_count = 0;
-  for (std::size_t at = 0; at < near_count_; at += look) {
-    const unsigned left = prism.balls_left(&near_x_[at], &near_y_[at], &near_z_[at], &near_radius_[at]);
-    const std::size_t count = std::min(look, near_count_ - at);  // behind the last are its copies
-    // Which are left no branch predictor knows.
-    for (std::size_t i = 0; i < count; ++i) {
-      open[open_count] = near_[at + i];
-      open_count += left >> i & 1;
+  for (std::size_t at = 0; at < open_count; at += look) {
+    add_members(prism, &open_[at], std::min(look, open_count - at));
+    while (member_count_ > Groups::many_members && can_shrink(height, face_frame)) {
+      height *= shrinking;
+      prism = Prism(face_frame, growth, height, exclusion_margin_, store_.frame);
+      keep_members(prism);
     }
-    const bool ends = at + look >= near_count_;
-    while (open_count >= look || (ends && open_count > 0)) {
-      const std::size_t tested = std::min(look, open_count);
-      std::fill(open.begin() + static_cast<std::ptrdiff_t>(open_count), open.end(), open[0]);
-      add_members(prism, open.data(), tested);
-      open_count -= tested;
-      std::copy_n(open.begin() + look, look, open.begin());
-      while (member_count_ > Groups::many_members && can_shrink(height, face_frame)) {
-        height *= shrinking;
-        prism = Prism(face_frame, growth, height, exclusion_margin_, store_.frame);
-        keep_members(prism);
-      }
-      if (member_count_ > Groups::max_members) {
-        member_count_ = 0;
-        return 0;
-      }
+    if (member_count_ > Groups::max_members) {
+      member_count_ = 0;
+      return 0;
     }
   }
   return height;
+}
+
+/// Leaves in open_ what the balls leave open, and behind them copies of the last, and returns how many these
+/// are. First come those whose balls meet the slot's own, as those of its neighbours do: they mostly are
+/// members, and what is alike is soon tested together.
+std::size_t GroupFinder::open_by_balls(std::uint32_t own, const Prism& prism) noexcept {
+  constexpr std::size_t look = Prism::triangles_a_look;
+  const TriangleBall& ball = store_.balls[own];
+  std::array<std::uint32_t, near_capacity> others;
+  std::size_t count = 0, other_count = 0;
+  work_.triangles += near_count_;
+  for (std::size_t at = 0; at < near_count_; at += look) {
+    unsigned left = prism.balls_left(&near_x_[at], &near_y_[at], &near_z_[at], &near_radius_[at]);
+    if (near_count_ - at < look) left &= (1U << (near_count_ - at)) - 1;  // without copies of the last
+    unsigned meeting = 0;
+    for (std::size_t half = 0; half < look; half += 4) {
+      const Lanes dx = load(&near_x_[at + half]) - ball.x, dy = load(&near_y_[at + half]) - ball.y,
+                  dz = load(&near_z_[at + half]) - ball.z,
+                  reach = load(&near_radius_[at + half]) + ball.radius;
+      meeting |= to_bits(dx * dx + dy * dy + dz * dz <= reach * reach) << half;
+    }
+    // Which are left no branch predictor knows.
+    for (std::size_t i = 0; i < look; ++i) {
+      open_[count] = others[other_count] = near_[at + i];
+      count += (left & meeting) >> i & 1;
+      other_count += (left & ~meeting) >> i & 1;
+    }
+  }
+  std::copy_n(others.begin(), other_count, open_.begin() + static_cast<std::ptrdiff_t>(count));
+  count += other_count;
+  if (count > 0) std::fill_n(open_.begin() + static_cast<std::ptrdiff_t>(count), look, open_[count - 1]);
+  return count;
 }
 
 /// Adds those of the slots that the prism cannot do without. Eight are read.
@@ -204,112 +162,6 @@ void GroupFinder::keep_members(const Prism& prism) noexcept {
     for (std::size_t i = 0; i < look; ++i) slots[i] = members_[std::min(at + i, count - 1)];
     add_members(prism, slots.data(), std::min(look, count - at));
   }
-}
-
-/// Makes near_ hold every triangle that reaches into the box, or says that they are too many.
-bool GroupFinder::gather(std::uint32_t slot, const FaceFrame& face_frame, const Aabb& box) noexcept {
-  if (gathered_.contains(box.min) && gathered_.contains(box.max)) return true;
-  if (effort_.shares && slot >= alone_until_) {
-    gathered_ = shared_box(slot, face_frame, box);
-    if (gather_blocks(gathered_)) return load_balls(), true;
-    alone_until_ = (slot / TriangleStore::block_size + 1) * TriangleStore::block_size;
-  }
-  gathered_ = box;
-  if (gather_blocks(gathered_)) return load_balls(), true;
-  gathered_ = Aabb();
-  return false;
-}
-
-/// Returns a box that probably holds those of the slots behind this one in its block, too.
-Aabb GroupFinder::shared_box(std::uint32_t slot, const FaceFrame& face_frame,
-                             const Aabb& box) const noexcept {
-  Aabb own;
-  for (const Vec3& corner : face_frame.corner) own.extend(corner);
-  const Vec3 around = (own.min - box.min).cwiseMax(box.max - own.max);
-  const float radius = store_.balls[slot].radius;
-  const std::uint32_t end =
-      std::min((slot / TriangleStore::block_size + 1) * TriangleStore::block_size, store_.size());
-  Aabb shared = box;
-  for (std::uint32_t other = slot + 1; other < end; ++other) {
-    const float larger = store_.balls[other].radius / radius;
-    if (larger > 2) continue;
-    const Vec3 padding = static_cast<double>(larger) * around;
-    for (const Vec3& in_mesh : store_.exact[other].corner) {
-      const Vec3 corner = store_.frame.to_frame(in_mesh);
-      shared.extend(corner - padding);
-      shared.extend(corner + padding);
-    }
-  }
-  return shared;
-}
-
-void GroupFinder::load_balls() noexcept {
-  constexpr std::size_t look = Prism::triangles_a_look;
-  const std::size_t whole = (near_count_ + look - 1) / look * look;
-  for (std::size_t i = 0; i < whole; ++i) {
-    const TriangleBall& ball = store_.balls[near_[std::min(i, near_count_ - 1)]];
-    near_x_[i] = ball.x;
-    near_y_[i] = ball.y;
-    near_z_[i] = ball.z;
-    near_radius_[i] = ball.radius;
-  }
-}
-
-/// Adds slots whose triangles all reach into the box.
-bool GroupFinder::add_near(std::uint64_t first, std::uint64_t count) noexcept {
-  const std::uint64_t end = std::min<std::uint64_t>(first + count, store_.size());
-  if (near_count_ + (end - first) > std::min<std::uint64_t>(max_near, effort_.max_near)) return false;
-  for (std::uint64_t slot = first; slot < end; ++slot)
-    near_[near_count_++] = static_cast<std::uint32_t>(slot);
-  return true;
-}
-
-/// Adds those of a block whose balls reach into the box.
-bool GroupFinder::add_block(std::uint32_t block, const FloatBounds& bounds) noexcept {
-  const std::uint32_t first = block * TriangleStore::block_size;
-  const std::uint32_t end = std::min(first + TriangleStore::block_size, store_.size());
-  // Which balls reach into the box no branch predictor knows.
-  for (std::uint32_t slot = first; slot < end; slot += 4) {
-    const unsigned in = balls_in(std::span(store_.balls).subspan(slot).first<4>(), bounds);
-    for (std::uint32_t i = 0; i < 4; ++i) {
-      near_[near_count_] = slot + i;
-      near_count_ += in >> i & 1;
-    }
-  }
-  return near_count_ <= std::min<std::uint64_t>(max_near, effort_.max_near);
-}
-
-bool GroupFinder::gather_blocks(const Aabb& box) noexcept {
-  struct Node {
-    std::uint32_t level, index;
-  };
-  const FloatBounds bounds(box);
-  near_count_ = 0;
-  // As in BoxStack: seven siblings a level, and the last level's eight.
-  std::array<Node, 8 * 11> stack;
-  std::size_t count = 1;
-  stack[0] = {static_cast<std::uint32_t>(tree_.levels()) - 1, 0};
-  while (count > 0) {
-    const Node node = stack[--count];
-    const EightBoxes& boxes = tree_.node(node.level, node.index);
-    boxes_seen_ += BoxTree::arity;
-    work_.boxes += BoxTree::arity;
-    if (boxes_seen_ > effort_.max_boxes) return false;
-    const ChildrenIn in = children_in(boxes, bounds);
-    const std::uint64_t slots_a_child = std::uint64_t{TriangleStore::block_size} << (3 * node.level);
-    for (unsigned left = in.reaching; left != 0; left &= left - 1) {
-      const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
-      const std::uint32_t child = node.index * BoxTree::arity + i;
-      if ((in.within >> i & 1) != 0) {
-        if (!add_near(child * slots_a_child, slots_a_child)) return false;
-      } else if (node.level > 0) {
-        stack[count++] = {node.level - 1, child};
-      } else if (!add_block(child, bounds)) {
-        return false;
-      }
-    }
-  }
-  return true;
 }
 
 }  // namespace touchmark::grid

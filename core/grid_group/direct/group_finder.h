@@ -62,7 +62,9 @@ class GroupFinder {
   bool add_near(std::uint64_t first, std::uint64_t count) noexcept;
   bool add_block(std::uint32_t block, const FloatBounds& bounds) noexcept;
   void load_balls() noexcept;
-  double select_members(const FaceFrame& face_frame, const Prism& highest, double height) noexcept;
+  double select_members(std::uint32_t own, const FaceFrame& face_frame, const Prism& highest,
+                        double height) noexcept;
+  std::size_t open_by_balls(std::uint32_t own, const Prism& prism) noexcept;
   void add_members(const Prism& prism, const std::uint32_t* slots, std::size_t count) noexcept;
   void keep_members(const Prism& prism) noexcept;
 
@@ -79,6 +81,7 @@ class GroupFinder {
   std::uint64_t boxes_seen_ = 0;         ///< for the group looked for
   std::size_t near_count_ = 0, member_count_ = 0;
   std::array<std::uint32_t, near_capacity> near_;
+  std::array<std::uint32_t, near_capacity + Prism::triangles_a_look> open_;  ///< for the group looked for
   alignas(32) std::array<float, near_capacity> near_x_, near_y_, near_z_, near_radius_;  ///< their balls
   std::array<std::uint32_t, Groups::max_members + 2 * Prism::triangles_a_look> members_;
 };
