@@ -1,5 +1,5 @@
-/// The triangles of standing bodies around a haptic point, as the scene has them: what a query of a scene that
-/// stands looks at is then these, and no body. docs/exactness.md, E32.
+/// The triangles of standing bodies around a haptic point, as the scene has them: what a query of a scene
+/// that stands looks at is then these, and no body. docs/exactness.md, E32.
 #pragma once
 
 #include <array>
