@@ -150,11 +150,9 @@ class CellTreeBuilder {
 
   /// Near the surface, down to the size of the triangles there.
   bool needs_children(const CellTree::Leaf& leaf, double edge) const {
-    // In edges: hardly any point of a cell that is farther from the mesh is near it.
-    constexpr double near = 0.7;
     // In sizes: without a group to find, a triangle is as good that is somewhat farther.
     constexpr double with_group = 3, without_group = 6;
-    if (edge < 1.5 * min_edge_ || static_cast<double>(leaf.distance) > near * edge) return false;
+    if (edge < 1.5 * min_edge_ || static_cast<double>(leaf.distance) > edge) return false;
     if (options_.smallest > 0) return true;
     const bool has_group = options_.groups == nullptr || options_.groups->of(leaf.slot).count() > 0;
     return edge > (has_group ? with_group : without_group) * size_of(store_.exact[leaf.slot]);
