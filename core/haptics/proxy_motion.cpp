@@ -37,6 +37,7 @@ void ProxyMotion::surface_moved(const TriangleMesh* mesh) noexcept {
   mesh_ = mesh;
   mesh_size_ = mesh == nullptr ? 0 : std::max(largest(mesh->bounds().min), largest(mesh->bounds().max));
   planes_.clear();
+  is_solved_ = false;
   same_goal_ = 0;
   may_touch_ = true;
   free_eighths_.reset();
@@ -63,6 +64,7 @@ bool ProxyMotion::begin(const Vec3& goal) noexcept {
   size_ = largest(position()) + mesh_size_ + coupling_.radius;
   skin_ = 0x1p-43 * size_ + 0x1p-48 * largest(goal);
   last_slide_ = 0;
+  is_solved_ = false;
   rounds_ = slides_ = 0;
   has_slid_ = has_descended_ = false;
   return true;
@@ -91,6 +93,7 @@ std::optional<Vec3> ProxyMotion::descent() noexcept {
       }))
     return std::nullopt;
   planes_.clear();
+  is_solved_ = false;
   has_descended_ = true;
   has_moved_ = false;
   return goal_;
@@ -101,6 +104,7 @@ std::optional<Vec3> ProxyMotion::next_target() noexcept {
   if (has_descended_ || state_.pieces == ProxyState::max_pieces) return std::nullopt;
   if (has_slid_ || slides_ == max_slides || rounds_++ == max_rounds) return descent();
   Vec3 target = planes_.nearest_to(goal_, position(), kept_ + skin_, skin_ / 8);
+  is_solved_ = true;
   if (!planes_.empty() && coupling_.has_friction()) {
     target = held_by_friction(position(), target, goal_, coupling_);
     has_slid_ = true;
@@ -116,6 +120,7 @@ void ProxyMotion::go(const Vec3& to) noexcept {
   if (!planes_.empty()) ++slides_;
   state_.position = state_.way[++state_.pieces] = to;
   has_moved_ = true;
+  is_solved_ = false;
 }
 
 /// The piece from here to the rounded end is nowhere farther than position_error from the sweep's own way,
@@ -181,6 +186,7 @@ Vec3 ProxyMotion::met_normal(const Impact& impact, const Vec3& target) const noe
 void ProxyMotion::meet(const Impact& impact, const Vec3& target) noexcept {
   const ContactPlane plane{met_normal(impact, target), impact.contact.point, 0, impact.contact.triangle};
   planes_.meet(plane, has_moved_ ? 0 : skin_);
+  is_solved_ = false;
   has_slid_ = false;
   slides_ = std::max(slides_ - 1, 0);
 }
@@ -196,6 +202,7 @@ double ProxyMotion::look() const noexcept {
 /// rises elsewhere: that one is met on the way.
 void ProxyMotion::look_around(std::span<const Contact> contacts) noexcept {
   planes_.clear();
+  is_solved_ = false;
   for (const Contact& contact : contacts) {
     if (!planes_.protrudes(contact.point, skin_ / 4)) continue;
     if (const std::optional<Vec3> normal = normal_at(contact))
@@ -220,7 +227,7 @@ void ProxyMotion::note_contacts() noexcept {
   state_.force.setZero();
   state_.status = ProxyStatus::free;
   if (position() != goal_) {
-    planes_.nearest_to(goal_, position(), kept_ + skin_, skin_ / 8);
+    if (!is_solved_) planes_.nearest_to(goal_, position(), kept_ + skin_, skin_ / 8);
     for (const std::uint8_t index : planes_.active()) {
       const ContactPlane& plane = planes_.all()[index];
       state_.points[state_.contacts] = plane.anchor;
@@ -243,6 +250,7 @@ const ProxyState& ProxyMotion::end() noexcept {
     state_.position = state_.way[0];
     state_.pieces = 0;
     planes_.clear();
+    is_solved_ = false;
   }
   if (is_at_goal()) planes_.clear();
   rests_ = state_.pieces == 0;

@@ -126,6 +126,7 @@ class ProxyMotion {
   bool has_slid_ = false;            ///< friction allows one slide a tick
   bool has_descended_ = false;       ///< its last piece was straight for the goal
   bool rests_ = false;               ///< the last tick did not move it
+  bool is_solved_ = false;           ///< the planes' solution is that from where it is to the tick's goal
 };
 
 }  // namespace touchmark

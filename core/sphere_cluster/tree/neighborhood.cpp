@@ -64,52 +64,60 @@ bool SphereTree::is_listed(const Vec3& from, const Vec3& to, double reach,
 }
 
 /// Lists what is within the reach of the way between two points, and a margin that is for the next questions:
-/// most of it ahead. Returns false where that is too much.
+/// most of it ahead. Returns false where that is too much, or where lists have not paid lately.
 bool SphereTree::list_around(const Vec3& from, const Vec3& to, double reach, std::uint64_t budget,
                              Neighborhood& list, Work& work) const noexcept {
-  constexpr std::uint32_t few = 64, many = 160;
-  constexpr int most_tries = 3;
-  constexpr std::uint16_t longest_cooldown = 15;
+  // A list costs some answers' worth of looking through it, so one that gives far more is too long, and each
+  // answer looks through all of it.
+  constexpr std::uint32_t many = 160, few_answers = 16, many_answers = 48;
   if (list.cooldown > 0) {
     --list.cooldown;
     return false;
   }
   const Vec3 way = to - from;
   const double length = way.norm();
+  const double margin = std::max(double{list.margin} * mean_leaf_radius_, 0.25 * length);
+  // Within a tick of long ways a list would not serve the next one.
+  if (list.longest_way > 3 * std::max(length, margin)) return false;
+  const std::uint32_t answered = list.answered;
+  const bool paid = answered >= Neighborhood::answers_that_pay;
+  list.answered = Neighborhood::answers_that_pay;
+  if (!paid) {
+    list.wait();
+    return false;
+  }
   list.covered = -1;
   list.measured_count = 0;
-  for (int left = most_tries; left > 0; --left) {
-    const double margin = double{list.margin} * mean_leaf_radius_;
-    const double ahead = 0.5 * length + (length > 0 ? 0.5 * margin : 0.0);
-    Vec3 about = length > 0 ? Vec3(from + (ahead / length) * way) : from;
-    if (!can_search(about)) about = from;
-    const FilterPoint point = frame_.point(about);
-    const double limit = reach + std::max(ahead, length) + margin + frame_.kernel_error(point.plane_error);
-    list.count = 0;
-    list.unlisted = spheres::farthest;
-    Work spent;
-    const bool is_listed =
-        simd_ == Simd::portable
-            ? spheres::portable::list_near(parts_, point, frame_.limit(limit * limit), budget, list, spent)
-            : spheres::avx2::list_near(parts_, point, frame_.limit(limit * limit), budget, list, spent);
-    work += spent;
-    budget = remaining(budget, spent.total());
-    if (!is_listed || list.count > many)
-      list.margin *= 0.5F;
-    else if (list.count < few)
-      list.margin = std::min(1.25F * list.margin, 1.0F);
-    if (!is_listed) continue;
-    list.last_cooldown = 0;
-    list.finish();
-    list.center = about;
-    list.covered =
-        clearance_from(list.unlisted, std::numeric_limits<double>::infinity(), clearance_pad(point));
-    return true;
+  const double ahead = 0.5 * length + (length > 0 ? 0.5 * margin : 0.0);
+  Vec3 about = length > 0 ? Vec3(from + (ahead / length) * way) : from;
+  if (!can_search(about)) about = from;
+  const FilterPoint point = frame_.point(about);
+  const double farther = std::max((from - about).norm(), (to - about).norm());
+  const double limit = reach + farther + margin + frame_.kernel_error(point.plane_error);
+  list.count = 0;
+  list.unlisted = spheres::farthest;
+  Work spent;
+  const bool is_listed =
+      simd_ == Simd::portable
+          ? spheres::portable::list_near(parts_, point, frame_.limit(limit * limit), budget, list, spent)
+          : spheres::avx2::list_near(parts_, point, frame_.limit(limit * limit), budget, list, spent);
+  work += spent;
+  if (!is_listed || list.count > many)
+    list.margin *= 0.5F;
+  else if (answered > many_answers)
+    list.margin *= 0.8F;
+  else if (answered < few_answers)
+    list.margin = std::min(1.25F * list.margin, 1.0F);
+  if (!is_listed) {
+    list.wait();
+    return false;
   }
-  list.last_cooldown =
-      static_cast<std::uint16_t>(std::min<int>(2 * list.last_cooldown + 1, longest_cooldown));
-  list.cooldown = list.last_cooldown;
-  return false;
+  list.last_cooldown /= 2;
+  list.answered = 0;
+  list.finish();
+  list.center = about;
+  list.covered = clearance_from(list.unlisted, std::numeric_limits<double>::infinity(), clearance_pad(point));
+  return true;
 }
 
 /// Looks for the first touch among the listed triangles. Returns false where they may not be all there are.
@@ -117,6 +125,9 @@ bool SphereTree::sweep_listed(const Sweep& sweep, double reach, std::uint64_t bu
                               Memory& memory, Work& work) const noexcept {
   Neighborhood& list = memory.neighborhood;
   if (!(list.contacts_reach >= 0) || !certified_ || !is_slow(sweep.from - list.measured_at)) return false;
+  const Vec3 way = sweep.to - sweep.from;
+  const double squared_way = way.squaredNorm();
+  list.longest_way = std::max(std::sqrt(squared_way), 0.9 * list.longest_way);
   const double error =
       frame_.kernel_error(std::max(frame_.point(sweep.from).plane_error, frame_.point(sweep.to).plane_error));
   const double farthest = reach + 2 * error;
@@ -124,10 +135,9 @@ bool SphereTree::sweep_listed(const Sweep& sweep, double reach, std::uint64_t bu
       !(list_around(sweep.from, sweep.to, std::max(farthest, list.contacts_reach), budget, list, work) &&
         is_listed(sweep.from, sweep.to, farthest, list)))
     return false;
+  ++list.answered;
   PlacesInList places;
   find_places(sweep.from, sweep.to, farthest, list, places);
-  const Vec3 way = sweep.to - sweep.from;
-  const double squared_way = way.squaredNorm();
   const bool is_measured = sweep.from == list.measured_at;
   std::uint32_t next = 0;
   for (std::uint32_t i = 0; i < places.count; ++i) {
@@ -169,7 +179,8 @@ bool SphereTree::contacts_listed(const Vec3& center, double reach, double error,
                                  Memory& memory, Work& work) const noexcept {
   Neighborhood& list = memory.neighborhood;
   const bool pays = list.contacts_reach >= 0 && is_slow(center - list.measured_at);
-  list.contacts_reach = reach;
+  // Reaches change from question to question: the next list is to serve about the largest of the last few.
+  list.contacts_reach = std::max(reach, 0.9 * list.contacts_reach);
   list.measured_at = center;
   list.measured_count = 0;
   const double farthest = reach + 2 * error;
@@ -177,6 +188,7 @@ bool SphereTree::contacts_listed(const Vec3& center, double reach, double error,
       !(pays && list_around(center, center, farthest, refill_limit() / 2, list, work) &&
         is_listed(center, center, farthest, list)))
     return false;
+  ++list.answered;
   PlacesInList places;
   find_places(center, center, farthest, list, places);
   for (std::uint32_t i = 0; i < places.count; ++i) {
