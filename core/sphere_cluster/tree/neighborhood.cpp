@@ -67,9 +67,10 @@ bool SphereTree::is_listed(const Vec3& from, const Vec3& to, double reach,
 /// most of it ahead. Returns false where that is too much, or where lists have not paid lately.
 bool SphereTree::list_around(const Vec3& from, const Vec3& to, double reach, std::uint64_t budget,
                              Neighborhood& list, Work& work) const noexcept {
-  // A list costs some answers' worth of looking through it, so one that gives far more is too long, and each
-  // answer looks through all of it.
-  constexpr std::uint32_t many = 160, few_answers = 16, many_answers = 48;
+  // Each answer looks through the whole list, and its making costs as much as some answers do: one that gives
+  // far more of them is too long.
+  constexpr std::uint32_t enough = 96, many = 160, few_answers = 16, many_answers = 48;
+  constexpr float least_margin = 0x1p-6F;
   if (list.cooldown > 0) {
     --list.cooldown;
     return false;
@@ -103,10 +104,10 @@ bool SphereTree::list_around(const Vec3& from, const Vec3& to, double reach, std
           : spheres::avx2::list_near(parts_, point, frame_.limit(limit * limit), budget, list, spent);
   work += spent;
   if (!is_listed || list.count > many)
-    list.margin *= 0.5F;
+    list.margin = std::max(0.5F * list.margin, least_margin);
   else if (answered > many_answers)
-    list.margin *= 0.8F;
-  else if (answered < few_answers)
+    list.margin = std::max(0.8F * list.margin, least_margin);
+  else if (answered < few_answers && list.count < enough)
     list.margin = std::min(1.25F * list.margin, 1.0F);
   if (!is_listed) {
     list.wait();
