@@ -13,6 +13,8 @@ constexpr int max_rounds = 8;
 /// One slide is enough on planes. On a curve of the ball's own each comes nearer by a share: what so many in
 /// a row have not reached is left to the next tick.
 constexpr int max_slides = 3;
+/// So often a tick goes straight on at its end: not far at first, then however far it is.
+constexpr int max_descents = 2;
 /// A goal that has been the same for so many ticks has been followed as far as it will be.
 constexpr int ticks_to_settle = 8;
 
@@ -37,7 +39,6 @@ void ProxyMotion::surface_moved(const TriangleMesh* mesh) noexcept {
   mesh_ = mesh;
   mesh_size_ = mesh == nullptr ? 0 : std::max(largest(mesh->bounds().min), largest(mesh->bounds().max));
   planes_.clear();
-  is_solved_ = false;
   same_goal_ = 0;
   may_touch_ = true;
   free_eighths_.reset();
@@ -64,9 +65,8 @@ bool ProxyMotion::begin(const Vec3& goal) noexcept {
   size_ = largest(position()) + mesh_size_ + coupling_.radius;
   skin_ = 0x1p-43 * size_ + 0x1p-48 * largest(goal);
   last_slide_ = 0;
-  is_solved_ = false;
-  rounds_ = slides_ = 0;
-  has_slid_ = has_descended_ = false;
+  rounds_ = slides_ = descents_ = 0;
+  has_slid_ = false;
   return true;
 }
 
@@ -83,28 +83,29 @@ bool ProxyMotion::is_surely_blocked() const noexcept {
 }
 
 /// After the last slide along a curve the proxy is off it: what is left is to go straight on, to where the
-/// surface holds it. Nothing where it does already.
+/// surface holds it. By the planes around that is near, and a short way costs less to ask for than all of it.
+/// Nothing where the surface holds it already.
 std::optional<Vec3> ProxyMotion::descent() noexcept {
-  constexpr double negligible = 1e-6;
-  const double near = kept_ + std::max(4 * skin_, negligible * kept_);
+  constexpr double negligible = 0x1p-11;
   const Vec3 way = goal_ - position();
-  if (std::ranges::any_of(planes_.all(), [&](const ContactPlane& plane) {
-        return plane.height(position()) <= near && plane.normal.dot(way) < 0;
-      }))
-    return std::nullopt;
+  const double length = way.norm();
+  double gap = length;
+  for (const ContactPlane& plane : planes_.all()) {
+    const double down = -plane.normal.dot(way) / length;
+    if (down > 0) gap = std::min(gap, (plane.height(position()) - kept_) / down);
+  }
+  if (descents_ == max_descents || gap <= std::max(16 * skin_, negligible * kept_)) return std::nullopt;
   planes_.clear();
-  is_solved_ = false;
-  has_descended_ = true;
   has_moved_ = false;
-  return goal_;
+  if (++descents_ == max_descents || 2 * gap >= length) return goal_;
+  return position() + 2 * gap / length * way;
 }
 
 std::optional<Vec3> ProxyMotion::next_target() noexcept {
   if (rounds_ == 0 && !planes_.empty() && !is_surely_blocked()) planes_.clear();
-  if (has_descended_ || state_.pieces == ProxyState::max_pieces) return std::nullopt;
-  if (has_slid_ || slides_ == max_slides || rounds_++ == max_rounds) return descent();
+  if (state_.pieces == ProxyState::max_pieces) return std::nullopt;
+  if (descents_ > 0 || has_slid_ || slides_ == max_slides || rounds_++ == max_rounds) return descent();
   Vec3 target = planes_.nearest_to(goal_, position(), kept_ + skin_, skin_ / 8);
-  is_solved_ = true;
   if (!planes_.empty() && coupling_.has_friction()) {
     target = held_by_friction(position(), target, goal_, coupling_);
     has_slid_ = true;
@@ -120,7 +121,6 @@ void ProxyMotion::go(const Vec3& to) noexcept {
   if (!planes_.empty()) ++slides_;
   state_.position = state_.way[++state_.pieces] = to;
   has_moved_ = true;
-  is_solved_ = false;
 }
 
 /// The piece from here to the rounded end is nowhere farther than position_error from the sweep's own way,
@@ -186,7 +186,6 @@ Vec3 ProxyMotion::met_normal(const Impact& impact, const Vec3& target) const noe
 void ProxyMotion::meet(const Impact& impact, const Vec3& target) noexcept {
   const ContactPlane plane{met_normal(impact, target), impact.contact.point, 0, impact.contact.triangle};
   planes_.meet(plane, has_moved_ ? 0 : skin_);
-  is_solved_ = false;
   has_slid_ = false;
   slides_ = std::max(slides_ - 1, 0);
 }
@@ -202,7 +201,6 @@ double ProxyMotion::look() const noexcept {
 /// rises elsewhere: that one is met on the way.
 void ProxyMotion::look_around(std::span<const Contact> contacts) noexcept {
   planes_.clear();
-  is_solved_ = false;
   for (const Contact& contact : contacts) {
     if (!planes_.protrudes(contact.point, skin_ / 4)) continue;
     if (const std::optional<Vec3> normal = normal_at(contact))
@@ -227,7 +225,7 @@ void ProxyMotion::note_contacts() noexcept {
   state_.force.setZero();
   state_.status = ProxyStatus::free;
   if (position() != goal_) {
-    if (!is_solved_) planes_.nearest_to(goal_, position(), kept_ + skin_, skin_ / 8);
+    planes_.nearest_to(goal_, position(), kept_ + skin_, skin_ / 8);
     for (const std::uint8_t index : planes_.active()) {
       const ContactPlane& plane = planes_.all()[index];
       state_.points[state_.contacts] = plane.anchor;
@@ -250,7 +248,6 @@ const ProxyState& ProxyMotion::end() noexcept {
     state_.position = state_.way[0];
     state_.pieces = 0;
     planes_.clear();
-    is_solved_ = false;
   }
   if (is_at_goal()) planes_.clear();
   rests_ = state_.pieces == 0;

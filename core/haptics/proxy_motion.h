@@ -119,14 +119,13 @@ class ProxyMotion {
   double last_slide_ = 0;  ///< length of the tick's last piece, if that was along planes
   int rounds_ = 0;
   int slides_ = 0;                   ///< along planes, since something was met
+  int descents_ = 0;                 ///< straight on towards the goal, after the last slide
   int same_goal_ = 0;                ///< ticks since the goal last changed
   bool may_touch_ = true;            ///< it was put there, or the surface has moved
   std::optional<int> free_eighths_;  ///< see free_eighths()
   bool has_moved_ = false;           ///< since the last target was chosen
   bool has_slid_ = false;            ///< friction allows one slide a tick
-  bool has_descended_ = false;       ///< its last piece was straight for the goal
   bool rests_ = false;               ///< the last tick did not move it
-  bool is_solved_ = false;           ///< the planes' solution is that from where it is to the tick's goal
 };
 
 }  // namespace touchmark

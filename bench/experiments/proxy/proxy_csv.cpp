@@ -97,7 +97,7 @@ constexpr auto columns = std::to_array<results::Column<Score>>({
     {"query_p999_ns", bare_percentile<999>, optional, whole_number, ""},
     {"stopped_short", counted<&T::stopped_short>, always, whole_number,
      "Ticks that end off their goal though straight on towards it a thousandth of the radius, or for a point a "
-     "millionth of the diagonal, was free; exact."},
+     "millionth of the diagonal, was free, and more than 2^-32 of the coordinates; exact."},
 });
 
 }  // namespace

@@ -9,8 +9,9 @@ namespace {
 
 /// A share of the diagonal: beyond it no rounding of coordinates explains on which side a proxy is.
 constexpr double clear_of_rounding = 1e-9;
-/// So much of the radius, or of the diagonal where there is none, is not left to go by a proxy that is held.
-constexpr double share_of_radius = 1e-3, share_of_diagonal = 1e-6;
+/// So much of the radius, or of the diagonal where there is none, is not left to go by a proxy that is held;
+/// nor so much of its coordinates, which leaves room for their rounding.
+constexpr double share_of_radius = 1e-3, share_of_diagonal = 1e-6, share_of_coordinates = 0x1p-32;
 constexpr std::size_t settled = 10;  ///< ticks after which a proxy is to rest with its goal
 
 }  // namespace
@@ -75,7 +76,8 @@ void Judge::judge_end(const Step& step, const Vec3& goal) {
   if (at == goal || excused_ || crossed_since_) return;
   const double radius = course_.radius;
   if (!oracle_->is_within(position_, goal, radius)) ++tally_.missed_goals;
-  const double little = radius > 0 ? share_of_radius * radius : share_of_diagonal * oracle_->diagonal();
+  const double share = radius > 0 ? share_of_radius * radius : share_of_diagonal * oracle_->diagonal();
+  const double little = std::max(share, share_of_coordinates * at.cwiseAbs().maxCoeff());
   const Vec3 left = goal - at;
   const Vec3 on = at + std::min(1.0, little / left.norm()) * left;
   if (on != at && !oracle_->is_within(at, on, radius)) ++tally_.stopped_short;

@@ -65,7 +65,9 @@ struct Watched {
       EXPECT_LE(state.contacts, 3u) << where;
       EXPECT_TRUE(oracle.segment_within(before.position, goal, radius)) << where << ": the goal was free";
       if (radius > 0) {
-        const Vec3 on = state.position + 1e-3 * radius * (goal - state.position).normalized();
+        const double beside_rounding =
+            std::max(1e-3 * radius, 0x1p-32 * before.position.cwiseAbs().maxCoeff());
+        const Vec3 on = state.position + beside_rounding * (goal - state.position).normalized();
         EXPECT_TRUE(oracle.segment_within(state.position, on, radius)) << where << ": it could go on";
       }
     }
