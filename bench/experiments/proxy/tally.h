@@ -21,7 +21,7 @@ struct Tally {
   double max_shortfall = 0;        ///< m, by how much at a tick's end
   std::uint64_t missed_goals = 0;  ///< ticks that end off a goal though the straight way to it was free;
                                    ///< none are counted while a crossing leaves it open where the proxy is
-  /// Ticks that end off their goal though straight on towards it more was free than any skin explains.
+  /// Ticks that end off their goal though straight on towards it more was free than rounding explains.
   std::uint64_t stopped_short = 0;
   std::uint64_t contact_ticks = 0, stuck_ticks = 0, unanswered = 0;
   std::uint64_t rest_ticks = 0;     ///< ticks whose goal has rested for ten ticks or more

@@ -130,7 +130,7 @@ TEST(Proxy, NeverComesAsNearAsItsRadiusOnMeshesThatAreHard) {
   }
 }
 
-/// After the last slide of a tick it was off by 7 % of its radius, the straight way on being free.
+/// A tick's last slide can leave the ball off the edge's curve, with the straight way on to the goal free.
 TEST(Proxy, GoesAroundAnEdgeAndEndsEveryTickOnTheSurface) {
   Watched<SphereCluster> watched(octasphere(1), {.radius = 0.4});
   watched.proxy.place({0, 0, 3});

@@ -80,14 +80,19 @@ TEST(ProxyCommand, CountsTheSameAgain) {
   EXPECT_EQ(counted(folder.file("one/proxy.csv")), counted(folder.file("two/proxy.csv")));
 }
 
+/// The trace of a ball of a quarter over a cube about the origin, its side 1, after the folder's motion.csv.
+auto traced_over_a_cube(const TemporaryFolder& folder, const std::string& method) {
+  const Outcome outcome =
+      run_touchmark({"proxy", "--method", method, "--mesh", "cube", "--trajectory", folder.file("motion.csv"),
+                     "--radius", "0.25", "--trace", folder.file("trace.csv")});
+  EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  return table_in(folder.file("trace.csv"));
+}
+
 TEST(ProxyCommand, TracesEveryPieceOfEveryStep) {
   const TemporaryFolder folder;
   folder.file("motion.csv", "x,y,z\n0,0,2\n0.125,0,0.1\n0.125,0,0.1\n0,0,2\n");
-  const Outcome outcome =
-      run_touchmark({"proxy", "--method", "virtual-proxy", "--mesh", "cube", "--trajectory",
-                     folder.file("motion.csv"), "--radius", "0.25", "--trace", folder.file("trace.csv")});
-  EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
-  const auto rows = table_in(folder.file("trace.csv"));
+  const auto rows = traced_over_a_cube(folder, "virtual-proxy");
   ASSERT_GE(rows.size(), 5U);
   const std::vector<std::string> header{"step",    "segment", "goal_x",  "goal_y",   "goal_z",
                                         "proxy_x", "proxy_y", "proxy_z", "contacts", "force_x",
@@ -119,11 +124,7 @@ TEST(ProxyCommand, TracesEveryPieceOfEveryStep) {
 TEST(ProxyCommand, StartsAtTheFirstGoalThatIsFree) {
   const TemporaryFolder folder;
   folder.file("motion.csv", "x,y,z\n0,0,0.5\n0,0,0.75\n0.125,0,2\n0,0,3\n");
-  const Outcome outcome =
-      run_touchmark({"proxy", "--method", "certified", "--mesh", "cube", "--trajectory",
-                     folder.file("motion.csv"), "--radius", "0.25", "--trace", folder.file("trace.csv")});
-  EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
-  const auto rows = table_in(folder.file("trace.csv"));
+  const auto rows = traced_over_a_cube(folder, "certified");
   ASSERT_GE(rows.size(), 5U);
   EXPECT_EQ(rows.back()[7], "3") << "the last goal is free and reached";
   EXPECT_EQ(rows.back()[8], "0");
@@ -168,11 +169,7 @@ TEST(ProxyCommand, StartsFreeOutwardFromTheFirstGoalWhereNoGoalIsFree) {
   for (const char* first : {"0.625", "0.5", "0.45"}) {
     const TemporaryFolder folder;
     folder.file("motion.csv", "x,y,z\n0,0," + std::string(first) + "\n0.1,0,0.6\n0.2,0,0.55\n");
-    const Outcome outcome =
-        run_touchmark({"proxy", "--method", "certified", "--mesh", "cube", "--trajectory",
-                       folder.file("motion.csv"), "--radius", "0.25", "--trace", folder.file("trace.csv")});
-    EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
-    const auto rows = table_in(folder.file("trace.csv"));
+    const auto rows = traced_over_a_cube(folder, "certified");
     ASSERT_GE(rows.size(), 4U);
     for (std::size_t i = 1; i < rows.size(); ++i) {
       EXPECT_GT(std::atof(rows[i][7].c_str()), 0.75) << "the ball is off the face";
