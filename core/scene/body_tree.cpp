@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 #include "core/simd/lanes.h"
@@ -36,9 +35,8 @@ class BodyTree::Region {
   }
   float squared_distance(const Box& box) const noexcept {
     static_assert(sizeof(Box) == 6 * sizeof(float));
-    Lanes low, high;  // minimum and one more, one more and maximum
-    std::memcpy(&low, box.min.data(), sizeof low);
-    std::memcpy(&high, &box.min[2], sizeof high);
+    // The minimum and one more number; one more and the maximum.
+    const Lanes low = load(box.min.data()), high = load(&box.min[2]);
     const Lanes above = low - max_, below = min_ - high, zero{};
     // What is no number is no excess.
     const Lanes over = above > zero ? above : zero, under = below > zero ? below : zero;

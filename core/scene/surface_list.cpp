@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "core/geometry/distance_error.h"
@@ -12,12 +11,6 @@ namespace touchmark {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
-
-Lanes load(const float* from) noexcept {
-  Lanes lanes;
-  std::memcpy(&lanes, from, sizeof lanes);
-  return lanes;
-}
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
@@ -18,6 +19,12 @@ using Lanes [[gnu::vector_size(16)]] = float;
 using LaneBits [[gnu::vector_size(16)]] = int;
 
 inline Lanes broadcast(float x) noexcept { return Lanes{x, x, x, x}; }
+/// Reads four floats, which need not be aligned.
+inline Lanes load(const float* from) noexcept {
+  Lanes lanes;
+  std::memcpy(&lanes, from, sizeof lanes);
+  return lanes;
+}
 
 /// Bit i of the result is set when lane i is.
 inline unsigned to_bits(LaneBits lanes) noexcept {

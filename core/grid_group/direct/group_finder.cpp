@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 #include "core/simd/lanes.h"
@@ -28,12 +27,6 @@ static_assert(growth <= 0.3 && first_height <= 1 && GroupFinder::reach_in_radii 
 
 bool can_shrink(double height, const FaceFrame& face_frame) noexcept {
   return shrinking * height >= min_height * face_frame.size;
-}
-
-Lanes load(const float* from) noexcept {
-  Lanes lanes;
-  std::memcpy(&lanes, from, sizeof lanes);
-  return lanes;
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 #include <span>
 
@@ -33,12 +32,6 @@ struct GroupFinder::FloatBounds {
 namespace {
 
 using FloatBounds = GroupFinder::FloatBounds;
-
-Lanes load(const float* from) noexcept {
-  Lanes lanes;
-  std::memcpy(&lanes, from, sizeof lanes);
-  return lanes;
-}
 
 /// Which of eight children have boxes that are not apart from another, and which of these lie in it.
 struct ChildrenIn {

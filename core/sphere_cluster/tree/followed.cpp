@@ -5,7 +5,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "core/search/certified_nearest.h"
@@ -56,11 +55,6 @@ unsigned listed_within(const FollowedPoint& list, const MoveInFrame& move, float
   if (list.count == 0) return 0;
   const float padded = std::min(limit * (1 + 0x1p-18F) + move.length * 0x1p-18F, spheres::farthest);
   const Lanes x = broadcast(move.x), y = broadcast(move.y), z = broadcast(move.z);
-  const auto load = [](const float* from) {
-    Lanes lanes;
-    std::memcpy(&lanes, from, sizeof lanes);
-    return lanes;
-  };
   unsigned near = 0;
   for (std::uint32_t i = 0; i < FollowedPoint::capacity; i += 4) {
     const Lanes bound =
