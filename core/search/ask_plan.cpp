@@ -11,7 +11,7 @@ void AskPlan::make(std::span<const Vec3> points, AskOrder order, std::size_t max
     throw std::invalid_argument("nearest_many: " + std::to_string(points.size()) +
                                 " points, of at most 4294967295");
   const bool can_follow = points.size() <= max_followed;
-  const bool knows_last = can_follow && !points.empty() && last_.size() == points.size();
+  const bool knows_last = can_follow && !points.empty() && last_count_ == points.size();
   const double step = knows_last ? mean_step(points, indices_) : 0;
   followed_ = knows_last && mean_move(last_, points) < step;
   // Steps along the order of the last call are as short as when it was made, or nearly so, where the points
@@ -26,7 +26,8 @@ void AskPlan::make(std::span<const Vec3> points, AskOrder order, std::size_t max
     made_step_ = can_follow ? mean_step(points, indices_) : 0;
   }
   asked_ = order;
-  last_.assign(points.begin(), can_follow ? points.end() : points.begin());
+  take_sample(can_follow ? points : points.first(0), last_);
+  last_count_ = can_follow ? points.size() : 0;
 }
 
 }  // namespace touchmark

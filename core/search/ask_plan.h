@@ -30,7 +30,7 @@ class AskPlan {
   /// last call than to their neighbours in the order, each has a memory of its own.
   void make(std::span<const Vec3> points, AskOrder order, std::size_t max_followed);
   /// Knows nothing of the last call.
-  void forget() noexcept { last_.clear(); }
+  void forget() noexcept { last_count_ = 0; }
 
   /// Returns the indices of the points in the order in which they are asked; empty: as they are given.
   std::span<const std::uint32_t> indices() const noexcept { return indices_; }
@@ -49,7 +49,8 @@ class AskPlan {
   AskOrder asked_ = AskOrder::automatic;  ///< in the last call
   double made_step_ = 0;                  ///< the mean step along the order when it was made
   bool followed_ = false;
-  std::vector<Vec3> last_;  ///< the points of the last call, if they can be followed
+  std::size_t last_count_ = 0;  ///< of the points of the last call, if they can be followed
+  std::vector<Vec3> last_;      ///< a sample of them
 };
 
 }  // namespace touchmark

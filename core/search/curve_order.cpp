@@ -30,7 +30,7 @@ std::uint32_t spread(std::uint32_t bits) noexcept {
   return (bits | bits << 2) & 0x09249249U;
 }
 
-constexpr std::size_t samples = 256;
+constexpr std::size_t samples = 64;
 
 std::size_t sample_stride(std::size_t count) noexcept { return std::max<std::size_t>(count / samples, 1); }
 
@@ -108,8 +108,15 @@ double mean_step(std::span<const Vec3> points, std::span<const std::uint32_t> in
                          [&](std::size_t k) { return (at(k + 1) - at(k)).norm(); });
 }
 
-double mean_move(std::span<const Vec3> from, std::span<const Vec3> to) noexcept {
-  return mean_of_samples(to.size(), [&](std::size_t k) { return (to[k] - from[k]).norm(); });
+void take_sample(std::span<const Vec3> points, std::vector<Vec3>& into) {
+  into.clear();
+  for (std::size_t k = 0; k < points.size(); k += sample_stride(points.size())) into.push_back(points[k]);
+}
+
+double mean_move(std::span<const Vec3> sampled, std::span<const Vec3> points) noexcept {
+  const std::size_t stride = sample_stride(points.size());
+  return mean_of_samples(points.size(),
+                         [&](std::size_t k) { return (points[k] - sampled[k / stride]).norm(); });
 }
 
 bool is_coherent(std::span<const Vec3> points) noexcept {

@@ -34,8 +34,10 @@ class CurveOrder {
 /// points lie where there are none. A sample, without the steps that are not finite; 0 of none.
 double mean_step(std::span<const Vec3> points, std::span<const std::uint32_t> indices = {}) noexcept;
 
-/// Returns how far the points have moved, on average, likewise. Both spans have the same size.
-double mean_move(std::span<const Vec3> from, std::span<const Vec3> to) noexcept;
+/// Keeps of the points those that mean_move compares: some hundred at most.
+void take_sample(std::span<const Vec3> points, std::vector<Vec3>& into);
+/// Returns how far the points have moved, on average, likewise, since as many were sampled.
+double mean_move(std::span<const Vec3> sampled, std::span<const Vec3> points) noexcept;
 
 /// Returns true if the step from point to point, as they lie, is as short as if they lay evenly on a surface
 /// as large as their box, or nearly so.

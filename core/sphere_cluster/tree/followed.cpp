@@ -49,20 +49,33 @@ struct MoveInFrame {
         length(static_cast<float>(move.norm() * scale * (1 + 0x1p-20))) {}
 };
 
-/// Returns those listed that may be within the limit, as bits. Bounds and what is added to them are off by
-/// less than 2^-20 of what they are and of the move: docs/exactness.md, E14.
-unsigned listed_within(const FollowedPoint& list, const MoveInFrame& move, float limit) noexcept {
-  if (list.count == 0) return 0;
-  const float padded = std::min(limit * (1 + 0x1p-18F) + move.length * 0x1p-18F, spheres::farthest);
-  const Lanes x = broadcast(move.x), y = broadcast(move.y), z = broadcast(move.z);
-  unsigned near = 0;
-  for (std::uint32_t i = 0; i < FollowedPoint::capacity; i += 4) {
-    const Lanes bound =
-        load(list.bound + i) + x * load(list.x + i) + y * load(list.y + i) + z * load(list.z + i);
-    near |= at_most(bound, padded) << i;
+/// How near those listed can be to where the point has moved.
+class ListedBounds {
+ public:
+  ListedBounds(const FollowedPoint& list, const MoveInFrame& move) noexcept
+      : slack_(move.length * 0x1p-18F), count_(list.count) {
+    if (count_ == 0) return;
+    const Lanes x = broadcast(move.x), y = broadcast(move.y), z = broadcast(move.z);
+    for (std::uint32_t k = 0; k < bound_.size(); ++k) {
+      const std::uint32_t i = 4 * k;
+      bound_[k] = load(list.bound + i) + x * load(list.x + i) + y * load(list.y + i) + z * load(list.z + i);
+    }
   }
-  return near;
-}
+  /// Returns those that may be within the limit, as bits. Bounds and what is added to them are off by less
+  /// than 2^-20 of what they are and of the move: docs/exactness.md, E14.
+  unsigned within(float limit) const noexcept {
+    if (count_ == 0) return 0;
+    const float padded = std::min(limit * (1 + 0x1p-18F) + slack_, spheres::farthest);
+    unsigned near = 0;
+    for (std::uint32_t k = 0; k < bound_.size(); ++k) near |= at_most(bound_[k], padded) << 4 * k;
+    return near;
+  }
+
+ private:
+  std::array<Lanes, FollowedPoint::capacity / 4> bound_;
+  float slack_;
+  std::uint32_t count_;
+};
 
 /// Puts a listed triangle behind the plane across the offset that was found from it at a point that has moved
 /// so far from the list's.
@@ -116,7 +129,8 @@ bool SphereTree::search_listed(double reach, double error, FollowedPoint& list,
     return static_cast<float>(std::min(in_frame, static_cast<double>(spheres::farthest)));
   };
   double farthest = reach;
-  unsigned near = listed_within(list, move, limit_within(reach));
+  const ListedBounds bounds(list, move);
+  unsigned near = bounds.within(limit_within(reach));
   const auto look_at = [&](std::uint32_t i) {
     RefreshingVisitor refreshing{visitor};
     visit(list.slot[i], refreshing);
@@ -129,7 +143,7 @@ bool SphereTree::search_listed(double reach, double error, FollowedPoint& list,
                 frame_);
       return;
     }
-    near &= listed_within(list, move, limit_within(farthest));
+    near &= bounds.within(limit_within(farthest));
   };
   // What was nearest the last time is often nearer than the others can be.
   if (const std::uint32_t first = list.nearest; (near >> first & 1) != 0) {
