@@ -40,10 +40,11 @@ DoubleDouble minor(DoubleDouble a, DoubleDouble b, DoubleDouble c, DoubleDouble 
 
 /// Returns the triangle scaled by a power of two where squares of its sides would leave the range of double.
 std::array<Vec3, 3> in_range(const std::array<Vec3, 3>& v) noexcept {
-  constexpr int largest = 400, max_exponent = 1000;
+  constexpr double least = 0x1p-400, largest = 0x1p400;
+  constexpr int max_exponent = 1000;
   const double extent = std::max({(v[1] - v[0]).cwiseAbs().maxCoeff(), (v[2] - v[1]).cwiseAbs().maxCoeff(),
                                   (v[0] - v[2]).cwiseAbs().maxCoeff()});
-  if (extent == 0 || (extent > std::ldexp(1.0, -largest) && extent < std::ldexp(1.0, largest))) return v;
+  if (extent == 0 || (extent > least && extent < largest)) return v;
   const int exponent =
       std::isinf(extent) ? max_exponent : std::clamp(std::ilogb(extent), -max_exponent, max_exponent);
   const double scale = std::ldexp(1.0, -exponent);

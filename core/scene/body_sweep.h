@@ -43,7 +43,7 @@ class BodySweep {
       : shape_(shape),
         sweep_(sweep),
         session_(session),
-        from_(shape, placed, body, sweep.from, session),
+        from_(shape, SeenBody(placed.pose, double{placed.rigid}, sweep.from), body, session),
         to_(placed.pose, double{placed.rigid}, sweep.to),
         placed_(placed),
         body_(body) {}
@@ -75,7 +75,8 @@ class BodySweep {
   /// Does the way come within the radius of an image? Exact.
   bool comes_within(double error, Work& work) const noexcept {
     const Around around = around_way(sweep_, error);
-    const BodyQuery<D> query(shape_, placed_, body_, around.center, session_);
+    const SeenBody seen(placed_.pose, double{placed_.rigid}, around.center);
+    const BodyQuery<D> query(shape_, seen, body_, session_);
     return query.for_each_within(around.reach, [&](const ImageCandidate& candidate) {
       if (candidate.distance.lower > around.reach) return false;
       ++work.exact_decisions;

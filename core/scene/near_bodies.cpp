@@ -18,8 +18,11 @@ double Clearance::remaining(const Vec3& point, const SceneBodies& bodies) const 
 
 double lower_distance(const SceneBodies& bodies, std::uint32_t body, const Vec3& point) noexcept {
   const PlacedBody& placed = bodies[body];
-  const SeenBody seen(placed.pose, double{placed.rigid}, point);
-  const double distance = std::sqrt(bodies.bounds_of(placed).squared_distance(seen.center()));
+  return lower_distance(bodies.bounds_of(placed), SeenBody(placed.pose, double{placed.rigid}, point));
+}
+
+double lower_distance(const Aabb& bounds, const SeenBody& seen) noexcept {
+  const double distance = std::sqrt(bounds.squared_distance(seen.center()));
   const double lower = seen.in_scene(distance, 4 * std::numeric_limits<double>::epsilon() * distance).lower;
   return lower > 0 ? lower : 0;  // also of what is not a number
 }
@@ -38,7 +41,7 @@ void NearBodies::add(const Entry& entry) noexcept {
 
 bool NearBodies::pays_to_list(const Vec3& point) noexcept {
   // A list is made where it may serve so many ticks. Where it would not, it is tried again in a while.
-  constexpr double ticks_listed = 4, growth_of_gap = 1.01;
+  constexpr double ticks_listed = 4, growth_of_gap = 1.004;
   // One query that moves less, such as a second one at a place, is not the end of jumps.
   step_ = was_asked_ ? std::max((point - last_).norm(), 0.5 * step_) : 0;
   was_asked_ = true;

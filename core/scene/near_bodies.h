@@ -11,12 +11,15 @@
 #include "core/scene/body.h"
 #include "core/scene/clearance.h"
 #include "core/scene/scene_bodies.h"
+#include "core/scene/seen_body.h"
 #include "core/search/epoch.h"
 
 namespace touchmark {
 
 /// Returns what the distance of the point to the body's image cannot fall below, by the bounds of its shape.
 double lower_distance(const SceneBodies& bodies, std::uint32_t body, const Vec3& point) noexcept;
+/// Returns the same for a body of a shape with these bounds that is seen from the point.
+double lower_distance(const Aabb& bounds, const SeenBody& seen) noexcept;
 
 /// Forgetting it changes the cost of the next answer, never the answer.
 class NearBodies {
@@ -60,6 +63,8 @@ class NearBodies {
   }
   /// Would a list of the nearest bodies serve some more ticks as long as this one? It is asked once a query.
   bool pays_to_list(const Vec3& point) noexcept;
+  /// Notes where the point is that the last query answered without pays_to_list.
+  void was_at(const Vec3& point) noexcept { last_ = point; }
   /// Said the last call of pays_to_list no?
   bool is_jumping() const noexcept { return is_jumping_; }
   /// Learns by how much the bodies that are not listed are beyond what was asked.

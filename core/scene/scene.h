@@ -77,7 +77,8 @@ class Scene {
   ShapeId add_shape(Shape<D> shape) {
     const Aabb bounds = shape.mesh ? shape.bounds() : Aabb();
     shape = ShapeTable<D>::checked(std::move(shape), bounds);
-    const ShapeId id = bodies_.add_shape(bounds);
+    const double beyond = shape.radius * (1 + 2 * max_rigid_error);
+    const ShapeId id = bodies_.add_shape(bounds, shape.mesh->vertices(), beyond);
     shapes_.add(std::move(shape));
     return id;
   }
@@ -180,11 +181,12 @@ class Scene {
   static constexpr double unknown = -std::numeric_limits<double>::infinity();
   /// Returns what `ask` does: a bound of the body's distance, or `unknown`.
   template <class Ask>
-  double ask(std::size_t slot, std::uint32_t body, Session& session, const Ask& ask) const noexcept {
+  double ask(std::size_t slot, std::uint32_t body, const SeenBody& seen, Session& session,
+             const Ask& ask) const noexcept {
     const Shape<D>* shape = shapes_.needed(bodies_[body].shape);
     if (shape == nullptr) return unknown;
     typename D::Session& own = session_of(slot, body, session);
-    const double lower = ask(*shape, body, own);
+    const double lower = ask(*shape, body, seen, own);
     session.work += own.work;
     own.work = {};
     return lower;
@@ -195,11 +197,11 @@ class Scene {
   template <class LeftOut, class Ask>
   void ask_unlisted(const Vec3& from, const Vec3& to, double length, const double& limit, Session& session,
                     const LeftOut& is_left_out, const Ask& ask) const noexcept;
-  /// Calls ask(shape, body, detector session) for every body that can be within the limit of the way from
-  /// `from` to `to`, which ask may lower. It returns a bound of the body's distance from `from`, or
-  /// `unknown`.
+  /// Calls ask(shape, body, seen from `from`, detector session) for every body that can be within the limit
+  /// of the way from `from` to `to`, which ask may lower. It returns a bound of the body's distance from
+  /// `from`, or `unknown`. `was_compared` says that these are not all surely beyond, as ask_surface found.
   template <class Ask>
-  void ask_near(const Vec3& from, const Vec3& to, const double& limit, Session& session,
+  void ask_near(const Vec3& from, const Vec3& to, const double& limit, bool was_compared, Session& session,
                 const Ask& ask) const noexcept;
 
   /// Lists the triangles of bodies around the point for the queries to come, where that may pay.
@@ -209,9 +211,9 @@ class Scene {
   NearSurface::Found ask_surface(const Vec3& point, double reach, Session& session,
                                  const Ask& ask) const noexcept;
 
-  /// Returns what ask(query) does, the query being one body's about one point.
+  /// Returns what ask(query) does, the query being one body's about the point that it is seen from.
   template <class Ask>
-  double with_query(const Shape<D>& shape, std::uint32_t body, const Vec3& point, typename D::Session& own,
+  double with_query(const Shape<D>& shape, std::uint32_t body, const SeenBody& seen, typename D::Session& own,
                     const Ask& ask) const noexcept;
 
   /// Calls found(body, contact) for each triangle within the reach.

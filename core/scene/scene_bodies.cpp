@@ -14,21 +14,29 @@ constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 /// more.
 float raised_to_float(double x) noexcept { return static_cast<float>(x * (1 + 0x1p-22)); }
 
+/// Returns a float that is no more than x, which is at least 0; 0 where x is no number.
+float lowered_to_float(double x) noexcept {
+  const double lowered = x * (1 - 0x1p-22);
+  return lowered > 0x1p-100 ? static_cast<float>(std::min(lowered, 0x1p100)) : 0;
+}
+
 /// Takes numbers that are at least 0. A double times 1 + 2^-52 is the next one at least, and sums that
 /// underflow are exact.
 double sum_rounded_up(double a, double b) noexcept { return (a + b) * (1 + 0x1p-52); }
 
 }  // namespace
 
-ShapeId SceneBodies::add_shape(const Aabb& bounds) {
+ShapeId SceneBodies::add_shape(const Aabb& bounds, std::span<const Vec3> vertices, double beyond) {
   const auto index = static_cast<std::uint32_t>(shapes_.size());
   if (bounds.empty() || !bounds.min.allFinite() || !bounds.max.allFinite())
     throw SceneError("shape " + std::to_string(index) + " has no finite bounds");
-  ShapeBounds shape{bounds, bounds.center(), {}, 0, 0};
+  ShapeBounds shape{bounds, bounds.center(), {}, 0, 0, nullptr};
   // Both differences count, since the centre is rounded.
   shape.half = (bounds.max - shape.center).cwiseMax(shape.center - bounds.min) * (1 + 4 * unit_roundoff);
   shape.radius = shape.half.norm() * (1 + 4 * unit_roundoff);
   shape.center_size = shape.center.cwiseAbs().sum();
+  if (!vertices.empty())
+    shape.support = std::make_shared<const SupportTable>(vertices, shape.center, shape.radius, beyond);
   shapes_.push_back(shape);
   return {index};
 }
@@ -55,8 +63,8 @@ BodyId SceneBodies::add(ShapeId shape, const Pose& pose) {
   body.rigid = raised_to_float(rigid);
   body.shape = shape.index;
   body.moved_in_span = 0;
-  const ShapeBounds& bounds = shapes_[shape.index];
-  tree_.insert(index, bounds_in_scene(bounds, pose), 0.05 * bounds.radius);
+  // A body that stands needs no room: one that moves gets it with its first move.
+  put_into_tree(index, bounds_in_scene(shapes_[shape.index], pose), 0);
   ++count_;
   ++additions_;
   return {index, body.generation};
@@ -71,12 +79,32 @@ void SceneBodies::move(BodyId id, const Pose& pose) {
   body.pose = pose;
   body.rigid = raised_to_float(rigid);
   count_motion(body, motion);
-  const Aabb bounds = bounds_in_scene(shape, pose);
-  if (tree_.holds(id.index, bounds)) return;
+  // The difference is off by one rounding of itself, and as a float by another.
+  const double room = (double{body.room} - motion) * (1 - 0x1p-20);
+  if (room > 0x1p-100)
+    body.room = static_cast<float>(room);
+  else
+    fit_box(id.index, motion);
+}
+
+void SceneBodies::put_into_tree(std::uint32_t index, const Aabb& bounds, double margin) {
+  tree_.insert(index, bounds, margin);
+  ++bodies_[index].placed;
+  bodies_[index].room = lowered_to_float(tree_.room(index, bounds));
+}
+
+void SceneBodies::fit_box(std::uint32_t index, double motion) {
+  PlacedBody& body = bodies_[index];
+  const ShapeBounds& shape = shapes_[body.shape];
+  const Aabb bounds = bounds_in_scene(shape, body.pose);
+  const double room = tree_.room(index, bounds);
+  if (room >= 0) {
+    body.room = lowered_to_float(room);
+    return;
+  }
+  tree_.remove(index);
   // Room for some more moves like this one, but not for a jump's.
-  const double margin = 0.05 * shape.radius + std::min(16 * motion, 2 * shape.radius);
-  tree_.remove(id.index);
-  tree_.insert(id.index, bounds, margin);
+  put_into_tree(index, bounds, 0.05 * shape.radius + std::min(16 * motion, 2 * shape.radius));
 }
 
 void SceneBodies::remove(BodyId id) {
@@ -105,7 +133,7 @@ void SceneBodies::follow(const SceneBodies& other, std::span<const std::uint32_t
     PlacedBody& own = bodies_[index];
     const PlacedBody& theirs = other.bodies_[index];
     const bool was = own.shape != PlacedBody::no_shape, is = theirs.shape != PlacedBody::no_shape;
-    const bool stays = was && is && tree_.is_as_in(index, other.tree_);
+    const bool stays = was && is && own.placed == theirs.placed;
     if (was && !stays) tree_.remove(index);
     if (is && !stays) tree_.insert_as_in(index, other.tree_);
     own = theirs;
@@ -133,19 +161,28 @@ const PlacedBody& SceneBodies::expect(BodyId id) const {
 }
 
 std::size_t SceneBodies::bytes() const noexcept {
-  return shapes_.capacity() * sizeof(ShapeBounds) + bodies_.capacity() * sizeof(PlacedBody) +
-         free_.capacity() * sizeof(std::uint32_t) + tree_.bytes();
+  return shapes_.capacity() * (sizeof(ShapeBounds) + sizeof(SupportTable)) +
+         bodies_.capacity() * sizeof(PlacedBody) + free_.capacity() * sizeof(std::uint32_t) + tree_.bytes();
 }
 
-/// The images of the box: its centre's, and as far in each direction as the rotation takes its half extents.
+/// The box about the image of the bounds' centre that reaches as far in each direction as the rotation takes
+/// their half extents, or the shape's vertices, if that is less.
 Aabb SceneBodies::bounds_in_scene(const ShapeBounds& shape, const Pose& pose) const noexcept {
   const Vec3 center = image(pose, shape.center);
   const Vec3 half = pose.rotation.cwiseAbs() * shape.half;
   // No entry of a rotation is above 1 by more than the 2^-32 that it may be off.
   const Vec3 rounding =
       8 * unit_roundoff * (Vec3::Constant(1.01 * shape.center_size) + pose.translation.cwiseAbs() + half);
-  const Vec3 padded = half + rounding * (1 + 4 * unit_roundoff);
-  return {center - padded, center + padded};
+  Vec3 below = half, above = half;
+  if (shape.support) {
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 row = pose.rotation.row(k);
+      above[k] = std::min(half[k], shape.support->along(row));
+      below[k] = std::min(half[k], shape.support->along(-row));
+    }
+  }
+  const Vec3 more = rounding * (1 + 4 * unit_roundoff);
+  return {center - (below + more), center + (above + more)};
 }
 
 /// A point x of the ball about c moves by R' x + t' - R x - t = (R' - R) (x - c) + (R' - R) c + t' - t.

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,8 @@
 #include "core/scene/body.h"
 #include "core/scene/body_tree.h"
 #include "core/scene/pose.h"
+#include "core/scene/seen_body.h"
+#include "core/scene/support_table.h"
 #include "core/search/epoch.h"
 
 namespace touchmark {
@@ -24,13 +27,16 @@ struct PlacedBody {
   std::uint32_t shape = no_shape;   ///< no_shape: there is no such body
   std::uint32_t generation = 0;     ///< how many bodies had this index before
   std::uint32_t moved_in_span = 0;  ///< the last span of moves in which it was moved: see SceneBodies::motion
+  float room = 0;                   ///< it may move so far before it may leave its box in the tree
+  std::uint32_t placed = 0;         ///< how often a body of this index was put into the tree
 };
 
 class SceneBodies {
  public:
-  /// Adds a shape whose mesh is within these bounds. Throws SceneError for bounds that are empty or not
-  /// finite.
-  ShapeId add_shape(const Aabb& bounds);
+  /// Adds a shape whose mesh is within these bounds. Where its vertices are known, the shape being all that
+  /// is within `beyond` of their hull, boxes of its bodies fit more closely. Throws SceneError for bounds
+  /// that are empty or not finite.
+  ShapeId add_shape(const Aabb& bounds, std::span<const Vec3> vertices = {}, double beyond = 0);
   /// Throws SceneError for a shape that does not exist, PoseError for a pose that is not rigid.
   BodyId add(ShapeId shape, const Pose& pose);
   /// Throws SceneError for a body that does not exist, PoseError.
@@ -46,6 +52,10 @@ class SceneBodies {
   const PlacedBody& expect(BodyId id) const;
   const PlacedBody& operator[](std::uint32_t index) const noexcept { return bodies_[index]; }
   BodyId id(std::uint32_t index) const noexcept { return {index, bodies_[index].generation}; }
+  /// Returns how the body is seen from a point, which outlives it.
+  SeenBody seen_from(std::uint32_t body, const Vec3& point) const noexcept {
+    return {bodies_[body].pose, double{bodies_[body].rigid}, point};
+  }
   const Aabb& bounds_of(const PlacedBody& body) const noexcept { return shapes_[body.shape].bounds; }
   std::size_t size() const noexcept { return count_; }
   std::size_t shapes() const noexcept { return shapes_.size(); }
@@ -75,14 +85,19 @@ class SceneBodies {
   struct ShapeBounds {
     Aabb bounds;
     Vec3 center, half;
-    double radius = 0;       ///< a ball so large about the centre holds the bounds
-    double center_size = 0;  ///< the sum of the centre's absolute coordinates
+    double radius = 0;                            ///< a ball so large about the centre holds the bounds
+    double center_size = 0;                       ///< the sum of the centre's absolute coordinates
+    std::shared_ptr<const SupportTable> support;  ///< about the centre; null where vertices are not known
   };
 
   Aabb bounds_in_scene(const ShapeBounds& shape, const Pose& pose) const noexcept;
   /// Bounds how far any point of the shape moves.
   double motion_between(const ShapeBounds& shape, const Pose& from, const Pose& to) const noexcept;
   void count_motion(PlacedBody& body, double motion) noexcept;
+  /// Puts the body into the tree, with so much room about it.
+  void put_into_tree(std::uint32_t index, const Aabb& bounds, double margin);
+  /// Looks whether a body that was moved by so much is still in its box, and gives it another one if not.
+  void fit_box(std::uint32_t index, double motion);
 
   std::vector<ShapeBounds> shapes_;
   std::vector<PlacedBody> bodies_;

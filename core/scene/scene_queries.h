@@ -21,7 +21,8 @@ void Scene<D>::ask_listed(const Vec3& from, double length, const double& limit, 
                           std::span<const BodyId> done, const Ask& ask) const noexcept {
   for (NearBodies::Entry& entry : session.near.near()) {
     if (entry.lower > limit + length || std::ranges::find(done, entry.id) != done.end()) continue;
-    entry.raise(from, this->ask(entry.slot, entry.id.index, session, ask), bodies_);
+    const SeenBody seen = bodies_.seen_from(entry.id.index, from);
+    entry.raise(from, this->ask(entry.slot, entry.id.index, seen, session, ask), bodies_);
   }
 }
 
@@ -36,8 +37,10 @@ void Scene<D>::ask_unlisted(const Vec3& from, const Vec3& to, double length, con
   session.work.boxes += bodies_.tree().for_each_within(region, limit, [&](std::uint32_t body) {
     if (is_left_out(body)) return limit;
     ++session.work.bodies;
-    if (lower_distance(bodies_, body, from) <= limit + length)
-      this->ask(NearBodies::room + bodies_[body].shape % unlisted_room, body, session, ask);
+    const PlacedBody& placed = bodies_[body];
+    const SeenBody seen = bodies_.seen_from(body, from);
+    if (lower_distance(bodies_.bounds_of(placed), seen) <= limit + length)
+      this->ask(NearBodies::room + placed.shape % unlisted_room, body, seen, session, ask);
     return limit;
   });
 }
@@ -45,12 +48,12 @@ void Scene<D>::ask_unlisted(const Vec3& from, const Vec3& to, double length, con
 template <Detector D>
 requires AnswersNearest<D> && AnswersContacts<D>
 template <class Ask>
-void Scene<D>::ask_near(const Vec3& from, const Vec3& to, const double& limit, Session& session,
-                        const Ask& ask) const noexcept {
+void Scene<D>::ask_near(const Vec3& from, const Vec3& to, const double& limit, bool was_compared,
+                        Session& session, const Ask& ask) const noexcept {
   NearBodies& near = session.near;
   const double length = path_length(from, to);
   // 1. Free space: every body is surely farther.
-  if (near.all_are_beyond(from, limit + length, bodies_)) return;
+  if (!was_compared && near.all_are_beyond(from, limit + length, bodies_)) return;
   // 2. Jumps: all that can be within reach, of which nothing is remembered.
   if (!near.pays_to_list(from)) {
     ask_unlisted(
@@ -83,10 +86,10 @@ void Scene<D>::ask_near(const Vec3& from, const Vec3& to, const double& limit, S
 template <Detector D>
 requires AnswersNearest<D> && AnswersContacts<D>
 template <class Ask>
-double Scene<D>::with_query(const Shape<D>& shape, std::uint32_t body, const Vec3& point,
+double Scene<D>::with_query(const Shape<D>& shape, std::uint32_t body, const SeenBody& seen,
                             typename D::Session& own, const Ask& ask) const noexcept {
-  if (shape.is_round()) return ask(RoundBody(shape, bodies_[body], body, point));
-  return ask(BodyQuery<D>(shape, bodies_[body], body, point, own));
+  if (shape.is_round()) return ask(RoundBody(shape, bodies_[body], body, seen.point()));
+  return ask(BodyQuery<D>(shape, seen, body, own));
 }
 
 template <Detector D>
@@ -100,15 +103,15 @@ bool Scene<D>::touches(const Probe& probe, Session& session) const noexcept {
   if (answer != NearSurface::Found::unknown) return answer == NearSurface::Found::contact;
   bool touching = false;
   double limit = probe.radius;
-  ask_near(probe.center, probe.center, limit, session,
-           [&](const Shape<D>& shape, std::uint32_t body, typename D::Session& own) {
+  ask_near(probe.center, probe.center, limit, ListsTriangles<D>, session,
+           [&](const Shape<D>& shape, std::uint32_t body, const SeenBody& seen, typename D::Session& own) {
              const auto found = [&](const auto& query) {
                if (touching || !query.touches(probe.radius, session.work)) return query.clearance();
                touching = true;
                limit = -std::numeric_limits<double>::infinity();
                return unknown;
              };
-             return with_query(shape, body, probe.center, own, found);
+             return with_query(shape, body, seen, own, found);
            });
   session.surface.remember(probe.center, probe.radius, bodies_);
   return touching;
@@ -129,9 +132,9 @@ const noexcept {
   double limit = reach;
   // Somewhat farther, so that a body need not be asked again while the point stays about there.
   constexpr double ahead = 0.1;
-  ask_near(probe.center, probe.center, limit, session,
-           [&](const Shape<D>& shape, std::uint32_t body, typename D::Session& own) {
-             return with_query(shape, body, probe.center, own, [&](const auto& query) {
+  ask_near(probe.center, probe.center, limit, ListsTriangles<D>, session,
+           [&](const Shape<D>& shape, std::uint32_t body, const SeenBody& seen, typename D::Session& own) {
+             return with_query(shape, body, seen, own, [&](const auto& query) {
                query.nearest(nearest, limit, session.near.is_jumping() ? 0 : ahead, session.work);
                limit = std::min(limit, nearest.upper());
                return query.clearance();
@@ -151,19 +154,20 @@ const noexcept requires AnswersSweep<D> {
   std::optional<Impact> first;
   std::uint32_t whose = 0;
   const double limit = sweep.radius;
-  ask_near(sweep.from, sweep.to, limit, session,
-           [&](const Shape<D>& shape, std::uint32_t body, typename D::Session& own) {
-             const std::optional<Impact> hit =
-                 shape.is_round()
-                     ? RoundBody(shape, bodies_[body], body, sweep.from).first_hit(sweep, session.work)
-                     : BodySweep<D>(shape, bodies_[body], body, sweep, own).first_hit(session.work);
-             if (!hit || (first && (hit->fraction > first->fraction ||
-                                    (hit->fraction == first->fraction && body > whose))))
-               return unknown;
-             first = hit;
-             whose = body;
-             return unknown;
-           });
+  ask_near(
+      sweep.from, sweep.to, limit, false, session,
+      [&](const Shape<D>& shape, std::uint32_t body, const SeenBody& /*seen*/, typename D::Session& own) {
+        const std::optional<Impact> hit =
+            shape.is_round()
+                ? RoundBody(shape, bodies_[body], body, sweep.from).first_hit(sweep, session.work)
+                : BodySweep<D>(shape, bodies_[body], body, sweep, own).first_hit(session.work);
+        if (!hit || (first &&
+                     (hit->fraction > first->fraction || (hit->fraction == first->fraction && body > whose))))
+          return unknown;
+        first = hit;
+        whose = body;
+        return unknown;
+      });
   if (!first) return std::nullopt;
   if (first->fraction == 0) {
     if (const auto start = nearest_body({sweep.from, sweep.radius}, sweep.radius, session))
@@ -214,9 +218,9 @@ template <class Found>
 void Scene<D>::for_each_contact(const Probe& probe, double reach, Session& session,
                                 const Found& found) const noexcept {
   if (!(reach >= 0) || !probe.center.allFinite()) return;
-  ask_near(probe.center, probe.center, reach, session,
-           [&](const Shape<D>& shape, std::uint32_t body, typename D::Session& own) {
-             return with_query(shape, body, probe.center, own, [&](const auto& query) {
+  ask_near(probe.center, probe.center, reach, false, session,
+           [&](const Shape<D>& shape, std::uint32_t body, const SeenBody& seen, typename D::Session& own) {
+             return with_query(shape, body, seen, own, [&](const auto& query) {
                query.for_each_within(reach, [&](const ImageCandidate& candidate) {
                  if (is_within(candidate, probe.center, reach, session.work.exact_decisions))
                    found(body, contact_on_image(candidate, probe.center, session.work.exact_decisions));

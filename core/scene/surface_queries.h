@@ -13,7 +13,6 @@ namespace touchmark {
 template <Detector D>
 requires AnswersNearest<D> && AnswersContacts<D>
 bool Scene<D>::list_surface(const Vec3& point, double reach, Session& session) const noexcept {
-  if (session.near.is_jumping()) return false;
   const std::optional<double> radius = session.surface.start(point, reach, bodies_);
   if (!radius) return false;
   const Vec3& center = session.surface.center();
@@ -52,8 +51,10 @@ NearSurface::Found Scene<D>::ask_surface(const Vec3& point, double reach, Sessio
   using Found = NearSurface::Found;
   if constexpr (ListsTriangles<D>) {
     if (session.near.all_are_beyond(point, reach, bodies_)) return Found::nothing;
+    if (session.near.is_jumping()) return Found::unknown;
     Found answer = ask(session.surface);
     if (answer == Found::unknown && list_surface(point, reach, session)) answer = ask(session.surface);
+    if (answer != Found::unknown) session.near.was_at(point);
     if (answer == Found::nothing) session.near.know_clear(point, session.surface.clearance(), bodies_);
     return answer;
   }

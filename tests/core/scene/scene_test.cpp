@@ -212,5 +212,24 @@ TEST(Scene, SeesABodyThatMovesAfterAnotherMovedAsFarAndAQuestionBetween) {
   EXPECT_EQ(scene.nearest_body({{0, 0, 0}, 0}, 0.5, session)->body, second);
 }
 
+TEST(Scene, SeesABodyThatHasComeInStepsEachOfWhichIsSmall) {
+  Scene<BruteForce> scene;
+  const ShapeId shape = scene.add_shape(Shape<BruteForce>::build(square()));
+  for (int i = 0; i < 100; ++i) scene.add(shape, at(0, 0, 3 + 0.01 * i));
+  const BodyId body = scene.add(shape, at(0, 0, 10));
+  for (int i = 999; i >= 0; --i) scene.move(body, at(0, 0, 0.01 * i));
+  Scene<BruteForce>::Session session;
+  EXPECT_TRUE(scene.touches({{0, 0, 0}, 0.5}, session));
+  // A point that jumps asks for nothing but what is within its reach.
+  for (const double z : {1000.0, -1000.0, 1000.0}) EXPECT_FALSE(scene.touches({{0, 0, z}, 0.5}, session));
+  EXPECT_TRUE(scene.touches({{0, 0, 0}, 0.5}, session));
+  for (int i = 0; i < 1000; ++i) scene.move(body, at(0, 0, 0.01 * (i % 2)));
+  EXPECT_TRUE(scene.touches({{0, 0, 0}, 0.5}, session));
+  for (int i = 0; i < 1000; ++i) scene.move(body, at(0, 0, -0.01 * i));
+  session = {};
+  EXPECT_FALSE(scene.touches({{0, 0, 0}, 0.5}, session));
+  EXPECT_EQ(scene.nearest_body({{0, 0, 0}, 0}, 20, session)->contact.distance, 3);
+}
+
 }  // namespace
 }  // namespace touchmark
