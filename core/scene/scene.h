@@ -151,8 +151,12 @@ class Scene {
   void prepare(Session& session) const noexcept requires Prepares<D>;
 
   std::size_t bytes() const noexcept { return bodies_.bytes() + shapes_.bytes(); }
+  /// Returns what the shapes take that are built.
+  std::size_t bytes_of_shapes() const noexcept { return shapes_.bytes(); }
   /// Returns what the bodies take beside their shapes.
   std::size_t bytes_of_bodies() const noexcept { return bodies_.bytes(); }
+  /// Returns what a session takes, all of it when it is made.
+  static constexpr std::size_t bytes_of_session() noexcept { return sizeof(Session); }
   Accuracy accuracy() const noexcept { return posed_certified; }
 
  private:

@@ -88,6 +88,9 @@ class SharedScene {
     is_behind_ = true;
   }
 
+  /// Returns what both copies take, and the shapes, which they share.
+  std::size_t bytes() const noexcept { return bytes_of_bodies() + copies_[0].bytes_of_shapes(); }
+  /// Returns what both copies take beside the shapes.
   std::size_t bytes_of_bodies() const noexcept {
     return copies_[0].bytes_of_bodies() + copies_[1].bytes_of_bodies() +
            changed_.capacity() * sizeof(std::uint32_t);

@@ -150,5 +150,27 @@ TEST(SharedScene, SeesABodyThatMovesInTheFrameAfterAnotherMovedAsFar) {
   EXPECT_TRUE(scene.read()->touches({{0, 0, 0}, 0.5}, session));
 }
 
+TEST(SharedScene, CountsBothCopiesOfWhereBodiesAreAndTheShapesOnce) {
+  const TriangleMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
+  const Shape<BruteForce> shape = Shape<BruteForce>::build(mesh);
+  Scene<BruteForce> one;
+  SharedScene<BruteForce> shared;
+  const ShapeId in_one = one.add_shape(shape), in_shared = shared.add_shape(shape);
+  one.reserve(1000);
+  shared.reserve(1000);
+  for (int i = 0; i < 1000; ++i) {
+    Pose pose;
+    pose.translation.x() = 3 * i;
+    one.add(in_one, pose);
+    shared.add(in_shared, pose);
+  }
+  EXPECT_GE(shared.bytes_of_bodies(), one.bytes_of_bodies());
+  shared.publish();
+  shared.move(shared.add(in_shared, Pose()), Pose());  // the other copy follows
+  EXPECT_GE(shared.bytes_of_bodies(), 2 * one.bytes_of_bodies() * 9 / 10);
+  EXPECT_EQ(shared.bytes() - shared.bytes_of_bodies(), one.bytes_of_shapes());
+  EXPECT_EQ(Scene<BruteForce>::bytes_of_session(), sizeof(Scene<BruteForce>::Session));
+}
+
 }  // namespace
 }  // namespace touchmark
