@@ -34,6 +34,7 @@ class FirstTouch;
 
 namespace spheres {
 struct MovedTriangles;
+class SweepCandidates;
 }  // namespace spheres
 
 class SphereTree {
@@ -225,11 +226,11 @@ class SphereTree {
   bool contacts_listed(const Vec3& center, double reach, double error, ContactsWithin& found, Memory& memory,
                        Work& work) const noexcept;
   bool is_sampled_clear(const Sweep& sweep, double length, double reach, Memory& memory) const noexcept;
-  bool search_middle(const Sweep& sweep, double length, double reach, std::uint64_t budget, FirstTouch& first,
-                     const Memory& memory, Work& work) const noexcept;
+  bool search_middle(const Sweep& sweep, double length, double reach, std::uint64_t budget,
+                     spheres::SweepCandidates& candidates, const Memory& memory, Work& work) const noexcept;
   std::optional<Impact> conclude(const FirstTouch& first, Memory& memory, Work& work) const noexcept;
-  bool search_path(const Sweep& sweep, double length, double reach, std::uint64_t budget, FirstTouch& first,
-                   Work& work) const noexcept;
+  bool search_path(const Sweep& sweep, double length, double reach, std::uint64_t budget,
+                   spheres::SweepCandidates& candidates, Work& work) const noexcept;
 
   void measure_leaves() noexcept;
   void fill_distances();

@@ -10,37 +10,43 @@
 #include "core/search/tracing.h"
 #include "core/sphere_cluster/tree/cylinder_bvh.h"
 #include "core/sphere_cluster/tree/search.h"  // IWYU pragma: keep
+#include "core/sphere_cluster/tree/sweep_candidates.h"
 
 namespace touchmark {
 namespace {
 
+/// So many triangles are many: it pays to look first for a plane that keeps the next ones apart, too.
+constexpr std::uint32_t many = 16;
+
 /// Keeps the first hit among the triangles near the middle of a path.
 struct MiddleVisitor {
-  const spheres::TreeParts& tree;
   Vec3 center;
   float limit;
-  FirstTouch& first;
+  spheres::SweepCandidates& candidates;
   Work work{};
+  std::uint32_t shown = 0;
 
-  bool accepts(std::uint32_t) const noexcept { return true; }
-  /// The offset's plane tells most of those that are not touched.
+  bool accepts(std::uint32_t at) noexcept { return ++shown < many || !candidates.last_plane_keeps_apart(at); }
   void update(std::uint32_t at, const Offset& offset) noexcept {
-    const PreparedTriangle& triangle = tree.triangles[at];
-    if (plane_keeps_apart(triangle, first.sweep(), offset)) return;
-    first.consider(triangle, at, work.exact_decisions);
+    candidates.consider(at, center, offset, work);
   }
 };
 
 /// Keeps the first hit; what is left of the path falls with it.
 struct SweepVisitor {
-  const spheres::TreeParts& tree;
   double length;  ///< the path's in the tree's frame, rounded up
   float error;
-  FirstTouch& first;
+  spheres::SweepCandidates& candidates;
   Work work{};
+  std::uint32_t shown = 0;
 
-  float until() const noexcept { return static_cast<float>(first.limit() * length) + error; }
-  void consider(std::uint32_t at) noexcept { first.consider(tree.triangles[at], at, work.exact_decisions); }
+  float until() const noexcept { return static_cast<float>(candidates.limit() * length) + error; }
+  void consider(std::uint32_t at) noexcept {
+    if (++shown < many)
+      candidates.decide(at, work);
+    else
+      candidates.consider(at, work);
+  }
 };
 
 /// A ball about the middle of a longer path meets more than the path does: more in its length, and in the
@@ -73,18 +79,19 @@ std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, 
   const double length = (sweep.to - sweep.from).norm();
   if (is_sampled_clear(sweep, length, reach, memory)) return std::nullopt;
   const std::uint64_t budget = remaining(work_limit(), work.total() - before);
+  spheres::SweepCandidates candidates(parts_, simd_, first);
   const bool is_short =
       length <= longest_in_leaf_radii * mean_leaf_radius_ &&
       length * reach <= largest_product_in_leaf_radii * mean_leaf_radius_ * mean_leaf_radius_;
   const bool done =
       (is_short &&
-       search_middle(sweep, length, reach, std::min(budget, middle_budget), first, memory, work)) ||
-      search_path(sweep, length, reach, remaining(work_limit(), work.total() - before), first, work);
+       search_middle(sweep, length, reach, std::min(budget, middle_budget), candidates, memory, work)) ||
+      search_path(sweep, length, reach, remaining(work_limit(), work.total() - before), candidates, work);
   if (!done) {
     spheres::build_rest(parts_, work);
     work.triangles += parts_.triangles.size();
     for (std::uint32_t at = 0; at < parts_.triangles.size(); ++at)
-      first.consider(parts_.triangles[at], at, work.exact_decisions);
+      candidates.consider(at, work);
   }
   return conclude(first, memory, work);
 }
@@ -129,9 +136,10 @@ bool SphereTree::is_sampled_clear(const Sweep& sweep, double length, double reac
 /// Looks in a ball about the middle, which is rounded to a point. Returns false when the work budget was
 /// exhausted.
 bool SphereTree::search_middle(const Sweep& sweep, double length, double reach, std::uint64_t budget,
-                               FirstTouch& first, const Memory& memory, Work& work) const noexcept {
+                               spheres::SweepCandidates& candidates, const Memory& memory,
+                               Work& work) const noexcept {
   const double ball = reach + position_error(sweep) + 0.5 * length * (1 + 0x1p-40);
-  MiddleVisitor visitor{parts_, position_at(sweep, 0.5), frame_.limit(ball * ball), first};
+  MiddleVisitor visitor{position_at(sweep, 0.5), frame_.limit(ball * ball), candidates};
   const bool done =
       search_listed(frame_.point(visitor.center), visitor, memory, budget) != spheres::exhausted;
   work += visitor.work;
@@ -140,7 +148,7 @@ bool SphereTree::search_middle(const Sweep& sweep, double length, double reach, 
 
 /// Looks along the path. Returns false when the work budget was exhausted.
 bool SphereTree::search_path(const Sweep& sweep, double length, double reach, std::uint64_t budget,
-                             FirstTouch& first, Work& work) const noexcept {
+                             spheres::SweepCandidates& candidates, Work& work) const noexcept {
   const Vec3 direction = (sweep.to - sweep.from) / length;
   const FilterPoint from = frame_.point(sweep.from), to = frame_.point(sweep.to);
   const float error = path_error * (from.plane_error + to.plane_error);
@@ -150,7 +158,7 @@ bool SphereTree::search_path(const Sweep& sweep, double length, double reach, st
                            static_cast<float>(direction.z()),
                            std::sqrt(frame_.limit(reach * reach)) * (1 + 0x1p-20F) + error,
                            error};
-  SweepVisitor visitor{parts_, length * frame_.scale() * (1 + 0x1p-20), error, first};
+  SweepVisitor visitor{length * frame_.scale() * (1 + 0x1p-20), error, candidates};
   const bool done = simd_ == Simd::portable ? spheres::portable::sweep(parts_, path, budget, visitor)
                                             : spheres::avx2::sweep(parts_, path, budget, visitor);
   work += visitor.work;
