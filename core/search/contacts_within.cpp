@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -27,6 +28,18 @@ double error_of_both(const PreparedTriangle& a, const PreparedTriangle& b, const
 }
 
 }  // namespace
+
+SquaredDistance CloseSquares::of(std::uint32_t slot, const PreparedTriangle& triangle,
+                                 const Vec3& center) noexcept {
+  if (!is_used_) slot_.fill(nowhere);
+  is_used_ = true;
+  const std::size_t at = slot % slot_.size();
+  if (slot_[at] != slot) {
+    slot_[at] = slot;
+    square_[at] = TiedTriangle(triangle, center).squared(center);
+  }
+  return square_[at];
+}
 
 ContactsWithin::ContactsWithin(const ContactsQuestion& question) noexcept
     : question_(question),
@@ -54,7 +67,7 @@ bool ContactsWithin::is_within(const PreparedTriangle& triangle, double distance
 
 /// Meanwhile a contact has the triangle's slot for its id, the computed distance in this unit, the offset for
 /// its point, and the offset's square for its normal's x.
-bool ContactsWithin::is_before(const Contact& a, const Contact& b) const noexcept {
+bool ContactsWithin::is_before(const Contact& a, const Contact& b) noexcept {
   if (a.triangle == b.triangle) return false;
   const PreparedTriangle &first = question_.triangles[a.triangle], &other = question_.triangles[b.triangle];
   if (std::abs(a.distance - b.distance) > error_) return a.distance < b.distance;
@@ -67,6 +80,10 @@ bool ContactsWithin::is_before(const Contact& a, const Contact& b) const noexcep
     } else if (std::abs(a.distance - b.distance) > error_of_both(first, other, question_.center)) {
       return a.distance < b.distance;
     }
+    const std::partial_ordering order = compare(squares_.of(a.triangle, first, question_.center),
+                                                squares_.of(b.triangle, other, question_.center));
+    if (order == 0) return first.index < other.index;
+    if (order != std::partial_ordering::unordered) return order < 0;
   }
   NearestOfTies both(question_.center);
   both.consider(first);

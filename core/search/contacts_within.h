@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -13,6 +14,7 @@
 #include "core/geometry/point_triangle.h"
 #include "core/probe.h"
 #include "core/search/nearest_of_ties.h"
+#include "core/search/sure_feature.h"
 #include "core/triangle_ids.h"
 
 namespace touchmark {
@@ -41,6 +43,20 @@ struct ContactsQuestion {
   double reach;                 ///< at least 0
   std::span<Contact> into;      ///< room for the nearest
   bool decides_exactly = true;  ///< false: as doubles have it
+};
+
+/// The squares in 106 bits of the distances to triangles that doubles do not tell apart, each computed once or
+/// little more often, in however many comparisons it takes part.
+class CloseSquares {
+ public:
+  SquaredDistance of(std::uint32_t slot, const PreparedTriangle& triangle, const Vec3& center) noexcept;
+
+ private:
+  static constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
+
+  bool is_used_ = false;  ///< else the arrays are not set yet
+  std::array<std::uint32_t, 64> slot_;
+  std::array<SquaredDistance, 64> square_;
 };
 
 /// Decides which triangles are within the reach, counts them, and keeps the nearest. A search shows each
@@ -74,7 +90,7 @@ class ContactsWithin {
 
   double distance_to(const PreparedTriangle& triangle, const Offset& offset) const noexcept;
   bool is_within(const PreparedTriangle& triangle, double distance, Work& work) noexcept;
-  bool is_before(const Contact& a, const Contact& b) const noexcept;
+  bool is_before(const Contact& a, const Contact& b) noexcept;
   Contact finished(const Contact& kept) noexcept;
 
   ContactsQuestion question_;
@@ -84,9 +100,10 @@ class ContactsWithin {
   Vec3 point_;              ///< the centre in that unit
   double reach_;            ///< likewise
   WithinRadius is_within_;
+  CloseSquares squares_;
   std::size_t count_ = 0;
   std::optional<Nearest> nearest_;
-  mutable std::uint64_t exact_decisions_ = 0;
+  std::uint64_t exact_decisions_ = 0;
 };
 
 }  // namespace touchmark
