@@ -15,18 +15,14 @@
 namespace touchmark {
 namespace {
 
-/// So many triangles are many: it pays to look first for a plane that keeps the next ones apart, too.
-constexpr std::uint32_t many = 16;
-
 /// Keeps the first hit among the triangles near the middle of a path.
 struct MiddleVisitor {
   Vec3 center;
   float limit;
   spheres::SweepCandidates& candidates;
   Work work{};
-  std::uint32_t shown = 0;
 
-  bool accepts(std::uint32_t at) noexcept { return ++shown < many || !candidates.last_plane_keeps_apart(at); }
+  bool accepts(std::uint32_t at) const noexcept { return !candidates.passes_over(at); }
   void update(std::uint32_t at, const Offset& offset) noexcept {
     candidates.consider(at, center, offset, work);
   }
@@ -38,15 +34,9 @@ struct SweepVisitor {
   float error;
   spheres::SweepCandidates& candidates;
   Work work{};
-  std::uint32_t shown = 0;
 
   float until() const noexcept { return static_cast<float>(candidates.limit() * length) + error; }
-  void consider(std::uint32_t at) noexcept {
-    if (++shown < many)
-      candidates.decide(at, work);
-    else
-      candidates.consider(at, work);
-  }
+  void consider(std::uint32_t at) noexcept { candidates.consider(at, work); }
 };
 
 /// A ball about the middle of a longer path meets more than the path does: more in its length, and in the

@@ -27,27 +27,48 @@ Vec3 nearest_place(const Sweep& sweep, const Vec3& point) noexcept {
 }  // namespace
 
 void SweepCandidates::consider(std::uint32_t at, Work& work) noexcept {
-  if (last_plane_keeps_apart(at)) return;
-  if (!first_.found()) {
-    const Vec3 middle = position_at(first_.sweep(), 0.5);
-    consider(at, middle, measured(at, middle, work), work);
-  } else if (!plane_across_keeps_apart(at, measured(at, end_, work))) {
-    decide(at, work);
-  }
+  if (passes_over(at)) return;
+  const Vec3& end = first_.found() ? end_ : first_.sweep().to;
+  if (shown_ < many || !is_apart_elsewhere(at, end, work)) decide(at, work);
+  settle(at);
 }
 
 /// Where the first touch is known, it is to be shown that this one does not touch before. Else the place of
 /// the path that is nearest to what was found is often about where the triangle is nearest.
 void SweepCandidates::consider(std::uint32_t at, const Vec3& place, const Offset& found,
                                Work& work) noexcept {
-  if (plane_across_keeps_apart(at, found)) return;
-  const Vec3 next = first_.found() ? end_ : nearest_place(first_.sweep(), place - found.vector);
-  if (!plane_across_keeps_apart(at, measured(at, next, work))) decide(at, work);
+  if (!plane_across_keeps_apart(at, found)) {
+    const Vec3 next = first_.found() ? end_ : nearest_place(first_.sweep(), place - found.vector);
+    if (!is_apart_elsewhere(at, next, work)) decide(at, work);
+  }
+  settle(at);
+}
+
+bool SweepCandidates::is_apart_elsewhere(std::uint32_t at, const Vec3& place, Work& work) noexcept {
+  constexpr std::uint32_t longest = 3;
+  if (pause_ > 0) {
+    --pause_;
+    return false;
+  }
+  const bool is_apart = plane_across_keeps_apart(at, measured(at, place, work));
+  last_pause_ = is_apart ? 0 : std::min(2 * last_pause_ + 1, longest);
+  pause_ = last_pause_;
+  return is_apart;
 }
 
 void SweepCandidates::decide(std::uint32_t at, Work& work) noexcept {
+  const double before = first_.fraction();
   first_.consider(tree_.triangles[at], at, work.exact_decisions);
-  if (first_.found() && first_.slot() == at) end_ = position_at(first_.sweep(), first_.limit());
+  if (!(first_.fraction() < before)) return;
+  end_ = position_at(first_.sweep(), first_.limit());
+  pause_ = last_pause_ = 0;
+}
+
+void SweepCandidates::settle(std::uint32_t at) noexcept {
+  if (shown_ < many || at >= max_settled) return;
+  if (!settles_) settled_.fill(0);
+  settles_ = true;
+  settled_[at / 64] |= std::uint64_t{1} << at % 64;
 }
 
 bool SweepCandidates::plane_across_keeps_apart(std::uint32_t at, const Offset& offset) noexcept {

@@ -5,6 +5,7 @@
 /// in doubles tell them apart: those across the offsets from where the ball first touches, as far as is known.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "core/detector.h"
@@ -25,22 +26,31 @@ class SweepCandidates {
 
   /// Returns the part of the path that is still to be looked at.
   double limit() const noexcept { return first_.limit(); }
-  /// Does the plane that kept the last one apart do so here?
-  bool last_plane_keeps_apart(std::uint32_t at) const noexcept {
-    return has_plane_ && keeps_apart(at, plane_);
+  /// Is it known without measuring that there is nothing to be found at the triangle in this slot?
+  bool passes_over(std::uint32_t at) noexcept {
+    if (++shown_ < many) return false;
+    return is_settled(at) || (has_plane_ && keeps_apart(at, plane_));
   }
   /// Looks at the triangle in this slot. Counts what is measured besides.
   void consider(std::uint32_t at, Work& work) noexcept;
   /// Likewise, where its offset to a place on the path is known.
   void consider(std::uint32_t at, const Vec3& place, const Offset& found, Work& work) noexcept;
-  /// Asks the exact sweep.
-  void decide(std::uint32_t at, Work& work) noexcept;
 
  private:
+  /// So many triangles are many: it pays to look for planes, and to remember what has been settled.
+  static constexpr std::uint32_t many = 16;
+  static constexpr std::uint32_t max_settled = 2048;
+
   bool keeps_apart(std::uint32_t at, const Vec3& normal) const noexcept {
     return plane_keeps_apart(tree_.triangles[at], first_.sweep(), normal, first_.limit());
   }
+  bool is_settled(std::uint32_t at) const noexcept {
+    return settles_ && at < max_settled && (settled_[at / 64] >> at % 64 & 1) != 0;
+  }
+  void settle(std::uint32_t at) noexcept;
   bool plane_across_keeps_apart(std::uint32_t at, const Offset& offset) noexcept;
+  bool is_apart_elsewhere(std::uint32_t at, const Vec3& place, Work& work) noexcept;
+  void decide(std::uint32_t at, Work& work) noexcept;
   Offset measured(std::uint32_t at, const Vec3& place, Work& work) const noexcept;
 
   const TreeParts& tree_;
@@ -49,6 +59,11 @@ class SweepCandidates {
   Vec3 end_ = Vec3::Zero();  ///< where the ball is at the first touch so far, rounded
   Vec3 plane_ = Vec3::Zero();
   bool has_plane_ = false;
+  std::uint32_t shown_ = 0;
+  /// Where one more place did not tell a triangle apart, it is not asked for so many more, each time for longer.
+  std::uint32_t pause_ = 0, last_pause_ = 0;
+  bool settles_ = false;  ///< else the array is not set yet
+  std::array<std::uint64_t, max_settled / 64> settled_;
 };
 
 }  // namespace touchmark::spheres
