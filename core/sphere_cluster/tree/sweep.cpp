@@ -46,6 +46,8 @@ constexpr double longest_in_leaf_radii = 0.5, largest_product_in_leaf_radii = 0.
 /// radius misleads: the path is looked along instead.
 constexpr std::uint64_t middle_budget = 1024;
 
+constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
+
 /// In plane_errors of both ends together: the sum of all rounding is below 5 of them.
 constexpr float path_error = 8;
 
@@ -69,7 +71,7 @@ std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, 
   const double length = (sweep.to - sweep.from).norm();
   if (is_sampled_clear(sweep, length, reach, memory)) return std::nullopt;
   const std::uint64_t budget = remaining(work_limit(), work.total() - before);
-  spheres::SweepCandidates candidates(parts_, simd_, first);
+  spheres::SweepCandidates candidates(parts_, simd_, memory.is_near() ? memory.slot : nowhere, first);
   const bool is_short =
       length <= longest_in_leaf_radii * mean_leaf_radius_ &&
       length * reach <= largest_product_in_leaf_radii * mean_leaf_radius_ * mean_leaf_radius_;

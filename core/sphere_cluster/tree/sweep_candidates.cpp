@@ -28,8 +28,10 @@ Vec3 nearest_place(const Sweep& sweep, const Vec3& point) noexcept {
 
 void SweepCandidates::consider(std::uint32_t at, Work& work) noexcept {
   if (passes_over(at)) return;
+  if (shown_ < many) return decide(at, work);
+  if (!is_prepared_) prepare(work);
   const Vec3& end = first_.found() ? end_ : first_.sweep().to;
-  if (shown_ < many || !is_apart_elsewhere(at, end, work)) decide(at, work);
+  if (!is_apart_by_known(at) && !is_apart_elsewhere(at, end, work)) decide(at, work);
   settle(at);
 }
 
@@ -37,11 +39,36 @@ void SweepCandidates::consider(std::uint32_t at, Work& work) noexcept {
 /// the path that is nearest to what was found is often about where the triangle is nearest.
 void SweepCandidates::consider(std::uint32_t at, const Vec3& place, const Offset& found,
                                Work& work) noexcept {
-  if (!plane_across_keeps_apart(at, found)) {
+  if (shown_ >= many && !is_prepared_) prepare(work);
+  if (!is_apart_across(at, direction_of(found)) && !(is_prepared_ && is_apart_by_known(at))) {
     const Vec3 next = first_.found() ? end_ : nearest_place(first_.sweep(), place - found.vector);
     if (!is_apart_elsewhere(at, next, work)) decide(at, work);
   }
   settle(at);
+}
+
+/// A ball that slides along a face or an edge keeps off that plane, and all that is behind it is apart. If it
+/// leaves the plane to the other side, that triangle is the first it meets.
+void SweepCandidates::prepare(Work& work) noexcept {
+  settled_.fill(0);
+  is_prepared_ = true;
+  if (near_ >= tree_.triangles.size()) return;
+  face_ = face_towards_start(near_);
+  across_ = direction_of(measured(near_, first_.sweep().from, work));
+  decide(near_, work);
+  settle(near_);
+}
+
+Vec3 SweepCandidates::face_towards_start(std::uint32_t at) const noexcept {
+  const PreparedTriangle& triangle = tree_.triangles[at];
+  const bool is_behind = triangle.normal.dot(first_.sweep().from - triangle.corner[0]) < 0;
+  return is_behind ? Vec3(-triangle.normal) : triangle.normal;
+}
+
+/// What slides along a face is nearer to it than the direction of an offset is certain by.
+bool SweepCandidates::is_apart_by_known(std::uint32_t at) noexcept {
+  return is_apart_across(at, face_) || is_apart_across(at, across_) ||
+         is_apart_across(at, face_towards_start(at));
 }
 
 bool SweepCandidates::is_apart_elsewhere(std::uint32_t at, const Vec3& place, Work& work) noexcept {
@@ -50,7 +77,7 @@ bool SweepCandidates::is_apart_elsewhere(std::uint32_t at, const Vec3& place, Wo
     --pause_;
     return false;
   }
-  const bool is_apart = plane_across_keeps_apart(at, measured(at, place, work));
+  const bool is_apart = is_apart_across(at, direction_of(measured(at, place, work)));
   last_pause_ = is_apart ? 0 : std::min(2 * last_pause_ + 1, longest);
   pause_ = last_pause_;
   return is_apart;
@@ -64,15 +91,8 @@ void SweepCandidates::decide(std::uint32_t at, Work& work) noexcept {
   pause_ = last_pause_ = 0;
 }
 
-void SweepCandidates::settle(std::uint32_t at) noexcept {
-  if (shown_ < many || at >= max_settled) return;
-  if (!settles_) settled_.fill(0);
-  settles_ = true;
-  settled_[at / 64] |= std::uint64_t{1} << at % 64;
-}
-
-bool SweepCandidates::plane_across_keeps_apart(std::uint32_t at, const Offset& offset) noexcept {
-  const Vec3 normal = direction_of(offset);
+/// Remembers the plane where it does.
+bool SweepCandidates::is_apart_across(std::uint32_t at, const Vec3& normal) noexcept {
   if (!keeps_apart(at, normal)) return false;
   plane_ = normal;
   has_plane_ = true;

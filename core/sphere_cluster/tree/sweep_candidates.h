@@ -20,9 +20,10 @@ namespace touchmark::spheres {
 
 class SweepCandidates {
  public:
-  /// `first`, which nothing has been shown yet, and the tree must outlive this.
-  SweepCandidates(const TreeParts& tree, Simd simd, FirstTouch& first) noexcept
-      : tree_(tree), simd_(simd), first_(first) {}
+  /// `first`, which nothing has been shown yet, and the tree must outlive this. `near` is the slot of a triangle
+  /// near the start, or beyond all slots.
+  SweepCandidates(const TreeParts& tree, Simd simd, std::uint32_t near, FirstTouch& first) noexcept
+      : tree_(tree), simd_(simd), near_(near), first_(first) {}
 
   /// Returns the part of the path that is still to be looked at.
   double limit() const noexcept { return first_.limit(); }
@@ -45,24 +46,31 @@ class SweepCandidates {
     return plane_keeps_apart(tree_.triangles[at], first_.sweep(), normal, first_.limit());
   }
   bool is_settled(std::uint32_t at) const noexcept {
-    return settles_ && at < max_settled && (settled_[at / 64] >> at % 64 & 1) != 0;
+    return is_prepared_ && at < max_settled && (settled_[at / 64] >> at % 64 & 1) != 0;
   }
-  void settle(std::uint32_t at) noexcept;
-  bool plane_across_keeps_apart(std::uint32_t at, const Offset& offset) noexcept;
+  void settle(std::uint32_t at) noexcept {
+    if (is_prepared_ && at < max_settled) settled_[at / 64] |= std::uint64_t{1} << at % 64;
+  }
+  void prepare(Work& work) noexcept;
+  Vec3 face_towards_start(std::uint32_t at) const noexcept;
+  bool is_apart_across(std::uint32_t at, const Vec3& normal) noexcept;
+  bool is_apart_by_known(std::uint32_t at) noexcept;
   bool is_apart_elsewhere(std::uint32_t at, const Vec3& place, Work& work) noexcept;
   void decide(std::uint32_t at, Work& work) noexcept;
   Offset measured(std::uint32_t at, const Vec3& place, Work& work) const noexcept;
 
   const TreeParts& tree_;
   Simd simd_;
+  std::uint32_t near_;
   FirstTouch& first_;
-  Vec3 end_ = Vec3::Zero();  ///< where the ball is at the first touch so far, rounded
-  Vec3 plane_ = Vec3::Zero();
+  Vec3 end_ = Vec3::Zero();    ///< where the ball is at the first touch so far, rounded
+  Vec3 plane_ = Vec3::Zero();  ///< normal of that which kept the last one apart
   bool has_plane_ = false;
+  Vec3 face_ = Vec3::Zero(), across_ = Vec3::Zero();  ///< normals of the near triangle, and of its offset
   std::uint32_t shown_ = 0;
   /// Where one more place did not tell a triangle apart, it is not asked for so many more, each time for longer.
   std::uint32_t pause_ = 0, last_pause_ = 0;
-  bool settles_ = false;  ///< else the array is not set yet
+  bool is_prepared_ = false;  ///< else the array is not set yet
   std::array<std::uint64_t, max_settled / 64> settled_;
 };
 
