@@ -26,12 +26,9 @@ Vec3 nearest_place(const Sweep& sweep, const Vec3& point) noexcept {
 
 }  // namespace
 
-void SweepCandidates::consider(std::uint32_t at, Work& work) noexcept {
-  if (passes_over(at)) return;
-  if (shown_ < many) return decide(at, work);
+void SweepCandidates::look_at(std::uint32_t at, Work& work) noexcept {
   if (!is_prepared_) prepare(work);
-  const Vec3& end = first_.found() ? end_ : first_.sweep().to;
-  if (!is_apart_by_known(at) && !is_apart_elsewhere(at, end, work)) decide(at, work);
+  if (!is_apart_by_known(at) && !is_apart_elsewhere(at, end(), work)) decide(at, work);
   settle(at);
 }
 
@@ -41,7 +38,7 @@ void SweepCandidates::consider(std::uint32_t at, const Vec3& place, const Offset
                                Work& work) noexcept {
   if (shown_ >= many && !is_prepared_) prepare(work);
   if (!is_apart_across(at, direction_of(found)) && !(is_prepared_ && is_apart_by_known(at))) {
-    const Vec3 next = first_.found() ? end_ : nearest_place(first_.sweep(), place - found.vector);
+    const Vec3 next = first_.found() ? end() : nearest_place(first_.sweep(), place - found.vector);
     if (!is_apart_elsewhere(at, next, work)) decide(at, work);
   }
   settle(at);
@@ -81,14 +78,6 @@ bool SweepCandidates::is_apart_elsewhere(std::uint32_t at, const Vec3& place, Wo
   last_pause_ = is_apart ? 0 : std::min(2 * last_pause_ + 1, longest);
   pause_ = last_pause_;
   return is_apart;
-}
-
-void SweepCandidates::decide(std::uint32_t at, Work& work) noexcept {
-  const double before = first_.fraction();
-  first_.consider(tree_.triangles[at], at, work.exact_decisions);
-  if (!(first_.fraction() < before)) return;
-  end_ = position_at(first_.sweep(), first_.limit());
-  pause_ = last_pause_ = 0;
 }
 
 /// Remembers the plane where it does.

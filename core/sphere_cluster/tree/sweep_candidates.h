@@ -33,7 +33,11 @@ class SweepCandidates {
     return is_settled(at) || (has_plane_ && keeps_apart(at, plane_));
   }
   /// Looks at the triangle in this slot. Counts what is measured besides.
-  void consider(std::uint32_t at, Work& work) noexcept;
+  void consider(std::uint32_t at, Work& work) noexcept {
+    if (passes_over(at)) return;
+    if (shown_ < many) return decide(at, work);
+    look_at(at, work);
+  }
   /// Likewise, where its offset to a place on the path is known.
   void consider(std::uint32_t at, const Vec3& place, const Offset& found, Work& work) noexcept;
 
@@ -51,19 +55,24 @@ class SweepCandidates {
   void settle(std::uint32_t at) noexcept {
     if (is_prepared_ && at < max_settled) settled_[at / 64] |= std::uint64_t{1} << at % 64;
   }
+  void look_at(std::uint32_t at, Work& work) noexcept;
   void prepare(Work& work) noexcept;
   Vec3 face_towards_start(std::uint32_t at) const noexcept;
   bool is_apart_across(std::uint32_t at, const Vec3& normal) noexcept;
   bool is_apart_by_known(std::uint32_t at) noexcept;
   bool is_apart_elsewhere(std::uint32_t at, const Vec3& place, Work& work) noexcept;
-  void decide(std::uint32_t at, Work& work) noexcept;
+  /// Asks the exact sweep.
+  void decide(std::uint32_t at, Work& work) noexcept {
+    first_.consider(tree_.triangles[at], at, work.exact_decisions);
+  }
+  /// Returns where the ball is at the first touch so far, rounded, or at the end of the path.
+  Vec3 end() const noexcept { return position_at(first_.sweep(), first_.limit()); }
   Offset measured(std::uint32_t at, const Vec3& place, Work& work) const noexcept;
 
   const TreeParts& tree_;
   Simd simd_;
   std::uint32_t near_;
   FirstTouch& first_;
-  Vec3 end_ = Vec3::Zero();    ///< where the ball is at the first touch so far, rounded
   Vec3 plane_ = Vec3::Zero();  ///< normal of that which kept the last one apart
   bool has_plane_ = false;
   Vec3 face_ = Vec3::Zero(), across_ = Vec3::Zero();  ///< normals of the near triangle, and of its offset
