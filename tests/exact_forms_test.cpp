@@ -261,6 +261,43 @@ TEST(ExactFormsOnNeedles, TouchNothingALittleFartherThanTheRadius) {
 
 /// Seen along the line from its middle through a corner, a triangle is as near as its bounding sphere, and
 /// seen along an axis as its box: whether it is kept is up to the rounding of the bound.
+/// Needles of all widths down to 1e-9 and of different lengths about one hub. A ball that meets the hub
+/// touches all of them as early but for rounding, and one that slides is as near to most of them.
+TEST(ExactFormsOverAFan, HitTheSameNeedleFirst) {
+  constexpr int needles = 150;
+  const double ratio = std::pow(1e-9, 1.0 / needles);
+  CornerCases cases(31);
+  std::vector<CornerCases::Corners> triangles;
+  const Vec3 hub(0.1, 0.2, 0.5);
+  double angle = 0, width = 6 * (1 - ratio);
+  Vec3 rim = hub;
+  for (int i = 0; i <= needles; ++i, angle += width, width *= ratio) {
+    const Vec3 next(std::cos(angle) * (1 + 0.002 * i), std::sin(angle) * (1 + 0.002 * i), 0.3);
+    if (i > 0) triangles.push_back({hub, rim, next});
+    rim = next;
+  }
+  const TriangleMesh mesh = mesh_of(triangles);
+  Examination examination(mesh);
+  for (const double radius : {0.05, 0.0}) {
+    std::vector<Vec3> way;
+    while (way.size() < 240) {
+      const Vec3 above = hub + Vec3(0, 0, 2 * radius) + cases.magnitude(-3, -1) * cases.vector();
+      way.push_back(above);
+      way.push_back(hub + (way.size() % 3 == 0 ? 0.01 : 0.0) * cases.vector());
+      way.push_back(above);
+      const CornerCases::Corners& needle = triangles[cases.below(needles)];
+      const Vec3 up = (needle[1] - needle[0]).cross(needle[2] - needle[0]).normalized() * (radius + 1e-14);
+      const Vec3 across = 0.001 * (needle[1] - needle[0]).cross(up).normalized();
+      const Vec3 from = hub + 0.05 * (needle[1] - hub) + up;
+      way.push_back(from - across);
+      way.push_back(from + across);
+    }
+    const auto constant = [](double value) { return [value](std::size_t) { return value; }; };
+    examination.ask_all("sweeps of " + std::to_string(radius), Query::sweep,
+                        steps_at(way, constant(radius), constant(0)));
+  }
+}
+
 TEST(ExactFormsInLine, LoseNothingToTheRoundingOfABound) {
   CornerCases cases(19);
   for (int triangle = 0; triangle < 30; ++triangle) {

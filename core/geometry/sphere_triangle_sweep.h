@@ -38,8 +38,8 @@ inline std::optional<double> sweep_hit(const PreparedTriangle& triangle, const S
   return sweep_hit(triangle, sweep, limit, uncounted);
 }
 
-/// Does the plane with this unit normal surely keep ball and triangle apart up to a fraction of the path: by so
-/// much that no fraction up to there is told for it? Costs a tenth of sweep_hit.
+/// Does the plane with this unit normal surely keep ball and triangle apart up to a fraction of the path: by
+/// so much that no fraction up to there is told for it? Costs a tenth of sweep_hit.
 inline bool plane_keeps_apart(const PreparedTriangle& triangle, const Sweep& sweep, const Vec3& normal,
                               double until) noexcept {
   // Heights are off by 32 u S, and the change along the path by as much, with S as for max_early_gap. That
@@ -58,11 +58,12 @@ inline bool plane_keeps_apart(const PreparedTriangle& triangle, const Sweep& swe
          error * (largest + largest_path) + early;
 }
 
-/// Returns the direction of an offset; zero, which keeps nothing apart, where it is too short to have one. Above
-/// the least square, S is far from the least numbers, too: no offset is longer than twice S.
+/// Returns the direction of an offset; zero, which keeps nothing apart, where it is too short to have one.
+/// Above the least square, S is far from the least numbers, too: no offset is longer than twice S.
 inline Vec3 direction_of(const Offset& offset) noexcept {
   constexpr double least_squared = 0x1p-900;
-  return offset.squared > least_squared ? Vec3(offset.vector / std::sqrt(offset.squared)) : Vec3(Vec3::Zero());
+  return offset.squared > least_squared ? Vec3(offset.vector / std::sqrt(offset.squared))
+                                        : Vec3(Vec3::Zero());
 }
 
 /// Does the plane normal to this offset, from the triangle to a point of the path, surely keep ball and

@@ -45,8 +45,8 @@ struct ContactsQuestion {
   bool decides_exactly = true;  ///< false: as doubles have it
 };
 
-/// The squares in 106 bits of the distances to triangles that doubles do not tell apart, each computed once or
-/// little more often, in however many comparisons it takes part.
+/// The squares in 106 bits of the distances to triangles that doubles do not tell apart, each computed once
+/// or little more often, in however many comparisons it takes part.
 class CloseSquares {
  public:
   SquaredDistance of(std::uint32_t slot, const PreparedTriangle& triangle, const Vec3& center) noexcept;

@@ -82,8 +82,7 @@ std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, 
   if (!done) {
     spheres::build_rest(parts_, work);
     work.triangles += parts_.triangles.size();
-    for (std::uint32_t at = 0; at < parts_.triangles.size(); ++at)
-      candidates.consider(at, work);
+    for (std::uint32_t at = 0; at < parts_.triangles.size(); ++at) candidates.consider(at, work);
   }
   return conclude(first, memory, work);
 }

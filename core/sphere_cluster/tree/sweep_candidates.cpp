@@ -28,7 +28,7 @@ Vec3 nearest_place(const Sweep& sweep, const Vec3& point) noexcept {
 
 void SweepCandidates::look_at(std::uint32_t at, Work& work) noexcept {
   if (!is_prepared_) prepare(work);
-  if (!is_apart_by_known(at) && !is_apart_elsewhere(at, end(), work)) decide(at, work);
+  if (!is_apart_by_known(at) && !is_apart_elsewhere(at, end())) decide(at, work);
   settle(at);
 }
 
@@ -39,7 +39,7 @@ void SweepCandidates::consider(std::uint32_t at, const Vec3& place, const Offset
   if (shown_ >= many && !is_prepared_) prepare(work);
   if (!is_apart_across(at, direction_of(found)) && !(is_prepared_ && is_apart_by_known(at))) {
     const Vec3 next = first_.found() ? end() : nearest_place(first_.sweep(), place - found.vector);
-    if (!is_apart_elsewhere(at, next, work)) decide(at, work);
+    if (!is_apart_elsewhere(at, next)) decide(at, work);
   }
   settle(at);
 }
@@ -51,7 +51,7 @@ void SweepCandidates::prepare(Work& work) noexcept {
   is_prepared_ = true;
   if (near_ >= tree_.triangles.size()) return;
   face_ = face_towards_start(near_);
-  across_ = direction_of(measured(near_, first_.sweep().from, work));
+  across_ = direction_of(measured(near_, first_.sweep().from));
   decide(near_, work);
   settle(near_);
 }
@@ -68,13 +68,13 @@ bool SweepCandidates::is_apart_by_known(std::uint32_t at) noexcept {
          is_apart_across(at, face_towards_start(at));
 }
 
-bool SweepCandidates::is_apart_elsewhere(std::uint32_t at, const Vec3& place, Work& work) noexcept {
+bool SweepCandidates::is_apart_elsewhere(std::uint32_t at, const Vec3& place) noexcept {
   constexpr std::uint32_t longest = 3;
   if (pause_ > 0) {
     --pause_;
     return false;
   }
-  const bool is_apart = is_apart_across(at, direction_of(measured(at, place, work)));
+  const bool is_apart = is_apart_across(at, direction_of(measured(at, place)));
   last_pause_ = is_apart ? 0 : std::min(2 * last_pause_ + 1, longest);
   pause_ = last_pause_;
   return is_apart;
@@ -88,8 +88,7 @@ bool SweepCandidates::is_apart_across(std::uint32_t at, const Vec3& normal) noex
   return true;
 }
 
-Offset SweepCandidates::measured(std::uint32_t at, const Vec3& place, Work& work) const noexcept {
-  ++work.triangles;
+Offset SweepCandidates::measured(std::uint32_t at, const Vec3& place) const noexcept {
   OffsetVisitor visitor{place};
   simd_ == Simd::portable ? portable::visit(tree_, at, visitor) : avx2::visit(tree_, at, visitor);
   return visitor.found;

@@ -2,7 +2,8 @@
 /// those alone that no plane keeps apart from it.
 ///
 /// About the hub of a fan every needle is within rounding of its neighbours for all bounding volumes. Planes
-/// in doubles tell them apart: those across the offsets from where the ball first touches, as far as is known.
+/// in doubles tell them apart: those across the offsets from where the ball first touches, as far as is
+/// known.
 #pragma once
 
 #include <array>
@@ -20,8 +21,8 @@ namespace touchmark::spheres {
 
 class SweepCandidates {
  public:
-  /// `first`, which nothing has been shown yet, and the tree must outlive this. `near` is the slot of a triangle
-  /// near the start, or beyond all slots.
+  /// `first`, which nothing has been shown yet, and the tree must outlive this. `near` is the slot of a
+  /// triangle near the start, or beyond all slots.
   SweepCandidates(const TreeParts& tree, Simd simd, std::uint32_t near, FirstTouch& first) noexcept
       : tree_(tree), simd_(simd), near_(near), first_(first) {}
 
@@ -32,7 +33,7 @@ class SweepCandidates {
     if (++shown_ < many) return false;
     return is_settled(at) || (has_plane_ && keeps_apart(at, plane_));
   }
-  /// Looks at the triangle in this slot. Counts what is measured besides.
+  /// Looks at the triangle in this slot. Counts where whole numbers decide.
   void consider(std::uint32_t at, Work& work) noexcept {
     if (passes_over(at)) return;
     if (shown_ < many) return decide(at, work);
@@ -60,14 +61,14 @@ class SweepCandidates {
   Vec3 face_towards_start(std::uint32_t at) const noexcept;
   bool is_apart_across(std::uint32_t at, const Vec3& normal) noexcept;
   bool is_apart_by_known(std::uint32_t at) noexcept;
-  bool is_apart_elsewhere(std::uint32_t at, const Vec3& place, Work& work) noexcept;
+  bool is_apart_elsewhere(std::uint32_t at, const Vec3& place) noexcept;
   /// Asks the exact sweep.
   void decide(std::uint32_t at, Work& work) noexcept {
     first_.consider(tree_.triangles[at], at, work.exact_decisions);
   }
   /// Returns where the ball is at the first touch so far, rounded, or at the end of the path.
   Vec3 end() const noexcept { return position_at(first_.sweep(), first_.limit()); }
-  Offset measured(std::uint32_t at, const Vec3& place, Work& work) const noexcept;
+  Offset measured(std::uint32_t at, const Vec3& place) const noexcept;
 
   const TreeParts& tree_;
   Simd simd_;
@@ -77,7 +78,8 @@ class SweepCandidates {
   bool has_plane_ = false;
   Vec3 face_ = Vec3::Zero(), across_ = Vec3::Zero();  ///< normals of the near triangle, and of its offset
   std::uint32_t shown_ = 0;
-  /// Where one more place did not tell a triangle apart, it is not asked for so many more, each time for longer.
+  /// Where one more place did not tell a triangle apart, it is not asked for so many more, each time for
+  /// longer.
   std::uint32_t pause_ = 0, last_pause_ = 0;
   bool is_prepared_ = false;  ///< else the array is not set yet
   std::array<std::uint64_t, max_settled / 64> settled_;
