@@ -32,8 +32,8 @@ void SweepCandidates::look_at(std::uint32_t at, Work& work) noexcept {
   settle(at);
 }
 
-/// Where the first touch is known, it is to be shown that this one does not touch before. Else the place of
-/// the path that is nearest to what was found is often about where the triangle is nearest.
+/// A first touch that is known is what this one must not touch before. Else the place of the path that is
+/// nearest to what was found is often about where the triangle is nearest.
 void SweepCandidates::consider(std::uint32_t at, const Vec3& place, const Offset& found,
                                Work& work) noexcept {
   if (shown_ >= many && !is_prepared_) prepare(work);

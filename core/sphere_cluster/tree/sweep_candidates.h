@@ -78,8 +78,7 @@ class SweepCandidates {
   bool has_plane_ = false;
   Vec3 face_ = Vec3::Zero(), across_ = Vec3::Zero();  ///< normals of the near triangle, and of its offset
   std::uint32_t shown_ = 0;
-  /// Where one more place did not tell a triangle apart, it is not asked for so many more, each time for
-  /// longer.
+  /// For so many more no other place is asked for, since one did not tell a triangle apart; longer each time.
   std::uint32_t pause_ = 0, last_pause_ = 0;
   bool is_prepared_ = false;  ///< else the array is not set yet
   std::array<std::uint64_t, max_settled / 64> settled_;
