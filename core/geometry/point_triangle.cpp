@@ -1,13 +1,16 @@
 #include "core/geometry/point_triangle.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include <Eigen/Geometry>
 
 #include "core/exact/distance_predicates.h"
-#include "core/exact/double_double.h"
+#include "core/geometry/edge_cross.h"
 #include "core/geometry/point_triangle_kernel.h"
+#include "core/simd/dispatch.h"
 
 namespace touchmark {
 namespace {
@@ -33,9 +36,20 @@ bool surely_over_face(const PreparedTriangle& t, const std::array<Vec3, 3>& to,
   return true;
 }
 
-/// p x q for vectors given as double-doubles, one component.
-DoubleDouble minor(DoubleDouble a, DoubleDouble b, DoubleDouble c, DoubleDouble d) noexcept {
-  return a * d - b * c;
+/// edge_cross by the widest instructions that the processor has.
+Vec3 widest_edge_cross(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
+#if TOUCHMARK_HAS_AVX2
+  static const bool has_avx2 = widest_simd() != Simd::portable;
+  if (has_avx2) return avx2::edge_cross(a, b, c);
+#endif
+  return edge_cross(a, b, c);
+}
+
+/// Returns 2^-ilogb(x) for an x that is in range.
+double reciprocal_power_of_two(double x) noexcept {
+  constexpr std::uint64_t mantissa_bits = 52, twice_bias = 2 * 1023;
+  const std::uint64_t exponent = std::bit_cast<std::uint64_t>(x) >> mantissa_bits;
+  return std::bit_cast<double>((twice_bias - exponent) << mantissa_bits);
 }
 
 /// Returns the triangle scaled by a power of two where squares of its sides would leave the range of double.
@@ -61,15 +75,8 @@ Vec3 unit_normal(const std::array<Vec3, 3>& corner) noexcept {
   const double longest = std::sqrt(opposite[o]);
   if (!(longest > 0)) return Vec3::Zero();
   // A power of two, so that nothing rounds and no product overflows or vanishes.
-  const double scale = std::ldexp(1.0, -std::ilogb(longest));
-  const Vec3 a = scale * v[o], b = scale * v[(o + 1) % 3], c = scale * v[(o + 2) % 3];
-  std::array<DoubleDouble, 3> e, f;
-  for (int k = 0; k < 3; ++k) {
-    e[static_cast<std::size_t>(k)] = two_sum(b[k], -a[k]);
-    f[static_cast<std::size_t>(k)] = two_sum(c[k], -a[k]);
-  }
-  const Vec3 n(minor(e[1], e[2], f[1], f[2]).rounded(), minor(e[2], e[0], f[2], f[0]).rounded(),
-               minor(e[0], e[1], f[0], f[1]).rounded());
+  const double scale = reciprocal_power_of_two(longest);
+  const Vec3 n = widest_edge_cross(scale * v[o], scale * v[o == 2 ? 0 : o + 1], scale * v[o == 0 ? 2 : o - 1]);
   const double length = n.norm();
   // Thinner than a rounding of its length: whatever is over the face is as near to an edge. (length ~ 2
   // area.)
