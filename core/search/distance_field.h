@@ -67,12 +67,14 @@ class DistanceField {
   template <class Sampler>
   void refill(const Sampler& sampler, std::span<const Aabb> moved, unsigned threads);
 
-  bool empty() const noexcept { return fine_steps_.empty(); }
+  bool empty() const noexcept { return coarse_steps_.empty(); }
   /// Is a mesh of this box within the lattice's?
   bool holds(const FilterFrame& frame, const Aabb& bounds) const noexcept;
 
   /// Returns a lower bound of the distance: no part of the mesh is nearer. May be negative.
   float lower_bound(const FilterPoint& point) const noexcept;
+  /// Is tight_lower_bound worth asking? Close to the mesh, by the sample that lower_bound asks, it says nothing.
+  bool may_be_tighter(const FilterPoint& point) const noexcept;
   /// Returns a tighter lower bound from the 8 surrounding samples, at about twice the cost.
   float tight_lower_bound(const FilterPoint& point) const noexcept;
   /// Returns an upper bound of the distance, or infinity: some part of the mesh is at most this far.
@@ -142,7 +144,7 @@ class DistanceField {
 
   SampleLattice coarse_, fine_;
   float step_ = 1;            ///< a power of two: multiples are exact
-  SharedBytes fine_steps_;    ///< the distance is at least so many steps
+  SharedBytes fine_steps_;    ///< the distance is at least so many steps; empty where that would reject nothing
   SharedBytes coarse_steps_;  ///< the distance is at most so many steps; the last value: nothing is known
   /// By coarse cube, with lazy construction: bits of the eighths of which nothing is known yet.
   SharedBytes unsampled_;
@@ -164,6 +166,13 @@ inline float DistanceField::lower_bound(const FilterPoint& p) const noexcept {
   const float steps = static_cast<float>(fine_steps_[fine_.index(cube)].load());
   const float within = steps * step_ - root(squared(nearest - fine_.middle(cube)));
   return beyond_box(p, point - nearest, within);
+}
+
+inline bool DistanceField::may_be_tighter(const FilterPoint& p) const noexcept {
+  constexpr float least_in_edges = 0.5F;
+  if (fine_steps_.empty()) return false;
+  const float steps = static_cast<float>(fine_steps_[fine_.index(fine_.cube_of(lanes_of(p)))].load());
+  return steps * step_ >= least_in_edges * fine_.edge();
 }
 
 inline float DistanceField::upper_bound(const FilterPoint& p) const noexcept {

@@ -19,14 +19,10 @@ namespace touchmark {
 
 /// A function that takes samples and knows the triangle it found near the last one, by a number.
 template <class DistanceAt>
-concept KnowsTriangles = requires(DistanceAt& distance_at, const Vec3& position, std::uint32_t near,
-                                  double length) {
+concept KnowsTriangles = requires(DistanceAt& distance_at, const Vec3& position, std::uint32_t near) {
   { distance_at.near() } -> std::same_as<std::uint32_t>;
   // Bounds the distance from above by that triangle, and starts the next sample with it.
   { distance_at.distance_to(near, position) } -> std::same_as<double>;
-  // The next samples are within the second length of this point, where the distance is at most the first.
-  distance_at.gather(position, length, length);
-  distance_at.scatter();
 };
 
 /// What is known of the middles of coarse cubes while a field is filled.
@@ -85,8 +81,6 @@ class DistanceField::Filler {
   static constexpr double close_enough = 0.8;
   /// In fine edges: what is nearer says next to nothing about the points around it.
   static constexpr double too_near = 0.4;
-  /// Fewer eighths are not worth a list of what is near them.
-  static constexpr std::size_t least_listed = 4;
 
   std::uint32_t index(const Cube& cube) const noexcept {
     return field_.coarse_.index(cube[0], cube[1], cube[2]);
@@ -170,23 +164,14 @@ class DistanceField::Filler {
       }
       return true;
     }
-    std::array<Cube, 8> left;
-    std::size_t count = 0;
+    const double farthest = field_.upper_bound_at(index(cube)) + field_.to_eighth();
     for (std::uint32_t eighth = 0; eighth < 8; ++eighth) {
       const Cube fine = eighth_of(cube[0], cube[1], cube[2], eighth);
-      if (!is_known(cube, eighth, fine)) left[count++] = fine;
-    }
-    const double upper = field_.upper_bound_at(index(cube)), to_eighth = field_.to_eighth();
-    const bool lists = count >= least_listed;
-    if constexpr (knows_triangles)
-      if (lists) distance_at_.gather(middle_of(field_.coarse_, cube), upper, to_eighth);
-    for (const Cube& fine : std::span(left).first(count)) {
-      const double found = distance_at_(middle_of(field_.fine_, fine), upper + to_eighth).lower;
+      if (is_known(cube, eighth, fine)) continue;
+      const double found = distance_at_(middle_of(field_.fine_, fine), farthest).lower;
       if (found < 0) return false;
       field_.keep_fine(fine, field_.steps_in(found));
     }
-    if constexpr (knows_triangles)
-      if (lists) distance_at_.scatter();
     return true;
   }
 
@@ -219,7 +204,8 @@ template <class Sampler, class IsWanted>
 void DistanceField::fill_cubes(const Sampler& sampler, const IsWanted& is_wanted, unsigned threads) {
   if (coarse_.size() == 0) return;
   constexpr std::size_t cubes_a_part = 512;
-  // Next to nothing is rejected where the mesh fills its box, with samples of the eighths or without.
+  // Next to nothing is rejected where the mesh fills its box, with samples of the eighths or without: then these
+  // are not asked.
   constexpr double most_near = 0.85;
   CoarseSamples samples(coarse_.size());
   const auto fill = [&](FillingPass pass, std::uint32_t first_y, std::uint32_t step_y, std::uint32_t first_z,
@@ -242,7 +228,10 @@ void DistanceField::fill_cubes(const Sampler& sampler, const IsWanted& is_wanted
   fill(FillingPass::between_x, 0, 2, 0, 2);
   fill(FillingPass::between_y, 1, 2, 0, 2);
   fill(FillingPass::between_z, 0, 1, 1, 2);
-  if (samples.part_near(*this) <= most_near) fill(FillingPass::eighths, 0, 1, 0, 1);
+  if (samples.part_near(*this) <= most_near)
+    fill(FillingPass::eighths, 0, 1, 0, 1);
+  else
+    fine_steps_ = {};
 }
 
 template <class Sampler>
@@ -257,6 +246,7 @@ void DistanceField::fill(const Sampler& sampler, unsigned threads) {
 /// the middle, and padded for the path there and back of its eighths.
 template <class Sampler>
 void DistanceField::refill(const Sampler& sampler, std::span<const Aabb> moved, unsigned threads) {
+  if (fine_steps_.empty()) return fill(sampler, threads);
   std::vector<bool> changed(coarse_.size(), false);
   for (std::uint32_t z = 0; z < coarse_.count(2); ++z) {
     for (std::uint32_t y = 0; y < coarse_.count(1); ++y) {

@@ -239,13 +239,9 @@ class SphereTree {
     std::uint64_t budget;    ///< work, of all these samples together
     std::uint32_t near = 0;  ///< a triangle near the last point, and so perhaps the next
     Work work{};
-    spheres::LeafCache* around = nullptr;  ///< leaves near the next points, if it covers any
   };
   /// Samples one point after the other, each near the last one.
   class Sampler;
-  /// Lists the leaves that samples within `radius` of a point of the frame may need; none where that is too
-  /// many.
-  void list_around(const Vec3& position, double radius, Sampling& sampling) const noexcept;
   /// Bounds the distance at a point of the frame, which is at most `max_distance`, to about a fifth; negative
   /// when that is too much work.
   DistanceField::Interval sample(const Vec3& position, double max_distance,

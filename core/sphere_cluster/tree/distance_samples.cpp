@@ -43,31 +43,12 @@ DistanceField::Interval SphereTree::sample(const Vec3& position, double max_dist
   visit(sampling.near, visitor);
   const FilterPoint point = frame_.point(center);
   const std::uint64_t budget = remaining(sampling.budget, sampling.work.total());
-  float away = 0;
-  const auto is_listed = [&] {
-    if (sampling.around == nullptr) return false;
-    away = displacement(sampling.around->center, center, point);
-    return std::sqrt(visitor.limit) + point.plane_error + away < sampling.around->covered_radius;
-  };
-  const float unseen = is_listed() ? search_cached(point, visitor, *sampling.around, away, budget)
-                                   : traverse(point, visitor, budget);
+  const float unseen = traverse(point, visitor, budget);
   sampling.work += visitor.work;
   if (unseen == spheres::exhausted) return unknown;
   sampling.near = visitor.kept_at;
   const double found = std::sqrt(visitor.squared) * frame_.scale();
   return {std::min<double>(std::sqrt(unseen), found), std::min(found, max_distance)};
-}
-
-void SphereTree::list_around(const Vec3& position, double radius, Sampling& sampling) const noexcept {
-  const Vec3 center = frame_.from_frame(position);
-  const FilterPoint point = frame_.point(center);
-  spheres::LeafCache& list = *sampling.around;
-  list.start(center, static_cast<float>(radius) + 8 * point.plane_error);
-  const std::uint64_t budget = remaining(sampling.budget, sampling.work.total());
-  const bool fits = simd_ == Simd::portable
-                        ? spheres::portable::refill(parts_, point, budget, list, sampling.work)
-                        : spheres::avx2::refill(parts_, point, budget, list, sampling.work);
-  if (!fits) list.forget();
 }
 
 class SphereTree::Sampler {
@@ -89,17 +70,10 @@ class SphereTree::Sampler {
     sampling_.work += visitor.work;
     return std::sqrt(visitor.squared) * tree_.frame_.scale();
   }
-  /// The next samples are within `to_points` of this point, where the distance is at most `upper`.
-  void gather(const Vec3& position, double upper, double to_points) {
-    sampling_.around = &list_;
-    tree_.list_around(position, to_points + std::sqrt(RoughVisitor::enough) * (upper + to_points), sampling_);
-  }
-  void scatter() { sampling_.around = nullptr; }
 
  private:
   const SphereTree& tree_;
   Sampling sampling_;
-  spheres::LeafCache list_;
 };
 
 /// Returns what makes a function that takes samples one after the other, near the last one, with its share of

@@ -48,7 +48,7 @@ inline float SphereTree::displacement(const Vec3& from, const Vec3& to,
                                                                          const Vec3& center, double reach,
                                                                          Memory& memory) const noexcept {
   double clearance = static_cast<double>(distances_.lower_bound(point)) * frame_.unit();
-  if (!(clearance > reach) && !memory.is_near())
+  if (!(clearance > reach) && !memory.is_near() && distances_.may_be_tighter(point))
     clearance = static_cast<double>(distances_.tight_lower_bound(point)) * frame_.unit();
   if (!(clearance > reach)) return false;
   memory.center = center;

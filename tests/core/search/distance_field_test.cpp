@@ -101,8 +101,6 @@ class KnowingSampler {
   double distance_to(std::uint32_t near, const Vec3& place) const {
     return frame_.scale() * ::touchmark::distance_to(each_[near], frame_.from_frame(place));
   }
-  void gather(const Vec3&, double, double) {}
-  void scatter() {}
 
  private:
   const FilterFrame& frame_;
