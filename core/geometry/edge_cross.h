@@ -40,15 +40,15 @@ inline DoubleDoubles two_sums(__m256d a, __m256d b) noexcept {
   return {sum, (a - (sum - b_part)) + (b - b_part)};
 }
 
+inline DoubleDoubles in_halves(__m256d x) noexcept {
+  const __m256d scaled = _mm256_set1_pd(134217729.0) * x;  // 2^27 + 1
+  const __m256d high = scaled - (scaled - x);
+  return {high, x - high};
+}
+
 inline DoubleDoubles two_products(__m256d a, __m256d b) noexcept {
-  const __m256d splitter = _mm256_set1_pd(134217729.0);  // 2^27 + 1
-  const auto split = [&](__m256d x) {
-    const __m256d scaled = splitter * x;
-    const __m256d high = scaled - (scaled - x);
-    return DoubleDoubles{high, x - high};
-  };
   const __m256d product = a * b;
-  const DoubleDoubles x = split(a), y = split(b);
+  const DoubleDoubles x = in_halves(a), y = in_halves(b);
   return {product, ((x.high * y.high - product) + x.high * y.low + x.low * y.high) + x.low * y.low};
 }
 
@@ -64,15 +64,20 @@ inline DoubleDoubles times(const DoubleDoubles& a, const DoubleDoubles& b) noexc
   return two_sums(product.high, product.low + (a.high * b.low + a.low * b.high));
 }
 
-/// Returns edge_cross(a, b, c), bit for bit: an axis in each lane, and an idle one.
+/// x, y and z in lanes of their own; the last one is idle.
+inline __m256d axes_of(const Vec3& v) noexcept { return _mm256_set_pd(0, v.z(), v.y(), v.x()); }
+/// Each axis gets the value of the next.
+inline DoubleDoubles next_axes(const DoubleDoubles& v) noexcept {
+  constexpr int order = 0b11001001;
+  return {_mm256_permute4x64_pd(v.high, order), _mm256_permute4x64_pd(v.low, order)};
+}
+
+/// Returns edge_cross(a, b, c), bit for bit.
 inline Vec3 edge_cross(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
-  const auto axes = [](const Vec3& v) { return _mm256_set_pd(0, v.z(), v.y(), v.x()); };
-  const __m256d from = -axes(a);
-  const DoubleDoubles e = two_sums(axes(b), from), f = two_sums(axes(c), from);
-  const auto next = [](__m256d v) { return _mm256_permute4x64_pd(v, 0b11001001); };
-  const DoubleDoubles e1{next(e.high), next(e.low)}, f1{next(f.high), next(f.low)};
-  const DoubleDoubles e2{next(e1.high), next(e1.low)}, f2{next(f1.high), next(f1.low)};
-  const DoubleDoubles cross = minus(times(e1, f2), times(e2, f1));
+  const __m256d from = -axes_of(a);
+  const DoubleDoubles e = two_sums(axes_of(b), from), f = two_sums(axes_of(c), from);
+  const DoubleDoubles e1 = next_axes(e), f1 = next_axes(f);
+  const DoubleDoubles cross = minus(times(e1, next_axes(f1)), times(next_axes(e1), f1));
   alignas(32) std::array<double, 4> rounded;
   _mm256_store_pd(rounded.data(), cross.high + cross.low);
   return {rounded[0], rounded[1], rounded[2]};

@@ -1,9 +1,11 @@
 #include "core/geometry/point_triangle_avx2.h"
 
+#include <cmath>
 #include <cstring>
 
 #include <gtest/gtest.h>
 
+#include "core/geometry/edge_cross.h"
 #include "tests/core/sphere_cluster/test_meshes.h"
 
 namespace touchmark {
@@ -41,6 +43,18 @@ TEST(PointTriangleAvx2, GivesTheBitsOfTheScalarKernelWhereCornersAreEquallyNear)
         ASSERT_TRUE(same_bits(avx2::offset_from(triangle, point), offset_from(triangle, point)))
             << x << ' ' << y << ' ' << z;
       }
+}
+
+TEST(PointTriangleAvx2, GivesTheBitsOfTheScalarCrossProductOfEdges) {
+  if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "this processor has no AVX2";
+  test::Random random(43);
+  const auto corner = [&] { return Vec3(random.unit() - 0.5, random.unit() - 0.5, random.unit() - 0.5); };
+  for (int step = 0; step < 20000; ++step) {
+    const Vec3 a = corner(), b = corner();
+    // From a triangle of any shape to one so thin that all of its normal is rounding.
+    const Vec3 c = a + random.unit() * (b - a) + std::ldexp(1.0, -(step % 60)) * corner();
+    ASSERT_EQ(avx2::edge_cross(a, b, c), edge_cross(a, b, c)) << "step " << step;
+  }
 }
 
 #endif

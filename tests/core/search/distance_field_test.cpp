@@ -167,6 +167,53 @@ TEST(DistanceGrid, KnowsMoreByEight) {
   EXPECT_LT(missing_by_eight, 0.6 * missing_by_one);
 }
 
+TEST(DistanceGrid, HasNoLowerBoundsInsideAMeshThatFillsItsBox) {
+  Random random(13);
+  const TriangleMesh mesh = test::soup(4000, 0.1, 2);
+  Grid known(mesh);
+  const std::size_t bytes = known.grid.bytes();
+  EXPECT_LT(bytes, Grid(test::bumpy_sphere(45, 0.02, 1)).grid.bytes() / 4);
+  const auto expect_bounds = [&] {
+    for (int i = 0; i < 300; ++i) {
+      const Vec3 p = random.point(0.6);
+      EXPECT_LE(known.grid.lower_bound(known.point(p)), 0);
+      EXPECT_FALSE(known.grid.may_be_tighter(known.point(p)));
+      EXPECT_GE(static_cast<double>(known.grid.upper_bound(known.point(p))), known.distance(p));
+    }
+  };
+  expect_bounds();
+  // What moves is sampled anew, and the rest of the mesh still fills the box.
+  const auto sampler = [&](double) {
+    return [&](const Vec3& place, double) {
+      const double distance = known.distance(place);
+      return DistanceField::Interval{distance, distance};
+    };
+  };
+  known.grid.refill(sampler, std::vector<Aabb>{known.frame.to_frame(mesh.bounds())}, 1);
+  expect_bounds();
+  EXPECT_EQ(known.grid.bytes(), bytes);
+}
+
+TEST(DistanceGrid, KeepsItsLowerBoundsWhereAllThatMovesIsNear) {
+  Random random(17);
+  const TriangleMesh mesh = test::bumpy_sphere(20, 0.02, 1);
+  Grid known(mesh);
+  const DistanceField before = known.grid;
+  const Vec3 moved = known.frame.to_frame(mesh.corner(0, 0));
+  const auto sampler = [&](double) {
+    return [&](const Vec3& place, double) {
+      const double distance = known.distance(place);
+      return DistanceField::Interval{distance, distance};
+    };
+  };
+  known.grid.refill(sampler, std::vector<Aabb>{{moved, moved}}, 1);
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 p = random.point(0.6);
+    if ((p - moved).norm() < 3 * known.distance(p)) continue;
+    EXPECT_EQ(known.grid.lower_bound(known.point(p)), before.lower_bound(known.point(p))) << p.transpose();
+  }
+}
+
 TEST(DistanceGrid, WhereSamplingEndsNothingIsClaimed) {
   Random random(5);
   for (const TriangleMesh& mesh : meshes()) {
