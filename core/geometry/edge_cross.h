@@ -1,5 +1,5 @@
-/// The cross product of two edges of a triangle in double-double: all of a thin triangle's normal lies in what
-/// doubles round away.
+/// The cross product of two edges of a triangle in double-double: all of a thin triangle's normal lies in
+/// what doubles round away.
 #pragma once
 
 #include "core/exact/double_double_vector.h"

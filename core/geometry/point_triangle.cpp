@@ -76,7 +76,8 @@ Vec3 unit_normal(const std::array<Vec3, 3>& corner) noexcept {
   if (!(longest > 0)) return Vec3::Zero();
   // A power of two, so that nothing rounds and no product overflows or vanishes.
   const double scale = reciprocal_power_of_two(longest);
-  const Vec3 n = widest_edge_cross(scale * v[o], scale * v[o == 2 ? 0 : o + 1], scale * v[o == 0 ? 2 : o - 1]);
+  const Vec3 n =
+      widest_edge_cross(scale * v[o], scale * v[o == 2 ? 0 : o + 1], scale * v[o == 0 ? 2 : o - 1]);
   const double length = n.norm();
   // Thinner than a rounding of its length: whatever is over the face is as near to an edge. (length ~ 2
   // area.)

@@ -73,7 +73,8 @@ class DistanceField {
 
   /// Returns a lower bound of the distance: no part of the mesh is nearer. May be negative.
   float lower_bound(const FilterPoint& point) const noexcept;
-  /// Is tight_lower_bound worth asking? Close to the mesh, by the sample that lower_bound asks, it says nothing.
+  /// Is tight_lower_bound worth asking? Close to the mesh, by the sample that lower_bound asks, it says
+  /// nothing.
   bool may_be_tighter(const FilterPoint& point) const noexcept;
   /// Returns a tighter lower bound from the 8 surrounding samples, at about twice the cost.
   float tight_lower_bound(const FilterPoint& point) const noexcept;
@@ -143,8 +144,8 @@ class DistanceField {
   }
 
   SampleLattice coarse_, fine_;
-  float step_ = 1;            ///< a power of two: multiples are exact
-  SharedBytes fine_steps_;    ///< the distance is at least so many steps; empty where that would reject nothing
+  float step_ = 1;          ///< a power of two: multiples are exact
+  SharedBytes fine_steps_;  ///< the distance is at least so many steps; empty where that would reject nothing
   SharedBytes coarse_steps_;  ///< the distance is at most so many steps; the last value: nothing is known
   /// By coarse cube, with lazy construction: bits of the eighths of which nothing is known yet.
   SharedBytes unsampled_;
