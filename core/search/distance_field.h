@@ -128,7 +128,7 @@ class DistanceField {
   template <class DistanceAt, class IsWanted>
   class Filler;
   template <class Sampler, class IsWanted>
-  bool fill_cubes(const Sampler& sampler, const IsWanted& is_wanted, unsigned threads);
+  double fill_cubes(const Sampler& sampler, const IsWanted& is_wanted, unsigned threads);
   /// What a sample in the middle of a coarse cube says of it and of its eighths: x, y, z say which it is.
   void keep(std::uint32_t x, std::uint32_t y, std::uint32_t z, const Interval& distance) const noexcept;
   /// Which fine cube an eighth of a coarse one is.

@@ -200,10 +200,10 @@ class DistanceField::Filler {
 
 /// Parts of whole rows, of about as many cubes: so many that it does not matter that each begins without a
 /// neighbour, so few that there is one for every thread.
-/// Returns false where the eighths were left out.
+/// Returns which part of the cubes has the mesh near.
 template <class Sampler, class IsWanted>
-bool DistanceField::fill_cubes(const Sampler& sampler, const IsWanted& is_wanted, unsigned threads) {
-  if (coarse_.size() == 0) return true;
+double DistanceField::fill_cubes(const Sampler& sampler, const IsWanted& is_wanted, unsigned threads) {
+  if (coarse_.size() == 0) return 0;
   constexpr std::size_t cubes_a_part = 512;
   // Next to nothing is rejected where the mesh fills its box, with samples of the eighths or without.
   constexpr double most_near = 0.85;
@@ -228,19 +228,20 @@ bool DistanceField::fill_cubes(const Sampler& sampler, const IsWanted& is_wanted
   fill(FillingPass::between_x, 0, 2, 0, 2);
   fill(FillingPass::between_y, 1, 2, 0, 2);
   fill(FillingPass::between_z, 0, 1, 1, 2);
-  if (samples.part_near(*this) > most_near) return false;
-  fill(FillingPass::eighths, 0, 1, 0, 1);
-  return true;
+  const double part_near = samples.part_near(*this);
+  if (part_near <= most_near) fill(FillingPass::eighths, 0, 1, 0, 1);
+  return part_near;
 }
 
 template <class Sampler>
 void DistanceField::fill(const Sampler& sampler, unsigned threads) {
   coarse_steps_ = SharedBytes(coarse_.size(), max_steps);
   fine_steps_ = SharedBytes(fine_.size(), 0);
-  const bool rejects = fill_cubes(
+  const double part_near = fill_cubes(
       sampler, [](std::uint32_t) { return true; }, threads);
-  // What rejects next to nothing is not asked.
-  if (!rejects) fine_steps_ = SharedBytes();
+  // What rejects nothing is not asked.
+  constexpr double nearly_all = 0.95;
+  if (part_near > nearly_all) fine_steps_ = SharedBytes();
 }
 
 /// Bounds from below and from above stay true where all that moved was and is farther than the mesh was: of

@@ -242,8 +242,8 @@ class SphereTree {
   };
   /// Samples one point after the other, each near the last one.
   class Sampler;
-  /// Bounds the distance at a point of the frame, which is at most `max_distance`, to about a fifth; negative
-  /// when that is too much work.
+  /// Bounds the distance at a point of the frame, which is at most `max_distance`, to about a seventh;
+  /// negative when that is too much work.
   DistanceField::Interval sample(const Vec3& position, double max_distance,
                                  Sampling& sampling) const noexcept;
   auto sampler() const noexcept;

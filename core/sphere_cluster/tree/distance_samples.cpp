@@ -12,7 +12,7 @@ namespace {
 
 /// Is content with a triangle that is nearly nearest.
 struct RoughVisitor {
-  static constexpr double enough = 0.64;  ///< share of the squared distance
+  static constexpr double enough = 0.75;  ///< share of the squared distance
 
   const spheres::TreeParts& tree;
   const FilterFrame& frame;
