@@ -50,9 +50,10 @@ class DistanceField {
   /// part's of the grid. distance_at(position, max_distance) bounds the distance at a point of the frame,
   /// which is at most the second, each bound within 2^-23. Where it gives up, by a negative one, so does the
   /// rest of the part: nothing is known there. Positions follow one another closely. Several threads, each
-  /// with a function of its own, find the same as one. These two are in distance_field_filling.h.
+  /// with a function of its own, find the same as one. Where more than `most_near` of the cubes have the mesh
+  /// near, lower bounds reject nothing, and none are kept. These two are in distance_field_filling.h.
   template <class Sampler>
-  void fill(const Sampler& sampler, unsigned threads);
+  void fill(const Sampler& sampler, unsigned threads, double most_near = 0.95);
   /// Leaves all of that to sample_near.
   void fill_lazily();
   bool is_lazy() const noexcept { return !unsampled_.empty(); }

@@ -234,14 +234,12 @@ double DistanceField::fill_cubes(const Sampler& sampler, const IsWanted& is_want
 }
 
 template <class Sampler>
-void DistanceField::fill(const Sampler& sampler, unsigned threads) {
+void DistanceField::fill(const Sampler& sampler, unsigned threads, double most_near) {
   coarse_steps_ = SharedBytes(coarse_.size(), max_steps);
   fine_steps_ = SharedBytes(fine_.size(), 0);
   const double part_near = fill_cubes(
       sampler, [](std::uint32_t) { return true; }, threads);
-  // What rejects nothing is not asked.
-  constexpr double nearly_all = 0.95;
-  if (part_near > nearly_all) fine_steps_ = SharedBytes();
+  if (part_near > most_near) fine_steps_ = SharedBytes();
 }
 
 /// Bounds from below and from above stay true where all that moved was and is farther than the mesh was: of

@@ -110,7 +110,7 @@ auto DirectGrid::sampler() const noexcept {
 
 void DirectGrid::fill_distances() {
   distances_ = DistanceField::around(store_.frame, bounds_, store_.size());
-  distances_.fill(sampler(), threads_);
+  distances_.fill(sampler(), threads_, 1);  // a cell costs more to ask than a sample
 }
 
 void DirectGrid::refill_distances(const std::vector<Aabb>& moved) {
