@@ -49,8 +49,8 @@ class AskPlan {
   AskOrder asked_ = AskOrder::automatic;  ///< in the last call
   double made_step_ = 0;                  ///< the mean step along the order when it was made
   bool followed_ = false;
-  std::size_t last_count_ = 0;  ///< of the points of the last call, if they can be followed
-  std::vector<Vec3> last_;      ///< a sample of them
+  std::size_t last_count_ = 0;  ///< how many points the last call had, if they can be followed
+  std::vector<Vec3> last_;      ///< a sample of those points
 };
 
 }  // namespace touchmark
