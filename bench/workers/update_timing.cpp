@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bench/support/median.h"
+#include "bench/workers/build_cores.h"
 
 namespace touchmark::bench::workers {
 
@@ -22,6 +23,7 @@ Updated time_updates(contestants::Contestant& contestant, const contestants::Ros
     return ns_since(start);
   };
   std::vector<double> builds, updates, ratios;
+  const BuildCores cores(spec);
   try {
     contestant.update(rest);
     roster.prepare_to_build(spec, moved.size());

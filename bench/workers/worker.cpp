@@ -27,6 +27,7 @@
 #include "bench/support/median.h"
 #include "bench/support/own_time.h"
 #include "bench/support/system_limit.h"
+#include "bench/workers/build_cores.h"
 #include "bench/workers/cache_lines.h"
 #include "bench/workers/cold_replay.h"
 #include "bench/workers/geometry.h"
@@ -149,6 +150,7 @@ double Worker::timed_build() {
   proxy_.reset();
   contestant_.reset();
   roster_->prepare_to_build(*spec_, geometry_->triangles());
+  const BuildCores cores(*spec_);
   const Clock::time_point start = Clock::now();
   contestant_ = geometry_->build(*roster_, *spec_);
   return ns_since(start);
