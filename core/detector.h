@@ -118,6 +118,15 @@ concept AnswersContacts = Detector<D> && requires(const D& detector, const Probe
   { detector.contacts(probe, reach, session, into) } noexcept -> std::same_as<std::size_t>;
 };
 
+/// As `contacts`, but does not count what does not fit: returns how many were written. That looks at less
+/// where many triangles are within reach.
+template <class D>
+concept AnswersNearestContacts = AnswersContacts<D> &&
+    requires(const D& detector, const Probe& probe, double reach, typename D::Session& session,
+             std::span<Contact> into) {
+  { detector.nearest_contacts(probe, reach, session, into) } noexcept -> std::same_as<std::size_t>;
+};
+
 /// `prepare` does ahead what the next query would else have to do first, and brings what that needs into the
 /// caches: best right after waking, before the device is read. It never changes an answer, does a bounded
 /// amount of work, and may be called or not after any query.

@@ -37,10 +37,11 @@ class AutoDetector {
   /// See the concept Updates. What was chosen stays.
   void update(const TriangleMesh& mesh);
 
-  // What the sphere-cluster's memory knows to be clear is asked before which form was chosen: another one
-  // leaves that memory empty, and then nothing is known. So clear space costs what it costs there.
-  bool touches(const Probe& probe, Session& session) const noexcept {
-    return !spheres_.is_clear(probe.center, probe.radius, session) && look_for_touch(probe, session);
+  // What the sphere-cluster's memory knows to be clear, or to touch, is asked before which form was chosen:
+  // another one leaves that memory empty, and then nothing is known. So this costs what it costs there.
+  [[gnu::always_inline]] bool touches(const Probe& probe, Session& session) const noexcept {
+    if (spheres_.is_clear(probe.center, probe.radius, session)) return false;
+    return spheres_.is_touching(probe, session) || look_for_touch(probe, session);
   }
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept {
     if (spheres_.is_clear(probe.center, reach, session)) return std::nullopt;

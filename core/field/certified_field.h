@@ -19,6 +19,7 @@
 #include "core/field/field_options.h"
 #include "core/field/sample.h"
 #include "core/geometry/point_triangle.h"
+#include "core/geometry/widest_offset.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark {
@@ -130,7 +131,7 @@ class CertifiedField {
     }
     const PreparedTriangle& triangle = triangles_[leaf.held];
     ++session.work.triangles;
-    const Offset offset = field::offset_from(triangle, center);
+    const Offset offset = widest_offset_from(triangle, center);
     return decide(std::sqrt(offset.squared), [&] { return by_triangle(triangle, offset); });
   }
   template <class Answer>

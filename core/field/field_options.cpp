@@ -3,10 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/geometry/point_triangle_avx2.h"
 #include "core/search/parallel.h"
-#include "core/simd/dispatch.h"
-#include "core/simd/target.h"
 
 namespace touchmark::field {
 namespace {
@@ -26,14 +23,6 @@ Division checked_division(const FieldOptions& options, double diagonal) {
   return {checked_length(options.error, "error", default_error * diagonal),
           checked_length(options.band, "band", default_band * diagonal),
           threads_to_use(options.threads, "field"), max_bytes};
-}
-
-Offset offset_from(const PreparedTriangle& triangle, const Vec3& point) noexcept {
-#if TOUCHMARK_HAS_AVX2
-  static const bool has_avx2 = widest_simd() != Simd::portable;
-  if (has_avx2) return avx2::offset_from(triangle, point);
-#endif
-  return touchmark::offset_from(triangle, point);
 }
 
 }  // namespace touchmark::field

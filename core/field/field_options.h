@@ -1,8 +1,7 @@
-/// What a certified field is built with, and the kernel it answers by.
+/// What a certified field is built with.
 #pragma once
 
 #include "core/field/cell_octree.h"
-#include "core/geometry/point_triangle.h"
 
 namespace touchmark {
 
@@ -17,9 +16,6 @@ namespace field {
 
 /// Throws std::invalid_argument, naming the offender.
 Division checked_division(const FieldOptions& options, double diagonal);
-
-/// The bits of touchmark::offset_from, by the widest instructions that the processor has.
-Offset offset_from(const PreparedTriangle& triangle, const Vec3& point) noexcept;
 
 }  // namespace field
 }  // namespace touchmark

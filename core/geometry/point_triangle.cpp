@@ -39,7 +39,6 @@ bool surely_over_face(const PreparedTriangle& t, const std::array<Vec3, 3>& to,
 /// edge_cross by the widest instructions that the processor has.
 Vec3 widest_edge_cross(const Vec3& a, const Vec3& b, const Vec3& c) noexcept {
 #if TOUCHMARK_HAS_AVX2
-  static const bool has_avx2 = widest_simd() != Simd::portable;
   if (has_avx2) return avx2::edge_cross(a, b, c);
 #endif
   return edge_cross(a, b, c);
@@ -65,13 +64,30 @@ std::array<Vec3, 3> in_range(const std::array<Vec3, 3>& v) noexcept {
   return {scale * v[0], scale * v[1], scale * v[2]};
 }
 
+/// Returns the squares of the sides, each at the corner opposite it.
+std::array<double, 3> squared_sides(const std::array<Vec3, 3>& v) noexcept {
+  return {(v[2] - v[1]).squaredNorm(), (v[0] - v[2]).squaredNorm(), (v[1] - v[0]).squaredNorm()};
+}
+
+std::size_t index_of_longest(const std::array<double, 3>& opposite) noexcept {
+  const std::size_t o = opposite[1] > opposite[0] ? 1 : 0;
+  return opposite[2] > opposite[o] ? 2 : o;
+}
+
 Vec3 unit_normal(const std::array<Vec3, 3>& corner) noexcept {
-  const std::array<Vec3, 3> v = in_range(corner);
+  std::array<double, 3> opposite = squared_sides(corner);
   // Edges from the corner opposite the longest edge: the best conditioned pair.
-  const std::array<double, 3> opposite = {(v[2] - v[1]).squaredNorm(), (v[0] - v[2]).squaredNorm(),
-                                          (v[1] - v[0]).squaredNorm()};
-  std::size_t o = opposite[1] > opposite[0] ? 1 : 0;
-  if (opposite[2] > opposite[o]) o = 2;
+  std::size_t o = index_of_longest(opposite);
+  const std::array<Vec3, 3>* sides = &corner;
+  std::array<Vec3, 3> scaled;
+  // Well inside the range of in_range, which leaves these as they are.
+  if (!(opposite[o] > 0x1p-780 && opposite[o] < 0x1p780)) {
+    scaled = in_range(corner);
+    sides = &scaled;
+    opposite = squared_sides(scaled);
+    o = index_of_longest(opposite);
+  }
+  const std::array<Vec3, 3>& v = *sides;
   const double longest = std::sqrt(opposite[o]);
   if (!(longest > 0)) return Vec3::Zero();
   // A power of two, so that nothing rounds and no product overflows or vanishes.

@@ -127,7 +127,12 @@ class Proxy {
 
   void look_around(typename D::Session& session) noexcept {
     std::array<Contact, ProxyMotion::max_contacts> around;
-    const std::size_t count = detector_->contacts({motion_.position(), 0}, motion_.look(), session, around);
+    const Probe here{motion_.position(), 0};
+    std::size_t count = 0;
+    if constexpr (AnswersNearestContacts<D>)
+      count = detector_->nearest_contacts(here, motion_.look(), session, around);
+    else
+      count = detector_->contacts(here, motion_.look(), session, around);
     motion_.look_around(std::span(around).first(count < around.size() ? count : around.size()));
   }
 

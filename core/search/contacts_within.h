@@ -43,6 +43,7 @@ struct ContactsQuestion {
   double reach;                 ///< at least 0
   std::span<Contact> into;      ///< room for the nearest
   bool decides_exactly = true;  ///< false: as doubles have it
+  bool counts_all = true;       ///< false: those that are not kept need not be shown
 };
 
 /// The squares in 106 bits of the distances to triangles that doubles do not tell apart, each computed once
@@ -76,7 +77,13 @@ class ContactsWithin {
   }
   /// Likewise, where offset_from(triangle, center) is known.
   void consider(std::uint32_t slot, const Offset& offset, Work& work) noexcept;
-  /// Returns how many triangles are within the reach; the nearest are in their order then.
+  /// Returns the computed distance from which on nothing is kept any more, where not all are counted. Falls
+  /// as contacts are shown.
+  double farthest() const noexcept {
+    if (question_.counts_all || is_scaled_) return infinite;
+    return question_.into.empty() ? 0 : farthest_kept_;
+  }
+  /// Returns how many triangles were shown that are within the reach; the nearest are in their order then.
   std::size_t finish(Work& work) noexcept;
   struct Nearest {
     std::uint32_t slot;
@@ -88,10 +95,28 @@ class ContactsWithin {
  private:
   static constexpr double infinite = std::numeric_limits<double>::infinity();
 
+  /// A triangle within the reach, its distance as computed.
+  struct Found {
+    Vec3 offset;
+    double squared;
+    double distance;  ///< in this unit
+    std::uint32_t slot;
+  };
+  /// So many are gathered before the farther ones are dropped, where no more than a few are asked for.
+  static constexpr std::size_t gathered_at_once = 32, most_asked_for = 16;
+
   double distance_to(const PreparedTriangle& triangle, const Offset& offset) const noexcept;
   bool is_within(const PreparedTriangle& triangle, double distance, Work& work) noexcept;
-  bool is_before(const Contact& a, const Contact& b) noexcept;
-  Contact finished(const Contact& kept) noexcept;
+  static Found found_of(const Contact& kept) noexcept;
+  static const Found& found_of(const Found& kept) noexcept { return kept; }
+  bool is_before(const Found& a, const Found& b) noexcept;
+  bool is_before_as_near(const Found& a, const Found& b) noexcept;
+  void keep(const Found& found) noexcept;
+  void drop_farther() noexcept;
+  void keep_gathered() noexcept;
+  template <class Kept>
+  void sort(std::span<Kept> kept) noexcept;
+  Contact finished(const Found& kept) noexcept;
 
   ContactsQuestion question_;
   double error_ = 0;
@@ -102,6 +127,9 @@ class ContactsWithin {
   WithinRadius is_within_;
   CloseSquares squares_;
   std::size_t count_ = 0;
+  std::size_t gathered_count_ = 0, kept_count_ = 0;  ///< waiting, and in `into`
+  double farthest_kept_ = infinite;                  ///< what is farther, as computed, is not kept
+  std::array<Found, gathered_at_once> gathered_;
   std::optional<Nearest> nearest_;
   std::uint64_t exact_decisions_ = 0;
 };

@@ -53,6 +53,11 @@ DistanceField::DistanceField(const Eigen::Vector3f& min, const Eigen::Vector3f& 
   fine_ = coarse_.halved();
   constexpr float steps_an_edge = 8;
   step_ = std::ldexp(1.0F, std::ilogb(fine_.edge() / steps_an_edge));
+  // From the middle of a cube it is less than the box's extent to anywhere in it.
+  constexpr int bits = 15;
+  const float across =
+      coarse_.edge() * static_cast<float>(std::max({coarse_.count(0), coarse_.count(1), coarse_.count(2)}));
+  vector_step_ = std::ldexp(1.0F, std::ilogb(across) + 1 - bits);
 }
 
 DistanceField DistanceField::around(const FilterFrame& frame, const Aabb& bounds, std::size_t triangles) {

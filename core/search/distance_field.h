@@ -1,14 +1,17 @@
 /// Bounds of the distance to the mesh by a look at one number: what is far need not be searched, and what
 /// is near is searched no farther than it has to be.
 ///
-/// The distance at p is that at a sampled point c, give or take |p - c|: it changes by no more than the point
-/// moves. Any sample will do, so it does not matter which cell rounding takes a point to be in. All samples
-/// are taken at once, or each when something is first asked near it.
+/// The distance at p is that at a sampled point c, less |p - c| at most: it changes by no more than the point
+/// moves. And it is at most |p - q|, where q is a point of the mesh that the sample found. Any sample will
+/// do, so it does not matter which cell rounding takes a point to be in. All samples are taken at once, or
+/// each when something is first asked near it.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -26,6 +29,16 @@
 
 namespace touchmark {
 
+/// A function that takes samples and knows the triangle it found near the last one, by a number.
+template <class DistanceAt>
+concept KnowsTriangles = requires(DistanceAt& distance_at, const Vec3& position, std::uint32_t near) {
+  { distance_at.near() } -> std::same_as<std::uint32_t>;
+  // Bounds the distance from above by that triangle, and starts the next sample with it.
+  { distance_at.distance_to(near, position) } -> std::same_as<double>;
+  // The vector to the point of the mesh that the last of these two, or the last sample, found.
+  { distance_at.to_mesh() } -> std::convertible_to<Vec3>;
+};
+
 class DistanceField {
  public:
   struct Interval {
@@ -40,7 +53,7 @@ class DistanceField {
   static DistanceField around(const FilterFrame& frame, const Aabb& bounds, std::size_t triangles);
   /// What it takes when it is filled at once, at most.
   static std::size_t max_bytes(std::size_t triangles) noexcept {
-    return std::max<std::size_t>(5 * triangles, 128);
+    return std::max<std::size_t>(5 * triangles, 160);
   }
   /// What sampling may look at, in all: where a hierarchy is a poor fit, samples may cost no more than it
   /// did.
@@ -50,8 +63,9 @@ class DistanceField {
   /// part's of the grid. distance_at(position, max_distance) bounds the distance at a point of the frame,
   /// which is at most the second, each bound within 2^-23. Where it gives up, by a negative one, so does the
   /// rest of the part: nothing is known there. Positions follow one another closely. Several threads, each
-  /// with a function of its own, find the same as one. Where more than `most_near` of the cubes have the mesh
-  /// near, lower bounds reject nothing, and none are kept. These two are in distance_field_filling.h.
+  /// with a function of its own, find the same as one. Upper bounds are known where samples know triangles
+  /// (KnowsTriangles). Where more than `most_near` of the cubes have the mesh near, lower bounds reject
+  /// nothing, and none are kept. These two are in distance_field_filling.h.
   template <class Sampler>
   void fill(const Sampler& sampler, unsigned threads, double most_near = 0.95);
   /// Leaves all of that to sample_near.
@@ -61,7 +75,7 @@ class DistanceField {
   /// be done. Returns false where there is none, or nothing was left. Any thread may, at any time; what it
   /// finds is the same.
   template <class DistanceAt>
-  bool sample_near(const FilterPoint& point, const DistanceAt& distance_at) const;
+  bool sample_near(const FilterPoint& point, DistanceAt&& distance_at) const;
   /// After a part of the mesh has moved, within the lattice's box: fills anew, or leaves it to sample_near as
   /// before, where that can have been nearest or can be. `moved`, in the frame, hold what moved as it was and
   /// as it is.
@@ -82,13 +96,17 @@ class DistanceField {
   /// Returns an upper bound of the distance, or infinity: some part of the mesh is at most this far.
   float upper_bound(const FilterPoint& point) const noexcept;
   std::size_t bytes() const noexcept {
-    return fine_steps_.capacity() + coarse_steps_.capacity() + unsampled_.capacity();
+    return fine_steps_.capacity() + coarse_steps_.capacity() + unsampled_.capacity() +
+           to_mesh_.capacity() * sizeof(PackedVector);
   }
 
  private:
   using Step = std::uint8_t;
   using Cube = std::array<std::uint32_t, 3>;
   using SharedBytes = std::vector<SharedValue<std::uint8_t>>;
+  /// Three coordinates as whole numbers of 16 bits: how often each has `vector_step_`.
+  using PackedVector = std::uint64_t;
+  static constexpr PackedVector no_vector = 0x8000'8000'8000'8000;
   static constexpr Step max_steps = 255;
   static constexpr std::uint8_t all_eighths = 255;
 
@@ -125,6 +143,7 @@ class DistanceField {
     return steps == max_steps ? std::numeric_limits<double>::infinity()
                               : static_cast<double>(steps) * static_cast<double>(step_);
   }
+  void keep_to_mesh(std::uint32_t cube, const Vec3& to_mesh) const noexcept;
   struct CoarseSamples;
   template <class DistanceAt, class IsWanted>
   class Filler;
@@ -148,6 +167,9 @@ class DistanceField {
   float step_ = 1;          ///< a power of two: multiples are exact
   SharedBytes fine_steps_;  ///< the distance is at least so many steps; empty where that would reject nothing
   SharedBytes coarse_steps_;  ///< the distance is at most so many steps; the last value: nothing is known
+  float vector_step_ = 1;     ///< a power of two
+  /// By coarse cube, where samples know triangles: from its middle to a point of the mesh.
+  std::vector<SharedValue<PackedVector>> to_mesh_;
   /// By coarse cube, with lazy construction: bits of the eighths of which nothing is known yet.
   SharedBytes unsampled_;
 };
@@ -177,14 +199,20 @@ inline bool DistanceField::may_be_tighter(const FilterPoint& p) const noexcept {
   return steps * step_ >= least_in_edges * fine_.edge();
 }
 
+// The numbers of a packed vector are rounded, by 0.87 steps in all. A step has room for them and for what
+// rounds here.
 inline float DistanceField::upper_bound(const FilterPoint& p) const noexcept {
-  if (coarse_steps_.empty()) return std::numeric_limits<float>::infinity();
+  using Numbers [[gnu::vector_size(8)]] = std::int16_t;
+  if (to_mesh_.empty()) return std::numeric_limits<float>::infinity();
   const Lanes point = lanes_of(p);
   const LaneBits cube = coarse_.cube_of(point);
-  const Step steps = coarse_steps_[coarse_.index(cube)].load();
-  if (steps == max_steps) return std::numeric_limits<float>::infinity();
-  return static_cast<float>(steps) * step_ + root(squared(point - coarse_.middle(cube))) +
-         plane_errors_of_pad * p.plane_error;
+  const PackedVector packed = to_mesh_[coarse_.index(cube)].load();
+  if (packed == no_vector) return std::numeric_limits<float>::infinity();
+  const Lanes numbers =
+      __builtin_convertvector(__builtin_convertvector(std::bit_cast<Numbers>(packed), LaneBits), Lanes);
+  const Lanes to_mesh = numbers * vector_step_;
+  const float pad = vector_step_ + plane_errors_of_pad * p.plane_error;
+  return root(squared(point - coarse_.middle(cube) - to_mesh)) + pad;
 }
 
 inline void DistanceField::keep(std::uint32_t x, std::uint32_t y, std::uint32_t z,
@@ -194,15 +222,26 @@ inline void DistanceField::keep(std::uint32_t x, std::uint32_t y, std::uint32_t 
   for (std::uint32_t eighth = 0; eighth < 8; ++eighth) keep_fine(eighth_of(x, y, z, eighth), lower);
 }
 
+inline void DistanceField::keep_to_mesh(std::uint32_t cube, const Vec3& to_mesh) const noexcept {
+  PackedVector packed = 0;
+  for (int k = 0; k < 3; ++k) {
+    const auto number =
+        static_cast<std::int16_t>(std::lround(to_mesh[k] / static_cast<double>(vector_step_)));
+    packed |= PackedVector{static_cast<std::uint16_t>(number)} << (16 * k);
+  }
+  to_mesh_[cube].store(packed);
+}
+
 inline void DistanceField::fill_lazily() {
   coarse_steps_ = SharedBytes(coarse_.size(), max_steps);
+  to_mesh_.assign(coarse_.size(), no_vector);
   fine_steps_ = SharedBytes(fine_.size(), 0);
   unsampled_ = SharedBytes(coarse_.size(), all_eighths);
 }
 
 /// Samples the middle of a coarse cube first, then, where that is near, the middle of the eighth.
 template <class DistanceAt>
-bool DistanceField::sample_near(const FilterPoint& p, const DistanceAt& distance_at) const {
+bool DistanceField::sample_near(const FilterPoint& p, DistanceAt&& distance_at) const {
   if (unsampled_.empty()) return false;
   const LaneBits fine_cube = fine_.cube_of(lanes_of(p));
   const auto i = static_cast<std::uint32_t>(fine_cube[0]), j = static_cast<std::uint32_t>(fine_cube[1]),
@@ -213,7 +252,10 @@ bool DistanceField::sample_near(const FilterPoint& p, const DistanceAt& distance
   if ((unsampled & bit) == 0) return false;
   if (unsampled == all_eighths && coarse_steps_[cube].load() == max_steps) {
     const Interval distance = distance_at(middle(coarse_, x, y, z), std::numeric_limits<double>::infinity());
-    if (distance.lower >= 0) keep(x, y, z, distance);
+    if (distance.lower >= 0) {
+      keep(x, y, z, distance);
+      if constexpr (KnowsTriangles<DistanceAt>) keep_to_mesh(cube, distance_at.to_mesh());
+    }
     // A cube about which nothing was found out is not asked for again.
     if (distance.lower < 0 || is_far(distance.lower)) unsampled_[cube].clear(all_eighths);
     return distance.lower >= 0;

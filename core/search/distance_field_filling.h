@@ -5,25 +5,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "core/search/distance_field.h"
 #include "core/search/parallel.h"
 
 namespace touchmark {
-
-/// A function that takes samples and knows the triangle it found near the last one, by a number.
-template <class DistanceAt>
-concept KnowsTriangles = requires(DistanceAt& distance_at, const Vec3& position, std::uint32_t near) {
-  { distance_at.near() } -> std::same_as<std::uint32_t>;
-  // Bounds the distance from above by that triangle, and starts the next sample with it.
-  { distance_at.distance_to(near, position) } -> std::same_as<double>;
-};
 
 /// What is known of the middles of coarse cubes while a field is filled.
 struct DistanceField::CoarseSamples {
@@ -121,6 +113,7 @@ class DistanceField::Filler {
     }
     samples_.lower[index(cube)] = found.lower;
     samples_.near[index(cube)] = near;
+    if constexpr (knows_triangles) field_.keep_to_mesh(index(cube), distance_at_.to_mesh());
     last_ = position;
     upper_ = found.upper;
     field_.keep(cube[0], cube[1], cube[2], found);
@@ -199,14 +192,13 @@ class DistanceField::Filler {
 };
 
 /// Parts of whole rows, of about as many cubes: so many that it does not matter that each begins without a
-/// neighbour, so few that there is one for every thread.
-/// Returns which part of the cubes has the mesh near.
+/// neighbour, so few that there is one for every thread. Returns which part of the cubes has the mesh near.
 template <class Sampler, class IsWanted>
 double DistanceField::fill_cubes(const Sampler& sampler, const IsWanted& is_wanted, unsigned threads) {
   if (coarse_.size() == 0) return 0;
   constexpr std::size_t cubes_a_part = 512;
   // Next to nothing is rejected where the mesh fills its box, with samples of the eighths or without.
-  constexpr double most_near = 0.85;
+  constexpr double most_near_for_eighths = 0.85;
   CoarseSamples samples(coarse_.size());
   const auto fill = [&](FillingPass pass, std::uint32_t first_y, std::uint32_t step_y, std::uint32_t first_z,
                         std::uint32_t step_z) {
@@ -229,13 +221,15 @@ double DistanceField::fill_cubes(const Sampler& sampler, const IsWanted& is_want
   fill(FillingPass::between_y, 1, 2, 0, 2);
   fill(FillingPass::between_z, 0, 1, 1, 2);
   const double part_near = samples.part_near(*this);
-  if (part_near <= most_near) fill(FillingPass::eighths, 0, 1, 0, 1);
+  if (part_near <= most_near_for_eighths) fill(FillingPass::eighths, 0, 1, 0, 1);
   return part_near;
 }
 
 template <class Sampler>
 void DistanceField::fill(const Sampler& sampler, unsigned threads, double most_near) {
+  using DistanceAt = std::invoke_result_t<const Sampler&, double>;
   coarse_steps_ = SharedBytes(coarse_.size(), max_steps);
+  to_mesh_.assign(KnowsTriangles<DistanceAt> ? coarse_.size() : 0, no_vector);
   fine_steps_ = SharedBytes(fine_.size(), 0);
   const double part_near = fill_cubes(
       sampler, [](std::uint32_t) { return true; }, threads);
@@ -243,7 +237,8 @@ void DistanceField::fill(const Sampler& sampler, unsigned threads, double most_n
 }
 
 /// Bounds from below and from above stay true where all that moved was and is farther than the mesh was: of
-/// the middle, and padded for the path there and back of its eighths.
+/// the middle, and padded for the path there and back of its eighths. The points of the mesh that samples
+/// found there have not moved either.
 template <class Sampler>
 void DistanceField::refill(const Sampler& sampler, std::span<const Aabb> moved, unsigned threads) {
   if (fine_steps_.empty()) return fill(sampler, threads);
@@ -255,6 +250,7 @@ void DistanceField::refill(const Sampler& sampler, std::span<const Aabb> moved, 
         if (!any_within(moved, middle(coarse_, x, y, z), upper_bound_at(cube) + 2 * to_eighth())) continue;
         changed[cube] = true;
         coarse_steps_[cube].store(max_steps);
+        if (!to_mesh_.empty()) to_mesh_[cube].store(no_vector);
         for (std::uint32_t eighth = 0; eighth < 8; ++eighth) keep_fine(eighth_of(x, y, z, eighth), 0);
         if (is_lazy()) unsampled_[cube].store(all_eighths);
       }

@@ -197,17 +197,9 @@ struct PlaneLanes {
 
 inline PlaneLanes plane_lanes(const TrianglePlanes& a, const TrianglePlanes& b, const TrianglePlanes& c,
                               const TrianglePlanes& d, const PointLanes& p) noexcept {
-  const Lanes va = plane_values(a, p), vb = plane_values(b, p), vc = plane_values(c, p),
-              vd = plane_values(d, p);
-  // Transpose: from four planes of one triangle to one plane of four triangles.
-  const Lanes ab_low = __builtin_shufflevector(va, vb, 0, 4, 1, 5);
-  const Lanes ab_high = __builtin_shufflevector(va, vb, 2, 6, 3, 7);
-  const Lanes cd_low = __builtin_shufflevector(vc, vd, 0, 4, 1, 5);
-  const Lanes cd_high = __builtin_shufflevector(vc, vd, 2, 6, 3, 7);
-  const Lanes face = __builtin_shufflevector(ab_low, cd_low, 0, 1, 4, 5);
-  const Lanes side1 = __builtin_shufflevector(ab_low, cd_low, 2, 3, 6, 7);
-  const Lanes side2 = __builtin_shufflevector(ab_high, cd_high, 0, 1, 4, 5);
-  const Lanes side3 = __builtin_shufflevector(ab_high, cd_high, 2, 3, 6, 7);
+  // From four planes of one triangle to one plane of four triangles.
+  const auto [face, side1, side2, side3] =
+      simd::columns(plane_values(a, p), plane_values(b, p), plane_values(c, p), plane_values(d, p));
   return {simd::max(face, -face), simd::max(side1, simd::max(side2, side3))};
 }
 

@@ -82,6 +82,16 @@ bool surely_share_nearest(const PreparedTriangle& a, const PreparedTriangle& b, 
   return false;
 }
 
+bool surely_share_corner(const PreparedTriangle& a, const PreparedTriangle& b, const Vec3& point,
+                         const Vec3& offset) noexcept {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (point - a.corner[i] != offset) continue;
+    const std::size_t position = position_of(a.corner[i], b.corner);
+    return position != nowhere && surely_off_shared_corner(a, i, b, position, point);
+  }
+  return false;
+}
+
 bool have_same_corners(const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b) noexcept {
   const auto all_of_in = [](const std::array<Vec3, 3>& some, const std::array<Vec3, 3>& others) {
     return std::all_of(some.begin(), some.end(),

@@ -15,4 +15,6 @@ Simd widest_simd() noexcept {
 #endif
 }
 
+const bool has_avx2 = widest_simd() >= Simd::avx2;
+
 }  // namespace touchmark

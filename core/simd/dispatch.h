@@ -13,4 +13,8 @@ enum class Simd {
 /// Returns the widest of this processor, of those that the build has code for.
 Simd widest_simd() noexcept;
 
+/// True where that is AVX2 or more. What runs before the library's objects are initialized may find it false,
+/// which changes no answer.
+extern const bool has_avx2;
+
 }  // namespace touchmark

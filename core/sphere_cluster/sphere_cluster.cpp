@@ -45,19 +45,11 @@ void SphereCluster::update(const TriangleMesh& mesh) {
   if (!has_tree || !tree_.update(mesh)) *this = build(mesh, options_);
 }
 
-/// Is the point farther from the mesh's box than the reach? Where something was near it was not asked before,
-/// and is not yet.
-bool SphereCluster::turns_out_beyond_box(const Vec3& center, double reach, Session& session) const noexcept {
-  SphereTree::Memory& memory = session.memory;
-  memory.beyond_box = !memory.beyond_box && !memory.is_near() && tree_.is_beyond_box(center, reach);
-  return memory.beyond_box;
-}
-
 bool SphereCluster::look_for_touch(const Probe& probe, Session& session) const noexcept {
   if (!(probe.radius >= 0)) return false;
   if (!options_.precise) return fast_.touches(probe, session.work);
   if (options_.lookup == Lookup::scan) return scan_.touches(probe, session.work);
-  if (turns_out_beyond_box(probe.center, probe.radius, session)) return false;
+  if (tree_.turns_out_beyond_box(probe.center, probe.radius, session.memory)) return false;
   session.question = {LastQuestion::Query::touches, probe.radius};
   return tree_.touches(probe, session.memory, session.work);
 }
@@ -67,7 +59,7 @@ std::optional<Contact> SphereCluster::look_for_nearest(const Probe& probe, doubl
   if (!(reach >= 0)) return std::nullopt;
   if (!options_.precise) return fast_.nearest(probe.center, reach, session.work);
   if (options_.lookup == Lookup::scan) return scan_.nearest(probe.center, reach, session.work);
-  if (turns_out_beyond_box(probe.center, reach, session)) return std::nullopt;
+  if (tree_.turns_out_beyond_box(probe.center, reach, session.memory)) return std::nullopt;
   session.question = {LastQuestion::Query::nearest, reach};
   return tree_.nearest(probe.center, reach, session.memory, session.work);
 }
@@ -92,19 +84,18 @@ std::optional<Impact> SphereCluster::look_for_impact(const Sweep& sweep, Session
   if (!(sweep.radius >= 0)) return std::nullopt;
   if (!options_.precise) return fast_.first_hit(sweep, session.work);
   if (options_.lookup == Lookup::scan) return scan_.first_hit(sweep, session.work);
-  session.memory.beyond_box = !session.memory.is_near() && tree_.is_beyond_box(sweep);
-  if (session.memory.beyond_box) return std::nullopt;
+  if (tree_.turns_out_beyond_box(sweep, session.memory)) return std::nullopt;
   session.question = {LastQuestion::Query::sweep, sweep.radius};
   return tree_.first_hit(sweep, session.memory, session.work);
 }
 
 std::size_t SphereCluster::look_for_contacts(const Probe& probe, double reach, Session& session,
-                                             std::span<Contact> into) const noexcept {
+                                             std::span<Contact> into, bool counts_all) const noexcept {
   if (!(reach >= 0)) return 0;
   if (!options_.precise) return fast_.contacts(probe.center, reach, into, session.work);
   if (options_.lookup == Lookup::scan) return scan_.contacts(probe.center, reach, into, session.work);
-  session.memory.beyond_box = false;
-  return tree_.contacts(probe.center, reach, session.memory, into, session.work);
+  session.memory.for_box = 0;
+  return tree_.contacts(probe.center, reach, session.memory, into, counts_all, session.work);
 }
 
 Accuracy SphereCluster::accuracy() const noexcept {

@@ -3,6 +3,7 @@
 /// triangles, clustered by distance, tested before the triangles are.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -65,11 +66,10 @@ class SphereCluster {
   /// become of another size or place; the scan and the fast level always are.
   void update(const TriangleMesh& mesh);
 
-  // Inline as far as clear space and what is beyond the mesh's box: there a query is a few comparisons, less
-  // than a call.
-  bool touches(const Probe& probe, Session& session) const noexcept {
+  // Inline as far as what is known without a look: there a query is a few comparisons, less than a call.
+  [[gnu::always_inline]] bool touches(const Probe& probe, Session& session) const noexcept {
     if (is_clear(probe.center, probe.radius, session)) return false;
-    return tree_.is_touching(probe.center, probe.radius, session.memory) || look_for_touch(probe, session);
+    return is_touching(probe, session) || look_for_touch(probe, session);
   }
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept {
     if (is_clear(probe.center, reach, session)) return std::nullopt;
@@ -107,18 +107,32 @@ class SphereCluster {
   std::size_t contacts(const Probe& probe, double reach, Session& session,
                        std::span<Contact> into) const noexcept {
     if (is_clear(probe.center, reach, session)) return 0;
-    return look_for_contacts(probe, reach, session, into);
+    return look_for_contacts(probe, reach, session, into, true);
+  }
+  /// See the concept AnswersNearestContacts.
+  std::size_t nearest_contacts(const Probe& probe, double reach, Session& session,
+                               std::span<Contact> into) const noexcept {
+    if (is_clear(probe.center, reach, session)) return 0;
+    return std::min(look_for_contacts(probe, reach, session, into, false), into.size());
   }
 
   /// With a tree: is it known, without looking, that nothing is within reach? By what was near last, or by
   /// the mesh's box where that answered last. Of a detector that was not built, nothing is known.
-  bool is_clear(const Vec3& center, double reach, const Session& session) const noexcept {
-    return session.memory.beyond_box ? tree_.is_beyond_box(center, reach)
-                                     : tree_.is_clear(center, reach, session.memory);
+  bool is_clear(const Vec3& center, double reach, Session& session) const noexcept {
+    if (session.memory.for_box == 0) return tree_.is_clear(center, reach, session.memory);
+    --session.memory.for_box;
+    return tree_.is_beyond_box(center, reach);
   }
   /// Is that known of a whole path?
-  bool is_clear(const Sweep& sweep, const Session& session) const noexcept {
-    return session.memory.beyond_box ? tree_.is_beyond_box(sweep) : tree_.is_clear(sweep, session.memory);
+  bool is_clear(const Sweep& sweep, Session& session) const noexcept {
+    if (session.memory.for_box == 0) return tree_.is_clear(sweep, session.memory);
+    --session.memory.for_box;
+    return tree_.is_beyond_box(sweep);
+  }
+  /// With a tree: is it known, without looking, that the probe touches? Of a detector that was not built,
+  /// nothing is known.
+  bool is_touching(const Probe& probe, const Session& session) const noexcept {
+    return tree_.is_touching(probe.center, probe.radius, session.memory);
   }
 
   /// With a tree: lists, after `nearest`, the leaves near the point for a next tick that moves no farther
@@ -141,7 +155,6 @@ class SphereCluster {
   double tightness() const noexcept { return tightness_; }
 
  private:
-  bool turns_out_beyond_box(const Vec3& center, double reach, Session& session) const noexcept;
   bool look_for_touch(const Probe& probe, Session& session) const noexcept;
   std::optional<Contact> look_for_nearest(const Probe& probe, double reach, Session& session) const noexcept;
   std::optional<Contact> look_for_nearest(const Probe& probe, double reach, FollowedPoint& followed,
@@ -149,8 +162,8 @@ class SphereCluster {
   bool look_for_close_triangles(const Vec3& center, double reach, double slack, Session& session,
                                 CloseTriangles& into) const noexcept;
   std::optional<Impact> look_for_impact(const Sweep& sweep, Session& session) const noexcept;
-  std::size_t look_for_contacts(const Probe& probe, double reach, Session& session,
-                                std::span<Contact> into) const noexcept;
+  std::size_t look_for_contacts(const Probe& probe, double reach, Session& session, std::span<Contact> into,
+                                bool counts_all) const noexcept;
 
   Options options_;
   Connectivity connectivity_;

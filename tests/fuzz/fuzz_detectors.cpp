@@ -97,7 +97,7 @@ void judge(const QueryTrace& trace, Query query, std::size_t step, const Answer&
 }
 
 void examine(const QueryTrace& trace) {
-  const std::vector<ExactForm> forms = exact_forms(trace.mesh);
+  const std::vector<ExactForm> forms = exact_forms(trace.mesh, Fields::coarse);
   bench::contestants::Contestant& reference = *forms.front().detector;
   for (const Query query : {Query::nearest, Query::touches, Query::sweep}) {
     const std::vector<Answer> expected = ask(reference, query, trace.steps);

@@ -1,7 +1,5 @@
 // A bound by a triangle's ball (triangle_store.h), included once an instruction set in a namespace that
-// defines Wide, a vector of floats, and its square_root.
-
-inline Wide max(Wide a, Wide b) noexcept { return a > b ? a : b; }
+// defines Wide, a vector of floats, and its square_root and max.
 
 /// How far beyond a triangle's ball the foot of points in its plane surely lies; `height` is the distance to
 /// that plane. 0 or less where it may lie in the ball.

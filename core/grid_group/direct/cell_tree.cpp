@@ -5,7 +5,8 @@
 
 #include <Eigen/Geometry>
 
-#include "core/grid_group/direct/nearest_search.h"
+#include "core/grid_group/direct/rough_search.h"
+#include "core/search/linear_scan.h"
 #include "core/search/parallel.h"
 
 namespace touchmark::grid {
@@ -19,14 +20,15 @@ constexpr std::size_t cells_a_piece = 64;
 CellTree::Leaf CellTree::nearest_to(const TriangleStore& store, const BoxTree& tree, const Vec3& middle,
                                     std::uint32_t hint, std::uint64_t budget, Work& work) const noexcept {
   const Vec3 center = store.frame.from_frame(middle);
-  NearestSearch search(store, center, std::numeric_limits<double>::infinity());
+  RoughSearch search(store, center, least_part, std::numeric_limits<double>::infinity());
   search.consider(hint);
   const bool found = search.consider_tree(tree, budget);
-  work.triangles += search.triangles();
-  work.boxes += search.boxes();
-  if (!found) return {search.slot(), 0};
-  const double distance = store.frame.scale() * std::sqrt(search.offset().squared);
-  return {search.slot(), std::max(rounded_down(distance - middle_error_), 0.0F)};
+  const RoughNearest& nearest = search.nearest();
+  work.triangles += nearest.triangles;
+  work.boxes += nearest.boxes;
+  if (!found) return {nearest.slot, 0};
+  const double distance = store.frame.scale() * std::sqrt(double{least_part} * nearest.squared);
+  return {nearest.slot, std::max(rounded_down(distance - middle_error_), 0.0F)};
 }
 
 bool CellTree::build_lazily(const Vec3& in_frame, const TriangleStore& store, const BoxTree& tree,

@@ -27,7 +27,7 @@ struct CellOptions {
   const Groups* groups = nullptr;  ///< if built: where there are none, cells need not be small
 };
 
-/// The triangle nearest to a cell's middle, and how far it is: what a query starts from.
+/// A triangle about as near to a cell's middle as the nearest, and how far that is: what a query starts from.
 struct Cell {
   Vec3 middle;      ///< in the frame
   double distance;  ///< from there to the mesh, in the frame, at least
@@ -55,15 +55,15 @@ class CellTree {
   }
   /// Returns the length of that cell's edges.
   double edge_at(const Vec3& in_frame) const noexcept { return unit_ * (1u << find(units(in_frame)).shift); }
-  /// The mesh is no farther from the middle of a cell of this distance, where a search for what is nearest to
-  /// it came to its end.
+  /// The mesh is no farther from the middle of a cell of this distance, where the search for it came to its
+  /// end.
   double upper_bound(double distance) const noexcept {
-    return (distance + 2 * rounded_down_to) * (1 + 2 * rounded_down_by) + 2 * middle_error_;
+    return most_times * ((distance + 2 * rounded_down_to) * (1 + 2 * rounded_down_by) + 2 * middle_error_);
   }
   /// In the frame: how far a cell's middle may be from where it is looked at in the mesh's own coordinates,
   /// in which it is rounded.
   double middle_error() const noexcept { return middle_error_; }
-  /// Finds what is nearest to the middle of that cell, where that is not known yet; else false. Any thread
+  /// Finds what is near the middle of that cell, where that is not known yet; else false. Any thread
   /// may meanwhile read or build the same.
   bool build_lazily(const Vec3& in_frame, const TriangleStore& store, const BoxTree& tree,
                     std::uint64_t budget, Work& work) const noexcept;
@@ -129,6 +129,12 @@ class CellTree {
   /// Shares by which a distance is rounded down, relatively and besides: to single precision, and for the
   /// kernel's error.
   static constexpr double rounded_down_by = 0x1p-20, rounded_down_to = 0x1p-30;
+
+  /// Cells name a triangle whose squared distance times this is at most that of the nearest: to find it takes
+  /// half of the work, and it serves as well to start from. The distance that they keep is the root of this
+  /// part of the square.
+  static constexpr float least_part = 0.98F;
+  static constexpr double most_times = 1.0102;  ///< at least the root of its inverse
 
   static float rounded_down(double distance) noexcept {
     return static_cast<float>(distance * (1 - rounded_down_by) - rounded_down_to);

@@ -4,7 +4,7 @@
 
 #include "core/grid_group/direct/direct_grid.h"
 #include "core/grid_group/direct/group_builder.h"
-#include "core/grid_group/direct/nearest_search.h"
+#include "core/grid_group/direct/rough_search.h"
 #include "core/search/distance_field_filling.h"  // IWYU pragma: keep
 
 namespace touchmark::grid {
@@ -87,12 +87,13 @@ DistanceField::Interval DirectGrid::sample(const Vec3& in_frame, double max_dist
   }
   const double scale = store_.frame.scale(), reach = (1 - enough) * max_distance;
   const Vec3 center = store_.frame.from_frame(in_frame);
-  NearestSearch search(store_, center, reach / scale);
+  RoughSearch search(store_, center, 1, reach / scale);
   const bool exhausted = !search.consider_tree(tree_, left);
-  left -= std::min(left, search.triangles() + search.boxes());
+  const RoughNearest& nearest = search.nearest();
+  left -= std::min(left, nearest.triangles + nearest.boxes);
   if (exhausted || left == 0) return {-1, -1};
-  if (!search.found()) return {reach, max_distance};
-  const double distance = scale * std::sqrt(search.offset().squared);
+  if (nearest.squared == std::numeric_limits<double>::infinity()) return {reach, max_distance};
+  const double distance = scale * std::sqrt(nearest.squared);
   // One that the filter let through may be beyond the reach, and another between them.
   return {std::min(distance, reach), std::min(distance, max_distance)};
 }

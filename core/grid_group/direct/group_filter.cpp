@@ -4,6 +4,7 @@
 #include <bit>
 #include <limits>
 
+#include "core/grid_group/direct/wide_rows.h"
 #include "core/simd/dispatch.h"
 #include "core/simd/target.h"
 
@@ -41,8 +42,6 @@ void conclude(const Leaders& leaders, const std::uint32_t* slots, GroupBounds& b
 
 #if TOUCHMARK_HAS_AVX2
 
-const bool use_avx2 = widest_simd() >= Simd::avx2;
-
 /// Eight members at a time: two of them share a register, row by row, until the transposition.
 [[gnu::target("avx2")]] Leaders pass_avx2(const TrianglePlanes* planes, const std::uint32_t* slots,
                                           std::size_t count, const FilterPoint& point,
@@ -63,15 +62,8 @@ const bool use_avx2 = widest_simd() >= Simd::avx2;
       const __m256 across = _mm256_add_ps(_mm256_mul_ps(nx, x), _mm256_mul_ps(ny, y));
       values[k] = _mm256_add_ps(_mm256_add_ps(across, _mm256_mul_ps(nz, z)), offset);
     }
-    const __m256 ab_low = _mm256_unpacklo_ps(values[0], values[1]);
-    const __m256 ab_high = _mm256_unpackhi_ps(values[0], values[1]);
-    const __m256 cd_low = _mm256_unpacklo_ps(values[2], values[3]);
-    const __m256 cd_high = _mm256_unpackhi_ps(values[2], values[3]);
-    const __m256 signed_face = _mm256_shuffle_ps(ab_low, cd_low, 0x44);
+    const auto [signed_face, side1, side2, side3] = avx2::columns(values[0], values[1], values[2], values[3]);
     const __m256 face = _mm256_max_ps(signed_face, _mm256_xor_ps(signed_face, sign));
-    const __m256 side1 = _mm256_shuffle_ps(ab_low, cd_low, 0xee);
-    const __m256 side2 = _mm256_shuffle_ps(ab_high, cd_high, 0x44);
-    const __m256 side3 = _mm256_shuffle_ps(ab_high, cd_high, 0xee);
     const __m256 side_excess = _mm256_max_ps(side1, _mm256_max_ps(side2, side3));
 
     const __m256 h = _mm256_max_ps(_mm256_sub_ps(face, plane_error), zero);
@@ -124,7 +116,7 @@ Leaders pass(const TrianglePlanes* planes, const std::uint32_t* slots, std::size
 GroupBounds filter_group(const TrianglePlanes* planes, const std::uint32_t* slots, std::size_t count,
                          const FilterPoint& point) noexcept {
 #if TOUCHMARK_HAS_AVX2
-  if (use_avx2) {
+  if (has_avx2) {
     GroupBounds bounds;
     conclude(pass_avx2(planes, slots, count, point, bounds), slots, bounds);
     return bounds;

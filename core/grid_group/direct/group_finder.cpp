@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/simd/lanes.h"
-
 namespace touchmark::grid {
 namespace {
 
@@ -87,7 +85,10 @@ double GroupFinder::find_below(std::uint32_t slot, const FaceFrame& face_frame, 
 double GroupFinder::select_members(std::uint32_t own, const FaceFrame& face_frame, const Prism& highest,
                                    double height) noexcept {
   constexpr std::size_t look = Prism::triangles_a_look;
-  const std::size_t open_count = open_by_balls(own, highest);
+  work_.triangles += near_.size;
+  const std::size_t open_count = open_by_balls(near_, highest.corner_limits(), store_.balls[own], open_);
+  // Copies of the last, for the last look.
+  if (open_count > 0) std::fill_n(&open_[open_count], look, open_[open_count - 1]);
   Prism prism = highest;
   for (std::size_t at = 0; at < open_count; at += look) {
     add_members(prism, &open_[at], std::min(look, open_count - at));
@@ -104,39 +105,7 @@ double GroupFinder::select_members(std::uint32_t own, const FaceFrame& face_fram
   return height;
 }
 
-/// Leaves in open_ what the balls leave open, and behind them copies of the last, and returns how many these
-/// are. First come those whose balls meet the slot's own, as those of its neighbours do: they mostly are
-/// members, and what is alike is soon tested together.
-std::size_t GroupFinder::open_by_balls(std::uint32_t own, const Prism& prism) noexcept {
-  constexpr std::size_t look = Prism::triangles_a_look;
-  const TriangleBall& ball = store_.balls[own];
-  std::array<std::uint32_t, near_capacity> others;
-  std::size_t count = 0, other_count = 0;
-  work_.triangles += near_count_;
-  for (std::size_t at = 0; at < near_count_; at += look) {
-    unsigned left = prism.balls_left(&near_x_[at], &near_y_[at], &near_z_[at], &near_radius_[at]);
-    if (near_count_ - at < look) left &= (1U << (near_count_ - at)) - 1;  // without copies of the last
-    unsigned meeting = 0;
-    for (std::size_t half = 0; half < look; half += 4) {
-      const Lanes dx = load(&near_x_[at + half]) - ball.x, dy = load(&near_y_[at + half]) - ball.y,
-                  dz = load(&near_z_[at + half]) - ball.z,
-                  reach = load(&near_radius_[at + half]) + ball.radius;
-      meeting |= to_bits(dx * dx + dy * dy + dz * dz <= reach * reach) << half;
-    }
-    // Which are left no branch predictor knows.
-    for (std::size_t i = 0; i < look; ++i) {
-      open_[count] = others[other_count] = near_[at + i];
-      count += (left & meeting) >> i & 1;
-      other_count += (left & ~meeting) >> i & 1;
-    }
-  }
-  std::copy_n(others.begin(), other_count, open_.begin() + static_cast<std::ptrdiff_t>(count));
-  count += other_count;
-  if (count > 0) std::fill_n(open_.begin() + static_cast<std::ptrdiff_t>(count), look, open_[count - 1]);
-  return count;
-}
-
-/// Adds those of the slots that the prism cannot do without. Eight are read.
+/// Adds those of the slots that the prism cannot do without. A whole look of them is read.
 void GroupFinder::add_members(const Prism& prism, const std::uint32_t* slots, std::size_t count) noexcept {
   const unsigned excluded = prism.excluded(slots, store_.planes.data(), store_.balls.data());
   for (std::size_t i = 0; i < count; ++i) {

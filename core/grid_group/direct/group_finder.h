@@ -10,6 +10,7 @@
 #include "core/detector.h"
 #include "core/grid_group/direct/box_tree.h"
 #include "core/grid_group/direct/groups.h"
+#include "core/grid_group/direct/near_balls.h"
 #include "core/grid_group/direct/prism.h"
 #include "core/grid_group/direct/triangle_store.h"
 
@@ -47,24 +48,17 @@ class GroupFinder {
   /// radii.
   static constexpr double reach_in_radii = 6;
 
-  struct FloatBounds;
-
  private:
   /// The most triangles gathered: where there are more around the lowest prism, a group would be too large.
-  static constexpr std::size_t max_near = 384;
-  static constexpr std::size_t near_capacity = max_near + TriangleStore::block_size;
+  static constexpr std::size_t max_near = NearBalls::max_before;
 
   double find_members(std::uint32_t slot, const FaceFrame& face_frame) noexcept;
   double find_below(std::uint32_t slot, const FaceFrame& face_frame, double start) noexcept;
   bool gather(std::uint32_t slot, const FaceFrame& face_frame, const Aabb& box) noexcept;
   Aabb shared_box(std::uint32_t slot, const FaceFrame& face_frame, const Aabb& box) const noexcept;
-  bool gather_blocks(const Aabb& box) noexcept;
-  bool add_near(std::uint64_t first, std::uint64_t count) noexcept;
-  bool add_block(std::uint32_t block, const FloatBounds& bounds) noexcept;
-  void load_balls() noexcept;
+  bool gather_in(const Aabb& box) noexcept;
   double select_members(std::uint32_t own, const FaceFrame& face_frame, const Prism& highest,
                         double height) noexcept;
-  std::size_t open_by_balls(std::uint32_t own, const Prism& prism) noexcept;
   void add_members(const Prism& prism, const std::uint32_t* slots, std::size_t count) noexcept;
   void keep_members(const Prism& prism) noexcept;
 
@@ -79,10 +73,9 @@ class GroupFinder {
   std::uint32_t alone_until_ = 0;        ///< slots before this one gather for themselves
   unsigned failures_ = 0;                ///< slots without a group since the last with one
   std::uint64_t boxes_seen_ = 0;         ///< for the group looked for
-  std::size_t near_count_ = 0, member_count_ = 0;
-  std::array<std::uint32_t, near_capacity> near_;
-  std::array<std::uint32_t, near_capacity + Prism::triangles_a_look> open_;  ///< for the group looked for
-  alignas(32) std::array<float, near_capacity> near_x_, near_y_, near_z_, near_radius_;  ///< their balls
+  NearBalls near_;
+  OpenSlots open_;  ///< for the group looked for
+  std::size_t member_count_ = 0;
   std::array<std::uint32_t, Groups::max_members + 2 * Prism::triangles_a_look> members_;
 };
 

@@ -8,6 +8,7 @@ namespace touchmark::grid {
 namespace {
 
 using Wide = Lanes;
+using simd::max;
 Wide square_root(Wide x) noexcept { return simd::sqrt(x); }
 #include "core/grid_group/direct/ball_bound.inl"
 
@@ -97,7 +98,7 @@ void NearestSearch::leave_open(std::uint32_t slot, double squared) noexcept {
 void NearestSearch::decide_open() noexcept {
   if (!is_within_) is_within_.emplace(center_, radius_, error_);
   for (const std::uint32_t slot : std::span(open_).first(open_count_)) {
-    const double distance = std::sqrt(exact_offset(store_.exact[slot], center_).squared);
+    const double distance = std::sqrt(widest_offset_from(store_.exact[slot], center_).squared);
     if (!(*is_within_)(store_.exact[slot], distance, exact_decisions_)) continue;
     slot_ = slot;
     within_ = distance;

@@ -11,8 +11,9 @@
 #include <optional>
 #include <span>
 
+#include "core/geometry/point_triangle.h"
+#include "core/geometry/widest_offset.h"
 #include "core/grid_group/direct/box_tree.h"
-#include "core/grid_group/direct/exact_offset.h"
 #include "core/grid_group/direct/group_filter.h"
 #include "core/grid_group/direct/triangle_store.h"
 #include "core/search/closest_candidates.h"
@@ -22,6 +23,20 @@
 #include "core/simd/prefetch.h"
 
 namespace touchmark::grid {
+
+/// Returns what offset_from does for a centre that the plane filter puts inside the prism over the face: it
+/// is inside by 2 units in the last place of single precision at least, far more than the rounding of the
+/// kernel's own three tests, so they all hold. Fourth powers of the mesh's extent must stay within the range
+/// of double.
+inline Offset offset_over_face(const PreparedTriangle& triangle, const Vec3& center) noexcept {
+  const std::array<Vec3, 3> to = {center - triangle.corner[0], center - triangle.corner[1],
+                                  center - triangle.corner[2]};
+  const std::array<double, 3> squared = {to[0].squaredNorm(), to[1].squaredNorm(), to[2].squaredNorm()};
+  std::size_t near = squared[1] < squared[0] ? 1 : 0;
+  if (squared[2] < squared[near]) near = 2;
+  const double height = to[near].dot(triangle.normal);
+  return {height * triangle.normal, height * height};
+}
 
 /// Starts at the reach, with room for the kernel's error, and tightens it with every triangle found.
 class NearestSearch {
@@ -47,7 +62,7 @@ class NearestSearch {
   Offset offset() const noexcept {
     const PreparedTriangle& triangle = store_.exact[slot_];
     if (known_) return offset_;
-    return over_face_ ? offset_over_face(triangle, center_) : exact_offset(triangle, center_);
+    return over_face_ ? offset_over_face(triangle, center_) : widest_offset_from(triangle, center_);
   }
   /// Returns true if the nearest is surely the first of those exactly as near. Something must have been
   /// found.
@@ -149,7 +164,7 @@ class NearestSearch {
     const PreparedTriangle& triangle = store_.exact[slot];
     if constexpr (tracing)
       if (visits != nullptr) visits->triangles.push_back(triangle.index);
-    const Offset offset = exact_offset(triangle, center_);
+    const Offset offset = widest_offset_from(triangle, center_);
     if (is_open(offset.squared)) leave_open(slot, offset.squared);
     if (!candidates_.update({offset.squared, triangle.index}, slot)) return;
     offset_ = offset;

@@ -2,64 +2,41 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include <Eigen/Geometry>
 
+#include "core/grid_group/direct/wide_rows.h"
 #include "core/simd/dispatch.h"
-#include "core/simd/target.h"
-
-#if TOUCHMARK_HAS_AVX2
-#include <immintrin.h>
-#endif
 
 namespace touchmark::grid {
-namespace {
 
 namespace portable {
-inline constexpr std::size_t lanes = 4;
-using Wide = Lanes;
-inline Wide square_root(Wide x) noexcept { return simd::sqrt(x); }
-using touchmark::to_bits;
-inline constexpr unsigned all = 0xf;
-inline Wide load_fours(const std::array<const float*, lanes>& rows, std::size_t i) noexcept {
-  Wide row;
-  std::memcpy(&row, rows[i], sizeof row);
-  return row;
-}
-inline Wide interleave_low(Wide a, Wide b) noexcept { return __builtin_shufflevector(a, b, 0, 4, 1, 5); }
-inline Wide interleave_high(Wide a, Wide b) noexcept { return __builtin_shufflevector(a, b, 2, 6, 3, 7); }
-inline Wide join_low(Wide a, Wide b) noexcept { return __builtin_shufflevector(a, b, 0, 1, 4, 5); }
-inline Wide join_high(Wide a, Wide b) noexcept { return __builtin_shufflevector(a, b, 2, 3, 6, 7); }
+namespace {
 #include "core/grid_group/direct/prism_exclusion.inl"
+}  // namespace
 }  // namespace portable
 
 #if TOUCHMARK_HAS_AVX2
-const bool use_avx2 = widest_simd() >= Simd::avx2;
-
 TOUCHMARK_TARGET("avx2")
 namespace avx2 {
-inline constexpr std::size_t lanes = 8;
-using Wide [[gnu::vector_size(32)]] = float;
-using WideBits [[gnu::vector_size(32)]] = int;
-inline Wide square_root(Wide x) noexcept { return _mm256_sqrt_ps(x); }
-inline unsigned to_bits(WideBits bits) noexcept {
-  return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(bits)));
-}
-inline constexpr unsigned all = 0xff;
-inline Wide load_fours(const std::array<const float*, lanes>& rows, std::size_t i) noexcept {
-  return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(rows[i])), _mm_loadu_ps(rows[i + 4]), 1);
-}
-inline Wide interleave_low(Wide a, Wide b) noexcept { return _mm256_unpacklo_ps(a, b); }
-inline Wide interleave_high(Wide a, Wide b) noexcept { return _mm256_unpackhi_ps(a, b); }
-inline Wide join_low(Wide a, Wide b) noexcept { return _mm256_shuffle_ps(a, b, 0x44); }
-inline Wide join_high(Wide a, Wide b) noexcept { return _mm256_shuffle_ps(a, b, 0xee); }
+namespace {
 #include "core/grid_group/direct/prism_exclusion.inl"
+}  // namespace
 }  // namespace avx2
 TOUCHMARK_END_TARGET
-#endif
 
+TOUCHMARK_TARGET("avx2,avx512f,avx512vl,avx512dq")
+namespace avx512 {
+namespace {
+#include "core/grid_group/direct/prism_exclusion.inl"
 }  // namespace
+}  // namespace avx512
+TOUCHMARK_END_TARGET
+
+namespace {
+const Simd widest = widest_simd();
+}  // namespace
+#endif
 
 FaceFrame::FaceFrame(const PreparedTriangle& triangle, const FilterFrame& frame) noexcept
     : normal(triangle.normal) {
@@ -159,21 +136,29 @@ void Prism::set_ball_limits(const FaceFrame& face_frame, double height, double e
   }
 }
 
-unsigned Prism::balls_left(const float* x, const float* y, const float* z,
-                           const float* radius) const noexcept {
-#if TOUCHMARK_HAS_AVX2
-  if (use_avx2) return avx2::balls_left(corner_limits_, x, y, z, radius);
-#endif
-  return portable::balls_left(corner_limits_, x, y, z, radius);
+namespace {
+
+/// Asks about as many slots at a time as there are lanes.
+template <std::size_t lanes, class Excluded>
+unsigned in_lanes(const std::uint32_t* slots, const Excluded& excluded) noexcept {
+  unsigned bits = 0;
+  for (std::size_t at = 0; at < Prism::triangles_a_look; at += lanes) bits |= excluded(slots + at) << at;
+  return bits;
 }
+
+}  // namespace
 
 unsigned Prism::excluded(const std::uint32_t* slots, const TrianglePlanes* planes,
                          const TriangleBall* balls) const noexcept {
 #if TOUCHMARK_HAS_AVX2
-  if (use_avx2) return avx2::excluded(points_, slots, planes, balls);
+  if (widest == Simd::avx512) return avx512::excluded(points_, slots, planes, balls);
+  if (widest == Simd::avx2) {
+    return in_lanes<avx2::lanes>(
+        slots, [&](const std::uint32_t* some) { return avx2::excluded(points_, some, planes, balls); });
+  }
 #endif
-  return portable::excluded(points_, slots, planes, balls) |
-         portable::excluded(points_, slots + portable::lanes, planes, balls) << portable::lanes;
+  return in_lanes<portable::lanes>(
+      slots, [&](const std::uint32_t* some) { return portable::excluded(points_, some, planes, balls); });
 }
 
 }  // namespace touchmark::grid

@@ -54,13 +54,13 @@ class Prism {
   Prism(const FaceFrame& face_frame, double growth, double height, double exclusion_margin,
         const FilterFrame& frame) noexcept;
 
-  /// Bit i of eight is set where the triangle in slot i is surely not nearest anywhere in the prism. Planes
+  /// Bit i of sixteen is set where the triangle in slot i is surely not nearest anywhere in the prism. Planes
   /// and balls are those of a TriangleStore.
   unsigned excluded(const std::uint32_t* slots, const TrianglePlanes* planes,
                     const TriangleBall* balls) const noexcept;
-  /// A quick look at eight balls first: bit i is set unless the same holds for whatever is in ball i.
-  unsigned balls_left(const float* x, const float* y, const float* z, const float* radius) const noexcept;
-  static constexpr std::size_t triangles_a_look = 8;
+  /// For a quick look at balls first: what is in a ball that is beyond these limits is nearest nowhere.
+  const std::array<BallLimit, 6>& corner_limits() const noexcept { return corner_limits_; }
+  static constexpr std::size_t triangles_a_look = 16;
   /// No point of the prism is farther than this from its triangle.
   double farthest() const noexcept { return farthest_; }
 

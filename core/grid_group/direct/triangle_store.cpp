@@ -16,7 +16,7 @@ namespace touchmark::grid {
 namespace {
 
 /// What the order is made by: the middle of a triangle, up to a factor.
-struct Middle {
+struct alignas(16) Middle {
   Eigen::Vector3f at;
   std::uint32_t triangle;
 };
@@ -36,26 +36,63 @@ std::vector<Middle> middles_of(const TriangleMesh& mesh, const FilterFrame& fram
   return middles;
 }
 
-int longest_side(std::span<const Middle> middles) {
-  Eigen::Array3f lower = middles.front().at, upper = lower;
-  for (const Middle& middle : middles) {
-    lower = lower.min(middle.at.array());
-    upper = upper.max(middle.at.array());
+/// The order along a side: ties by number, so that there are none.
+struct Along {
+  int side;
+
+  bool operator()(const Middle& a, const Middle& b) const noexcept {
+    return a.at[side] < b.at[side] || (a.at[side] == b.at[side] && a.triangle < b.triangle);
   }
-  int side = 0;
-  (upper - lower).maxCoeff(&side);
-  return side;
+};
+
+/// Puts the first `half` along the side before the others. Whole intervals of the side are told apart by a
+/// look at each middle, without a branch; an order is needed in that interval alone in which the halves meet.
+void put_first(std::span<Middle> middles, std::size_t half, int side, float lower, float upper) {
+  constexpr std::size_t most = 256;
+  std::array<Middle, most> few;
+  std::vector<Middle> many(middles.size() > most ? middles.size() : 0);
+  Middle* const sorted = many.empty() ? few.data() : many.data();
+  const std::size_t intervals = std::min(middles.size(), most);
+  const float per_length = static_cast<float>(intervals) / (upper - lower);
+  // Without an extent, or with one that has no inverse.
+  if (!(per_length < std::numeric_limits<float>::max())) {
+    std::nth_element(middles.begin(), middles.begin() + static_cast<std::ptrdiff_t>(half), middles.end(),
+                     Along{side});
+    return;
+  }
+  const auto interval_of = [&](const Middle& middle) {
+    const auto interval = static_cast<std::size_t>((middle.at[side] - lower) * per_length);
+    return std::min(interval, intervals - 1);
+  };
+  std::array<std::uint32_t, most> counts{};
+  for (const Middle& middle : middles) ++counts[interval_of(middle)];
+  std::size_t meeting = 0, before = 0;
+  while (before + counts[meeting] <= half) before += counts[meeting++];
+  std::array<std::size_t, 3> at = {0, before, before + counts[meeting]};
+  for (const Middle& middle : middles) {
+    const std::size_t interval = interval_of(middle);
+    sorted[at[std::size_t{interval >= meeting} + std::size_t{interval > meeting}]++] = middle;
+  }
+  std::copy_n(sorted, middles.size(), middles.begin());
+  const auto from = middles.begin() + static_cast<std::ptrdiff_t>(before);
+  std::nth_element(from, middles.begin() + static_cast<std::ptrdiff_t>(half), from + counts[meeting],
+                   Along{side});
 }
 
 /// The first half is a power of two of blocks, so that the boxes of a hierarchy with eight children a node
 /// fall on halves of halves of halves.
 std::pair<std::span<Middle>, std::span<Middle>> halve(std::span<Middle> middles) {
   const std::size_t half = std::bit_ceil(middles.size()) / 2;
-  const int side = longest_side(middles);
-  std::nth_element(middles.begin(), middles.begin() + static_cast<std::ptrdiff_t>(half), middles.end(),
-                   [side](const Middle& a, const Middle& b) {
-                     return a.at[side] < b.at[side] || (a.at[side] == b.at[side] && a.triangle < b.triangle);
-                   });
+  Lanes lower = load(middles.front().at.data()), upper = lower;  // the number's bits with them
+  for (const Middle& middle : middles) {
+    const Lanes at = load(middle.at.data());
+    lower = simd::min(lower, at);
+    upper = simd::max(upper, at);
+  }
+  const Lanes extent = upper - lower;
+  int side = extent[1] > extent[0] ? 1 : 0;
+  if (extent[2] > extent[side]) side = 2;
+  put_first(middles, half, side, lower[side], upper[side]);
   return {middles.first(half), middles.subspan(half)};
 }
 

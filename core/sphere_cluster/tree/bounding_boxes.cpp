@@ -59,6 +59,12 @@ void add_block(Hull& hull, const TreeParts& parts, std::uint32_t block, const Fi
   }
 }
 
+/// Bounds of the same blocks.
+struct BothBounds {
+  std::vector<BoundingCylinder> cylinders;
+  std::vector<BoundingBox> boxes;
+};
+
 /// Bounds the blocks below some nodes, about so many or all, evenly among the others.
 BothBounds sampled_bounds(const TreeParts& parts, const TriangleMesh& mesh, const FilterFrame& frame) {
   constexpr std::size_t fewest = 256, most_apart = 8;
@@ -110,10 +116,7 @@ BoundingBox box_between(const Vector3f& low, const Vector3f& high) noexcept {
 }
 
 bool boxes_serve_better(const TreeParts& parts, const TriangleMesh& mesh, const FilterFrame& frame) {
-  return boxes_serve_better(sampled_bounds(parts, mesh, frame));
-}
-
-bool boxes_serve_better(const BothBounds& bounds) noexcept {
+  const BothBounds bounds = sampled_bounds(parts, mesh, frame);
   double margin = 0;
   for (const BoundingCylinder& one : bounds.cylinders) margin += double{one.radius};
   margin *= comparing_margin / static_cast<double>(std::max<std::size_t>(bounds.cylinders.size(), 1));

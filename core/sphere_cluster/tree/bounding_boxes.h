@@ -3,12 +3,10 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
 #include <Eigen/Core>
 
 #include "core/search/plane_filter.h"
-#include "core/sphere_cluster/tree/bounding_cylinder.h"
 #include "core/sphere_cluster/tree/node.h"
 #include "core/triangle_mesh.h"
 
@@ -28,14 +26,6 @@ void set_child(TreeNode& node, std::size_t i, const BoundingBox& box) noexcept;
 /// Returns a box that certainly holds all points that rounding to the nearest puts between these two.
 BoundingBox box_between(const Eigen::Vector3f& low, const Eigen::Vector3f& high) noexcept;
 
-/// Bounds of the same blocks.
-struct BothBounds {
-  std::vector<BoundingCylinder> cylinders;
-  std::vector<BoundingBox> boxes;
-};
-
-/// Would these boxes be looked into less often, near the surface, than the cylinders?
-bool boxes_serve_better(const BothBounds& bounds) noexcept;
 /// Would boxes around the children be looked into less often, near the surface, than cylinders? A sample of
 /// the blocks tells. Nothing needs to be bounded yet.
 bool boxes_serve_better(const TreeParts& parts, const TriangleMesh& mesh, const FilterFrame& frame);

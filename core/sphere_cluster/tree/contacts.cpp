@@ -1,4 +1,5 @@
 /// All triangles within a reach, through the hierarchy.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -14,18 +15,26 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Shows every triangle within a limit that stays.
 struct ContactsVisitor {
   ContactsWithin& found;
+  const FilterFrame& frame;
+  double error;  ///< bounds that of a computed distance as the filter sees it
   const Vec3& center;
   float limit;
+  double farthest = infinity;
   Work work{};
 
   bool accepts(std::uint32_t) const noexcept { return true; }
-  void update(std::uint32_t at, const Offset& offset) noexcept { found.consider(at, offset, work); }
+  void update(std::uint32_t at, const Offset& offset) noexcept {
+    found.consider(at, offset, work);
+    if (!(found.farthest() < farthest)) return;
+    farthest = found.farthest();
+    limit = std::min(limit, frame.limit((farthest + error) * (farthest + error)));
+  }
 };
 
 }  // namespace
 
 std::size_t SphereTree::contacts(const Vec3& center, double reach, Memory& memory, std::span<Contact> into,
-                                 Work& work) const noexcept {
+                                 bool counts_all, Work& work) const noexcept {
   claim(memory);
   const FilterPoint point = frame_.point(center);
   if (!can_search(point)) return fallback(work).contacts(center, reach, into, work);
@@ -37,11 +46,11 @@ std::size_t SphereTree::contacts(const Vec3& center, double reach, Memory& memor
       return 0;
     }
   }
-  ContactsWithin found({parts_.triangles, bounds_, ids_, center, reach, into, certified_});
+  ContactsWithin found({parts_.triangles, bounds_, ids_, center, reach, into, certified_, counts_all});
   if (std::isinf(found.error())) return fallback(work).contacts(center, reach, into, work);
   if (!contacts_listed(center, reach, error, found, memory, work)) {
     const double farthest = reach + error;
-    ContactsVisitor visitor{found, center, frame_.limit(farthest * farthest)};
+    ContactsVisitor visitor{found, frame_, error, center, frame_.limit(farthest * farthest)};
     search_near(point, visitor, memory, any_work);
     work += visitor.work;
   }

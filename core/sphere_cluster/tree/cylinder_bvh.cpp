@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -16,6 +17,8 @@ namespace {
 
 using spheres::NearestVisitor;
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 /// A point that moves by more of the mean leaf's radius a tick starts anew: it has left the cached leaves
 /// before they are used.
 constexpr double max_move_in_leaf_radii = 4;
@@ -23,7 +26,40 @@ constexpr double max_move_in_leaf_radii = 4;
 /// The next tick may be this much longer than the last one and still need no refill.
 constexpr float ticks_prepared = 2;
 
+/// Returns by how much a box is beyond another along the axis where it is most.
+double beyond(const Aabb& box, const Vec3& min, const Vec3& max) noexcept {
+  return (box.min - max).cwiseMax(min - box.max).maxCoeff();
+}
+
 }  // namespace
+
+bool SphereTree::is_beyond_box(const Vec3& center, double reach) const noexcept {
+  return beyond(bounds_, center, center) > reach + box_margin_;
+}
+
+/// Longer paths round more.
+bool SphereTree::is_beyond_box(const Sweep& sweep) const noexcept {
+  return beyond(bounds_, sweep.from.cwiseMin(sweep.to), sweep.from.cwiseMax(sweep.to)) >
+             sweep.radius + box_margin_ &&
+         (sweep.to - sweep.from).squaredNorm() < longest_beyond_box_;
+}
+
+bool SphereTree::turns_out_beyond_box(const Vec3& center, double reach, Memory& memory) const noexcept {
+  claim(memory);
+  if (std::exchange(memory.for_box, 0) > 0 || memory.is_near()) return false;
+  const double clearance = beyond(bounds_, center, center) - box_margin_;
+  if (!(clearance > reach)) return false;
+  // A clearance that lasts twice as long as these questions serves better than the box.
+  constexpr std::uint32_t questions = 64;
+  const double half = 0.5 * (clearance - reach);
+  memory.for_box = (center - memory.center).squaredNorm() < half * half ? 0 : questions;
+  remember_touch(center, clearance * (1 - 0x1p-40), infinity, memory);
+  return true;
+}
+
+bool SphereTree::turns_out_beyond_box(const Sweep& sweep, Memory& memory) const noexcept {
+  return is_beyond_box(sweep) && turns_out_beyond_box(sweep.to, sweep.radius, memory);
+}
 
 /// Does a point that moves so far a tick stay among the leaves that are listed for it?
 bool SphereTree::is_slow(const Vec3& move) const noexcept {
@@ -45,23 +81,6 @@ double SphereTree::clearance_pad(const FilterPoint& point) const noexcept {
 /// nor those unseen.
 double SphereTree::clearance_from(float unseen, double shown, double pad) const noexcept {
   return std::min(std::sqrt(frame_.squared(unseen)), shown * (1 - 0x1p-40)) - pad;
-}
-
-/// Rejects once the point has its samples, two at most, which take no more than half of the work that a query
-/// may take before it looks at every triangle. `budget` is what is left of that.
-bool SphereTree::rejects_once_sampled(const FilterPoint& point, const Vec3& center, double reach,
-                                      Memory& memory, std::uint64_t& budget, Work& work) const noexcept {
-  // With a reach as long as the mesh no sample helps.
-  if (!(reach < radius_)) return false;
-  Sampling sampling{work_limit() / 2, memory.slot};
-  bool is_known_far = false;
-  while (!is_known_far && distances_.sample_near(point, [&](const Vec3& position, double farthest) {
-    return sample(position, farthest, sampling);
-  }))
-    is_known_far = rejects_by_distance_field(point, center, reach, memory);
-  work += sampling.work;
-  budget = remaining(budget, sampling.work.total());
-  return is_known_far;
 }
 
 /// Refills the cache for as many ticks ahead as there is capacity for leaves, around a point ahead: a point
@@ -233,7 +252,7 @@ SphereTree::WithinBudget SphereTree::nearest_within_budget(const Vec3& center, d
 }
 
 void SphereTree::prepare(const LastQuestion& question, Memory& memory, Work& work) const noexcept {
-  if (memory.beyond_box || memory.epoch != epoch_ || is_clear(memory.center, question.reach, memory)) return;
+  if (memory.epoch != epoch_ || is_clear(memory.center, question.reach, memory)) return;
   const Vec3 move = is_slow(memory.move) ? memory.move : Vec3(Vec3::Zero());
   if (question.query != LastQuestion::Query::touches && memory.is_near()) refill_ahead(memory, work);
   const Vec3 kept = memory.move, free_center = memory.free_center;

@@ -52,8 +52,8 @@ class SphereTree {
     /// The planes of the triangle that `touches` found last, in one line, and its slot.
     TrianglePlanes touched{};
     std::uint32_t touched_slot = std::numeric_limits<std::uint32_t>::max();
-    /// The mesh's box answered last, and so is asked first.
-    bool beyond_box = false;
+    /// So many more questions are for the mesh's box, which answered last.
+    std::uint32_t for_box = 0;
 
     /// Becomes as a new one is, and that in a few stores.
     void start_anew() noexcept {
@@ -63,7 +63,7 @@ class SphereTree {
       cache.start_anew();
       neighborhood.start_anew();
       touched_slot = std::numeric_limits<std::uint32_t>::max();
-      beyond_box = false;
+      for_box = 0;
     }
     /// Is it known that a ball there does not touch?
     bool knows_free(const Vec3& at, double radius) const noexcept {
@@ -105,16 +105,14 @@ class SphereTree {
   bool is_clear(const Sweep& sweep, const Memory& memory) const noexcept {
     return is_clear(sweep.from, sweep.radius, memory) && is_clear(sweep.to, sweep.radius, memory);
   }
-  /// Is nothing within reach, by the mesh's box alone?
-  bool is_beyond_box(const Vec3& center, double reach) const noexcept {
-    return beyond_box(center, center) > reach + box_margin_;
-  }
-  /// Is nothing within the radius of the whole path, by the mesh's box alone? Longer paths round more.
-  bool is_beyond_box(const Sweep& sweep) const noexcept {
-    return beyond_box(sweep.from.cwiseMin(sweep.to), sweep.from.cwiseMax(sweep.to)) >
-               sweep.radius + box_margin_ &&
-           (sweep.to - sweep.from).squaredNorm() < longest_beyond_box_;
-  }
+  /// Is nothing within reach, by the mesh's box?
+  bool is_beyond_box(const Vec3& center, double reach) const noexcept;
+  bool is_beyond_box(const Sweep& sweep) const noexcept;
+  /// Is that so now, where the box did not answer last and nothing was near? Then how far the box is is
+  /// remembered, as a clearance, and the next questions are for the box where the point moves too fast for
+  /// that to be of use.
+  bool turns_out_beyond_box(const Vec3& center, double reach, Memory& memory) const noexcept;
+  bool turns_out_beyond_box(const Sweep& sweep, Memory& memory) const noexcept;
   /// Is that known of one of many points?
   bool is_clear(const Vec3& center, double reach, const spheres::FollowedPoint& list) const noexcept {
     const double margin = list.covered - reach;
@@ -140,7 +138,7 @@ class SphereTree {
   bool list_triangles(const Vec3& center, double radius, ListedTriangles& into, Work& work) const noexcept;
   std::optional<Impact> first_hit(const Sweep& sweep, Memory& memory, Work& work) const noexcept;
   std::size_t contacts(const Vec3& center, double reach, Memory& memory, std::span<Contact> into,
-                       Work& work) const noexcept;
+                       bool counts_all, Work& work) const noexcept;
   /// Refills the cache for the next query where the point is near, and asks the question ahead, where the
   /// point will be if it goes on as it moved, unless that is known to be clear.
   void prepare(const LastQuestion& question, Memory& memory, Work& work) const noexcept;
@@ -155,10 +153,6 @@ class SphereTree {
     if (memory.epoch != epoch_) start_anew(memory);
   }
   void start_anew(Memory& memory) const noexcept;
-  /// Returns by how much a box is beyond the mesh's along the axis where it is most.
-  double beyond_box(const Vec3& min, const Vec3& max) const noexcept {
-    return (bounds_.min - max).cwiseMax(min - bounds_.max).maxCoeff();
-  }
   void measure_box() noexcept;
   double clearance_pad(const FilterPoint& point) const noexcept;
   double clearance_from(float unseen, double shown, double pad) const noexcept;
@@ -221,6 +215,8 @@ class SphereTree {
                  const spheres::Neighborhood& list) const noexcept;
   bool list_around(const Vec3& from, const Vec3& to, double reach, std::uint64_t budget,
                    spheres::Neighborhood& list, Work& work) const noexcept;
+  void keep_apart(const Sweep& sweep, spheres::Neighborhood& list, spheres::PlacesInList& places,
+                  Work& work) const noexcept;
   bool sweep_listed(const Sweep& sweep, double reach, std::uint64_t budget, FirstTouch& first, Memory& memory,
                     Work& work) const noexcept;
   bool contacts_listed(const Vec3& center, double reach, double error, ContactsWithin& found, Memory& memory,
@@ -239,6 +235,7 @@ class SphereTree {
     std::uint64_t budget;    ///< work, of all these samples together
     std::uint32_t near = 0;  ///< a triangle near the last point, and so perhaps the next
     Work work{};
+    Vec3 to_mesh = Vec3::Zero();  ///< from the last point to that triangle, in the frame
   };
   /// Samples one point after the other, each near the last one.
   class Sampler;

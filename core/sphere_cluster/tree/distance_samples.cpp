@@ -20,12 +20,14 @@ struct RoughVisitor {
   float limit;
   Work work{};
   double squared = std::numeric_limits<double>::infinity();
+  Vec3 from_mesh = Vec3::Zero();
   std::uint32_t kept_at = std::numeric_limits<std::uint32_t>::max();
 
   bool accepts(std::uint32_t at) const noexcept { return at != kept_at; }
   void update(std::uint32_t at, const Offset& found) noexcept {
     if (!(found.squared < squared)) return;
     squared = found.squared;
+    from_mesh = found.vector;
     kept_at = at;
     limit = std::min(limit, frame.limit(enough * squared));
   }
@@ -47,18 +49,17 @@ DistanceField::Interval SphereTree::sample(const Vec3& position, double max_dist
   sampling.work += visitor.work;
   if (unseen == spheres::exhausted) return unknown;
   sampling.near = visitor.kept_at;
+  sampling.to_mesh = -frame_.scale() * visitor.from_mesh;
   const double found = std::sqrt(visitor.squared) * frame_.scale();
   return {std::min<double>(std::sqrt(unseen), found), std::min(found, max_distance)};
 }
 
 class SphereTree::Sampler {
  public:
-  Sampler(const SphereTree& tree, double share)
-      : tree_(tree),
-        sampling_{static_cast<std::uint64_t>(
-            share * static_cast<double>(DistanceField::max_work(tree.parts_.triangles.size())))} {}
+  Sampler(const SphereTree& tree, std::uint64_t budget, std::uint32_t near) noexcept
+      : tree_(tree), sampling_{budget, near} {}
 
-  DistanceField::Interval operator()(const Vec3& position, double max_distance) {
+  DistanceField::Interval operator()(const Vec3& position, double max_distance) noexcept {
     return tree_.sample(position, max_distance, sampling_);
   }
   std::uint32_t near() const noexcept { return sampling_.near; }
@@ -68,18 +69,37 @@ class SphereTree::Sampler {
     RoughVisitor visitor{tree_.parts_, tree_.frame_, center, spheres::farthest};
     tree_.visit(near, visitor);
     sampling_.work += visitor.work;
+    sampling_.to_mesh = -tree_.frame_.scale() * visitor.from_mesh;
     return std::sqrt(visitor.squared) * tree_.frame_.scale();
   }
+  const Vec3& to_mesh() const noexcept { return sampling_.to_mesh; }
+  const Work& work() const noexcept { return sampling_.work; }
 
  private:
   const SphereTree& tree_;
   Sampling sampling_;
 };
 
+/// Rejects once the point has its samples, two at most, which take no more than half of the work that a query
+/// may take before it looks at every triangle. `budget` is what is left of that.
+bool SphereTree::rejects_once_sampled(const FilterPoint& point, const Vec3& center, double reach,
+                                      Memory& memory, std::uint64_t& budget, Work& work) const noexcept {
+  // With a reach as long as the mesh no sample helps.
+  if (!(reach < radius_)) return false;
+  Sampler distance_at(*this, work_limit() / 2, memory.slot);
+  bool is_known_far = false;
+  while (!is_known_far && distances_.sample_near(point, distance_at))
+    is_known_far = rejects_by_distance_field(point, center, reach, memory);
+  work += distance_at.work();
+  budget = remaining(budget, distance_at.work().total());
+  return is_known_far;
+}
+
 /// Returns what makes a function that takes samples one after the other, near the last one, with its share of
 /// the work that all may be.
 auto SphereTree::sampler() const noexcept {
-  return [this](double share) { return Sampler(*this, share); };
+  const auto all = static_cast<double>(DistanceField::max_work(parts_.triangles.size()));
+  return [this, all](double share) { return Sampler(*this, static_cast<std::uint64_t>(share * all), 0); };
 }
 
 void SphereTree::fill_distances() {

@@ -1,5 +1,6 @@
 #include "core/sphere_cluster/tree/lazy_builder.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -16,8 +17,14 @@
 namespace touchmark::spheres {
 namespace {
 
-constexpr std::uint32_t part_size = UnbuiltParts::part_size;
-static_assert(part_size <= TriangleSplitter::Workspace::capacity);
+constexpr std::uint32_t most_of_part = UnbuiltParts::part_size, least_of_part = 64, least_parts = 8;
+static_assert(most_of_part <= TriangleSplitter::Workspace::capacity);
+
+/// Returns the most triangles of a part: of a small mesh a query is to build a small part.
+constexpr std::uint32_t part_size_for(std::size_t triangles) noexcept {
+  constexpr std::size_t parts = 16;
+  return static_cast<std::uint32_t>(std::clamp<std::size_t>(triangles / parts, least_of_part, most_of_part));
+}
 
 /// Returns the most nodes over so many blocks. Of n nodes, all but the root with two blocks at least, those
 /// with fewer than eight children have blocks alone, and each of the others has eight: n (1 + 6/8) is at most
@@ -37,11 +44,15 @@ BoundingBox box_of(const TriangleSplitter& splitter, const TriangleRange& range)
 class TopBuilder {
  public:
   TopBuilder(const TriangleMesh& mesh, const FilterFrame& frame, unsigned threads)
-      : mesh_(mesh), frame_(frame), threads_(threads), splitter_(mesh, frame, part_size, threads) {}
+      : mesh_(mesh),
+        frame_(frame),
+        threads_(threads),
+        splitter_(mesh, frame, part_size_for(mesh.size()), threads) {}
 
-  std::optional<TreeParts> build() {
+  /// Bounds by boxes, whatever serves the mesh better: a cylinder takes a look at all that it is to hold.
+  TreeParts build() {
     add_node(splitter_.all());
-    if (!boxes_serve_better(sampled_bounds())) return std::nullopt;
+    measure_leaves();
     tree_.boxes = true;
     bound();
     leave_parts();
@@ -53,29 +64,22 @@ class TopBuilder {
     const auto index = static_cast<std::uint32_t>(tree_.nodes.size());
     tree_.nodes.emplace_back();
     add_children(tree_, index, splitter_, range, [&](const TriangleRange& child) {
-      if (child.size() > part_size) return TreeRef{add_node(child)};
+      if (child.size() > splitter_.smallest()) return TreeRef{add_node(child)};
       ranges_.push_back(child);
       return TreeRef{static_cast<std::uint32_t>(ranges_.size() - 1) | TreeRef::part_bit};
     });
     return index;
   }
 
-  /// Bounds a block of some of the parts.
-  BothBounds sampled_bounds() {
+  /// Looks at a block of some of the parts.
+  void measure_leaves() {
     constexpr std::size_t samples = 32;
-    BoundOfTriangles around(mesh_, frame_);
-    BothBounds bounds;
     const std::size_t apart = 1 + ranges_.size() / samples;
     double sum = 0;
-    for (std::size_t i = 0; i < ranges_.size(); i += apart) {
-      const TriangleRange block = splitter_.block_of(ranges_[i]);
-      for (std::uint32_t at = block.begin; at < block.end; ++at) around.add(splitter_.triangle(at));
-      bounds.cylinders.push_back(around.bound());
-      bounds.boxes.push_back(box_of(splitter_, block));
-      sum += double{bounds.boxes.back().half.norm()};
-    }
-    tree_.unbuilt.mean_leaf_radius = sum / static_cast<double>(bounds.boxes.size());
-    return bounds;
+    std::size_t blocks = 0;
+    for (std::size_t i = 0; i < ranges_.size(); i += apart, ++blocks)
+      sum += double{box_of(splitter_, splitter_.block_of(ranges_[i])).half.norm()};
+    tree_.unbuilt.mean_leaf_radius = sum / static_cast<double>(blocks);
   }
 
   void bound() {
@@ -169,8 +173,7 @@ class PartBuilder {
 
 std::optional<TreeParts> build_top(const TriangleMesh& mesh, const FilterFrame& frame, unsigned threads) {
   // Fewer are built as quickly.
-  constexpr std::size_t least_parts = 4;
-  if (mesh.size() < least_parts * part_size) return std::nullopt;
+  if (mesh.size() < least_parts * least_of_part) return std::nullopt;
   return TopBuilder(mesh, frame, threads).build();
 }
 

@@ -11,8 +11,8 @@
 
 namespace touchmark::spheres {
 
-/// Returns a tree of boxes whose parts are left to be built; nothing where the mesh is small, or where
-/// cylinders bound its triangles better. The same bits with any number of threads.
+/// Returns a tree of boxes whose parts are left to be built; nothing where the mesh is small. The same bits
+/// with any number of threads.
 std::optional<TreeParts> build_top(const TriangleMesh& mesh, const FilterFrame& frame, unsigned threads);
 
 /// Returns the root of a part, which it builds if nobody did. It counts a look at each of the part's

@@ -121,6 +121,40 @@ bool SphereTree::list_around(const Vec3& from, const Vec3& to, double reach, std
   return true;
 }
 
+/// Leaves those places whose triangles no plane keeps apart from the ball; the others get that plane.
+void SphereTree::keep_apart(const Sweep& sweep, Neighborhood& list, PlacesInList& places,
+                            Work& work) const noexcept {
+  const spheres::SweptBall ball(sweep, 1, frame_.scale());
+  const MoveFromCenter shift = in_frame(list.center - sweep.from, frame_.scale());
+  const float shift_error = ball.rounding * (std::abs(shift.x) + std::abs(shift.y) + std::abs(shift.z));
+  std::uint32_t left = 0;
+  for (std::uint32_t first = 0; first < places.count; first += spheres::tree_width) {
+    const std::uint32_t count = std::min(places.count - first, spheres::tree_width);
+    std::array<std::uint32_t, spheres::tree_width> slots;
+    for (std::uint32_t k = 0; k < count; ++k) slots[k] = list.slot[places.at[first + k]];
+    spheres::EightPlanes planes;
+    const unsigned apart =
+        simd_ == Simd::portable
+            ? spheres::portable::kept_apart(parts_.triangles.data(), slots.data(), count, ball, planes)
+            : spheres::avx2::kept_apart(parts_.triangles.data(), slots.data(), count, ball, planes);
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const std::uint32_t place = places.at[first + k];
+      if ((apart >> k & 1) == 0) {
+        places.at[left++] = place;
+        continue;
+      }
+      ++work.triangles;
+      list.x[place] = planes.x[k];
+      list.y[place] = planes.y[k];
+      list.z[place] = planes.z[k];
+      list.bound[place] = planes.height[k] +
+                          (planes.x[k] * shift.x + planes.y[k] * shift.y + planes.z[k] * shift.z) -
+                          shift_error;
+    }
+  }
+  places.count = left;
+}
+
 /// Looks for the first touch among the listed triangles. Returns false where they may not be all there are.
 bool SphereTree::sweep_listed(const Sweep& sweep, double reach, std::uint64_t budget, FirstTouch& first,
                               Memory& memory, Work& work) const noexcept {
@@ -139,6 +173,7 @@ bool SphereTree::sweep_listed(const Sweep& sweep, double reach, std::uint64_t bu
   ++list.answered;
   PlacesInList places;
   find_places(sweep.from, sweep.to, farthest, list, places);
+  if (places.count >= spheres::fewest_at_once) keep_apart(sweep, list, places, work);
   const bool is_measured = sweep.from == list.measured_at;
   std::uint32_t next = 0;
   for (std::uint32_t i = 0; i < places.count; ++i) {

@@ -36,7 +36,7 @@ struct SweepVisitor {
   Work work{};
 
   float until() const noexcept { return static_cast<float>(candidates.limit() * length) + error; }
-  void consider(std::uint32_t at) noexcept { candidates.consider(at, work); }
+  void consider(std::uint32_t at) noexcept { candidates.take(at, work); }
 };
 
 /// A ball about the middle of a longer path meets more than the path does: more in its length, and in the
@@ -45,6 +45,12 @@ constexpr double longest_in_leaf_radii = 0.5, largest_product_in_leaf_radii = 0.
 /// More work than this about the middle shows that leaves are long and near to one another, so that their
 /// radius misleads: the path is looked along instead.
 constexpr std::uint64_t middle_budget = 1024;
+
+/// Were contacts asked for last there? Then that is where a proxy stands, off the surface as a rule, and what
+/// the ball touches at the start is left to the search.
+bool stands_as_proxy(const Vec3& at, const SphereTree::Memory& memory) noexcept {
+  return memory.neighborhood.contacts_reach >= 0 && memory.neighborhood.measured_at == at;
+}
 
 constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
 
@@ -62,7 +68,8 @@ std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, 
   const double reach = padded_sweep_radius(sweep, largest_difference(bounds_, sweep));
   FirstTouch first(sweep);
   if (sweep_listed(sweep, reach, work_limit() / 2, first, memory, work)) return conclude(first, memory, work);
-  if (!memory.knows_free(sweep.from, sweep.radius) && !is_clear(sweep.from, sweep.radius, memory)) {
+  if (!memory.knows_free(sweep.from, sweep.radius) && !is_clear(sweep.from, sweep.radius, memory) &&
+      !(certified_ && stands_as_proxy(sweep.from, memory))) {
     const WithinBudget start = nearest_within_budget(sweep.from, sweep.radius, memory, work);
     if (start.exhausted) return fallback(work).first_hit(sweep, work);
     if (start.contact) return Impact{0, *start.contact};
@@ -71,7 +78,8 @@ std::optional<Impact> SphereTree::first_hit(const Sweep& sweep, Memory& memory, 
   const double length = (sweep.to - sweep.from).norm();
   if (is_sampled_clear(sweep, length, reach, memory)) return std::nullopt;
   const std::uint64_t budget = remaining(work_limit(), work.total() - before);
-  spheres::SweepCandidates candidates(parts_, simd_, memory.is_near() ? memory.slot : nowhere, first);
+  spheres::SweepCandidates candidates(parts_, frame_.scale(), sweep.radius > mean_leaf_radius_, simd_,
+                                      memory.is_near() ? memory.slot : nowhere, first);
   const bool is_short =
       length <= longest_in_leaf_radii * mean_leaf_radius_ &&
       length * reach <= largest_product_in_leaf_radii * mean_leaf_radius_ * mean_leaf_radius_;
@@ -152,6 +160,7 @@ bool SphereTree::search_path(const Sweep& sweep, double length, double reach, st
   SweepVisitor visitor{length * frame_.scale() * (1 + 0x1p-20), error, candidates};
   const bool done = simd_ == Simd::portable ? spheres::portable::sweep(parts_, path, budget, visitor)
                                             : spheres::avx2::sweep(parts_, path, budget, visitor);
+  candidates.consider_waiting(visitor.work);
   work += visitor.work;
   return done;
 }

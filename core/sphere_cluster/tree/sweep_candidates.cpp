@@ -26,6 +26,21 @@ Vec3 nearest_place(const Sweep& sweep, const Vec3& point) noexcept {
 
 }  // namespace
 
+void SweepCandidates::consider_waiting(Work& work) noexcept {
+  unsigned apart = 0;
+  if (waiting_count_ >= fewest_at_once) {
+    EightPlanes planes;
+    const SweptBall ball(first_.sweep(), first_.limit(), scale_);
+    const PreparedTriangle* const triangles = tree_.triangles.data();
+    apart = simd_ == Simd::portable
+                ? portable::kept_apart(triangles, waiting_.data(), waiting_count_, ball, planes)
+                : avx2::kept_apart(triangles, waiting_.data(), waiting_count_, ball, planes);
+  }
+  for (std::uint32_t k = 0; k < waiting_count_; ++k)
+    if ((apart >> k & 1) == 0) consider(waiting_[k], work);
+  waiting_count_ = 0;
+}
+
 void SweepCandidates::look_at(std::uint32_t at, Work& work) noexcept {
   if (!is_prepared_) prepare(work);
   if (!is_apart_by_known(at) && !is_apart_elsewhere(at, end())) decide(at, work);
@@ -84,7 +99,6 @@ bool SweepCandidates::is_apart_elsewhere(std::uint32_t at, const Vec3& place) no
 bool SweepCandidates::is_apart_across(std::uint32_t at, const Vec3& normal) noexcept {
   if (!keeps_apart(at, normal)) return false;
   plane_ = normal;
-  has_plane_ = true;
   return true;
 }
 

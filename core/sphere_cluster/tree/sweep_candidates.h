@@ -23,16 +23,27 @@ class SweepCandidates {
  public:
   /// `first`, which nothing has been shown yet, and the tree must outlive this. `near` is the slot of a
   /// triangle near the start, or beyond all slots.
-  SweepCandidates(const TreeParts& tree, Simd simd, std::uint32_t near, FirstTouch& first) noexcept
-      : tree_(tree), simd_(simd), near_(near), first_(first) {}
+  /// `scale` is that of the tree's frame. With `waits` some triangles are looked at together, which is for a
+  /// ball that comes near to many; else what is found first leaves less of the path to the next.
+  SweepCandidates(const TreeParts& tree, double scale, bool waits, Simd simd, std::uint32_t near,
+                  FirstTouch& first) noexcept
+      : tree_(tree), scale_(scale), waits_(waits), simd_(simd), near_(near), first_(first) {}
 
   /// Returns the part of the path that is still to be looked at.
   double limit() const noexcept { return first_.limit(); }
   /// Is it known without measuring that there is nothing to be found at the triangle in this slot?
   bool passes_over(std::uint32_t at) noexcept {
     if (++shown_ < many) return false;
-    return is_settled(at) || (has_plane_ && keeps_apart(at, plane_));
+    return is_settled(at) || keeps_apart(at, plane_);
   }
+  /// Looks at the triangle in this slot now, or together with others that wait: where there are eight, or
+  /// `consider_waiting` is called.
+  void take(std::uint32_t at, Work& work) noexcept {
+    if (!waits_) return consider(at, work);
+    waiting_[waiting_count_++] = at;
+    if (waiting_count_ == waiting_.size()) consider_waiting(work);
+  }
+  void consider_waiting(Work& work) noexcept;
   /// Looks at the triangle in this slot. Counts where whole numbers decide.
   void consider(std::uint32_t at, Work& work) noexcept {
     if (passes_over(at)) return;
@@ -71,13 +82,17 @@ class SweepCandidates {
   Offset measured(std::uint32_t at, const Vec3& place) const noexcept;
 
   const TreeParts& tree_;
+  double scale_;
+  bool waits_;
   Simd simd_;
   std::uint32_t near_;
   FirstTouch& first_;
-  Vec3 plane_ = Vec3::Zero();  ///< normal of that which kept the last one apart
-  bool has_plane_ = false;
-  Vec3 face_ = Vec3::Zero(), across_ = Vec3::Zero();  ///< normals of the near triangle, and of its offset
-  std::uint32_t shown_ = 0;
+  /// Normals of planes are zero, which keeps nothing apart, where there is none yet.
+  Vec3 plane_ = Vec3::Zero();   ///< the normal of the one that kept the last triangle apart
+  Vec3 face_ = Vec3::Zero();    ///< the near triangle's normal
+  Vec3 across_ = Vec3::Zero();  ///< the direction of its offset
+  std::uint32_t shown_ = 0, waiting_count_ = 0;
+  std::array<std::uint32_t, tree_width> waiting_;
   /// For so many more no other place is asked for, since one did not tell a triangle apart; longer each time.
   std::uint32_t pause_ = 0, last_pause_ = 0;
   bool is_prepared_ = false;  ///< else the array is not set yet

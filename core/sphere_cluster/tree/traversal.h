@@ -20,12 +20,14 @@
 #include "core/simd/lanes.h"
 #include "core/simd/prefetch.h"
 #include "core/simd/target.h"
+#include "core/simd/wide.h"
 #include "core/sphere_cluster/tree/binned_sah.h"
 #include "core/sphere_cluster/tree/lazy_builder.h"
 #include "core/sphere_cluster/tree/leaf_cache.h"
 #include "core/sphere_cluster/tree/near_triangles.h"
 #include "core/sphere_cluster/tree/neighborhood.h"
 #include "core/sphere_cluster/tree/node.h"
+#include "core/sphere_cluster/tree/swept_ball.h"
 
 namespace touchmark::spheres {
 
@@ -124,13 +126,8 @@ inline Offset kernel(const PreparedTriangle& triangle, const Vec3& point) noexce
 }
 
 inline constexpr std::size_t lanes = 8;
-using Wide [[gnu::vector_size(32)]] = float;
-using WideBits [[gnu::vector_size(32)]] = int;
-
-inline Wide square_root(Wide x) noexcept { return _mm256_sqrt_ps(x); }
-inline unsigned to_bits(WideBits mask) noexcept {
-  return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask)));
-}
+using touchmark::avx2::Wide, touchmark::avx2::WideBits, touchmark::avx2::square_root,
+    touchmark::avx2::to_bits;
 template <class Word>
 inline void compress(Word* to, const Word* from, unsigned chosen) noexcept {
   static_assert(sizeof(Word) == 4);

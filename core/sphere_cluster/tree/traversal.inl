@@ -450,3 +450,4 @@ float search_cached(const TreeParts& tree, const FilterPoint& point, const LeafC
 #include "core/sphere_cluster/tree/sweep_search.inl"
 #include "core/sphere_cluster/tree/near_triangles.inl"
 #include "core/sphere_cluster/tree/neighborhood.inl"
+#include "core/sphere_cluster/tree/swept_ball.inl"

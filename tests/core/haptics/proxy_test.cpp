@@ -5,9 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -21,6 +25,7 @@
 #include "core/grid_group/grid_group.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 #include "tests/bench/oracle/corner_case_meshes.h"
+#include "tests/core/sphere_cluster/test_meshes.h"
 
 namespace touchmark {
 namespace {
@@ -415,6 +420,95 @@ TEST(Proxy, DampsTheGoalsMotionInContactAlone) {
   watched.follow({2, 2, 0}, "in contact");
   const ProxyState& state = watched.follow({2, 2, -0.25}, "deeper");
   EXPECT_NEAR(state.force.z(), 1000 * 0.5 + 2 / 0.5 * 0.25, 1e-6);
+}
+
+/// A detector that counts all contacts.
+struct CountsAll {
+  using Session = SphereCluster::Session;
+  SphereCluster of;
+
+  bool touches(const Probe& probe, Session& session) const noexcept { return of.touches(probe, session); }
+  std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept {
+    return of.first_hit(sweep, session);
+  }
+  std::size_t contacts(const Probe& probe, double reach, Session& session,
+                       std::span<Contact> into) const noexcept {
+    return of.contacts(probe, reach, session, into);
+  }
+};
+
+TEST(Proxy, GoesTheSameWayWhereAllContactsAreCounted) {
+  static_assert(GuidesProxy<CountsAll>);
+  Random random(12);
+  // Far more facets of the ball are in sight than fit, nearly all as near.
+  const TriangleMesh mesh = test::bumpy_sphere(24, 0, 1);
+  const CountsAll counts{SphereCluster::build(mesh)};
+  for (const double radius : {0.5, 0.9, 0.97}) {
+    Proxy nearest(counts.of, {.radius = radius, .stiffness = 1}, &mesh);
+    Proxy all(counts, {.radius = radius, .stiffness = 1}, &mesh);
+    SphereCluster::Session session, other;
+    nearest.place(Vec3::Zero());
+    all.place(Vec3::Zero());
+    Vec3 goal = Vec3::Zero();
+    for (int tick = 0; tick < 400; ++tick) {
+      goal += 0.05 * random.point();
+      if (goal.norm() > 1) goal *= 0.9;
+      const ProxyState &one = nearest.step(goal, session), &two = all.step(goal, other);
+      ASSERT_EQ(one.position, two.position) << radius << ", tick " << tick;
+      ASSERT_EQ(one.force, two.force) << radius << ", tick " << tick;
+      ASSERT_EQ(one.contacts, two.contacts) << radius << ", tick " << tick;
+    }
+  }
+}
+
+TEST(WhatAProxyAsks, TheNearestContactsAreTheFirstOfAll) {
+  Random random(13);
+  const TriangleMesh mesh = test::bumpy_sphere(24, 0, 1);
+  const auto detector = SphereCluster::build(mesh);
+  SphereCluster::Session session, other;
+  for (int i = 0; i < 300; ++i) {
+    const Probe probe{0.6 * random.point(), 0};
+    const double reach = random.between(0.1, 1.5);
+    std::array<Contact, 16> nearest;
+    std::vector<Contact> all(mesh.size());
+    const std::size_t count = detector.nearest_contacts(probe, reach, session, nearest);
+    ASSERT_EQ(count, std::min(nearest.size(), detector.contacts(probe, reach, other, all))) << i;
+    for (std::size_t k = 0; k < count; ++k) ASSERT_EQ(nearest[k].triangle, all[k].triangle) << i << ", " << k;
+  }
+}
+
+/// A ball that comes down on a plate far more slowly than it slides, and touches it just before the end.
+TEST(WhatAProxyAsks, ATouchByAHairIsFoundAmongManyTriangles) {
+  Random random(14);
+  for (int i = 0; i < 60; ++i) {
+    const Vec3 up = random.direction(), along = up.unitOrthogonal(), across = up.cross(along);
+    const TriangleMesh flat = test::plate(24);
+    std::vector<Vec3> vertices;
+    for (const Vec3& vertex : flat.vertices())
+      vertices.push_back(0.12 * (vertex.x() * along + vertex.y() * across));
+    const TriangleMesh mesh(std::move(vertices), {flat.triangles().begin(), flat.triangles().end()});
+    const auto ours = SphereCluster::build(mesh);
+    const auto all = BruteForce::build(mesh);
+    BruteForce::Session plain;
+    SphereCluster::Session lists, fresh;
+    for (int k = 0; k < 20; ++k) {
+      const auto anywhere = [&] {
+        return Vec3(random.between(-0.05, 0.05) * along + random.between(-0.05, 0.05) * across);
+      };
+      const double radius = random.between(0.1, 0.3), hair = radius * std::ldexp(1, -40);
+      const Sweep sweep{anywhere() + (radius + hair) * up, anywhere() + (radius - hair) * up, radius};
+      std::array<Contact, 16> around;
+      for (int twice = 0; twice < 2; ++twice) ours.contacts({sweep.from, 0}, 1.001 * radius, lists, around);
+      const std::optional<Impact> hit = all.first_hit(sweep, plain);
+      ASSERT_TRUE(hit) << i << ", " << k;
+      for (SphereCluster::Session* session : {&lists, &fresh}) {
+        const std::optional<Impact> found = ours.first_hit(sweep, *session);
+        ASSERT_TRUE(found) << i << ", " << k;
+        ASSERT_EQ(found->fraction, hit->fraction) << i << ", " << k;
+        ASSERT_EQ(found->contact.triangle, hit->contact.triangle) << i << ", " << k;
+      }
+    }
+  }
 }
 
 TEST(Proxy, IsTheSameForTheSameGoals) {

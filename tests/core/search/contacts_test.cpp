@@ -16,6 +16,7 @@
 #include "bench/oracle/oracle.h"
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
+#include "core/geometry/point_triangle.h"
 #include "core/grid_group/grid_group.h"
 #include "core/sign/signed_detector.h"
 #include "core/sphere_cluster/sphere_cluster.h"
@@ -90,13 +91,21 @@ void examine(const D& detector, const BruteForce& reference, const TriangleMesh&
     const std::string where = what + ", reach " + std::to_string(reach);
     BruteForce::Session plain;
     reference.contacts({q.center, 0}, reach, plain, expected);
-    for (const std::size_t size : {std::size_t{0}, std::size_t{1}, std::size_t{3}, room.size()}) {
+    for (const std::size_t size :
+         {std::size_t{0}, std::size_t{1}, std::size_t{3}, std::size_t{16}, room.size()}) {
       const std::span<Contact> into = std::span(room).first(std::min(size, room.size()));
       ASSERT_EQ(detector.contacts({q.center, 0}, reach, session, into), q.counts[i]) << where;
       for (std::size_t k = 0; k < std::min(into.size(), q.counts[i]); ++k) {
         ASSERT_EQ(into[k].triangle, mesh.id(q.order[k])) << where << ", contact " << k << " of " << size;
         ASSERT_TRUE(same_bits(into[k], expected[k])) << where << ", contact " << k;
         ASSERT_LE(into[k].distance, reach) << where;
+      }
+      if constexpr (AnswersNearestContacts<D>) {
+        const std::size_t fit = std::min(into.size(), q.counts[i]);
+        std::ranges::fill(into, Contact{});
+        ASSERT_EQ(detector.nearest_contacts({q.center, 0}, reach, session, into), fit) << where;
+        for (std::size_t k = 0; k < fit; ++k)
+          ASSERT_TRUE(same_bits(into[k], expected[k])) << where << ", contact " << k << " of the nearest";
       }
     }
     const auto nearest = detector.nearest({q.center, 0}, reach, session);
@@ -135,6 +144,36 @@ TEST(Contacts, AreThoseOfTheOracleInItsOrderForEveryDetector) {
       if (HasFatalFailure()) return;
     }
   }
+}
+
+/// Triangles that touch a ball about 0 from without: doubles do not tell which is nearer.
+TriangleMesh tangents_of_ball(std::uint32_t count) {
+  CornerCases cases(92);
+  std::vector<CornerCases::Corners> all;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const CornerCases::Corners plain = cases.plain();
+    const Vec3 normal = (plain[1] - plain[0]).cross(plain[2] - plain[0]).normalized();
+    const Vec3 a = normal.unitOrthogonal(), b = normal.cross(a);
+    all.push_back({normal + 0.1 * a, normal - 0.1 * a + 0.1 * b, normal - 0.1 * a - 0.1 * b});
+  }
+  return mesh_of(all);
+}
+
+TEST(Contacts, KeepTheExactOrderOfManyThatAreAboutAsNear) {
+  const TriangleMesh mesh = tangents_of_ball(150);
+  const bench::oracle::Oracle oracle(mesh, 1);
+  const Question q = question_at(oracle, Vec3::Zero());
+  const BruteForce brute = BruteForce::build(mesh);
+  examine(brute, brute, mesh, q, "brute force");
+  examine(GridGroup::build(mesh), brute, mesh, q, "grid group");
+  examine(SphereCluster::build(mesh), brute, mesh, q, "sphere cluster");
+  // Else this would be no test of the order.
+  int out_of_order = 0;
+  const auto computed = [&](std::size_t at) {
+    return std::sqrt(squared_distance(prepare(mesh, q.order[at]), Vec3::Zero()));
+  };
+  for (std::size_t at = 1; at < q.order.size(); ++at) out_of_order += computed(at - 1) > computed(at) ? 1 : 0;
+  EXPECT_GT(out_of_order, 10);
 }
 
 template <class D>

@@ -21,6 +21,11 @@ bool share(const CornerCases::Corners& a, const CornerCases::Corners& b, const V
          surely_share_nearest(prepared(b), prepared(a), point);
 }
 
+/// As whoever has measured the first asks.
+bool share_corner(const CornerCases::Corners& a, const CornerCases::Corners& b, const Vec3& point) {
+  return surely_share_corner(prepared(a), prepared(b), point, offset_from(prepared(a), point).vector);
+}
+
 /// The oracle names the first of exact ties.
 bool are_equally_near(const CornerCases::Corners& a, const CornerCases::Corners& b, const Vec3& point) {
   const TriangleMesh one = mesh_of({a, b}), other = mesh_of({b, a});
@@ -39,6 +44,9 @@ TEST(SharedFeature, IsTheEndOfTheRidge) {
   EXPECT_TRUE(share({p, q, left}, {q, p, right}, {-0.4, 0, 0.5}));
   EXPECT_TRUE(share({p, q, left}, {right, q, p}, {1.4, 0.1, 0.2}));
   EXPECT_TRUE(share({p, q, left}, {p, right, Vec3(-1, -1, -1)}, {-0.2, -0.1, 4}));
+  EXPECT_TRUE(share_corner({p, q, left}, {q, p, right}, {-0.4, 0, 0.5}));
+  EXPECT_TRUE(share_corner({p, q, left}, {right, q, p}, {1.4, 0.1, 0.2}));
+  EXPECT_FALSE(share_corner({p, q, left}, {q, p, right}, {0.4, 0.01, 0.5})) << "beside the ridge";
 }
 
 TEST(SharedFeature, IsNoneOverAFaceOrOnABorder) {
@@ -77,7 +85,7 @@ TEST(SharedFeature, IsNeverClaimedWhereTheDistancesDiffer) {
     std::vector<Vec3> points = bench::experiments::stress::with_neighbors(place, cases);
     points.push_back(from);
     for (const Vec3& point : points) {
-      if (!share(one, other, point)) continue;
+      if (!share(one, other, point) && !share_corner(one, other, point)) continue;
       ++claimed;
       EXPECT_TRUE(are_equally_near(one, other, point)) << i;
     }

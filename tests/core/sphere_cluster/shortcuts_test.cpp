@@ -1,4 +1,5 @@
 // Answers without a descent: by the mesh's box, by sampled distances, and by the planes of the last triangle.
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -185,6 +186,36 @@ TEST(SphereClusterShortcuts, ATouchThatMovesStraightAwayEndsWhereTheDistanceDoes
             << i << ", " << k;
     }
   }
+}
+
+/// Two squares far from each other are asked with one session, slowly moving and not, in box and clearance.
+TEST(SphereClusterShortcuts, WhatTheBoxToldOneMeshIsNotBelievedOfAnother) {
+  const std::array<Vec3, 2> middle = {Vec3::Zero(), Vec3(100, 0, 0)};
+  const std::array<SphereCluster, 2> detectors = {SphereCluster::build(square(1, middle[0])),
+                                                  SphereCluster::build(square(1, middle[1]))};
+  constexpr double radius = 0.5;
+  test::Random random(33);
+  SphereCluster::Session session;
+  std::size_t touches = 0;
+  for (int course = 0; course < 400; ++course) {
+    const double step = course % 2 == 0 ? 1e-3 : 1;
+    const auto over = static_cast<std::size_t>(course % 3 == 0);
+    double z = random.between(-20, 20);
+    for (int i = 0; i < 100; ++i) {
+      z += step * random.between(-1, 1);
+      if (i % 37 == 36) z = random.between(-1, 1);
+      const std::size_t asked = random.between(0, 1) < 0.2 ? 1 - over : over;
+      const Probe probe{middle[over] + Vec3(0.1, 0.2, z), radius};
+      const bool expected = asked == over && std::abs(z) <= radius;
+      touches += expected ? 1 : 0;
+      const SphereCluster& detector = detectors[asked];
+      if (i % 2 == 0)
+        ASSERT_EQ(detector.touches(probe, session), expected) << course << ", " << i << ", " << z;
+      else
+        ASSERT_EQ(detector.nearest(probe, radius, session).has_value(), expected) << course << ", " << i;
+    }
+  }
+  EXPECT_GT(touches, 1000U);
 }
 
 TEST(SphereClusterShortcuts, TheBoxIsThatOfTheUpdatedMesh) {

@@ -28,7 +28,7 @@ void expect_brute_force_on_a_walk(const TriangleMesh& mesh, double radius, doubl
                                   const std::string& where) {
   const auto ours = SphereCluster::build(mesh);
   const auto all = BruteForce::build(mesh);
-  SphereCluster::Session session;
+  SphereCluster::Session session, asks_nearest;
   BruteForce::Session plain;
   test::Random random(7);
   Vec3 place = mesh.bounds().max;
@@ -40,8 +40,12 @@ void expect_brute_force_on_a_walk(const TriangleMesh& mesh, double radius, doubl
       std::array<Contact, 16> found, expected;
       const std::size_t count = all.contacts({place, 0}, reach, plain, expected);
       ASSERT_EQ(ours.contacts({place, 0}, reach, session, found), count) << where << ", tick " << tick;
-      for (std::size_t i = 0; i < std::min(count, found.size()); ++i)
+      const std::size_t fit = std::min(count, found.size());
+      for (std::size_t i = 0; i < fit; ++i)
         ASSERT_TRUE(are_equal(found[i], expected[i])) << where << ", tick " << tick << ", contact " << i;
+      ASSERT_EQ(ours.nearest_contacts({place, 0}, reach, asks_nearest, found), fit) << where;
+      for (std::size_t i = 0; i < fit; ++i)
+        ASSERT_TRUE(are_equal(found[i], expected[i])) << where << ", tick " << tick << ", nearest " << i;
     }
     const Vec3 any = step * random.direction();
     const Vec3 along = any - any.dot(nearest.normal) * nearest.normal;
@@ -49,6 +53,8 @@ void expect_brute_force_on_a_walk(const TriangleMesh& mesh, double radius, doubl
       const Sweep sweep{place, place + way, radius};
       const std::optional<Impact> found = ours.first_hit(sweep, session), hit = all.first_hit(sweep, plain);
       ASSERT_EQ(found.has_value(), hit.has_value()) << where << ", tick " << tick;
+      ASSERT_EQ(ours.first_hit(sweep, asks_nearest).has_value(), hit.has_value())
+          << where << ", tick " << tick;
       if (!hit) continue;
       ASSERT_EQ(found->fraction, hit->fraction) << where << ", tick " << tick;
       ASSERT_TRUE(are_equal(found->contact, hit->contact)) << where << ", tick " << tick;

@@ -2,10 +2,12 @@
 // sphere_cluster_test.
 #include "core/sphere_cluster/tree/traversal.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "core/geometry/sphere_triangle_sweep.h"
 #include "core/sphere_cluster/tree/node_writer.h"
 #include "tests/bench/oracle/corner_case_triangles.h"
 
@@ -122,6 +124,42 @@ TEST_P(TriangleBounds, HoldAllAroundBehindThePlaneOfAListedTriangle) {
   }
   if (GetParam().name == "plain") {
     EXPECT_GT(above_zero, 5000);
+  }
+}
+
+/// A ball of about the distance that the way comes to, so that doubles tell with difficulty, or not at all.
+TEST_P(TriangleBounds, KeepNothingApartThatTheBallTouchesOnItsWay) {
+  CornerCases cases(93);
+  int apart = 0, told = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const CornerCase c = placed(GetParam(), cases, i);
+    const Alone alone(c.triangle);
+    const double distance = std::sqrt(squared_distance(alone.triangle, c.point));
+    const Vec3 to = c.point + cases.magnitude(-6, 1) * std::max(distance, 1e-30) * cases.vector();
+    if (!alone.fits || !alone.frame.covers(c.point) || !alone.frame.covers(to)) continue;
+    const double nearer = std::min(distance, std::sqrt(squared_distance(alone.triangle, to)));
+    const Sweep sweep{c.point, to, nearer * (1 - (i % 3) * cases.magnitude(-12, -1))};
+    const double part = i % 2 == 0 ? 1 : cases.magnitude(-3, 0);
+    const SweptBall ball(sweep, part, alone.frame.scale());
+    const std::uint32_t slot = 0;
+    EightPlanes planes;
+    const unsigned found = portable::kept_apart(&alone.triangle, &slot, 1, ball, planes);
+    const bool hits = sweep_hit(alone.triangle, sweep, part).has_value();
+    ASSERT_FALSE(found != 0 && hits) << i;
+    const double size = (c.point - c.triangle[0]).norm() + (to - c.point).norm();
+    if (!sweep_hit(alone.triangle, {sweep.from, sweep.to, sweep.radius + 0.001 * size}, part)) {
+      ++apart;
+      told += static_cast<int>(found);
+    }
+    if (found == 0) continue;
+    const Vec3 normal(double{planes.x[0]}, double{planes.y[0]}, double{planes.z[0]});
+    EXPECT_NEAR(normal.norm(), 1, 0x1p-21) << i;
+    for (const Vec3& corner : c.triangle)
+      ASSERT_LE(double{planes.height[0]}, normal.dot(c.point - corner) * alone.frame.scale()) << i;
+  }
+  if (GetParam().name == "plain") {
+    EXPECT_GT(apart, 500);
+    EXPECT_GT(told, 0.95 * apart);
   }
 }
 
