@@ -61,13 +61,15 @@ class BodyQuery {
         const DistanceInterval least = seen_.in_scene(close.least, close.error);
         if (least.lower > limit) return;
         const SeenCorners corners(seen_);
-        // The best of them is within the interval of the least; whether others are is not asked where one is
-        // alone.
-        for (std::size_t k = 0; k < close.count; ++k) {
-          ImageCandidate one = seen_as(corners, close.triangle[k]);
-          one.distance = close.count == 1 ? least : distance_to(one.seen);
-          nearest.consider(one, work.exact_decisions);
+        if (close.count == 1) {
+          // It is the least; whether another one is as near was not asked.
+          ImageCandidate only = seen_as(corners, close.triangle[0]);
+          only.distance = least;
+          nearest.consider(only, work.exact_decisions);
+          return;
         }
+        for (std::size_t k = 0; k < close.count; ++k)
+          nearest.consider_unmeasured(seen_as(corners, close.triangle[k]), work.exact_decisions);
         return;
       }
     }
@@ -87,7 +89,8 @@ class BodyQuery {
   }
 
   bool touches(double radius, Work& work) const noexcept {
-    // A detector's own answer takes less than the nearest does, and is sure but for a hair.
+    // A detector's own answer costs less than the nearest triangle, and decides all but distances that
+    // rounding leaves open.
     if (!shape_.detector->touches({seen_.center(), seen_.reach_in_frame(radius, error_)}, session_))
       return false;
     const double inner = seen_.surely_within(radius, error_);

@@ -6,16 +6,12 @@
 #include <cmath>
 #include <utility>
 
+#include "core/geometry/float_rounding.h"
+
 namespace touchmark {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
-
-float rounded_down(double x) noexcept {
-  const auto near = static_cast<float>(x);
-  return static_cast<double>(near) <= x ? near : std::nextafter(near, -infinity);
-}
-float rounded_up(double x) noexcept { return -rounded_down(-x); }
 
 /// Returns a difference of differences less what they may be off by.
 double surely_between(double low, double high) noexcept {

@@ -40,9 +40,12 @@ class BodyTree {
   /// first, and goes on with the limit that it returns. Returns how many boxes were looked at.
   template <class Visit>
   std::uint64_t for_each_within(const Aabb& region, double limit, Visit&& visit) const noexcept {
-    return walk(region, limit, {&visit, [](void* object, std::uint32_t body) noexcept {
-                                  return (*static_cast<std::remove_reference_t<Visit>*>(object))(body);
-                                }});
+    return walk(region, limit, visit_of(visit));
+  }
+  /// Does so about a point, in fewer steps.
+  template <class Visit>
+  std::uint64_t for_each_within(const Vec3& point, double limit, Visit&& visit) const noexcept {
+    return walk(point, limit, visit_of(visit));
   }
 
  private:
@@ -72,6 +75,12 @@ class BodyTree {
 
   /// What for_each_within does: compiled here, so that no program's flags change what it computes.
   std::uint64_t walk(const Aabb& region, double limit, const body_tree::Visit& visit) const noexcept;
+  std::uint64_t walk(const Vec3& point, double limit, const body_tree::Visit& visit) const noexcept;
+  template <class Visit>
+  static body_tree::Visit visit_of(Visit& visit) noexcept {
+    return {&visit,
+            [](void* object, std::uint32_t body) noexcept { return (*static_cast<Visit*>(object))(body); }};
+  }
   static Box united(const Box& a, const Box& b) noexcept;
   static float half_area(const Box& box) noexcept;
   static Box box_of(const Node& node, std::uint32_t slot) noexcept;

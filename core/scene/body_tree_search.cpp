@@ -8,10 +8,7 @@
 #include "core/scene/body_tree.h"
 #include "core/simd/lanes.h"
 #include "core/simd/target.h"
-
-#if TOUCHMARK_HAS_AVX2
-#include <immintrin.h>
-#endif
+#include "core/simd/wide.h"
 
 namespace touchmark {
 namespace body_tree {
@@ -29,6 +26,15 @@ struct Region {
     for (int k = 0; k < 3; ++k) {
       min[static_cast<std::size_t>(k)] = static_cast<float>(low[k]);
       max[static_cast<std::size_t>(k)] = static_cast<float>(high[k]);
+    }
+  }
+  /// Equals that of a box that is the point.
+  Region(const Vec3& point, const Vec3& origin) noexcept {
+    const Vec3 way = point - origin;
+    pad = 0x1p-21 * way.cwiseAbs().sum() + 0x1p-120;
+    for (int k = 0; k < 3; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      min[i] = max[i] = static_cast<float>(way[k]);
     }
   }
   /// Returns what a squared distance of a box within the limit cannot exceed: each excess is off by a
@@ -55,12 +61,7 @@ TOUCHMARK_TARGET("avx2")
 namespace avx2 {
 
 inline constexpr std::uint32_t lanes = 8;
-using Wide [[gnu::vector_size(32)]] = float;
-using WideBits [[gnu::vector_size(32)]] = int;
-
-inline unsigned to_bits(WideBits mask) noexcept {
-  return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask)));
-}
+using touchmark::avx2::Wide, touchmark::avx2::to_bits;
 #include "core/scene/body_tree_search.inl"
 
 }  // namespace avx2
@@ -69,14 +70,23 @@ TOUCHMARK_END_TARGET
 namespace avx2 = portable;
 #endif
 
+std::uint64_t walk(bool is_wide, std::span<const Node> nodes, Ref root, const Region& region, double limit,
+                   const Visit& visit) noexcept {
+  return is_wide ? avx2::walk(nodes, root, region, limit, visit)
+                 : portable::walk(nodes, root, region, limit, visit);
+}
+
 }  // namespace
 }  // namespace body_tree
 
 std::uint64_t BodyTree::walk(const Aabb& region, double limit, const body_tree::Visit& visit) const noexcept {
   if (root_ == none) return 0;
-  const body_tree::Region seen(region, *origin_);
-  return is_wide_ ? body_tree::avx2::walk(nodes_, root_, seen, limit, visit)
-                  : body_tree::portable::walk(nodes_, root_, seen, limit, visit);
+  return body_tree::walk(is_wide_, nodes_, root_, body_tree::Region(region, *origin_), limit, visit);
+}
+
+std::uint64_t BodyTree::walk(const Vec3& point, double limit, const body_tree::Visit& visit) const noexcept {
+  if (root_ == none) return 0;
+  return body_tree::walk(is_wide_, nodes_, root_, body_tree::Region(point, *origin_), limit, visit);
 }
 
 }  // namespace touchmark

@@ -71,7 +71,7 @@ NearBodies::Looked NearBodies::list(const Vec3& point, double reach, const Scene
     looked.bodies += room;
   }
   const auto farthest = [&] { return count_ < room ? limit : entries_[room - 1].lower; };
-  looked.boxes = bodies.tree().for_each_within({point, point}, farthest(), [&](std::uint32_t body) {
+  looked.boxes = bodies.tree().for_each_within(point, farthest(), [&](std::uint32_t body) {
     ++looked.bodies;
     const double lower = lower_distance(bodies, body, point);
     if (lower < farthest() || (lower == limit && count_ < room)) add({bodies.id(body), room, lower, {}});

@@ -58,7 +58,8 @@ NearSurface::Found NearSurface::nearest(const Vec3& point, double reach, const S
   const double error = list_.error();
   if (!(best <= reach + error)) return nothing(move);
   remember(point, best, bodies);
-  const std::optional<BodyContact> found = contact_of(closest(best + 2 * error), point, reach, bodies, work);
+  const std::optional<BodyContact> found =
+      contact_of(closest(best + 2 * error), in_frames, reach, bodies, work);
   if (!found) return nothing(move);
   contact = *found;
   return Found::contact;
@@ -87,7 +88,7 @@ NearSurface::Found NearSurface::touches(const Vec3& point, double radius, const 
                    [&](std::uint32_t place) { touching = touching || (place != first && is_sure(place)); });
   }
   const std::span<Measured> close = touching ? std::span<Measured>() : closest(radius + error);
-  if (touching || touches_exactly(close, point, radius, bodies, work)) {
+  if (touching || touches_exactly(close, in_frames, radius, work)) {
     ++served_;
     remember(point, radius, bodies);
     return Found::contact;
@@ -114,39 +115,35 @@ ImageCandidate NearSurface::candidate(const Measured& measured, const SeenCorner
   return result;
 }
 
-bool NearSurface::touches_exactly(std::span<const Measured> close, const Vec3& point, double radius,
-                                  const SceneBodies& bodies, Work& work) const noexcept {
+bool NearSurface::touches_exactly(std::span<const Measured> close, SurfaceList::InFrames& point,
+                                  double radius, Work& work) const noexcept {
   return std::ranges::any_of(close, [&](const Measured& measured) {
-    const PlacedBody& placed = bodies[list_.body_of(measured.place).index];
-    const SeenBody seen(placed.pose, double{placed.rigid}, point);
-    return is_within(candidate(measured, SeenCorners(seen), placed.pose), point, radius,
+    const Pose& pose = point.pose(list_.body_of(measured.place));
+    return is_within(candidate(measured, list_.corners(measured.place, point), pose), point.point(), radius,
                      work.exact_decisions);
   });
 }
 
-std::optional<BodyContact> NearSurface::contact_of(std::span<const Measured> close, const Vec3& point,
-                                                   double reach, const SceneBodies& bodies,
-                                                   Work& work) const noexcept {
+std::optional<BodyContact> NearSurface::contact_of(std::span<const Measured> close,
+                                                   SurfaceList::InFrames& point, double reach,
+                                                   const SceneBodies& bodies, Work& work) const noexcept {
   if (close.size() == 1) {
-    const PlacedBody& placed = bodies[list_.body_of(close.front().place).index];
-    const SeenBody seen(placed.pose, double{placed.rigid}, point);
-    const ImageCandidate only = candidate(close.front(), SeenCorners(seen), placed.pose);
-    if (!is_within(only, point, reach, work.exact_decisions)) return std::nullopt;
-    return BodyContact{bodies.id(only.body), contact_on_image(only, point, work.exact_decisions)};
+    const std::uint32_t place = close.front().place;
+    const ImageCandidate only =
+        candidate(close.front(), list_.corners(place, point), point.pose(list_.body_of(place)));
+    if (!is_within(only, point.point(), reach, work.exact_decisions)) return std::nullopt;
+    return BodyContact{bodies.id(only.body), contact_on_image(only, point.point(), work.exact_decisions)};
   }
-  NearestImage nearest(point);
-  std::optional<SeenBody> seen;
+  NearestImage nearest(point.point());
   std::optional<SeenCorners> corners;
   std::uint32_t seen_body = 0;
   for (const Measured& measured : close) {
-    const std::uint32_t body = list_.body_of(measured.place).index;
-    const PlacedBody& placed = bodies[body];
-    if (!seen || body != seen_body) {
-      seen.emplace(placed.pose, double{placed.rigid}, point);
-      corners.emplace(*seen);
-      seen_body = body;
+    const SurfaceList::Body& body = list_.body_of(measured.place);
+    if (!corners || body.index != seen_body) {
+      corners.emplace(list_.corners(measured.place, point));
+      seen_body = body.index;
     }
-    nearest.consider(candidate(measured, *corners, placed.pose), work.exact_decisions);
+    nearest.consider(candidate(measured, *corners, point.pose(body)), work.exact_decisions);
   }
   const std::optional<Contact> contact = nearest.contact(reach, work.exact_decisions);
   if (!contact) return std::nullopt;

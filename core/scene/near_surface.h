@@ -16,6 +16,7 @@
 #include "core/scene/scene_bodies.h"
 #include "core/scene/seen_body.h"
 #include "core/search/epoch.h"
+#include "core/search/last_question.h"
 #include "core/search/listed_triangles.h"
 #include "core/triangle_mesh.h"
 
@@ -30,6 +31,20 @@ struct SceneState {
     return {bodies.epoch(), bodies.moves(), bodies.additions(), bodies.removals()};
   }
   friend bool operator==(const SceneState&, const SceneState&) = default;
+};
+
+/// What was asked last where a body may be near, and where.
+struct SceneQuestion {
+  LastQuestion question;
+  Vec3 point = Vec3::Zero(), way = Vec3::Zero();  ///< the way leads from the place before to the point
+  SceneState scene;
+
+  void note(const LastQuestion& asked, const Vec3& now, const SceneBodies& bodies) noexcept {
+    way = question.query == LastQuestion::Query::none ? Vec3(Vec3::Zero()) : Vec3(now - point);
+    question = asked;
+    point = now;
+    scene = SceneState::of(bodies);
+  }
 };
 
 /// Triangles around a place, each behind a plane that bounds its distance all around.
@@ -81,6 +96,7 @@ class SurfaceList {
     InFrames(const Vec3& point, const SceneBodies& bodies) noexcept : point_(point), bodies_(bodies) {}
     const Vec3& of(std::uint8_t slot, const Body& body) noexcept;
     const Pose& pose(const Body& body) const noexcept { return bodies_[body.index].pose; }
+    const Vec3& point() const noexcept { return point_; }
 
    private:
     const Vec3& point_;
@@ -90,9 +106,15 @@ class SurfaceList {
   };
   /// Measures one; where it is farther than the limit its plane is turned towards the point.
   double measure(std::uint32_t place, double limit, InFrames& point) noexcept;
+  /// Returns the images of the corners of this one's body as seen from the point.
+  SeenCorners corners(std::uint32_t place, InFrames& point) const noexcept {
+    const Body& body = body_of(place);
+    return {point.pose(body), point.of(body_[place], body), point.point()};
+  }
 
  private:
   float padded(double limit, const Move& move) const noexcept;
+  Bits within_by_eights(const Move& move, float farthest) const noexcept;
   void turn(std::uint32_t place, const Pose& pose) noexcept;
 
   Vec3 center_ = Vec3::Zero();
@@ -144,10 +166,10 @@ class NearSurface {
   std::span<Measured> closest(double limit) noexcept;
   ImageCandidate candidate(const Measured& measured, const SeenCorners& corners,
                            const Pose& pose) const noexcept;
-  bool touches_exactly(std::span<const Measured> close, const Vec3& point, double radius,
-                       const SceneBodies& bodies, Work& work) const noexcept;
-  std::optional<BodyContact> contact_of(std::span<const Measured> close, const Vec3& point, double reach,
-                                        const SceneBodies& bodies, Work& work) const noexcept;
+  bool touches_exactly(std::span<const Measured> close, SurfaceList::InFrames& point, double radius,
+                       Work& work) const noexcept;
+  std::optional<BodyContact> contact_of(std::span<const Measured> close, SurfaceList::InFrames& point,
+                                        double reach, const SceneBodies& bodies, Work& work) const noexcept;
 
   SurfaceList list_;
   SceneState listed_;      ///< when the list was made

@@ -7,6 +7,7 @@
 
 #include "core/geometry/distance_error.h"
 #include "core/geometry/point_triangle.h"
+#include "core/geometry/widest_offset.h"
 
 namespace touchmark {
 namespace {
@@ -40,16 +41,25 @@ std::weak_ordering order_of(const DistanceInterval& a, const DistanceInterval& b
   return std::weak_ordering::equivalent;
 }
 
+/// Is it known without any distance that both are exactly as far?
+bool surely_tied(const ImageCandidate& a, const ImageCandidate& b) noexcept {
+  const bool one_pose = a.posed.pose == b.posed.pose || *a.posed.pose == *b.posed.pose;
+  return one_pose && a.posed.radius == b.posed.radius &&
+         surely_tied(a.posed.corner, a.seen, b.posed.corner, b.seen);
+}
+
+/// Which of several that are as far is the nearest?
+auto place_of(const ImageCandidate& candidate) noexcept {
+  return std::tuple(candidate.body, candidate.id, candidate.triangle);
+}
+
 }  // namespace
 
 std::weak_ordering NearestImage::compare(const ImageCandidate& a, const ImageCandidate& b,
                                          std::uint64_t& exact_decisions) const noexcept {
   const std::weak_ordering by_bounds = order_of(a.distance, b.distance);
   if (by_bounds != 0) return by_bounds;
-  const bool one_pose = a.posed.pose == b.posed.pose || *a.posed.pose == *b.posed.pose;
-  if (one_pose && a.posed.radius == b.posed.radius &&
-      surely_tied(a.posed.corner, a.seen, b.posed.corner, b.seen))
-    return std::weak_ordering::equivalent;
+  if (surely_tied(a, b)) return std::weak_ordering::equivalent;
   // What the detector said of one that was alone is wider than what the image tells.
   const std::weak_ordering by_images =
       order_of(distance_to(a.seen, a.posed.radius), distance_to(b.seen, b.posed.radius));
@@ -59,13 +69,24 @@ std::weak_ordering NearestImage::compare(const ImageCandidate& a, const ImageCan
 }
 
 void NearestImage::consider(const ImageCandidate& candidate, std::uint64_t& exact_decisions) noexcept {
-  const auto place = [](const ImageCandidate& c) { return std::tuple(c.body, c.id, c.triangle); };
+  if (is_best(candidate)) return;
   if (best_) {
-    if (candidate.body == best_->body && candidate.triangle == best_->triangle) return;
     const std::weak_ordering order = compare(candidate, *best_, exact_decisions);
-    if (order > 0 || (order == 0 && place(candidate) > place(*best_))) return;
+    if (order > 0 || (order == 0 && place_of(candidate) > place_of(*best_))) return;
   }
   best_ = candidate;
+}
+
+void NearestImage::consider_unmeasured(ImageCandidate candidate, std::uint64_t& exact_decisions) noexcept {
+  if (is_best(candidate)) return;
+  if (best_ && surely_tied(candidate, *best_)) {
+    if (place_of(candidate) > place_of(*best_)) return;
+    candidate.distance = best_->distance;
+    best_ = candidate;
+    return;
+  }
+  candidate.distance = distance_to(candidate.seen, candidate.posed.radius);
+  consider(candidate, exact_decisions);
 }
 
 std::optional<Contact> NearestImage::contact(double reach, std::uint64_t& exact_decisions) const noexcept {
@@ -80,7 +101,7 @@ std::optional<Contact> NearestImage::contact(double reach, std::uint64_t& exact_
 DistanceInterval distance_to(const SeenTriangle& seen) noexcept {
   if (!fourth_powers_fit(seen.largest)) return {};
   const PreparedTriangle prepared = prepare(seen.corner[0], seen.corner[1], seen.corner[2], 0);
-  const double distance = std::sqrt(squared_distance(prepared, Vec3::Zero()));
+  const double distance = std::sqrt(widest_offset_from(prepared, Vec3::Zero()).squared);
   const double error = distance_error(seen.largest) + seen.error;
   return {distance - error, distance + error};
 }
@@ -117,7 +138,7 @@ Contact contact_on_image(const ImageCandidate& candidate, const Vec3& point,
   if (fourth_powers_fit(largest) && candidate.seen.error <= 15 * unit_roundoff * largest) {
     const PreparedTriangle prepared = prepare(corner[0], corner[1], corner[2], candidate.triangle);
     const Vec3 origin = Vec3::Zero();
-    const Offset offset = offset_from(prepared, origin);
+    const Offset offset = widest_offset_from(prepared, origin);
     // From there on the kernel's distance is within 16 u M: docs/exactness.md, E5. Deep in a round body the
     // direction must be as good, far from whose surface it is told.
     const bool is_round = candidate.posed.radius > 0;

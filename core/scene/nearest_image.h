@@ -9,7 +9,6 @@
 #include "core/probe.h"
 #include "core/scene/posed_predicates.h"
 #include "core/scene/seen_body.h"
-#include "core/triangle_mesh.h"
 
 namespace touchmark {
 
@@ -31,6 +30,9 @@ class NearestImage {
   explicit NearestImage(const Vec3&&) = delete;
 
   void consider(const ImageCandidate& candidate, std::uint64_t& exact_decisions) noexcept;
+  /// Considers a triangle whose distance is not told yet. It is that of the best where both surely share the
+  /// nearest corner or edge, so that the triangles around a corner are measured once.
+  void consider_unmeasured(ImageCandidate candidate, std::uint64_t& exact_decisions) noexcept;
   const std::optional<ImageCandidate>& best() const noexcept { return best_; }
   /// Nothing farther than this can be the nearest.
   double upper() const noexcept {
@@ -42,6 +44,10 @@ class NearestImage {
  private:
   std::weak_ordering compare(const ImageCandidate& a, const ImageCandidate& b,
                              std::uint64_t& exact_decisions) const noexcept;
+
+  bool is_best(const ImageCandidate& candidate) const noexcept {
+    return best_ && candidate.body == best_->body && candidate.triangle == best_->triangle;
+  }
 
   const Vec3& point_;
   std::optional<ImageCandidate> best_;

@@ -49,6 +49,7 @@ class Scene {
     Work work;
     NearBodies near;
     NearSurface surface;
+    SceneQuestion last;
     /// What is remembered of one body: its shape, and the session that asks it.
     struct Asked {
       Epoch epoch;
@@ -146,8 +147,10 @@ class Scene {
   std::size_t contacts(const Probe& probe, double reach, Session& session,
                        std::span<Contact> into) const noexcept;
 
-  /// Prepares what was asked last of the nearest body; in free space, what says that all bodies are far. Who
-  /// moves many bodies in a tick's thread calls it after that, since publishing them uses the caches.
+  /// Asks the last query again if bodies have moved since, and once more where the probe may be next: the
+  /// next query then finds what the move made stale, and the caches as they were before it. Otherwise
+  /// prepares what was asked last of the nearest body. Who moves many bodies in a tick's thread calls it
+  /// after that.
   void prepare(Session& session) const noexcept requires Prepares<D>;
 
   std::size_t bytes() const noexcept { return bodies_.bytes() + shapes_.bytes(); }
@@ -212,8 +215,10 @@ class Scene {
   bool list_surface(const Vec3& point, double reach, Session& session) const noexcept;
   /// Returns what `ask` does, which asks the list, that is made anew where it cannot tell.
   template <class Ask>
-  NearSurface::Found ask_surface(const Vec3& point, double reach, Session& session,
+  NearSurface::Found ask_surface(const Vec3& point, const LastQuestion& question, Session& session,
                                  const Ask& ask) const noexcept;
+  /// Asks the last question again if bodies have moved since. Returns false where that is of no use.
+  bool ask_again(Session& session) const noexcept;
 
   /// Returns what ask(query) does, the query being one body's about the point that it is seen from.
   template <class Ask>

@@ -30,13 +30,13 @@ ShapeId SceneBodies::add_shape(const Aabb& bounds, std::span<const Vec3> vertice
   const auto index = static_cast<std::uint32_t>(shapes_.size());
   if (bounds.empty() || !bounds.min.allFinite() || !bounds.max.allFinite())
     throw SceneError("shape " + std::to_string(index) + " has no finite bounds");
-  ShapeBounds shape{bounds, bounds.center(), {}, 0, 0, nullptr};
+  const Vec3 center = bounds.center();
   // Both differences count, since the centre is rounded.
-  shape.half = (bounds.max - shape.center).cwiseMax(shape.center - bounds.min) * (1 + 4 * unit_roundoff);
-  shape.radius = shape.half.norm() * (1 + 4 * unit_roundoff);
-  shape.center_size = shape.center.cwiseAbs().sum();
+  const Vec3 half = (bounds.max - center).cwiseMax(center - bounds.min) * (1 + 4 * unit_roundoff);
+  ShapeBounds shape{
+      bounds, {center, half.norm() * (1 + 4 * unit_roundoff), center.cwiseAbs().sum()}, half, nullptr};
   if (!vertices.empty())
-    shape.support = std::make_shared<const SupportTable>(vertices, shape.center, shape.radius, beyond);
+    shape.support = std::make_shared<const SupportTable>(vertices, center, shape.ball.radius, beyond);
   shapes_.push_back(shape);
   return {index};
 }
@@ -73,9 +73,8 @@ BodyId SceneBodies::add(ShapeId shape, const Pose& pose) {
 void SceneBodies::move(BodyId id, const Pose& pose) {
   if (!has(id)) expect(id);  // which is long, and has is inlined
   PlacedBody& body = bodies_[id.index];
-  const double rigid = expect_rigid(pose);
-  const ShapeBounds& shape = shapes_[body.shape];
-  const double motion = motion_between(shape, body.pose, pose);
+  const PoseChange change = pose_change(body.pose, pose, shapes_[body.shape].ball, simd_);
+  const double rigid = change.is_rigid ? change.rigid : expect_rigid(pose), motion = change.motion;
   body.pose = pose;
   body.rigid = raised_to_float(rigid);
   count_motion(body, motion);
@@ -104,7 +103,7 @@ void SceneBodies::fit_box(std::uint32_t index, double motion) {
   }
   tree_.remove(index);
   // Room for some more moves like this one, but not for a jump's.
-  put_into_tree(index, bounds, 0.05 * shape.radius + std::min(16 * motion, 2 * shape.radius));
+  put_into_tree(index, bounds, 0.05 * shape.ball.radius + std::min(16 * motion, 2 * shape.ball.radius));
 }
 
 void SceneBodies::remove(BodyId id) {
@@ -168,11 +167,11 @@ std::size_t SceneBodies::bytes() const noexcept {
 /// The box about the image of the bounds' centre that reaches as far in each direction as the rotation takes
 /// their half extents, or the shape's vertices, if that is less.
 Aabb SceneBodies::bounds_in_scene(const ShapeBounds& shape, const Pose& pose) const noexcept {
-  const Vec3 center = image(pose, shape.center);
+  const Vec3 center = image(pose, shape.ball.center);
   const Vec3 half = pose.rotation.cwiseAbs() * shape.half;
   // No entry of a rotation is above 1 by more than the 2^-32 that it may be off.
-  const Vec3 rounding =
-      8 * unit_roundoff * (Vec3::Constant(1.01 * shape.center_size) + pose.translation.cwiseAbs() + half);
+  const Vec3 rounding = 8 * unit_roundoff *
+                        (Vec3::Constant(1.01 * shape.ball.center_size) + pose.translation.cwiseAbs() + half);
   Vec3 below = half, above = half;
   if (shape.support) {
     for (int k = 0; k < 3; ++k) {
@@ -183,20 +182,6 @@ Aabb SceneBodies::bounds_in_scene(const ShapeBounds& shape, const Pose& pose) co
   }
   const Vec3 more = rounding * (1 + 4 * unit_roundoff);
   return {center - (below + more), center + (above + more)};
-}
-
-/// A point x of the ball about c moves by R' x + t' - R x - t = (R' - R) (x - c) + (R' - R) c + t' - t.
-double SceneBodies::motion_between(const ShapeBounds& shape, const Pose& from,
-                                   const Pose& to) const noexcept {
-  const Eigen::Matrix3d turn = to.rotation - from.rotation;
-  const Vec3 shift = to.translation - from.translation;
-  const Vec3 of_center = turn * shape.center + shift;
-  // Each difference is off by one rounding of itself, the product by three and the sum by one of its terms. A
-  // sum of absolute values is no less than the norm, and takes no root.
-  const double turned = turn.norm();
-  const double rounding =
-      8 * unit_roundoff * (turned * (shape.center_size + shape.radius) + shift.cwiseAbs().sum());
-  return (of_center.norm() + turned * shape.radius) * (1 + 16 * unit_roundoff) + rounding;
 }
 
 void SceneBodies::count_motion(PlacedBody& body, double motion) noexcept {

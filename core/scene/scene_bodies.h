@@ -12,9 +12,11 @@
 #include "core/scene/body.h"
 #include "core/scene/body_tree.h"
 #include "core/scene/pose.h"
+#include "core/scene/pose_change.h"
 #include "core/scene/seen_body.h"
 #include "core/scene/support_table.h"
 #include "core/search/epoch.h"
+#include "core/simd/dispatch.h"
 
 namespace touchmark {
 
@@ -84,15 +86,12 @@ class SceneBodies {
  private:
   struct ShapeBounds {
     Aabb bounds;
-    Vec3 center, half;
-    double radius = 0;                            ///< a ball so large about the centre holds the bounds
-    double center_size = 0;                       ///< the sum of the centre's absolute coordinates
+    ShapeBall ball;                               ///< about the bounds' centre, holds the bounds
+    Vec3 half;                                    ///< the bounds' extent from there
     std::shared_ptr<const SupportTable> support;  ///< about the centre; null where vertices are not known
   };
 
   Aabb bounds_in_scene(const ShapeBounds& shape, const Pose& pose) const noexcept;
-  /// Bounds how far any point of the shape moves.
-  double motion_between(const ShapeBounds& shape, const Pose& from, const Pose& to) const noexcept;
   void count_motion(PlacedBody& body, double motion) noexcept;
   /// Puts the body into the tree, with so much room about it.
   void put_into_tree(std::uint32_t index, const Aabb& bounds, double margin);
@@ -108,6 +107,7 @@ class SceneBodies {
   double motion_ = 0;
   double motion_before_span_ = 0;
   std::uint32_t span_ = 1;
+  Simd simd_ = widest_simd();
   Epoch epoch_ = Epoch::next();
 };
 

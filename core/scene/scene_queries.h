@@ -31,10 +31,7 @@ requires AnswersNearest<D> && AnswersContacts<D>
 template <class LeftOut, class Ask>
 void Scene<D>::ask_unlisted(const Vec3& from, const Vec3& to, double length, const double& limit,
                             Session& session, const LeftOut& is_left_out, const Ask& ask) const noexcept {
-  Aabb region;
-  region.extend(from);
-  region.extend(to);
-  session.work.boxes += bodies_.tree().for_each_within(region, limit, [&](std::uint32_t body) {
+  auto visit = [&](std::uint32_t body) {
     if (is_left_out(body)) return limit;
     ++session.work.bodies;
     const PlacedBody& placed = bodies_[body];
@@ -42,7 +39,15 @@ void Scene<D>::ask_unlisted(const Vec3& from, const Vec3& to, double length, con
     if (lower_distance(bodies_.bounds_of(placed), seen) <= limit + length)
       this->ask(NearBodies::room + placed.shape % unlisted_room, body, seen, session, ask);
     return limit;
-  });
+  };
+  if (&from == &to) {
+    session.work.boxes += bodies_.tree().for_each_within(from, limit, visit);
+    return;
+  }
+  Aabb region;
+  region.extend(from);
+  region.extend(to);
+  session.work.boxes += bodies_.tree().for_each_within(region, limit, visit);
 }
 
 template <Detector D>
@@ -51,7 +56,7 @@ template <class Ask>
 void Scene<D>::ask_near(const Vec3& from, const Vec3& to, const double& limit, bool was_compared,
                         Session& session, const Ask& ask) const noexcept {
   NearBodies& near = session.near;
-  const double length = path_length(from, to);
+  const double length = &from == &to ? 0 : path_length(from, to);  // a probe's way is one point
   // 1. Free space: every body is surely farther.
   if (!was_compared && near.all_are_beyond(from, limit + length, bodies_)) return;
   // 2. Jumps: all that can be within reach, of which nothing is remembered.
@@ -96,8 +101,8 @@ template <Detector D>
 requires AnswersNearest<D> && AnswersContacts<D>
 bool Scene<D>::touches(const Probe& probe, Session& session) const noexcept {
   if (!(probe.radius >= 0) || !probe.center.allFinite()) return false;
-  const NearSurface::Found answer =
-      ask_surface(probe.center, probe.radius, session, [&](NearSurface& surface) {
+  const NearSurface::Found answer = ask_surface(
+      probe.center, {LastQuestion::Query::touches, probe.radius}, session, [&](NearSurface& surface) {
         return surface.touches(probe.center, probe.radius, bodies_, session.work);
       });
   if (answer != NearSurface::Found::unknown) return answer == NearSurface::Found::contact;
@@ -123,9 +128,10 @@ requires AnswersNearest<D> && AnswersContacts<D> std::optional<BodyContact> Scen
 const noexcept {
   if (!(reach >= 0) || !probe.center.allFinite()) return std::nullopt;
   BodyContact listed;
-  const NearSurface::Found answer = ask_surface(probe.center, reach, session, [&](NearSurface& surface) {
-    return surface.nearest(probe.center, reach, bodies_, listed, session.work);
-  });
+  const NearSurface::Found answer =
+      ask_surface(probe.center, {LastQuestion::Query::nearest, reach}, session, [&](NearSurface& surface) {
+        return surface.nearest(probe.center, reach, bodies_, listed, session.work);
+      });
   if (answer != NearSurface::Found::unknown)
     return answer == NearSurface::Found::contact ? std::optional(listed) : std::nullopt;
   NearestImage nearest(probe.center);
@@ -151,6 +157,7 @@ requires AnswersNearest<D> && AnswersContacts<D> std::optional<BodyImpact> Scene
     const Sweep& sweep, Session& session)
 const noexcept requires AnswersSweep<D> {
   if (!(sweep.radius >= 0) || !sweep.from.allFinite() || !sweep.to.allFinite()) return std::nullopt;
+  session.last.question = {};  // `prepare` asks no sweep again
   std::optional<Impact> first;
   std::uint32_t whose = 0;
   const double limit = sweep.radius;
@@ -218,6 +225,7 @@ template <class Found>
 void Scene<D>::for_each_contact(const Probe& probe, double reach, Session& session,
                                 const Found& found) const noexcept {
   if (!(reach >= 0) || !probe.center.allFinite()) return;
+  session.last.question = {};  // `prepare` asks for no contacts again
   ask_near(probe.center, probe.center, reach, false, session,
            [&](const Shape<D>& shape, std::uint32_t body, const SeenBody& seen, typename D::Session& own) {
              return with_query(shape, body, seen, own, [&](const auto& query) {
@@ -258,12 +266,17 @@ requires AnswersNearest<D> && AnswersContacts<D>
 void Scene<D>::prepare(Session& session) const noexcept requires Prepares<D> {
   // In free space a query is one comparison, and what it reads is small; but who publishes a frame leaves it
   // and its code outside the caches. To ask again brings them back.
-  if (const Vec3 center = session.near.center_of_all(); session.near.all_are_beyond(center, 0, bodies_)) {
+  const Vec3 center = session.near.center_of_all();
+  const SceneQuestion last = session.last;
+  const bool is_known = last.question.query != LastQuestion::Query::none;
+  if (session.near.all_are_beyond(is_known ? last.point : center, last.question.reach, bodies_)) {
     touches({center, 0}, session);
     nearest_body({center, 0}, 0, session);
     if constexpr (AnswersSweep<D>) first_hit_body({center, center, 0}, session);
+    session.last = last;  // which a sweep forgets
     return;
   }
+  if (ask_again(session)) return;
   for (const NearBodies::Entry& entry : session.near.near().first(session.near.near().empty() ? 0 : 1)) {
     auto& asked = session.asked[entry.slot];
     const Shape<D>* shape =
@@ -282,18 +295,17 @@ bool Scene<D>::build_near(const Probe& probe, double distance, Session& session)
   if (!(reach >= 0) || !probe.center.allFinite()) return false;
   double limit = reach;
   std::uint32_t found = PlacedBody::no_shape;
-  session.work.boxes +=
-      bodies_.tree().for_each_within({probe.center, probe.center}, limit, [&](std::uint32_t body) {
-        const std::uint32_t shape = bodies_[body].shape;
-        ++session.work.bodies;
-        if (shapes_.built(shape) != nullptr || shapes_.has_failed(shape)) return limit;
-        const double lower = lower_distance(bodies_, body, probe.center);
-        if (lower <= limit) {
-          limit = lower;
-          found = shape;
-        }
-        return limit;
-      });
+  session.work.boxes += bodies_.tree().for_each_within(probe.center, limit, [&](std::uint32_t body) {
+    const std::uint32_t shape = bodies_[body].shape;
+    ++session.work.bodies;
+    if (shapes_.built(shape) != nullptr || shapes_.has_failed(shape)) return limit;
+    const double lower = lower_distance(bodies_, body, probe.center);
+    if (lower <= limit) {
+      limit = lower;
+      found = shape;
+    }
+    return limit;
+  });
   if (found == PlacedBody::no_shape) return false;
   shapes_.make(found);
   return true;

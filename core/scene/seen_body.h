@@ -2,9 +2,7 @@
 /// there differ from those to the body's image. docs/exactness.md, E27.
 #pragma once
 
-#include <array>
 #include <limits>
-#include <optional>
 
 #include "core/exact/feature.h"
 #include "core/probe.h"
@@ -60,14 +58,18 @@ struct SeenTriangle {
 /// The images of one body's triangles as seen from the point.
 class SeenCorners {
  public:
-  explicit SeenCorners(const SeenBody& body) noexcept;
+  explicit SeenCorners(const SeenBody& body) noexcept
+      : SeenCorners(body.pose(), body.center(), body.point()) {}
+  /// `center` is the point in the body's frame, as in_frame rounds it. The pose outlives this.
+  SeenCorners(const Pose& pose, const Vec3& center, const Vec3& point) noexcept;
   SeenTriangle operator()(const TriangleCorners& triangle) const noexcept;
   /// What a corner so far from the point may be off by, also where a triangle's fourth powers underflow.
   double error_at(double longest) const noexcept;
 
  private:
-  const SeenBody* body_;
-  Vec3 rest_;          ///< from the point to the image of the body's `center`
+  const Pose* pose_;
+  Vec3 center_;
+  Vec3 rest_;          ///< from the point to the image of `center_`
   double rest_error_;  ///< bounds how far it is off
 };
 

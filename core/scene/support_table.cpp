@@ -4,16 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "core/geometry/float_rounding.h"
+
 namespace touchmark {
 namespace {
 
 constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
-
-/// Returns a float that is no less than x.
-float raised_to_float(double x) noexcept {
-  const auto near = static_cast<float>(x);
-  return static_cast<double>(near) >= x ? near : std::nextafter(near, std::numeric_limits<float>::infinity());
-}
 
 }  // namespace
 
@@ -21,22 +17,31 @@ SupportTable::SupportTable(std::span<const Vec3> points, const Vec3& center, dou
     : pad_(64 * unit_roundoff * (radius + beyond)) {
   for (int axis = 0; axis < 3; ++axis) {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    // All places at once for each point, of which there may be many.
+    std::array<std::array<double, places>, places> least, greatest;
+    for (std::size_t i = 0; i < places; ++i) {
+      least[i].fill(std::numeric_limits<double>::infinity());
+      greatest[i].fill(-std::numeric_limits<double>::infinity());
+    }
+    for (const Vec3& point : points) {
+      for (std::size_t i = 0; i < places; ++i) {
+        const double part = (point[axis] - center[axis]) + coordinate(i) * (point[u] - center[u]);
+        for (std::size_t j = 0; j < places; ++j) {
+          const double along = part + coordinate(j) * (point[v] - center[v]);
+          least[i][j] = std::min(least[i][j], along);
+          greatest[i][j] = std::max(greatest[i][j], along);
+        }
+      }
+    }
+    auto& [positive, negative] = faces_[static_cast<std::size_t>(axis)];
     for (std::size_t i = 0; i < places; ++i) {
       for (std::size_t j = 0; j < places; ++j) {
         const double a = coordinate(i), b = coordinate(j);
-        double least = std::numeric_limits<double>::infinity(), greatest = -least;
-        for (const Vec3& point : points) {
-          const double along =
-              (point[axis] - center[axis]) + a * (point[u] - center[u]) + b * (point[v] - center[v]);
-          least = std::min(least, along);
-          greatest = std::max(greatest, along);
-        }
         // The direction is up to 3 long, and the sum off by five roundings.
         const double farther = beyond * std::sqrt(1 + a * a + b * b) + pad_;
-        auto& [positive, negative] = faces_[static_cast<std::size_t>(axis)];
-        positive[i][j] = raised_to_float(greatest + farther);
-        // Of the opposite direction, whose coordinates are the other way round.
-        negative[places - 1 - i][places - 1 - j] = raised_to_float(-least + farther);
+        positive[i][j] = rounded_up(greatest[i][j] + farther);
+        // The opposite direction's coordinates are the other way round.
+        negative[places - 1 - i][places - 1 - j] = rounded_up(-least[i][j] + farther);
       }
     }
   }

@@ -3,9 +3,12 @@
 #include <limits>
 
 #include "core/geometry/distance_error.h"
+#include "core/geometry/widest_offset.h"
 #include "core/scene/near_surface.h"
 #include "core/search/listed_plane.h"
+#include "core/simd/dispatch.h"  // IWYU pragma: keep
 #include "core/simd/lanes.h"
+#include "core/simd/wide.h"
 
 namespace touchmark {
 namespace {
@@ -13,6 +16,31 @@ namespace {
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 }  // namespace
+}  // namespace touchmark
+
+#if TOUCHMARK_HAS_AVX2
+TOUCHMARK_TARGET("avx2")
+namespace touchmark {
+
+/// within, eight at a time: the same bits.
+SurfaceList::Bits SurfaceList::within_by_eights(const Move& move, float farthest) const noexcept {
+  Bits near{};
+  for (std::uint32_t i = 0; i < count_; i += 8) {
+    const auto at = [i](const std::array<float, capacity>& of) -> avx2::Wide {
+      return _mm256_loadu_ps(&of[i]);
+    };
+    const avx2::Wide bound =
+        at(plane_.bound) + move.x * at(plane_.x) + move.y * at(plane_.y) + move.z * at(plane_.z);
+    near[i / 64] |= std::uint64_t{avx2::to_bits(bound <= farthest)} << (i % 64);
+  }
+  return near;
+}
+
+}  // namespace touchmark
+TOUCHMARK_END_TARGET
+#endif
+
+namespace touchmark {
 
 void SurfaceList::start(const Vec3& center, double covered) noexcept {
   center_ = center;
@@ -46,7 +74,7 @@ bool SurfaceList::add(std::uint32_t body, const SeenBody& seen, const TriangleMe
     plane_.z[count_] = listed.z[i];
     turn(count_, seen.pose());
   }
-  for (std::uint32_t i = count_; i % 4 != 0; ++i) {
+  for (std::uint32_t i = count_; i % 8 != 0; ++i) {
     plane_.bound[i] = infinity;
     plane_.x[i] = plane_.y[i] = plane_.z[i] = 0;
   }
@@ -74,6 +102,9 @@ float SurfaceList::padded(double limit, const Move& move) const noexcept {
 
 SurfaceList::Bits SurfaceList::within(const Move& move, double limit) const noexcept {
   const float farthest = padded(limit, move);
+#if TOUCHMARK_HAS_AVX2
+  if (has_avx2) return within_by_eights(move, farthest);
+#endif
   const Lanes x = broadcast(move.x), y = broadcast(move.y), z = broadcast(move.z);
   Bits near{};
   for (std::uint32_t i = 0; i < count_; i += 4) {
@@ -113,7 +144,7 @@ const Vec3& SurfaceList::InFrames::of(std::uint8_t slot, const Body& body) noexc
 double SurfaceList::measure(std::uint32_t place, double limit, InFrames& point) noexcept {
   const Body& body = body_of(place);
   const PreparedTriangle& triangle = *triangle_[place];
-  const Offset found = offset_from(triangle, point.of(body_[place], body));
+  const Offset found = widest_offset_from(triangle, point.of(body_[place], body));
   const double distance = std::sqrt(found.squared);
   if (distance > limit + 4 * error_ &&
       set_plane_across(plane_, place, triangle, body.center, found, error_, 1))

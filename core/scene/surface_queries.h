@@ -6,6 +6,7 @@
 
 #include "core/scene/scene.h"
 #include "core/scene/seen_body.h"
+#include "core/search/last_question.h"
 #include "core/search/listed_triangles.h"
 
 namespace touchmark {
@@ -31,7 +32,7 @@ bool Scene<D>::list_surface(const Vec3& point, double reach, Session& session) c
     session.work += own.work;
     own.work = {};
   };
-  session.work.boxes += bodies_.tree().for_each_within({center, center}, *radius, [&](std::uint32_t body) {
+  session.work.boxes += bodies_.tree().for_each_within(center, *radius, [&](std::uint32_t body) {
     ++session.work.bodies;
     const double lower = lower_distance(bodies_, body, center);
     if (lower <= *radius) add(body, lower);
@@ -46,19 +47,41 @@ bool Scene<D>::list_surface(const Vec3& point, double reach, Session& session) c
 template <Detector D>
 requires AnswersNearest<D> && AnswersContacts<D>
 template <class Ask>
-NearSurface::Found Scene<D>::ask_surface(const Vec3& point, double reach, Session& session,
+NearSurface::Found Scene<D>::ask_surface(const Vec3& point, const LastQuestion& question, Session& session,
                                          const Ask& ask) const noexcept {
   using Found = NearSurface::Found;
   if constexpr (ListsTriangles<D>) {
-    if (session.near.all_are_beyond(point, reach, bodies_)) return Found::nothing;
+    if (session.near.all_are_beyond(point, question.reach, bodies_)) return Found::nothing;
+    session.last.note(question, point, bodies_);
     if (session.near.is_jumping()) return Found::unknown;
     Found answer = ask(session.surface);
-    if (answer == Found::unknown && list_surface(point, reach, session)) answer = ask(session.surface);
+    if (answer == Found::unknown && list_surface(point, question.reach, session))
+      answer = ask(session.surface);
     if (answer != Found::unknown) session.near.was_at(point);
     if (answer == Found::nothing) session.near.know_clear(point, session.surface.clearance(), bodies_);
     return answer;
   }
   return Found::unknown;
+}
+
+template <Detector D>
+requires AnswersNearest<D> && AnswersContacts<D>
+bool Scene<D>::ask_again(Session& session) const noexcept {
+  using Query = LastQuestion::Query;
+  const SceneQuestion last = session.last;
+  const auto [query, reach] = last.question;
+  if (query == Query::none || last.scene == SceneState::of(bodies_) || session.near.is_jumping())
+    return false;
+  // The first answer bounds the second one's distance, without which no list is made.
+  for (const Vec3& point : {last.point, Vec3(last.point + last.way)}) {
+    if (query == Query::touches)
+      touches({point, reach}, session);
+    else
+      nearest_body({point, 0}, reach, session);
+  }
+  session.last = last;
+  session.last.scene = SceneState::of(bodies_);
+  return true;
 }
 
 }  // namespace touchmark

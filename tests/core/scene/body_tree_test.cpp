@@ -5,28 +5,18 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "bench/support/random.h"
+
 namespace touchmark {
 namespace {
 
+using bench::support::Random;
+
 using Boxes = std::map<std::uint32_t, Aabb>;
-
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double between(double low, double high) {
-    return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
-  }
-  Vec3 vector(double size) { return {between(-size, size), between(-size, size), between(-size, size)}; }
-  std::uint32_t below(std::size_t end) { return static_cast<std::uint32_t>(engine_() % end); }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 Aabb box_about(const Vec3& center, const Vec3& size) {
   Aabb box;
@@ -46,6 +36,14 @@ void expect_finds_all_within(const BodyTree& tree, const Boxes& boxes, const Aab
     ++visited[body];
     return limit;
   });
+  if (region.min == region.max) {
+    std::map<std::uint32_t, int> about_point;
+    tree.for_each_within(region.min, limit, [&](std::uint32_t body) {
+      ++about_point[body];
+      return limit;
+    });
+    EXPECT_EQ(about_point, visited);
+  }
   for (const auto& [body, times] : visited) {
     EXPECT_EQ(times, 1) << body;
     EXPECT_EQ(boxes.count(body), 1u) << body;
@@ -61,14 +59,14 @@ void expect_follows(std::uint64_t seed, std::uint32_t bodies, double size, const
   BodyTree tree;
   Boxes boxes;
   for (int step = 0; step < 3000; ++step) {
-    const std::uint32_t body = random.below(bodies);
+    const auto body = static_cast<std::uint32_t>(random.below(bodies));
     // Growing, then shrinking to nothing, then growing again.
     const double share = step % 1500 < 1000 ? 0.2 : 0.9;
     const bool leaves = boxes.count(body) != 0 && random.between(0, 1) < share;
     if (boxes.count(body) != 0) tree.remove(body);
     boxes.erase(body);
     if (!leaves) {
-      const Aabb box = box_about(place(random), random.vector(0.05 * size));
+      const Aabb box = box_about(place(random), random.point(0.05 * size));
       const double margin = random.below(2) == 0 ? 0 : 0.1 * size;
       tree.insert(body, box, margin);
       boxes[body] = box;
@@ -77,7 +75,7 @@ void expect_follows(std::uint64_t seed, std::uint32_t bodies, double size, const
     if (step % 10 != 0) continue;
     const Vec3 from = place(random);
     Aabb region = {from, from};
-    if (random.below(2) == 0) region.extend(from + random.vector(0.1 * size));
+    if (random.below(2) == 0) region.extend(from + random.point(0.1 * size));
     for (const double limit : {0.0, 0.1 * size, 0.5 * size, std::numeric_limits<double>::infinity()})
       expect_finds_all_within(tree, boxes, region, limit);
   }
@@ -90,7 +88,7 @@ void expect_follows(std::uint64_t seed, std::uint32_t bodies, double size, const
 }
 
 TEST(BodyTree, FindsWhoComesGoesAndMovesAnywhere) {
-  expect_follows(1, 300, 1, [](Random& random) { return random.vector(1); });
+  expect_follows(1, 300, 1, [](Random& random) { return random.point(1); });
 }
 
 TEST(BodyTree, FindsThoseThatAreAllAtOnePlace) {
@@ -111,7 +109,7 @@ TEST(BodyTree, FindsThoseOnALineInOrder) {
 
 TEST(BodyTree, FindsThoseOfSizesNearTheEndsOfSinglePrecision) {
   for (const double size : {1e-44, 1e-30, 1e30, 1e38, 1e200})
-    expect_follows(5, 100, size, [&](Random& random) { return random.vector(size); });
+    expect_follows(5, 100, size, [&](Random& random) { return random.point(size); });
 }
 
 TEST(BodyTree, FindsABodyWhosePlaceIsNoNumberFromAnywhere) {
@@ -120,12 +118,12 @@ TEST(BodyTree, FindsABodyWhosePlaceIsNoNumberFromAnywhere) {
   Boxes boxes;
   Random random(6);
   for (std::uint32_t i = 0; i < 100; ++i) {
-    boxes[i] = box_about(random.vector(1), random.vector(0.1));
+    boxes[i] = box_about(random.point(1), random.point(0.1));
     if (i % 10 == 3) boxes[i] = {Vec3::Constant(-infinity), Vec3::Constant(infinity)};
     tree.insert(i, boxes[i], 0);
   }
   for (int i = 0; i < 100; ++i) {
-    const Vec3 at = random.vector(2);
+    const Vec3 at = random.point(2);
     expect_finds_all_within(tree, boxes, {at, at}, 0.1);
   }
   for (std::uint32_t i = 0; i < 100; ++i) tree.remove(i);
@@ -139,14 +137,14 @@ TEST(BodyTree, GoesOnWithTheLimitThatAVisitReturns) {
   BodyTree tree;
   std::vector<Vec3> places;
   for (std::uint32_t i = 0; i < 500; ++i) {
-    places.push_back(random.vector(1));
+    places.push_back(random.point(1));
     tree.insert(i, {places[i], places[i]}, 0);
   }
   for (int i = 0; i < 200; ++i) {
-    const Vec3 at = random.vector(1.5);
+    const Vec3 at = random.point(1.5);
     double nearest = std::numeric_limits<double>::infinity();
     std::size_t visits = 0;
-    tree.for_each_within({at, at}, nearest, [&](std::uint32_t body) {
+    tree.for_each_within(Aabb{at, at}, nearest, [&](std::uint32_t body) {
       ++visits;
       return nearest = std::min(nearest, (places[body] - at).norm());
     });
@@ -154,7 +152,7 @@ TEST(BodyTree, GoesOnWithTheLimitThatAVisitReturns) {
     for (const Vec3& place : places) expected = std::min(expected, (place - at).norm());
     EXPECT_EQ(nearest, expected);
     EXPECT_LE(visits, 100u);
-    tree.for_each_within({at, at}, 10, [&](std::uint32_t) {
+    tree.for_each_within(at, 10, [&](std::uint32_t) {
       ++visits;
       return -1.0;
     });
@@ -167,13 +165,13 @@ TEST(BodyTree, TakesBoxesFromAnotherTree) {
   BodyTree tree, copy;
   Boxes boxes;
   for (std::uint32_t i = 0; i < 200; ++i) {
-    boxes[i] = box_about(random.vector(1), random.vector(0.1));
+    boxes[i] = box_about(random.point(1), random.point(0.1));
     tree.insert(i, boxes[i], 0.1);
     copy.insert_as_in(i, tree);
     EXPECT_EQ(copy.room(i, boxes[i]), tree.room(i, boxes[i]));
   }
   for (int i = 0; i < 100; ++i) {
-    const Vec3 at = random.vector(2);
+    const Vec3 at = random.point(2);
     expect_finds_all_within(copy, boxes, {at, at}, 0.2);
   }
 }

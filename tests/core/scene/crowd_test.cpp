@@ -5,7 +5,6 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -15,25 +14,12 @@
 #include "core/scene/shared_scene.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 #include "tests/core/scene/exact_scene.h"
+#include "tests/core/scene/random_pose.h"
 
 namespace touchmark {
 namespace {
 
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double between(double low, double high) {
-    return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
-  }
-  Vec3 vector(double size) { return {between(-size, size), between(-size, size), between(-size, size)}; }
-  std::size_t below(std::size_t end) { return engine_() % end; }
-  Pose pose(const Vec3& position) {
-    return pose_of(position, between(-1, 1), between(-1, 1), between(-1, 1), between(-1, 1) + 1e-3);
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
+using test::Random, test::random_pose;
 
 TriangleMesh tetrahedron(const Vec3& size, const Vec3& center) {
   std::vector<Vec3> corners;
@@ -74,12 +60,12 @@ class Crowd {
     } else if (kind == 5) {
       come(at_);
     } else if (kind == 6) {
-      move(any(), random_.pose(at_));
+      move(any(), random_pose(random_, at_));
     }
     scene_.publish();
   }
-  void slide() { at_ += random_.vector(random_.below(4) == 0 ? 0.1 : 0.01); }
-  void jump() { at_ = middle_ + random_.vector(4); }
+  void slide() { at_ += random_.point(random_.below(4) == 0 ? 0.1 : 0.01); }
+  void jump() { at_ = middle_ + random_.point(4); }
 
   void ask() {
     const auto frame = scene_.read();
@@ -128,10 +114,10 @@ class Crowd {
     std::advance(it, static_cast<std::ptrdiff_t>(random_.below(bodies_.size())));
     return it->first;
   }
-  void come() { come(middle_ + random_.vector(3)); }
+  void come() { come(middle_ + random_.point(3)); }
   void come(const Vec3& place) {
     const std::size_t shape = random_.below(shapes_.size());
-    const Pose pose = random_.pose(place);
+    const Pose pose = random_pose(random_, place);
     const BodyId id = scene_.add(shapes_[shape], pose);
     bodies_[id.index] = {id, shape, pose};
   }
@@ -145,12 +131,12 @@ class Crowd {
     bodies_.at(index).pose = pose;
     scene_.move(bodies_.at(index).id, pose);
   }
-  void teleport() { move(any(), random_.pose(middle_ + random_.vector(3))); }
+  void teleport() { move(any(), random_pose(random_, middle_ + random_.point(3))); }
   void drift(double step) {
     for (auto& [index, body] : bodies_) {
       Pose pose = body.pose;
-      pose.translation += random_.vector(step);
-      if (random_.below(4) == 0) pose = random_.pose(pose.translation);
+      pose.translation += random_.point(step);
+      if (random_.below(4) == 0) pose = random_pose(random_, pose.translation);
       move(index, pose);
     }
   }

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <numbers>
-#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -15,27 +13,14 @@
 #include "core/grid_group/grid_group.h"
 #include "core/scene/scene.h"
 #include "core/sphere_cluster/sphere_cluster.h"
+#include "tests/core/scene/random_pose.h"
 
 namespace touchmark {
 namespace {
 
+using test::Random, test::random_pose;
+
 constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
-
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double between(double low, double high) {
-    return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
-  }
-  Vec3 vector(double size) { return {between(-size, size), between(-size, size), between(-size, size)}; }
-  std::size_t below(std::size_t end) { return engine_() % end; }
-  Pose pose(const Vec3& position) {
-    return pose_of(position, between(-1, 1), between(-1, 1), between(-1, 1), between(-1, 1) + 1e-3);
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 TriangleMesh box(const Vec3& half, const Vec3& center = Vec3::Zero()) {
   std::vector<Vec3> v;
@@ -70,9 +55,9 @@ TriangleMesh soup(std::uint64_t seed) {
   std::vector<Vec3> v;
   std::vector<TriangleMesh::Corners> t;
   for (std::uint32_t i = 0; i < 16; ++i) {
-    const Vec3 a = random.vector(1);
+    const Vec3 a = random.point(1);
     const double size = std::pow(10.0, random.between(-6, 0));
-    v.insert(v.end(), {a, a + random.vector(size), i % 5 == 0 ? a : Vec3(a + random.vector(size))});
+    v.insert(v.end(), {a, a + random.point(size), i % 5 == 0 ? a : Vec3(a + random.point(size))});
     t.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
   return TriangleMesh(v, t);
@@ -164,7 +149,7 @@ struct Twin {
 
   void check_sweep(const Vec3& point, double distance) {
     Random random(asked);
-    const Vec3 to = point + random.vector(1.5 * distance + 1e-3);
+    const Vec3 to = point + random.point(1.5 * distance + 1e-3);
     const double radius = random.below(3) == 0 ? 0 : random.between(0, 1.1) * distance;
     const Sweep sweep{point, to, radius};
     const exact_scene::Number exact_radius(radius);
@@ -209,7 +194,7 @@ void check_points(Twin<D>& twin, Random& random, int count, double spread) {
     const exact_scene::Body& body = twin.bodies[random.below(twin.bodies.size())];
     const Vec3 corner = image(body.pose, body.mesh->vertices()[random.below(body.mesh->vertices().size())]);
     const double off = std::pow(10.0, random.between(-17, 0)) * spread;
-    twin.check(i % 4 == 0 ? corner : Vec3(corner + random.vector(off)));
+    twin.check(i % 4 == 0 ? corner : Vec3(corner + random.point(off)));
   }
 }
 
@@ -219,17 +204,17 @@ TYPED_TEST(ExactScene, OfBodiesThatMoveTeleportComeAndGoIsRight) {
   twin.shape(box({1, 0.5, 0.25}));
   twin.shape(octahedron());
   twin.shape(soup(7));
-  for (int i = 0; i < 12; ++i) twin.add(random.below(3), random.pose(random.vector(4)));
+  for (int i = 0; i < 12; ++i) twin.add(random.below(3), random_pose(random, random.point(4)));
   for (int tick = 0; tick < 16 && !this->HasFailure(); ++tick) {
     for (std::size_t i = 0; i < twin.bodies.size(); i += 1 + random.below(2)) {
       Pose pose = twin.bodies[i].pose;
       pose.rotation =
           (pose_of({0, 0, 0}, 1, 1e-9, random.between(-1e-3, 1e-3), 0).rotation * pose.rotation).eval();
-      pose.translation += random.vector(1e-3);
-      twin.move(i, random.below(20) == 0 ? random.pose(random.vector(4)) : pose);
+      pose.translation += random.point(1e-3);
+      twin.move(i, random.below(20) == 0 ? random_pose(random, random.point(4)) : pose);
     }
     if (tick % 5 == 1) twin.remove(random.below(twin.bodies.size()));
-    if (tick % 5 == 3) twin.add(random.below(3), random.pose(random.vector(4)));
+    if (tick % 5 == 3) twin.add(random.below(3), random_pose(random, random.point(4)));
     check_points(twin, random, 3, 1);
   }
 }
@@ -239,7 +224,7 @@ TYPED_TEST(ExactScene, OfBodiesAtOnePlaceNamesTheLowest) {
   Twin<TypeParam> twin;
   twin.shape(box({1, 1, 1}));
   twin.shape(octahedron());
-  const Pose pose = random.pose({0.3, 0.2, 0.1});
+  const Pose pose = random_pose(random, {0.3, 0.2, 0.1});
   for (int i = 0; i < 20; ++i) twin.add(i == 0 || i > 3 ? 1 : 0, pose);
   check_points(twin, random, 8, 1);
   twin.remove(0);
@@ -254,7 +239,7 @@ TYPED_TEST(ExactScene, OfNestedBodiesIsRight) {
   for (std::size_t i = 0; i < 6; ++i) twin.add(i, Pose());
   check_points(twin, random, 12, 0.1);
   twin.check({0, 0, 0});  // six walls as far
-  for (std::size_t i = 0; i < 6; ++i) twin.move(i, random.pose({0, 0, 0}));
+  for (std::size_t i = 0; i < 6; ++i) twin.move(i, random_pose(random, {0, 0, 0}));
   check_points(twin, random, 12, 0.1);
   twin.check({0, 0, 0});
 }
@@ -266,7 +251,7 @@ TYPED_TEST(ExactScene, FarFromTheOriginIsRight) {
     twin.shape(box({1, 2, 1}));
     twin.shape(octahedron());
     const Vec3 far(offset, -offset, 0.5 * offset);
-    for (int i = 0; i < 6; ++i) twin.add(random.below(2), random.pose(far + random.vector(4)));
+    for (int i = 0; i < 6; ++i) twin.add(random.below(2), random_pose(random, far + random.point(4)));
     check_points(twin, random, 8, 1);
   }
 }
@@ -277,9 +262,9 @@ TYPED_TEST(ExactScene, OfMeshesFarFromTheirOwnOriginIsRight) {
   const Vec3 far(0x1p40, 3e11, -1e12);
   twin.shape(box({1, 2, 1}, far));
   twin.shape(box({3, 1, 1}, far + Vec3(7, 0, 0)));
-  const Pose turn = random.pose({0, 0, 0});
+  const Pose turn = random_pose(random, {0, 0, 0});
   for (int i = 0; i < 4; ++i)
-    twin.add(random.below(2), {turn.rotation, -(turn.rotation * far) + random.vector(5)});
+    twin.add(random.below(2), {turn.rotation, -(turn.rotation * far) + random.point(5)});
   check_points(twin, random, 12, 1);
 }
 
@@ -300,7 +285,7 @@ TYPED_TEST(ExactScene, OfMatricesOffOrthonormalByRoundingIsRight) {
   twin.shape(box({1, 1, 1}));
   twin.shape(soup(3));
   for (int i = 0; i < 6; ++i) {
-    Pose pose = random.pose(random.vector(1.5));
+    Pose pose = random_pose(random, random.point(1.5));
     for (double& entry : pose.rotation.reshaped()) entry *= 1 + random.between(-1, 1) * 0x1p-36;
     twin.add(random.below(2), pose);
   }
@@ -312,7 +297,7 @@ TYPED_TEST(ExactScene, OfAnySizeIsRight) {
     Random random(8);
     Twin<TypeParam> twin;
     twin.shape(box({size, size, 0.5 * size}));
-    for (int i = 0; i < 3; ++i) twin.add(0, random.pose(random.vector(2 * size)));
+    for (int i = 0; i < 3; ++i) twin.add(0, random_pose(random, random.point(2 * size)));
     check_points(twin, random, 3, size);
   }
 }

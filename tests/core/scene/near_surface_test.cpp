@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -11,31 +10,14 @@
 #include "core/brute_force/brute_force.h"
 #include "core/scene/scene.h"
 #include "core/sphere_cluster/sphere_cluster.h"
+#include "tests/core/scene/random_pose.h"
 
 namespace touchmark {
 namespace {
 
+using test::Random, test::random_pose;
+
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : bits_(seed) {}
-  double between(double low, double high) {
-    return low + (high - low) * static_cast<double>(bits_() >> 11) * 0x1p-53;
-  }
-  Vec3 vector(double size) {
-    const double x = between(-size, size), y = between(-size, size);
-    return {x, y, between(-size, size)};
-  }
-  Pose pose(const Vec3& position) {
-    const double w = between(-1, 1), x = between(-1, 1), y = between(-1, 1);
-    return pose_of(position, w, x, y, between(0.1, 1));
-  }
-  std::size_t below(std::size_t count) { return bits_() % count; }
-
- private:
-  std::mt19937_64 bits_;
-};
 
 /// A closed bumpy ball of about the diameter 1, of 2 * n * n triangles.
 TriangleMesh ball(int n, double bumps, double scale) {
@@ -83,8 +65,8 @@ class NearSurfaces : public testing::TestWithParam<Setting> {
     Random random(7);
     for (int i = 0; i < 27; ++i) {
       const Vec3 cell(i % 3, i / 3 % 3, i / 9);
-      Pose pose =
-          random.pose(GetParam().scale * (GetParam().crowd * cell + random.vector(0.1)) + GetParam().offset);
+      Pose pose = random_pose(
+          random, GetParam().scale * (GetParam().crowd * cell + random.point(0.1)) + GetParam().offset);
       pose.rotation(0, 1) += GetParam().rigid_off;
       const ShapeId shape{static_cast<std::uint32_t>(random.below(GetParam().twins ? 2 : 4))};
       for (int copies = GetParam().twins ? 2 : 1; copies > 0; --copies) {
@@ -123,8 +105,8 @@ TEST_P(NearSurfaces, ChangeNoAnswerAlongWaysAndAtChanges) {
   const double scale = GetParam().scale;
   Random random(11);
   for (int way = 0; way < 12 && !HasFailure(); ++way) {
-    Vec3 point = GetParam().offset + scale * (GetParam().crowd * Vec3(1, 1, 1) + random.vector(0.8));
-    const Vec3 step = random.vector(way % 3 == 0 ? 0.001 : way % 3 == 1 ? 0.01 : 0.05) * scale;
+    Vec3 point = GetParam().offset + scale * (GetParam().crowd * Vec3(1, 1, 1) + random.point(0.8));
+    const Vec3 step = random.point(way % 3 == 0 ? 0.001 : way % 3 == 1 ? 0.01 : 0.05) * scale;
     const double reach = way % 4 == 3 ? infinity : scale * random.between(0, 0.2);
     for (int tick = 0; tick < 60 && !HasFailure(); ++tick, point += step) {
       SCOPED_TRACE(testing::Message() << "way " << way << ", tick " << tick);
@@ -133,7 +115,7 @@ TEST_P(NearSurfaces, ChangeNoAnswerAlongWaysAndAtChanges) {
         const auto near = plain.nearest_body({point, 0}, infinity, plain_session);
         const BodyId which = tick % 16 == 7 ? near->body : ids[random.below(ids.size())];
         Pose pose = listing.pose(which);
-        pose.translation += random.vector(0.02) * scale;
+        pose.translation += random.point(0.02) * scale;
         listing.move(which, pose);
         plain.move(which, pose);
       }
@@ -147,8 +129,8 @@ TEST_P(NearSurfaces, SeeWhoIsRemovedWhileTouchedAndWhoAppears) {
   Random random(13);
   const ShapeId shape{1};
   for (int way = 0; way < 8 && !HasFailure(); ++way) {
-    Vec3 point = GetParam().offset + scale * (GetParam().crowd * Vec3(1, 1, 1) + random.vector(0.4));
-    const Vec3 step = random.vector(0.004) * scale;
+    Vec3 point = GetParam().offset + scale * (GetParam().crowd * Vec3(1, 1, 1) + random.point(0.4));
+    const Vec3 step = random.point(0.004) * scale;
     for (int tick = 0; tick < 24 && !HasFailure(); ++tick, point += step) {
       SCOPED_TRACE(testing::Message() << "way " << way << ", tick " << tick);
       expect_alike(point, 0.2 * scale);
@@ -181,7 +163,7 @@ TEST(NearSurface, ASlowWayLooksAtFewBodies) {
   Scene<SphereCluster> scene;
   const ShapeId shape = scene.add_shape(Shape<SphereCluster>::build(ball(12, 0.05, 1)));
   Random random(3);
-  for (int i = 0; i < 64; ++i) scene.add(shape, random.pose(0.5 * Vec3(i % 4, i / 4 % 4, i / 16)));
+  for (int i = 0; i < 64; ++i) scene.add(shape, random_pose(random, 0.5 * Vec3(i % 4, i / 4 % 4, i / 16)));
   Scene<SphereCluster>::Session session;
   Vec3 point(0.8, 0.7, 0.75);
   const Vec3 step(1e-4, 2e-4, -1e-4);

@@ -2,19 +2,20 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <random>
 #include <vector>
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
+#include "bench/support/random.h"
 #include "core/scene/scene.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 #include "tests/core/scene/exact_scene.h"
 
 namespace touchmark {
 namespace {
+
+using bench::support::Random;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
@@ -123,29 +124,17 @@ void check(const World& world, const Vec3& point, RoundScene::Session& session) 
   }
 }
 
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double between(double low, double high) {
-    return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
-  }
-  Vec3 vector(double size) { return {between(-size, size), between(-size, size), between(-size, size)}; }
-
- private:
-  std::mt19937_64 engine_;
-};
-
 /// Spheres, capsules and a box, anywhere within a few of their sizes.
 World world_of(std::uint64_t seed, double scale, const Vec3& offset) {
   Random random(seed);
   World world;
   const auto pose = [&] {
-    const Vec3 at = offset + random.vector(2 * scale);
+    const Vec3 at = offset + random.point(2 * scale);
     return pose_of(at, random.between(-1, 1), random.between(-1, 1), random.between(-1, 1), 0.1);
   };
-  for (int i = 0; i < 3; ++i) world.sphere(random.vector(scale), random.between(0.1, 2) * scale, pose());
+  for (int i = 0; i < 3; ++i) world.sphere(random.point(scale), random.between(0.1, 2) * scale, pose());
   for (int i = 0; i < 3; ++i)
-    world.add({axis(random.vector(scale), random.vector(scale)), random.between(0.1, 2) * scale, pose()});
+    world.add({axis(random.point(scale), random.point(scale)), random.between(0.1, 2) * scale, pose()});
   world.add({TriangleMesh({scale * Vec3(1, 0, 0), scale * Vec3(0, 1, 0), scale * Vec3(0, 0, 1), Vec3::Zero()},
                           {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}),
              0, pose()});
@@ -155,12 +144,12 @@ World world_of(std::uint64_t seed, double scale, const Vec3& offset) {
 /// Some points anywhere, some on axes and some all but on surfaces.
 std::vector<Vec3> points_of(const World& world, Random& random, double scale, const Vec3& offset) {
   std::vector<Vec3> points;
-  for (int i = 0; i < 12; ++i) points.push_back(offset + random.vector(5 * scale));
+  for (int i = 0; i < 12; ++i) points.push_back(offset + random.point(5 * scale));
   for (const Body& body : world.bodies) {
     const Vec3 on_axis = image(body.pose, body.mesh.corner(0, 0));
     points.push_back(on_axis);
-    points.push_back(on_axis + random.vector(1).normalized() * body.radius);
-    points.push_back(on_axis + random.vector(1e-12 * scale));
+    points.push_back(on_axis + random.point(1).normalized() * body.radius);
+    points.push_back(on_axis + random.point(1e-12 * scale));
   }
   return points;
 }
@@ -223,8 +212,8 @@ TEST_P(AtScale, HitsOnWaysFromOutsideAndFromWithin) {
   RoundScene::Session session;
   for (const Vec3& from : points_of(world, random, scale, offset)) {
     for (const double radius : {0.0, 0.01 * scale}) {
-      check_way(world, {from, from + random.vector(0.2 * scale), radius}, session);
-      check_way(world, {from, offset + random.vector(4 * scale), radius}, session);
+      check_way(world, {from, from + random.point(0.2 * scale), radius}, session);
+      check_way(world, {from, offset + random.point(4 * scale), radius}, session);
       check_way(world, {from, from, radius}, session);
     }
   }

@@ -56,6 +56,18 @@ TEST(Scene, FollowsBodiesThatMoveAndForgetsThoseRemoved) {
   EXPECT_NE(next, body);
 }
 
+TEST(Scene, MovesNoBodyToAPoseThatIsNotRigid) {
+  Scene<BruteForce> scene;
+  const BodyId body = scene.add(scene.add_shape(Shape<BruteForce>::build(square())), at(0, 0, 0));
+  Pose reflected, sheared;
+  reflected.rotation(2, 2) = -1;
+  sheared.rotation(0, 1) = 1e-5;
+  for (const Pose& pose : {reflected, sheared, at(0, std::nan(""), 0), at(0, 0, HUGE_VAL)}) {
+    EXPECT_THROW(scene.move(body, pose), PoseError);
+    EXPECT_EQ(scene.pose(body), at(0, 0, 0));
+  }
+}
+
 TEST(Scene, GivesTheContactsOfAllBodiesNearestFirst) {
   Scene<BruteForce> scene;
   const ShapeId shape = scene.add_shape(Shape<BruteForce>::build(square()));
@@ -137,6 +149,58 @@ TEST(Scene, PreparesInFreeSpaceWithoutALookAtABodyAndAnswersAsBefore) {
   EXPECT_TRUE(scene.touches(probe, session));
   scene.prepare(session);
   EXPECT_EQ(scene.nearest_body(probe, 1, session)->contact.distance, 0.25);
+}
+
+TEST(Scene, PreparedAfterAMoveBesideABodyLooksAtNoBodyAndAnswersAsItWouldHave) {
+  Scene<SphereCluster> scene;
+  const ShapeId shape = scene.add_shape(Shape<SphereCluster>::build(square()));
+  const BodyId body = scene.add(shape, at(0, 0, 0));
+  for (int i = 1; i < 100; ++i) scene.add(shape, at(0, 0, -3 * i));
+  Scene<SphereCluster>::Session prepared, plain;
+  std::uint64_t looked_prepared = 0, looked_plain = 0;
+  for (int tick = 0; tick < 64; ++tick) {
+    const Probe probe{{0.001 * tick, 0, 0.3}, 0.25};
+    if (tick % 8 == 0) {
+      scene.move(body, at(0, 0, 1e-4 * tick));
+      scene.prepare(prepared);
+    }
+    const std::uint64_t before_prepared = prepared.work.bodies, before_plain = plain.work.bodies;
+    const auto expected = scene.nearest_body(probe, 0.5, plain);
+    const auto found = scene.nearest_body(probe, 0.5, prepared);
+    ASSERT_TRUE(expected && found);
+    EXPECT_EQ(found->body, expected->body);
+    EXPECT_EQ(found->contact.distance, expected->contact.distance);
+    EXPECT_EQ(found->contact.triangle, expected->contact.triangle);
+    if (tick < 16) continue;  // a list that served less than four queries is not made again at once
+    looked_prepared += prepared.work.bodies - before_prepared;
+    looked_plain += plain.work.bodies - before_plain;
+  }
+  EXPECT_EQ(looked_prepared, 0u);
+  EXPECT_GE(looked_plain, 6u);  // at least one in each of the six frames
+}
+
+TEST(Scene, PreparedInFreeSpaceStillKnowsWhatWasAskedLast) {
+  Scene<SphereCluster> scene;
+  const BodyId body = scene.add(scene.add_shape(Shape<SphereCluster>::build(square())), at(0, 0, 0));
+  Scene<SphereCluster>::Session session;
+  EXPECT_FALSE(scene.nearest_body({{0, 0, 2}, 0}, 0.5, session));
+  scene.move(body, at(0, 0, 0.25));
+  scene.prepare(session);
+  EXPECT_EQ(session.last.question.query, LastQuestion::Query::nearest);
+  EXPECT_EQ(session.last.question.reach, 0.5);
+  EXPECT_EQ(session.last.point, Vec3(0, 0, 2));
+}
+
+TEST(Scene, PreparedAfterOneQueryAndAMoveStillExpectsTheProbeWhereItWas) {
+  Scene<SphereCluster> scene;
+  const BodyId body = scene.add(scene.add_shape(Shape<SphereCluster>::build(square())), at(100, 0, 0));
+  Scene<SphereCluster>::Session session;
+  const Probe probe{{100, 0, 0.3}, 0.5};
+  EXPECT_TRUE(scene.touches(probe, session));
+  scene.move(body, at(100, 0, 0.1));
+  scene.prepare(session);
+  EXPECT_FALSE(session.near.is_jumping());
+  EXPECT_TRUE(scene.touches(probe, session));
 }
 
 TEST(Scene, OfTenThousandBodiesBuildsTheShapesOfTheTenThatAreNear) {

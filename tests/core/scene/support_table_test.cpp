@@ -18,7 +18,7 @@ Vec3 random_vector(std::mt19937_64& engine) {
   return {normal(engine), normal(engine), normal(engine)};
 }
 
-/// Of all directions asked, along axes and between them, the bound is no less and not much more.
+/// The bound is never less, and not much more, in directions along axes and between them.
 void expect_bounds(const std::vector<Vec3>& points, const Vec3& center, double beyond, double loose) {
   double radius = 0;
   for (const Vec3& point : points) radius = std::max(radius, (point - center).norm());
