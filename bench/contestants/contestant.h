@@ -107,6 +107,10 @@ class Contestant {
   virtual void stand_at(const workload::QueryTrace& trace, std::size_t step) noexcept {
     static_cast<void>(trace), static_cast<void>(step);
   }
+  /// Returns true if it can do some of the next query's work after bodies were moved and before that query.
+  virtual bool prepares_after_moves() const noexcept { return false; }
+  /// Does so, where it can. The loops above never call it, and no answer changes.
+  virtual void prepare_after_moves() noexcept {}
 };
 
 }  // namespace touchmark::bench::contestants

@@ -75,6 +75,10 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
                 [[maybe_unused]] std::size_t step) noexcept override {
     if constexpr (StandsInSchedules<D>) detector_->stand_at(trace.schedule, step);
   }
+  bool prepares_after_moves() const noexcept override { return StandsInSchedules<D> && Prepares<D>; }
+  void prepare_after_moves() noexcept override {
+    if constexpr (StandsInSchedules<D> && Prepares<D>) detector_->prepare(*session_);
+  }
 
   bool answers(workload::Query query) const noexcept override {
     if constexpr (KnownOnceBuilt<D>) return detector_->answers(query);

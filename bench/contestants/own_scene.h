@@ -53,6 +53,7 @@ class OwnScene {
                                            Session& session) const noexcept requires AnswersSweep<D> {
     return scene_.first_hit_body(sweep, session);
   }
+  void prepare(Session& session) const noexcept requires Prepares<D> { scene_.prepare(session); }
   std::size_t bytes() const noexcept { return scene_.bytes(); }
   Accuracy accuracy() const noexcept { return scene_.accuracy(); }
 

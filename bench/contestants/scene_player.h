@@ -41,6 +41,12 @@ concept SweepsScene = PlayableScene<S> &&
   { scene.first_hit_body(sweep, session) } -> std::same_as<std::optional<BodyImpact>>;
 };
 
+template <class S>
+concept PreparesScene = PlayableScene<S> && requires(const S& scene, typename S::Session& session) {
+  { scene.prepare(session) }
+  noexcept->std::same_as<void>;
+};
+
 template <PlayableScene S>
 class ScenePlayer {
  public:
@@ -87,6 +93,8 @@ class ScenePlayer {
     session.body = found->body.index;
     return found->impact;
   }
+
+  void prepare(Session& session) const noexcept requires PreparesScene<S> { scene_.prepare(session); }
 
   std::size_t bytes() const noexcept { return scene_.bytes(); }
   Accuracy accuracy() const noexcept { return scene_.accuracy(); }

@@ -19,7 +19,7 @@ double measured_ns_per_tick() {
 }
 
 double median_reading_ticks() {
-  std::array<std::uint64_t, 2001> readings;
+  std::array<std::uint64_t, 501> readings;
   std::uint64_t before = TickClock::now();
   for (std::uint64_t& reading : readings) {
     const std::uint64_t after = TickClock::now();
@@ -33,8 +33,13 @@ double median_reading_ticks() {
 }  // namespace
 
 ClockCalibration calibrate_clock() {
-  const double ns_per_tick = measured_ns_per_tick();
-  return {ns_per_tick, median_reading_ticks() * ns_per_tick};
+  ClockCalibration clock{measured_ns_per_tick(), 0};
+  measure_cost_anew(clock);
+  return clock;
+}
+
+void measure_cost_anew(ClockCalibration& clock) {
+  clock.cost_ns = median_reading_ticks() * clock.ns_per_tick;
 }
 
 }  // namespace touchmark::bench::contestants

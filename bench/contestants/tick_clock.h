@@ -34,5 +34,7 @@ struct ClockCalibration {
 
 /// Takes about 20 ms.
 ClockCalibration calibrate_clock();
+/// Measures the cost anew, which takes some microseconds: a virtual machine's may change within seconds.
+void measure_cost_anew(ClockCalibration& clock);
 
 }  // namespace touchmark::bench::contestants

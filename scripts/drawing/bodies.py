@@ -9,6 +9,8 @@ COLUMNS = ["detector", "options", "bodies", "motion", "place", "bytes_per_body",
 PANELS = [  # quantity, motion, place, title, how it is written
     ("tick_ns", "still", "free", "A tick in free space, bodies still", duration),
     ("tick_ns", "all", "free", "A tick in free space, all moving", duration),
+    ("first_tick_ns", "all", "free", "The first tick after a frame, all moving", duration),
+    ("first_tick_prepared_ns", "all", "free", "The same, each frame prepared for", duration),
     ("tick_ns", "still", "beside", "A tick beside a body, bodies still", duration),
     ("tick_ns", "all", "beside", "A tick beside a body, all moving", duration),
     ("publish_ns_per_body", "all", "free", "Placing a moved body", duration),
@@ -21,8 +23,10 @@ class Row:
         self.name = record["detector"] + (":" + record["options"] if record["options"] else "")
         self.motion, self.place, self.done = record["motion"], record["place"], record["status"] == "ok"
         self.bodies = number(record["bodies"], "bodies", line)
-        for column in ("bytes_per_body", "publish_ns_per_body", "tick_ns"):
-            setattr(self, column, number(record[column], column, line) if record[column] else float("nan"))
+        for column in ("bytes_per_body", "publish_ns_per_body", "first_tick_ns", "tick_ns"):
+            setattr(self, column, number(record[column], column, line))
+        prepared = "first_tick_prepared_ns"  # which older files do not have
+        self.first_tick_prepared_ns = number(record.get(prepared), prepared, line)
 
 
 def read(path):

@@ -52,17 +52,33 @@ constexpr auto columns = std::to_array<results::Column<R>>({
     {"bytes_per_body", optional_number<&R::bytes_per_body>, optional, finite,
      "What it takes more than with one body, over the bodies more."},
     {"publish_ns_per_body", optional_number<&R::publish_ns_per_body>, optional, finite,
-     "Placing a frame's bodies, over their number: the median of the frames."},
+     "Placing a frame's bodies, over their number: the median of the frames. Their poses have just been "
+     "read."},
     {"first_tick_ns", rounded<&R::first_tick_ns>, always, finite,
      "The query right after a frame: the median, without the clock's cost."},
     {"tick_ns", rounded<&R::tick_ns>, always, finite,
-     "A query after that: the median of the frames' means, no clock between queries."},
+     "A query after that: the median of the frames' means, without the clock's cost."},
     {"tick_over_one", optional_number<&R::tick_over_one>, optional, finite,
-     "`tick_ns` over that with one body."},
+     "A tick over that with one body: the median of the ratios of a round's median to those of the rounds "
+     "with one body right before and after it. With one body: of two scenes alike, so how far off it may "
+     "be. Empty where the clock cannot tell a time from nothing."},
     {"found", plain<&R::found>, always, whole_number, "Queries of one round with a body in reach."},
     {"differing", plain<&R::differing>, always, whole_number,
      "Answers of one round that are not those of the first contestant, to 1e-9."},
     {"status", plain<&R::status>, always, any_text, "`ok`, `differs`, or why it was not measured."},
+    {"prepare_ns", optional_number<&R::prepare_ns>, optional, finite,
+     "What the contestant prepares after a frame, outside of the ticks (`Scene::prepare`): the median. This "
+     "and the next ones are empty where it prepares nothing."},
+    {"first_tick_prepared_ns", optional_number<&R::first_tick_prepared_ns>, optional, finite,
+     "`first_tick_ns` of rounds in which each frame is prepared for."},
+    {"tick_prepared_ns", optional_number<&R::tick_prepared_ns>, optional, finite,
+     "`tick_ns` of these rounds."},
+    {"tick_prepared_over_one", optional_number<&R::tick_prepared_over_one>, optional, finite,
+     "`tick_over_one` of rounds in which each frame is prepared for."},
+    {"first_tick_over_one", optional_number<&R::first_tick_over_one>, optional, finite,
+     "As `tick_over_one`, of the query right after a frame."},
+    {"first_tick_prepared_over_one", optional_number<&R::first_tick_prepared_over_one>, optional, finite,
+     "`first_tick_over_one` of rounds in which each frame is prepared for."},
 });
 
 struct Quantity {
@@ -72,6 +88,8 @@ struct Quantity {
 constexpr std::array quantities{
     Quantity{"tick_ns", [](Row row) { return std::optional(row.tick_ns); }},
     Quantity{"first_tick_ns", [](Row row) { return std::optional(row.first_tick_ns); }},
+    Quantity{"tick_prepared_ns", [](Row row) { return row.tick_prepared_ns; }},
+    Quantity{"first_tick_prepared_ns", [](Row row) { return row.first_tick_prepared_ns; }},
     Quantity{"publish_ns_per_body", [](Row row) { return row.publish_ns_per_body; }},
     Quantity{"build_ms", [](Row row) { return std::optional(row.build_ms); }},
 };
@@ -135,11 +153,16 @@ std::string bodies_table(const std::vector<BodyRow>& rows) {
   std::string text;
   for (const auto& [key, of_key] :
        support::grouped_by(rows, [](Row row) { return std::tuple(row.motion, row.place); })) {
-    support::Table table({"detector", "bodies", "tick ns", "/ one", "first tick ns", "publish ns/body",
+    support::Table table({"detector", "bodies", "tick ns", "/ one", "first tick ns", "/ one",
+                          "prepared: tick ns", "/ one", "first tick ns", "/ one", "publish ns/body",
                           "bytes/body", "build ms", "status"});
     for (const BodyRow* row : of_key)
       table.add({row->contestant(), std::to_string(row->bodies), rounded<&R::tick_ns>(*row),
                  optional_number<&R::tick_over_one>(*row), rounded<&R::first_tick_ns>(*row),
+                 optional_number<&R::first_tick_over_one>(*row), optional_number<&R::tick_prepared_ns>(*row),
+                 optional_number<&R::tick_prepared_over_one>(*row),
+                 optional_number<&R::first_tick_prepared_ns>(*row),
+                 optional_number<&R::first_tick_prepared_over_one>(*row),
                  optional_number<&R::publish_ns_per_body>(*row), optional_number<&R::bytes_per_body>(*row),
                  rounded<&R::build_ms>(*row), row->status});
     text += fmt::format("\nmotion={}, probe {}\n{}", std::get<0>(key),

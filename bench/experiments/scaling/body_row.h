@@ -34,10 +34,17 @@ struct BodyRow {
   std::optional<double> publish_ns_per_body = {};  ///< nothing where bodies stand
   double first_tick_ns = 0;                        ///< right after a frame was published
   double tick_ns = 0;                              ///< a later tick of a frame
-  std::optional<double> tick_over_one = {};        ///< over that with one body, where that was measured
+  std::optional<double> tick_over_one = {};        ///< over that with one body, timed in turns
   std::size_t found = 0;                           ///< ticks with a body in reach
   std::size_t differing = 0;                       ///< answers that are not those of the first contestant
   std::string status = "ok";                       ///< else differs, or refused: ...
+  /// With what the contestant prepares after a frame, outside of the ticks; nothing where it does not.
+  std::optional<double> prepare_ns = {};
+  std::optional<double> first_tick_prepared_ns = {};
+  std::optional<double> tick_prepared_ns = {};
+  std::optional<double> tick_prepared_over_one = {};
+  std::optional<double> first_tick_over_one = {};  ///< Exists where a clock tells it.
+  std::optional<double> first_tick_prepared_over_one = {};
 
   std::string contestant() const { return options.empty() ? detector : detector + ":" + options; }
 };

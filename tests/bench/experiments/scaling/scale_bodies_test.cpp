@@ -47,6 +47,31 @@ TEST_F(ScaleBodies, MeasuresEachNumberWithEachMotionFreeAndBeside) {
   EXPECT_EQ(valid.status, 0) << valid.out;
 }
 
+TEST_F(ScaleBodies, MeasuresTicksAfterWhatASceneOfOursPrepares) {
+  ASSERT_EQ(scale({"--sizes", "2,20", "--detector", "sphere-cluster", "--detector", "looped"}).status, 0);
+  const std::vector<Fields> rows = read({"detector", "bodies", "prepare_ns", "first_tick_prepared_ns",
+                                         "tick_prepared_ns", "tick_prepared_over_one"});
+  ASSERT_FALSE(rows.empty());
+  for (const Fields& row : rows) {
+    for (std::size_t i = 2; i < row.size(); ++i) EXPECT_EQ(row[i].empty(), row[0] == "looped") << i;
+  }
+}
+
+TEST_F(ScaleBodies, ComparesTicksWithThoseOfASceneOfOneBodyThatIsTimedInTurns) {
+  // A loop over all bodies takes a hundred times as long or more with ten thousand of them, beside a body,
+  // too, where each query is dear. A scene of one body is compared with another one.
+  ASSERT_EQ(scale({"--sizes", "1,10000", "--detector", "looped"}).status, 0);
+  for (const Fields& row : read({"bodies", "tick_over_one", "first_tick_over_one"})) {
+    const double over_one = std::stod(row[1]);
+    EXPECT_GT(over_one, row[0] == "1" ? 0.1 : 20.0);
+    EXPECT_LT(over_one, row[0] == "1" ? 10.0 : 1e5);
+    // The clock may not tell the first tick with one body from nothing.
+    if (row[0] != "1" && !row[2].empty()) {
+      EXPECT_GT(std::stod(row[2]), 20);
+    }
+  }
+}
+
 TEST_F(ScaleBodies, SaysWhoTakesNoMovingBodiesAndGoesOn) {
   const Outcome outcome = scale({"--sizes", "2,3", "--detector", "sphere-cluster", "--detector", "merged"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;
@@ -67,12 +92,30 @@ TEST_F(ScaleBodies, ValidateNamesARowThatDoesNotAgreeWithItself) {
   std::stringstream text;
   text << file.rdbuf();
   std::string damaged = text.str();
-  const std::size_t at = damaged.rfind(",ok");
-  damaged.replace(at, 3, ",differs");
+  const std::size_t at = damaged.rfind(",ok,");
+  damaged.replace(at, 4, ",differs,");
   std::ofstream(folder_.file("out/bodies.csv")) << damaged;
   const Outcome outcome = run_touchmark({"validate", folder_.file("out")});
   EXPECT_EQ(outcome.status, 1);
   EXPECT_NE(outcome.out.find("does not go with differing"), std::string::npos) << outcome.out;
+}
+
+TEST_F(ScaleBodies, ValidateTakesFilesWithoutTheColumnsThatCameLater) {
+  ASSERT_EQ(scale({"--sizes", "2,3", "--detector", "sphere-cluster"}).status, 0);
+  std::stringstream text;
+  text << std::ifstream(folder_.file("out/bodies.csv")).rdbuf();
+  // Before what is prepared, and before first ticks over those with one body.
+  for (const int later : {6, 2}) {
+    std::string older;
+    std::istringstream lines(text.str());
+    for (std::string line; std::getline(lines, line);) {
+      for (int i = 0; i < later; ++i) line.resize(line.rfind(','));
+      older += line + "\n";
+    }
+    std::ofstream(folder_.file("out/bodies.csv")) << older;
+    const Outcome outcome = run_touchmark({"validate", folder_.file("out")});
+    EXPECT_EQ(outcome.status, 0) << later << outcome.out;
+  }
 }
 
 }  // namespace

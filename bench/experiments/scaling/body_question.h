@@ -1,0 +1,34 @@
+/// What a scene of bodies is asked: frames of poses, and some ticks after each.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "bench/bodies/generated_bodies.h"
+#include "bench/bodies/schedule.h"
+#include "bench/experiments/scaling/body_row.h"
+#include "bench/workload/steps.h"
+
+namespace touchmark::bench::experiments::scaling {
+
+/// The steps of a trace: a frame's first one places the bodies, the others nothing.
+struct BodyQuestion {
+  static constexpr std::size_t ticks_a_frame = 16;
+  static constexpr double reach = 0.05;  ///< In body sizes.
+
+  /// Throws ResourceError where the poses do not fit in memory.
+  BodyQuestion(const bodies::GeneratedScene& scene, Place where);
+  BodyQuestion(const BodyQuestion&) = delete;
+  BodyQuestion& operator=(const BodyQuestion&) = delete;
+
+  /// It looks at this question, which outlives it.
+  workload::QueryTrace trace() const;
+
+  Place place;
+  std::size_t frames = 0, moved = 0;
+  bodies::Schedule schedule;
+  bodies::ScheduleView view;
+  std::vector<workload::Step> steps;
+};
+
+}  // namespace touchmark::bench::experiments::scaling
