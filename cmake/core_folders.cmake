@@ -1,0 +1,31 @@
+# touchmark_unite_folders(TARGET CORE): with TOUCHMARK_UNITE_CORE, each folder of CORE, which is core or a copy of it, is
+# compiled as one source of TARGET, in half the time. The compiler inlines otherwise then: what is released or timed is
+# compiled without.
+option(TOUCHMARK_UNITE_CORE "Compile each folder of core as one source: sooner done, but not as it is released" OFF)
+
+# Compiled by themselves, since their unnamed namespaces name things as another file's of the folder do.
+set(touchmark_apart auto/trial exact/precise_closest_point field/plane_fitter geometry/way_gap grid_group/direct/direct_query
+  scene/pose_change scene/round_body scene/scene_bodies scene/seen_body scene/support_table scene/surface_list
+  scene/near_surface scene/pose scene/primitives search/curve_order search/nearest_of_ties search/sure_feature
+  sphere_cluster/tree/bounding_cylinder sphere_cluster/tree/cylinder_bvh sphere_cluster/tree/touch)
+
+function(touchmark_unite_folders target core)
+  foreach(name IN LISTS touchmark_apart)
+    if(NOT EXISTS ${PROJECT_SOURCE_DIR}/core/${name}.cpp)
+      message(FATAL_ERROR "touchmark_apart: there is no core/${name}.cpp")
+    endif()
+  endforeach()
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "\\.cpp$")
+  foreach(source IN LISTS sources)
+    cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${core} OUTPUT_VARIABLE name)
+    cmake_path(RELATIVE_PATH name BASE_DIRECTORY ${core})
+    cmake_path(GET name PARENT_PATH folder)
+    cmake_path(REMOVE_EXTENSION name)
+    if(folder AND NOT folder MATCHES "^\\.\\." AND NOT name IN_LIST touchmark_apart)
+      string(REPLACE "/" "_" folder ${folder})
+      set_source_files_properties(${source} PROPERTIES UNITY_GROUP core_${folder})
+    endif()
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${TOUCHMARK_UNITE_CORE} UNITY_BUILD_MODE GROUP)
+endfunction()
