@@ -9,7 +9,6 @@
 namespace touchmark::bench::experiments::scaling {
 namespace {
 
-constexpr std::size_t frames_of_few = 32, frames_of_many = 8, many = 20'000;
 constexpr double frame_s = BodyQuestion::ticks_a_frame / 1000.0;  // a servo tick is a millisecond
 
 /// A few thousandths of a body's size about the place, along a curve that never stands still.
@@ -32,7 +31,6 @@ Vec3 place_of(Place place, const bodies::GeneratedScene& scene, double time_s) {
 }  // namespace
 
 BodyQuestion::BodyQuestion(const bodies::GeneratedScene& scene, Place where) : place(where) {
-  frames = scene.scene.bodies.size() > many ? frames_of_many : frames_of_few;
   const std::vector<std::uint32_t>& moving = scene.motion.moving;
   if (!moving.empty()) {
     support::require_memory("the poses of bodies",

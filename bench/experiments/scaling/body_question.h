@@ -13,7 +13,8 @@ namespace touchmark::bench::experiments::scaling {
 
 /// The steps of a trace: a frame's first one places the bodies, the others nothing.
 struct BodyQuestion {
-  static constexpr std::size_t ticks_a_frame = 16;
+  /// Every scene is asked as much as the others, at the same places.
+  static constexpr std::size_t ticks_a_frame = 16, frames = 16;
   static constexpr double reach = 0.05;  ///< In body sizes.
 
   /// Throws ResourceError where the poses do not fit in memory.
@@ -25,7 +26,7 @@ struct BodyQuestion {
   workload::QueryTrace trace() const;
 
   Place place;
-  std::size_t frames = 0, moved = 0;
+  std::size_t moved = 0;
   bodies::Schedule schedule;
   bodies::ScheduleView view;
   std::vector<workload::Step> steps;
