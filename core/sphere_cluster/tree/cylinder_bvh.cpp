@@ -90,12 +90,9 @@ bool SphereTree::refill(const Vec3& center, const Vec3& move, float distance, Me
   // With fewer ticks refills cost more, with more the fuller cache does.
   constexpr float min_ticks = 2, max_ticks = 16;
   constexpr double ahead = 0.5;  // of the ticks
-  constexpr std::uint32_t max_cooldown = 255;
   spheres::LeafCache& cache = memory.cache;
-  if (cache.cooldown > 0) {
-    --cache.cooldown;
-    return false;
-  }
+  if (!cache.may_refill()) return false;
+  const std::uint64_t spheres_before = work.spheres;
   const auto step = static_cast<float>(frame_.scale() * move.norm());
   for (;;) {
     Vec3 cache_center = center + ahead * double{cache.horizon_ticks} * move;
@@ -108,13 +105,12 @@ bool SphereTree::refill(const Vec3& center, const Vec3& move, float distance, Me
     if (cache.horizon_ticks <= min_ticks) {
       // What was left out may be anywhere.
       cache.forget();
-      cache.last_cooldown = std::min(max_cooldown, 2 * cache.last_cooldown + 1);
-      cache.cooldown = cache.last_cooldown;
+      cache.wait();
       return false;
     }
     cache.horizon_ticks = std::max(0.5F * cache.horizon_ticks, min_ticks);
   }
-  cache.last_cooldown = 0;
+  cache.count_refill(work.spheres - spheres_before);
   if (cache.count <= spheres::LeafCache::few)
     cache.horizon_ticks = std::min(1.25F * cache.horizon_ticks, max_ticks);
   return true;

@@ -73,16 +73,22 @@ template <class Visitor>
                                                             Memory& memory,
                                                             std::uint64_t budget) const noexcept {
   const float distance = std::sqrt(visitor.limit) + point.plane_error;
-  float away = displacement(memory.cache.center, visitor.center, point);
-  if (!(distance + away < memory.cache.covered_radius)) {
-    if (!pays_to_list(displacement(memory.center, visitor.center, point), distance) ||
-        !refill(visitor.center, visitor.center - memory.center, distance, memory,
-                std::min(budget, refill_limit()), visitor.work))
-      return traverse(point, visitor, budget);
-    away = displacement(memory.cache.center, visitor.center, point);
-    if (!(distance + away < memory.cache.covered_radius)) return traverse(point, visitor, budget);
+  spheres::LeafCache& cache = memory.cache;
+  float away = displacement(cache.center, visitor.center, point);
+  if (!(distance + away < cache.covered_radius) &&
+      pays_to_list(displacement(memory.center, visitor.center, point), distance) &&
+      refill(visitor.center, visitor.center - memory.center, distance, memory,
+             std::min(budget, refill_limit()), visitor.work))
+    away = displacement(cache.center, visitor.center, point);
+  const Work before = visitor.work;
+  if (!(distance + away < cache.covered_radius)) {
+    const float unseen = traverse(point, visitor, budget);
+    cache.count_descent(visitor.work.spheres - before.spheres, visitor.work.triangles - before.triangles);
+    return unseen;
   }
-  return search_cached(point, visitor, memory.cache, away, budget);
+  const float unseen = search_cached(point, visitor, cache, away, budget);
+  cache.count_search(visitor.work.spheres - before.spheres, visitor.work.triangles - before.triangles);
+  return unseen;
 }
 
 /// As search_near, for a search whose budget another has partly spent: it lists no leaves anew, and looks at
