@@ -3,16 +3,15 @@
 # compiled without.
 option(TOUCHMARK_UNITE_CORE "Compile each folder of core as one source: sooner done, but not as it is released" OFF)
 
-# Compiled by themselves, since their unnamed namespaces name things as another file's of the folder do.
-set(touchmark_apart auto/trial exact/precise_closest_point field/plane_fitter geometry/way_gap grid_group/direct/direct_query
-  scene/pose_change scene/round_body scene/scene_bodies scene/seen_body scene/support_table scene/surface_list
-  scene/near_surface scene/pose scene/primitives search/curve_order search/nearest_of_ties search/sure_feature
-  sphere_cluster/tree/bounding_cylinder sphere_cluster/tree/cylinder_bvh sphere_cluster/tree/touch)
-
 function(touchmark_unite_folders target core)
-  foreach(name IN LISTS touchmark_apart)
+  # Compiled by themselves, since their unnamed namespaces name things as another file's of the folder do.
+  set(apart auto/trial exact/precise_closest_point field/plane_fitter geometry/way_gap grid_group/direct/direct_query
+    scene/pose_change scene/round_body scene/scene_bodies scene/seen_body scene/support_table scene/surface_list
+    scene/near_surface scene/pose scene/primitives search/curve_order search/nearest_of_ties search/sure_feature
+    sphere_cluster/tree/bounding_cylinder sphere_cluster/tree/cylinder_bvh sphere_cluster/tree/touch)
+  foreach(name IN LISTS apart)
     if(NOT EXISTS ${PROJECT_SOURCE_DIR}/core/${name}.cpp)
-      message(FATAL_ERROR "touchmark_apart: there is no core/${name}.cpp")
+      message(FATAL_ERROR "touchmark_unite_folders: there is no core/${name}.cpp")
     endif()
   endforeach()
   get_target_property(sources ${target} SOURCES)
@@ -22,7 +21,7 @@ function(touchmark_unite_folders target core)
     cmake_path(RELATIVE_PATH name BASE_DIRECTORY ${core})
     cmake_path(GET name PARENT_PATH folder)
     cmake_path(REMOVE_EXTENSION name)
-    if(folder AND NOT folder MATCHES "^\\.\\." AND NOT name IN_LIST touchmark_apart)
+    if(folder AND NOT folder MATCHES "^\\.\\." AND NOT name IN_LIST apart)
       string(REPLACE "/" "_" folder ${folder})
       set_source_files_properties(${source} PROPERTIES UNITY_GROUP core_${folder})
     endif()
