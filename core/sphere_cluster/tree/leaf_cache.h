@@ -37,7 +37,7 @@ struct LeafCache {
   /// What a descent near the surface costs, about, and what the last refill and its searches have cost, in
   /// spheres of a list; 0: nothing is known.
   std::uint64_t descent_cost = 0, spent = 0;
-  std::uint64_t searches = 0;  ///< since the last refill
+  std::uint64_t searches = 0;  ///< what `spent` was spent on
   std::uint32_t refills = 0;   ///< since a descent was to tell what it costs
   alignas(64) float x[padded_capacity], y[padded_capacity], z[padded_capacity], radius[padded_capacity];
   alignas(64) float normal_x[padded_capacity], normal_y[padded_capacity], normal_z[padded_capacity],
