@@ -33,7 +33,7 @@ double median_reading_ticks() {
 }  // namespace
 
 ClockCalibration calibrate_clock() {
-  ClockCalibration clock{measured_ns_per_tick(), 0};
+  ClockCalibration clock(measured_ns_per_tick(), 0);
   measure_cost_anew(clock);
   return clock;
 }

@@ -1,6 +1,7 @@
 /// The clock of the latency pass: the processor's time stamp counter where it can be used, else steady_clock.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 
@@ -26,10 +27,18 @@ struct TickClock {
 #endif
 };
 
-/// Measured, not assumed, when a worker starts.
+/// Measured, not assumed, when a worker starts. It has no default, which would pass ticks off as nanoseconds.
 struct ClockCalibration {
-  double ns_per_tick = 1;
-  double cost_ns = 0;  ///< the median of two readings in a row: what every clocked step includes
+  ClockCalibration(double nanoseconds_per_tick, double cost) noexcept
+      : ns_per_tick(nanoseconds_per_tick), cost_ns(cost) {}
+
+  /// Returns how long that was, without the clock's cost; 0 where the clock does not tell it from nothing.
+  double ns_of(std::uint64_t ticks) const noexcept {
+    return std::max(0.0, static_cast<double>(ticks) * ns_per_tick - cost_ns);
+  }
+
+  double ns_per_tick;
+  double cost_ns;  ///< the median of two readings in a row: what every clocked step includes
 };
 
 /// Takes about 20 ms.

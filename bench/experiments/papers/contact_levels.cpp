@@ -119,8 +119,8 @@ class Experiment {
     for (std::size_t i = 0; i < trace_.size(); ++i) {
       const std::uint64_t begin = contestants::TickClock::now();
       const std::optional<Contact> contact = ask(trace_[i]);
-      const auto ticks = static_cast<double>(contestants::TickClock::now() - begin);
-      pass.ns.push_back(std::max(ticks * clock_.ns_per_tick - clock_.cost_ns, clock_.ns_per_tick));
+      const std::uint64_t ticks = contestants::TickClock::now() - begin;
+      pass.ns.push_back(std::max(clock_.ns_of(ticks), clock_.ns_per_tick));
       pass.error.push_back(std::abs(depth(contact) - true_depth_[i]));
     }
     return pass;

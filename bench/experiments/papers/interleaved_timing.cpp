@@ -68,8 +68,7 @@ void InterleavedTiming::clock_steps(Entry& entry) const {
   entry.contestant->replay_clocked(entry.trace, {0, entry.trace.steps.size()}, checksum, ticks, {});
   std::vector<double> ns;
   ns.reserve(ticks.size());
-  for (const std::uint64_t step : ticks)
-    ns.push_back(std::max(static_cast<double>(step) * clock_.ns_per_tick - clock_.cost_ns, 0.0));
+  for (const std::uint64_t step : ticks) ns.push_back(clock_.ns_of(step));
   entry.step_ns.push_back(std::move(ns));
 }
 

@@ -155,12 +155,9 @@ BodyRun::Times BodyRun::time_round(contestants::Contestant& contestant, const Bo
     // times.
     std::array<std::uint64_t, ticks_a_frame> ticks{}, none{};
     contestant.replay_clocked(trace, {begin, begin + ticks_a_frame}, checksum, ticks, none);
-    const auto ns_of = [&](std::uint64_t reading) {
-      return std::max(0.0, static_cast<double>(reading) * clock_.ns_per_tick - clock_.cost_ns);
-    };
-    times.first.push_back(ns_of(ticks.front()));
+    times.first.push_back(clock_.ns_of(ticks.front()));
     double others = 0;
-    for (const std::uint64_t reading : std::span(ticks).subspan(1)) others += ns_of(reading);
+    for (const std::uint64_t reading : std::span(ticks).subspan(1)) others += clock_.ns_of(reading);
     times.others.push_back(others / (ticks_a_frame - 1));
   }
   return times;

@@ -48,7 +48,7 @@ class BodyRun {
   const contestants::Roster& roster_;
   std::vector<contestants::ContestantSpec> contestants_;
   std::size_t rounds_;
-  contestants::ClockCalibration clock_;
+  contestants::ClockCalibration clock_ = contestants::calibrate_clock();
   std::map<std::string, std::string> left_out_;  ///< why, by contestant and motion
   std::optional<workload::Workload> workload_;
 };
