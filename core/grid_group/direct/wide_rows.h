@@ -83,22 +83,11 @@ inline std::array<Wide, 4> columns(const std::array<Lanes, lanes>& rows) noexcep
 
 #include "core/grid_group/direct/wide_rows.inl"
 
-/// For each mask of eight bits the numbers of those that are set, a byte each, the lowest first.
-inline constexpr std::array<std::uint64_t, 256> kept_lanes = [] {
-  std::array<std::uint64_t, 256> table{};
-  for (unsigned bits = 0; bits < table.size(); ++bits) {
-    unsigned count = 0;
-    for (unsigned lane = 0; lane < lanes; ++lane)
-      if ((bits >> lane & 1) != 0) table[bits] |= std::uint64_t{lane} << 8 * count++;
-  }
-  return table;
-}();
-
 /// The lanes whose bits are set. Storing them writes as many values as there are lanes.
 class Kept {
  public:
   explicit Kept(unsigned bits) noexcept
-      : order_(_mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(&kept_lanes[bits])))),
+      : order_(touchmark::avx2::order_of_kept(bits)),
         count_(static_cast<std::size_t>(__builtin_popcount(bits))) {}
   std::size_t count() const noexcept { return count_; }
   void store(float* to, Wide values) const noexcept {

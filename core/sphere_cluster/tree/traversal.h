@@ -109,15 +109,6 @@ inline void compress(Word* to, const Word* from, unsigned chosen) noexcept {
 }  // namespace portable
 
 #if TOUCHMARK_HAS_AVX2
-/// The places of the set bits of every byte, lowest first, a byte each.
-constexpr std::array<std::uint64_t, 256> positions_of_bits() noexcept {
-  std::array<std::uint64_t, 256> all{};
-  for (std::size_t bits = 0; bits < 256; ++bits)
-    for (std::uint64_t position = 0, to = 0; position < 8; ++position)
-      if ((bits >> position & 1) != 0) all[bits] |= position << (8 * to++);
-  return all;
-}
-
 TOUCHMARK_TARGET("avx2")
 namespace avx2 {
 
@@ -131,11 +122,9 @@ using touchmark::avx2::Wide, touchmark::avx2::WideBits, touchmark::avx2::square_
 template <class Word>
 inline void compress(Word* to, const Word* from, unsigned chosen) noexcept {
   static_assert(sizeof(Word) == 4);
-  static constexpr std::array<std::uint64_t, 256> slots = positions_of_bits();
-  const __m256i order =
-      _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(&slots[chosen])));
   const __m256i words = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_permutevar8x32_epi32(words, order));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
+                      _mm256_permutevar8x32_epi32(words, touchmark::avx2::order_of_kept(chosen)));
 }
 #include "core/sphere_cluster/tree/traversal.inl"
 
