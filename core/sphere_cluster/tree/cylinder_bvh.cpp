@@ -26,28 +26,12 @@ constexpr double max_move_in_leaf_radii = 4;
 /// The next tick may be this much longer than the last one and still need no refill.
 constexpr float ticks_prepared = 2;
 
-/// Returns by how much a box is beyond another along the axis where it is most.
-double beyond(const Aabb& box, const Vec3& min, const Vec3& max) noexcept {
-  return (box.min - max).cwiseMax(min - box.max).maxCoeff();
-}
-
 }  // namespace
-
-bool SphereTree::is_beyond_box(const Vec3& center, double reach) const noexcept {
-  return beyond(bounds_, center, center) > reach + box_margin_;
-}
-
-/// Longer paths round more.
-bool SphereTree::is_beyond_box(const Sweep& sweep) const noexcept {
-  return beyond(bounds_, sweep.from.cwiseMin(sweep.to), sweep.from.cwiseMax(sweep.to)) >
-             sweep.radius + box_margin_ &&
-         (sweep.to - sweep.from).squaredNorm() < longest_beyond_box_;
-}
 
 bool SphereTree::turns_out_beyond_box(const Vec3& center, double reach, Memory& memory) const noexcept {
   claim(memory);
   if (std::exchange(memory.for_box, 0) > 0 || memory.is_near()) return false;
-  const double clearance = beyond(bounds_, center, center) - box_margin_;
+  const double clearance = beyond_box(center, center) - box_margin_;
   if (!(clearance > reach)) return false;
   // A clearance that lasts twice as long as these questions serves better than the box.
   constexpr std::uint32_t questions = 64;

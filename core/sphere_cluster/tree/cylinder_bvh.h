@@ -106,8 +106,15 @@ class SphereTree {
     return is_clear(sweep.from, sweep.radius, memory) && is_clear(sweep.to, sweep.radius, memory);
   }
   /// Is nothing within reach, by the mesh's box?
-  bool is_beyond_box(const Vec3& center, double reach) const noexcept;
-  bool is_beyond_box(const Sweep& sweep) const noexcept;
+  [[gnu::always_inline]] bool is_beyond_box(const Vec3& center, double reach) const noexcept {
+    return beyond_box(center, center) > reach + box_margin_;
+  }
+  /// Longer paths round more.
+  [[gnu::always_inline]] bool is_beyond_box(const Sweep& sweep) const noexcept {
+    return beyond_box(sweep.from.cwiseMin(sweep.to), sweep.from.cwiseMax(sweep.to)) >
+               sweep.radius + box_margin_ &&
+           (sweep.to - sweep.from).squaredNorm() < longest_beyond_box_;
+  }
   /// Is that so now, where the box did not answer last and nothing was near? Then how far the box is is
   /// remembered, as a clearance, and the next questions are for the box where the point moves too fast for
   /// that to be of use.
@@ -145,6 +152,10 @@ class SphereTree {
   std::size_t bytes() const noexcept;
 
  private:
+  /// Returns by how much what is between these two is beyond the mesh's box, along the axis where it is most.
+  [[gnu::always_inline]] double beyond_box(const Vec3& min, const Vec3& max) const noexcept {
+    return (bounds_.min - max).cwiseMax(min - bounds_.max).maxCoeff();
+  }
   bool can_search(const Vec3& center) const noexcept { return searchable_ && frame_.covers(center); }
   bool can_search(const FilterPoint& point) const noexcept {
     return searchable_ && FilterFrame::covers(point);
