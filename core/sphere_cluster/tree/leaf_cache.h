@@ -34,8 +34,8 @@ struct LeafCache {
   float horizon_ticks = first_horizon_ticks;  ///< how many ticks ahead the next refill is to cover
   std::uint32_t cooldown = 0,
                 last_cooldown = 0;  ///< ticks until the next refill, after one that did not serve
-  /// What a descent near the surface costs, about, and what the last refill and its searches have cost, in
-  /// spheres of a list; 0: nothing is known.
+  /// What a descent near the surface costs, about, and what the last refills and their searches have cost,
+  /// the later the more, in spheres of a list; 0: nothing is known.
   std::uint64_t descent_cost = 0, spent = 0;
   std::uint64_t searches = 0;  ///< what `spent` was spent on
   std::uint32_t refills = 0;   ///< since a descent was to tell what it costs
@@ -57,21 +57,21 @@ struct LeafCache {
     last_cooldown = std::min(longest_cooldown, 2 * last_cooldown + 1);
     cooldown = last_cooldown;
   }
-  /// May the cache be refilled? Not where the last refill has cost more than descents would have.
+  /// May the cache be refilled? Not where the last refills have cost more than descents would have.
   bool may_refill() noexcept {
     if (cooldown > 0) {
       --cooldown;
       return false;
     }
     if (spent > 0) {
-      // Where they cost about the same, lists are given the benefit: what comes next may be slower.
+      // Lists go on where both cost about the same, since what comes next may be slower.
       const bool saved = 5 * spent <= 6 * (searches * descent_cost);
       if (!saved) {
         spent = searches = 0;
         wait();
         return false;
       }
-      // Half of what was saved goes to a list that is left too soon.
+      // Half of the account stays, so that lists that saved make up for one that is left too soon.
       spent /= 2;
       searches /= 2;
       last_cooldown = 0;

@@ -318,7 +318,7 @@ TEST(DistanceGrid, ClaimsNothingBeforeItIsFilled) {
   EXPECT_LE(DistanceField().lower_bound(point), 0);
   EXPECT_LE(DistanceField().tight_lower_bound(point), 0);
   EXPECT_EQ(DistanceField().upper_bound(point), std::numeric_limits<float>::infinity());
-  // Where samples tell no point of the mesh, nothing is claimed from above.
+  // Nothing is claimed from above where samples tell no point of the mesh.
   EXPECT_EQ(Grid(plate(1, 0.7)).grid.upper_bound(point), std::numeric_limits<float>::infinity());
 }
 

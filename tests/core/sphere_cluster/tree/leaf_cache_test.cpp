@@ -15,7 +15,8 @@ namespace {
 
 using spheres::LeafCache;
 
-/// Lists once, and searches the list so often at that price; the queries between are descents.
+/// Counts one refill and so many searches of its list that look at so many spheres each. Returns true if the
+/// cache may be refilled after them.
 bool lists_again_after(LeafCache& cache, std::size_t searches, std::uint64_t spheres) {
   cache.count_refill(80);
   for (std::size_t i = 0; i < searches; ++i) cache.count_search(spheres, 0);
