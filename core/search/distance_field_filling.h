@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -32,13 +33,28 @@ struct DistanceField::CoarseSamples {
     return known > 0 ? static_cast<double>(known - far) / static_cast<double>(known) : 0;
   }
 
+  /// Counts the eighths of some inner cubes, and those of them that tell more than that the mesh is near.
+  void note_inner(bool tells) noexcept {
+    inner_.fetch_add(1, std::memory_order_relaxed);
+    if (tells) telling_.fetch_add(1, std::memory_order_relaxed);
+  }
+  /// Do the eighths of inner cubes tell enough to be sampled? By far fewer do where the mesh fills its box.
+  bool inner_eighths_pay() const noexcept {
+    constexpr double least = 0.1;
+    return static_cast<double>(telling_.load()) >= least * static_cast<double>(inner_.load());
+  }
+
   std::vector<double> lower;        ///< bounds the distance from below; negative: nothing is known
   std::vector<std::uint32_t> near;  ///< a triangle near there, where samples know one
+
+ private:
+  std::atomic<std::uint32_t> inner_ = 0, telling_ = 0;
 };
 
 /// In which order the samples are taken: those of every other cube along each axis first, then those halfway
-/// between two of them along x, y and z, and last the eighths of what is near.
-enum class FillingPass { every_other, between_x, between_y, between_z, eighths };
+/// between two of them along x, y and z, and last the eighths of what is near: where cubes that are not lie
+/// around, and of some inner cubes, whose eighths show whether those of the others pay.
+enum class FillingPass { every_other, between_x, between_y, between_z, outer_eighths, inner_eighths };
 
 /// Takes samples with one function of its own.
 ///
@@ -62,7 +78,8 @@ class DistanceField::Filler {
     for (std::uint32_t i = 0; i < cubes; ++i) {
       const Cube cube{first + step * (backwards ? cubes - 1 - i : i), y, z};
       if (!is_wanted_(index(cube))) continue;
-      if (!(pass == FillingPass::eighths ? fill_eighths(cube) : fill_middle(cube, pass))) return false;
+      const bool takes_eighths = pass >= FillingPass::outer_eighths;
+      if (!(takes_eighths ? fill_eighths(cube, pass) : fill_middle(cube, pass))) return false;
     }
     return true;
   }
@@ -73,6 +90,8 @@ class DistanceField::Filler {
   static constexpr double close_enough = 0.8;
   /// In fine edges: what is nearer says next to nothing about the points around it.
   static constexpr double too_near = 0.4;
+  /// In fine edges: what is farther rejects much of what is asked in the eighth.
+  static constexpr double telling = 0.5;
 
   std::uint32_t index(const Cube& cube) const noexcept {
     return field_.coarse_.index(cube[0], cube[1], cube[2]);
@@ -146,41 +165,64 @@ class DistanceField::Filler {
     return root_of(sum - 3 * (0.25 * 0.75) * (edge * edge));
   }
 
-  bool fill_eighths(const Cube& cube) {
+  /// Is the mesh near all cubes around this one, too?
+  bool is_inner(const Cube& cube) const noexcept {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (cube[axis] == 0 || cube[axis] + 1 == field_.coarse_.count(static_cast<int>(axis))) return false;
+    for (std::uint32_t z = cube[2] - 1; z <= cube[2] + 1; ++z) {
+      for (std::uint32_t y = cube[1] - 1; y <= cube[1] + 1; ++y) {
+        for (std::uint32_t x = cube[0] - 1; x <= cube[0] + 1; ++x) {
+          const double lower = samples_.lower[index({x, y, z})];
+          if (lower < 0 || field_.is_far(lower)) return false;
+        }
+      }
+    }
+    return true;
+  }
+  /// An eighth of the cubes, evenly.
+  static bool shows_for_others(const Cube& cube) noexcept {
+    return (cube[0] & 1) == 0 && (cube[1] & 1) == 0 && (cube[2] & 1) == 0;
+  }
+
+  bool fill_eighths(const Cube& cube, FillingPass pass) {
     const double lower = samples_.lower[index(cube)];
     if (lower < 0) return true;
     if (field_.is_far(lower)) {
-      for (std::uint32_t eighth = 0; eighth < 8; ++eighth) {
-        const double found = between_eight(cube, eighth);
-        if (found > lower - field_.to_eighth())
-          field_.keep_fine(eighth_of(cube[0], cube[1], cube[2], eighth), field_.steps_in(found));
-      }
+      if (pass == FillingPass::outer_eighths) fill_far_eighths(cube, lower);
       return true;
     }
-    const double farthest = field_.upper_bound_at(index(cube)) + field_.to_eighth();
+    const bool inner = is_inner(cube), shows = inner && shows_for_others(cube);
+    if ((pass == FillingPass::inner_eighths) != (inner && !shows)) return true;
+    const double edge{field_.fine_.edge()},
+        farthest = field_.upper_bound_at(index(cube)) + field_.to_eighth();
     for (std::uint32_t eighth = 0; eighth < 8; ++eighth) {
-      const Cube fine = eighth_of(cube[0], cube[1], cube[2], eighth);
-      if (is_known(cube, eighth, fine)) continue;
-      const double found = distance_at_(middle_of(field_.fine_, fine), farthest).lower;
+      const double found = near_eighth(cube, eighth, farthest);
       if (found < 0) return false;
-      field_.keep_fine(fine, field_.steps_in(found));
+      if (shows) samples_.note_inner(found > telling * edge);
+      if (found > 0) field_.keep_fine(eighth_of(cube[0], cube[1], cube[2], eighth), field_.steps_in(found));
     }
     return true;
   }
 
-  /// Keeps what is known without a search, if that is enough.
-  bool is_known(const Cube& cube, std::uint32_t eighth, const Cube& fine) {
-    if constexpr (knows_triangles) {
-      const double upper =
-          distance_at_.distance_to(samples_.near[index(cube)], middle_of(field_.fine_, fine));
-      if (upper < too_near * double{field_.fine_.edge()}) return true;
-      const double lower = between_eight(cube, eighth);
-      if (!(lower >= close_enough * upper)) return false;
-      field_.keep_fine(fine, field_.steps_in(lower));
-      return true;
-    } else {
-      return false;
+  void fill_far_eighths(const Cube& cube, double lower) const noexcept {
+    for (std::uint32_t eighth = 0; eighth < 8; ++eighth) {
+      const double found = between_eight(cube, eighth);
+      if (found > lower - field_.to_eighth())
+        field_.keep_fine(eighth_of(cube[0], cube[1], cube[2], eighth), field_.steps_in(found));
     }
+  }
+
+  /// Bounds the distance in the middle of an eighth from below, without a search where that is enough. 0
+  /// where it would tell next to nothing, and negative where the function gave up.
+  double near_eighth(const Cube& cube, std::uint32_t eighth, double farthest) {
+    const Vec3 position = middle_of(field_.fine_, eighth_of(cube[0], cube[1], cube[2], eighth));
+    if constexpr (knows_triangles) {
+      const double upper = distance_at_.distance_to(samples_.near[index(cube)], position);
+      if (upper < too_near * double{field_.fine_.edge()}) return 0;
+      const double lower = between_eight(cube, eighth);
+      if (lower >= close_enough * upper) return lower;
+    }
+    return distance_at_(position, farthest).lower;
   }
 
   const DistanceField& field_;
@@ -205,8 +247,8 @@ double DistanceField::fill_cubes(const Sampler& sampler, const IsWanted& is_want
     const std::size_t rows_y = (coarse_.count(1) - first_y + step_y - 1) / step_y;
     const std::size_t rows = rows_y * ((coarse_.count(2) - first_z + step_z - 1) / step_z);
     in_ranges(rows, 1 + cubes_a_part / coarse_.count(0), threads, [&](std::size_t first, std::size_t end) {
-      // Middles and eighths are looked for with half of the work each.
-      const double all_rows = 2.0 * coarse_.count(1) * coarse_.count(2);
+      // Middles, outer and inner eighths are looked for with a third of the work each.
+      const double all_rows = 3.0 * coarse_.count(1) * coarse_.count(2);
       auto distance_at = sampler(static_cast<double>(end - first) / all_rows);
       Filler filler(*this, samples, distance_at, is_wanted);
       for (std::size_t row = first; row < end; ++row) {
@@ -221,7 +263,10 @@ double DistanceField::fill_cubes(const Sampler& sampler, const IsWanted& is_want
   fill(FillingPass::between_y, 1, 2, 0, 2);
   fill(FillingPass::between_z, 0, 1, 1, 2);
   const double part_near = samples.part_near(*this);
-  if (part_near <= most_near_for_eighths) fill(FillingPass::eighths, 0, 1, 0, 1);
+  if (part_near <= most_near_for_eighths) {
+    fill(FillingPass::outer_eighths, 0, 1, 0, 1);
+    if (samples.inner_eighths_pay()) fill(FillingPass::inner_eighths, 0, 1, 0, 1);
+  }
   return part_near;
 }
 

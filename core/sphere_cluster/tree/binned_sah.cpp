@@ -44,6 +44,23 @@ struct Bin {
   }
 };
 
+/// Steps through a range by 1 to 2 mean steps less 1, at random, since what repeats in the order of a mesh's
+/// triangles must not repeat in the sample. The same in every build.
+class RandomSteps {
+ public:
+  explicit RandomSteps(std::uint32_t mean) noexcept : steps_(2 * std::uint64_t{mean} - 1) {}
+
+  std::uint32_t next() noexcept {
+    if (steps_ == 1) return 1;
+    state_ = 1664525 * state_ + 1013904223;  // Numerical Recipes, third edition, 7.1.1
+    return 1 + static_cast<std::uint32_t>(steps_ * state_ >> 32);
+  }
+
+ private:
+  std::uint64_t steps_;
+  std::uint32_t state_ = 1;
+};
+
 }  // namespace
 
 TriangleSplitter::TriangleSplitter(const TriangleMesh& mesh, const SphereClusters& clusters,
@@ -159,7 +176,8 @@ float TriangleSplitter::key_of(const Item& item, Key key, int axis) const noexce
 TriangleSplitter::Bounds TriangleSplitter::bounds_of(const TriangleRange& range) const noexcept {
   Box all = box_of(items_[range.begin]);
   Box middles{all.min + all.max, all.min + all.max};
-  for (std::uint32_t i = range.begin; i < range.end; i += sample_step(range)) {
+  RandomSteps steps(mean_step(range));
+  for (std::uint32_t i = range.begin; i < range.end; i += steps.next()) {
     const Box box = box_of(items_[i]);
     const Lanes middle = box.min + box.max;
     all = {simd::min(all.min, box.min), simd::max(all.max, box.max)};
@@ -170,7 +188,8 @@ TriangleSplitter::Bounds TriangleSplitter::bounds_of(const TriangleRange& range)
 
 TriangleSplitter::Box TriangleSplitter::cluster_bounds(const TriangleRange& range) const noexcept {
   Box all{cluster_keys_[items_[range.begin].cluster], cluster_keys_[items_[range.begin].cluster]};
-  for (std::uint32_t i = range.begin; i < range.end; i += sample_step(range)) {
+  RandomSteps steps(mean_step(range));
+  for (std::uint32_t i = range.begin; i < range.end; i += steps.next()) {
     const Lanes at = cluster_keys_[items_[i].cluster];
     all = {simd::min(all.min, at), simd::max(all.max, at)};
   }
@@ -182,7 +201,8 @@ TriangleSplitter::Box TriangleSplitter::cluster_bounds(const TriangleRange& rang
 std::optional<TriangleSplitter::Cut> TriangleSplitter::cheapest_cut(const TriangleRange& range, Key key,
                                                                     const Bins& bins) const noexcept {
   std::array<std::array<Bin, bins_an_axis>, 3> bin;
-  for (std::uint32_t i = range.begin; i < range.end; i += sample_step(range)) {
+  RandomSteps steps(mean_step(range));
+  for (std::uint32_t i = range.begin; i < range.end; i += steps.next()) {
     const LaneBits at = bins_of(key_of(items_[i], key), bins.origin, bins.scale);
     const Box box = box_of(items_[i]);
     for (std::size_t axis = 0; axis < 3; ++axis)

@@ -111,9 +111,9 @@ class TriangleSplitter {
   void split_to_smallest(const TriangleRange& range);
   Bounds bounds_of(const TriangleRange& range) const noexcept;
   /// A cut is chosen by every item of a short range, and by so many of a long one, or twice as many.
-  std::uint32_t sample_step(const TriangleRange& range) const noexcept {
-    const std::uint32_t least = smallest_ > tree_width ? 192 : 4096;
-    return 2 * (range.size() / (2 * least)) + 1;
+  std::uint32_t mean_step(const TriangleRange& range) const noexcept {
+    const std::uint32_t least = smallest_ > tree_width ? 192 : 1024;
+    return std::max(range.size() / least, 1U);
   }
   static Box box_of(const Item& item) noexcept;
   Lanes key_of(const Item& item, Key key) const noexcept;

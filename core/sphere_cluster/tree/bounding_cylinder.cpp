@@ -58,7 +58,7 @@ Farthest farthest_from(const Eigen::Vector3f& center, const PointList& points) n
 Eigen::Vector3f central_point(const PointList& points) noexcept {
   Eigen::Vector3f center = middle_of_box(points), best = center;
   float least = infinity;
-  const int steps = points.size() <= 64 ? 24 : points.size() <= 4096 ? 8 : 1;
+  const int steps = points.size() <= 64 ? 12 : points.size() <= 4096 ? 4 : 1;
   for (int step = 1; step <= steps; ++step) {
     const Farthest farthest = farthest_from(center, points);
     if (farthest.squared < least) {

@@ -277,6 +277,40 @@ TEST(DistanceGrid, HasNoLowerBoundsInsideAMeshThatFillsItsBox) {
   EXPECT_EQ(known.grid.bytes(), bytes);
 }
 
+/// Level squares, one above the other, which fill the middle of a box: how far a place is from the nearest.
+double distance_to_squares(const Vec3& place, double apart) {
+  constexpr double half = 0.35;
+  const double level = apart * std::round(std::clamp(place.z(), -half, half) / apart);
+  return std::hypot(std::max(std::abs(place.x()) - half, 0.0), std::max(std::abs(place.y()) - half, 0.0),
+                    place.z() - level);
+}
+
+/// With 10^3 cubes of 0.12 the middle of an eighth is at most 0.42 of its edge from squares that are 0.05
+/// apart, and often half an edge from those 0.09 apart.
+TEST(DistanceGrid, SamplesInnerEighthsWhereTheyTellMoreThanThatTheMeshIsNear) {
+  Random random(29);
+  const auto samples_of = [&](double apart) {
+    DistanceField grid(Eigen::Vector3f::Constant(-0.5F), Eigen::Vector3f::Constant(0.5F), 4096);
+    std::size_t samples = 0;
+    const auto distance_at = [&](const Vec3& place, double) {
+      ++samples;
+      const double distance = distance_to_squares(place, apart);
+      return DistanceField::Interval{distance, distance};
+    };
+    grid.fill([&](double) { return distance_at; }, 1);
+    for (int i = 0; i < 3000; ++i) {
+      const Vec3 p = random.point(0.6);
+      const FilterPoint point{static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()),
+                              1e-6F};
+      const Vec3 rounded(point.x, point.y, point.z);
+      EXPECT_LE(static_cast<double>(grid.lower_bound(point)), distance_to_squares(rounded, apart));
+      EXPECT_LE(static_cast<double>(grid.tight_lower_bound(point)), distance_to_squares(rounded, apart));
+    }
+    return static_cast<double>(samples);
+  };
+  EXPECT_LT(samples_of(0.05), 0.8 * samples_of(0.09));
+}
+
 TEST(DistanceGrid, KeepsItsLowerBoundsWhereAllThatMovesIsNear) {
   Random random(17);
   const TriangleMesh mesh = test::bumpy_sphere(20, 0.02, 1);
