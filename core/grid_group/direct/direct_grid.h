@@ -109,12 +109,22 @@ class DirectGrid {
     remember(center, point.plane_error, least, std::numeric_limits<double>::infinity(), memory);
     return true;
   }
-  /// Makes the memory this grid's. Is nothing within reach, by what was sampled, where nothing was near? What
-  /// was near is asked about before the samples are, in start_at.
+  /// Is nothing within reach, by the mesh's box? It is in the cache, where samples may not be.
+  bool rejects_by_box(const Vec3& center, const FilterPoint& point, double reach,
+                      DirectMemory& memory) const noexcept {
+    constexpr double down = 1 - 0x1p-50;  // a difference is rounded once
+    const double least = down * (bounds_.min - center).cwiseMax(center - bounds_.max).maxCoeff();
+    if (!(least > reach)) return false;
+    remember(center, point.plane_error, least, std::numeric_limits<double>::infinity(), memory);
+    return true;
+  }
+  /// Makes the memory this grid's. Is nothing within reach, by the box or by what was sampled, where nothing
+  /// was near? What was near is asked about before the samples are, in start_at.
   bool rejects_at_start(const Vec3& center, const FilterPoint& point, double reach,
                         DirectMemory& memory) const noexcept {
     claim(memory);
-    return !memory.is_near() && rejects_by_distance_field(center, point, reach, memory);
+    return !memory.is_near() && (rejects_by_box(center, point, reach, memory) ||
+                                 rejects_by_distance_field(center, point, reach, memory));
   }
   /// Finds where to look first, after rejects_at_start.
   Start start_at(const Vec3& center, const FilterPoint& point, double reach, DirectMemory& memory,

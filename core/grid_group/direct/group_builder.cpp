@@ -24,15 +24,23 @@ Groups GroupBuilder::make(const FindOrKeep& find_or_keep) {
   groups_.groups_.resize(store_.size());
   groups_.members_.reserve(std::min(max_bytes_ / sizeof(std::uint32_t), std::size_t{24} * store_.size()));
   std::vector<Piece> wave(pieces_a_wave);
+  std::size_t found = 0;  // in the last wave
   for (std::size_t begin = 0; begin < store_.size() && !ran_out_; begin += slots_a_piece * pieces_a_wave) {
     const std::size_t size = std::min(store_.size() - begin, slots_a_piece * pieces_a_wave);
     for (Piece& piece : wave) piece = {};
+    // Where the last wave had next to no groups, this one probably has none either.
+    constexpr std::size_t slots_a_group = 64;
+    const bool has_hope = begin == 0 || slots_a_group * found >= slots_a_piece * pieces_a_wave;
     in_ranges(size, slots_a_piece, threads_, [&](std::size_t first, std::size_t end) {
-      GroupFinder finder(store_, tree_, exclusion_margin_, {.shares = true});
+      GroupFinder finder(store_, tree_, exclusion_margin_, {.shares = true, .has_hope = has_hope});
       for (auto slot = static_cast<std::uint32_t>(begin + first); slot < begin + end; ++slot)
         wave[first / slots_a_piece].add(slot, find_or_keep(finder, slot));
     });
-    for (const Piece& piece : wave) store(piece);
+    found = 0;
+    for (const Piece& piece : wave) {
+      found += piece.groups.size();
+      store(piece);
+    }
   }
   groups_.members_.shrink_to_fit();
   return std::move(groups_);

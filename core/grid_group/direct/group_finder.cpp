@@ -35,12 +35,14 @@ GroupFinder::Found GroupFinder::find(std::uint32_t slot) noexcept {
   const bool visible =
       growth * face_frame.inradius > static_cast<double>(store_.frame.plane_error(face_frame.incenter));
   if (face_frame.normal.isZero(0) || !visible) return {};
-  if (effort_.shares && failures_ >= TriangleStore::block_size && slot % TriangleStore::block_size != 0)
-    return {};
+  if (effort_.shares && slot < passed_over_until_) return {};
   boxes_seen_ = 0;
   const double height = find_members(slot, face_frame);
-  failures_ = member_count_ == 0 ? failures_ + 1 : 0;
-  if (member_count_ == 0) return {};
+  if (member_count_ == 0) {
+    fail(slot);
+    return {};
+  }
+  failures_ = 0;
   for (std::size_t i = member_count_; i < Groups::rounded_up(member_count_); ++i)
     members_[i] = members_[member_count_ - 1];
   // Rounded down, so that single precision covers no point outside.
@@ -48,6 +50,15 @@ GroupFinder::Found GroupFinder::find(std::uint32_t slot) noexcept {
   return {{members_.data(), member_count_},
           static_cast<float>(height * down),
           static_cast<float>(growth * face_frame.inradius * down)};
+}
+
+/// Passes over the slots to come, at last until the fourth block from here on.
+void GroupFinder::fail(std::uint32_t slot) noexcept {
+  constexpr std::uint32_t block = TriangleStore::block_size;
+  ++failures_;
+  if (failures_ < block) return;
+  const std::uint32_t blocks = failures_ > hopeless ? 4 : failures_ > (block + hopeless) / 2 ? 2 : 1;
+  passed_over_until_ = (slot / block + blocks) * block;
 }
 
 Work GroupFinder::take_work() noexcept { return std::exchange(work_, Work{}); }
