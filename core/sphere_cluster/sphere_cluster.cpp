@@ -49,7 +49,6 @@ bool SphereCluster::look_for_touch(const Probe& probe, Session& session) const n
   if (!(probe.radius >= 0)) return false;
   if (!options_.precise) return fast_.touches(probe, session.work);
   if (options_.lookup == Lookup::scan) return scan_.touches(probe, session.work);
-  if (tree_.turns_out_beyond_box(probe.center, probe.radius, session.memory)) return false;
   session.question = {LastQuestion::Query::touches, probe.radius};
   return tree_.touches(probe, session.memory, session.work);
 }
@@ -59,7 +58,6 @@ std::optional<Contact> SphereCluster::look_for_nearest(const Probe& probe, doubl
   if (!(reach >= 0)) return std::nullopt;
   if (!options_.precise) return fast_.nearest(probe.center, reach, session.work);
   if (options_.lookup == Lookup::scan) return scan_.nearest(probe.center, reach, session.work);
-  if (tree_.turns_out_beyond_box(probe.center, reach, session.memory)) return std::nullopt;
   session.question = {LastQuestion::Query::nearest, reach};
   return tree_.nearest(probe.center, reach, session.memory, session.work);
 }
@@ -84,7 +82,6 @@ std::optional<Impact> SphereCluster::look_for_impact(const Sweep& sweep, Session
   if (!(sweep.radius >= 0)) return std::nullopt;
   if (!options_.precise) return fast_.first_hit(sweep, session.work);
   if (options_.lookup == Lookup::scan) return scan_.first_hit(sweep, session.work);
-  if (tree_.turns_out_beyond_box(sweep, session.memory)) return std::nullopt;
   session.question = {LastQuestion::Query::sweep, sweep.radius};
   return tree_.first_hit(sweep, session.memory, session.work);
 }
@@ -94,7 +91,6 @@ std::size_t SphereCluster::look_for_contacts(const Probe& probe, double reach, S
   if (!(reach >= 0)) return 0;
   if (!options_.precise) return fast_.contacts(probe.center, reach, into, session.work);
   if (options_.lookup == Lookup::scan) return scan_.contacts(probe.center, reach, into, session.work);
-  session.memory.for_box = 0;
   return tree_.contacts(probe.center, reach, session.memory, into, counts_all, session.work);
 }
 

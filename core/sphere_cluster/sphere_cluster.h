@@ -116,18 +116,21 @@ class SphereCluster {
     return std::min(look_for_contacts(probe, reach, session, into, false), into.size());
   }
 
-  /// With a tree: is it known, without looking, that nothing is within reach? By what was near last, or by
-  /// the mesh's box where that answered last. Of a detector that was not built, nothing is known.
+  /// With a tree: is it known, without looking into it, that nothing is within reach? By what was near last,
+  /// or by the mesh's box, first where that answered last. Of a detector that was not built, nothing is
+  /// known.
   bool is_clear(const Vec3& center, double reach, Session& session) const noexcept {
-    if (session.memory.for_box == 0) return tree_.is_clear(center, reach, session.memory);
-    --session.memory.for_box;
-    return tree_.is_beyond_box(center, reach);
+    SphereTree::Memory& memory = session.memory;
+    if (memory.for_box == 0)
+      return tree_.is_clear(center, reach, memory) || tree_.turns_out_beyond_box(center, reach, memory);
+    return may_ask_on(tree_.is_beyond_box(center, reach), memory);
   }
   /// Is that known of a whole path?
   bool is_clear(const Sweep& sweep, Session& session) const noexcept {
-    if (session.memory.for_box == 0) return tree_.is_clear(sweep, session.memory);
-    --session.memory.for_box;
-    return tree_.is_beyond_box(sweep);
+    SphereTree::Memory& memory = session.memory;
+    if (memory.for_box == 0)
+      return tree_.is_clear(sweep, memory) || tree_.turns_out_beyond_box(sweep, memory);
+    return may_ask_on(tree_.is_beyond_box(sweep), memory);
   }
   /// With a tree: is it known, without looking, that the probe touches? Of a detector that was not built,
   /// nothing is known.
@@ -155,6 +158,11 @@ class SphereCluster {
   double tightness() const noexcept { return tightness_; }
 
  private:
+  /// Goes on with the box if that has answered; returns whether it has.
+  static bool may_ask_on(bool is_beyond, SphereTree::Memory& memory) noexcept {
+    memory.for_box = is_beyond ? memory.for_box - 1 : 0;
+    return is_beyond;
+  }
   bool look_for_touch(const Probe& probe, Session& session) const noexcept;
   std::optional<Contact> look_for_nearest(const Probe& probe, double reach, Session& session) const noexcept;
   std::optional<Contact> look_for_nearest(const Probe& probe, double reach, FollowedPoint& followed,

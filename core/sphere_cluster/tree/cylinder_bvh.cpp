@@ -28,23 +28,6 @@ constexpr float ticks_prepared = 2;
 
 }  // namespace
 
-bool SphereTree::turns_out_beyond_box(const Vec3& center, double reach, Memory& memory) const noexcept {
-  claim(memory);
-  if (std::exchange(memory.for_box, 0) > 0 || memory.is_near()) return false;
-  const double clearance = beyond_box(center, center) - box_margin_;
-  if (!(clearance > reach)) return false;
-  // A clearance that lasts twice as long as these questions serves better than the box.
-  constexpr std::uint32_t questions = 64;
-  const double half = 0.5 * (clearance - reach);
-  memory.for_box = (center - memory.center).squaredNorm() < half * half ? 0 : questions;
-  remember_touch(center, clearance * (1 - 0x1p-40), infinity, memory);
-  return true;
-}
-
-bool SphereTree::turns_out_beyond_box(const Sweep& sweep, Memory& memory) const noexcept {
-  return is_beyond_box(sweep) && turns_out_beyond_box(sweep.to, sweep.radius, memory);
-}
-
 /// Does a point that moves so far a tick stay among the leaves that are listed for it?
 bool SphereTree::is_slow(const Vec3& move) const noexcept {
   return move.norm() <= max_move_in_leaf_radii * mean_leaf_radius_;

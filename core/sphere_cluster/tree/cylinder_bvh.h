@@ -115,11 +115,24 @@ class SphereTree {
                sweep.radius + box_margin_ &&
            (sweep.to - sweep.from).squaredNorm() < longest_beyond_box_;
   }
-  /// Is that so now, where the box did not answer last and nothing was near? Then how far the box is is
-  /// remembered, as a clearance, and the next questions are for the box where the point moves too fast for
-  /// that to be of use.
-  bool turns_out_beyond_box(const Vec3& center, double reach, Memory& memory) const noexcept;
-  bool turns_out_beyond_box(const Sweep& sweep, Memory& memory) const noexcept;
+  /// Is that so now, where nothing was near? Then how far the box is is remembered, as a clearance, and the
+  /// next questions are for the box where the point moves too fast for that to be of use.
+  [[gnu::always_inline]] bool turns_out_beyond_box(const Vec3& center, double reach,
+                                                   Memory& memory) const noexcept {
+    if (memory.epoch == epoch_ && memory.is_near()) return false;
+    const double clearance = beyond_box(center, center) - box_margin_;
+    if (!(clearance > reach)) return false;
+    claim(memory);
+    // A clearance that lasts twice as long as these questions serves better than the box.
+    constexpr std::uint32_t questions = 64;
+    const double half = 0.5 * (clearance - reach);
+    memory.for_box = (center - memory.center).squaredNorm() < half * half ? 0 : questions;
+    remember_touch(center, clearance * (1 - 0x1p-40), std::numeric_limits<double>::infinity(), memory);
+    return true;
+  }
+  [[gnu::always_inline]] bool turns_out_beyond_box(const Sweep& sweep, Memory& memory) const noexcept {
+    return is_beyond_box(sweep) && turns_out_beyond_box(sweep.to, sweep.radius, memory);
+  }
   /// Is that known of one of many points?
   bool is_clear(const Vec3& center, double reach, const spheres::FollowedPoint& list) const noexcept {
     const double margin = list.covered - reach;
@@ -174,7 +187,13 @@ class SphereTree {
                                               Work& work) const noexcept;
   bool accepts_by_distance_field(const FilterPoint& point, const Vec3& center, double radius,
                                  Memory& memory) const noexcept;
-  static void remember_touch(const Vec3& center, double lower, double upper, Memory& memory) noexcept;
+  /// Remembers what `touches` found.
+  static void remember_touch(const Vec3& center, double lower, double upper, Memory& memory) noexcept {
+    memory.move = Vec3::Constant(std::numeric_limits<double>::infinity());
+    memory.center = center;
+    memory.lower = lower;
+    memory.upper = upper;
+  }
   static void remember_nearest(const Vec3& center, std::uint32_t slot, double distance, double pad,
                                Memory& memory) noexcept;
   void remember_planes(Memory& memory) const noexcept;

@@ -169,12 +169,4 @@ void SphereTree::remember_planes(Memory& memory) const noexcept {
   memory.touched_slot = memory.slot;
 }
 
-/// Remembers what `touches` found.
-void SphereTree::remember_touch(const Vec3& center, double lower, double upper, Memory& memory) noexcept {
-  memory.move = Vec3::Constant(infinity);
-  memory.center = center;
-  memory.lower = lower;
-  memory.upper = upper;
-}
-
 }  // namespace touchmark
