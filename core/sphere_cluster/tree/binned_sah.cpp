@@ -8,6 +8,7 @@
 
 #include "core/search/parallel.h"
 #include "core/sphere_cluster/tree/node.h"
+#include "core/sphere_cluster/tree/random_steps.h"
 
 namespace touchmark::spheres {
 namespace {
@@ -42,23 +43,6 @@ struct Bin {
   float cost() const noexcept {
     return half_area(min, max) * static_cast<float>((count + tree_width - 1) / tree_width);
   }
-};
-
-/// Steps through a range by 1 to 2 mean steps less 1, at random, since what repeats in the order of a mesh's
-/// triangles must not repeat in the sample. The same in every build.
-class RandomSteps {
- public:
-  explicit RandomSteps(std::uint32_t mean) noexcept : steps_(2 * std::uint64_t{mean} - 1) {}
-
-  std::uint32_t next() noexcept {
-    if (steps_ == 1) return 1;
-    state_ = 1664525 * state_ + 1013904223;  // Numerical Recipes, third edition, 7.1.1
-    return 1 + static_cast<std::uint32_t>(steps_ * state_ >> 32);
-  }
-
- private:
-  std::uint64_t steps_;
-  std::uint32_t state_ = 1;
 };
 
 }  // namespace
@@ -196,8 +180,7 @@ TriangleSplitter::Box TriangleSplitter::cluster_bounds(const TriangleRange& rang
   return all;
 }
 
-/// The cheapest of the positions between two bins; nothing when all of the range is in one bin. Of a long
-/// range a sample tells.
+/// The cheapest of the positions between two bins, by a sample; nothing when all of that is in one bin.
 std::optional<TriangleSplitter::Cut> TriangleSplitter::cheapest_cut(const TriangleRange& range, Key key,
                                                                     const Bins& bins) const noexcept {
   std::array<std::array<Bin, bins_an_axis>, 3> bin;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -16,8 +15,6 @@ namespace touchmark {
 namespace {
 
 using spheres::NearestVisitor;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A point that moves by more of the mean leaf's radius a tick starts anew: it has left the cached leaves
 /// before they are used.
