@@ -119,14 +119,14 @@ class SphereCluster {
   /// With a tree: is it known, without looking into it, that nothing is within reach? By what was near last,
   /// or by the mesh's box, first where that answered last. Of a detector that was not built, nothing is
   /// known.
-  bool is_clear(const Vec3& center, double reach, Session& session) const noexcept {
+  [[gnu::always_inline]] bool is_clear(const Vec3& center, double reach, Session& session) const noexcept {
     SphereTree::Memory& memory = session.memory;
     if (memory.for_box == 0)
       return tree_.is_clear(center, reach, memory) || tree_.turns_out_beyond_box(center, reach, memory);
     return may_ask_on(tree_.is_beyond_box(center, reach), memory);
   }
   /// Is that known of a whole path?
-  bool is_clear(const Sweep& sweep, Session& session) const noexcept {
+  [[gnu::always_inline]] bool is_clear(const Sweep& sweep, Session& session) const noexcept {
     SphereTree::Memory& memory = session.memory;
     if (memory.for_box == 0)
       return tree_.is_clear(sweep, memory) || tree_.turns_out_beyond_box(sweep, memory);
