@@ -33,10 +33,10 @@ class OrientedSurface {
   std::size_t vertices() const noexcept { return out_of_.size(); }
 
   static std::uint32_t next(std::uint32_t side) noexcept {
-    return side % N == N - 1 ? side + 1 - N : side + 1;
+    return side % N == N - 1 ? static_cast<std::uint32_t>(side + 1 - N) : side + 1;
   }
   static std::uint32_t previous(std::uint32_t side) noexcept {
-    return side % N == 0 ? side + N - 1 : side - 1;
+    return side % N == 0 ? static_cast<std::uint32_t>(side + N - 1) : side - 1;
   }
   std::uint32_t start(std::uint32_t side) const noexcept { return faces_[side / N][side % N]; }
   std::uint32_t end(std::uint32_t side) const noexcept { return start(next(side)); }

@@ -72,9 +72,9 @@ class VisitsCheck {
 
   const CsvRecord* record_of(const Json& row) const {
     for (const CsvRecord& record : results_->records) {
-      if (results_->field(record, "detector") == row.at("detector") &&
-          results_->field(record, "options") == row.at("options") &&
-          results_->field(record, "trajectory") == row.at("trajectory"))
+      if (results_->field(record, "detector") == row.at("detector").get<std::string>() &&
+          results_->field(record, "options") == row.at("options").get<std::string>() &&
+          results_->field(record, "trajectory") == row.at("trajectory").get<std::string>())
         return &record;
     }
     return nullptr;
