@@ -222,13 +222,25 @@ class BuildProgram(unittest.TestCase):
         self.assertEqual(again.returncode, 0, again.stderr)
         self.assertNotIn(without, self.log())
 
-    def test_shows_what_failed(self):
+    def test_shows_the_first_error_and_where_the_log_is(self):
         done = self.built_with("""
             [[ "$*" == *--build* ]] || exit 0
-            printf '@1/2@ Building one.o\\nFAILED: two.o\\ntwo.cpp: error: no\\n'
+            printf '@1/2@ Building one.o\\nFAILED: two.o\\nc++ two.cpp\\ntwo.cpp:7:1: error: no\\n'
+            for i in {1..5000}; do echo "three.cpp:$i: note: candidate $i"; done
             exit 1""")
         self.assertEqual(done.returncode, 1)
-        self.assertTrue(done.stderr.endswith("build.log:\nFAILED: two.o\ntwo.cpp: error: no\n"), done.stderr)
+        lines = done.stderr.splitlines()
+        first = lines.index("two.cpp:7:1: error: no")
+        self.assertIn("cannot build", lines[first - 1])
+        self.assertLess(len(lines), 15)
+        self.assertEqual(lines[-1], f"build-program: all output is in {self.root / 'build' / 'release' / 'build.log'}")
+
+    def test_shows_what_cmake_says_where_it_cannot_configure(self):
+        done = self.built_with("""
+            printf -- '-- Found A\\nCMake Error at CMakeLists.txt:3 (find_package):\\n  B is missing\\n\\nCall Stack\\n'
+            exit 1""")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("cannot configure. The first error:\nCMake Error at CMakeLists.txt:3 (find_package):\n  B is missing\n", done.stderr)
 
 
 class Dragon(unittest.TestCase):
