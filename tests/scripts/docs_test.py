@@ -52,7 +52,7 @@ class Documents(unittest.TestCase):
         self.assertEqual(broken, [])
 
     def test_tables_are_what_the_sources_say(self):
-        done = subprocess.run([DOCS, "--check", ROOT / "README.md", *(ROOT / "docs" / page for page in (
+        done = subprocess.run([DOCS, "--check", "--tables", ROOT / "README.md", *(ROOT / "docs" / page for page in (
             "library.md", "reference/results-csv.md", "reference/run-json.md"))], capture_output=True, text=True, check=False)
         self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
 
@@ -64,13 +64,23 @@ class Documents(unittest.TestCase):
         described = re.findall(r"^\| `<touchmark/(\w+\.h)>`", (ROOT / "docs" / "library.md").read_text(encoding="utf-8"), re.M)
         self.assertEqual(sorted(described), sorted(pathlib.PurePath(header).name for header in listed))
 
+    def test_every_block_of_commands_is_one_that_runs_or_says_why_not(self):
+        command = re.compile(r"(?:\$ |sudo |[A-Z_]+=\S+ )*(?:scripts/|build/|(?:/usr/bin/)?(?:touchmark|cmake|ctest|g\+\+|cc|python3|pip|apt-get|git|"
+                             r"snakemake|sbatch|vcpkg|rattler-build|export|cd) )")
+        unmarked = []
+        for page in pages():
+            text = page.read_text(encoding="utf-8")
+            others = re.sub(r"^```(?:console|sh)\n.*?^```$", "", text, flags=re.M | re.S)
+            blocks = re.findall(r"^```text\n(.*?)^```$", others, re.M | re.S) + re.findall(r"(?:^    .*\n)+", prose(page), re.M)
+            unmarked += [f"{page.relative_to(ROOT)}: {line.strip()}" for block in blocks for line in block.splitlines()
+                         if command.match(line.strip())]
+        self.assertEqual(unmarked, [])
+
     def test_the_readme_is_short(self):
         self.assertLessEqual(len((ROOT / "README.md").read_text(encoding="utf-8").splitlines()), 120)
 
 
-PAGE = """<!-- scripts/dev docs runs this page -->
-
-```console
+PAGE = """```console
 $ touchmark twice a
 $ touchmark twice b
 ```
@@ -130,6 +140,48 @@ class Docs(unittest.TestCase):
         self.docs("--measured")
         self.assertIn("\nthrice c\n```", self.page.read_text(encoding="utf-8"))
 
+    def test_runs_blocks_of_a_shell_in_one_environment_and_leaves_nothing(self):
+        self.page.write_text("""```sh
+mkdir made && cd made
+export SAID=so
+```
+
+```console
+$ touchmark $SAID $(basename $PWD) > ~/kept && cat ~/kept
+```
+""", encoding="utf-8")
+        self.program("$(pwd | sed 's,.*/,,')")
+        self.assertEqual(self.docs().returncode, 0)
+        self.assertIn("kept\nmade made\n```", self.page.read_text(encoding="utf-8"))
+        self.assertFalse((ROOT / "made").exists())
+
+    def test_finds_a_block_of_a_shell_that_fails_in_its_first_line(self):
+        self.page.write_text("```sh\nfalse\ntrue\n```\n", encoding="utf-8")
+        done = self.docs("--check")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("has exit status 1", done.stderr)
+
+    def test_runs_with_other_words_where_the_page_says_so_and_not_where_it_says_why(self):
+        self.page.write_text("""<!-- run with: --seconds 3600 => --seconds 1 -->
+```console
+$ touchmark twice --seconds 3600
+```
+
+<!-- not run: it would take a year -->
+```console
+$ no-such-command
+```
+""", encoding="utf-8")
+        self.program("twice $*")
+        self.assertEqual(self.docs().returncode, 0)
+        text = self.page.read_text(encoding="utf-8")
+        self.assertIn("$ touchmark twice --seconds 3600\ntwice --seconds 1 --seconds\n```", text)
+        self.assertIn("$ no-such-command\n```", text)
+
+    def test_refuses_other_words_for_what_the_block_does_not_hold(self):
+        self.page.write_text("<!-- run with: a => b -->\n```sh\ntrue\n```\n", encoding="utf-8")
+        self.assertIn("names 'a'", self.docs("--check").stderr)
+
     def test_finds_a_command_that_fails(self):
         self.docs()
         self.program("twice", status=2)
@@ -138,7 +190,7 @@ class Docs(unittest.TestCase):
         self.assertIn("'touchmark twice a' has exit status 2", done.stderr)
 
     def test_accepts_of_what_is_measured_that_the_machine_was_too_noisy(self):
-        self.page.write_text(PAGE[PAGE.index("<!-- measured"):] + PAGE[:PAGE.index("\n")] + "\n", encoding="utf-8")
+        self.page.write_text(PAGE[PAGE.index("<!-- measured"):], encoding="utf-8")
         self.docs()
         self.program("twice", status=4)
         self.assertEqual(self.docs("--check").returncode, 0)
