@@ -41,8 +41,8 @@ BodyScene read_node_tree(const std::string& path) {
   return scene;
 }
 
-BodyScene read_robot(const std::string& path) {
-  BodyScene scene = read_urdf(path);
+BodyScene read_robot(const std::string& path, const std::vector<std::string>& packages) {
+  BodyScene scene = read_urdf(path, RosPackages(packages));
   std::set<std::string> names;
   for (Body& body : scene.bodies) body.name = unused(body.name, names);
   return scene;
@@ -65,14 +65,14 @@ void expect_a_file(const std::string& what) {
                   what, support::near_names(what.substr(0, what.find(':')), known)));
 }
 
-GeneratedScene load_unmoved(const std::string& what) {
+GeneratedScene load_unmoved(const std::string& what, const std::vector<std::string>& packages) {
   if (std::optional<GeneratedScene> generated = generated_scene(what)) return *std::move(generated);
   expect_a_file(what);
   const std::filesystem::path path(what);
   const std::string ending = lower_case(path.extension().string());
   GeneratedScene loaded;
   loaded.scene = ending == ".json"   ? read_scene_json(what)
-                 : ending == ".urdf" ? read_robot(what)
+                 : ending == ".urdf" ? read_robot(what, packages)
                                      : read_node_tree(what);
   loaded.scene.name = path.filename().string();
   return loaded;
@@ -80,8 +80,9 @@ GeneratedScene load_unmoved(const std::string& what) {
 
 }  // namespace
 
-GeneratedScene load_body_scene(const std::string& what, const std::string& poses) {
-  GeneratedScene loaded = load_unmoved(what);
+GeneratedScene load_body_scene(const std::string& what, const std::string& poses,
+                               const std::vector<std::string>& packages) {
+  GeneratedScene loaded = load_unmoved(what, packages);
   if (!poses.empty()) loaded.motion = read_poses(poses, loaded.scene);
   return loaded;
 }

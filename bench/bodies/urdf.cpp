@@ -67,20 +67,23 @@ TriangleMesh cylinder(double length, double radius) {
   return std::move(surface).mesh();
 }
 
-/// Each coordinate times its own factor.
+/// Returns the mesh with each coordinate times its own factor. A mirrored one is turned over, so that its
+/// inside and its normals stay on their sides.
 TriangleMesh stretched(const TriangleMesh& mesh, const Vec3& factors) {
   if (!factors.allFinite() || (factors.array() == 0).any())
     throw std::invalid_argument("a mesh's scale is 0 or not finite");
   std::vector<Vec3> vertices;
   for (const Vec3& v : mesh.vertices()) vertices.emplace_back(v.cwiseProduct(factors));
-  return {std::move(vertices),
-          {mesh.triangles().begin(), mesh.triangles().end()},
-          {mesh.ids().begin(), mesh.ids().end()}};
+  std::vector<TriangleMesh::Corners> triangles(mesh.triangles().begin(), mesh.triangles().end());
+  if ((factors.array() < 0).count() % 2 == 1)
+    for (TriangleMesh::Corners& corners : triangles) std::swap(corners[1], corners[2]);
+  return {std::move(vertices), std::move(triangles), {mesh.ids().begin(), mesh.ids().end()}};
 }
 
 class UrdfReader {
  public:
-  explicit UrdfReader(const std::string& path) : folder_(std::filesystem::path(path).parent_path()) {}
+  UrdfReader(const std::string& path, const RosPackages& packages)
+      : folder_(std::filesystem::path(path).parent_path()), packages_(packages) {}
 
   void add(const urdf::Link& link, const Placement& place) {
     link_ = link.name;
@@ -137,19 +140,29 @@ class UrdfReader {
   }
 
   std::size_t mesh_of(const urdf::Mesh& mesh) {
-    std::string name = mesh.filename;
-    constexpr std::string_view file = "file://";
-    if (name.starts_with(file)) name.erase(0, file.size());
-    if (name.find("://") != std::string::npos)
-      throw std::invalid_argument(
-          fmt::format("mesh \"{}\": packages are not looked up; write a path, from the URDF's folder", name));
     const Vec3 scale = vector_of(mesh.scale);
-    const auto key = std::tuple(name, scale.x(), scale.y(), scale.z());
+    const auto key = std::tuple(mesh.filename, scale.x(), scale.y(), scale.z());
     if (const auto known = meshes_.find(key); known != meshes_.end()) return known->second;
-    return meshes_[key] = added(std::nullopt, stretched(load_mesh(folder_ / name), scale));
+    return meshes_[key] = added(std::nullopt, stretched(load_mesh(file_of(mesh.filename)), scale));
+  }
+
+  std::filesystem::path file_of(const std::string& address) const {
+    constexpr std::string_view file = "file://", package = "package://";
+    if (address.starts_with(file)) return address.substr(file.size());
+    if (!address.starts_with(package)) {
+      if (address.find("://") == std::string::npos) return folder_ / address;
+      throw std::invalid_argument(fmt::format(
+          "mesh \"{}\": only package://, file:// and paths from the URDF's folder are read", address));
+    }
+    const std::string path = address.substr(package.size());
+    const std::size_t slash = path.find('/');
+    if (slash == 0 || slash == std::string::npos)
+      throw std::invalid_argument(fmt::format("mesh \"{}\": names no file of a package", address));
+    return packages_.folder_of(path.substr(0, slash)) / path.substr(slash + 1);
   }
 
   std::filesystem::path folder_;
+  const RosPackages& packages_;
   BodyScene scene_;
   std::string link_;
   std::map<std::tuple<std::string, double, double, double>, std::size_t> meshes_;
@@ -157,13 +170,13 @@ class UrdfReader {
 
 }  // namespace
 
-BodyScene read_urdf(const std::string& path) {
+BodyScene read_urdf(const std::string& path, const RosPackages& packages) {
   const std::string text = support::read_text_file(path);
   const FirstComplaint complaint;
   const urdf::ModelInterfaceSharedPtr robot = urdf::parseURDF(text);
   if (!robot || !robot->getRoot())
     throw std::invalid_argument(fmt::format("{}: is no URDF: {}", path, complaint.text()));
-  UrdfReader reader(path);
+  UrdfReader reader(path, packages);
   try {
     reader.add(*robot->getRoot(), {});
   } catch (const MeshError& error) {

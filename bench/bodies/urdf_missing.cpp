@@ -4,8 +4,9 @@
 
 namespace touchmark::bench::bodies {
 
-BodyScene read_urdf(const std::string& path) {
-  throw std::invalid_argument(path + ": this program is built without liburdfdom, which reads URDF");
+BodyScene read_urdf(const std::string& path, const RosPackages&) {
+  throw std::invalid_argument(
+      path + ": URDF needs liburdfdom: install liburdfdom-dev (scripts/setup bench) and build again");
 }
 
 }  // namespace touchmark::bench::bodies

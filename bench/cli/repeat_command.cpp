@@ -26,6 +26,7 @@ std::string repeat_command(const contestants::Selectors& selectors, const std::s
     if (!value.empty()) command += fmt::format(" {} {}", option, support::quoted(value));
   };
   add("--poses", selectors.poses);
+  for (const std::string& package : selectors.packages) add("--package", package);
   add("--reach", selectors.reach);
   add("--columns", selectors.motion.columns);
   add("--motion-scale", selectors.motion.scale);

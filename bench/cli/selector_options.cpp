@@ -35,6 +35,13 @@ void add_scene_selectors(CLI::App& command, contestants::Selectors& selectors) {
       .add_option("--poses", selectors.poses,
                   "how the scene's bodies move: CSV with columns time_s,body,x,y,z,qw,qx,qy,qz")
       ->type_name("CSV");
+  command
+      .add_option(
+          "--package", selectors.packages,
+          "of a .urdf: where package://NAME is; repeatable; else ROS_PACKAGE_PATH and AMENT_PREFIX_PATH say")
+      ->type_name("NAME=DIR")
+      ->expected(1)
+      ->take_all();
 }
 
 void add_unit(CLI::App& command, std::string& unit) {

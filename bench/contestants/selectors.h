@@ -28,8 +28,9 @@ std::optional<support::LengthUnit> checked_unit(const std::string& text);
 struct Selectors {
   std::vector<std::string> meshes;  ///< empty: the command's own choice
   bool normalize = false;
-  std::string scene;  ///< names bodies, in place of a mesh; empty: none
-  std::string poses;  ///< how they move; empty: as the scene says
+  std::string scene;                  ///< names bodies, in place of a mesh; empty: none
+  std::string poses;                  ///< how they move; empty: as the scene says
+  std::vector<std::string> packages;  ///< NAME=DIR, of a robot's file
   std::vector<std::string> trajectories;
   std::vector<std::string> detectors;  ///< empty: the default set
   std::string query = "nearest";       ///< a query; "all" where the command allows it

@@ -132,8 +132,9 @@ workload::Workload workload_for(const BenchOptions& options, const contestants::
       selectors.trajectories.empty() ? default_trajectories : selectors.trajectories;
   const std::size_t steps = options.quick ? 5000 : 20000;
   if (!selectors.scene.empty()) {
-    return workload::make_scene_workload(bodies::load_body_scene(selectors.scene, selectors.poses), selection,
-                                         named, steps);
+    return workload::make_scene_workload(
+        bodies::load_body_scene(selectors.scene, selectors.poses, selectors.packages), selection, named,
+        steps);
   }
   const std::string mesh = mesh_of(selectors);
   return workload::make_workload(results::without_directories(mesh),

@@ -136,8 +136,9 @@ workload::Workload workload_for(const ChooseOptions& options, const workload::Se
                                 double rate_hz) {
   const contestants::Selectors& selectors = options.selectors;
   if (!selectors.scene.empty())
-    return choose::workload_by_time(bodies::load_body_scene(selectors.scene, selectors.poses), selection,
-                                    motions_of(options), rate_hz);
+    return choose::workload_by_time(
+        bodies::load_body_scene(selectors.scene, selectors.poses, selectors.packages), selection,
+        motions_of(options), rate_hz);
   const std::string mesh =
       options.selectors.meshes.empty() ? scenes::default_scene() : options.selectors.meshes.front();
   return choose::workload_by_time(results::without_directories(mesh),

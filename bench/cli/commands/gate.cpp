@@ -73,8 +73,9 @@ workload::Workload workload_for(const GateOptions& options, const contestants::C
   const std::vector<std::string> named =
       selectors.trajectories.empty() ? std::vector<std::string>{"slide"} : selectors.trajectories;
   if (!selectors.scene.empty())
-    return workload::make_scene_workload(bodies::load_body_scene(selectors.scene, selectors.poses), selection,
-                                         named, steps);
+    return workload::make_scene_workload(
+        bodies::load_body_scene(selectors.scene, selectors.poses, selectors.packages), selection, named,
+        steps);
   const std::string mesh = selectors.meshes.empty() ? scenes::default_scene() : selectors.meshes.front();
   return workload::make_workload(results::without_directories(mesh),
                                  scenes::load_mesh(mesh, selectors.normalize), selection, named, steps);

@@ -79,8 +79,8 @@ workload::Workload workload_for(const contestants::Selectors& selectors,
   const std::vector<std::string> slide{"slide"};
   const std::vector<std::string>& named = selectors.trajectories.empty() ? slide : selectors.trajectories;
   if (!selectors.scene.empty()) {
-    return workload::make_scene_workload(bodies::load_body_scene(selectors.scene, selectors.poses), selection,
-                                         named, 0);
+    return workload::make_scene_workload(
+        bodies::load_body_scene(selectors.scene, selectors.poses, selectors.packages), selection, named, 0);
   }
   const std::string mesh = selectors.meshes.empty() ? scenes::default_scene() : selectors.meshes.front();
   return workload::make_workload(mesh, scenes::load_mesh(mesh, selectors.normalize), selection, named, 0);

@@ -97,8 +97,9 @@ ServoCommand::ServoCommand(const ProgramContext& context, const ServoOptions& op
 workload::Workload ServoCommand::workload_by_time() {
   const contestants::Selectors& selectors = options_.selectors;
   if (!selectors.scene.empty())
-    return servo::scene_workload_by_time(bodies::load_body_scene(selectors.scene, selectors.poses),
-                                         selection_, {trajectory_}, settings_);
+    return servo::scene_workload_by_time(
+        bodies::load_body_scene(selectors.scene, selectors.poses, selectors.packages), selection_,
+        {trajectory_}, settings_);
   TriangleMesh mesh = scenes::load_mesh(mesh_, options_.selectors.normalize);
   static_cast<workload::Selection&>(selection_) =
       servo::selection_by_time(selection_, mesh, trajectory_, settings_.rate_hz);

@@ -104,8 +104,9 @@ void VerifyRun::verify_mesh(const std::string& mesh) {
 
 void VerifyRun::verify_scene() {
   const contestants::Selectors& selectors = options_.selectors;
-  verify_workload(workload::make_scene_workload(bodies::load_body_scene(selectors.scene, selectors.poses),
-                                                selection_, trajectories_for(options_), steps_on_every_scene),
+  verify_workload(workload::make_scene_workload(
+                      bodies::load_body_scene(selectors.scene, selectors.poses, selectors.packages),
+                      selection_, trajectories_for(options_), steps_on_every_scene),
                   selectors.scene);
 }
 

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -397,6 +398,50 @@ TEST_F(SceneCommand, ReadsARobotAtTheZeroPositionsOfItsJoints) {
   refuses(write("none.urdf", "<robot name='r'><link name='a'/></robot>"), {"none.urdf", "geometry"});
   refuses(write("half.urdf", "<robot name='r'><link name="), {"half.urdf", "no URDF"});
   refuses(write("empty.urdf", ""), {"empty.urdf"});
+}
+
+// A plate in the plane z = 0 that faces +z does so, too, where x is mirrored.
+TEST_F(SceneCommand, KeepsTheSideThatAMirroredMeshOfARobotFaces) {
+  const auto normal_z = [&](const std::string& scale, const std::string& x) {
+    const std::string robot = write("mirrored.urdf", R"(<robot name="r"><link name="l"><visual><geometry>)"
+                                                     R"(<mesh filename="plate.off" scale=")" +
+                                                         scale + R"("/></geometry></visual></link></robot>)");
+    const std::string csv = (folder_ / "normals.csv").string();
+    const Outcome outcome = run_touchmark({"query", "--scene", robot, "--trajectory",
+                                           write("on.csv", "x,y,z\n" + x + ",0.25,0\n"), "--detector",
+                                           "sphere-cluster", "--radius", "0.5", "--csv", csv});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return fields_in(csv, {"normal_z"}).at(0).at(0);
+  };
+  EXPECT_EQ(normal_z("1 1 1", "0.25"), "1");
+  EXPECT_EQ(normal_z("-1 1 1", "-0.25"), "1");
+  EXPECT_EQ(normal_z("-1 1 -1", "-0.25"), "-1");
+}
+
+TEST_F(SceneCommand, FindsThePackagesOfARobotWhereRosDoesAndWhereTheOptionSays) {
+  const std::string robot = write("packaged.urdf", R"(<robot name="r"><link name="l"><visual><geometry>)"
+                                                   R"(<mesh filename="package://arm/meshes/plate.off"/>)"
+                                                   R"(</geometry></visual></link></robot>)");
+  const std::string motion = write("above.csv", "x,y,z\n0.25,0.25,3\n");
+  for (const char* const place : {"deep/in/source", "prefix/share/arm", "given"}) {
+    fs::create_directories(folder_ / place / "meshes");
+    fs::copy(folder_ / "plate.off", folder_ / place / "meshes/plate.off");
+  }
+  write("deep/in/source/package.xml", "<package><name> arm </name></package>");
+  expect_bad_input({"query", "--scene", robot, "--trajectory", motion, "--detector", "brute-force"},
+                   {"\"l\"", "\"arm\"", "ROS_PACKAGE_PATH", "--package arm=DIR"});
+  expect_bad_input(
+      {"query", "--scene", robot, "--package", "arm", "--trajectory", motion, "--detector", "brute-force"},
+      {"--package arm", "NAME=DIR"});
+  const std::vector<std::string> three{"3"};
+  EXPECT_EQ(rows(robot, motion, {"--package", "arm=" + (folder_ / "given").string()}).distances, three);
+  for (const auto& [variable, path] :
+       {std::pair("ROS_PACKAGE_PATH", "/nowhere:" + (folder_ / "deep").string()),
+        std::pair("AMENT_PREFIX_PATH", (folder_ / "prefix").string())}) {
+    ::setenv(variable, path.c_str(), 1);
+    EXPECT_EQ(rows(robot, motion).distances, three) << variable;
+    ::unsetenv(variable);
+  }
 }
 
 TEST_F(SceneCommand, VerifiesAPlainLoopOverMovingBodies) {

@@ -1,0 +1,26 @@
+/// Where packages of ROS lie, for the package:// addresses in a robot's file.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace touchmark::bench::bodies {
+
+/// Looks packages up as ROS does: first those given by hand, then AMENT_PREFIX_PATH (PREFIX/share/NAME), then
+/// ROS_PACKAGE_PATH (folders with a package.xml of that name, at any depth).
+class RosPackages {
+ public:
+  /// `given` are texts NAME=DIR. Throws std::invalid_argument for one without a name or whose DIR is no
+  /// folder.
+  explicit RosPackages(const std::vector<std::string>& given);
+
+  /// Returns the package's folder. Throws std::invalid_argument, naming the package and the option that
+  /// helps.
+  std::filesystem::path folder_of(const std::string& name) const;
+
+ private:
+  std::vector<std::pair<std::string, std::filesystem::path>> given_;
+};
+
+}  // namespace touchmark::bench::bodies
