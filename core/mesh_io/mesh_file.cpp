@@ -17,12 +17,16 @@ namespace {
 bool is_blank(char c) noexcept { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 bool is_line_end(char c) noexcept { return c == '\n' || c == '\r'; }
 
-/// A pipe tells no size that could be held against the machine's memory.
-constexpr std::size_t max_piped = std::size_t{1} << 30;
+/// More than any mesh of use has. A pipe tells no size that could be held against the machine's memory.
+constexpr std::uint64_t max_size = std::uint64_t{4} << 30, max_piped = std::uint64_t{1} << 30;
 
 std::string read_whole(const std::filesystem::path& path) {
   InputFile file(path);
   if (!file.is_regular() && !file.is_pipe()) throw MeshError("is neither a file nor a pipe");
+  if (file.size() > max_size) {
+    throw MeshError("has " + std::to_string(file.size()) + " bytes; at most " + std::to_string(max_size) +
+                    " are read (4 GiB)");
+  }
   constexpr std::size_t least_room = 1 << 16;
   std::string bytes(file.size() + 1, '\0');  // the one more finds the end
   std::size_t filled = 0;
@@ -37,6 +41,15 @@ std::string read_whole(const std::filesystem::path& path) {
   if (filled == 0) throw MeshError("is empty");
   bytes.resize(filled);
   return bytes;
+}
+
+/// True of "0,5": a number where the decimal point is a comma.
+bool has_decimal_comma(std::string word) {
+  const std::size_t comma = word.find(',');
+  if (comma == word.npos || comma + 1 == word.size()) return false;
+  word[comma] = '.';
+  double ignored = 0;
+  return std::from_chars(word.data(), word.data() + word.size(), ignored).ptr == word.data() + word.size();
 }
 
 }  // namespace
@@ -86,8 +99,11 @@ void TextCursor::skip_spaces(bool across_lines) {
       rest_.remove_prefix(std::min(rest_.find_first_of("\r\n"), rest_.size()));
     } else if (is_blank(c)) {
       rest_.remove_prefix(1);
+    } else if (joins_at(0)) {
+      rest_.remove_prefix(1);
+      take_line_end();
     } else if (across_lines && is_line_end(c)) {
-      skip_line();
+      take_line_end();
     } else {
       return;
     }
@@ -95,8 +111,12 @@ void TextCursor::skip_spaces(bool across_lines) {
 }
 
 std::string_view TextCursor::take_word() {
+  const auto ends_at = [&](std::size_t at) {
+    const char c = rest_[at];
+    return is_blank(c) || is_line_end(c) || (comment_ != 0 && c == comment_) || joins_at(at);
+  };
   std::size_t length = 0;
-  while (length < rest_.size() && !is_blank(rest_[length]) && !is_line_end(rest_[length])) ++length;
+  while (length < rest_.size() && !ends_at(length)) ++length;
   const std::string_view word = rest_.substr(0, length);
   rest_.remove_prefix(length);
   return word;
@@ -112,15 +132,18 @@ std::string_view TextCursor::word_on_line() {
   return take_word();
 }
 
-void TextCursor::skip_line() {
-  const std::size_t end = rest_.find_first_of("\r\n");
-  if (end == std::string_view::npos) {
-    rest_ = {};
-    return;
-  }
-  const bool both = rest_[end] == '\r' && end + 1 < rest_.size() && rest_[end + 1] == '\n';
-  rest_.remove_prefix(end + (both ? 2 : 1));
+bool TextCursor::joins_at(std::size_t at) const noexcept {
+  return joins_lines_ && rest_[at] == '\\' && at + 1 < rest_.size() && is_line_end(rest_[at + 1]);
+}
+
+void TextCursor::take_line_end() {
+  rest_.remove_prefix(rest_.starts_with("\r\n") ? 2 : 1);
   ++line_;
+}
+
+void TextCursor::skip_line() {
+  while (!word_on_line().empty()) continue;
+  if (!rest_.empty()) take_line_end();
 }
 
 bool TextCursor::at_end() {
@@ -143,7 +166,9 @@ double parse_double(std::string_view word, std::string_view what, const TextCurs
     value = std::strtod(std::string(digits).c_str(), nullptr);
     if (!std::isfinite(value)) cursor.fail(std::string(what) + " " + quoted(word) + " does not fit a double");
   } else if (error != std::errc() || end != digits.data() + digits.size()) {
-    cursor.fail(std::string(what) + " " + quoted(word) + " is not a number");
+    cursor.fail(std::string(what) + " " + quoted(word) +
+                (has_decimal_comma(std::string(digits)) ? " has a decimal comma; write a decimal point"
+                                                        : " is not a number"));
   }
   if (!std::isfinite(value)) cursor.fail(std::string(what) + " " + quoted(word) + " is not finite");
   return value;

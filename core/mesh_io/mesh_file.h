@@ -13,8 +13,8 @@
 
 namespace touchmark::mesh_io {
 
-/// The bytes of a file, or of a pipe up to 1 GiB. Throws MeshError when it cannot be read, is anything else
-/// or is empty, or when nobody writes to the pipe.
+/// The bytes of a file up to 4 GiB, or of a pipe up to 1 GiB. Throws MeshError when it cannot be read, is
+/// larger, is anything else or is empty, or when nobody writes to the pipe.
 std::string read_file(const std::filesystem::path& path);
 
 /// Text without a UTF-8 byte-order mark. Throws MeshError for UTF-16.
@@ -27,9 +27,11 @@ bool is_padding(std::string_view bytes) noexcept;
 /// The position of a reader in a text: whitespace-separated words, counted by line. Handles LF, CR LF and CR.
 class TextCursor {
  public:
-  /// `comment` starts a comment that runs to the end of its line; 0 for none.
-  explicit TextCursor(std::string_view text, char comment = 0, std::size_t first_line = 1)
-      : rest_(text), line_(first_line), comment_(comment) {}
+  /// `comment` starts a comment that runs to the end of its line; 0 for none. With `joins_lines`, a line that
+  /// ends in a backslash goes on in the next one, unless the backslash is part of a comment.
+  explicit TextCursor(std::string_view text, char comment = 0, std::size_t first_line = 1,
+                      bool joins_lines = false)
+      : rest_(text), line_(first_line), comment_(comment), joins_lines_(joins_lines) {}
 
   /// The next word anywhere; empty at the end.
   std::string_view word();
@@ -52,17 +54,21 @@ class TextCursor {
 
  private:
   void skip_spaces(bool across_lines);
+  void take_line_end();
   std::string_view take_word();
+  bool joins_at(std::size_t at) const noexcept;
 
   std::string_view rest_;
   std::size_t line_;
   char comment_;
+  bool joins_lines_;
 };
 
 /// For messages: the word in quotes, cut to a sane length, with nothing that upsets a terminal.
 std::string quoted(std::string_view word);
 
-/// A word as a number; throws through `cursor`. Overflow, trailing letters, NaN and infinity are refused.
+/// A word as a number; throws through `cursor`. Overflow, trailing letters, decimal commas, NaN and infinity
+/// are refused.
 double parse_double(std::string_view word, std::string_view what, const TextCursor& cursor);
 std::int64_t parse_integer(std::string_view word, std::string_view what, const TextCursor& cursor);
 

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <string>
 
 #include "core/mesh_io/mesh_file.h"
@@ -9,12 +8,13 @@
 namespace touchmark::mesh_io {
 namespace {
 
-/// Statements that carry no surface: attributes, groups, points, lines and curves.
-constexpr std::array<std::string_view, 31> skipped = {
-    "vt",    "vn",       "vp",       "g",      "o",      "s",     "mtllib",     "usemtl",
-    "l",     "p",        "mg",       "usemap", "maplib", "lod",   "shadow_obj", "trace_obj",
-    "bevel", "c_interp", "d_interp", "cstype", "deg",    "bmat",  "step",       "parm",
-    "end",   "curv",     "curv2",    "sp",     "ctech",  "stech", "scrv"};
+/// Statements that carry no surface: attributes, groups, points, lines and curves; "t", "vw" and "vc" are
+/// tags, weights and colours of a vertex that some programs add.
+constexpr std::array<std::string_view, 35> skipped = {
+    "t",          "vw",        "vc",     "res",      "vt",       "vn",     "vp",     "g",      "o",
+    "s",          "mtllib",    "usemtl", "l",        "p",        "mg",     "usemap", "maplib", "lod",
+    "shadow_obj", "trace_obj", "bevel",  "c_interp", "d_interp", "cstype", "deg",    "bmat",   "step",
+    "parm",       "end",       "curv",   "curv2",    "sp",       "ctech",  "stech",  "scrv"};
 
 struct Refused {
   std::string_view statement, what;
@@ -27,19 +27,6 @@ constexpr std::array<Refused, 7> refused = {{{"surf", "a free-form surface"},
                                              {"cdp", "a Cardinal patch"},
                                              {"call", "another file"},
                                              {"csh", "a command"}}};
-
-/// Lines that end in a backslash go on in the next one.
-std::string with_joined_lines(std::string_view bytes) {
-  std::string text(bytes);
-  for (std::size_t at = text.find('\\'); at != std::string::npos; at = text.find('\\', at + 1)) {
-    std::size_t end = at + 1;
-    if (end < text.size() && text[end] == '\r') ++end;
-    if (end < text.size() && text[end] == '\n')
-      std::fill(text.begin() + static_cast<std::ptrdiff_t>(at),
-                text.begin() + static_cast<std::ptrdiff_t>(end) + 1, ' ');
-  }
-  return text;
-}
 
 /// What the corners of a face may name, at the face's line.
 struct VerticesThere {
@@ -81,10 +68,7 @@ void check_statement(std::string_view statement, const TextCursor& cursor) {
 
 // Vertices first: a face may name one that stands after it.
 TriangleMesh read_obj(std::string_view bytes) {
-  bytes = without_byte_order_mark(bytes);
-  const bool joined = bytes.find("\\\n") != bytes.npos || bytes.find("\\\r\n") != bytes.npos;
-  const std::string text = joined ? with_joined_lines(bytes) : std::string();
-  TextCursor cursor(joined ? std::string_view(text) : bytes, '#');
+  TextCursor cursor(without_byte_order_mark(bytes), '#', 1, true);
   MeshBuilder mesh;
   read_vertices(cursor, mesh);
   VerticesThere vertices{0, mesh.vertex_count()};

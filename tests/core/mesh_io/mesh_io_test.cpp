@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -111,6 +113,15 @@ TEST(LoadMesh, APipeThatNobodyWritesToIsRefused) {
   const std::string pipe = folder.file("pipe.ply");
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   expect_refusal(pipe, "is a pipe that nobody writes to");
+}
+
+TEST(LoadMesh, RefusesAFileOfMoreThanFourGibibytesUnread) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("large.stl", "solid\n");
+  std::error_code no_room;
+  std::filesystem::resize_file(path, (std::uintmax_t{4} << 30) + 1, no_room);
+  if (no_room) GTEST_SKIP() << "the file system takes no sparse file of this size";
+  expect_refusal(path, "has 4294967297 bytes; at most 4294967296 are read (4 GiB)");
 }
 
 TEST(LoadMesh, RefusesDevices) { expect_refusal("/dev/null", "is neither a file nor a pipe"); }

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -108,6 +109,46 @@ TEST(ReadObj, SkipsCurvesAndRefusesFreeFormSurfacesByName) {
   EXPECT_EQ(refusal(read_obj, square_obj + "f 1 2 3\nsurf 0 1 0 1 1 2 3 4\n"),
             "line 6: surf, a free-form surface, is not supported");
   EXPECT_EQ(refusal(read_obj, "call other.obj\n"), "line 1: call, another file, is not supported");
+}
+
+TEST(ReadObj, ALineThatEndsInABackslashGoesOnAndIsCounted) {
+  for (const char* line_end : {"\n", "\r\n", "\r"}) {
+    const std::string joined = std::string("\\") + line_end;
+    EXPECT_EQ(read_obj(square_obj + "f 1 " + joined + " 2" + joined + "3\ng a" + joined + "f 9\n").size(),
+              1u);
+    EXPECT_EQ(refusal(read_obj, square_obj + "f 1 " + joined + "2 3\nhello\n"),
+              "line 7: unknown statement 'hello'");
+  }
+}
+
+TEST(ReadObj, ACommentsLastBackslashDoesNotHideTheNextLine) {
+  EXPECT_EQ(read_obj("# C:\\meshes\\\n" + square_obj + "f 1 2 3#first \\\nf 1 3 4\n").size(), 2u);
+}
+
+TEST(ReadObj, SkipsTagsWeightsAndColoursThatProgramsAdd) {
+  EXPECT_EQ(read_obj(square_obj + "t crease 2/1/0 0 1 2.0\nvw 1 2 0.5\nvc 1 0 0\nres 4 4\nf 1 2 3\n").size(),
+            1u);
+  EXPECT_EQ(read_obj("v 0 0 0 0.5 0.5 1\nv 1 0 0 1 0 0\nv 0 1 0 0 0 1\nf 1//1 2//1 3//1\n").size(), 1u);
+  EXPECT_EQ(refusal(read_obj, square_obj + "tt 1\n"), "line 5: unknown statement 'tt'");
+}
+
+TEST(ReadText, ADecimalCommaIsNamed) {
+  const std::string rest = "\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+                    comma = " has a decimal comma; write a decimal point";
+  EXPECT_EQ(refusal(read_obj, "v 0 0,5 0" + rest), "line 1: y '0,5'" + comma);
+  EXPECT_EQ(refusal(read_obj, "v 0 0 -1,5e-3" + rest), "line 1: z '-1,5e-3'" + comma);
+  for (const char* other : {"0,", "0,0,0", "1,000.5", "a,5", "1,x"}) {
+    EXPECT_EQ(refusal(read_obj, std::string("v ") + other + " 0 0" + rest),
+              "line 1: x '" + std::string(other) + "' is not a number");
+  }
+  EXPECT_EQ(refusal(read_off, "OFF\n3 1 0\n0,0 0 0\n"), "line 3: x '0,0'" + comma);
+  EXPECT_EQ(refusal(read_stl, "solid\nfacet normal 0,0 0,0 1,0\nouter loop\nvertex 0 0,0 0\n"),
+            "line 4: y '0,0'" + comma);
+  EXPECT_EQ(refusal(read_ply,
+                    "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+                    "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                    "end_header\n0 0 1,0\n0\n"),
+            "line 10: z '1,0'" + comma);
 }
 
 /// A corner for each of `angles` in whole turns, on the unit circle; every `dented`-th one is pulled in.
