@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cctype>
 #include <optional>
 #include <string>
 
@@ -7,46 +9,76 @@
 namespace touchmark::mesh_io {
 namespace {
 
-/// What stands in a vertex's line before the values that are not used here.
+/// What the header says about the position. Texture coordinates, colours and normals follow it.
 struct Form {
-  bool homogeneous = false;       // a fourth coordinate, by which the others are divided
-  bool states_dimension = false;  // "n": the number of coordinates follows
+  bool homogeneous = false;          // a fourth coordinate, by which the others are divided
+  bool states_dimension = false;     // "n": the number of coordinates follows
+  bool may_state_dimension = false;  // "n" in lower case throughout: this or "N", which is for normals
 };
-
-/// [ST][C][N][4][n]OFF, as Geomview writes it. Texture coordinates, colours and normals follow the position.
-std::optional<Form> form_of(std::string_view header) {
-  Form form;
-  const auto takes = [&](std::string_view prefix) {
-    if (!header.starts_with(prefix)) return false;
-    header.remove_prefix(prefix.size());
-    return true;
-  };
-  takes("ST");
-  takes("C");
-  takes("N");
-  form.homogeneous = takes("4");
-  form.states_dimension = takes("n");
-  return header == "OFF" ? std::optional(form) : std::nullopt;
-}
 
 bool is_count(std::string_view word) {
   return !word.empty() && word.find_first_not_of("0123456789") == word.npos;
 }
 
-/// The header may be missing: then the counts come first.
+std::string upper_case(std::string_view word, char kept = 0) {
+  std::string upper(word);
+  for (char& c : upper) {
+    if (c != kept) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  }
+  return upper;
+}
+
+/// Cuts "OFF" off `word`, with what stands before it: ST, C, N, 4 and n, each at most once, in any order.
+std::optional<Form> take_form(std::string_view& word) {
+  const bool is_lower = std::none_of(word.begin(), word.end(), [](char c) { return c >= 'A' && c <= 'Z'; });
+  const std::string header = upper_case(word, is_lower ? 0 : 'n');
+  const std::size_t end = header.find("OFF");
+  if (end == header.npos) return std::nullopt;
+  std::string parts = header.substr(0, end);
+  if (const std::size_t at = parts.find("ST"); at != parts.npos) parts.replace(at, 2, "t");
+  std::sort(parts.begin(), parts.end());
+  const bool repeats = std::adjacent_find(parts.begin(), parts.end()) != parts.end();
+  if (repeats || parts.find_first_not_of("4CNnt") != parts.npos) return std::nullopt;
+  word.remove_prefix(end + 3);
+  const auto has = [&](char part) { return parts.find(part) != parts.npos; };
+  return Form{has('4'), has('n'), is_lower && has('N')};
+}
+
+/// The header may be missing: then the counts come first. They may be glued to it: "OFF8 6 12".
 Form read_form(TextCursor& cursor) {
   TextCursor ahead = cursor;
   const std::string_view header = ahead.word();
   if (is_count(header)) return {};
-  const std::optional<Form> form = form_of(header);
-  if (!form) ahead.fail("starts with " + quoted(header) + " instead of OFF");
-  cursor = ahead;
-  if (ahead.word() == "BINARY") ahead.fail("binary OFF is not supported");
+  std::string_view glued = header;
+  std::optional<Form> form = take_form(glued);
+  if (!form || !(glued.empty() || is_count(glued)))
+    ahead.fail("starts with " + quoted(header) + " instead of OFF");
+  const std::string_view after = ahead.rest();
+  cursor = TextCursor({glued.data(), glued.size() + after.size()}, '#', ahead.line());
+  if (upper_case(ahead.word()) == "BINARY") ahead.fail("binary OFF is not supported");
+  if (form->may_state_dimension) {
+    ahead = cursor;
+    ahead.word();
+    form->states_dimension = ahead.word_on_line().empty();
+  }
   if (form->states_dimension) {
     const std::int64_t dimension = cursor.integer("the dimension");
     if (dimension != 3) cursor.fail("dimension " + std::to_string(dimension) + " is not supported; 3 is");
   }
   return *form;
+}
+
+/// The number of edges, which is not used, stands behind the others or alone on the next line.
+void skip_edge_count(TextCursor& cursor) {
+  TextCursor ahead = cursor;
+  std::string_view word = ahead.word_on_line();
+  if (word.empty()) {
+    word = ahead.word();
+    if (!ahead.word_on_line().empty()) cursor.fail("has no number of edges; write 0 where it is unknown");
+  }
+  parse_integer(word, "the number of edges", ahead);
+  cursor = ahead;
+  cursor.skip_line();
 }
 
 /// A count that the rest of the file can hold, at two bytes a value.
@@ -76,8 +108,7 @@ TriangleMesh read_off(std::string_view bytes) {
   const Form form = read_form(cursor);
   const std::size_t vertices = count(cursor, "the number of vertices", bytes.size());
   const std::size_t faces = count(cursor, "the number of faces", bytes.size());
-  cursor.integer("the number of edges");
-  cursor.skip_line();
+  skip_edge_count(cursor);
 
   MeshBuilder mesh;
   mesh.reserve(vertices, faces);

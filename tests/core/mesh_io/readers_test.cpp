@@ -384,6 +384,43 @@ TEST(ReadOff, ReadsEveryFormOfTheHeader) {
   }
 }
 
+TEST(ReadOff, TheHeadersPartsComeInAnyOrderAndCaseAndMayBeGluedToTheCounts) {
+  const std::string body = "3 1 0\n0 0 0 7 7\n1 0 0 7 7\n0 1 0 7 7\n3 0 1 2\n";
+  const std::string homogeneous = "3 1 0\n0 0 0 1\n2 0 0 2\n0 0.5 0 0.5\n3 0 1 2\n";
+  std::vector<std::string> texts;
+  for (const char* header : {"OFF",     "off",     "Off",    "COFF",       "coff",     "NOFF",     "noff",
+                             "CNOFF",   "NCOFF",   "ncoff",  "STOFF",      "CSTOFF",   "STCOFF",   "NCSTOFF",
+                             "STNCOFF", "cnstoff", "nOFF3 ", "CnOFF\n3\n", "NnOFF 3 ", "noff\n3\n"}) {
+    texts.push_back(header + body);
+    texts.push_back(std::string(header) + "\n" + body);
+  }
+  for (const char* header : {"4OFF", "4off", "C4OFF", "4COFF", "n4OFF3 ", "4nOFF 3 "})
+    texts.push_back(header + homogeneous);
+  for (const std::string& text : texts) {
+    ASSERT_EQ(refusal(read_off, text), "accepted") << text;
+    EXPECT_EQ(read_off(text).corner(0, 1), Vec3(1, 0, 0)) << text;
+    EXPECT_EQ(read_off(text).corner(0, 2), Vec3(0, 1, 0)) << text;
+  }
+}
+
+TEST(ReadOff, RefusesHeadersOfUnknownOrRepeatedParts) {
+  for (const char* header : {"CCOFF", "STSTOFF", "TOFF", "SOFF", "nnoff", "OFF-", "OFFx", "OFF3x"}) {
+    EXPECT_EQ(refusal(read_off, std::string(header) + " 3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
+              "line 1: starts with '" + std::string(header) + "' instead of OFF");
+  }
+  EXPECT_EQ(refusal(read_off, "coff binary\n"), "line 1: binary OFF is not supported");
+}
+
+TEST(ReadOff, TheNumberOfEdgesIsOnTheCountsLineOrAloneOnTheNext) {
+  const std::string body = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  const std::string missing = "has no number of edges; write 0 where it is unknown";
+  EXPECT_EQ(read_off("OFF\n3 # vertices\n1#face\n\n0\n" + body).size(), 1u);
+  EXPECT_EQ(refusal(read_off, "OFF\n3 1\n" + body), "line 2: " + missing);
+  EXPECT_EQ(refusal(read_off, "OFF3 1 # no edges\n\n" + body), "line 1: " + missing);
+  EXPECT_EQ(refusal(read_off, "3 1\n" + body), "line 1: " + missing);
+  EXPECT_EQ(refusal(read_off, "OFF\n2 1"), "line 2: the number of edges is missing");
+}
+
 std::string ascii_facet(const std::string& last) {
   return "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex " + last +
          "\nendloop\nendfacet\n";
