@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstring>
+#include <initializer_list>
 #include <string>
 #include <unordered_map>
 
@@ -73,23 +74,46 @@ bool is_keyword(std::string_view word, std::string_view keyword) {
   cursor.fail((word.empty() ? "the end" : quoted(word)) + " stands where " + wanted + " should");
 }
 
+/// Skips words without a meaning up to the line's end, or to a keyword: one that goes on there, or one that
+/// only a part of the surface has, which must not be lost.
+void skip_words(TextCursor& cursor, std::initializer_list<std::string_view> keywords) {
+  for (TextCursor ahead = cursor;; cursor = ahead) {
+    const std::string_view word = ahead.word_on_line();
+    const auto is_word = [&](std::string_view keyword) { return is_keyword(word, keyword); };
+    if (word.empty() || std::any_of(keywords.begin(), keywords.end(), is_word)) return;
+  }
+}
+
+/// The next statement's first word; lines that begin with "color" are skipped.
+std::string_view next_keyword(TextCursor& cursor) {
+  std::string_view word = cursor.word();
+  for (; is_keyword(word, "color"); word = cursor.word()) skip_words(cursor, {"vertex"});
+  return word;
+}
+
 void expect(TextCursor& cursor, std::string_view wanted) {
-  const std::string_view word = cursor.word();
+  const std::string_view word = next_keyword(cursor);
   if (!is_keyword(word, wanted)) fail_at(word, "'" + std::string(wanted) + "'", cursor);
 }
 
-/// From "outer loop" to "endfacet": a triangle, or the polygon that some programs write.
-void read_loop(TextCursor& cursor, Welder& welder, std::vector<std::uint32_t>& corners) {
+/// From "facet" to "endfacet": a triangle, or the polygon that some programs write.
+void read_facet(TextCursor& cursor, Welder& welder, std::vector<std::uint32_t>& corners) {
+  skip_words(cursor, {"outer"});  // "normal" and three numbers, which many programs leave wrong
   expect(cursor, "outer");
   expect(cursor, "loop");
+  skip_words(cursor, {"vertex"});
   corners.clear();
   std::string_view word;
-  for (word = cursor.word(); is_keyword(word, "vertex"); word = cursor.word()) {
+  for (word = next_keyword(cursor); is_keyword(word, "vertex"); word = next_keyword(cursor)) {
     const double x = cursor.number("x"), y = cursor.number("y"), z = cursor.number("z");
     corners.push_back(welder.vertex({x, y, z}));
   }
   if (!is_keyword(word, "endloop")) fail_at(word, "'vertex' or 'endloop'", cursor);
+  skip_words(cursor, {"endfacet", "vertex"});
   expect(cursor, "endfacet");
+  TextCursor ahead = cursor;
+  word = ahead.word_on_line();
+  if (!is_keyword(word, "facet") && !is_keyword(word, "endsolid")) skip_words(cursor, {"endfacet"});
 }
 
 bool starts_as_ascii(std::string_view bytes) {
@@ -103,15 +127,14 @@ TriangleMesh read_ascii(std::string_view bytes) {
   std::vector<std::uint32_t> corners;
   while (!cursor.at_end() && !(mesh.face_count() > 0 && is_padding(cursor.rest()))) {
     expect(cursor, "solid");
-    cursor.skip_line();  // the solid's name
-    std::string_view word = cursor.word();
-    for (; is_keyword(word, "facet"); word = cursor.word()) {
-      cursor.skip_line();  // "normal" and three numbers, which many programs leave wrong
-      read_loop(cursor, welder, corners);
+    skip_words(cursor, {"endfacet"});  // the solid's name; a facet on its line would be lost
+    std::string_view word = next_keyword(cursor);
+    for (; is_keyword(word, "facet"); word = next_keyword(cursor)) {
+      read_facet(cursor, welder, corners);
       mesh.add_face(corners, cursor);
     }
     if (!is_keyword(word, "endsolid")) fail_at(word, "'facet' or 'endsolid'", cursor);
-    cursor.skip_line();
+    skip_words(cursor, {"endfacet"});
   }
   return std::move(mesh).build();
 }

@@ -441,6 +441,39 @@ TEST(ReadStl, NamesTheLineOfWhatItRefuses) {
             "line 7: the end stands where 'endfacet' should");
 }
 
+TEST(ReadStl, SkipsWordsAfterAStatementAndLinesOfColour) {
+  EXPECT_EQ(
+      read_stl("solid a facet b outer loop vertex\ncolor 1 0 0\nfacet normal 0 0 1 extra\nCOLOR 0,5 0 0\n"
+               "outer loop of facet 1\nvertex 0 0 0\ncolor 1\nvertex 1 0 0\nvertex 0 1 0\nendloop 1\n"
+               "endfacet end of facet 1\n" +
+               ascii_facet("0 1 0") + "color 1 0 0\nendsolid a facet\nsolid b\nendsolid b\n")
+          .size(),
+      2u);
+}
+
+TEST(ReadStl, StatementsMayShareALine) {
+  const std::string facet =
+      "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet";
+  EXPECT_EQ(read_stl("solid a\n" + facet + "\n" + facet + " " + facet + " endsolid\n").size(), 3u);
+}
+
+TEST(ReadStl, NoPartOfTheSurfaceIsLostAmongSkippedWords) {
+  const std::string loop = "outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop ",
+                    facet = "facet " + loop;
+  const std::string where_facet = "'endfacet' stands where 'facet' or 'endsolid' should";
+  EXPECT_EQ(refusal(read_stl, "solid a " + facet + "endfacet\n" + ascii_facet("0 1 0") + "endsolid\n"),
+            "line 1: " + where_facet);
+  EXPECT_EQ(refusal(read_stl, "solid\n" + facet + "endfacet x " + facet + "endfacet\nendsolid\n"),
+            "line 2: " + where_facet);
+  EXPECT_EQ(refusal(read_stl, "solid\n" + facet + loop + "endfacet\nendsolid\n"),
+            "line 2: 'vertex' stands where 'endfacet' should");
+  EXPECT_EQ(refusal(read_stl, "solid\ncolor 1 0 0 " + facet + "endfacet\nendsolid\n"),
+            "line 2: 'vertex' stands where 'facet' or 'endsolid' should");
+  EXPECT_EQ(
+      refusal(read_stl, "solid\n" + ascii_facet("0 1 0") + "endsolid a solid b " + facet + "endfacet\n"),
+      "line 9: 'endfacet' stands where 'solid' should");
+}
+
 TEST(ReadStl, ReadsPolygonsCapitalsAndAByteOrderMark) {
   const TriangleMesh mesh = read_stl(byte_order_mark +
                                      "SOLID a\nFACET NORMAL 0 0 1\nOUTER LOOP\nVERTEX 0 0 0\nVERTEX 1 0 0\n"
