@@ -144,8 +144,12 @@ void check(const Header& header, std::size_t file_size) {
   }
   const Element* const grid = header.find("range_grid");
   if (header.find("vertex") == nullptr) throw MeshError("the header has no element vertex");
-  if (header.find("face") != nullptr || header.find("tristrips") != nullptr) return;
+  const auto holds = [&](const Element* element) { return element != nullptr && element->count > 0; };
+  const Element *const faces = header.find("face"), *const edges = header.find("edge");
+  if (holds(faces) || holds(header.find("tristrips"))) return;
   if (grid != nullptr) grid->fail("is not supported, and there are no faces");
+  if (holds(edges)) edges->fail("is no surface, and there are no faces");
+  if (faces != nullptr) faces->fail("has count 0: these are points without a surface");
   throw MeshError("the header has no element face: these are points without a surface");
 }
 

@@ -234,6 +234,14 @@ TEST(ReadPly, SaysWhichPartOfASurfaceIsNotThere) {
       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n";
   EXPECT_EQ(refusal(read_ply, points + "end_header\n0 0 0\n"),
             "the header has no element face: these are points without a surface");
+  const std::string no_faces = "element face 0\nproperty list uchar int vertex_indices\n",
+                    edge = "element edge 1\nproperty int vertex1\nproperty int vertex2\n";
+  EXPECT_EQ(refusal(read_ply, points + no_faces + "end_header\n0 0 0\n"),
+            "line 7: element 'face' has count 0: these are points without a surface");
+  EXPECT_EQ(refusal(read_ply, points + edge + "end_header\n0 0 0\n0 0\n"),
+            "line 7: element 'edge' is no surface, and there are no faces");
+  EXPECT_EQ(refusal(read_ply, points + no_faces + edge + "end_header\n0 0 0\n0 0\n"),
+            "line 9: element 'edge' is no surface, and there are no faces");
   EXPECT_EQ(refusal(read_ply, points + "element range_grid 1\nproperty list uchar int vertex_indices\n"
                                        "end_header\n0 0 0\n1 0\n"),
             "line 7: element 'range_grid' is not supported, and there are no faces");
