@@ -239,6 +239,8 @@ TriangleMesh modified(TriangleMesh mesh, const Modifier& modifier) {
 }
 
 [[noreturn]] void refuse_unknown(const Request& request) {
+  if (request.name == "-")
+    throw request.refusal("standard input is not read, as no ending names its format; write it to a file");
   const std::size_t at = request.name.rfind('@');
   if (at != std::string::npos) {
     throw request.refusal(
@@ -263,9 +265,8 @@ TriangleMesh load_unmodified(Request& request) {
     if (name_in(scene.form) == name) return make_sized(scene, request);
   }
   std::error_code ignored;
-  const bool looks_like_a_path = request.name.find_first_of("/.") != std::string::npos;
-  if (fs::exists(request.name, ignored)) return load_file(request.name);
-  if (looks_like_a_path && request.name.find('@') == std::string::npos) return load_file(request.name);
+  const auto has = [&](const char* any) { return request.name.find_first_of(any) != std::string::npos; };
+  if ((has("/.") && !has("@")) || fs::exists(request.name, ignored)) return load_file(request.name);
   refuse_unknown(request);
 }
 

@@ -76,6 +76,7 @@ TEST(MeshInfo, RefusesBadInputInOneLine) {
   expect_bad_input({"mesh", "info", "cube@scale=0"}, {"@scale", "0"});
   expect_bad_input({"mesh", "info", folder.file("missing.ply")}, {"missing.ply"});
   expect_bad_input({"mesh", "info", folder.path()}, {folder.path(), "directory"});
+  expect_bad_input({"mesh", "info", "-"}, {"\"-\"", "standard input is not read"});
   expect_bad_input({"mesh", "info", folder.file("empty.ply", "")}, {"empty.ply", "empty"});
   expect_bad_input({"mesh", "info", folder.file("cut.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n")},
                    {"cut.obj", "line 4", "9"});
