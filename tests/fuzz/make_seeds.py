@@ -38,12 +38,18 @@ def unusual_ply():
     yield start + PLY_VERTICES + faces.replace("int", "float") + end + PLY_POINTS + "4 0 1.0 3 2e0\n"
     yield start + faces + PLY_VERTICES + end + "4 0 1 3 2\n" + PLY_POINTS + "\n\0\0"
     yield "\ufeff" + start + PLY_VERTICES + "property float x\n" + faces + end + PLY_POINTS + "3 0 1 2\n"
+    edges = "element edge 1\nproperty int vertex1\nproperty int vertex2\n"
+    yield start + PLY_VERTICES + edges + end + PLY_POINTS + "0 1\n"
+    yield start + edges + PLY_VERTICES + faces + end + "0 1\n" + PLY_POINTS + "3 0 1 2\n"
+    yield start + PLY_VERTICES + faces + end + PLY_POINTS.replace("0 0 0", "0,0 0,5 0") + "3 0 1 2\n"
     yield start + PLY_VERTICES + faces + faces.replace("face", "range_grid") + end + PLY_POINTS + "3 0 1 2\n0\n"
 
 
 def obj():
     yield "\ufefff 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\ncstype bspline\ncurv 0 1 1 2 3\nend\nf -1 -2 3\n"
     yield "v 0 0 0\nsurf 0 1 0 1 1\n"
+    yield "# C:\\\nv 0 0 0#a\\\nv 1 \\\r0 0\nv 0 1 0\nt crease 2/1/0 0 1 2.0\nvw 1 2 0.5\nf 1\\\n 2\\\r\n 3\n"
+    yield "v 0,5 1 2\n"
     # A face of more corners than are clipped: a square with many on its sides.
     corners = [(i, 0) for i in range(300)] + [(300, i) for i in range(300)]
     corners += [(300 - i, 300) for i in range(300)] + [(0, 300 - i) for i in range(300)]
@@ -59,12 +65,19 @@ def off():
     yield f"{len(VERTICES)} {len(FACES)} 0\n{vertices}{faces}"
     yield "4nOFF 3\n3 1 0\n0 0 0 1\n2 0 0 2\n0 1 0 1\n3 0 1 2\n\0"
     yield "OFF BINARY\n"
+    yield "CSTOFF3 1 0\n0 0 0 1 1\n1 0 0 1 1\n0 1 0 1 1\n3 0 1 2\n"
+    yield "noff 3\n3\n1#\n0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
+    yield "n4OFF3 3 1 0\n0 0 0 1\n2 0 0 2\n0 1 0 1\n3 0 1 2\n"
+    yield "off\n3 1\n0 0 0\n1,5 0 0\n0 1 0\n3 0 1 2\n"
     yield "COFF # coloured\n3 1 0\n0 0 0 255 0 0\n1 0 0 0 255 0\n0 1 0 0 0 255\n3 0 1 2 0.5 0.5 0.5\n"
 
 
 def stl():
     facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1e-9 0\nendloop\nendfacet\n"
     yield f"solid a\n{facet}{facet}endsolid a\nsolid b\n{facet}endsolid\n".encode()
+    words = facet.replace("1e-9 0\n", "1e-9 0\ncolor 1 0 0\n").replace("loop\n", "loop x\n").replace("facet\n", "facet y z\n")
+    yield f"solid a facet\ncolor 1\n{words}{' '.join(facet.split())} {words}endsolid a b\n".encode()
+    yield f"solid {' '.join(facet.split())}\n{facet.replace('1e-9', '0,5')}endsolid\n".encode()
     quad = facet.replace("endloop", "vertex 1 1 0\nendloop").upper()
     yield f"\ufeffSOLID a\n{quad}ENDSOLID a\n\0".encode()
     for start in (b"made", b"solid"):
