@@ -116,8 +116,15 @@ void read_facet(TextCursor& cursor, Welder& welder, std::vector<std::uint32_t>& 
   if (!is_keyword(word, "facet") && !is_keyword(word, "endsolid")) skip_words(cursor, {"endfacet"});
 }
 
+/// True of a binary file's header only if it declares over 150 million facets.
+bool is_text(std::string_view bytes) {
+  return std::all_of(bytes.begin(), bytes.end(),
+                     [](unsigned char c) { return std::isprint(c) || std::isspace(c); });
+}
+
 bool starts_as_ascii(std::string_view bytes) {
-  return is_keyword(TextCursor(without_byte_order_mark(bytes)).word(), "solid");
+  return is_keyword(TextCursor(without_byte_order_mark(bytes)).word(), "solid") ||
+         is_text(bytes.substr(0, header_size));
 }
 
 TriangleMesh read_ascii(std::string_view bytes) {

@@ -447,6 +447,7 @@ TEST(ReadStl, NamesTheLineOfWhatItRefuses) {
             "line 9: the end stands where 'facet' or 'endsolid' should");
   EXPECT_EQ(refusal(read_stl, "solid a\nfacet\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\n"),
             "line 7: the end stands where 'endfacet' should");
+  EXPECT_EQ(refusal(read_stl, ascii_facet("0 1 0")), "line 1: 'facet' stands where 'solid' should");
 }
 
 TEST(ReadStl, SkipsWordsAfterAStatementAndLinesOfColour) {
