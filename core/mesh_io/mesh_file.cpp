@@ -17,7 +17,7 @@ namespace {
 bool is_blank(char c) noexcept { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 bool is_line_end(char c) noexcept { return c == '\n' || c == '\r'; }
 
-/// More than any mesh of use has. A pipe tells no size that could be held against the machine's memory.
+/// Limits of a file and of a pipe, which tells no size that could be held against the machine's memory.
 constexpr std::uint64_t max_size = std::uint64_t{4} << 30, max_piped = std::uint64_t{1} << 30;
 
 std::string read_whole(const std::filesystem::path& path) {

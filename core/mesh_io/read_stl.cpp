@@ -74,8 +74,8 @@ bool is_keyword(std::string_view word, std::string_view keyword) {
   cursor.fail((word.empty() ? "the end" : quoted(word)) + " stands where " + wanted + " should");
 }
 
-/// Skips words without a meaning up to the line's end, or to a keyword: one that goes on there, or one that
-/// only a part of the surface has, which must not be lost.
+/// Skips words without a meaning up to the line's end, or to one of `keywords`: the next statement's, or one
+/// that shows that a part of the surface would be skipped.
 void skip_words(TextCursor& cursor, std::initializer_list<std::string_view> keywords) {
   for (TextCursor ahead = cursor;; cursor = ahead) {
     const std::string_view word = ahead.word_on_line();
