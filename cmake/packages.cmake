@@ -16,12 +16,6 @@ if(TOUCHMARK_BUILD_BENCH)
   list(APPEND touchmark_components program plots)
   # The program finds its workers beside itself, whatever name it is called by.
   set(touchmark_programs ${CMAKE_INSTALL_LIBDIR}/touchmark)
-  install(TARGETS touchmark touchmark-worker touchmark-worker-bullet-float touchmark-worker-plugin touchmark-tracer
-          RUNTIME DESTINATION ${touchmark_programs} COMPONENT program)
-  get_property(modules GLOBAL PROPERTY TOUCHMARK_RIVAL_MODULES)
-  if(modules)
-    install(TARGETS ${modules} LIBRARY DESTINATION ${touchmark_programs} COMPONENT program)
-  endif()
   # touchmark_link(COMPONENT NAME TARGET): a relative link in bin, so that the whole may be moved.
   function(touchmark_link component name target)
     file(RELATIVE_PATH to ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_PREFIX}/${target})
@@ -29,7 +23,16 @@ if(TOUCHMARK_BUILD_BENCH)
     file(CREATE_LINK ${to} ${CMAKE_CURRENT_BINARY_DIR}/package-documents/links/${name} SYMBOLIC)
     install(FILES ${CMAKE_CURRENT_BINARY_DIR}/package-documents/links/${name} DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${component})
   endfunction()
-  touchmark_link(program touchmark ${touchmark_programs}/touchmark)
+  function(touchmark_install_program)
+    install(TARGETS touchmark touchmark-worker touchmark-worker-bullet-float touchmark-worker-plugin touchmark-tracer
+            RUNTIME DESTINATION ${touchmark_programs} COMPONENT program)
+    get_property(modules GLOBAL PROPERTY TOUCHMARK_RIVAL_MODULES)
+    if(modules)
+      install(TARGETS ${modules} LIBRARY DESTINATION ${touchmark_programs} COMPONENT program)
+    endif()
+    touchmark_link(program touchmark ${touchmark_programs}/touchmark)
+  endfunction()
+  touchmark_rules(program touchmark_install_program)
   set(touchmark_scripts ${CMAKE_INSTALL_DATADIR}/touchmark/scripts)
   install(PROGRAMS scripts/plot scripts/report DESTINATION ${touchmark_scripts} COMPONENT plots)
   install(DIRECTORY scripts/drawing scripts/reporting DESTINATION ${touchmark_scripts} COMPONENT plots
@@ -70,26 +73,32 @@ foreach(file changelog changelog.Debian)
                   COMMAND_ERROR_IS_FATAL ANY)
 endforeach()
 
-# touchmark_package(COMPONENT NAME SUMMARY LINES...): the first line of a description, and the others.
-macro(touchmark_package component name)
+function(touchmark_install_documents component name)
+  install(FILES ${touchmark_documents}/changelog.gz ${touchmark_documents}/changelog.Debian.gz
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name} COMPONENT ${component})
+  install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name} RENAME copyright
+          COMPONENT ${component})
+endfunction()
+
+# touchmark_package(COMPONENT PIECE NAME SUMMARY LINES...): the first line of a description, and the others. PIECE is
+# what it has documents for.
+macro(touchmark_package component piece name)
   string(TOUPPER ${component} upper)
   set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${name})
   string(REPLACE ";" "\n" CPACK_COMPONENT_${upper}_DESCRIPTION "${ARGN}")
-  install(FILES ${touchmark_documents}/changelog.gz ${touchmark_documents}/changelog.Debian.gz
-          DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name} COMPONENT ${component})
-  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name} RENAME copyright COMPONENT ${component})
+  touchmark_rules(${piece} touchmark_install_documents ${component} ${name})
 endmacro()
 
 set(touchmark_c_package libtouchmark-c${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
 if(TOUCHMARK_BUILD_C)
-  touchmark_package(c ${touchmark_c_package} "exact collision detectors for haptic loops, shared library for C"
+  touchmark_package(c c ${touchmark_c_package} "exact collision detectors for haptic loops, shared library for C"
     "What programs need at run time that use touchmark/touchmark.h, in C and in" "languages that call C.")
   set(CPACK_DEBIAN_C_PACKAGE_SECTION libs)
   file(WRITE ${touchmark_documents}/triggers "activate-noawait ldconfig\n")
   set(CPACK_DEBIAN_C_PACKAGE_CONTROL_EXTRA ${touchmark_documents}/triggers)
   set(touchmark_needs_c ", ${touchmark_c_package} (= ${touchmark_revision})")
 endif()
-touchmark_package(dev libtouchmark-dev "exact collision detectors for haptic loops, to build programs with"
+touchmark_package(dev core libtouchmark-dev "exact collision detectors for haptic loops, to build programs with"
   "Headers, static libraries, CMake package and pkg-config files of the"
   "detectors: contact, nearest triangle and sweep of a sphere against a triangle" "mesh, decided exactly.")
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
@@ -98,17 +107,19 @@ if(TOUCHMARK_BUILD_MESH_IO)
   string(APPEND CPACK_DEBIAN_DEV_PACKAGE_DEPENDS ", libassimp-dev")
 endif()
 if(TOUCHMARK_BUILD_BENCH)
-  touchmark_package(program touchmark "benchmark of collision detectors for haptic loops"
+  touchmark_package(program program touchmark "benchmark of collision detectors for haptic loops"
     "Finds out which collision detector can serve a haptic loop: each answer is"
     "checked against an exact oracle, and all detectors are timed on the same" "motions.")
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "touchmark-plots, glmark2-data")
   set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "libtouchmark-dev, valgrind")
-  touchmark_package(plots touchmark-plots "pictures and pages of Touchmark's results"
+  touchmark_package(plots plots touchmark-plots "pictures and pages of Touchmark's results"
     "The commands touchmark-plot and touchmark-report, which draw what the program" "touchmark has measured.")
   set(CPACK_DEBIAN_PLOTS_PACKAGE_SECTION science)
   set(CPACK_DEBIAN_PLOTS_PACKAGE_ARCHITECTURE all)
   set(CPACK_DEBIAN_PLOTS_PACKAGE_DEPENDS
     "python3, python3-matplotlib, python3-numpy, esbuild, libjs-three, libjs-dygraphs")
 endif()
+file(WRITE ${touchmark_documents}/project_config.cmake "set(ENV{TOUCHMARK_INSTALLS_ALL} 1)\n")
+set(CPACK_PROJECT_CONFIG_FILE ${touchmark_documents}/project_config.cmake)
 include(CPack)

@@ -1,0 +1,26 @@
+# Runs first in an installation: sets touchmark_unbuilt to the pieces that are not built, and touchmark_unbuilt_lines to what
+# to tell of them. Stops where nothing is built, and for packages, which hold all, where anything is not.
+cmake_minimum_required(VERSION 3.25)
+set(touchmark_unbuilt "")
+set(touchmark_unbuilt_lines "")
+set(touchmark_built "")
+foreach(piece IN LISTS touchmark_pieces)
+  string(REPLACE "|" ";" piece "${piece}")
+  list(POP_FRONT piece name target file components)
+  string(REPLACE " " ";" components "${components}")
+  if(CMAKE_INSTALL_COMPONENT AND NOT CMAKE_INSTALL_COMPONENT IN_LIST components)
+    continue()
+  endif()
+  if(EXISTS "${file}")
+    list(APPEND touchmark_built ${name})
+    continue()
+  endif()
+  list(APPEND touchmark_unbuilt ${name})
+  list(JOIN components " and " components)
+  list(APPEND touchmark_unbuilt_lines "Not built, so not installed: ${target} (component ${components}). \
+This builds it: cmake --build ${touchmark_build} --target ${target}")
+endforeach()
+if(touchmark_unbuilt AND (NOT touchmark_built OR DEFINED ENV{TOUCHMARK_INSTALLS_ALL}))
+  list(JOIN touchmark_unbuilt_lines "\n  " lines)  # indented, so that CMake does not break the lines
+  message(FATAL_ERROR "Nothing is installed.\n  ${lines}")
+endif()

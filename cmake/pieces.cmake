@@ -1,0 +1,37 @@
+# `cmake --install` installs what is built, by pieces: a library, or the program, with all that is of use with it alone.
+# Each is PIECE|TARGET|FILE|COMPONENTS.
+set(touchmark_libraries core)
+if(TOUCHMARK_BUILD_MESH_IO)
+  list(APPEND touchmark_libraries mesh_io)
+endif()
+if(TOUCHMARK_BUILD_C)
+  list(APPEND touchmark_libraries c)
+endif()
+foreach(name IN LISTS touchmark_libraries)
+  set(components dev)
+  if(BUILD_SHARED_LIBS OR name STREQUAL "c")
+    string(PREPEND components "${name} ")
+  endif()
+  list(APPEND touchmark_pieces "${name}|touchmark_${name}|$<TARGET_FILE:touchmark_${name}>|${components}")
+endforeach()
+set(touchmark_has_packages FALSE)
+if(PROJECT_IS_TOP_LEVEL AND TOUCHMARK_BUILD_C AND NOT BUILD_SHARED_LIBS)
+  set(touchmark_has_packages TRUE)
+  if(TOUCHMARK_BUILD_BENCH)
+    list(APPEND touchmark_pieces "program|touchmark|$<TARGET_FILE:touchmark>|program")
+  endif()
+endif()
+install(CODE "set(touchmark_pieces \"${touchmark_pieces}\")
+set(touchmark_build \"${CMAKE_BINARY_DIR}\")
+include(\"${CMAKE_CURRENT_LIST_DIR}/find_unbuilt.cmake\")" ALL_COMPONENTS)
+
+# touchmark_rules(PIECE FUNCTION ARGUMENTS...): what this function installs is left out where the piece is not built.
+function(touchmark_rules touchmark_piece)
+  list(POP_FRONT ARGN function)
+  add_subdirectory(${PROJECT_SOURCE_DIR}/cmake/piece ${CMAKE_CURRENT_BINARY_DIR}/pieces/${touchmark_piece}/${function})
+endfunction()
+
+# The last words of an installation, after the list of its files.
+function(touchmark_name_unbuilt)
+  install(CODE "foreach(line IN LISTS touchmark_unbuilt_lines)\n  message(STATUS \"\${line}\")\nendforeach()" ALL_COMPONENTS)
+endfunction()
