@@ -12,11 +12,12 @@
 #include "core/aabb.h"
 #include "core/probe.h"
 #include "core/triangle_ids.h"
+#include "core/visible.h"
 
 namespace touchmark {
 
 /// Thrown when a mesh cannot be used; the message names the offender and both numbers.
-class MeshError : public std::runtime_error {
+class TOUCHMARK_VISIBLE MeshError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };

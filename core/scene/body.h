@@ -6,11 +6,12 @@
 #include <stdexcept>
 
 #include "core/probe.h"
+#include "core/visible.h"
 
 namespace touchmark {
 
 /// Thrown when a scene is given a body or a shape that it does not have; the message names it.
-class SceneError : public std::runtime_error {
+class TOUCHMARK_VISIBLE SceneError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };

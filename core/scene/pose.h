@@ -9,11 +9,12 @@
 #include <Eigen/Core>
 
 #include "core/probe.h"
+#include "core/visible.h"
 
 namespace touchmark {
 
 /// Thrown when a pose cannot be used; the message names what is wrong and by how much.
-class PoseError : public std::runtime_error {
+class TOUCHMARK_VISIBLE PoseError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
