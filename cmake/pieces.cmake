@@ -1,5 +1,5 @@
 # `cmake --install` installs what is built, by pieces: a library, or the program, with all that is of use with it alone.
-# Each is PIECE|TARGET|FILE|COMPONENTS.
+# Each is PIECE|TARGET|COMPONENTS|FILES.
 set(touchmark_libraries core)
 if(TOUCHMARK_BUILD_MESH_IO)
   list(APPEND touchmark_libraries mesh_io)
@@ -12,13 +12,13 @@ foreach(name IN LISTS touchmark_libraries)
   if(BUILD_SHARED_LIBS OR name STREQUAL "c")
     string(PREPEND components "${name} ")
   endif()
-  list(APPEND touchmark_pieces "${name}|touchmark_${name}|$<TARGET_FILE:touchmark_${name}>|${components}")
+  list(APPEND touchmark_pieces "${name}|touchmark_${name}|${components}|$<TARGET_FILE:touchmark_${name}>")
 endforeach()
 set(touchmark_has_packages FALSE)
 if(PROJECT_IS_TOP_LEVEL AND TOUCHMARK_BUILD_C AND NOT BUILD_SHARED_LIBS)
   set(touchmark_has_packages TRUE)
   if(TOUCHMARK_BUILD_BENCH)
-    list(APPEND touchmark_pieces "program|touchmark|$<TARGET_FILE:touchmark>|program")
+    list(APPEND touchmark_pieces "program|touchmark|program|$<TARGET_GENEX_EVAL:touchmark,$<TARGET_PROPERTY:touchmark,TOUCHMARK_FILES>>")
   endif()
 endif()
 install(CODE "set(touchmark_pieces \"${touchmark_pieces}\")

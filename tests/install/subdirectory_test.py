@@ -2,7 +2,7 @@
 """Builds a project that has this one inside, in several ways: as a subdirectory, fetched and installed, with settings and
 targets of its own. The folder parent/ is that project.
 
-usage: subdirectory_test.py SOURCE_DIRECTORY
+usage: subdirectory_test.py SOURCE_DIRECTORY FOLDER   (for the builds, which are kept: the next run compiles what has changed)
 """
 import json
 import pathlib
@@ -15,11 +15,13 @@ import unittest
 
 HERE = pathlib.Path(__file__).resolve().parent
 SOURCE = pathlib.Path(sys.argv.pop(1)).resolve()
+FOLDER = pathlib.Path(sys.argv.pop(1)).resolve()
 WARNINGS = "-Wall -Wextra -Werror -Wconversion -Wsign-conversion"
 WITHOUT_EIGEN = "-DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON"
 WITHOUT_ASSIMP = "-DCMAKE_DISABLE_FIND_PACKAGE_assimp=ON"
 # As long as these are the same, what is compiled of Touchmark is, too: one build serves several parents.
-STATIC = (f"-DCMAKE_CXX_COMPILER={shutil.which('clang++') or 'g++'}", f"-DCMAKE_CXX_FLAGS={WARNINGS}", "-DTOUCHMARK_UNITE_CORE=ON")
+STATIC = (f"-DCMAKE_CXX_COMPILER={shutil.which('clang++') or 'g++'}", f"-DCMAKE_CXX_FLAGS={WARNINGS}",
+          "-DTOUCHMARK_UNITE_CORE=ON")
 SHARED = ("-DCMAKE_CXX_COMPILER=g++", f"-DCMAKE_CXX_FLAGS=-O1 {WARNINGS}", "-DBUILD_SHARED_LIBS=ON", "-DCMAKE_CXX_STANDARD=23",
           "-DCMAKE_CXX_VISIBILITY_PRESET=hidden", "-DCMAKE_POSITION_INDEPENDENT_CODE=ON", "-DCMAKE_UNITY_BUILD=ON")
 ANSWERS = "triangle 0 at 0.125\npushed up: yes\nbody 0 at 0.875\n"
@@ -35,26 +37,24 @@ def run(*command):
 class Subdirectory(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.temporary = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.temporary.cleanup)
-        cls.directory = pathlib.Path(cls.temporary.name)
-        cls.shared = cls.directory / "shared"
-        cls.prefix = cls.directory / "prefix"
+        cls.prefix = FOLDER / "prefix"
+        shutil.rmtree(cls.prefix, ignore_errors=True)
         cls.configure("shared", *SHARED, "-DEIGEN=plain", WITHOUT_EIGEN, "-DTOUCHMARK_UNITE_CORE=ON",
                       "-DTOUCHMARK_BUILD_C=ON", "-DTOUCHMARK_INSTALL=ON")
-        run("cmake", "--build", cls.shared)
-        run("cmake", "--install", cls.shared, "--prefix", cls.prefix)
+        run("cmake", "--build", FOLDER / "shared")
+        run("cmake", "--install", FOLDER / "shared", "--prefix", cls.prefix)
         cls.libraries = {name: next(cls.prefix.rglob(f"libtouchmark_{name}.so")) for name in ("core", "mesh_io")}
 
     @classmethod
     def configure(cls, build, *options):
-        return run("cmake", "-S", HERE / "parent", "-B", cls.directory / build, "-G", "Ninja",
+        (FOLDER / build / "CMakeCache.txt").unlink(missing_ok=True)  # another parent's options
+        return run("cmake", "-S", HERE / "parent", "-B", FOLDER / build, "-G", "Ninja",
                    f"-DTOUCHMARK_SOURCE={SOURCE}", "-DTOUCHMARK_CCACHE=ON", "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON", *options)
 
     def build_and_check(self, build, errors):
         """The program's answers, and one line for each library that throws."""
-        run("cmake", "--build", self.directory / build)
-        out = run(self.directory / build / "app")
+        run("cmake", "--build", FOLDER / build)
+        out = run(FOLDER / build / "app")
         self.assertTrue(out.startswith(ANSWERS), out)
         self.assertEqual(re.findall("^MeshError: ", out, re.M), errors * ["MeshError: "], out)
 
@@ -64,25 +64,27 @@ class Subdirectory(unittest.TestCase):
     def test_a_parent_has_its_imported_eigen_and_installs_nothing_of_ours(self):
         self.configure("static", *STATIC, "-DEIGEN=imported", WITHOUT_EIGEN, "-DCMAKE_CXX_STANDARD=17", "-DBY=excluded")
         self.build_and_check("static", errors=2)
-        self.configure("static", "-DBY=subdirectory")
-        run("cmake", "--install", self.directory / "static", "--prefix", self.directory / "theirs")
-        self.assertEqual([path.name for path in (self.directory / "theirs").rglob("*")], ["bin", "app"])
+        self.configure("static", *STATIC, "-DEIGEN=imported")
+        with tempfile.TemporaryDirectory() as prefix:
+            run("cmake", "--install", FOLDER / "static", "--prefix", prefix)
+            self.assertEqual([path.name for path in pathlib.Path(prefix).rglob("*")], ["bin", "app"])
 
     def test_a_parent_that_fetches_it_has_it_without_assimp(self):
-        said = self.configure("static", *STATIC, "-UEIGEN", "-UCMAKE_DISABLE_FIND_PACKAGE_Eigen3", WITHOUT_ASSIMP, "-DBY=fetched")
+        said = self.configure("static", *STATIC, WITHOUT_ASSIMP, "-DBY=fetched")
         self.assertRegex(said, "touchmark::mesh_io, .* is left out: .*libassimp-dev")
         self.build_and_check("static", errors=1)
 
     def test_a_parent_with_an_eigen_of_its_own_finds_the_installed_package(self):
-        self.configure("installed", *SHARED, "-DEIGEN=plain", WITHOUT_EIGEN, "-DBY=installed", f"-DCMAKE_PREFIX_PATH={self.prefix}")
+        self.configure("installed", *SHARED, "-DEIGEN=plain", WITHOUT_EIGEN, "-DBY=installed",
+                       f"-DCMAKE_PREFIX_PATH={self.prefix}")
         self.build_and_check("installed", errors=2)
 
     def test_sources_are_compiled_apart_whatever_the_parent_unites(self):
         self.configure("apart", *SHARED, "-DTOUCHMARK_BUILD_C=ON", "-DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON")
-        commands = json.loads((self.directory / "apart" / "compile_commands.json").read_text(encoding="utf-8"))
+        commands = json.loads((FOLDER / "apart" / "compile_commands.json").read_text(encoding="utf-8"))
         ours = {pathlib.Path(entry["file"]) for entry in commands if "touchmark" in entry["output"]}
         self.assertEqual(ours, set((SOURCE / "core").rglob("*.cpp")))
-        run("ninja", "-C", self.directory / "apart", *(
+        run("ninja", "-C", FOLDER / "apart", *(
             f"touchmark/core/CMakeFiles/touchmark_core.dir/{name}.cpp.o" for name in ("scene/pose", "triangle_mesh")))
 
     def test_the_library_carries_the_version_of_its_interface(self):

@@ -25,7 +25,8 @@ class Unbuilt(unittest.TestCase):
         cls.directory = pathlib.Path(cls.temporary.name)
         cls.build = cls.directory / "build"
         cls.core = cls.build / "core" / "libtouchmark_core.a"
-        done = run("cmake", "-S", SOURCE, "-B", cls.build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DTOUCHMARK_BUILD_TESTS=OFF")
+        done = run("cmake", "-S", SOURCE, "-B", cls.build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+                   "-DTOUCHMARK_BUILD_TESTS=OFF")
         if done.returncode != 0:
             raise AssertionError(done.stdout + done.stderr)
 
@@ -58,7 +59,8 @@ class Unbuilt(unittest.TestCase):
             self.assertIn(f"Not built, so not installed: {target} (", line)
             self.assertIn(self.command_for(target), line + "\n")
         names = self.installed()
-        self.assertTrue({"libtouchmark_core.a", "touchmark-core.cmake", "touchmark.pc", "contestant.h", "touchmark-plot"} <= names)
+        self.assertTrue({"libtouchmark_core.a", "touchmark-core.cmake", "touchmark.pc", "contestant.h",
+                         "touchmark-plot"} <= names)
         self.assertEqual(names & {"touchmark-c.cmake", "touchmark-c.pc", "touchmark.h", "mesh_io.h", "touchmark-mesh_io.cmake",
                                   "libtouchmark-c0.2"}, set())
         self.assertFalse(os.path.lexists(self.prefix / "bin" / "touchmark"))
