@@ -6,12 +6,15 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <functional>
 #include <mutex>
 #include <system_error>
 #include <thread>
 #include <vector>
+
+#include "python/fork_safe_lock.h"
 
 namespace touchmark::python {
 
@@ -30,7 +33,8 @@ inline std::size_t thread_count(std::size_t asked, std::size_t points) {
 }
 
 /// Calls ask(i, session) for every i below `count`, with sessions that begin_session() returned; false where
-/// it was interrupted. Throws what ask threw first.
+/// it was interrupted. Throws what ask threw first. `is_interrupted` may fork, as signal handlers do: then
+/// the batch also goes on in the child, which lacks the other threads.
 template <class BeginSession, class Ask>
 bool for_all(std::size_t count, const BeginSession& begin_session, const Effort& effort, const Ask& ask) {
   constexpr std::size_t looked_at = 64;  // points between two looks at the clock or at `ended`
@@ -39,6 +43,7 @@ bool for_all(std::size_t count, const BeginSession& begin_session, const Effort&
   std::atomic<bool> ended = false, interrupted = false;
   std::exception_ptr thrown;
   std::mutex throwing;
+  const std::uint64_t forks = ForkSafeLock::forks();
   std::vector<decltype(begin_session())> sessions;
   for (std::size_t thread = 0; thread < threads; ++thread) sessions.push_back(begin_session());
   const auto ask_part = [&](std::size_t thread, bool may_ask) {
@@ -73,6 +78,11 @@ bool for_all(std::size_t count, const BeginSession& begin_session, const Effort&
         const std::system_error&) {  // no more threads to be had: this one does what they would have done
     }
     part(0, true);
+    if (forks != ForkSafeLock::forks()) {
+      for (std::jthread& other : others) other.detach();
+      // What they left half-done is done anew. Their sessions may be half-written.
+      for (std::size_t thread = started = 1; thread < threads; ++thread) sessions[thread] = begin_session();
+    }
     for (; started < threads; ++started) part(started, true);
   }
   if (thrown) std::rethrow_exception(thrown);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <mutex>
+#include <shared_mutex>
 #include <stdexcept>
 #include <utility>
 
@@ -29,8 +31,8 @@ bool BatchDetector::ask_all(std::size_t count, const Effort& effort, const Ask& 
       count, [&] { return detector_->begin_session(); }, effort, ask);
 }
 
-BatchDetector::BatchDetector(std::shared_ptr<const TriangleMesh> mesh, const std::string& text)
-    : mesh_(std::move(mesh)), detector_(NamedDetector::build(*mesh_, text)) {}
+BatchDetector::BatchDetector(std::shared_ptr<const TriangleMesh> mesh, std::string text)
+    : text_(std::move(text)), mesh_(std::move(mesh)), detector_(NamedDetector::build(*mesh_, text_)) {}
 
 bool BatchDetector::touches(Points centers, Sizes radii, bool* touching, const Effort& effort) const {
   return ask_all(centers.count, effort, [&](std::size_t i, NamedDetector::Session& session) {
@@ -122,6 +124,12 @@ void BatchDetector::update(std::vector<Vec3> vertices) {
 std::shared_ptr<const TriangleMesh> BatchDetector::mesh() const {
   const std::shared_lock shared(lock_);
   return mesh_;
+}
+
+std::pair<std::shared_ptr<const TriangleMesh>, std::string> BatchDetector::recipe() const {
+  const std::shared_lock shared(lock_);
+  expect_usable();
+  return {mesh_, text_};
 }
 
 std::size_t BatchDetector::bytes() const {

@@ -5,13 +5,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <mutex>
 #include <optional>
-#include <shared_mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "python/batch.h"
+#include "python/fork_safe_lock.h"
 
 #include "core/named/named_detector.h"
 #include "core/probe.h"
@@ -59,7 +59,7 @@ struct ContactLists {
 /// A detector, its mesh, and what finds sides, which is made by the first who asks for one.
 class BatchDetector {
  public:
-  BatchDetector(std::shared_ptr<const TriangleMesh> mesh, const std::string& text);
+  BatchDetector(std::shared_ptr<const TriangleMesh> mesh, std::string text);
 
   // Each returns false where it was interrupted. The points are asked in their order: a thread has a part of
   // them that lie one after the other, and a session.
@@ -75,13 +75,16 @@ class BatchDetector {
   /// thrown it answers no more.
   void update(std::vector<Vec3> vertices);
   std::shared_ptr<const TriangleMesh> mesh() const;
+  /// Returns what the constructor is to be given for a detector of the mesh as it is now. Throws
+  /// std::invalid_argument where this one answers no more.
+  std::pair<std::shared_ptr<const TriangleMesh>, std::string> recipe() const;
   std::size_t bytes() const;
 
   // What follows is for who holds `lock()`, shared: updates wait meanwhile.
 
   /// Throws std::invalid_argument where it answers no more.
   void expect_usable() const;
-  std::shared_mutex& lock() const noexcept { return lock_; }
+  ForkSafeLock& lock() const noexcept { return lock_; }
   const NamedDetector& detector() const noexcept { return *detector_; }
   const TriangleMesh& locked_mesh() const noexcept { return *mesh_; }
   std::uint64_t updates() const noexcept { return updates_; }
@@ -92,12 +95,13 @@ class BatchDetector {
   template <class Ask>
   bool ask_all(std::size_t count, const Effort& effort, const Ask& ask) const;
 
+  const std::string text_;
   std::shared_ptr<const TriangleMesh> mesh_;
   std::unique_ptr<NamedDetector> detector_;
   std::uint64_t updates_ = 0;
   bool usable_ = true;
-  mutable std::shared_mutex lock_;  ///< of all that is above: updates take it alone
-  mutable std::mutex making_sides_;
+  mutable ForkSafeLock lock_;  ///< of all that is above: updates take it alone
+  mutable ForkSafeLock making_sides_;
   mutable std::optional<SideFinder> sides_;
 };
 

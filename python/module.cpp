@@ -14,6 +14,8 @@
 
 #include "python/arrays.h"
 #include "python/detector.h"
+#include "python/fork_safe_lock.h"
+#include "python/pickling.h"
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
@@ -109,38 +111,65 @@ void update(BatchDetector& detector, const Array<double>& vertices) {
   detector.update(std::move(moved));
 }
 
-/// The mesh as it is now. Python knows no constant one, and no function of Mesh changes it.
-std::shared_ptr<TriangleMesh> mesh_of(const BatchDetector& detector) {
-  return std::const_pointer_cast<TriangleMesh>(detector.mesh());
-}
+/// The mesh as it is now.
+std::shared_ptr<TriangleMesh> mesh_of(const BatchDetector& detector) { return for_python(detector.mesh()); }
 
 py::tuple bounds(const TriangleMesh& mesh) {
   const auto as_array = [](const Vec3& corner) { return py::array_t<double>(3, corner.data()); };
   return py::make_tuple(as_array(mesh.bounds().min), as_array(mesh.bounds().max));
 }
 
+py::array vertices_of(const py::object& mesh) {
+  return view_of<double>(mesh, mesh.cast<const TriangleMesh&>().vertices());
+}
+
+py::array faces_of(const py::object& mesh) {
+  return view_of<std::uint32_t>(mesh, mesh.cast<const TriangleMesh&>().triangles());
+}
+
+py::tuple state_of_mesh(const py::object& mesh) {
+  return py::make_tuple(package_version(), vertices_of(mesh), faces_of(mesh));
+}
+
+std::shared_ptr<TriangleMesh> mesh_from(const py::tuple& state) {
+  expect_pickle(state, 3, "Mesh");
+  return make_mesh(state[1].cast<Array<double>>(), state[2].cast<Array<std::uint32_t>>());
+}
+
+py::tuple state_of_detector(const BatchDetector& detector) {
+  const auto [mesh, text] = [&] {
+    const py::gil_scoped_release released;
+    return detector.recipe();
+  }();
+  return py::make_tuple(package_version(), for_python(mesh), text);
+}
+
+std::shared_ptr<BatchDetector> make_detector(const std::shared_ptr<TriangleMesh>& mesh,
+                                             const std::string& text) {
+  const py::gil_scoped_release released;
+  return std::make_shared<BatchDetector>(mesh, text);
+}
+
+std::shared_ptr<BatchDetector> detector_from(const py::tuple& state) {
+  expect_pickle(state, 3, "detector");
+  return make_detector(state[1].cast<std::shared_ptr<TriangleMesh>>(), state[2].cast<std::string>());
+}
+
 /// It holds its mesh, whose arrays are given out, too.
 void define_mesh(py::module_& module) {
   py::class_<TriangleMesh, std::shared_ptr<TriangleMesh>>(module, "Mesh")
       .def(py::init(&make_mesh), "vertices"_a.noconvert(), "faces"_a.noconvert())
-      .def("vertices",
-           [](const py::object& self) {
-             return view_of<double>(self, self.cast<const TriangleMesh&>().vertices());
-           })
-      .def("faces",
-           [](const py::object& self) {
-             return view_of<std::uint32_t>(self, self.cast<const TriangleMesh&>().triangles());
-           })
+      .def(py::pickle(&state_of_mesh, &mesh_from))
+      .def("__deepcopy__", [](py::object self, const py::dict&) { return self; })  // nothing changes it
+      .def("vertices", &vertices_of)
+      .def("faces", &faces_of)
       .def("bounds", &bounds);
 }
 
 void define_detector(py::module_& module) {
   py::class_<BatchDetector, std::shared_ptr<BatchDetector>>(module, "Detector")
-      .def(py::init([](std::shared_ptr<TriangleMesh> mesh, const std::string& text) {
-             const py::gil_scoped_release released;
-             return std::make_shared<BatchDetector>(std::move(mesh), text);
-           }),
-           "mesh"_a, "text"_a)
+      .def(py::init(&make_detector), "mesh"_a, "text"_a)
+      .def(py::pickle(&state_of_detector, &detector_from))
       .def("touches", &touches<BatchDetector>, "points"_a.noconvert(), "radius"_a.noconvert(), "threads"_a)
       .def("nearest", &nearest, "points"_a.noconvert(), "reach"_a.noconvert(), "threads"_a)
       .def("first_hit", &first_hit, "starts"_a.noconvert(), "ends"_a.noconvert(), "radius"_a.noconvert(),
@@ -170,6 +199,7 @@ PYBIND11_MODULE(_native, module) {
       PyErr_SetString(PyExc_ValueError, error.what());
     }
   });
+  ForkSafeLock::follow_forks();
   define_mesh(module);
   define_detector(module);
   define_scene(module);

@@ -9,6 +9,7 @@
 
 #include "python/arrays.h"
 #include "python/detector.h"
+#include "python/fork_safe_lock.h"
 
 #include "core/haptics/coupling.h"
 #include "core/haptics/proxy.h"
@@ -52,7 +53,7 @@ class HapticPoint {
 
  private:
   /// A batch that wants the interpreter's lock may hold an update up: it is let go while this waits.
-  std::shared_lock<std::shared_mutex> locked() const {
+  std::shared_lock<ForkSafeLock> locked() const {
     std::shared_lock shared(detector_->lock(), std::try_to_lock);
     if (!shared.owns_lock()) {
       const py::gil_scoped_release released;

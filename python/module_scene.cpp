@@ -2,8 +2,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "python/arrays.h"
+#include "python/pickling.h"
 #include "python/scene.h"
 
 #include "core/scene/pose.h"
@@ -21,6 +24,10 @@ Pose pose_from(const Array<double>& numbers) {
   return pose_of({n[0], n[1], n[2]}, n[3], n[4], n[5], n[6]);
 }
 
+using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+
+void store_rows(const Eigen::Matrix3d& matrix, double* to) { Eigen::Map<RowMajor>{to} = matrix; }
+
 py::tuple pose_of_body(const BatchScene& scene, std::int64_t body) {
   Pose pose;
   {
@@ -29,8 +36,7 @@ py::tuple pose_of_body(const BatchScene& scene, std::int64_t body) {
   }
   py::array_t<double> position(3, pose.translation.data());
   py::array_t<double> rotation(std::vector<py::ssize_t>{3, 3});
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 3; ++column) rotation.mutable_at(row, column) = pose.rotation(row, column);
+  store_rows(pose.rotation, rotation.mutable_data());
   return py::make_tuple(position, rotation);
 }
 
@@ -77,13 +83,56 @@ py::tuple first_hit(const BatchScene& scene, const Array<double>& starts, const 
                         contacts.triangle, body);
 }
 
+/// Shapes as pairs of a mesh and a radius. Places as arrays: the shape, how many bodies had the place before,
+/// and twelve numbers of the pose, the position first.
+py::tuple state_of(const BatchScene& scene) {
+  const BatchScene::Recipe recipe = [&] {
+    const py::gil_scoped_release released;
+    return scene.recipe();
+  }();
+  py::list shapes;
+  for (const auto& [mesh, radius] : recipe.shapes) shapes.append(py::make_tuple(for_python(mesh), radius));
+  const auto count = static_cast<py::ssize_t>(recipe.places.size());
+  py::array_t<std::uint32_t> shape(count), before(count);
+  py::array_t<double> poses(std::vector<py::ssize_t>{count, 12});
+  for (py::ssize_t i = 0; i < count; ++i) {
+    const BatchScene::Place& place = recipe.places[static_cast<std::size_t>(i)];
+    shape.mutable_at(i) = place.shape;
+    before.mutable_at(i) = place.before;
+    Eigen::Map<Vec3>{poses.mutable_data(i, 0)} = place.pose.translation;
+    store_rows(place.pose.rotation, poses.mutable_data(i, 3));
+  }
+  return py::make_tuple(package_version(), shapes, shape, before, poses);
+}
+
+std::unique_ptr<BatchScene> scene_from(const py::tuple& state) {
+  expect_pickle(state, 5, "Scene");
+  BatchScene::Recipe recipe;
+  for (const py::handle& parts : state[1]) {
+    const auto [mesh, radius] = parts.cast<std::pair<std::shared_ptr<TriangleMesh>, double>>();
+    recipe.shapes.push_back({mesh, radius});
+  }
+  const auto shape = state[2].cast<Array<std::uint32_t>>(), before = state[3].cast<Array<std::uint32_t>>();
+  const auto poses = state[4].cast<Array<double>>();
+  for (py::ssize_t i = 0; i < shape.shape(0); ++i) {
+    const Pose pose{Eigen::Map<const RowMajor>{poses.data(i, 3)}, Eigen::Map<const Vec3>{poses.data(i, 0)}};
+    recipe.places.push_back({shape.at(i), before.at(i), pose});
+  }
+  const py::gil_scoped_release released;
+  return std::make_unique<BatchScene>(recipe);
+}
+
 }  // namespace
 
 void define_scene(py::module_& module) {
   using Released = py::call_guard<py::gil_scoped_release>;
   py::class_<BatchScene>(module, "Scene")
       .def(py::init<>())
-      .def("add_mesh", &BatchScene::add_mesh, "mesh"_a, Released())
+      .def(py::pickle(&state_of, &scene_from))
+      .def(
+          "add_mesh",
+          [](BatchScene& scene, const std::shared_ptr<TriangleMesh>& mesh) { return scene.add_mesh(mesh); },
+          "mesh"_a, Released())
       .def("add_plane", &BatchScene::add_plane, "size_x"_a, "size_y"_a, Released())
       .def("add_box", &BatchScene::add_box, "size_x"_a, "size_y"_a, "size_z"_a, Released())
       .def("add_sphere", &BatchScene::add_sphere, "radius"_a, Released())

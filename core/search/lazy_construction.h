@@ -43,27 +43,44 @@ class SharedValue {
 
 /// How far the construction of a part is: one thread claims it, builds it and finishes it. The copy of a part
 /// that is under construction is unbuilt.
+///
+/// The child of a fork lacks the other threads of its parent. A part that one of them was building can be
+/// claimed again there, if the child calls `void_claims` first.
 class LazyState {
  public:
   /// Is built at once.
   LazyState() = default;
-  static LazyState unbuilt() noexcept { return LazyState(State::unbuilt); }
-  LazyState(const LazyState& other) noexcept : state_(other.is_built() ? State::built : State::unbuilt) {}
+  static LazyState unbuilt() noexcept { return LazyState(unbuilt_state); }
+  LazyState(const LazyState& other) noexcept : state_(other.is_built() ? built_state : unbuilt_state) {}
   LazyState& operator=(const LazyState& other) noexcept = default;
   ~LazyState() = default;
 
-  bool is_unbuilt() const noexcept { return state_.load() == State::unbuilt; }
+  bool is_unbuilt() const noexcept { return state_.load() == unbuilt_state; }
   /// Whoever sees this sees all that was written before `finish`.
-  bool is_built() const noexcept { return state_.load(std::memory_order_acquire) == State::built; }
-  /// Is it the caller who has to build the part, and to finish it?
-  bool claim() const noexcept { return is_unbuilt() && state_.replace(State::unbuilt, State::claimed); }
-  void finish() const noexcept { state_.store(State::built, std::memory_order_release); }
+  bool is_built() const noexcept { return state_.load(std::memory_order_acquire) == built_state; }
+  /// True if the caller has to build the part, and to finish it. Where the part was claimed before a fork, it
+  /// may be half-written.
+  bool claim() const noexcept {
+    const State seen = state_.load();
+    return seen != built_state && seen != claim_of_this_process &&
+           state_.replace(seen, claim_of_this_process);
+  }
+  void finish() const noexcept { state_.store(built_state, std::memory_order_release); }
+
+  /// Lets all parts be claimed again that are claimed and not built.
+  static void void_claims() noexcept {
+    claim_of_this_process = static_cast<State>(claim_of_this_process + 1);
+    if (claim_of_this_process < first_claim) claim_of_this_process = first_claim;
+  }
 
  private:
-  enum class State : std::uint8_t { built, unbuilt, claimed };
+  /// All other states are claims. A process and its parent have different ones.
+  using State = std::uint8_t;
+  static constexpr State built_state = 0, unbuilt_state = 1, first_claim = 2;
   explicit LazyState(State state) noexcept : state_(state) {}
 
-  SharedValue<State> state_ = State::built;
+  static inline State claim_of_this_process = first_claim;
+  SharedValue<State> state_ = built_state;
 };
 
 }  // namespace touchmark

@@ -15,6 +15,7 @@ nor on the threads.
 """
 from __future__ import annotations
 
+import copy
 import dataclasses
 import enum
 from typing import Any, NamedTuple, Union
@@ -141,7 +142,17 @@ class ProxyState(NamedTuple):
     status: ProxyStatus
 
 
+def _is_masked(value: Any) -> bool:
+    """True if it is a masked array, or a list with one in it."""
+    if isinstance(value, (list, tuple)):
+        return not {float, int}.issuperset(map(type, value)) and any(map(_is_masked, value))
+    return isinstance(value, np.ma.MaskedArray)
+
+
 def _real(name: str, value: Any) -> npt.NDArray[Any]:
+    if _is_masked(value):
+        raise ValueError(f"{name} is a masked array, and what is masked would be taken for numbers; leave those entries out, "
+                         "or fill them, and give the plain array that masked.data or masked.filled(...) is")
     try:
         array = np.asarray(value)
     except ValueError:  # rows of different lengths
@@ -312,6 +323,9 @@ class Detector:
         """
         self._native.update(_points("vertices", vertices))
 
+    def __copy__(self) -> Detector:
+        return copy.deepcopy(self)  # an update of one leaves the other
+
     def __repr__(self) -> str:
         return f"<touchmark.{type(self).__name__}: {len(self.mesh)} triangles, {self.nbytes} bytes>"
 
@@ -429,6 +443,13 @@ def _lengths(name: str, value: Any, count: int) -> tuple[float, ...]:
     return tuple(float(number) for number in np.atleast_1d(array))
 
 
+class _Shapes(dict[Union[Mesh, Plane, Box, Sphere, Capsule], int]):
+    """Numbers of shapes in the native scene. It keeps their meshes alive. Other threads may add some while it is pickled."""
+
+    def __reduce_ex__(self, protocol: object) -> tuple[Any, ...]:
+        return _Shapes, (dict(self),)
+
+
 class Scene:
     """Bodies that move, asked as one: each a shape in a pose. Meshes are searched by sphere clusters.
 
@@ -437,11 +458,11 @@ class Scene:
     meanwhile.
     """
 
-    __slots__ = ("_native", "_shapes")
+    __slots__ = ("_shapes", "_native")  # pickled in this order: the native scene has all shapes that the other names
 
     def __init__(self) -> None:
         self._native = _native.Scene()
-        self._shapes: dict[Union[Mesh, Plane, Box, Sphere, Capsule], int] = {}  # which keeps the meshes alive
+        self._shapes = _Shapes()
 
     def add(self, shape: Union[Mesh, Plane, Box, Sphere, Capsule], position: npt.ArrayLike = (0.0, 0.0, 0.0),
             orientation: npt.ArrayLike = (1.0, 0.0, 0.0, 0.0)) -> int:
@@ -507,6 +528,9 @@ class Scene:
         found = self._native.first_hit(asked, _points("ends", ends), _sizes("radius", radius, len(asked)), _threads(threads))
         return BodyHit(*found)
 
+    def __copy__(self) -> Scene:
+        return copy.deepcopy(self)  # moves in one leave the other
+
     def __repr__(self) -> str:
         return f"<touchmark.Scene: {len(self)} bodies, {self.nbytes} bytes>"
 
@@ -536,6 +560,9 @@ class Proxy:
     def detector(self) -> Detector:
         """What it asks. After an update of it the proxy goes on with the surface as it is then."""
         return self._detector
+
+    def __reduce_ex__(self, protocol: object) -> tuple[Any, ...]:
+        raise TypeError("a touchmark.Proxy can be neither pickled nor copied: make one anew over the detector, where it is")
 
     def place(self, position: npt.ArrayLike) -> None:
         """Puts the proxy anywhere, (3,), and forgets all contacts."""

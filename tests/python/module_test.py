@@ -171,6 +171,7 @@ class Arrays(unittest.TestCase):
 
     def test_what_is_no_real_array_is_refused_by_name(self):
         good = [[0, 0, 0]]
+        masked = np.ma.masked_equal([[0, 1, 2]], 1)
         refused = [
             (lambda: self.detector.nearest([[1j, 0, 0]]), "points holds complex128"),
             (lambda: self.detector.nearest([["a", "b", "c"]]), "points holds <U1"),
@@ -191,6 +192,13 @@ class Arrays(unittest.TestCase):
             (lambda: touchmark.Mesh(VERTICES, [[0, 1, 5000]]), f"triangle 0 names vertex 5000 of {len(VERTICES)}"),
             (lambda: touchmark.Mesh([[0, 0, 0], [1, 0, np.inf]], [[0, 1, 1]]), "vertex 1 is not finite"),
             (lambda: touchmark.Mesh(VERTICES, np.zeros((0, 3), int)), "the mesh has no triangle"),
+            (lambda: self.detector.nearest(masked), "points is a masked array.*leave those entries out"),
+            (lambda: self.detector.nearest([masked[0], [1, 2, 3]]), "points is a masked array"),
+            (lambda: self.detector.nearest([(0, np.ma.masked, 0)]), "points is a masked array"),
+            (lambda: self.detector.touches(good, masked[0, :1]), "radius is a masked array"),
+            (lambda: touchmark.Mesh(VERTICES, masked), "faces is a masked array"),
+            (lambda: touchmark.Box(masked[0]), "size is a masked array"),
+            (lambda: touchmark.Scene().add(MESH, orientation=[1, 0, 0, np.ma.masked]), "orientation is a masked array"),
             (lambda: touchmark.GridGroup(MESH, cell="wide"), 'grid-group: cell="wide"'),
             (lambda: touchmark.GridGroup(MESH, shape="octagon"), "none of cube, sphere, centered-sphere"),
             (lambda: touchmark.SphereCluster(MESH, clustering=-1.0), 'clustering="-1.0" is not a length'),
