@@ -9,6 +9,8 @@
 
 #include <pthread.h>
 
+#include "core/search/lazy_construction.h"
+
 namespace touchmark::python {
 namespace {
 
@@ -45,6 +47,7 @@ void in_parent() {
 void ForkSafeLock::in_child() {
   ::new (&monitor) Monitor;  // its mutex belongs to the parent's thread, and others may wait there
   ++forks_so_far;
+  LazyState::void_claims();
   for (ForkSafeLock* lock : held) ++lock->state().shared;
 }
 

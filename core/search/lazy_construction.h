@@ -44,8 +44,8 @@ class SharedValue {
 /// How far the construction of a part is: one thread claims it, builds it and finishes it. The copy of a part
 /// that is under construction is unbuilt.
 ///
-/// The child of a fork lacks the other threads of its parent. A part that one of them was building can be
-/// claimed again there, if the child calls `void_claims` first.
+/// The child of a fork lacks the other threads of its parent, and would wait for what they have claimed. So
+/// it calls `void_claims` before its first query, as the Python module does.
 class LazyState {
  public:
   /// Is built at once.
@@ -67,7 +67,7 @@ class LazyState {
   }
   void finish() const noexcept { state_.store(built_state, std::memory_order_release); }
 
-  /// Lets all parts be claimed again that are claimed and not built.
+  /// Lets all parts be claimed again that are claimed and not built. No other thread may use any meanwhile.
   static void void_claims() noexcept {
     claim_of_this_process = static_cast<State>(claim_of_this_process + 1);
     if (claim_of_this_process < first_claim) claim_of_this_process = first_claim;

@@ -7,11 +7,15 @@
     array([2.])
 
 Lengths are in the mesh's own units. Points are arrays of the shape (n, 3); float64 in C order is used where it lies, other
-real numbers are converted, and what is no real number is refused. Whatever is wrong raises ValueError, which names it.
+real numbers are converted, and what is no real number, or masked, is refused. Whatever is wrong raises ValueError, which
+names it.
 
 A batch runs without the interpreter's lock, so other Python threads go on; `threads=` divides it among several. Points are
 asked in their order: where each is near to the one before it, a query is cheaper. The answers do not depend on the order,
 nor on the threads.
+
+Meshes, detectors and scenes can be pickled and copied, for the same version of touchmark. A process may fork at any time,
+whatever its threads do: the child can use all of them.
 """
 from __future__ import annotations
 

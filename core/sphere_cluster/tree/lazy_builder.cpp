@@ -8,11 +8,6 @@
 #include <utility>
 #include <vector>
 
-#if defined(__unix__) || defined(__APPLE__)
-#include <pthread.h>
-#endif
-
-#include "core/search/lazy_construction.h"
 #include "core/search/parallel.h"
 #include "core/sphere_cluster/tree/binned_sah.h"
 #include "core/sphere_cluster/tree/bounding_boxes.h"
@@ -174,17 +169,9 @@ class PartBuilder {
   std::uint32_t next_;
 };
 
-/// The threads that build parts are not there in the child of a fork, which builds those parts anew.
-void follow_forks() noexcept {
-#if defined(__unix__) || defined(__APPLE__)
-  [[maybe_unused]] static const int followed = pthread_atfork(nullptr, nullptr, &LazyState::void_claims);
-#endif
-}
-
 }  // namespace
 
 std::optional<TreeParts> build_top(const TriangleMesh& mesh, const FilterFrame& frame, unsigned threads) {
-  follow_forks();
   // Fewer are built as quickly.
   if (mesh.size() < least_parts * least_of_part) return std::nullopt;
   return TopBuilder(mesh, frame, threads).build();
