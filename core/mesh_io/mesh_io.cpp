@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
 #include <new>
 #include <string>
 #include <string_view>
 
 #include "core/mesh_io/mesh_file.h"
+#include "core/mesh_io/read_gltf.h"
 #include "core/mesh_io/read_with_assimp.h"
 #include "core/mesh_io/readers.h"
 
@@ -33,26 +35,53 @@ void refuse_cad_files(const std::string& bytes, const std::string& ending) {
   }
 }
 
-bool is_read_here(const std::string& ending) {
+/// Formats of one mesh, which state neither axes nor a unit.
+bool is_plain(const std::string& ending) {
   return ending == ".ply" || ending == ".obj" || ending == ".off" || ending == ".stl";
 }
 
-TriangleMesh read(const std::string& bytes, const std::string& ending) {
-  refuse_cad_files(bytes, ending);
+bool is_gltf(const std::string& ending) { return ending == ".gltf" || ending == ".glb"; }
+
+TriangleMesh read_plain(const std::string& bytes, const std::string& ending) {
   if (ending == ".ply") return mesh_io::read_ply(bytes);
   if (ending == ".obj") return mesh_io::read_obj(bytes);
   if (ending == ".off") return mesh_io::read_off(bytes);
-  if (ending == ".stl") return mesh_io::read_stl(bytes);
-  return mesh_io::read_with_assimp(bytes, ending);
+  return mesh_io::read_stl(bytes);
+}
+
+mesh_io::SceneGraph read_graph(const std::filesystem::path& path, const std::string& bytes,
+                               const std::string& ending) {
+  if (is_gltf(ending)) return mesh_io::read_gltf(bytes, path.parent_path());
+  return mesh_io::read_with_assimp(path, bytes, ending);
+}
+
+std::string axes_of(const mesh_io::SceneGraph& graph, const std::string& ending) {
+  if (is_gltf(ending)) return "as written (glTF is Y up)";
+  return graph.axes.empty() ? "as written" : "as written (the file says " + graph.axes + ")";
+}
+
+std::string unit_of(const mesh_io::SceneGraph& graph, const std::string& ending) {
+  if (is_gltf(ending)) return "1 m, as in every glTF";
+  if (!graph.states_unit) return "none stated";
+  std::array<char, 32> text;
+  char* const end = std::to_chars(text.data(), text.data() + text.size(), graph.unit).ptr;
+  return std::string(text.data(), end) + " m, from the file";
+}
+
+MeshFile read(const std::filesystem::path& path) {
+  const std::string ending = lower_case_ending(path), bytes = mesh_io::read_file(path);
+  refuse_cad_files(bytes, ending);
+  if (is_plain(ending)) return {read_plain(bytes, ending), "as written", "none stated"};
+  const mesh_io::SceneGraph graph = read_graph(path, bytes, ending);
+  return {mesh_of(graph), axes_of(graph, ending), unit_of(graph, ending)};
 }
 
 NodeTree read_tree(const std::filesystem::path& path) {
-  const std::string ending = lower_case_ending(path);
-  const std::string bytes = mesh_io::read_file(path);
+  const std::string ending = lower_case_ending(path), bytes = mesh_io::read_file(path);
   refuse_cad_files(bytes, ending);
-  if (!is_read_here(ending)) return mesh_io::read_tree_with_assimp(path, ending);
+  if (!is_plain(ending)) return tree_of(read_graph(path, bytes, ending));
   NodeTree tree;
-  tree.meshes.push_back(read(bytes, ending));
+  tree.meshes.push_back(read_plain(bytes, ending));
   tree.nodes.push_back({path.stem().string(), 0, Eigen::Matrix3d::Identity(), Vec3::Zero()});
   return tree;
 }
@@ -71,8 +100,10 @@ auto named(const std::filesystem::path& path, const Load& load) {
 
 }  // namespace
 
-TriangleMesh load_mesh(const std::filesystem::path& path) {
-  return named(path, [&] { return read(mesh_io::read_file(path), lower_case_ending(path)); });
+TriangleMesh load_mesh(const std::filesystem::path& path) { return load_mesh_file(path).mesh; }
+
+MeshFile load_mesh_file(const std::filesystem::path& path) {
+  return named(path, [&] { return read(path); });
 }
 
 NodeTree load_node_tree(const std::filesystem::path& path) {

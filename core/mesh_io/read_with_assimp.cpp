@@ -1,131 +1,71 @@
 #include "core/mesh_io/read_with_assimp.h"
 
-#include <cmath>
 #include <exception>
-#include <map>
-#include <utility>
-#include <vector>
 
-#include <Eigen/LU>
 #include <assimp/Importer.hpp>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
-#include "core/mesh_io/mesh_file.h"
+#include "core/triangle_mesh.h"
 
 namespace touchmark::mesh_io {
 namespace {
 
-/// The part that the reader is in, for errors: assimp tells no lines.
-struct Part {
-  std::size_t number;
-  [[noreturn]] void fail(const std::string& message) const {
-    throw MeshError("part " + std::to_string(number) + ": " + message);
-  }
-};
-
-void add_part(const aiMesh& part, const aiMatrix4x4& transform, std::size_t number, MeshBuilder& mesh) {
-  const auto first = static_cast<std::int64_t>(mesh.vertex_count());
-  for (unsigned i = 0; i < part.mNumVertices; ++i) {
-    const aiVector3D position = transform * part.mVertices[i];
-    mesh.add_vertex({position.x, position.y, position.z});
-  }
-  std::vector<std::uint32_t> corners;
-  for (unsigned i = 0; i < part.mNumFaces; ++i) {
-    const aiFace& face = part.mFaces[i];
+SceneGraph::Part part_of(const aiMesh& mesh, std::size_t number) {
+  SceneGraph::Part part;
+  for (unsigned i = 0; i < mesh.mNumVertices; ++i)
+    part.vertices.emplace_back(mesh.mVertices[i].x, mesh.mVertices[i].y, mesh.mVertices[i].z);
+  for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
+    const aiFace& face = mesh.mFaces[i];
     if (face.mNumIndices < 3) continue;  // a point or a line
-    corners.clear();
     for (unsigned k = 0; k < face.mNumIndices; ++k) {
-      if (face.mIndices[k] >= part.mNumVertices) {
-        Part{number}.fail("face " + std::to_string(i) + " names vertex " + std::to_string(face.mIndices[k]) +
-                          " of " + std::to_string(part.mNumVertices));
+      if (face.mIndices[k] >= mesh.mNumVertices) {
+        throw MeshError("part " + std::to_string(number) + ": face " + std::to_string(i) + " names vertex " +
+                        std::to_string(face.mIndices[k]) + " of " + std::to_string(mesh.mNumVertices));
       }
-      corners.push_back(mesh.checked_corner(first + face.mIndices[k], Part{number}));
+      part.corners.push_back(face.mIndices[k]);
     }
-    mesh.add_face(corners, Part{number});
+    part.ends.push_back(static_cast<std::uint32_t>(part.corners.size()));
   }
+  return part;
 }
 
-void add(const aiScene& scene, const aiNode& node, const aiMatrix4x4& parent, MeshBuilder& mesh) {
-  const aiMatrix4x4 transform = parent * node.mTransformation;
-  for (unsigned i = 0; i < node.mNumMeshes; ++i) {
-    const unsigned number = node.mMeshes[i];
-    if (number >= scene.mNumMeshes)
-      Part{number}.fail("does not exist, the file has " + std::to_string(scene.mNumMeshes));
-    add_part(*scene.mMeshes[number], transform, number, mesh);
-  }
-  for (unsigned i = 0; i < node.mNumChildren; ++i) add(scene, *node.mChildren[i], transform, mesh);
-}
-
-using Matrix4 = Eigen::Matrix4d;
-
-Matrix4 matrix_of(const aiMatrix4x4& m) {
-  Matrix4 matrix;
+Eigen::Matrix4d matrix_of(const aiMatrix4x4& m) {
+  Eigen::Matrix4d matrix;
   matrix << m.a1, m.a2, m.a3, m.a4, m.b1, m.b2, m.b3, m.b4, m.c1, m.c2, m.c3, m.c4, m.d1, m.d2, m.d3, m.d4;
   return matrix;
 }
 
-/// What is wrong with a transform as a pose; empty where it only turns and moves. Files and assimp keep
-/// single precision, of which a chain of nodes adds up a few roundings.
-std::string why_not_rigid(const Matrix4& transform) {
-  constexpr double rounding = 1e-5;
-  if (!transform.allFinite()) return "is not finite";
-  if ((transform.row(3) - Eigen::RowVector4d(0, 0, 0, 1)).cwiseAbs().maxCoeff() > rounding)
-    return "is a projection";
-  const Eigen::Matrix3d linear = transform.topLeftCorner<3, 3>();
-  const Eigen::Matrix3d gram = linear.transpose() * linear;
-  const Vec3 lengths = gram.diagonal().cwiseSqrt();
-  if ((lengths - Vec3::Ones()).cwiseAbs().maxCoeff() > rounding) {
-    return "scales by " + std::to_string(lengths.x()) + ", " + std::to_string(lengths.y()) + ", " +
-           std::to_string(lengths.z());
-  }
-  if ((gram - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > 2 * rounding) return "shears";
-  return linear.determinant() < 0 ? "mirrors" : "";
+bool is_one_of(std::string_view endings, const std::string& ending) {
+  return endings.find(" " + ending + " ") != std::string_view::npos;
 }
 
-/// Collects the nodes that have meshes, parents before children, each before what follows it in the file.
-class TreeReader {
- public:
-  explicit TreeReader(const aiScene& scene) : scene_(scene) {}
+/// Returns what brings the scene back into the axes of the file, which some importers turn so that y is up,
+/// or mirror so that they are right-handed; those turn all faces, too.
+Eigen::Matrix4d into_axes_of_file(const aiScene& scene, const std::string& ending) {
+  Eigen::Matrix4d turn = Eigen::Matrix4d::Identity();
+  turn.block<2, 2>(1, 1) << 0, 1, -1, 0;
+  if (is_one_of(" .3ds .ase .ask .dxf .hmp .md3 .md5mesh .mdc .mdl .prj ", ending) &&
+      matrix_of(scene.mRootNode->mTransformation) == turn)
+    return turn.transpose();
+  const double z = is_one_of(" .3d .b3d .lwo .lws .lxo .pmx .uc .x ", ending) ? -1 : 1;
+  return Eigen::Vector4d(1, 1, z, 1).asDiagonal().toDenseMatrix();
+}
 
-  void visit(const aiNode& node, const Matrix4& parent) {
-    const Matrix4 transform = parent * matrix_of(node.mTransformation);
-    if (node.mNumMeshes > 0) add(node, transform);
-    for (unsigned i = 0; i < node.mNumChildren; ++i) visit(*node.mChildren[i], transform);
-  }
-  NodeTree tree() && { return std::move(tree_); }
-
- private:
-  void add(const aiNode& node, const Matrix4& transform) {
-    const std::string name = node.mName.C_Str();
-    const std::string fault = why_not_rigid(transform);
-    if (!fault.empty()) {
-      throw MeshError("node '" + name + "' (with its parents) " + fault +
-                      "; the bodies of a scene are turned and moved only");
+/// Adds the nodes below, parents before children, each before what follows it in the file.
+void add(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& parent, SceneGraph& graph) {
+  const Eigen::Matrix4d transform = parent * matrix_of(node.mTransformation);
+  if (node.mNumMeshes > 0) {
+    graph.nodes.push_back({node.mName.C_Str(), transform, {node.mMeshes, node.mMeshes + node.mNumMeshes}});
+    for (const std::size_t part : graph.nodes.back().parts) {
+      if (part >= scene.mNumMeshes) {
+        throw MeshError("part " + std::to_string(part) + " does not exist, the file has " +
+                        std::to_string(scene.mNumMeshes));
+      }
     }
-    tree_.nodes.push_back(
-        {name, mesh_of(node), transform.topLeftCorner<3, 3>(), transform.topRightCorner<3, 1>()});
   }
-
-  /// Nodes with the same parts share one mesh.
-  std::size_t mesh_of(const aiNode& node) {
-    const std::vector<unsigned> parts(node.mMeshes, node.mMeshes + node.mNumMeshes);
-    const auto [known, is_new] = meshes_.emplace(parts, tree_.meshes.size());
-    if (!is_new) return known->second;
-    MeshBuilder mesh;
-    for (const unsigned number : parts) {
-      if (number >= scene_.mNumMeshes)
-        Part{number}.fail("does not exist, the file has " + std::to_string(scene_.mNumMeshes));
-      add_part(*scene_.mMeshes[number], aiMatrix4x4(), number, mesh);
-    }
-    tree_.meshes.push_back(std::move(mesh).build());
-    return known->second;
-  }
-
-  const aiScene& scene_;
-  NodeTree tree_;
-  std::map<std::vector<unsigned>, std::size_t> meshes_;
-};
+  for (unsigned i = 0; i < node.mNumChildren; ++i) add(scene, *node.mChildren[i], transform, graph);
+}
 
 constexpr unsigned steps = aiProcess_ValidateDataStructure;  // none that drops, merges or reorders faces
 
@@ -154,27 +94,19 @@ const aiScene& imported(Assimp::Importer& importer, const Read& read) {
 
 }  // namespace
 
-TriangleMesh read_with_assimp(std::string_view bytes, const std::string& ending) {
+SceneGraph read_with_assimp(const std::filesystem::path& path, std::string_view bytes,
+                            const std::string& ending) {
   Assimp::Importer importer;
   expect_known_ending(importer, ending);
   const aiScene& scene = imported(importer, [&](Assimp::Importer& reader) {
-    return reader.ReadFileFromMemory(bytes.data(), bytes.size(), steps, ending.c_str() + 1);
+    return std::filesystem::is_regular_file(path)
+               ? reader.ReadFile(path.string(), steps)
+               : reader.ReadFileFromMemory(bytes.data(), bytes.size(), steps, ending.c_str() + 1);
   });
-  MeshBuilder mesh;
-  add(scene, *scene.mRootNode, aiMatrix4x4(), mesh);
-  return std::move(mesh).build();
-}
-
-NodeTree read_tree_with_assimp(const std::filesystem::path& path, const std::string& ending) {
-  Assimp::Importer importer;
-  expect_known_ending(importer, ending);
-  const aiScene& scene =
-      imported(importer, [&](Assimp::Importer& reader) { return reader.ReadFile(path.string(), steps); });
-  TreeReader reader(scene);
-  reader.visit(*scene.mRootNode, Matrix4::Identity());
-  NodeTree tree = std::move(reader).tree();
-  if (tree.nodes.empty()) throw MeshError("no node has a mesh");
-  return tree;
+  SceneGraph graph;
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i) graph.parts.push_back(part_of(*scene.mMeshes[i], i));
+  add(scene, *scene.mRootNode, into_axes_of_file(scene, ending), graph);
+  return graph;
 }
 
 }  // namespace touchmark::mesh_io

@@ -1,20 +1,17 @@
-/// Every format that has no reader of its own here.
+/// Files of all formats that have no reader of their own.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <string_view>
 
-#include "core/mesh_io/mesh_io.h"
-#include "core/triangle_mesh.h"
+#include "core/mesh_io/scene_graph.h"
 
 namespace touchmark::mesh_io {
 
-/// `ending` is ".glb" and the like. Formats in several files (a .gltf with its .bin) are not read from
-/// memory: their other files count as missing. Throws MeshError.
-TriangleMesh read_with_assimp(std::string_view bytes, const std::string& ending);
-
-/// Reads the nodes that have meshes. Files that the format names are read, too. Throws MeshError.
-NodeTree read_tree_with_assimp(const std::filesystem::path& path, const std::string& ending);
+/// Reads a file's nodes with their triangles and polygons. `ending` is ".3ds" or another that assimp knows,
+/// in lower case; `bytes` is what the file holds, for files that can be read only once. Throws MeshError.
+SceneGraph read_with_assimp(const std::filesystem::path& path, std::string_view bytes,
+                            const std::string& ending);
 
 }  // namespace touchmark::mesh_io
