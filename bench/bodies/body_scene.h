@@ -20,6 +20,7 @@ struct Body {
   std::string name;
   std::size_t shape = 0;  ///< which of the scene's shapes
   Placement start;
+  std::string id = {};  ///< another name that a file of poses may use where no body has it as its name
 };
 
 /// A sphere about the origin of its frame, or a capsule along z: all points so far from a segment.

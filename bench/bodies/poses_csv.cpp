@@ -46,6 +46,9 @@ class PoseReader {
   PoseReader(const std::string& path, const BodyScene& scene) : file_(path), numbers_(file_), scene_(scene) {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
       bodies_.emplace(scene.bodies[i].name, static_cast<std::uint32_t>(i));
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+      if (!scene.bodies[i].id.empty()) bodies_.emplace(scene.bodies[i].id, static_cast<std::uint32_t>(i));
+    }
   }
 
   Tracks read() {

@@ -35,8 +35,10 @@ BodyScene read_node_tree(const std::string& path) {
   for (const NodeTree::Node& node : tree.nodes) {
     // The file's matrix is in single precision: a quaternion's is orthonormal to the last digits.
     const Eigen::Quaterniond turn(node.rotation);
-    scene.bodies.push_back(
-        {unused(node.name, names), node.mesh, {node.translation, {turn.w(), turn.x(), turn.y(), turn.z()}}});
+    scene.bodies.push_back({unused(node.name, names),
+                            node.mesh,
+                            {node.translation, {turn.w(), turn.x(), turn.y(), turn.z()}},
+                            node.id});
   }
   return scene;
 }

@@ -16,7 +16,6 @@
 #include "bench/support/available_memory.h"
 #include "bench/support/did_you_mean.h"
 #include "bench/support/numbers.h"
-#include "core/mesh_io/mesh_io.h"
 
 namespace touchmark::bench::scenes {
 namespace {
@@ -57,7 +56,7 @@ void require_memory_for(const Request& request, std::uint64_t triangles, std::ui
 }
 
 /// A file is read whole, and its mesh takes about as much again.
-TriangleMesh load_file(const fs::path& file) {
+MeshFile load_file(const fs::path& file) {
   std::error_code ignored;
   if (fs::is_regular_file(file, ignored)) {
     const std::uintmax_t size = fs::file_size(file, ignored);
@@ -65,7 +64,7 @@ TriangleMesh load_file(const fs::path& file) {
       support::require_memory(fmt::format("mesh {}: {} bytes", file.string(), size),
                               2 * static_cast<double>(size));
   }
-  return touchmark::load_mesh(file);
+  return load_mesh_file(file);
 }
 
 TriangleMesh make_icosphere(const Request& request) {
@@ -123,7 +122,7 @@ TriangleMesh make_bunny(const Request& request) {
   if (file.empty()) {
     throw request.refusal(fmt::format("{} is not there; install the package glmark2-data", bunny_files[0]));
   }
-  return load_file(file);
+  return load_file(file).mesh;
 }
 
 fs::path dragon_file(std::uint64_t resolution) {
@@ -139,7 +138,7 @@ TriangleMesh make_dragon(const Request& request) {
     throw request.refusal(
         fmt::format("{} is not there; fetch it with scripts/setup --dragon", file.string()));
   }
-  return load_file(file);
+  return load_file(file).mesh;
 }
 
 bool always() { return true; }
@@ -254,15 +253,15 @@ TriangleMesh modified(TriangleMesh mesh, const Modifier& modifier) {
                   support::near_names(request.name.substr(0, request.name.find(':')), known)));
 }
 
-TriangleMesh load_unmodified(Request& request) {
+MeshFile load_unmodified(Request& request) {
   const std::size_t colon = request.name.find(':');
   const std::string name = request.name.substr(0, colon);
   if (colon != std::string::npos) request.parameter = request.name.substr(colon + 1);
   for (const Scene& scene : all_scenes) {
-    if (name_in(scene.form) == name) return scene.make(request);
+    if (name_in(scene.form) == name) return {scene.make(request), "", ""};
   }
   for (const SizedScene& scene : sized_scenes()) {
-    if (name_in(scene.form) == name) return make_sized(scene, request);
+    if (name_in(scene.form) == name) return {make_sized(scene, request), "", ""};
   }
   std::error_code ignored;
   const auto has = [&](const char* any) { return request.name.find_first_of(any) != std::string::npos; };
@@ -300,21 +299,23 @@ bool is_named(const std::string& text) {
 
 std::string default_scene() { return has_bunny() ? "bunny" : "icosphere:6"; }
 
-TriangleMesh load_scene(const std::string& name) {
+MeshFile load_with_frame(const std::string& name, bool normalize) {
   Request request{name, std::nullopt, name};
   const std::vector<Modifier> modifiers = split_modifiers(request);
-  TriangleMesh mesh = load_unmodified(request);
+  MeshFile file = load_unmodified(request);
   try {
-    for (const Modifier& modifier : modifiers) mesh = modified(std::move(mesh), modifier);
+    for (const Modifier& modifier : modifiers) file.mesh = modified(std::move(file.mesh), modifier);
   } catch (const MeshError& error) {
     throw MeshError(fmt::format("mesh \"{}\": {}", name, error.what()));
   }
-  return mesh;
+  if (normalize) file.mesh = file.mesh.normalized();
+  return file;
 }
 
+TriangleMesh load_scene(const std::string& name) { return load_with_frame(name, false).mesh; }
+
 TriangleMesh load_mesh(const std::string& name, bool normalize) {
-  TriangleMesh mesh = load_scene(name);
-  return normalize ? mesh.normalized() : mesh;
+  return load_with_frame(name, normalize).mesh;
 }
 
 }  // namespace touchmark::bench::scenes

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/mesh_io/mesh_io.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::bench::scenes {
@@ -38,5 +39,8 @@ TriangleMesh load_scene(const std::string& name);
 
 /// Returns the mesh of that name or file, normalised if asked to. Throws std::invalid_argument or MeshError.
 TriangleMesh load_mesh(const std::string& name, bool normalize);
+
+/// Returns the same with what the file says of its axes and unit; both are empty for a generated mesh.
+MeshFile load_with_frame(const std::string& name, bool normalize);
 
 }  // namespace touchmark::bench::scenes
