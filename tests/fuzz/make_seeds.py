@@ -2,6 +2,9 @@
 """Writes a folder of seeds for each fuzz target: small files of every form that the readers know, whole and damaged,
 and scripts for the targets of detectors and proxies. Argument: where the folders go.
 """
+import base64
+import copy
+import json
 import pathlib
 import random
 import struct
@@ -85,6 +88,48 @@ def stl():
         yield start.ljust(80, b"\0") + struct.pack("<I", 2) + 2 * (struct.pack("<12f", *corners) + b"\0\0")
 
 
+def glb(file, binary):
+    file = copy.deepcopy(file)
+    file["buffers"][0].pop("uri")
+    text = json.dumps(file, separators=(",", ":")).encode()
+    text += b" " * (-len(text) % 4)
+    binary += b"\0" * (-len(binary) % 4)
+    return (struct.pack("<4s2I", b"glTF", 2, 28 + len(text) + len(binary)) + struct.pack("<I4s", len(text), b"JSON") + text
+            + struct.pack("<I4s", len(binary), b"BIN\0") + binary)
+
+
+def gltf():
+    """A tetrahedron as text and binary: plain, of bytes, sparse, as strip and fan, instanced, mirrored, nested, compressed."""
+    binary = struct.pack("<12f12H", 0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0, 3, 0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3)
+    attributes = {"attributes": {"POSITION": 0}, "indices": 1}
+    plain = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"name": "a", "mesh": 0}],
+             "meshes": [{"primitives": [attributes]}],
+             "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+                           {"bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR"}],
+             "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 24}],
+             "buffers": [{"byteLength": 72, "uri": "data:;base64," + base64.b64encode(binary).decode()}]}
+    changes = [
+        {},
+        {"accessors": [{"bufferView": 0, "componentType": 5120, "normalized": True, "count": 9, "type": "VEC3"},
+                       {"bufferView": 1, "componentType": 5121, "count": 24, "type": "SCALAR"}],
+         "extensionsRequired": ["KHR_mesh_quantization"]},
+        {"accessors": [{"componentType": 5126, "count": 9, "type": "VEC3", "sparse": {
+            "count": 1, "indices": {"bufferView": 1, "byteOffset": 2, "componentType": 5123}, "values": {"bufferView": 0}}},
+                       {"bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR"}]},
+        {"meshes": [{"primitives": [attributes | {"mode": mode} for mode in (1, 5, 6)]
+                     + [{"attributes": {"POSITION": 0}, "mode": 5}]}]},
+        {"nodes": [{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 0, "SCALE": 0}}}}]},
+        {"nodes": [{"children": [1, 2], "scale": [-1, 2, 1]}, {"mesh": 0, "rotation": [0, 0, 1, 0], "translation": [1, 2, 3]},
+                   {"mesh": 0, "matrix": [1, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1], "children": [3]}, {"mesh": 0}]},
+        {"meshes": [{"primitives": [attributes | {"extensions": {"KHR_draco_mesh_compression": {
+            "bufferView": 0, "attributes": {"POSITION": 0}}}}]}]},
+        {"nodes": [{"children": [1]}, {"children": [0]}], "extensionsRequired": ["EXT_meshopt_compression"]},
+        {"buffers": [{"byteLength": 72, "uri": "a%20b/c.bin"}]}]
+    for change in changes:
+        yield json.dumps(plain | change).encode()
+        yield glb(plain | change, binary)
+
+
 def trajectory():
     yield "x,y,z\n0,0,0\n1e-9,2,3\n"
     yield "sep=;\r\nT_ms;Pos X;Pos Y;Pos Z\r\n0;0,5;1;2\r\n# lost\r\n1,5;2;1e-3;4\r\n;;;\r\n3;1;2;3;;\r\n"
@@ -121,6 +166,7 @@ def seeds():
     yield "obj", [text.encode() for text in obj()]
     yield "off", [text.encode() for text in off()]
     yield "stl", list(stl())
+    yield "gltf", list(gltf())
     yield "trajectory", [text.encode() for text in trajectory()]
     yield "detectors", list(detectors())
     yield "proxy", list(detectors())

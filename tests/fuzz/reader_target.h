@@ -23,6 +23,12 @@ inline void require_usable(const TriangleMesh& mesh, std::size_t bytes) {
   for (const Vec3& vertex : mesh.vertices()) require(vertex.allFinite(), "a vertex that is not finite");
 }
 
+/// Of a message, whatever the bytes are.
+inline void require_one_line(std::string_view message) {
+  for (const char c : message)
+    require(c != '\n' && c != '\r' && c != '\0' && c != '\x1b', "a message of more than one line");
+}
+
 using Reader = TriangleMesh (*)(std::string_view bytes);
 
 inline int read_as_mesh(Reader read, const std::uint8_t* data, std::size_t size) {
@@ -30,9 +36,7 @@ inline int read_as_mesh(Reader read, const std::uint8_t* data, std::size_t size)
   try {
     require_usable(read(bytes), size);
   } catch (const MeshError& error) {
-    // One line, whatever the bytes are.
-    for (const char c : std::string_view(error.what()))
-      require(c != '\n' && c != '\r' && c != '\0' && c != '\x1b', "a message of more than one line");
+    require_one_line(error.what());
   }
   return 0;
 }
