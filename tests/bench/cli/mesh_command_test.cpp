@@ -65,6 +65,17 @@ TEST(MeshInfo, CountsAFilesPolygonsAsFaces) {
   EXPECT_EQ(out.find("volume"), std::string::npos) << out;
 }
 
+TEST(MeshInfo, SaysTheAxesAndTheUnitOfAFile) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("a.off", "OFF\n3 1 0\n0 0 0\n2 0 0\n2 2 0\n3 0 1 2\n");
+  EXPECT_TRUE(run_touchmark({"mesh", "info", path}).out.ends_with("axes: as written\nunit: none stated\n"));
+  const nlohmann::json in_mm =
+      nlohmann::json::parse(run_touchmark({"mesh", "info", path, "--unit", "mm", "--json"}).out);
+  EXPECT_EQ(in_mm["axes"], "as written");
+  EXPECT_EQ(in_mm["unit"], "mm");
+  EXPECT_EQ(run_touchmark({"mesh", "info", "cube"}).out.find("axes"), std::string::npos);
+}
+
 TEST(MeshInfo, RefusesBadInputInOneLine) {
   const TemporaryFolder folder;
   expect_bad_input({"mesh"}, {});

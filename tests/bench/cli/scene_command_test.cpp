@@ -337,7 +337,7 @@ TEST_F(SceneCommand, ListsGeneratedScenesAndMotions) {
     EXPECT_NE(outcome.out.find(name), std::string::npos) << name;
 }
 
-// A tree of nodes: the child is where its parent takes it. A node that scales is no rigid body.
+// A tree of nodes: the child is where its parent takes it. Scales and mirrors are applied to its mesh.
 TEST_F(SceneCommand, ReadsTheNodesOfAFile) {
   const auto gltf = [](const std::string& child) {
     return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"name":"base","mesh":0,)"
@@ -354,9 +354,11 @@ TEST_F(SceneCommand, ReadsTheNodesOfAFile) {
   const Rows found = rows(write("tree.gltf", gltf(R"("translation":[0,0,3])")), motion);
   EXPECT_EQ(found.bodies, (std::vector<std::string>{"base", "tip"}));
   EXPECT_EQ(found.distances, (std::vector<std::string>{"1", "5"}));
-  expect_bad_input({"query", "--scene", write("scaled.gltf", gltf(R"("scale":[2,2,2])")), "--trajectory",
-                    motion, "--detector", "brute-force"},
-                   {"scaled.gltf", "tip", "scales"});
+  // Over the larger triangle alone.
+  const std::string beside = write("beside.csv", "x,y,z\n0.25,0.25,0\n0.75,0.75,9\n");
+  const Rows scaled = rows(write("scaled.gltf", gltf(R"("translation":[0,0,3],"scale":[2,2,-1])")), beside);
+  EXPECT_EQ(scaled.bodies, (std::vector<std::string>{"base", "tip"}));
+  EXPECT_EQ(scaled.distances, (std::vector<std::string>{"1", "5"}));
 }
 
 // An arm whose second joint turns by a quarter turn about z and moves along the turned x. Collision geometry
