@@ -130,6 +130,9 @@ struct JsonDocument::Parsed {
 };
 
 JsonDocument::JsonDocument(std::string_view text) : parsed_(std::make_unique<Parsed>()) {
+  const std::size_t zero = text.find('\0');  // the parser takes it for the end
+  if (zero != std::string_view::npos && !is_padding(text.substr(zero)))
+    throw MeshError("its JSON has a zero byte, with more after it");
   Strictness strictness(text);
   Json::sax_parse(text.begin(), text.end(), &strictness);
   parsed_->json = Json::parse(text.begin(), text.end());

@@ -397,6 +397,7 @@ TEST_F(Gltf, RefusesBrokenJson) {
   expect_refusal(folder_.file("a.gltf", whole.substr(0, 400)), "its JSON ends early");
   expect_refusal(folder_.file("a.gltf", "{\n\"asset\": nonsense}"), "line 2: is not JSON");
   expect_refusal(folder_.file("a.gltf", whole + "}"), "is not JSON");
+  expect_refusal(folder_.file("a.gltf", whole + std::string("\0}", 2)), "a zero byte");
   expect_refusal(folder_.file("a.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scene": 1})"),
                  "key 'scene' twice");
   expect_refusal(folder_.file("a.gltf", R"({"asset": 1e999})"), "a number does not fit a double");
