@@ -12,7 +12,7 @@ endif()
 
 set(TOUCHMARK_VERSIONS_FOUND "{\"eigen\", \"${Eigen3_VERSION}\"}, {\"fmt\", \"${fmt_VERSION}\"}, {\"benchmark\", \"${benchmark_VERSION}\"}, {\"cli11\", \"${CLI11_VERSION}\"}, {\"nlohmann-json\", \"${nlohmann_json_VERSION}\"}")
 find_program(PKG_CONFIG pkg-config)
-foreach(library gmp assimp fcl ccd bullet bullet-float64)
+foreach(library gmp assimp pugixml fcl ccd bullet bullet-float64)
   set(library_version)
   if(PKG_CONFIG)
     execute_process(COMMAND ${PKG_CONFIG} --modversion ${library} OUTPUT_VARIABLE library_version

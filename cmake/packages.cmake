@@ -105,7 +105,7 @@ touchmark_package(dev core libtouchmark-dev "exact collision detectors for hapti
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev (>= 3.4)${touchmark_needs_c}")
 if(TOUCHMARK_BUILD_MESH_IO)
-  string(APPEND CPACK_DEBIAN_DEV_PACKAGE_DEPENDS ", libassimp-dev, libdraco-dev")
+  string(APPEND CPACK_DEBIAN_DEV_PACKAGE_DEPENDS ", libassimp-dev, libdraco-dev, libpugixml-dev")
 endif()
 if(TOUCHMARK_BUILD_BENCH)
   touchmark_package(program program touchmark "benchmark of collision detectors for haptic loops"

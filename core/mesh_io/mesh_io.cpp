@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "core/mesh_io/mesh_file.h"
+#include "core/mesh_io/read_dae.h"
 #include "core/mesh_io/read_gltf.h"
 #include "core/mesh_io/read_with_assimp.h"
 #include "core/mesh_io/readers.h"
@@ -52,6 +53,7 @@ TriangleMesh read_plain(const std::string& bytes, const std::string& ending) {
 mesh_io::SceneGraph read_graph(const std::filesystem::path& path, const std::string& bytes,
                                const std::string& ending) {
   if (is_gltf(ending)) return mesh_io::read_gltf(bytes, path.parent_path());
+  if (ending == ".dae" || ending == ".zae") return mesh_io::read_dae(bytes);
   return mesh_io::read_with_assimp(path, bytes, ending);
 }
 

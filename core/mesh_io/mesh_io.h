@@ -11,10 +11,10 @@
 namespace touchmark {
 
 /// Reads a mesh, its coordinates in the axes that the file has them in; the id of a triangle is the number of
-/// its face in the file, from 0, and the triangles cut from a polygon share it. PLY, OBJ, OFF, STL and glTF
-/// (by the file's ending, of any case) are read strictly and keep every double of the file; every other
-/// format goes through assimp, which keeps single precision. The parts of a file follow one another in the
-/// order of its nodes. Throws MeshError("PATH: what is wrong", with the place) for everything else than a
+/// its face in the file, from 0, and the triangles cut from a polygon share it. PLY, OBJ, OFF, STL, glTF and
+/// COLLADA (by the file's ending, of any case) are read strictly and keep every double of the file; every
+/// other format goes through assimp, which keeps single precision. The parts of a file follow one another in
+/// the order of its nodes. Throws MeshError("PATH: what is wrong", with the place) for everything else than a
 /// mesh that can be used.
 TriangleMesh load_mesh(const std::filesystem::path& path);
 

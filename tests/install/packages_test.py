@@ -102,6 +102,7 @@ class Packages(unittest.TestCase):
         self.assertIn("libeigen3-dev", needs)
         self.assertIn("libassimp-dev", needs)
         self.assertIn("libdraco-dev", needs)
+        self.assertIn("libpugixml-dev", needs)
         self.assertIn(f"libtouchmark-c0.2 (= {self.version}-1)", needs)
 
     def test_the_shared_library_is_found_once_it_is_installed(self):
