@@ -130,6 +130,41 @@ def gltf():
         yield glb(plain | change, binary)
 
 
+DAE = """<?xml version="1.0"?>
+<COLLADA version="1.4.1"><asset><unit meter="0.01"/><up_axis>Z_UP</up_axis></asset>
+<library_geometries><geometry id="g"><mesh><source id="s"><float_array id="a" count="12">0 0 0 1 0 0 0 2 0 0 0 3</float_array>
+<technique_common><accessor source="#a" count="4" stride="3"><param name="X"/><param name="Y"/><param name="Z"/></accessor>
+</technique_common></source><vertices id="v"><input semantic="POSITION" source="#s"/></vertices>
+FACES</mesh></geometry></library_geometries>
+<library_nodes><node id="l">TRANSFORM<instance_geometry url="#g"/></node></library_nodes><library_visual_scenes><visual_scene id="S">
+<node name="part"><instance_node url="#l"/><node id="n"><instance_geometry url="#g"/></node></node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#S"/></scene></COLLADA>
+"""
+
+
+def dae():
+    """Every primitive and transform; arrays, indices and instances that name too much."""
+    vertex = '<input semantic="VERTEX" source="#v" offset="0"/>'
+    lists = "<p>0 2 1 0 1 3</p><p>0 3 2 1</p>"
+    primitives = [f'<{kind} count="2">{vertex}{lists}</{kind}>' for kind in ("polygons", "tristrips", "trifans", "lines")]
+    primitives.append(f'<triangles count="2">{vertex}<input semantic="NORMAL" offset="1"/>'
+                      "<p>0 7 2 7 1 7 0 7 1 7 3 7</p></triangles>")
+    primitives.append(f'<polylist count="2">{vertex}<vcount>3 4</vcount><p>0 2 1 0 1 3 2</p></polylist>')
+    primitives.append(f'<polygons count="1">{vertex}<ph><p>0 1 2</p><h>1 2 3</h></ph></polygons>')
+    transforms = ["<matrix>-1 0 0 4 0 1 0 5 0 0 1 6 0 0 0 1</matrix>", "<rotate>1 2 3 40</rotate><translate>1 2 3</translate>",
+                  "<scale>2 3 4</scale><skew>45 0 1 0 1 0 0</skew>", "<lookat>0 0 5 1 0 0 0 1 0</lookat>", ""]
+    for number, primitive in enumerate(primitives):
+        yield DAE.replace("FACES", primitive).replace("TRANSFORM", transforms[number % len(transforms)])
+    whole = DAE.replace("FACES", primitives[-2]).replace("TRANSFORM", "")
+    for good, bad in (('"12"', '"3"'), ('stride="3"', 'stride="30"'), ("0 1 3 2", "0 1 3 -1"), ('url="#g"', 'url="#l"'),
+                      ("<instance_geometry", '<instance_node url="#l"/><instance_geometry'), ('url="#g"', 'url="b.dae#g"'),
+                      ('<?xml version="1.0"?>', '<!DOCTYPE x [<!ENTITY y "z">]>'), ("0 2 0", "0 <!-- --> 2 <![CDATA[0]]>")):
+        yield whole.replace(good, bad)
+    yield whole.replace("<", "<c:").replace("<c:/", "</c:").replace("<c:?", "<?")
+    chain = "".join(f'<node id="l{i}">' + 2 * f'<instance_node url="#l{i + 1}"/>' + "</node>" for i in range(9))
+    yield whole.replace('id="l"', 'id="l9"').replace("<library_nodes>", "<library_nodes>" + chain).replace('"#l"', '"#l0"')
+
+
 def trajectory():
     yield "x,y,z\n0,0,0\n1e-9,2,3\n"
     yield "sep=;\r\nT_ms;Pos X;Pos Y;Pos Z\r\n0;0,5;1;2\r\n# lost\r\n1,5;2;1e-3;4\r\n;;;\r\n3;1;2;3;;\r\n"
@@ -167,6 +202,7 @@ def seeds():
     yield "off", [text.encode() for text in off()]
     yield "stl", list(stl())
     yield "gltf", list(gltf())
+    yield "dae", [text.encode() for text in dae()] + [text.encode("utf-16") for text in list(dae())[:1]]
     yield "trajectory", [text.encode() for text in trajectory()]
     yield "detectors", list(detectors())
     yield "proxy", list(detectors())
