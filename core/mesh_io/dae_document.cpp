@@ -101,9 +101,9 @@ void DaeDocument::Content::parse(std::string_view bytes) {
   lines = line_starts(bytes, result.encoding);
   if (!result) throw MeshError(place(result.offset) + "is no well-formed XML: " + result.description());
   if (result.encoding != pugi::encoding_utf8) return;
-  const std::size_t end = std::min(bytes.find('\0'), bytes.size());
+  const std::size_t end = std::min(bytes.find('\0'), bytes.rfind('>') + 1);
   if (!is_padding(bytes.substr(end)))
-    throw MeshError(place(static_cast<std::ptrdiff_t>(end)) + "a zero byte, and more after it");
+    throw MeshError(place(static_cast<std::ptrdiff_t>(end)) + "goes on after the end of its XML");
 }
 
 void DaeDocument::Content::check_root() const {

@@ -278,6 +278,9 @@ TEST(ReadDae, RefusesNodesThatContainThemselvesOrAreTooMany) {
 
 TEST(ReadDae, RefusesOtherXml) {
   expect_refusal(tetra().substr(0, 600), "no well-formed XML");
+  expect_refusal(tetra() + "more", "goes on after the end of its XML");
+  expect_refusal(tetra() + std::string("\0<more/>", 8), "line 14: goes on after");
+  expect_tetra(tetra() + std::string("\0\x1a\n", 3));
   expect_refusal(tetra() + "<COLLADA/>", "has 2 root elements");
   expect_refusal({{"1.4.1", "1.3.0"}}, "COLLADA '1.3.0' is not read");
   expect_refusal("<html/>", "begins with 'html' instead of COLLADA");
