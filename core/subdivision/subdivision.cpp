@@ -60,7 +60,7 @@ void require_few_enough(std::size_t triangles, const SubdivisionOptions& options
   require_few_enough(triangles, 0, options);
   if (!splits_faces(options.method) && options.threshold > 0) return;
   for (int level = 1; level <= options.levels; ++level) {
-    triangles *= level == 1 && splits_faces(options.method) ? 6 : 4;
+    triangles *= level == 1 && splits_faces(options.method) ? 6U : 4U;
     require_few_enough(triangles, level, options);
   }
 }
