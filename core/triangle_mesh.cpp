@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "core/flushed_denormals.h"
+
 namespace touchmark {
 namespace {
 
@@ -42,6 +44,7 @@ TriangleMesh::TriangleMesh(std::vector<Vec3> vertices, std::vector<Corners> tria
       throw MeshError("vertex " + std::to_string(i) + " is not finite: " + coordinates(vertices_[i]));
     }
   }
+  check_flushed_denormals(*this);
   for (std::size_t i = 0; i < triangles_.size(); ++i) {
     for (const std::uint32_t vertex : triangles_[i]) {
       if (vertex >= vertices_.size()) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/aabb_tree/builder.h"
+#include "core/flushed_denormals.h"
 #include "core/geometry/sweep_box.h"
 #include "core/search/certified_nearest.h"
 #include "core/search/closest_candidates.h"
@@ -37,6 +38,7 @@ AabbTree AabbTree::build(const TriangleMesh& mesh, const Options& options) {
     throw std::invalid_argument("the leaf size must be 1 to 255, not " + std::to_string(options.leaf_size));
   }
   const unsigned threads = threads_to_use(options.threads, "aabb-tree");
+  check_flushed_denormals(mesh);
   AabbTree tree;
   tree.options_ = options;
   tree.connectivity_ = Connectivity(mesh);

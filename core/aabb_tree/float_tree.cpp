@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "core/aabb_tree/aabb_tree.h"
+#include "core/flushed_denormals.h"
 #include "core/geometry/point_triangle_kernel.h"
 
 namespace touchmark {
@@ -24,6 +25,7 @@ FloatFrame FloatFrame::around(const Aabb& bounds) noexcept {
 }
 
 FloatTree FloatTree::build(const TriangleMesh& mesh, const Options& options) {
+  check_flushed_denormals(mesh);
   FloatTree tree;
   tree.frame_ = FloatFrame::around(mesh.bounds());
   tree.extent_ = 2 * largest_difference(mesh.bounds(), tree.frame_.origin);

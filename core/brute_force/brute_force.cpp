@@ -1,8 +1,11 @@
 #include "core/brute_force/brute_force.h"
 
+#include "core/flushed_denormals.h"
+
 namespace touchmark {
 
 BruteForce BruteForce::build(const TriangleMesh& mesh, const Options&) {
+  check_flushed_denormals(mesh);
   BruteForce detector;
   detector.connectivity_ = Connectivity(mesh);
   detector.bounds_ = mesh.bounds();

@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/flushed_denormals.h"
 #include "core/search/parallel.h"
 
 namespace touchmark {
@@ -38,6 +39,7 @@ TriangleMesh first_triangle(const TriangleMesh& mesh) {
 GridGroup GridGroup::build(const TriangleMesh& mesh, const Options& options) {
   check(options);
   const unsigned threads = threads_to_use(options.threads, "grid-group");
+  check_flushed_denormals(mesh);
   GridGroup detector;
   detector.options_ = options;
   detector.connectivity_ = Connectivity(mesh);

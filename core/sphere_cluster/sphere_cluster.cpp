@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/flushed_denormals.h"
 #include "core/search/parallel.h"
 
 namespace touchmark {
@@ -19,6 +20,7 @@ SphereCluster SphereCluster::build(const TriangleMesh& mesh, const Options& opti
   if (!has_tree && options.construction == Construction::lazy)
     throw std::invalid_argument("sphere-cluster: build=lazy is for lookup=tree with precise=true");
   const unsigned threads = threads_to_use(options.threads, "sphere-cluster");
+  check_flushed_denormals(mesh);
   SphereCluster detector;
   detector.options_ = options;
   detector.connectivity_ = Connectivity(mesh);
