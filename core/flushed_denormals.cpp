@@ -20,9 +20,6 @@ bool flushes_denormals() noexcept {
   return half == 0;
 }
 
-/// True if x is 0, by its bits: a comparison may take a denormal number for 0.
-bool is_zero(double x) noexcept { return std::bit_cast<std::uint64_t>(x) << 1 == 0; }
-
 }  // namespace
 
 void check_flushed_denormals(const TriangleMesh& mesh) {
@@ -32,7 +29,8 @@ void check_flushed_denormals(const TriangleMesh& mesh) {
   if (!flushes_denormals()) return;
   for (std::size_t i = 0; i < mesh.vertices().size(); ++i) {
     for (const double x : mesh.vertices()[i]) {
-      if (is_zero(x) || std::abs(x) >= least) continue;
+      // By its bits: a comparison may take a denormal number for 0.
+      if (std::bit_cast<std::uint64_t>(x) << 1 == 0 || std::abs(x) >= least) continue;
       std::ostringstream text;
       text.imbue(std::locale::classic());
       text
