@@ -12,6 +12,7 @@
 #include "bench/results/build_info.h"
 #include "bench/results/results_csv.h"
 #include "bench/results/run_circumstances.h"
+#include "bench/support/cpu_quota.h"
 #include "bench/support/numbers.h"
 #include "bench/workload/content_hash.h"
 #include "bench/workload/query_name.h"
@@ -150,26 +151,30 @@ Json run_circumstances(const RunDescription& run) {
   const BuildInfo& build = build_info();
   std::vector<std::string> arguments = run.arguments;
   std::transform(arguments.begin(), arguments.end(), arguments.begin(), without_directories);
-  return {{"schema", results_schema},
-          {"run_id", run.run_id},
-          {"date", run.system.date},
-          {"finished", run.finished},
-          {"version", build.version},
-          {"commit", build.commit},
-          {"compiler", build.compiler},
-          {"flags", build.flags},
-          {"build_type", build.build_type},
-          {"native", build.native},
-          {"cpu", run.system.cpu_model},
-          {"simd", name_of(widest_simd())},
-          {"cores", run.system.cores},
-          {"governor", run.system.governor},
-          {"load_average", run.system.load_average},
-          {"workers_core", run.core ? Json(*run.core) : Json("any")},
-          {"flushed_to_zero", run.flushed_to_zero},
-          {"libraries", libraries()},
-          {"seed", run.seed},
-          {"command_line", arguments}};
+  Json json{{"schema", results_schema},
+            {"run_id", run.run_id},
+            {"date", run.system.date},
+            {"finished", run.finished},
+            {"version", build.version},
+            {"commit", build.commit},
+            {"compiler", build.compiler},
+            {"flags", build.flags},
+            {"build_type", build.build_type},
+            {"native", build.native},
+            {"cpu", run.system.cpu_model},
+            {"simd", name_of(widest_simd())},
+            {"cores", run.system.cores},
+            {"governor", run.system.governor},
+            {"load_average", run.system.load_average},
+            {"workers_core", run.core ? Json(*run.core) : Json("any")},
+            {"flushed_to_zero", run.flushed_to_zero},
+            {"libraries", libraries()},
+            {"seed", run.seed},
+            {"command_line", arguments}};
+  if (const auto quota = support::cpu_quota())
+    json["cpu_quota"] = {
+        {"cores", quota->cores()}, {"quota_us", quota->quota_us}, {"period_us", quota->period_us}};
+  return json;
 }
 
 RunDescription begun_run(int argc, const char* const* argv) {

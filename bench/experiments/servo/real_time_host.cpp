@@ -82,6 +82,7 @@ RealTimeHost read_real_time_host(int core, const std::string& root) {
     host.huge_pages = chosen(*pages);
   const auto share = line_of(root + "/proc/sys/kernel/sched_rt_runtime_us");
   if (share && !share->empty()) host.real_time_share_us = std::strtol(share->c_str(), nullptr, 10);
+  host.cpu_quota = support::cpu_quota(root);
   return host;
 }
 
@@ -96,6 +97,12 @@ std::vector<std::string> warnings_about(const RealTimeHost& host) {
         "the core sleeps as deep as {}, from where it takes {:g} us to wake up (/dev/cpu_dma_latency)",
         host.deepest_idle_state, *host.wake_up_us));
   if (host.smt.value_or(false)) lines.emplace_back("another hardware thread shares the core (SMT)");
+  if (const auto& quota = host.cpu_quota)
+    lines.push_back(
+        fmt::format("a CPU quota is in force: {:g} of each {:g} ms of processor time, for all threads "
+                    "together ({}); late "
+                    "ticks may come from it",
+                    quota->quota_us / 1e3, quota->period_us / 1e3, quota->file));
   if (!host.core_is_isolated)
     lines.emplace_back("other processes may use the core (isolcpus keeps them off)");
   if (!host.preempt_rt.value_or(false)) lines.emplace_back("the kernel is not PREEMPT_RT");

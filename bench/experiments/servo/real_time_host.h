@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "bench/support/cpu_quota.h"
+
 namespace touchmark::bench::experiments::servo {
 
 /// "unknown" where the system does not say.
@@ -19,6 +21,7 @@ struct RealTimeHost {
   std::optional<bool> preempt_rt;          ///< a kernel that can be interrupted nearly anywhere
   std::string huge_pages = "unknown";      ///< always, madvise or never
   std::optional<long> real_time_share_us;  ///< what real-time threads may have of each second; -1: all
+  std::optional<support::CpuQuota> cpu_quota;
 };
 
 /// Reads below `root`, which is "" but for tests.

@@ -358,6 +358,16 @@ TEST(RealTime, WarnsOfWhatTheMachineIsSetTo) {
   EXPECT_EQ(bad.smt, true);
   EXPECT_EQ(bad.core_is_isolated, false);
   EXPECT_EQ(warnings_about(bad).size(), 6u);
+  write("proc/self/cgroup", "0::/");
+  write("sys/fs/cgroup/cpu.max", "50000 100000");
+  const std::vector<std::string> with_quota = warnings_about(read_real_time_host(3, folder.path()));
+  EXPECT_EQ(with_quota.size(), 7u);
+  EXPECT_EQ(std::ranges::count_if(with_quota,
+                                  [](const std::string& line) {
+                                    return line.find("CPU quota is in force: 50 of each 100 ms") != line.npos;
+                                  }),
+            1);
+  write("sys/fs/cgroup/cpu.max", "max 100000");
   write(cpu + "cpufreq/scaling_governor", "performance");
   write(cpu + "cpuidle/state1/disable", "1");
   write(cpu + "topology/thread_siblings_list", "3");
