@@ -2,7 +2,6 @@
 
 #include <string_view>
 
-#include "bench/cli/step_visits.h"
 #include "bench/results/steps_csv.h"
 #include "bench/results/steps_file.h"
 
@@ -12,6 +11,7 @@ StepOutputs::StepOutputs(const results::ResultsFolder* folder, const std::string
     : folder_(folder) {
   if (!csv_path.empty()) csv_.emplace(csv_path);
   if (folder_ == nullptr) return;
+  tracer_files_.emplace();
   folder_->remove(results::steps_file_name);
   folder_->remove(visited_file_name);
 }
@@ -25,7 +25,7 @@ void StepOutputs::write(const std::string& run_id, const workload::Workload& wor
     for (std::size_t trace = 0; trace < workload.traces.size(); ++trace)
       truths.push_back(comparison.truths(trace));
     folder_->write_file(results::steps_file_name, results::steps_file(run_id, workload, rows, truths));
-    if (const auto visited = step_visits(run_id, workload, rows))
+    if (const auto visited = step_visits(run_id, workload, rows, *tracer_files_))
       folder_->write_file(visited_file_name, *visited);
   }
   if (!csv_) return;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/cli/step_visits.h"
 #include "bench/measurement/comparison.h"
 #include "bench/measurement/result_row.h"
 #include "bench/results/results_folder.h"
@@ -16,8 +17,8 @@ namespace touchmark::bench::cli {
 
 class StepOutputs {
  public:
-  /// Opens the CSV file, unless its name is empty, and removes what an earlier run left in the folder, unless
-  /// that is null: `folder` must outlive it. Throws ResourceError.
+  /// Opens temporary files and the CSV file, unless its name is empty, and removes what an earlier run left
+  /// in the folder, unless that is null: `folder` must outlive it. Throws ResourceError.
   StepOutputs(const results::ResultsFolder* folder, const std::string& csv_path);
 
   /// Writes both, once, of those rows that have a log.
@@ -27,6 +28,7 @@ class StepOutputs {
  private:
   const results::ResultsFolder* folder_;
   std::optional<support::AtomicFile> csv_;
+  std::optional<TracerFiles> tracer_files_;
 };
 
 }  // namespace touchmark::bench::cli

@@ -5,7 +5,6 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
-#include <memory>
 #include <span>
 #include <string_view>
 
@@ -27,11 +26,6 @@ using support::put_list, support::put_number, support::put_text;
 
 /// The detectors are built once more, and a larger mesh takes too long for pictures.
 constexpr std::size_t most_triangles = 2'000'000;
-
-struct Close {
-  void operator()(std::FILE* file) const noexcept { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, Close>;
 
 bool is_traced(const ResultRow& row) {
   constexpr std::array<std::string_view, 4> detectors{"aabb-tree", "auto", "grid-group", "sphere-cluster"};
@@ -115,18 +109,16 @@ std::string content_of(std::FILE* file) {
 }  // namespace
 
 std::optional<std::string> step_visits(const std::string& run_id, const workload::Workload& workload,
-                                       const std::vector<ResultRow>& rows) {
+                                       const std::vector<ResultRow>& rows, const TracerFiles& files) {
   std::vector<const ResultRow*> traced;
   for (const ResultRow& row : rows)
     if (is_traced(row)) traced.push_back(&row);
   if (traced.empty() || workload.mesh.size() > most_triangles) return std::nullopt;
-  const File input(std::tmpfile()), output(std::tmpfile());
-  if (input && output) {
-    put_questions(input.get(), run_id, workload, traced);
-    if (std::fflush(input.get()) == 0 && std::ferror(input.get()) == 0 &&
-        std::fseek(input.get(), 0, SEEK_SET) == 0 && run_tracer(input.get(), output.get()))
-      return content_of(output.get());
-  }
+  std::FILE* const input = files.input.get();
+  put_questions(input, run_id, workload, traced);
+  if (std::fflush(input) == 0 && std::ferror(input) == 0 && std::fseek(input, 0, SEEK_SET) == 0 &&
+      run_tracer(input, files.output.get()))
+    return content_of(files.output.get());
   fmt::print(
       stderr,
       "touchmark: what the slowest steps looked at is not known, since touchmark-tracer did not tell\n");
