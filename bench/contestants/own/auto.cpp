@@ -36,7 +36,7 @@ std::vector<OptionInfo> options() {
               "speed"),
       {"bytes_per_triangle", OptionKind::number, {}, "0", "what the structure may take; 0: any"},
       in_code({"trial", OptionKind::number, {}, "0", "milliseconds to try out which is faster"}, "trial_ms"),
-      choice("prepare", no_or_yes, "true: prepare in the idle rest of a tick, clocked apart"),
+      choice("prepare", no_or_yes, "true: prepare before each query, clocked apart"),
       updated_option(),
       side_option(),
       in_code(choice("chose", forms(), "by-mesh: the one that suits the mesh, as results.csv then says"),

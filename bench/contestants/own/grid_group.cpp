@@ -67,7 +67,7 @@ std::vector<OptionInfo> options() {
                      "lazy: groups and cells are made by the first queries that want them"),
               "construction", "GridGroup::Construction"),
       choice("prepare", no_or_yes,
-             "true: ask the last question again in the idle rest of a tick, clocked apart; direct"),
+             "true: ask the last question again before each query, clocked apart; direct"),
       threads_option(),
       updated_option(),
       side_option()};

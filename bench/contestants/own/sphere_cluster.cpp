@@ -43,9 +43,8 @@ std::vector<OptionInfo> options() {
                      "tree; lazy: parts of it are built, and distances sampled, by the first queries that "
                      "want them"),
               "construction", "SphereCluster::Construction"),
-      choice(
-          "prepare", no_or_yes,
-          "true: list triangles for the next step and ask ahead in the idle rest of a tick, clocked apart"),
+      choice("prepare", no_or_yes,
+             "true: list triangles for the next step and ask ahead before each query, clocked apart"),
       in_code(choice("simd", widths(), "tree: no wider instructions than these, nor than the processor's"),
               "widest", "Simd"),
       threads_option(),

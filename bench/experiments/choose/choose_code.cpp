@@ -162,7 +162,7 @@ std::string code_for(const contestants::Roster& roster, const contestants::Conte
       detector, question.answer, question.parameters, question.call);
   if (is_on(spec.values, "prepare"))
     text +=
-        "\n  // After the force has gone to the device, in the idle rest of the tick.\n"
+        "\n  // Right after waking, before the device is read: what the caches lost comes back here.\n"
         "  void prepare() noexcept { detector_.prepare(session_); }\n";
   text += fmt::format("\n private:\n{0}\n  {1} detector_;\n  {1}::Session session_;\n}};\n",
                       options_function(type, info, spec.values), detector);
