@@ -142,7 +142,7 @@ std::vector<ResultRow> Comparison::run(std::size_t trace, workload::Query query,
 void Comparison::begin(std::size_t trace, workload::Query query) { begin(trace, query, *truths_of(trace)); }
 
 void Comparison::begin(std::size_t trace, workload::Query query, ground_truth::TraceTruths& truths) {
-  auto begun = std::make_unique<Begun>(Begun{trace, query, plan_for(trace, truths)});
+  Begun& begun = *begun_.emplace_back(std::make_unique<Begun>(Begun{trace, query, plan_for(trace, truths)}));
   const std::string& trajectory = workload_.trajectories[trace];
   for (std::size_t i = 0; i < processes_.size(); ++i) {
     const std::string contestant = processes_[i].spec().text();
@@ -150,15 +150,14 @@ void Comparison::begin(std::size_t trace, workload::Query query, ground_truth::T
       left_out_.emplace_back(trajectory, contestant);
       continue;
     }
-    begun->measurements.emplace_back(workload_, arena_, effort_, processes_[i], trace, query, begun->plan);
-    begun->whose.push_back(i);
+    begun.measurements.emplace_back(workload_, arena_, effort_, processes_[i], trace, query, begun.plan);
+    begun.whose.push_back(i);
   }
-  verify(*begun, truths);
+  verify(begun, truths);
   if (effort_.max_logged_steps > 0) truths_[trace] = truths.known(query);
-  add_control(*begun, truths);
-  begun->requests = requests_for(begun->interleaved.size(), effort_, support::Random(seed_ + trace));
-  measure(*begun, begun->requests.size() / 2);
-  begun_.push_back(std::move(begun));
+  add_control(begun, truths);
+  begun.requests = requests_for(begun.interleaved.size(), effort_, support::Random(seed_ + trace));
+  measure(begun, begun.requests.size() / 2);
 }
 
 void Comparison::verify(Begun& begun, ground_truth::TraceTruths& truths) {
@@ -200,7 +199,8 @@ std::vector<ResultRow> Comparison::so_far() {
   for (const std::unique_ptr<Begun>& begun : begun_) {
     for (Measurement& one : begun->measurements) {
       ResultRow row = one.row();
-      if (row.throughput || row.status != "ok") rows.push_back(std::move(row));
+      const bool timed = row.throughput && (row.latency || effort_.latency_passes == 0);
+      if (timed || row.status != "ok") rows.push_back(std::move(row));
     }
   }
   return rows;

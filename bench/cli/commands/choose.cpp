@@ -1,19 +1,22 @@
 /// `touchmark choose`: which detector, with which options, for this part on this machine?
 #include <algorithm>
+#include <chrono>
+#include <limits>
 #include <memory>
 #include <optional>
-#include <stdexcept>
+#include <ratio>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "bench/bodies/scene_source.h"
+#include "bench/cli/commands/choose_options.h"
 #include "bench/cli/program.h"
-#include "bench/cli/selector_options.h"
 #include "bench/cli/worker_options.h"
 #include "bench/experiments/choose/candidate.h"
 #include "bench/experiments/choose/choose_code.h"
@@ -27,63 +30,14 @@
 #include "bench/scenes/scenes.h"
 #include "bench/support/denormals.h"
 #include "bench/support/interrupt.h"
-#include "bench/support/numbers.h"
-#include "bench/support/progress.h"
 #include "bench/support/standard_output.h"
+#include "bench/support/timed_progress.h"
 
 namespace touchmark::bench::cli {
 
 namespace choose = experiments::choose;
 
 namespace {
-
-struct ChooseOptions {
-  contestants::Selectors selectors;
-  std::vector<std::string> motions;
-  std::string share = "10%", memory, out;
-  bool quick = false;
-  WorkerSelectors workers;
-};
-
-double checked_rate(const std::string& text) {
-  constexpr double max_rate_hz = 100'000;
-  const std::optional<double> rate = support::parse_number(text);
-  if (!rate || !(*rate > 0) || *rate > max_rate_hz)
-    throw std::invalid_argument(
-        fmt::format("--rate \"{}\" is not a number above 0 and at most {:g}", text, max_rate_hz));
-  return *rate;
-}
-
-/// 10% or 0.1.
-double checked_share(std::string text) {
-  const std::string given = text;
-  const bool percent = text.ends_with('%');
-  if (percent) text.pop_back();
-  const std::optional<double> value = support::parse_number(text);
-  const double share = value.value_or(0) / (percent ? 100 : 1);
-  if (!(share > 0) || share > 1)
-    throw std::invalid_argument(
-        fmt::format("--share \"{}\" is not a part of a tick: above 0 and at most 100%, or 1", given));
-  return share;
-}
-
-/// 50MB, 800KB, 2GB or bytes; by thousands, as tables write them.
-std::optional<double> checked_memory(const std::string& given) {
-  if (given.empty()) return std::nullopt;
-  std::string text = given;
-  double unit = 1;
-  for (const auto& [suffix, bytes] : {std::pair{"KB", 1e3}, std::pair{"MB", 1e6}, std::pair{"GB", 1e9}}) {
-    if (!text.ends_with(suffix)) continue;
-    text.resize(text.size() - 2);
-    unit = bytes;
-    break;
-  }
-  const std::optional<double> value = support::parse_number(text);
-  if (!value || !(*value > 0) || *value * unit > 1e15)
-    throw std::invalid_argument(
-        fmt::format("--memory \"{}\" is not a size above 0: bytes, or as 800KB, 50MB or 2GB", given));
-  return *value * unit;
-}
 
 std::vector<std::string> motions_of(const ChooseOptions& options) {
   std::vector<std::string> motions = options.motions;
@@ -116,13 +70,21 @@ class ChooseCommand {
   choose::Asked asked() const { return {workload_, description_.query, limits_}; }
   const contestants::ContestantSpec& spec_of(const choose::Candidate& candidate) const;
   std::string code(const std::vector<std::size_t>& ranked) const;
+  double minutes() const { return std::chrono::duration<double, std::ratio<60>>(deadline_ - start_).count(); }
   void measure();
+  void measure_motions(measurement::Comparison& comparison);
+  /// Adds what was measured of the motion during which time was up, where no other counts or it is no less.
+  void add_partial_motion(measurement::Comparison& comparison);
+  std::string time_is_up_text() const;
   void save(const measurement::Comparison& comparison) const;
   std::string run_json(const measurement::Comparison& comparison) const;
   int report() const;
 
   const ProgramContext& context_;
   const ChooseOptions& options_;
+  support::Deadline start_ = support::Deadline::clock::now(), deadline_;
+  std::optional<support::TimedProgress> progress_;
+  bool time_is_up_ = false, interrupted_ = false;
   choose::Limits limits_;
   contestants::CheckedSelectors selection_;
   std::optional<results::ResultsFolder> folder_;
@@ -130,6 +92,8 @@ class ChooseCommand {
   workload::Workload workload_;
   std::vector<std::vector<measurement::ResultRow>> rows_;  // by motion
   std::vector<choose::Candidate> candidates_;
+  std::size_t whole_motions_ = 0;        // where time was up
+  std::vector<std::string> unmeasured_;  // contestants
 };
 
 workload::Workload workload_for(const ChooseOptions& options, const workload::Selection& selection,
@@ -149,8 +113,9 @@ workload::Workload workload_for(const ChooseOptions& options, const workload::Se
 ChooseCommand::ChooseCommand(const ProgramContext& context, const ChooseOptions& options)
     : context_(context),
       options_(options),
-      limits_{checked_rate(options.selectors.motion.rate), checked_share(options.share),
-              checked_memory(options.memory)},
+      deadline_(start_ + checked_minutes(options)),
+      progress_(std::in_place, "choose", start_, deadline_),
+      limits_(checked_limits(options)),
       selection_(contestants::check(options.selectors, context.roster)),
       description_(results::begun_run(context.argc, context.argv)),
       workload_(workload_for(options, selection_, limits_.rate_hz)) {
@@ -185,23 +150,45 @@ std::string ChooseCommand::code(const std::vector<std::size_t>& ranked) const {
   return text;
 }
 
+void ChooseCommand::add_partial_motion(measurement::Comparison& comparison) {
+  std::vector<measurement::ResultRow> rows = comparison.so_far();
+  std::erase_if(rows, [](const measurement::ResultRow& row) { return row.status == "ok" && !row.cold; });
+  const bool is_no_less = rows.size() == selection_.contestants.size();
+  if (is_no_less || rows_.empty()) rows_.push_back(std::move(rows));
+}
+
+void ChooseCommand::measure_motions(measurement::Comparison& comparison) {
+  comparison.set_progress([&](const std::string& motion, const std::string& contestant) {
+    progress_->show(fmt::format("{} of {} motions done; {}: {}", rows_.size(), workload_.traces.size(),
+                                motion, contestant));
+  });
+  try {
+    while (rows_.size() < workload_.traces.size())
+      rows_.push_back(comparison.run(rows_.size(), description_.query));
+    return;
+  } catch (const support::OutOfTime&) {
+    time_is_up_ = true;
+  } catch (const support::Interrupted&) {
+    interrupted_ = true;
+  }
+  description_.finished = false;
+  whole_motions_ = rows_.size();
+  if (time_is_up_) add_partial_motion(comparison);
+}
+
 void ChooseCommand::measure() {
   workers::WorkerOptions workers = worker_options(options_.workers);
   workers.core = description_.core;
   measurement::Comparison comparison(context_.roster, workload_, selection_.contestants, workers,
                                      description_.effort, selection_.seed);
-  support::ProgressLine progress;
-  comparison.set_progress([&](const std::string& motion, const std::string& contestant) {
-    progress.show(fmt::format("{}: {}", motion, contestant));
-  });
-  try {
-    for (std::size_t trace = 0; trace < workload_.traces.size(); ++trace)
-      rows_.push_back(comparison.run(trace, description_.query));
-  } catch (const support::Interrupted&) {
-    description_.finished = false;
-  }
+  measure_motions(comparison);
+  progress_.reset();
   description_.steadiness = comparison.steadiness();
   candidates_ = choose::candidates_of(rows_);
+  for (const contestants::ContestantSpec& spec : selection_.contestants) {
+    const auto is_it = [&](const choose::Candidate& one) { return one.contestant() == spec.text(); };
+    if (std::ranges::none_of(candidates_, is_it)) unmeasured_.push_back(spec.text());
+  }
   save(comparison);
 }
 
@@ -212,8 +199,9 @@ std::string ChooseCommand::run_json(const measurement::Comparison& comparison) c
   json["choose"] = {
       {"rate_hz", limits_.rate_hz},
       {"share", limits_.share},
-      {"recommended",
-       description_.finished && !ranked.empty() ? candidates_[ranked.front()].contestant() : ""}};
+      {"recommended", !interrupted_ && !ranked.empty() ? candidates_[ranked.front()].contestant() : ""},
+      {"minutes", minutes()},
+      {"not_measured", unmeasured_}};
   if (limits_.max_bytes) json["choose"]["max_bytes"] = *limits_.max_bytes;
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
 }
@@ -224,7 +212,7 @@ void ChooseCommand::save(const measurement::Comparison& comparison) const {
   for (const std::vector<measurement::ResultRow>& some : rows_)
     rows.insert(rows.end(), some.begin(), some.end());
   folder_->write(results::results_csv(description_.run_id, rows), run_json(comparison));
-  if (!description_.finished) return;
+  if (interrupted_) return;
   folder_->write_file("choose.csv", choose::choose_csv(description_.run_id, asked(), candidates_));
   const std::vector<std::size_t> ranked = choose::ranking(candidates_, limits_);
   if (!ranked.empty()) folder_->write_file("choose.cpp", code(ranked));
@@ -236,20 +224,44 @@ int ChooseCommand::report() const {
             choose::recommendation(asked(), candidates_));
   const std::vector<std::size_t> ranked = choose::ranking(candidates_, limits_);
   if (!ranked.empty()) out.write('\n' + code(ranked));
+  if (time_is_up_) out.write('\n' + time_is_up_text());
   out.finish();
-  return ranked.empty() ? support::exit_check_failed : support::exit_done;
+  if (!ranked.empty()) return support::exit_done;
+  return unmeasured_.empty() ? support::exit_check_failed : support::exit_inconclusive;
+}
+
+std::string ChooseCommand::time_is_up_text() const {
+  std::size_t samples = std::numeric_limits<std::size_t>::max();
+  for (const choose::Candidate& one : candidates_)
+    if (one.times) samples = std::min(samples, one.times->cold_samples);
+  return fmt::format(
+      "note: the {:g} minutes were up: {} of {} motions were measured, {} in part; {} or more samples with "
+      "all caches emptied for each candidate; not measured: {}; a larger --minutes measures the rest\n",
+      minutes(), rows_.size(), workload_.traces.size(), rows_.size() - whole_motions_, samples,
+      unmeasured_.empty() ? "none" : fmt::format("{}", fmt::join(unmeasured_, ", ")));
 }
 
 int ChooseCommand::run() {
-  support::watch_for_interrupts();
+  support::watch_for_interrupts(deadline_);
+  progress_.reset();
   support::StandardOutput out;
   out.write(choose::asked_text(asked()));
   out.finish();
+  progress_.emplace("choose", start_, deadline_);
   measure();
-  if (!description_.finished) {
+  if (interrupted_) {
     fmt::print(stderr, "touchmark: interrupted; nothing is recommended by {} of {} motions\n", rows_.size(),
                workload_.traces.size());
     return support::exit_interrupted;
+  }
+  if (time_is_up_ &&
+      std::ranges::none_of(candidates_, [](const auto& one) { return one.times.has_value(); })) {
+    fmt::print(
+        stderr,
+        "touchmark: nothing is recommended: no candidate was measured within {:g} minutes; allow more by "
+        "--minutes\n",
+        minutes());
+    return support::exit_inconclusive;
   }
   return report();
 }
@@ -258,39 +270,14 @@ int ChooseCommand::run() {
 
 void add_choose(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<ChooseOptions>();
-  options->selectors.motion.rate = "1000";
   CLI::App* command =
       program.add_subcommand("choose", "which detector, with which options, for this part on this machine?");
-  add_selectors(*command, context, options->selectors);
-  add_scene_selectors(*command, options->selectors);
-  add_unit(*command, options->selectors.unit);
-  command->get_option("--rate")
-      ->description("of the servo loop; motion goes by time, so motion files with times are resampled to it")
-      ->capture_default_str();
-  command->get_option("--trajectory")
-      ->description(
-          "as --motion, or a name (touchmark list); repeatable; default: slide, fast-slide (ten "
-          "times as fast; not over a scene of bodies), approach, hover and cross");
-  command->get_option("--detector")
-      ->description("a candidate as NAME[:key=value,...]; repeatable; default: ours and the exact rivals");
-  command->add_option("--motion", options->motions, "how your hand moves: a motion file; repeatable")
-      ->type_name("CSV")
-      ->expected(1)
-      ->take_all();
-  command->add_option("--share", options->share, "the part of a tick that a query may take")
-      ->type_name("P%")
-      ->capture_default_str();
-  command->add_option("--memory", options->memory, "what a detector may take, as 50MB; default: any amount")
-      ->type_name("SIZE");
-  command->add_option("--out", options->out, "folder for choose.csv, choose.cpp, results.csv and run.json")
-      ->type_name("DIR");
-  command->add_flag("--quick", options->quick, "fewer steps, and fewer queries with emptied caches");
-  add_worker_selectors(*command, options->workers);
+  add_choose_options(*command, context, *options);
   command->footer(
       "A candidate holds if the oracle finds no wrong answer, it keeps within the memory, and on every\n"
       "motion 99.9 % of warm queries and 99 % of those with all caches emptied keep within the share. The\n"
       "fastest of those is recommended; of candidates less than 15 % apart the one that takes less memory.\n"
-      "Exit status 1: none holds.\n"
+      "Exit status 1: none holds; 4: --minutes were up before that was known.\n"
       "Example: touchmark choose --mesh part.stl --motion hand.csv --rate 1000 --share 10% --memory 50MB\n"
       "         touchmark choose --scene parts.json --poses parts.csv --motion hand.csv\n");
   command->final_callback([options, &context] { context.status = ChooseCommand(context, *options).run(); });

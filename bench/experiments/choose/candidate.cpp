@@ -60,14 +60,11 @@ void add(Candidate& candidate, const measurement::ResultRow& row) {
 std::vector<Candidate> candidates_of(const std::vector<std::vector<measurement::ResultRow>>& motions) {
   std::vector<Candidate> candidates;
   for (const std::vector<measurement::ResultRow>& rows : motions) {
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (i == candidates.size()) {
-        Candidate& candidate = candidates.emplace_back();
-        candidate.detector = rows[i].detector;
-        candidate.options = rows[i].options;
-        candidate.claims_exactness = rows[i].claims_exactness();
-      }
-      add(candidates[i], rows[i]);
+    for (const measurement::ResultRow& row : rows) {
+      auto candidate = std::ranges::find(candidates, row.contestant(), &Candidate::contestant);
+      if (candidate == candidates.end())
+        candidate = candidates.insert(candidate, {row.detector, row.options, "ok", row.claims_exactness()});
+      add(*candidate, row);
     }
   }
   return candidates;

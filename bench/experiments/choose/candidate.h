@@ -41,7 +41,7 @@ struct Candidate {
   std::string contestant() const { return options.empty() ? detector : detector + ":" + options; }
 };
 
-/// One for each contestant, in the order of the first motion's rows. Each motion has a row of each.
+/// One for each contestant that has a row, in the order of the rows.
 std::vector<Candidate> candidates_of(const std::vector<std::vector<measurement::ResultRow>>& motions);
 
 }  // namespace touchmark::bench::experiments::choose

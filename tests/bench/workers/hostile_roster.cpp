@@ -81,6 +81,13 @@ struct Exits : Honest {
 struct Hangs : Honest {
   static std::optional<Contact> at_answer(const std::optional<Contact>&) { hang(); }
 };
+/// Hangs where nothing is within reach.
+struct HangsFarAway : Honest {
+  static std::optional<Contact> at_answer(const std::optional<Contact>& contact) {
+    if (!contact) hang();
+    return contact;
+  }
+};
 struct HangsAtBuild : Honest {
   static void at_build() { hang(); }
 };
@@ -214,17 +221,26 @@ contestants::ContestantInfo makes_later() {
 std::int64_t hostile_ns() noexcept { return spent_ns; }
 
 const contestants::Roster& hostile_roster() {
-  static const contestants::Roster all(
-      {honest(), contestant<Misbehaving<Aborts>>("aborts"),
-       contestant<Misbehaving<AbortsAtBuild>>("aborts-at-build"),
-       contestant<Misbehaving<DividesByZero>>("divides-by-zero"), contestant<Misbehaving<Throws>>("throws"),
-       contestant<Misbehaving<Exits>>("exits"), contestant<Misbehaving<Hangs>>("hangs"),
-       contestant<Misbehaving<HangsAtBuild>>("hangs-at-build"), contestant<Misbehaving<Refuses>>("refuses"),
-       contestant<Misbehaving<Lies>>("lies"), contestant<Misbehaving<Fickle>>("fickle"),
-       contestant<TouchesOnly>("touches-only"), contestant<Misbehaving<Paced>>("paced"),
-       contestant<Misbehaving<Moody>>("moody"), contestant<Misbehaving<Stalls>>("stalls"), makes_later(),
-       contestant<ByHistory<once>>("settles"), contestant<ByHistory<ever_more>>("drifts"),
-       contestant<ByHistory<much>>("lies-later")});
+  static const contestants::Roster all({honest(),
+                                        contestant<Misbehaving<Aborts>>("aborts"),
+                                        contestant<Misbehaving<AbortsAtBuild>>("aborts-at-build"),
+                                        contestant<Misbehaving<DividesByZero>>("divides-by-zero"),
+                                        contestant<Misbehaving<Throws>>("throws"),
+                                        contestant<Misbehaving<Exits>>("exits"),
+                                        contestant<Misbehaving<Hangs>>("hangs"),
+                                        contestant<Misbehaving<HangsFarAway>>("hangs-far-away"),
+                                        contestant<Misbehaving<HangsAtBuild>>("hangs-at-build"),
+                                        contestant<Misbehaving<Refuses>>("refuses"),
+                                        contestant<Misbehaving<Lies>>("lies"),
+                                        contestant<Misbehaving<Fickle>>("fickle"),
+                                        contestant<TouchesOnly>("touches-only"),
+                                        contestant<Misbehaving<Paced>>("paced"),
+                                        contestant<Misbehaving<Moody>>("moody"),
+                                        contestant<Misbehaving<Stalls>>("stalls"),
+                                        makes_later(),
+                                        contestant<ByHistory<once>>("settles"),
+                                        contestant<ByHistory<ever_more>>("drifts"),
+                                        contestant<ByHistory<much>>("lies-later")});
   return all;
 }
 

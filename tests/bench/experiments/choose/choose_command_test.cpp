@@ -91,6 +91,60 @@ TEST_F(Choose, TakesAMotionByItsTimes) {
   EXPECT_EQ(column("judged"), (Fields{"6"})) << "a second at 5 Hz, both ends included";
 }
 
+/// Seconds along a line, all near the mesh or all far from it.
+std::string motion_at(double height) {
+  std::string csv = "time_s,x,y,z\n";
+  for (int i = 0; i <= 20; ++i)
+    csv += std::to_string(i * 0.05) + ",0,0," + std::to_string(height - i * 0.001) + "\n";
+  return csv;
+}
+
+class ChooseWithinMinutes : public Choose {
+ protected:
+  Outcome choose_hostile(const std::string& minutes, const Fields& more) const {
+    Fields command{TOUCHMARK_HOSTILE_PROGRAM,
+                   "choose",
+                   "--mesh",
+                   "icosphere:2",
+                   "--quick",
+                   "--rate",
+                   "20",
+                   "--share",
+                   "100%",
+                   "--radius",
+                   "5%",
+                   "--out",
+                   folder_.file("out"),
+                   "--minutes",
+                   minutes};
+    command.insert(command.end(), more.begin(), more.end());
+    return run_program_at(command);
+  }
+};
+
+TEST_F(ChooseWithinMinutes, RecommendsFromWhatItHasMeasuredByThen) {
+  const Outcome outcome = choose_hostile("0.15", {"--motion", folder_.file("near.csv", motion_at(1.05)),
+                                                  "--motion", folder_.file("far.csv", motion_at(9)),
+                                                  "--detector", "honest", "--detector", "hangs-far-away"});
+  EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  EXPECT_NE(outcome.out.find("\nrecommended: "), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("note: the 0.15 minutes were up: 1 of 2 motions"), std::string::npos)
+      << outcome.out;
+  const std::string run = content_of(folder_.file("out/run.json"));
+  EXPECT_NE(run.find("\"minutes\": 0.15"), std::string::npos) << run;
+  EXPECT_NE(run.find("\"finished\": false"), std::string::npos) << run;
+  expect_valid();
+}
+
+TEST_F(ChooseWithinMinutes, EndsWithStatus4WhereNothingWasMeasuredByThen) {
+  const Outcome outcome = choose_hostile("0.02", {"--motion", folder_.file("near.csv", motion_at(1.05)),
+                                                  "--detector", "honest", "--detector", "hangs-at-build"});
+  EXPECT_EQ(outcome.status, 4) << outcome.out << outcome.err;
+  EXPECT_EQ(outcome.err,
+            "touchmark: nothing is recommended: no candidate was measured within 0.02 minutes; allow more by "
+            "--minutes\n");
+}
+
 TEST_F(Choose, ValidateFindsARowThatContradictsItself) {
   choose({"--trajectory", "slide", "--detector", "aabb-tree"});
   const std::string path = folder_.file("out/choose.csv"), good = content_of(path);
@@ -118,6 +172,8 @@ TEST_F(Choose, RefusesWhatItCannotDo) {
   expect_bad_input({"choose", "--share", "0"}, {"--share"});
   expect_bad_input({"choose", "--share", "101%"}, {"--share", "101%"});
   expect_bad_input({"choose", "--rate", "none"}, {"--rate", "none"});
+  for (const char* minutes : {"0", "-1", "nan", "inf", "three"})
+    expect_bad_input({"choose", "--minutes", minutes}, {"--minutes", minutes, "above 0"});
   expect_bad_input({"choose", "--memory", "much"}, {"--memory", "much", "50MB"});
   expect_bad_input({"choose", "--motion", "/nowhere.csv"}, {"/nowhere.csv"});
 }

@@ -128,6 +128,17 @@ TEST(Choose, ACandidateCountsByItsWorstMotion) {
   EXPECT_TRUE(candidates[0].claims_exactness);
 }
 
+TEST(Choose, ACandidateIsTheSameOneHoweverManyAMotionHas) {
+  measurement::ResultRow other = row_on("slide", 10, 200, 100);
+  other.detector = "other";
+  const std::vector<Candidate> candidates =
+      candidates_of({{row_on("slide", 10, 200, 100)}, {other, row_on("hover", 30, 100, 150)}});
+  ASSERT_EQ(candidates.size(), 2u);
+  EXPECT_EQ(candidates[0].judged, 1000u);
+  EXPECT_EQ(candidates[1].detector, "other");
+  EXPECT_EQ(candidates[1].judged, 500u);
+}
+
 TEST(Choose, OfFewSamplesTheLargestStandsForTheirPercentile) {
   EXPECT_EQ(candidates_of({{row_on("slide", 10, 200, 99)}})[0].times->cold_p99, 600);
 }

@@ -1,0 +1,111 @@
+#include "bench/cli/commands/choose_options.h"
+
+#include <chrono>
+#include <optional>
+#include <ratio>
+#include <stdexcept>
+#include <utility>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "bench/cli/program.h"
+#include "bench/cli/selector_options.h"
+#include "bench/support/numbers.h"
+
+namespace touchmark::bench::cli {
+namespace {
+
+double checked_rate(const std::string& text) {
+  constexpr double max_rate_hz = 100'000;
+  const std::optional<double> rate = support::parse_number(text);
+  if (!rate || !(*rate > 0) || *rate > max_rate_hz)
+    throw std::invalid_argument(
+        fmt::format("--rate \"{}\" is not a number above 0 and at most {:g}", text, max_rate_hz));
+  return *rate;
+}
+
+/// 10% or 0.1.
+double checked_share(std::string text) {
+  const std::string given = text;
+  const bool percent = text.ends_with('%');
+  if (percent) text.pop_back();
+  const std::optional<double> value = support::parse_number(text);
+  const double share = value.value_or(0) / (percent ? 100 : 1);
+  if (!(share > 0) || share > 1)
+    throw std::invalid_argument(
+        fmt::format("--share \"{}\" is not a part of a tick: above 0 and at most 100%, or 1", given));
+  return share;
+}
+
+/// 50MB, 800KB, 2GB or bytes; by thousands, as tables write them.
+std::optional<double> checked_memory(const std::string& given) {
+  if (given.empty()) return std::nullopt;
+  std::string text = given;
+  double unit = 1;
+  for (const auto& [suffix, bytes] : {std::pair{"KB", 1e3}, std::pair{"MB", 1e6}, std::pair{"GB", 1e9}}) {
+    if (!text.ends_with(suffix)) continue;
+    text.resize(text.size() - 2);
+    unit = bytes;
+    break;
+  }
+  const std::optional<double> value = support::parse_number(text);
+  if (!value || !(*value > 0) || *value * unit > 1e15)
+    throw std::invalid_argument(
+        fmt::format("--memory \"{}\" is not a size above 0: bytes, or as 800KB, 50MB or 2GB", given));
+  return *value * unit;
+}
+
+}  // namespace
+
+experiments::choose::Limits checked_limits(const ChooseOptions& options) {
+  return {checked_rate(options.selectors.motion.rate), checked_share(options.share),
+          checked_memory(options.memory)};
+}
+
+support::Deadline::duration checked_minutes(const ChooseOptions& options) {
+  constexpr double most = 1e6;
+  const std::optional<double> minutes = support::parse_number(options.minutes);
+  if (!minutes || !(*minutes > 0) || *minutes > most)
+    throw std::invalid_argument(
+        fmt::format("--minutes \"{}\" is not a number above 0 and at most {:.0f}", options.minutes, most));
+  return std::chrono::duration_cast<support::Deadline::duration>(
+      std::chrono::duration<double, std::ratio<60>>(*minutes));
+}
+
+void add_choose_options(CLI::App& command, ProgramContext& context, ChooseOptions& options) {
+  options.selectors.motion.rate = "1000";
+  add_selectors(command, context, options.selectors);
+  add_scene_selectors(command, options.selectors);
+  add_unit(command, options.selectors.unit);
+  command.get_option("--rate")
+      ->description("of the servo loop; motion goes by time, so motion files with times are resampled to it")
+      ->capture_default_str();
+  command.get_option("--trajectory")
+      ->description(
+          "as --motion, or a name (touchmark list); repeatable; default: slide, fast-slide (ten "
+          "times as fast; not over a scene of bodies), approach, hover and cross");
+  command.get_option("--detector")
+      ->description("a candidate as NAME[:key=value,...]; repeatable; default: ours and the exact rivals");
+  command.add_option("--motion", options.motions, "how your hand moves: a motion file; repeatable")
+      ->type_name("CSV")
+      ->expected(1)
+      ->take_all();
+  command.add_option("--share", options.share, "the part of a tick that a query may take")
+      ->type_name("P%")
+      ->capture_default_str();
+  command.add_option("--memory", options.memory, "what a detector may take, as 50MB; default: any amount")
+      ->type_name("SIZE");
+  command
+      .add_option(
+          "--minutes", options.minutes,
+          "how long to measure: what was measured by then is compared, and status 4 says that nothing was")
+      ->type_name("M")
+      ->capture_default_str();
+  command.add_option("--out", options.out, "folder for choose.csv, choose.cpp, results.csv and run.json")
+      ->type_name("DIR");
+  command.add_flag("--quick", options.quick, "fewer steps, and fewer queries with emptied caches");
+  add_worker_selectors(command, options.workers);
+}
+
+}  // namespace touchmark::bench::cli

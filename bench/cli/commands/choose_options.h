@@ -1,0 +1,32 @@
+/// The options of `touchmark choose`.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/cli/worker_options.h"
+#include "bench/contestants/selectors.h"
+#include "bench/experiments/choose/decision.h"
+#include "bench/support/interrupt.h"
+
+namespace touchmark::bench::cli {
+
+struct ProgramContext;
+
+struct ChooseOptions {
+  contestants::Selectors selectors;
+  std::vector<std::string> motions;
+  std::string share = "10%", minutes = "3", memory, out;
+  bool quick = false;
+  WorkerSelectors workers;
+};
+
+/// Sets the defaults as well.
+void add_choose_options(CLI::App& command, ProgramContext& context, ChooseOptions& options);
+
+// Both throw std::invalid_argument naming the option and the value.
+experiments::choose::Limits checked_limits(const ChooseOptions& options);
+/// Returns how long the command may take.
+support::Deadline::duration checked_minutes(const ChooseOptions& options);
+
+}  // namespace touchmark::bench::cli
