@@ -3,53 +3,26 @@
 #include <algorithm>
 #include <cstdio>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "bench/support/csv_dialect.h"
 
 namespace touchmark::bench::support {
 namespace {
 
 constexpr std::size_t longest_field = 1 << 16;  // a file without commas or line ends must not fill the memory
 constexpr std::size_t max_fields = 1 << 16;
+constexpr std::size_t max_comments = 64;
 constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
-bool ends_record(int c) { return c == '\n' || c == EOF; }
+bool ends_line(int c) { return c == '\n' || c == '\r' || c == EOF; }
 
-bool is_letter(char c) noexcept { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-
-/// The mark that begins a comment and the rest, or nothing.
-std::optional<std::string_view> comment_in(std::string_view line) noexcept {
-  const std::size_t first = line.find_first_not_of(" \t");
-  if (first == line.npos) return std::nullopt;
-  line.remove_prefix(first);
-  for (const std::string_view mark : {"#", "%", "//"}) {
-    if (line.starts_with(mark)) return line.substr(mark.size());
-  }
-  return std::nullopt;
-}
+bool is_blank(int c) { return c == ' ' || c == '\t'; }
 
 }  // namespace
-
-char separator_of(std::string_view line) noexcept {
-  std::size_t commas = 0, semicolons = 0, tabs = 0;
-  bool quoted = false;
-  for (const char c : line) {
-    if (c == '"') quoted = !quoted;
-    if (quoted) continue;
-    commas += c == ',' ? 1 : 0;
-    semicolons += c == ';' ? 1 : 0;
-    tabs += c == '\t' ? 1 : 0;
-  }
-  constexpr std::size_t least = 2;  // three columns
-  if (!has_words(line)) return semicolons >= least ? ';' : tabs >= least ? '\t' : ',';
-  if (commas >= semicolons && commas >= tabs) return ',';
-  return semicolons >= tabs ? ';' : '\t';
-}
-
-bool has_words(std::string_view line) noexcept {
-  return std::any_of(line.begin(), line.end(), [](char c) { return is_letter(c) && c != 'e' && c != 'E'; });
-}
 
 CsvReader::CsvReader(std::string path) : path_(std::move(path)), buffer_(1 << 16) {
   try {
@@ -72,18 +45,22 @@ void CsvReader::accept_any_dialect() {
     separator_ = line[directive.size()];
     skip_line();
   } else {
-    separator_ = separator_of(line);
+    fill();
+    separator_ = separator_of({buffer_.data() + at_, filled_ - at_});
   }
   if (separator_ == '"' || separator_ == '\r' || separator_ == '\n')
     throw error("the first line names no separator");
 }
 
-std::invalid_argument CsvReader::error(const std::string& what) const {
-  return std::invalid_argument(record_line_ > 0 ? fmt::format("{}:{}: {}", path_, record_line_, what)
-                                                : fmt::format("{}: {}", path_, what));
+std::invalid_argument CsvReader::error(const std::string& what) const { return error_at(record_line_, what); }
+
+std::invalid_argument CsvReader::error_at(std::size_t line, const std::string& what) const {
+  return std::invalid_argument(line > 0 ? fmt::format("{}:{}: {}", path_, line, what)
+                                        : fmt::format("{}: {}", path_, what));
 }
 
 bool CsvReader::next(std::vector<std::string>& fields) {
+  if (record_line_ > 0) comments_.clear();
   skip_what_is_no_record();
   if (peek() == EOF) return false;
   record_line_ = line_;
@@ -97,15 +74,15 @@ bool CsvReader::next(std::vector<std::string>& fields) {
   return true;
 }
 
-/// Reads up to the separator or the end of the record, and returns which it was.
+/// Reads up to the separator or the end of the record, and returns which it was: '\n' or EOF for the end.
 int CsvReader::read_field(std::string& field) {
+  skip_blanks();
   if (peek() == '"') return read_quoted(field);
-  int c = get();
-  for (; c != separator_ && !ends_record(c); c = get()) {
+  int c = take();
+  for (; c != separator_ && !ends_line(c); c = take()) {
     if (field.size() >= longest_field) throw error("a field is longer than 64 KiB");
     field.push_back(static_cast<char>(c));
   }
-  if (ends_record(c) && !field.empty() && field.back() == '\r') field.pop_back();
   return c;
 }
 
@@ -117,17 +94,35 @@ int CsvReader::read_quoted(std::string& field) {
     if (c == '"') get();  // two quotes stand for one
     field.push_back(static_cast<char>(c));
   }
-  int c = get();
-  if (c == '\r' && ends_record(peek())) c = get();
-  if (c != separator_ && !ends_record(c)) throw error("text follows a closing quote");
+  if (separator_ != ' ') skip_blanks();
+  const int c = take();
+  if (c != separator_ && !ends_line(c)) throw error("text follows a closing quote");
   return c;
+}
+
+/// In files of other programs blanks around a field do not count.
+void CsvReader::skip_blanks() {
+  while (has_comments_ && is_blank(peek()) && (separator_ == ' ' || peek() != separator_)) get();
+}
+
+/// Takes what stands outside quotes: a line end of any kind as '\n', a run of separating blanks as one.
+int CsvReader::take() {
+  int c = get();
+  if (separator_ == ' ' && is_blank(c)) {
+    skip_blanks();
+    if (!ends_line(peek())) return ' ';
+    c = get();
+  }
+  if (c != '\r') return c;
+  if (peek() == '\n') get();
+  return '\n';
 }
 
 int CsvReader::get() {
   const int c = peek();
   if (c == EOF) return c;
   ++at_;
-  if (c == '\n') ++line_;
+  if (c == '\n' || (c == '\r' && peek() != '\n')) ++line_;
   return c;
 }
 
@@ -155,16 +150,15 @@ bool CsvReader::fill() {
 /// The line that comes next, or as much of it as the buffer holds; it is not taken.
 std::string_view CsvReader::line_ahead() {
   std::string_view ahead(buffer_.data() + at_, filled_ - at_);
-  if (ahead.find('\n') == ahead.npos) {
+  if (ahead.find_first_of("\r\n") == ahead.npos) {
     fill();
     ahead = std::string_view(buffer_.data() + at_, filled_ - at_);
   }
-  return ahead.substr(0, ahead.find('\n'));
+  return ahead.substr(0, ahead.find_first_of("\r\n"));
 }
 
 void CsvReader::skip_line() {
-  while (!ends_record(peek())) get();
-  get();
+  while (!ends_line(peek())) get();
 }
 
 /// True if a comment was there; it is kept as far as the buffer holds it.
@@ -173,7 +167,8 @@ bool CsvReader::skip_comment() {
   if (c != '#' && c != '%' && c != '/' && c != ' ' && c != '\t') return false;
   const std::optional<std::string_view> comment = comment_in(line_ahead());
   if (!comment) return false;
-  last_comment_ = comment->substr(0, comment->find_last_not_of('\r') + 1);
+  if (comments_.size() == max_comments) comments_.erase(comments_.begin());
+  comments_.push_back({std::string(*comment), line_});
   skip_line();
   return true;
 }

@@ -12,37 +12,40 @@
 
 namespace touchmark::bench::support {
 
-/// Commas, semicolons or tabs: what stands most often outside quotes. A line without a word in it holds
-/// numbers, in which a comma beside semicolons or tabs is a decimal one.
-char separator_of(std::string_view line) noexcept;
-
-/// What a record that is no header has: "e" and "E" are of numbers, and so is a text of no letter.
-bool has_words(std::string_view line) noexcept;
+struct CsvComment {
+  std::string text;  ///< without its mark
+  std::size_t line;  ///< from 1
+};
 
 class CsvReader {
  public:
   /// Throws std::invalid_argument when the file cannot be opened, or is UTF-16.
   explicit CsvReader(std::string path);
 
-  /// For files of other programs, before the first record: lines that begin with #, % or // are comments, a
-  /// first line "sep=;" names the separator, and without one the first record tells whether commas,
-  /// semicolons or tabs separate.
+  /// For files of other programs, before the first record: lines that begin with #, % or // are comments,
+  /// blanks around fields do not count, a first line "sep=;" names the separator, and without one
+  /// separator_of() finds it.
   void accept_any_dialect();
   char separator() const noexcept { return separator_; }
-  /// The comment that came last before the last record, without its mark; empty where there was none.
-  const std::string& last_comment() const noexcept { return last_comment_; }
+  /// Returns the comments between the last record and the one before it; of more than 64 the last.
+  const std::vector<CsvComment>& comments() const noexcept { return comments_; }
 
-  /// The next record's fields without their quotes; false at the end. Empty lines are skipped. Throws
-  /// std::invalid_argument for an open quote, a field of more than 64 KiB or a read error.
+  /// The next record's fields without their quotes; false at the end. Lines end with LF, CRLF or CR; empty
+  /// ones are skipped. Throws std::invalid_argument for an open quote, a field of more than 64 KiB or a read
+  /// error.
   bool next(std::vector<std::string>& fields);
   /// Returns the line on which the last record began, from 1.
   std::size_t line() const { return record_line_; }
   /// An exception that names the file and, once a record was read, its line.
   std::invalid_argument error(const std::string& what) const;
+  /// An exception that names the file and this line.
+  std::invalid_argument error_at(std::size_t line, const std::string& what) const;
 
  private:
   int get();
   int peek();
+  int take();
+  void skip_blanks();
   bool fill();
   std::string_view line_ahead();
   void skip_line();
@@ -58,7 +61,7 @@ class CsvReader {
   std::size_t line_ = 1, record_line_ = 0;
   char separator_ = ',';
   bool has_comments_ = false;
-  std::string last_comment_;
+  std::vector<CsvComment> comments_;
 };
 
 }  // namespace touchmark::bench::support

@@ -1,150 +1,294 @@
 #include "bench/trajectories/motion_columns.h"
 
 #include <algorithm>
-#include <cctype>
-#include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 
 #include <fmt/format.h>
 
+#include "bench/support/numbers.h"
 #include "bench/trajectories/motion_field.h"
+#include "bench/trajectories/motion_names.h"
 
 namespace touchmark::bench::trajectories {
 namespace {
 
-using Header = std::vector<std::string>;
+using Fields = std::vector<std::string>;
 
-constexpr std::array<std::string_view, 6> position_prefixes = {"", "p", "pos", "pos_", "position_", "hip_"};
-constexpr std::array<std::string_view, 10> time_names = {"time_s",  "time",    "t",    "t_s",  "time_ms",
-                                                         "time_us", "time_ns", "t_ms", "t_us", "t_ns"};
+constexpr std::size_t max_rows_above = 64;
 constexpr const char* must_name = "it must name x, y and z, or --columns say which they are";
 
-/// As names are compared: without capitals, and with one separator of words.
-std::string plain(std::string_view name) {
-  std::string text(trimmed(name));
-  for (char& c : text) {
-    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    if (c == ' ' || c == '.' || c == '-') c = '_';
-  }
-  return text;
+struct Row {
+  Fields fields;
+  std::size_t line = 0;
+};
+
+/// Returns the number of fields without blank ones at the end.
+std::size_t count_of(const Fields& row) {
+  const auto last = std::find_if(row.rbegin(), row.rend(),
+                                 [](const std::string& field) { return !trimmed(field).empty(); });
+  return static_cast<std::size_t>(row.rend() - last);
 }
 
-/// The column that is called just so, else the one whose name differs in capitals and the like.
-std::optional<MotionColumn> find_column(const support::CsvReader& file, const Header& header,
-                                        std::string_view name) {
-  const std::string wanted = plain(name);
-  std::optional<MotionColumn> found;
-  for (const bool exactly : {true, false}) {
-    for (std::size_t i = 0; i < header.size(); ++i) {
-      if (exactly ? trimmed(header[i]) != name : plain(header[i]) != wanted) continue;
-      if (found) throw file.error(fmt::format("the header names column {} twice", name));
-      found = MotionColumn{i, std::string(trimmed(header[i]))};
+std::vector<ColumnChoice> choices_in(const ChosenColumns& chosen) {
+  std::vector<ColumnChoice> choices(chosen.position.begin(), chosen.position.end());
+  if (chosen.radius) choices.push_back(*chosen.radius);
+  for (const auto& time : {chosen.time, chosen.time_rest})
+    if (time) choices.push_back(time->column);
+  return choices;
+}
+
+bool is_name(const ColumnChoice& choice) { return std::holds_alternative<std::string>(choice); }
+
+/// True if the field says that a number is missing.
+bool is_missing(std::string_view field) {
+  std::string text(trimmed(field));
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  return text == "na" || text == "n/a" || text == "null" || text == "none";
+}
+
+class HeaderReader {
+ public:
+  HeaderReader(support::CsvReader& file, const std::optional<ChosenColumns>& chosen)
+      : file_(file), chosen_(chosen) {
+    if (chosen) choices_ = choices_in(*chosen);
+    for (const ColumnChoice& choice : choices_)
+      if (const auto* const name = std::get_if<std::string>(&choice)) wanted_.push_back(*name);
+    if (!chosen) wanted_ = {"x", "y", "z"};
+  }
+
+  MotionColumns read(Fields& first_row) {
+    Row row;
+    std::optional<MotionColumns> columns;
+    while (!columns && above_.size() < max_rows_above && next(row)) {
+      columns = !wanted_.empty() ? below_a_header(row) : of_a_first_row(row);
+      if (!columns) above_.push_back(row);
     }
-    if (found) return found;
+    if (!columns) refuse();
+    for (const Row& above : above_) expect_no_data(above, row.fields);
+    first_row = std::move(row.fields);
+    return *std::move(columns);
+  }
+
+ private:
+  bool next(Row& row) {
+    if (!read_row(file_, row.fields)) return false;
+    row.line = file_.line();
+    return true;
+  }
+  bool is_number(const std::string& field) const { return support::is_number(field, file_.separator()); }
+
+  std::optional<MotionColumns> named_by(const Fields& names, std::size_t line) const;
+  std::optional<MotionColumns> below_a_header(Row& row);
+  std::optional<MotionColumns> of_a_first_row(const Row& row) const;
+  MotionColumns chosen_columns(const MotionNames& names) const;
+  void guess_times(MotionColumns& columns, const Fields& row) const;
+  std::vector<Row> names_in_comments(const Fields& row) const;
+  bool is_data(const Fields& row, const Fields& first) const;
+  void expect_no_data(const Row& above, const Fields& first) const;
+  bool looks_like_data(const Row& row) const { return is_data(row.fields, Fields(row.fields.size(), "0")); }
+  auto first_data() const {
+    return std::find_if(above_.begin(), above_.end(), [&](const Row& row) { return looks_like_data(row); });
+  }
+  const Row& nearest_to_a_header() const;
+  [[noreturn]] void refuse() const;
+  [[noreturn]] void refuse_numbers(const Row& row) const;
+  [[noreturn]] void refuse_names(const Row& row) const;
+
+  support::CsvReader& file_;
+  const std::optional<ChosenColumns>& chosen_;
+  std::vector<ColumnChoice> choices_;
+  std::vector<std::string> wanted_;  // names; empty if all columns are chosen by number
+  std::vector<Row> above_;           // rows above the header, or above the first row
+};
+
+MotionColumns HeaderReader::chosen_columns(const MotionNames& names) const {
+  MotionColumns columns;
+  for (std::size_t axis = 0; axis < 3; ++axis) columns.position[axis] = names.column(chosen_->position[axis]);
+  if (chosen_->radius) columns.radius = names.column(*chosen_->radius);
+  if (chosen_->time) columns.time = names.time_column(*chosen_->time);
+  if (chosen_->time_rest) columns.time_rest = names.time_column(*chosen_->time_rest);
+  return columns;
+}
+
+/// Returns the columns if these names are a header for them.
+std::optional<MotionColumns> HeaderReader::named_by(const Fields& fields, std::size_t line) const {
+  const MotionNames names(file_, fields, line);
+  const auto has = [&](const ColumnChoice& choice) {
+    return is_name(choice) ? names.find(std::get<std::string>(choice)).has_value()
+                           : std::get<std::size_t>(choice) <= count_of(fields);
+  };
+  std::optional<MotionColumns> columns;
+  if (!chosen_) columns = names.usual_columns();
+  if (chosen_ && std::all_of(choices_.begin(), choices_.end(), has)) columns = chosen_columns(names);
+  if (!columns) return columns;
+  columns->min_count = count_of(fields);
+  columns->count = fields.size();
+  columns->line = line;
+  return columns;
+}
+
+/// Returns the columns if the row is a header, or a comment before it is. Then `row` is the row after it.
+std::optional<MotionColumns> HeaderReader::below_a_header(Row& row) {
+  std::optional<MotionColumns> columns = named_by(row.fields, row.line);
+  if (columns) {
+    if (!next(row)) row.fields.clear();
+    return columns;
+  }
+  for (const Row& names : names_in_comments(row.fields)) {
+    columns = named_by(names.fields, names.line);
+    if (!columns) continue;
+    columns->count = std::max(columns->count, row.fields.size());
+    break;
+  }
+  return columns;
+}
+
+/// Returns the columns if the row has numbers in all of them.
+std::optional<MotionColumns> HeaderReader::of_a_first_row(const Row& row) const {
+  const auto has_number = [&](const ColumnChoice& choice) {
+    const std::size_t number = std::get<std::size_t>(choice);
+    return number <= row.fields.size() && is_number(row.fields[number - 1]);
+  };
+  if (!std::all_of(choices_.begin(), choices_.end(), has_number)) return std::nullopt;
+  std::vector<Row> headers = names_in_comments(row.fields);
+  if (headers.empty() && !above_.empty()) headers.push_back(above_.back());
+  const Fields names = headers.empty() ? Fields() : headers.front().fields;
+  MotionColumns columns = chosen_columns(MotionNames(file_, names, row.line));
+  columns.min_count = count_of(row.fields);
+  columns.count = row.fields.size();
+  columns.line = row.line;
+  if (names.empty() && !columns.time) guess_times(columns, row.fields);
+  return columns;
+}
+
+/// Takes the first two columns as times if they hold whole seconds from 1990 to 2100 and nanoseconds.
+void HeaderReader::guess_times(MotionColumns& columns, const Fields& row) const {
+  const auto is_position = [](const MotionColumn& column) { return column.index < 2; };
+  if (std::any_of(columns.position.begin(), columns.position.end(), is_position)) return;
+  const auto seconds = support::parse_count(trimmed(row[0])), rest = support::parse_count(trimmed(row[1]));
+  if (!seconds || decimals_of_date(static_cast<double>(*seconds)) != 0) return;
+  if (!rest || *rest >= 1'000'000'000) return;
+  columns.time = TimeColumn{{0, "1"}, 0};
+  columns.time_rest = TimeColumn{{1, "2"}, 9};
+  columns.guessed_times = true;
+}
+
+/// Returns the comments above the row, the last one first, as rows of as many names as the row has fields.
+std::vector<Row> HeaderReader::names_in_comments(const Fields& row) const {
+  std::vector<Row> found;
+  const std::vector<support::CsvComment>& comments = file_.comments();
+  for (auto comment = comments.rbegin(); comment != comments.rend(); ++comment) {
+    for (const char separator : {file_.separator(), ',', ';', '\t', ' '}) {
+      Fields names = support::split_fields(comment->text, separator);
+      names.resize(count_of(names));
+      // A mark that a program took for a name of its own.
+      if (names.size() == row.size() + 1 && names.front().empty()) names.erase(names.begin());
+      if (!support::has_words(comment->text) || names.size() < count_of(row) || names.size() > row.size())
+        continue;
+      found.push_back({std::move(names), comment->line});
+      break;
+    }
   }
   return found;
 }
 
-MotionColumns named_columns(const support::CsvReader& file, const Header& header) {
-  for (const std::string_view prefix : position_prefixes) {
-    MotionColumns columns;
-    std::size_t found = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const auto column = find_column(file, header, std::string(prefix) + "xyz"[axis]);
-      if (!column) continue;
-      columns.position[axis] = *column;
-      ++found;
-    }
-    if (found < 3) continue;
-    columns.radius = find_column(file, header, "radius");
-    for (const std::string_view name : time_names) {
-      columns.time = find_column(file, header, name);
-      columns.seconds = seconds_of(name);
-      if (columns.time) break;
-    }
-    return columns;
+/// True if the row has more numbers than words, or no words, where the motion's first row has numbers.
+bool HeaderReader::is_data(const Fields& row, const Fields& first) const {
+  std::size_t words = 0, numbers = 0;
+  for (std::size_t i = 0; i < std::min(row.size(), first.size()); ++i) {
+    if (!is_number(first[i]) || trimmed(row[i]).empty()) continue;
+    const bool is_word = support::has_words(row[i]) && !is_missing(row[i]) && !is_number(row[i]);
+    ++(is_word ? words : numbers);
   }
-  const std::string names = shown(fmt::format("{}", fmt::join(header, ",")));
-  for (const char* name : {"x", "y", "z"}) {
-    if (!find_column(file, header, name))
-      throw file.error(fmt::format("the header {} has no column {}: {}", names, name, must_name));
-  }
-  throw file.error(fmt::format("the header {}: {}", names, must_name));
+  return words == 0 || words < numbers;
 }
 
-/// `header` is empty where the file has none.
-MotionColumn chosen_column(const support::CsvReader& file, const Header& header, std::size_t count,
-                           const ColumnChoice& choice) {
-  if (const std::size_t* const number = std::get_if<std::size_t>(&choice)) {
-    if (*number > count)
-      throw file.error(fmt::format("--columns: there is no column {} of {}", *number, count));
-    const std::size_t index = *number - 1;
-    const std::string name = header.empty() ? "" : std::string(trimmed(header[index]));
-    const bool can_be_shown = !name.empty() && "'" + name + "'" == shown(name);
-    return {index, can_be_shown ? name : std::to_string(*number)};
+void HeaderReader::expect_no_data(const Row& above, const Fields& first) const {
+  if (first.empty() || !is_data(above.fields, first)) return;
+  if (wanted_.empty()) refuse_numbers(above);
+  throw file_.error_at(above.line, fmt::format("the row {} has numbers, and stands above the header",
+                                               shown(fmt::format("{}", fmt::join(above.fields, ",")))));
+}
+
+/// Refuses a row that lacks a chosen column, or has no number there.
+void HeaderReader::refuse_numbers(const Row& row) const {
+  std::string text;
+  for (const ColumnChoice& choice : choices_) {
+    if (is_name(choice)) continue;
+    const std::size_t number = std::get<std::size_t>(choice);
+    if (number > row.fields.size())
+      throw file_.error_at(row.line,
+                           fmt::format("--columns: there is no column {} of {}", number, row.fields.size()));
+    const std::string& field = row.fields[number - 1];
+    if (text.empty() && !is_number(field))
+      text = fmt::format("column {}: {}", number, no_number(field, file_.separator()));
   }
-  const std::string& name = std::get<std::string>(choice);
-  const std::optional<MotionColumn> found = find_column(file, header, name);
-  if (!found) throw file.error(fmt::format("--columns: the header has no column {}", shown(name)));
-  return *found;
+  throw file_.error_at(row.line, text);
 }
 
-MotionColumns chosen_columns(const support::CsvReader& file, const Header& header, std::size_t count,
-                             const ChosenColumns& chosen) {
-  MotionColumns columns;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    columns.position[axis] = chosen_column(file, header, count, chosen.position[axis]);
-  if (chosen.time) columns.time = chosen_column(file, header, count, *chosen.time);
-  if (chosen.radius) columns.radius = chosen_column(file, header, count, *chosen.radius);
-  columns.seconds = chosen.seconds;
-  return columns;
+void HeaderReader::refuse_names(const Row& row) const {
+  const std::string text = shown(fmt::format("{}", fmt::join(row.fields, ",")));
+  if (looks_like_data(row)) {
+    throw file_.error_at(row.line, fmt::format("the first row {} has numbers, and no line above it names {}: "
+                                               "--columns x=COL,y=COL,z=COL takes columns by number",
+                                               text, fmt::join(wanted_, ", ")));
+  }
+  const MotionNames names(file_, row.fields, row.line);
+  for (const std::string& name : wanted_) {
+    if (names.find(name)) continue;
+    throw file_.error_at(row.line,
+                         chosen_ ? fmt::format("--columns: the header has no column {}", shown(name))
+                                 : fmt::format("the header {} has no column {}: {}", text, name, must_name));
+  }
+  if (chosen_) refuse_numbers(row);
+  throw file_.error_at(row.line, fmt::format("the header {}: {}", text, must_name));
 }
 
-bool needs_no_header(const std::optional<ChosenColumns>& chosen) {
-  const auto is_number = [](const ColumnChoice& choice) {
-    return std::holds_alternative<std::size_t>(choice);
+/// Returns the row that names most of the wanted columns, else the last one above all numbers.
+const Row& HeaderReader::nearest_to_a_header() const {
+  const auto names_in = [&](const Row& row) {
+    const MotionNames names(file_, row.fields, row.line);
+    return std::count_if(wanted_.begin(), wanted_.end(),
+                         [&](const std::string& name) { return names.find(name).has_value(); });
   };
-  return chosen && std::all_of(chosen->position.begin(), chosen->position.end(), is_number) &&
-         (!chosen->time || is_number(*chosen->time)) && (!chosen->radius || is_number(*chosen->radius));
+  const auto best = std::max_element(above_.begin(), above_.end(),
+                                     [&](const Row& a, const Row& b) { return names_in(a) < names_in(b); });
+  if (names_in(*best) > 0) return *best;
+  const auto data = first_data();
+  return data == above_.begin() ? *data : *(data - 1);
 }
 
-bool holds_numbers(const Header& row) {
-  return std::none_of(row.begin(), row.end(),
-                      [](const std::string& field) { return support::has_words(field); });
-}
-
-/// The names in a comment, where it has as many as the rows have fields.
-Header names_in_comment(const support::CsvReader& file, std::size_t count) {
-  const std::string& comment = file.last_comment();
-  Header names;
-  for (std::size_t begin = 0; begin <= comment.size() && support::has_words(comment);) {
-    const std::size_t end = std::min(comment.find(file.separator(), begin), comment.size());
-    std::string_view name = trimmed(std::string_view(comment).substr(begin, end - begin));
-    if (name.size() > 1 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
-    names.emplace_back(name);
-    begin = end + 1;
-  }
-  return names.size() == count ? names : Header();
+/// No row is a header, or has the numbers. Refuses the one that comes nearest.
+void HeaderReader::refuse() const {
+  if (above_.empty()) throw file_.error("the file is empty: it needs a header that names x, y and z");
+  if (!wanted_.empty()) refuse_names(nearest_to_a_header());
+  const auto longest = std::max_element(above_.begin(), above_.end(), [](const Row& a, const Row& b) {
+    return a.fields.size() < b.fields.size();
+  });
+  const bool is_short = std::any_of(choices_.begin(), choices_.end(), [&](const ColumnChoice& choice) {
+    return std::get<std::size_t>(choice) > longest->fields.size();
+  });
+  if (is_short) refuse_numbers(*longest);
+  const auto first = first_data();
+  if (first != above_.end()) refuse_numbers(*first);
+  throw file_.error_at(above_.back().line, "no row follows the header");
 }
 
 }  // namespace
 
+bool read_row(support::CsvReader& file, std::vector<std::string>& row) {
+  do {
+    if (!file.next(row)) return false;
+  } while (count_of(row) == 0);
+  return true;
+}
+
 MotionColumns read_motion_header(support::CsvReader& file, const std::optional<ChosenColumns>& chosen,
                                  std::vector<std::string>& first_row) {
-  Header header;
-  if (!file.next(header)) throw file.error("the file is empty: it needs a header that names x, y and z");
-  const std::size_t count = header.size();
-  if (holds_numbers(header)) {
-    Header names = names_in_comment(file, count);
-    if (!names.empty() || needs_no_header(chosen)) {
-      first_row = std::move(header);
-      header = std::move(names);
-    }
-  }
-  MotionColumns columns = chosen ? chosen_columns(file, header, count, *chosen) : named_columns(file, header);
-  columns.count = count;
-  return columns;
+  return HeaderReader(file, chosen).read(first_row);
 }
 
 }  // namespace touchmark::bench::trajectories

@@ -1,4 +1,4 @@
-/// Which column of a motion file holds what.
+/// Which column of a motion file holds what, and where its rows begin.
 #pragma once
 
 #include <array>
@@ -17,19 +17,32 @@ struct MotionColumn {
   std::string name;       ///< for messages
 };
 
-struct MotionColumns {
-  std::array<MotionColumn, 3> position;
-  std::optional<MotionColumn> time, radius;
-  double seconds = 1;     ///< what the time's unit is in seconds
-  std::size_t count = 0;  ///< columns in all
+struct TimeColumn {
+  MotionColumn column;
+  std::optional<int> decimals;  ///< of its unit, as in ChosenTime; nothing if no name states the unit
 };
 
-/// Reads the header. Without a choice of columns the position is the first of these that the header names
-/// whole: x,y,z; px,py,pz; posx,posy,posz; pos_x,pos_y,pos_z; position_x,position_y,position_z;
-/// hip_x,hip_y,hip_z. Times are in time, t, or either with _s, _ms, _us or _ns at its end; radii in radius.
-/// Letters may be capitals, and spaces, points and hyphens stand for underscores. The header may be the last
-/// comment line before rows of numbers, as numpy writes it. `first_row` gets the first row where it was read
-/// to find that out. Throws std::invalid_argument, naming file and line.
+struct MotionColumns {
+  std::array<MotionColumn, 3> position;
+  std::optional<MotionColumn> radius;
+  std::optional<TimeColumn> time;
+  std::optional<TimeColumn> time_rest;  ///< where `time` has whole seconds: what is added to them
+  bool guessed_times = false;           ///< the times were recognised by their first values, not chosen
+  std::size_t min_count = 0;            ///< columns in all, without empty ones at the end
+  std::size_t count = 0;                ///< columns in all
+  std::size_t line = 0;                 ///< of the header, or of the first row
+};
+
+/// Reads the next row that holds more than blanks; false at the end.
+bool read_row(support::CsvReader& file, std::vector<std::string>& row);
+
+/// Reads up to the first row of the motion, which `first_row` gets; it stays empty where there is none.
+///
+/// With all columns chosen by number the motion begins with the first row that has numbers in them. Else the
+/// header comes before it: a row, or a comment line, that names the columns (motion_names.h says how). Rows
+/// of words may stand above. A row above that holds more numbers than words is refused, not left out. Without
+/// header and chosen times, the first two columns are times if they hold seconds since 1970 and nanoseconds,
+/// as `ros2 topic echo --csv` writes them. Throws std::invalid_argument, naming file and line.
 MotionColumns read_motion_header(support::CsvReader& file, const std::optional<ChosenColumns>& chosen,
                                  std::vector<std::string>& first_row);
 

@@ -1,8 +1,10 @@
 #include "bench/trajectories/motion_options.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -25,8 +27,25 @@ ColumnChoice choice_of(const std::string& text, const std::string& column) {
   return static_cast<std::size_t>(*number);
 }
 
-bool is_time(std::string_view key) {
-  return key == "time" || key == "time_s" || key == "time_ms" || key == "time_us" || key == "time_ns";
+struct TimeKey {
+  std::string_view name;
+  std::optional<int> decimals;
+};
+constexpr std::array<TimeKey, 5> time_keys{
+    {{"time", std::nullopt}, {"time_s", 0}, {"time_ms", 3}, {"time_us", 6}, {"time_ns", 9}}};
+
+/// True if the file's times can be this column, or the sum of it and the one that was chosen before.
+bool add_time(ChosenColumns& columns, const ChosenTime& time) {
+  if (!columns.time) {
+    columns.time = time;
+    return true;
+  }
+  if (columns.time_rest) return false;
+  columns.time_rest = time;
+  if (time.decimals.value_or(0) == 0) std::swap(columns.time, columns.time_rest);
+  if (columns.time->decimals.value_or(0) > 0 || columns.time_rest->decimals.value_or(0) == 0) return false;
+  columns.time->decimals = 0;
+  return true;
 }
 
 /// A number above 0 that has an inverse.
@@ -38,12 +57,6 @@ double positive(const char* option, const std::string& text) {
 }
 
 }  // namespace
-
-double seconds_of(std::string_view column) noexcept {
-  if (column.ends_with("_ms")) return 1e-3;
-  if (column.ends_with("_us")) return 1e-6;
-  return column.ends_with("_ns") ? 1e-9 : 1;
-}
 
 ChosenColumns parse_columns(const std::string& text) {
   ChosenColumns columns;
@@ -58,13 +71,15 @@ ChosenColumns parse_columns(const std::string& text) {
                                               : key == "y"      ? &position[1]
                                               : key == "z"      ? &position[2]
                                               : key == "radius" ? &columns.radius
-                                              : is_time(key)    ? &columns.time
                                                                 : nullptr;
-    if (equals == part.size() || slot == nullptr)
+    const auto time = std::find_if(time_keys.begin(), time_keys.end(),
+                                   [&](const TimeKey& known) { return known.name == key; });
+    if (equals == part.size() || (slot == nullptr && time == time_keys.end()))
       refuse_columns(text, fmt::format("\"{}\" is not KEY=COL with a known key", part));
-    if (*slot) refuse_columns(text, fmt::format("\"{}\" is one {} too many", part, key));
-    *slot = choice_of(text, part.substr(equals + 1));
-    if (is_time(key)) columns.seconds = seconds_of(key);
+    const ColumnChoice choice = choice_of(text, part.substr(equals + 1));
+    if (slot != nullptr ? slot->has_value() : !add_time(columns, {choice, time->decimals}))
+      refuse_columns(text, fmt::format("\"{}\" is one {} too many", part, key));
+    if (slot != nullptr) *slot = choice;
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!position[axis]) refuse_columns(text, fmt::format("{} is missing", "xyz"[axis]));

@@ -13,12 +13,19 @@ namespace touchmark::bench::trajectories {
 /// A column by its name in the header, or by its number, from 1.
 using ColumnChoice = std::variant<std::string, std::size_t>;
 
+/// A column of times. Its unit is 1 s, or 1e-3 s for 3 decimals and so on; nothing if the key was "time".
+struct ChosenTime {
+  ColumnChoice column;
+  std::optional<int> decimals;
+};
+
 /// Columns that were chosen one by one. Of a file whose columns are all chosen by number the header may be
 /// missing.
 struct ChosenColumns {
   std::array<ColumnChoice, 3> position;
-  std::optional<ColumnChoice> time, radius;
-  double seconds = 1;  ///< what the time's unit is in seconds
+  std::optional<ColumnChoice> radius;
+  std::optional<ChosenTime> time;
+  std::optional<ChosenTime> time_rest;  ///< where `time` has whole seconds: what is added to them
 };
 
 struct MotionOptions {
@@ -32,10 +39,8 @@ struct MotionOptions {
   bool are_given() const noexcept { return columns || scale != 1 || rate_hz; }
 };
 
-/// The unit of a column of times by the end of its name: 1e-3 for "time_ms".
-double seconds_of(std::string_view column) noexcept;
-
-/// "x=COL,y=COL,z=COL" with any of "time=COL" (or time_s, time_ms, time_us, time_ns) and "radius=COL". Throws
+/// "x=COL,y=COL,z=COL" with any of "time=COL" (or time_s, time_ms, time_us, time_ns) and "radius=COL". A key
+/// in seconds and another key of times may stand together: their columns are added. Throws
 /// std::invalid_argument, naming the option and the value.
 ChosenColumns parse_columns(const std::string& text);
 

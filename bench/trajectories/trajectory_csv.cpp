@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
@@ -22,6 +23,9 @@ namespace {
 
 constexpr double max_ticks = 100'000'000;  // of a resampled motion, as of --steps
 constexpr double bytes_a_tick = 256;       // here and in the workers
+constexpr double min_origin_s = 1e6;       // doubles below hold times to 1e-10 s
+
+double unit_s(int decimals) { return decimals == 0 ? 1 : decimals == 3 ? 1e-3 : decimals == 6 ? 1e-6 : 1e-9; }
 
 /// Reads the rows of one file.
 class MotionReader {
@@ -33,10 +37,13 @@ class MotionReader {
         options_(options),
         numbers_(file),
         columns_(read_motion_header(file, options.columns, row_)),
+        first_line_(file.line()),
         motion_{path, {}, {}, {}} {
+    if (options.of_a_scene && columns_.guessed_times) leave_times();
     if (options.of_a_scene && !columns_.time) options_.rate_hz.reset();
     if (options_.rate_hz && !columns_.time)
-      throw file.error("--rate needs times, and the header has no column time_s (or --columns name none)");
+      throw file.error_at(columns_.line,
+                          "--rate needs times, and the header has no column time_s (or --columns name none)");
   }
 
   Trajectory read();
@@ -46,9 +53,11 @@ class MotionReader {
   bool has_enough() const;
   void add_row();
   double coordinate(const MotionColumn& column);
-  void add_time(const MotionColumn& column);
+  double time_of_row();
+  void add_time();
   void check_times();
-  [[noreturn]] void fail(std::size_t line, const std::string& what) const;
+  bool may_leave_times() const { return columns_.guessed_times && !options_.rate_hz; }
+  void leave_times();
 
   support::CsvReader& file_;
   std::size_t max_;
@@ -56,25 +65,23 @@ class MotionReader {
   NumberReader numbers_;
   std::vector<std::string> row_;  // at first what was read in search of a header
   MotionColumns columns_;
+  std::size_t first_line_;  // of the first row
   Trajectory motion_;
   std::vector<std::size_t> lines_;  // of rows with times
+  std::optional<Instant> origin_;   // from which times are counted; nothing for 0
+  double origin_s_ = 0;
 };
-
-bool is_blank(const std::string& field) { return trimmed(field).empty(); }
 
 /// Spreadsheets leave rows of empty fields, and empty fields at the end of rows.
 bool MotionReader::next_row() {
-  if (motion_.size() > 0 || row_.empty()) {
-    do {
-      if (!file_.next(row_)) return false;
-    } while (row_.size() > 1 && std::all_of(row_.begin(), row_.end(), is_blank));
-  }
+  if ((motion_.size() > 0 || row_.empty()) && !read_row(file_, row_)) return false;
   const bool rest_is_blank =
       row_.size() > columns_.count &&
-      std::all_of(row_.begin() + static_cast<std::ptrdiff_t>(columns_.count), row_.end(), is_blank);
-  if (row_.size() != columns_.count && !rest_is_blank) {
-    throw file_.error("the row has " + std::to_string(row_.size()) + " fields, the header " +
-                      std::to_string(columns_.count));
+      std::all_of(row_.begin() + static_cast<std::ptrdiff_t>(columns_.count), row_.end(),
+                  [](const std::string& field) { return trimmed(field).empty(); });
+  if (row_.size() < columns_.min_count || (row_.size() > columns_.count && !rest_is_blank)) {
+    throw file_.error(fmt::format("the row has {} fields, the {} {}", row_.size(),
+                                  columns_.line < first_line_ ? "header" : "first row", columns_.count));
   }
   return true;
 }
@@ -96,12 +103,41 @@ double MotionReader::coordinate(const MotionColumn& column) {
   return value;
 }
 
-void MotionReader::add_time(const MotionColumn& column) {
-  const std::string& field = row_[column.index];
-  const double time = numbers_.read(field, column.name) * columns_.seconds;
+/// Returns the row's time in seconds; of a motion since 1970, after its first row.
+double MotionReader::time_of_row() {
+  auto& [whole, decimals] = *columns_.time;
+  const double value = numbers_.read(row_[whole.index], whole.name);
+  if (!decimals) decimals = decimals_of_date(value).value_or(0);
+  Instant instant = instant_of(row_[whole.index], *decimals);
+  double time = value * unit_s(*decimals);
+  if (columns_.time_rest) {
+    const auto& [rest, rest_decimals] = *columns_.time_rest;
+    const Instant added = instant_of(row_[rest.index], *rest_decimals);
+    if (instant.attoseconds != 0)
+      throw file_.error(fmt::format("column {}: {} is not whole seconds, to which column {} is added",
+                                    whole.name, shown(trimmed(row_[whole.index])), rest.name));
+    if (numbers_.read(row_[rest.index], rest.name) < 0 || added.whole_s != 0)
+      throw file_.error(fmt::format("column {}: {} is not from 0 to less than 1 s, to be added to column {}",
+                                    rest.name, shown(trimmed(row_[rest.index])), whole.name));
+    instant.attoseconds = added.attoseconds;
+    time = seconds_between({}, instant);
+  }
+  if (motion_.times_s.empty() && std::abs(time) >= min_origin_s) {
+    origin_ = instant;
+    origin_s_ = time;
+  }
+  return origin_ ? seconds_between(*origin_, instant) : time;
+}
+
+void MotionReader::add_time() {
+  const double time = time_of_row();
   if (!motion_.times_s.empty() && !(time > motion_.times_s.back())) {
-    throw file_.error("column " + column.name + ": " + shown(trimmed(field)) +
-                      " is not after the row before (--columns without time does not read times)");
+    const std::optional<TimeColumn>& rest = columns_.time_rest;
+    const auto field = [&](const TimeColumn& of) { return trimmed(row_[of.column.index]); };
+    throw file_.error(fmt::format(
+        "column {}: {}{} is not after the row before (--columns without time does not read times)",
+        columns_.time->column.name, shown(field(*columns_.time)),
+        rest ? fmt::format(" and {} in column {}", shown(field(*rest)), rest->column.name) : ""));
   }
   motion_.times_s.push_back(time);
   lines_.push_back(file_.line());
@@ -119,18 +155,28 @@ void MotionReader::add_row() {
     }
     motion_.radii.push_back(radius);
   }
-  if (columns_.time) add_time(*columns_.time);
+  if (!columns_.time) return;
+  try {
+    add_time();
+  } catch (const std::invalid_argument&) {
+    if (!may_leave_times()) throw;
+    leave_times();
+  }
 }
 
-void MotionReader::fail(std::size_t line, const std::string& what) const {
-  throw std::invalid_argument(fmt::format("{}:{}: {}", motion_.name, line, what));
+/// Makes the motion one without times.
+void MotionReader::leave_times() {
+  columns_.time.reset();
+  motion_.times_s.clear();
 }
 
 void MotionReader::check_times() {
   const std::vector<double>& times = motion_.times_s;
   const double duration = times.back() - times.front();
   if (!std::isfinite(duration))
-    throw file_.error("column " + columns_.time->name + ": the duration overflows");
+    throw file_.error("column " + columns_.time->column.name + ": the duration overflows");
+  const std::size_t gap = options_.of_a_scene || options_.rate_hz ? 0 : first_gap(times);
+  if (gap > 0 && may_leave_times()) return leave_times();
   motion_.recorded = RecordedTiming{times.size(), duration, options_.rate_hz};
   if (options_.rate_hz) {
     const double ticks = ticks_at(motion_, *options_.rate_hz);
@@ -141,23 +187,28 @@ void MotionReader::check_times() {
     const double steps = max_ == 0 ? ticks : std::min(ticks, static_cast<double>(max_));
     support::require_memory(fmt::format("trajectory {}: {:.0f} steps", motion_.name, steps),
                             bytes_a_tick * steps);
-  } else if (const std::size_t row = options_.of_a_scene ? 0 : first_gap(times)) {
-    fail(lines_[row],
-         fmt::format("column {}: {:.6g} s after the row before, longer than the usual interval: rows "
-                     "are not evenly spaced; --rate HZ resamples them",
-                     columns_.time->name, times[row] - times[row - 1]));
+  } else if (gap > 0) {
+    throw file_.error_at(
+        lines_[gap],
+        fmt::format("column {}: {:.6g} s after the row before, longer than the usual interval: rows "
+                    "are not evenly spaced; --rate HZ resamples them",
+                    columns_.time->column.name, times[gap] - times[gap - 1]));
   }
 }
 
 Trajectory MotionReader::read() {
   while (!has_enough() && next_row()) add_row();
-  if (motion_.positions.empty()) throw file_.error("no row follows the header");
-  if (!columns_.time) return std::move(motion_);
-  check_times();
-  if (!options_.rate_hz) return std::move(motion_);
-  Trajectory ticks = resampled(motion_, *options_.rate_hz, max_);
-  ticks.recorded = motion_.recorded;
-  return ticks;
+  if (motion_.positions.empty()) throw file_.error_at(columns_.line, "no row follows the header");
+  if (columns_.time) check_times();
+  if (options_.rate_hz) {
+    const auto recorded = motion_.recorded;
+    motion_ = resampled(motion_, *options_.rate_hz, max_);
+    motion_.recorded = recorded;
+  }
+  // The bodies of a scene move by the same clock.
+  if (options_.of_a_scene)
+    for (double& time : motion_.times_s) time += origin_s_;
+  return std::move(motion_);
 }
 
 /// A step takes about four times its row, here and in the workers.

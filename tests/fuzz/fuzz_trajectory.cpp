@@ -56,5 +56,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::read(file.path(), 100, bench::trajectories::parse_motion_options("x=2,y=3,z=4,time_ms=1", "", "1000"),
              size);
   fuzz::read(file.path(), 0, bench::trajectories::parse_motion_options("x=1,y=2,z=3", "1e-3", ""), size);
+  fuzz::read(file.path(), 0, bench::trajectories::parse_motion_options("x=3,y=4,z=5", "", ""), size);
+  fuzz::read(file.path(), 100,
+             bench::trajectories::parse_motion_options("x=x,y=4,z=5,time_s=1,time_ns=2", "", "1000"), size);
   return 0;
 }

@@ -171,6 +171,13 @@ def trajectory():
     yield "% recorded\n# px\tpy\tpz\n1.5\t2\t3\n4\t5\t6"
     yield "0,1,2,3\n0.001,4,5,6\n0.009,7,8,9\n"
     yield '\ufefftime_s,"x",y,z,radius,more\r\n0,1,2,3,0.5,"a ""b"", c"\r\n0.001,1,2,3,0,\r\n'
+    yield ("%time,field.header.frame_id,field.point.x,field.point.y,field.point.z\n"
+           "1600000000000000000,a,0,0,1\n1600000000000500000,,0,0,2\n")
+    yield "1600000000,0,1,2,3\n1600000000,500000,4,5,6\n"
+    yield "# timestamp tx ty tz\n1600000000.001 1  2\t3 \r 1.600000001e9 4 5 6\r"
+    yield ("#timestamp [ns],p_RS_R_x [m],p_RS_R_y [m],p_RS_R_z [m]\n"
+           "1403636580838555648,1,2,3\n1403636580839055648,4,5,6\n")
+    yield "Version,1.2,Name,a b\n\n,,Tool,Tool,Tool\nFrame,Time (Seconds),X,Y,Z\n0,0.5,1,2,3\n1,0.501,4,5,6\n"
 
 
 def detectors():

@@ -1,12 +1,15 @@
 #include "bench/trajectories/trajectory_csv.h"
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -86,11 +89,17 @@ TEST_F(TrajectoryCsv, NamesTheLineAndColumnOfWhatIsWrong) {
   EXPECT_EQ(complaint("\n\n"), "path.csv: the file is empty: it needs a header that names x, y and z");
   const std::string must_name = "it must name x, y and z, or --columns say which they are";
   EXPECT_EQ(complaint("x,y\n1,2\n"), "path.csv:1: the header 'x,y' has no column z: " + must_name);
-  EXPECT_EQ(complaint("1,2,3\n"), "path.csv:1: the header '1,2,3' has no column x: " + must_name);
-  EXPECT_EQ(complaint("# made by hand\n\n1,2,3\n"),
-            "path.csv:3: the header '1,2,3' has no column x: " + must_name);
-  EXPECT_EQ(complaint("X,X,Y,Z\n1,2,3,4\n"), "path.csv:1: the header names column x twice");
-  EXPECT_EQ(complaint("x,y,z,y\n1,2,3,4\n"), "path.csv:1: the header names column y twice");
+  const std::string no_names =
+      "the first row '1,2,3' has numbers, and no line above it names x, y, z: --columns x=COL,y=COL,z=COL "
+      "takes "
+      "columns by number";
+  EXPECT_EQ(complaint("1,2,3\n"), "path.csv:1: " + no_names);
+  EXPECT_EQ(complaint("# made by hand\n\n1,2,3\n"), "path.csv:3: " + no_names);
+  const std::string by_number = " (--columns x=COL,y=COL,z=COL[,time=COL] takes columns by number)";
+  EXPECT_EQ(complaint("X,X,Y,Z\n1,2,3,4\n"),
+            "path.csv:1: the header names column x twice: 'X' is column 1, 'X' is column 2" + by_number);
+  EXPECT_EQ(complaint("x,y,z,y\n1,2,3,4\n"),
+            "path.csv:1: the header names column y twice: 'y' is column 2, 'y' is column 4" + by_number);
   EXPECT_EQ(complaint("x,y,z\n"), "path.csv:1: no row follows the header");
   EXPECT_EQ(complaint("x,y,z\n1,2,3\n1,two,3\n"), "path.csv:3: column y: 'two' is not a number");
   EXPECT_EQ(complaint("x,y,z\n1,\x1b[2J,3\n"), "path.csv:2: column y: '?[2J' is not a number");
@@ -191,6 +200,162 @@ TEST_F(TrajectoryCsv, ColumnsAreChosenByNameOrNumber) {
   EXPECT_EQ(complaint("a,b\n1,2\n", options), "path.csv:1: --columns: there is no column 3 of 2");
   options.columns = parse_columns("x=a,y=b,z=Q");
   EXPECT_EQ(complaint("a,b\n1,2\n", options), "path.csv:1: --columns: the header has no column 'Q'");
+}
+
+/// Three rows of a log, by the text before and after each position.
+std::string log_of(const std::array<std::string, 3>& before, const std::string& after = "",
+                   char separator = ',') {
+  std::string text;
+  for (std::size_t i = 0; i < 3; ++i) {
+    text += before[i] + (before[i].empty() ? "" : std::string(1, separator));
+    text += fmt::format("0{0}0{0}{1}{2}\n", separator, std::array{"0.05", "0.04", "0.03"}[i], after);
+  }
+  return text;
+}
+const std::vector<Vec3> three = {{0, 0, 0.05}, {0, 0, 0.04}, {0, 0, 0.03}};
+const std::vector<double> milliseconds = {0, 0.001, 0.002};
+const std::array<std::string, 3> epoch_ns = {"1600000000000000000", "1600000000001000000",
+                                             "1600000000002000000"};
+
+TEST_F(TrajectoryCsv, NoRowOfNumbersIsLostAsAHeader) {
+  const MotionOptions options = parse_motion_options("x=1,y=2,z=3", "", "");
+  EXPECT_EQ(read(log_of({}, ",idle"), options).positions, three);
+  EXPECT_EQ(read(log_of({}, ",true"), options).positions, three);
+  EXPECT_EQ(read("here,there,above,state\n" + log_of({}, ",idle"), options).positions, three);
+  EXPECT_EQ(read("3D_x,3D_y,3D_z\n" + log_of({}), options).positions, three);
+  for (const char* field : {"NA", "", "-", "two", "0x1"}) {
+    EXPECT_EQ(complaint(std::string(field) + ",0,0\n" + log_of({}), options),
+              "path.csv:1: column 1: '" + std::string(field) + "' is not a number");
+  }
+  for (const char* field : {"nan", "NaN", "-inf"}) {
+    EXPECT_EQ(complaint(std::string(field) + ",0,0\n" + log_of({}), options),
+              "path.csv:1: column 1: '" + std::string(field) + "' is not finite");
+  }
+  EXPECT_EQ(complaint("0,0\n" + log_of({}), options), "path.csv:1: --columns: there is no column 3 of 2");
+  EXPECT_EQ(complaint("0,0,1\nx,y,z\n" + log_of({})),
+            "path.csv:1: the row '0,0,1' has numbers, and stands above the header");
+}
+
+TEST_F(TrajectoryCsv, NamesInACommentMayStandAboveRowsWithWords) {
+  const std::string text =
+      "# idle or down\n# t,x,y,z,state\n# by hand\n" + log_of({"0", "0.001", "0.002"}, ",idle");
+  for (const char* columns : {"", "x=2,y=3,z=4,time=1", "x=x,y=3,z=z,time_s=t"}) {
+    const Trajectory path = read(text, parse_motion_options(columns, "", ""));
+    EXPECT_EQ(path.positions, three) << columns;
+    EXPECT_EQ(path.times_s, milliseconds) << columns;
+  }
+  EXPECT_EQ(complaint("# t x y z x\n" + log_of({"0", "1", "2"}, ",9")),
+            "path.csv:1: the header names column x twice: 'x' is column 2, 'x' is column 5 (--columns "
+            "x=COL,y=COL,z=COL[,time=COL] takes columns by number)");
+}
+
+TEST_F(TrajectoryCsv, ReadsLogsOfRos1) {
+  const std::string position =
+      "field.pose.pose.position.x,field.pose.pose.position.y,field.pose.pose.position.z";
+  for (const std::string& names : {position, std::string("field.point.x,field.point.y,field.point.z"),
+                                   std::string("field.transform.translation.x,field.transform.translation.y,"
+                                               "field.transform.translation.z")}) {
+    const std::string text =
+        "%time,field.header.seq,field.header.frame_id," + names + ",field.twist.linear.x\n" +
+        log_of({epoch_ns[0] + ",7,tool", epoch_ns[1] + ",8,tool", epoch_ns[2] + ",9,"}, ",5");
+    for (const char* columns : {"", "x=4,y=5,z=6,time=1", "x=x,y=y,z=z,time_ns=time"}) {
+      const Trajectory path = read(text, parse_motion_options(columns, "", ""));
+      EXPECT_EQ(path.positions, three) << columns;
+      EXPECT_EQ(path.times_s, milliseconds) << columns;
+    }
+  }
+}
+
+TEST_F(TrajectoryCsv, ReadsLogsOfRos2InSecondsAndNanoseconds) {
+  const std::string text =
+      log_of({"1600000000,0,tool", "1600000000,1000000,tool", "1600000000,2000000,tool"});
+  for (const char* columns :
+       {"time_s=1,time_ns=2,x=4,y=5,z=6", "x=4,y=5,z=6,time_ns=2,time_s=1", "x=4,y=5,z=6"}) {
+    const Trajectory path = read(text, parse_motion_options(columns, "", ""));
+    EXPECT_EQ(path.positions, three) << columns;
+    EXPECT_EQ(path.times_s, milliseconds) << columns;
+  }
+  EXPECT_EQ(
+      read("header.stamp.sec,header.stamp.nanosec,frame,pose.position.x,pose.position.y,pose.position.z\n" +
+           text)
+          .times_s,
+      milliseconds);
+  // Times that nobody chose are left where they are none.
+  const std::string repeated = log_of({"1600000000,0,t", "1600000000,0,t", "1600000000,0,t"});
+  EXPECT_EQ(read(repeated, parse_motion_options("x=4,y=5,z=6", "", "")).positions, three);
+  EXPECT_EQ(
+      complaint(repeated, parse_motion_options("x=4,y=5,z=6", "", "1000")),
+      "path.csv:2: column 1: '1600000000' and '0' in column 2 is not after the row before (--columns without "
+      "time does not read times)");
+  const MotionOptions chosen = parse_motion_options("time_s=1,time_ns=2,x=3,y=4,z=5", "", "");
+  EXPECT_EQ(complaint("1,1000000000,0,0,0\n", chosen),
+            "path.csv:1: column 2: '1000000000' is not from 0 to less than 1 s, to be added to column 1");
+  EXPECT_EQ(complaint("1.5,0,0,0,0\n", chosen),
+            "path.csv:1: column 1: '1.5' is not whole seconds, to which column 2 is added");
+}
+
+TEST_F(TrajectoryCsv, ReadsTumEurocAndMotive) {
+  const std::array<std::string, 3> seconds = {"1600000000.000", "1600000000.001", "1600000000.002"};
+  const std::string tum = log_of(seconds, " 0 0 0 1", ' ');
+  const std::string euroc =
+      "#timestamp [ns],p_RS_R_x [m],p_RS_R_y [m],p_RS_R_z [m],q_RS_w [],v_RS_R_x [m s^-1]\r\n";
+  const std::string motive =
+      "Format Version,1.23,Take Name,2 hands,Capture Frame Rate,120.0,Length Units,Meters\n\n"
+      ",,Rigid Body,Rigid Body,Rigid Body\n,,Tool,Tool,Tool\nFrame,Time (Seconds),X,Y,Z\n" +
+      log_of({"0,0.000", "1,0.001", "2,0.002"});
+  for (const auto& [text, columns] :
+       {std::pair<std::string, std::string>{"# a\n# timestamp tx ty tz qx qy qz qw\n" + tum, ""},
+        {tum, "x=2,y=3,z=4,time=1"},
+        {"#,timestamp,tx,ty,tz,qx,qy,qz,qw\n" + log_of(seconds, ",0,0,0,1"), "x=tx,y=ty,z=tz,time=timestamp"},
+        {euroc + log_of(epoch_ns, ",1,0"), ""},
+        {euroc + log_of(epoch_ns, ",1,0"), "x=p_RS_R_x,y=p_RS_R_y,z=p_RS_R_z,time=timestamp"},
+        {motive, ""},
+        {motive, "x=3,y=4,z=5,time=2"}}) {
+    const Trajectory path = read(text, parse_motion_options(columns, "", ""));
+    EXPECT_EQ(path.positions, three) << text;
+    EXPECT_EQ(path.times_s, milliseconds) << text;
+  }
+  // A tracker that has not yet found the body.
+  EXPECT_EQ(
+      complaint("Frame,Time,X,Y,Z\n0,0.000,,,\n1,0.001,0,0,0\n", parse_motion_options("x=3,y=4,z=5", "", "")),
+      "path.csv:2: column 3: '' is not a number");
+  EXPECT_EQ(complaint("p_1_x,p_1_y,p_1_z,p_2_x,p_2_y,p_2_z\n1,2,3,4,5,6\n"),
+            "path.csv:1: the header names two positions: 'p_1_x' is column 1, 'p_2_x' is column 4 (--columns "
+            "x=COL,y=COL,z=COL takes one of them)");
+}
+
+TEST_F(TrajectoryCsv, TimesSince1970AreSubtractedExactly) {
+  MotionOptions options;
+  options.rate_hz = 2000;
+  for (const char* text :
+       {"time_ns,x,y,z\n1600000000999500000,0,0,1\n1600000001000000000,0,0,2\n",
+        "time,x,y,z\n1600000000999500,0,0,1\n1600000001000000,0,0,2\n",
+        "Time [ms];x;y;z\n1600000000999,5;0;0;1\n1600000001000;0;0;2\n",
+        "time x y z\n1600000000.9995 0 0 1\n1.600000001e9 0 0 2\n",
+        "stamp_sec,stamp_nanosec,x,y,z\n1600000000,999500000,0,0,1\n1600000001,0,0,0,2\n"}) {
+    const Trajectory path = read(text, options);
+    EXPECT_EQ(path.times_s, (std::vector<double>{0, 0.0005})) << text;
+    EXPECT_EQ(path.positions.back(), Vec3(0, 0, 2)) << text;
+  }
+  // A scene's bodies move by the same clock.
+  options.of_a_scene = true;
+  EXPECT_EQ(read("t,x,y,z\n1600000000,0,0,1\n1600000001,0,0,2\n", options).times_s.front(), 1.6e9);
+}
+
+TEST_F(TrajectoryCsv, BlanksSeparateAndCarriageReturnsEndLines) {
+  for (const char* text : {
+           "x,y,z\r1,2,3\r-4,.5,6\r",
+           "# x,y,z\r1,2,3\r\n\r-4,.5,6",
+           "x y z\n1 2 3\n-4 .5 6\n",
+           "  x\t y z \n 1   2\t3  \n-4 0,5 6\n",
+           "# x y z\n1,2,3\n-4,.5,6\n",
+           "x, \"y\" , z,\n\"1\", 2, 3\n \n-4,.5 ,6,\n",
+           "x;y;z;list\n1;2;3;1,2,3,4\n-4;,5;6;1,2,3,4\n",
+           "x,y,z,note\n1,2,3,a 1 2 3\n-4,.5,6,b 1 2 3\n",
+       }) {
+    EXPECT_EQ(read(text).positions, two) << text;
+  }
+  EXPECT_EQ(complaint("x,y,z\r1,2,3\r\r1,two,3\r"), "path.csv:4: column y: 'two' is not a number");
 }
 
 TEST_F(TrajectoryCsv, TheScaleIsOfCoordinatesAndRadii) {

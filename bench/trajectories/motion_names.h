@@ -1,0 +1,51 @@
+/// The names in a motion file's header.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/support/csv_reader.h"
+#include "bench/trajectories/motion_columns.h"
+
+namespace touchmark::bench::trajectories {
+
+/// Finds columns by name. Of several columns the one whose name is written just so is found, else the one
+/// that differs in capitals, separators of words, a mark % or # before it and a unit in brackets behind it;
+/// else the one that is longer by field, header, stamp, pose, position, point, transform or translation
+/// before it, or by p or t and frames before x, y and z, as in p_RS_R_x.
+class MotionNames {
+ public:
+  /// `line` is for messages; `names` are empty if there is no header.
+  MotionNames(const support::CsvReader& file, std::vector<std::string> names, std::size_t line);
+
+  /// Throws std::invalid_argument if two columns fit equally well.
+  std::optional<MotionColumn> find(std::string_view name) const;
+  /// Returns the column of this name or number; throws std::invalid_argument if there is none.
+  MotionColumn column(const ColumnChoice& choice) const;
+  /// Returns the column with the unit of its choice, else with the unit that its name states.
+  TimeColumn time_column(const ChosenTime& choice) const;
+
+  /// Returns what the header names of its own accord, or nothing if that is no position: the first of
+  /// x,y,z; px,py,pz; posx,posy,posz; pos_x,pos_y,pos_z; position_x,position_y,position_z;
+  /// hip_x,hip_y,hip_z; and what is longer than x,y,z as said above. Times are in time, t, timestamp or
+  /// stamp, with a unit at the end, or in sec and nanosec; radii in radius.
+  std::optional<MotionColumns> usual_columns() const;
+
+ private:
+  std::optional<MotionColumn> find_plain(std::string_view name) const;
+  template <class Fits>
+  std::optional<MotionColumn> only(std::string_view name, const Fits& fits) const;
+  std::optional<std::array<MotionColumn, 3>> position_with(const std::string& prefix) const;
+  std::optional<std::array<MotionColumn, 3>> usual_position() const;
+  void find_usual_times(MotionColumns& columns) const;
+
+  const support::CsvReader& file_;
+  std::vector<std::string> names_;
+  std::vector<std::string> plain_;  // names as they are compared
+  std::size_t line_;
+};
+
+}  // namespace touchmark::bench::trajectories
