@@ -8,8 +8,10 @@ namespace touchmark::bench::cli {
 
 void add_motion_selectors(CLI::App& command, contestants::MotionSelectors& motion) {
   command
-      .add_option("--columns", motion.columns,
-                  "of motion files, by name or number: x=COL,y=COL,z=COL[,time=COL][,radius=COL]")
+      .add_option(
+          "--columns", motion.columns,
+          "of motion files, by name or number: x=COL,y=COL,z=COL[,time=COL][,radius=COL]; time_ms, time_us "
+          "or time_ns for a unit, time_s=COL,time_ns=COL for a sum")
       ->type_name("COLUMNS");
   command
       .add_option(

@@ -37,18 +37,6 @@ std::size_t lines_alike(const std::vector<std::string_view>& lines, char separat
   return has_numbers ? alike : 0;
 }
 
-/// A line without a word holds numbers, in which a comma beside semicolons or tabs is a decimal one.
-char most_frequent_separator(std::string_view line) {
-  const auto count = [&](char separator) { return split_fields(line, separator).size() - 1; };
-  const std::size_t commas = count(','), semicolons = count(';'), tabs = count('\t');
-  constexpr std::size_t least = 2;  // three columns
-  if (!has_words(line) && semicolons >= least) return ';';
-  if (!has_words(line) && tabs >= least) return '\t';
-  if (commas + semicolons + tabs == 0) return ' ';
-  if (!has_words(line) || (commas >= semicolons && commas >= tabs)) return ',';
-  return semicolons >= tabs ? ';' : '\t';
-}
-
 }  // namespace
 
 std::string_view trimmed(std::string_view text) noexcept {
@@ -108,16 +96,21 @@ std::vector<std::string> split_fields(std::string_view line, char separator) {
 
 char separator_of(std::string_view text) {
   const std::vector<std::string_view> lines = first_records(text);
-  if (lines.empty()) return ',';
-  char separator = 0;
+  char separator = ' ';
   std::size_t most = 0;
   for (const char candidate : {',', '\t', ';', ' '}) {
     const std::size_t alike = lines_alike(lines, candidate);
-    if (alike <= most) continue;
-    separator = candidate;
-    most = alike;
+    if (alike > most) separator = candidate;
+    most = std::max(most, alike);
   }
-  return most > 0 ? separator : most_frequent_separator(lines.front());
+  if (most > 0 || lines.empty()) return separator;
+  most = 1;
+  for (const char candidate : {',', ';', '\t'}) {
+    const std::size_t fields = split_fields(lines.front(), candidate).size();
+    if (fields > most) separator = candidate;
+    most = std::max(most, fields);
+  }
+  return separator;
 }
 
 }  // namespace touchmark::bench::support

@@ -31,7 +31,7 @@ std::vector<std::string> split_fields(std::string_view line, char separator);
 
 /// Returns what separates the columns of a file that begins with `text`: a comma, tab, semicolon or blank.
 /// It is the one that gives at least one line three numbers, and most lines the same number of fields. If
-/// none gives three numbers, it is the one that stands most often in the first line.
+/// none gives three numbers, it is the one that gives the first line most fields, blanks last.
 char separator_of(std::string_view text);
 
 }  // namespace touchmark::bench::support

@@ -41,12 +41,12 @@ std::vector<ColumnChoice> choices_in(const ChosenColumns& chosen) {
 
 bool is_name(const ColumnChoice& choice) { return std::holds_alternative<std::string>(choice); }
 
-/// True if the field says that a number is missing.
-bool is_missing(std::string_view field) {
-  std::string text(trimmed(field));
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return text == "na" || text == "n/a" || text == "null" || text == "none";
+/// True if the field is a word of a header or a note, not a number or a mark of a missing one.
+bool is_word(std::string_view field) {
+  constexpr std::array<std::string_view, 8> missing = {"NA",   "N/A",  "na",   "n/a",
+                                                       "NULL", "null", "None", "none"};
+  return support::has_words(field) && !support::is_number(field, ' ') &&
+         std::find(missing.begin(), missing.end(), trimmed(field)) == missing.end();
 }
 
 class HeaderReader {
@@ -89,10 +89,6 @@ class HeaderReader {
   bool is_data(const Fields& row, const Fields& first) const;
   void expect_no_data(const Row& above, const Fields& first) const;
   bool looks_like_data(const Row& row) const { return is_data(row.fields, Fields(row.fields.size(), "0")); }
-  auto first_data() const {
-    return std::find_if(above_.begin(), above_.end(), [&](const Row& row) { return looks_like_data(row); });
-  }
-  const Row& nearest_to_a_header() const;
   [[noreturn]] void refuse() const;
   [[noreturn]] void refuse_numbers(const Row& row) const;
   [[noreturn]] void refuse_names(const Row& row) const;
@@ -200,8 +196,7 @@ bool HeaderReader::is_data(const Fields& row, const Fields& first) const {
   std::size_t words = 0, numbers = 0;
   for (std::size_t i = 0; i < std::min(row.size(), first.size()); ++i) {
     if (!is_number(first[i]) || trimmed(row[i]).empty()) continue;
-    const bool is_word = support::has_words(row[i]) && !is_missing(row[i]) && !is_number(row[i]);
-    ++(is_word ? words : numbers);
+    ++(is_word(row[i]) ? words : numbers);
   }
   return words == 0 || words < numbers;
 }
@@ -213,22 +208,23 @@ void HeaderReader::expect_no_data(const Row& above, const Fields& first) const {
                                                shown(fmt::format("{}", fmt::join(above.fields, ",")))));
 }
 
-/// Refuses a row that lacks a chosen column, or has no number there.
+/// Refuses a row that lacks a column that is chosen by number, or has no number there.
 void HeaderReader::refuse_numbers(const Row& row) const {
   std::string text;
   for (const ColumnChoice& choice : choices_) {
-    if (is_name(choice)) continue;
-    const std::size_t number = std::get<std::size_t>(choice);
-    if (number > row.fields.size())
+    const std::size_t* const number = std::get_if<std::size_t>(&choice);
+    if (number == nullptr) continue;
+    if (*number > row.fields.size())
       throw file_.error_at(row.line,
-                           fmt::format("--columns: there is no column {} of {}", number, row.fields.size()));
-    const std::string& field = row.fields[number - 1];
+                           fmt::format("--columns: there is no column {} of {}", *number, row.fields.size()));
+    const std::string& field = row.fields[*number - 1];
     if (text.empty() && !is_number(field))
-      text = fmt::format("column {}: {}", number, no_number(field, file_.separator()));
+      text = fmt::format("column {}: {}", *number, no_number(field, file_.separator()));
   }
   throw file_.error_at(row.line, text);
 }
 
+/// Refuses a row that does not name all wanted columns.
 void HeaderReader::refuse_names(const Row& row) const {
   const std::string text = shown(fmt::format("{}", fmt::join(row.fields, ",")));
   if (looks_like_data(row)) {
@@ -237,43 +233,29 @@ void HeaderReader::refuse_names(const Row& row) const {
                                                text, fmt::join(wanted_, ", ")));
   }
   const MotionNames names(file_, row.fields, row.line);
-  for (const std::string& name : wanted_) {
-    if (names.find(name)) continue;
-    throw file_.error_at(row.line,
-                         chosen_ ? fmt::format("--columns: the header has no column {}", shown(name))
-                                 : fmt::format("the header {} has no column {}: {}", text, name, must_name));
+  if (chosen_) {
+    (void)chosen_columns(names);
+    refuse_numbers(row);
   }
-  if (chosen_) refuse_numbers(row);
-  throw file_.error_at(row.line, fmt::format("the header {}: {}", text, must_name));
-}
-
-/// Returns the row that names most of the wanted columns, else the last one above all numbers.
-const Row& HeaderReader::nearest_to_a_header() const {
-  const auto names_in = [&](const Row& row) {
-    const MotionNames names(file_, row.fields, row.line);
-    return std::count_if(wanted_.begin(), wanted_.end(),
-                         [&](const std::string& name) { return names.find(name).has_value(); });
-  };
-  const auto best = std::max_element(above_.begin(), above_.end(),
-                                     [&](const Row& a, const Row& b) { return names_in(a) < names_in(b); });
-  if (names_in(*best) > 0) return *best;
-  const auto data = first_data();
-  return data == above_.begin() ? *data : *(data - 1);
+  const auto missing = std::find_if(wanted_.begin(), wanted_.end(),
+                                    [&](const std::string& name) { return !names.find(name); });
+  const std::string what = missing == wanted_.end() ? "" : " has no column " + *missing;
+  throw file_.error_at(row.line, fmt::format("the header {}{}: {}", text, what, must_name));
 }
 
 /// No row is a header, or has the numbers. Refuses the one that comes nearest.
 void HeaderReader::refuse() const {
   if (above_.empty()) throw file_.error("the file is empty: it needs a header that names x, y and z");
-  if (!wanted_.empty()) refuse_names(nearest_to_a_header());
-  const auto longest = std::max_element(above_.begin(), above_.end(), [](const Row& a, const Row& b) {
-    return a.fields.size() < b.fields.size();
-  });
-  const bool is_short = std::any_of(choices_.begin(), choices_.end(), [&](const ColumnChoice& choice) {
-    return std::get<std::size_t>(choice) > longest->fields.size();
-  });
-  if (is_short) refuse_numbers(*longest);
-  const auto first = first_data();
-  if (first != above_.end()) refuse_numbers(*first);
+  const auto names_in = [&](const Row& row) {
+    const MotionNames names(file_, row.fields, row.line);
+    return std::count_if(wanted_.begin(), wanted_.end(),
+                         [&](const std::string& name) { return names.find(name).has_value(); });
+  };
+  if (!wanted_.empty())
+    refuse_names(*std::max_element(above_.begin(), above_.end(),
+                                   [&](const Row& a, const Row& b) { return names_in(a) < names_in(b); }));
+  for (const Row& row : above_)
+    if (looks_like_data(row)) refuse_numbers(row);
   throw file_.error_at(above_.back().line, "no row follows the header");
 }
 

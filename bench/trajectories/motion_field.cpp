@@ -54,47 +54,25 @@ std::optional<int> decimals_of_date(double value) noexcept {
   return std::nullopt;
 }
 
-Instant instant_of(std::string_view number, int decimals) {
-  constexpr std::size_t places = 18;      // of attoseconds
-  constexpr long max_exponent = 100'000;  // only of a zero
+std::int64_t nanoseconds_of(std::string_view number, int decimals) {
   number = trimmed(number);
+  if (number.starts_with('+')) number.remove_prefix(1);
   const std::size_t mark = std::min(number.find_first_of("eE"), number.size());
-  long exponent = 0;
+  std::string digits(number.substr(0, mark));
+  long places = 9 - decimals;
   if (mark < number.size()) {
-    std::string_view power = number.substr(mark + 1);
-    if (power.starts_with('+')) power.remove_prefix(1);
-    const auto failure = std::from_chars(power.data(), power.data() + power.size(), exponent).ec;
-    if (failure == std::errc::result_out_of_range) exponent = 0;
-    exponent = std::clamp(exponent, -max_exponent, max_exponent);
+    const std::size_t power = mark + (number.substr(mark + 1).starts_with('+') ? 2 : 1);
+    long exponent = 0;
+    std::from_chars(number.data() + power, number.data() + number.size(), exponent);
+    places += exponent;
   }
-  std::string digits;
-  std::optional<std::size_t> point;
-  for (const char c : number.substr(0, mark)) {
-    if (c >= '0' && c <= '9') digits.push_back(c);
-    if (c == '.' || c == ',') point = digits.size();
-  }
-  const long before = static_cast<long>(point.value_or(digits.size())) + exponent - decimals;
-  if (before < 0) digits.insert(0, static_cast<std::size_t>(-before), '0');
-  const auto whole = static_cast<std::size_t>(std::max(before, 0L));
-  digits.resize(std::max(digits.size(), whole) + places, '0');
-  Instant instant;
-  std::from_chars(digits.data(), digits.data() + whole, instant.whole_s);
-  std::from_chars(digits.data() + whole, digits.data() + whole + places, instant.attoseconds);
-  return number.starts_with('-') ? Instant{-instant.whole_s, -instant.attoseconds} : instant;
-}
-
-double seconds_between(const Instant& start, const Instant& end) {
-  constexpr std::int64_t second = 1'000'000'000'000'000'000;
-  double whole = end.whole_s - start.whole_s;
-  std::int64_t rest = end.attoseconds - start.attoseconds;  // of less than 2 s
-  if (whole > 0 && rest < 0) {
-    whole -= 1;
-    rest += second;
-  } else if (whole < 0 && rest > 0) {
-    whole += 1;
-    rest -= second;
-  }
-  return whole + static_cast<double>(rest) / static_cast<double>(second);
+  const std::size_t point = std::min(digits.find_first_of(".,"), digits.size());
+  if (point < digits.size()) digits.erase(point, 1);
+  const long most = static_cast<long>(digits.size()) + 19;  // more only if all are 0
+  digits.resize(static_cast<std::size_t>(std::clamp(static_cast<long>(point) + places, 0L, most)), '0');
+  std::int64_t nanoseconds = 0;
+  std::from_chars(digits.data(), digits.data() + digits.size(), nanoseconds);
+  return nanoseconds;
 }
 
 }  // namespace touchmark::bench::trajectories

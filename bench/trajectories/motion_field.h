@@ -32,21 +32,12 @@ class NumberReader {
   char decimal_ = 0;  // the first that was seen
 };
 
-/// A moment to 1e-18 s, so that times since 1970 can be subtracted without loss.
-struct Instant {
-  double whole_s = 0;            ///< a whole number
-  std::int64_t attoseconds = 0;  ///< less than 1 s, of the sign of the whole
-};
-
 /// Returns the decimals of the unit (0 for s, 3, 6, 9) in which the value is a time since 1970, from 1990 to
 /// 2100; nothing if it is none.
 std::optional<int> decimals_of_date(double value) noexcept;
 
-/// Returns the moment of a number that NumberReader has read. Its unit is 1 s, or 1e-3 s for 3 decimals and
-/// so on.
-Instant instant_of(std::string_view number, int decimals);
-
-/// Returns the seconds from `start` to `end`, rounded once if they are less than one, else twice.
-double seconds_between(const Instant& start, const Instant& end);
+/// Returns the nanoseconds of a time that NumberReader has read, of less than 9e9 s, rounded towards 0. Its
+/// unit is 1 s, or 1e-3 s for 3 decimals and so on.
+std::int64_t nanoseconds_of(std::string_view number, int decimals);
 
 }  // namespace touchmark::bench::trajectories

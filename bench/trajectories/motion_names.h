@@ -1,6 +1,7 @@
 /// The names in a motion file's header.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -12,10 +13,9 @@
 
 namespace touchmark::bench::trajectories {
 
-/// Finds columns by name. Of several columns the one whose name is written just so is found, else the one
-/// that differs in capitals, separators of words, a mark % or # before it and a unit in brackets behind it;
-/// else the one that is longer by field, header, stamp, pose, position, point, transform or translation
-/// before it, or by p or t and frames before x, y and z, as in p_RS_R_x.
+/// Finds columns by name: the one whose name is written just so, else the one that differs in capitals,
+/// separators of words, a mark % or # before it and a unit in brackets behind it; else the one that has
+/// field, header, stamp, pose, position, point, transform or translation before it.
 class MotionNames {
  public:
   /// `line` is for messages; `names` are empty if there is no header.
@@ -28,18 +28,18 @@ class MotionNames {
   /// Returns the column with the unit of its choice, else with the unit that its name states.
   TimeColumn time_column(const ChosenTime& choice) const;
 
-  /// Returns what the header names of its own accord, or nothing if that is no position: the first of
-  /// x,y,z; px,py,pz; posx,posy,posz; pos_x,pos_y,pos_z; position_x,position_y,position_z;
-  /// hip_x,hip_y,hip_z; and what is longer than x,y,z as said above. Times are in time, t, timestamp or
-  /// stamp, with a unit at the end, or in sec and nanosec; radii in radius.
+  /// Returns the columns of the usual names, or nothing if they are no position. A position is the first of
+  /// x,y,z; px,py,pz; posx,...; pos_x,...; position_x,...; hip_x,...; tx,...; p_x,...; t_x,...; p_RS_R_x,...
+  /// that is whole. Times are in time, t, timestamp or stamp, with a unit at the end, or in sec and nanosec;
+  /// radii in radius.
   std::optional<MotionColumns> usual_columns() const;
 
  private:
-  std::optional<MotionColumn> find_plain(std::string_view name) const;
+  std::optional<MotionColumn> find_whole(std::string_view name) const;
+  std::optional<MotionColumn> find_part(std::string_view name) const;
+  std::optional<std::array<MotionColumn, 3>> usual_position() const;
   template <class Fits>
   std::optional<MotionColumn> only(std::string_view name, const Fits& fits) const;
-  std::optional<std::array<MotionColumn, 3>> position_with(const std::string& prefix) const;
-  std::optional<std::array<MotionColumn, 3>> usual_position() const;
   void find_usual_times(MotionColumns& columns) const;
 
   const support::CsvReader& file_;

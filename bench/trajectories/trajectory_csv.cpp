@@ -24,6 +24,7 @@ namespace {
 constexpr double max_ticks = 100'000'000;  // of a resampled motion, as of --steps
 constexpr double bytes_a_tick = 256;       // here and in the workers
 constexpr double min_origin_s = 1e6;       // doubles below hold times to 1e-10 s
+constexpr double max_origin_s = 9e9;       // 64 bits hold nanoseconds of less
 
 double unit_s(int decimals) { return decimals == 0 ? 1 : decimals == 3 ? 1e-3 : decimals == 6 ? 1e-6 : 1e-9; }
 
@@ -68,8 +69,8 @@ class MotionReader {
   std::size_t first_line_;  // of the first row
   Trajectory motion_;
   std::vector<std::size_t> lines_;  // of rows with times
-  std::optional<Instant> origin_;   // from which times are counted; nothing for 0
-  double origin_s_ = 0;
+  double origin_s_ = 0;             // from which times are counted
+  std::int64_t origin_ns_ = 0;
 };
 
 /// Spreadsheets leave rows of empty fields, and empty fields at the end of rows.
@@ -105,28 +106,27 @@ double MotionReader::coordinate(const MotionColumn& column) {
 
 /// Returns the row's time in seconds; of a motion since 1970, after its first row.
 double MotionReader::time_of_row() {
-  auto& [whole, decimals] = *columns_.time;
-  const double value = numbers_.read(row_[whole.index], whole.name);
-  if (!decimals) decimals = decimals_of_date(value).value_or(0);
-  Instant instant = instant_of(row_[whole.index], *decimals);
-  double time = value * unit_s(*decimals);
-  if (columns_.time_rest) {
-    const auto& [rest, rest_decimals] = *columns_.time_rest;
-    const Instant added = instant_of(row_[rest.index], *rest_decimals);
-    if (instant.attoseconds != 0)
-      throw file_.error(fmt::format("column {}: {} is not whole seconds, to which column {} is added",
-                                    whole.name, shown(trimmed(row_[whole.index])), rest.name));
-    if (numbers_.read(row_[rest.index], rest.name) < 0 || added.whole_s != 0)
-      throw file_.error(fmt::format("column {}: {} is not from 0 to less than 1 s, to be added to column {}",
-                                    rest.name, shown(trimmed(row_[rest.index])), whole.name));
-    instant.attoseconds = added.attoseconds;
-    time = seconds_between({}, instant);
+  auto& [column, decimals] = *columns_.time;
+  const auto field = [&](const TimeColumn& time) { return trimmed(row_[time.column.index]); };
+  double time = numbers_.read(row_[column.index], column.name);
+  if (!decimals) decimals = decimals_of_date(time).value_or(0);
+  time *= unit_s(*decimals);
+  const double whole = time;
+  if (const std::optional<TimeColumn>& rest = columns_.time_rest) {
+    const double part = numbers_.read(row_[rest->column.index], rest->column.name) * unit_s(*rest->decimals);
+    if (whole != std::floor(whole) || !(part >= 0 && part < 1))
+      throw file_.error(fmt::format("columns {} and {}: {} and {} are not whole seconds and less than one",
+                                    column.name, rest->column.name, shown(field(*columns_.time)),
+                                    shown(field(*rest))));
+    time += part;
   }
-  if (motion_.times_s.empty() && std::abs(time) >= min_origin_s) {
-    origin_ = instant;
-    origin_s_ = time;
-  }
-  return origin_ ? seconds_between(*origin_, instant) : time;
+  if (motion_.times_s.empty() && std::abs(time) >= min_origin_s) origin_s_ = time;
+  if (origin_s_ == 0) return time;
+  if (std::max(std::abs(time), std::abs(origin_s_)) > max_origin_s) return time - origin_s_;
+  std::int64_t nanoseconds = nanoseconds_of(field(*columns_.time), *decimals);
+  if (const auto& rest = columns_.time_rest) nanoseconds += nanoseconds_of(field(*rest), *rest->decimals);
+  if (motion_.times_s.empty()) origin_ns_ = nanoseconds;
+  return static_cast<double>(nanoseconds - origin_ns_) / 1e9;
 }
 
 void MotionReader::add_time() {

@@ -197,7 +197,7 @@ TEST_F(TrajectoryCsv, ColumnsAreChosenByNameOrNumber) {
     EXPECT_EQ(chosen.positions, two) << text;
     EXPECT_TRUE(chosen.times_s.empty()) << text;
   }
-  EXPECT_EQ(complaint("a,b\n1,2\n", options), "path.csv:1: --columns: there is no column 3 of 2");
+  EXPECT_EQ(complaint("a,b\n1,2\n", options), "path.csv:2: --columns: there is no column 3 of 2");
   options.columns = parse_columns("x=a,y=b,z=Q");
   EXPECT_EQ(complaint("a,b\n1,2\n", options), "path.csv:1: --columns: the header has no column 'Q'");
 }
@@ -289,9 +289,9 @@ TEST_F(TrajectoryCsv, ReadsLogsOfRos2InSecondsAndNanoseconds) {
       "time does not read times)");
   const MotionOptions chosen = parse_motion_options("time_s=1,time_ns=2,x=3,y=4,z=5", "", "");
   EXPECT_EQ(complaint("1,1000000000,0,0,0\n", chosen),
-            "path.csv:1: column 2: '1000000000' is not from 0 to less than 1 s, to be added to column 1");
+            "path.csv:1: columns 1 and 2: '1' and '1000000000' are not whole seconds and less than one");
   EXPECT_EQ(complaint("1.5,0,0,0,0\n", chosen),
-            "path.csv:1: column 1: '1.5' is not whole seconds, to which column 2 is added");
+            "path.csv:1: columns 1 and 2: '1.5' and '0' are not whole seconds and less than one");
 }
 
 TEST_F(TrajectoryCsv, ReadsTumEurocAndMotive) {
@@ -319,9 +319,9 @@ TEST_F(TrajectoryCsv, ReadsTumEurocAndMotive) {
   EXPECT_EQ(
       complaint("Frame,Time,X,Y,Z\n0,0.000,,,\n1,0.001,0,0,0\n", parse_motion_options("x=3,y=4,z=5", "", "")),
       "path.csv:2: column 3: '' is not a number");
-  EXPECT_EQ(complaint("p_1_x,p_1_y,p_1_z,p_2_x,p_2_y,p_2_z\n1,2,3,4,5,6\n"),
-            "path.csv:1: the header names two positions: 'p_1_x' is column 1, 'p_2_x' is column 4 (--columns "
-            "x=COL,y=COL,z=COL takes one of them)");
+  EXPECT_EQ(complaint("pose.x,pose.y,pose.z,transform.x,transform.y,transform.z\n1,2,3,4,5,6\n"),
+            "path.csv:1: the header names column x twice: 'pose.x' is column 1, 'transform.x' is column 4 "
+            "(--columns x=COL,y=COL,z=COL[,time=COL] takes columns by number)");
 }
 
 TEST_F(TrajectoryCsv, TimesSince1970AreSubtractedExactly) {
