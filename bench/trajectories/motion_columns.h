@@ -19,18 +19,18 @@ struct MotionColumn {
 
 struct TimeColumn {
   MotionColumn column;
-  std::optional<int> decimals;  ///< of its unit, as in ChosenTime; nothing if no name states the unit
+  std::optional<int> decimals;  ///< the unit, as in ChosenTime; nothing if no name states it
 };
 
 struct MotionColumns {
   std::array<MotionColumn, 3> position;
   std::optional<MotionColumn> radius;
   std::optional<TimeColumn> time;
-  std::optional<TimeColumn> time_rest;  ///< where `time` has whole seconds: what is added to them
+  std::optional<TimeColumn> time_rest;  ///< what is added to `time`, which has whole seconds then
   bool guessed_times = false;           ///< the times were recognised by their first values, not chosen
   std::size_t min_count = 0;            ///< columns in all, without empty ones at the end
   std::size_t count = 0;                ///< columns in all
-  std::size_t line = 0;                 ///< of the header, or of the first row
+  std::size_t line = 0;                 ///< the header's line, or the first row's
 };
 
 /// Reads the next row that holds more than blanks; false at the end.

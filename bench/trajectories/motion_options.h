@@ -25,7 +25,7 @@ struct ChosenColumns {
   std::array<ColumnChoice, 3> position;
   std::optional<ColumnChoice> radius;
   std::optional<ChosenTime> time;
-  std::optional<ChosenTime> time_rest;  ///< where `time` has whole seconds: what is added to them
+  std::optional<ChosenTime> time_rest;  ///< what is added to `time`, which has whole seconds then
 };
 
 struct MotionOptions {
