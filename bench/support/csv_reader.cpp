@@ -48,7 +48,8 @@ void CsvReader::accept_any_dialect() {
     fill();
     separator_ = separator_of({buffer_.data() + at_, filled_ - at_});
   }
-  if (separator_ == '"' || separator_ == '\r' || separator_ == '\n')
+  const bool is_ascii = static_cast<unsigned char>(separator_) < 0x80;
+  if (!is_ascii || separator_ == '"' || separator_ == '\r' || separator_ == '\n')
     throw error("the first line names no separator");
 }
 

@@ -12,8 +12,8 @@ namespace touchmark::bench::trajectories {
 /// Reads a motion file: a header that names the columns (bench/trajectories/motion_columns.h says how, or
 /// `options` do), then one row a tick. Commas, tabs, semicolons or blanks separate; where no comma does,
 /// numbers may have decimal commas. Quoted fields, lines that end with CRLF or CR, a UTF-8 byte-order mark,
-/// comment lines (#, %, //), a first line "sep=;", empty rows and a missing last newline are accepted. At most
-/// `most` steps are kept, 0 means all. The trajectory's name is the path.
+/// comment lines (#, %, //), a first line "sep=;", empty rows and a missing last newline are accepted. At
+/// most `most` steps are kept, 0 means all. The trajectory's name is the path.
 ///
 /// Coordinates and the file's radii are multiplied with options.scale. Times must ascend. With
 /// options.rate_hz the steps are the ticks of a clock of that rate, between rows by linear interpolation;

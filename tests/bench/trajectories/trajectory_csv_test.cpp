@@ -355,6 +355,7 @@ TEST_F(TrajectoryCsv, BlanksSeparateAndCarriageReturnsEndLines) {
        }) {
     EXPECT_EQ(read(text).positions, two) << text;
   }
+  EXPECT_EQ(complaint("sep=\xff\nx,y,z\n1,2,3\n"), "path.csv: the first line names no separator");
   EXPECT_EQ(complaint("x,y,z\r1,2,3\r\r1,two,3\r"), "path.csv:4: column y: 'two' is not a number");
 }
 
