@@ -62,8 +62,12 @@ std::vector<Candidate> candidates_of(const std::vector<std::vector<measurement::
   for (const std::vector<measurement::ResultRow>& rows : motions) {
     for (const measurement::ResultRow& row : rows) {
       auto candidate = std::ranges::find(candidates, row.contestant(), &Candidate::contestant);
-      if (candidate == candidates.end())
-        candidate = candidates.insert(candidate, {row.detector, row.options, "ok", row.claims_exactness()});
+      if (candidate == candidates.end()) {
+        candidate = candidates.emplace(candidate);
+        candidate->detector = row.detector;
+        candidate->options = row.options;
+        candidate->claims_exactness = row.claims_exactness();
+      }
       add(*candidate, row);
     }
   }
