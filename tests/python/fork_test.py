@@ -274,17 +274,17 @@ class Pickles(unittest.TestCase):
         stop = threading.Event()
 
         def change():
-            sizes = iter(range(1, 10**9))
-            while not stop.is_set():
-                pair = [scene.add(touchmark.Sphere(next(sizes)), (0, 0, 1)) for _ in range(2)]
-                scene.remove(pair[0])
+            for size in range(1, 300):
+                scene.remove(scene.add(touchmark.Sphere(size)))
+                if stop.is_set():
+                    return
         thread = threading.Thread(target=change)
         thread.start()
         try:
-            for _ in range(20):
+            while thread.is_alive():
                 other = pickle.loads(pickle.dumps(scene))
-                for shape in list(other._shapes):
-                    other.add(shape)
+                other.remove(other.add(touchmark.Sphere(1)))
+                other.add(touchmark.Sphere(max((shape.radius for shape in other._shapes), default=1)))
         finally:
             stop.set()
             thread.join()
