@@ -1,4 +1,4 @@
-/// Where packages of ROS lie, for the package:// addresses in a robot's file.
+/// Finds the folders of ROS packages, for the package:// addresses in a robot's file.
 #pragma once
 
 #include <filesystem>
