@@ -23,7 +23,7 @@ DracoMesh decode_draco(std::string_view bytes, std::uint32_t positions) {
   result.vertices.reserve(mesh.num_points());
   for (draco::PointIndex i(0); i < mesh.num_points(); ++i) {
     const draco::AttributeValueIndex value = attribute->mapped_index(i);
-    if (value >= attribute->size())
+    if (value.value() >= attribute->size())
       throw MeshError("Draco's data has no position of vertex " + std::to_string(i.value()));
     std::array<float, 3> position;
     attribute->GetValue(value, position.data());
