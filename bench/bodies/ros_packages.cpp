@@ -64,7 +64,7 @@ RosPackages::RosPackages(const std::vector<std::string>& given) {
   }
 }
 
-fs::path RosPackages::folder_of(const std::string& name) const {
+std::optional<fs::path> RosPackages::folder_of(const std::string& name) const {
   constexpr int max_depth = 8;
   const auto by_hand = std::ranges::find(given_, name, [](const auto& one) { return one.first; });
   if (by_hand != given_.end()) return by_hand->second;
@@ -74,11 +74,8 @@ fs::path RosPackages::folder_of(const std::string& name) const {
     if (fs::is_directory(folder, ignored)) return folder;
   }
   for (const std::string& folder : folders_of("ROS_PACKAGE_PATH"))
-    if (std::optional<fs::path> found = found_below(folder, name, max_depth)) return *std::move(found);
-  throw std::invalid_argument(
-      fmt::format("package \"{0}\" is in neither ROS_PACKAGE_PATH nor AMENT_PREFIX_PATH: say where it is, "
-                  "--package {0}=DIR",
-                  name));
+    if (std::optional<fs::path> found = found_below(folder, name, max_depth)) return found;
+  return std::nullopt;
 }
 
 }  // namespace touchmark::bench::bodies

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace touchmark::bench::bodies {
@@ -15,9 +17,9 @@ class RosPackages {
   /// folder.
   explicit RosPackages(const std::vector<std::string>& given);
 
-  /// Returns the package's folder. Throws std::invalid_argument, naming the package and the option that
+  /// Returns the package's folder; nothing where no package of this name is found.
   /// helps.
-  std::filesystem::path folder_of(const std::string& name) const;
+  std::optional<std::filesystem::path> folder_of(const std::string& name) const;
 
  private:
   std::vector<std::pair<std::string, std::filesystem::path>> given_;
