@@ -18,7 +18,6 @@ class RosPackages {
   explicit RosPackages(const std::vector<std::string>& given);
 
   /// Returns the package's folder; nothing where no package of this name is found.
-  /// helps.
   std::optional<std::filesystem::path> folder_of(const std::string& name) const;
 
  private:
