@@ -1,7 +1,6 @@
 #include "core/mesh_io/gltf_draco.h"
 
 #include <array>
-#include <exception>
 
 #include <draco/compression/decode.h>
 

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <map>
 #include <optional>
@@ -16,7 +15,6 @@
 #include "core/mesh_io/gltf_accessor.h"
 #include "core/mesh_io/gltf_document.h"
 #include "core/mesh_io/gltf_primitive.h"
-#include "core/mesh_io/mesh_file.h"
 
 namespace touchmark::mesh_io {
 namespace {
