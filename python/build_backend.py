@@ -28,7 +28,7 @@ class BuildWithCMake(build_ext):
         folder.mkdir(parents=True, exist_ok=True)
         options = ["-DCMAKE_BUILD_TYPE=Release", "-DTOUCHMARK_BUILD_PYTHON=ON", f"-DPython_EXECUTABLE={sys.executable}",
                    f"-Dpybind11_DIR={pybind11.get_cmake_dir()}", f"-DTOUCHMARK_PYTHON_FOLDER={made.parent}"]
-        options += [f"-DTOUCHMARK_BUILD_{part}=OFF" for part in ("BENCH", "TESTS", "MESH_IO", "C")]
+        options += [f"-DTOUCHMARK_BUILD_{part}=OFF" for part in ("BENCH", "TESTS", "MESH_IO", "C")] + ["-DTOUCHMARK_INSTALL=OFF"]
         if shutil.which("ninja"):
             options += ["-G", "Ninja"]
         subprocess.run(["cmake", "-S", str(ROOT), "-B", str(folder), *options], check=True)

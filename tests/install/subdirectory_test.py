@@ -83,7 +83,8 @@ class Subdirectory(unittest.TestCase):
         self.configure("apart", *SHARED, "-DTOUCHMARK_BUILD_C=ON", "-DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON")
         commands = json.loads((FOLDER / "apart" / "compile_commands.json").read_text(encoding="utf-8"))
         ours = {pathlib.Path(entry["file"]) for entry in commands if "CMakeFiles/touchmark_" in entry["command"]}
-        self.assertEqual(ours, set((SOURCE / "core").rglob("*.cpp")))
+        # Draco's reader has a stand-in, for where the library is missing.
+        self.assertEqual(ours, {path for path in (SOURCE / "core").rglob("*.cpp") if path.name != "gltf_draco_missing.cpp"})
         run("ninja", "-C", FOLDER / "apart", *(
             f"touchmark/core/CMakeFiles/touchmark_core.dir/{name}.cpp.o" for name in ("scene/pose", "triangle_mesh")))
 
