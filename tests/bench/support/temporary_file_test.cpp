@@ -1,4 +1,4 @@
-/// Where temporary files are made, and what is said where they cannot be.
+/// Tests that temporary files lie in TMPDIR, and that an unusable folder is named.
 #include "bench/support/temporary_file.h"
 
 #include <cstdio>
