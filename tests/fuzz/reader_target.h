@@ -23,7 +23,7 @@ inline void require_usable(const TriangleMesh& mesh, std::size_t bytes) {
   for (const Vec3& vertex : mesh.vertices()) require(vertex.allFinite(), "a vertex that is not finite");
 }
 
-/// Bounds the length of a message, whatever the bytes are.
+/// Requires a message to be one line, whatever bytes the input has.
 inline void require_one_line(std::string_view message) {
   for (const char c : message)
     require(c != '\n' && c != '\r' && c != '\0' && c != '\x1b', "a message of more than one line");
