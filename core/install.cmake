@@ -1,5 +1,5 @@
 # Headers are included as core/... here and as touchmark/... by users: #include <touchmark/grid_group.h>. With
-# TOUCHMARK_INSTALL, touchmark::core, and touchmark::mesh_io and touchmark::c where they are built, are installed for
+# TOUCHMARK_INSTALL, touchmark::core, and the other libraries where they are built, are installed for
 # find_package and for pkg-config.
 include(installed_headers.cmake)
 set(touchmark_include ${CMAKE_CURRENT_BINARY_DIR}/include)
@@ -81,6 +81,10 @@ endfunction()
 
 function(touchmark_install_mesh_io)
   touchmark_install_library(mesh_io)
+endfunction()
+
+function(touchmark_install_mesh_io_assimp)
+  touchmark_install_library(mesh_io_assimp)
 endfunction()
 
 function(touchmark_install_c)

@@ -12,8 +12,8 @@
 #include "bench/bodies/poses_csv.h"
 #include "bench/bodies/scene_json.h"
 #include "bench/bodies/urdf.h"
+#include "bench/scenes/mesh_import.h"
 #include "bench/support/did_you_mean.h"
-#include "core/mesh_io/mesh_io.h"
 
 namespace touchmark::bench::bodies {
 namespace {
@@ -27,7 +27,7 @@ std::string unused(const std::string& name, std::set<std::string>& names) {
 }
 
 BodyScene read_node_tree(const std::string& path) {
-  NodeTree tree = load_node_tree(path);
+  NodeTree tree = scenes::import_node_tree(path);
   BodyScene scene;
   for (TriangleMesh& mesh : tree.meshes)
     scene.shapes.push_back(std::make_shared<const TriangleMesh>(std::move(mesh)));

@@ -17,9 +17,9 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include "bench/bodies/primitives.h"
+#include "bench/scenes/mesh_import.h"
 #include "bench/scenes/surface_builder.h"
 #include "bench/support/text_file.h"
-#include "core/mesh_io/mesh_io.h"
 #include "core/scene/primitives.h"
 
 namespace touchmark::bench::bodies {
@@ -143,7 +143,7 @@ class UrdfReader {
     const Vec3 scale = vector_of(mesh.scale);
     const auto key = std::tuple(mesh.filename, scale.x(), scale.y(), scale.z());
     if (const auto known = meshes_.find(key); known != meshes_.end()) return known->second;
-    return meshes_[key] = added(std::nullopt, stretched(load_mesh(file_of(mesh.filename)), scale));
+    return meshes_[key] = added(std::nullopt, stretched(scenes::import_mesh(file_of(mesh.filename)).mesh, scale));
   }
 
   std::filesystem::path file_of(const std::string& address) const {

@@ -56,7 +56,7 @@ void require_memory_for(const Request& request, std::uint64_t triangles, std::ui
 }
 
 /// A file is read whole, and its mesh takes about as much again.
-MeshFile load_file(const fs::path& file) {
+ImportedMesh load_file(const fs::path& file) {
   std::error_code ignored;
   if (fs::is_regular_file(file, ignored)) {
     const std::uintmax_t size = fs::file_size(file, ignored);
@@ -64,7 +64,7 @@ MeshFile load_file(const fs::path& file) {
       support::require_memory(fmt::format("mesh {}: {} bytes", file.string(), size),
                               2 * static_cast<double>(size));
   }
-  return load_mesh_file(file);
+  return import_mesh(file);
 }
 
 TriangleMesh make_icosphere(const Request& request) {
@@ -253,15 +253,15 @@ TriangleMesh modified(TriangleMesh mesh, const Modifier& modifier) {
                   support::near_names(request.name.substr(0, request.name.find(':')), known)));
 }
 
-MeshFile load_unmodified(Request& request) {
+ImportedMesh load_unmodified(Request& request) {
   const std::size_t colon = request.name.find(':');
   const std::string name = request.name.substr(0, colon);
   if (colon != std::string::npos) request.parameter = request.name.substr(colon + 1);
   for (const Scene& scene : all_scenes) {
-    if (name_in(scene.form) == name) return {scene.make(request), "", ""};
+    if (name_in(scene.form) == name) return {{scene.make(request), "", ""}};
   }
   for (const SizedScene& scene : sized_scenes()) {
-    if (name_in(scene.form) == name) return {make_sized(scene, request), "", ""};
+    if (name_in(scene.form) == name) return {{make_sized(scene, request), "", ""}};
   }
   std::error_code ignored;
   const auto has = [&](const char* any) { return request.name.find_first_of(any) != std::string::npos; };
@@ -299,10 +299,10 @@ bool is_named(const std::string& text) {
 
 std::string default_scene() { return has_bunny() ? "bunny" : "icosphere:6"; }
 
-MeshFile load_with_frame(const std::string& name, bool normalize) {
+ImportedMesh load_with_frame(const std::string& name, bool normalize) {
   Request request{name, std::nullopt, name};
   const std::vector<Modifier> modifiers = split_modifiers(request);
-  MeshFile file = load_unmodified(request);
+  ImportedMesh file = load_unmodified(request);
   try {
     for (const Modifier& modifier : modifiers) file.mesh = modified(std::move(file.mesh), modifier);
   } catch (const MeshError& error) {

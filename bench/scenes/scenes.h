@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/mesh_io/mesh_io.h"
+#include "bench/scenes/mesh_import.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::bench::scenes {
@@ -41,6 +41,6 @@ TriangleMesh load_scene(const std::string& name);
 TriangleMesh load_mesh(const std::string& name, bool normalize);
 
 /// Returns the same with what the file says of its axes and unit; both are empty for a generated mesh.
-MeshFile load_with_frame(const std::string& name, bool normalize);
+ImportedMesh load_with_frame(const std::string& name, bool normalize);
 
 }  // namespace touchmark::bench::scenes

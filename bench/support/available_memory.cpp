@@ -26,13 +26,16 @@ std::optional<std::uint64_t> free_memory() {
 std::optional<std::uint64_t> room_within_limit() {
   rlimit limit{};
   if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return std::nullopt;
-  std::uint64_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  const std::uint64_t taken = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-  return limit.rlim_cur - std::min<std::uint64_t>(taken, limit.rlim_cur);
+  return limit.rlim_cur - std::min<std::uint64_t>(address_space(), limit.rlim_cur);
 }
 
 }  // namespace
+
+std::uint64_t address_space() {
+  std::uint64_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+}
 
 std::optional<std::uint64_t> available_memory() {
   const std::optional<std::uint64_t> free = free_memory(), room = room_within_limit();

@@ -12,6 +12,9 @@ namespace touchmark::bench::support {
 /// budget that anybody can state; nothing where the system does not say.
 std::optional<std::uint64_t> available_memory();
 
+/// Bytes of this process's address space.
+std::uint64_t address_space();
+
 /// Throws ResourceError("WHAT need about N MB of memory, and M MB are available") where there is less. Any
 /// number of bytes, infinity too.
 void require_memory(std::string_view what, double bytes);

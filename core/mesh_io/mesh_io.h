@@ -1,4 +1,4 @@
-/// Meshes from files.
+/// Meshes from files, by strict readers.
 #pragma once
 
 #include <cstddef>
@@ -12,17 +12,19 @@ namespace touchmark {
 
 /// Reads a mesh, its coordinates in the axes that the file has them in; the id of a triangle is the number of
 /// its face in the file, from 0, and the triangles cut from a polygon share it. PLY, OBJ, OFF, STL, glTF and
-/// COLLADA (by the file's ending, of any case) are read strictly and keep every double of the file; every
-/// other format goes through assimp, which keeps single precision. The parts of a file follow one another in
-/// the order of its nodes. Throws MeshError("PATH: what is wrong", with the place) for everything else than a
-/// mesh that can be used.
+/// COLLADA (by the file's ending, of any case) are read strictly and keep every double of the file. The parts
+/// of a file follow one another in the order of its nodes. Throws MeshError("PATH: what is wrong", with the
+/// place) for everything else than a mesh that can be used. mesh_io_assimp.h has a call for other formats.
 TriangleMesh load_mesh(const std::filesystem::path& path);
+
+/// True if the file's ending is one that load_mesh reads.
+bool is_read_strictly(const std::filesystem::path& path);
 
 /// A mesh and what is known of its frame.
 struct MeshFile {
   TriangleMesh mesh;
   std::string axes;  ///< "as written", or with what the file says: "as written (the file says Z_UP)"
-  std::string unit;  ///< "none stated", or "0.001 m, from the file", which has been applied
+  std::string unit;  ///< "none stated", "not known: ...", or "0.001 m, from the file", which is applied
 };
 
 /// Reads a mesh as load_mesh does.

@@ -215,18 +215,21 @@ class Install(unittest.TestCase):
         self.assertEqual({name for name in shown if not weak_of_the_standard_library(name)}, declared)
         self.assertGreater(len(declared), 10)
 
-    def test_a_program_that_reads_files_asks_for_mesh_io(self):
-        source = self.source / "reader"
-        source.mkdir()
-        shutil.copy(HERE / "CMakeLists.txt", source)
-        (source / "example.cpp").write_text(
-            "#include <touchmark/mesh_io.h>\n"
-            "int main(int, char** a) { return touchmark::load_mesh(a[1]).size() == 1 ? 0 : 1; }\n", encoding="utf-8")
-        (source / "one.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", encoding="utf-8")
-        build = source / "build"
-        run("cmake", "-S", source, "-B", build, *self.package, "-DLIBRARY=mesh_io")
-        run("cmake", "--build", build)
-        run(build / "example", source / "one.off")
+    def test_a_program_that_reads_files_asks_for_what_reads_them(self):
+        triangle = (("one.off", "mesh_io", "load_mesh", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"),
+                    ("one.raw", "mesh_io_assimp", "load_mesh_with_assimp", "part\n0 0 0 1 0 0 0 1 0\n"))
+        for file, library, function, content in triangle:
+            source = self.source / library
+            source.mkdir()
+            shutil.copy(HERE / "CMakeLists.txt", source)
+            (source / "example.cpp").write_text(
+                f"#include <touchmark/{library}.h>\n"
+                f"int main(int, char** a) {{ return touchmark::{function}(a[1]).size() == 1 ? 0 : 1; }}\n", encoding="utf-8")
+            (source / file).write_text(content, encoding="utf-8")
+            build = source / "build"
+            run("cmake", "-S", source, "-B", build, *self.package, f"-DLIBRARY={library}")
+            run("cmake", "--build", build)
+            run(build / "example", source / file)
 
     def test_a_plug_in_has_the_library_inside_and_can_be_loaded(self):
         source = self.source / "plugin"

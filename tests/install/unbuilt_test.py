@@ -46,7 +46,7 @@ class Unbuilt(unittest.TestCase):
     def test_nothing_is_installed_of_a_build_that_never_ran(self):
         done = self.install()
         self.assertEqual(done.returncode, 1)
-        for target in ("touchmark_core", "touchmark_mesh_io", "touchmark_c", "touchmark"):
+        for target in ("touchmark_core", "touchmark_mesh_io", "touchmark_mesh_io_assimp", "touchmark_c", "touchmark"):
             self.assertIn(f"Not built, so not installed: {target} (", done.stderr)
             self.assertIn(self.command_for(target), done.stderr)
         self.assertEqual(self.installed(), set())
@@ -57,13 +57,14 @@ class Unbuilt(unittest.TestCase):
         (self.build / "bin" / "touchmark").touch()  # without the workers that it needs
         done = self.install()
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        for line, target in zip(done.stdout.splitlines()[-3:], ("touchmark_mesh_io", "touchmark_c", "touchmark")):
+        for line, target in zip(done.stdout.splitlines()[-4:], ("touchmark_mesh_io", "touchmark_mesh_io_assimp", "touchmark_c", "touchmark")):
             self.assertIn(f"Not built, so not installed: {target} (", line)
             self.assertIn(self.command_for(target), line + "\n")
         names = self.installed()
         self.assertTrue({"libtouchmark_core.a", "touchmark-core.cmake", "touchmark.pc", "contestant.h",
                          "touchmark-plot"} <= names)
-        self.assertEqual(names & {"touchmark-c.cmake", "touchmark-c.pc", "touchmark.h", "mesh_io.h", "touchmark-mesh_io.cmake",
+        self.assertEqual(names & {"touchmark-c.cmake", "touchmark-c.pc", "touchmark.h", "mesh_io.h", "mesh_io_assimp.h",
+                                  "touchmark-mesh_io.cmake",
                                   "libtouchmark-c0.2"}, set())
         self.assertFalse(os.path.lexists(self.prefix / "bin" / "touchmark"))
 

@@ -112,12 +112,13 @@ void add_info(CLI::App& mesh_command) {
       "         touchmark mesh info part.stl --unit mm\n");
   command->final_callback([options] {
     const std::optional<support::LengthUnit> unit = contestants::checked_unit(options->unit);
-    const MeshFile file = scenes::load_with_frame(options->mesh, options->normalize);
+    const scenes::ImportedMesh file = scenes::load_with_frame(options->mesh, options->normalize);
     support::require_memory(fmt::format("edges and sides of {} triangles", file.mesh.size()),
                             bytes_reported_on * static_cast<double>(file.mesh.size()));
     nlohmann::ordered_json members = members_of(scenes::report_on(file.mesh), unit);
     if (!file.axes.empty()) members["axes"] = file.axes;
     if (!file.unit.empty() && !unit) members["unit"] = file.unit;
+    if (!file.remark.empty()) members["remark"] = file.remark;
     nlohmann::ordered_json named{{"mesh", options->mesh}};
     named.update(members);
     support::StandardOutput out;

@@ -1,19 +1,21 @@
 /// The pinned meshes are generated, or in formats that core reads itself without libraries: so the gate needs
 /// neither assimp nor pugixml nor nlohmann-json, which exist for fewer processors than core does.
+#include "bench/scenes/mesh_import.h"
 #include "core/mesh_io/read_dae.h"
 #include "core/mesh_io/read_gltf.h"
-#include "core/mesh_io/read_with_assimp.h"
 
-namespace touchmark::mesh_io {
+namespace touchmark {
 
-SceneGraph read_with_assimp(const std::filesystem::path&, std::string_view, const std::string& ending) {
-  throw MeshError("the regression gate reads no " + ending);
+mesh_io::SceneGraph mesh_io::read_dae(std::string_view) {
+  throw MeshError("the regression gate reads no COLLADA");
 }
 
-SceneGraph read_dae(std::string_view bytes) { return read_with_assimp({}, bytes, ".dae"); }
-
-SceneGraph read_gltf(std::string_view bytes, const std::filesystem::path&) {
-  return read_with_assimp({}, bytes, ".gltf");
+mesh_io::SceneGraph mesh_io::read_gltf(std::string_view, const std::filesystem::path&) {
+  throw MeshError("the regression gate reads no glTF");
 }
 
-}  // namespace touchmark::mesh_io
+bench::scenes::ImportedMesh bench::scenes::import_mesh(const std::filesystem::path& path) {
+  return {load_mesh_file(path)};
+}
+
+}  // namespace touchmark

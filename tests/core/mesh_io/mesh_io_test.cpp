@@ -201,60 +201,14 @@ TEST(LoadMesh, SurvivesEveryCutAndEveryChangedByte) {
   }
 }
 
-/// A chunk of a 3DS file.
-std::string chunk(unsigned kind, const std::string& content) {
-  const auto number = [](std::size_t value, int bytes) {
-    std::string text;
-    for (int i = 0; i < bytes; ++i) text += static_cast<char>(value >> 8 * i & 0xff);
-    return text;
-  };
-  return number(kind, 2) + number(content.size() + 6, 4) + content;
-}
-
-std::string tetrahedron_3ds() {
-  const std::array<float, 12> positions = {0, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0, 3};
-  const std::array<std::uint16_t, 16> faces = {0, 2, 1, 0, 0, 1, 3, 0, 0, 3, 2, 0, 1, 2, 3, 0};
-  const auto counted = [](const auto& numbers) {
-    return std::string("\4\0", 2) +
-           std::string(reinterpret_cast<const char*>(numbers.data()), sizeof numbers);
-  };
-  const std::string mesh = chunk(0x4110, counted(positions)) + chunk(0x4120, counted(faces));
-  return chunk(0x4d4d, chunk(0x3d3d, chunk(0x4000, std::string("a\0", 2) + chunk(0x4100, mesh))));
-}
-
-const std::string tetrahedron_x =
-    "xof 0303txt 0032\nMesh a {\n4;\n0;0;0;,\n1;0;0;,\n0;2;0;,\n0;0;3;;\n"
-    "4;\n3;0,2,1;,\n3;0,1,3;,\n3;0,3,2;,\n3;1,2,3;;\n}\n";
-
-const std::string tetrahedron_ase =
-    "*3DSMAX_ASCIIEXPORT 200\n*GEOMOBJECT {\n*NODE_NAME \"a\"\n*NODE_TM {\n*NODE_NAME \"a\"\n*TM_ROW0 1 0 0\n"
-    "*TM_ROW1 0 1 0\n*TM_ROW2 0 0 1\n*TM_ROW3 0 0 0\n}\n*MESH {\n*TIMEVALUE 0\n*MESH_NUMVERTEX 4\n"
-    "*MESH_NUMFACES 4\n*MESH_VERTEX_LIST {\n*MESH_VERTEX 0 0 0 0\n*MESH_VERTEX 1 1 0 0\n*MESH_VERTEX 2 0 2 "
-    "0\n"
-    "*MESH_VERTEX 3 0 0 3\n}\n*MESH_FACE_LIST {\n*MESH_FACE 0: A: 0 B: 2 C: 1\n*MESH_FACE 1: A: 0 B: 1 C: 3\n"
-    "*MESH_FACE 2: A: 0 B: 3 C: 2\n*MESH_FACE 3: A: 1 B: 2 C: 3\n}\n}\n}\n";
-
-TEST(LoadMeshByAssimp, NeitherTurnsNorMirrorsAxes) {
+TEST(LoadMesh, NamesTheCallThatReadsOtherFormats) {
   const TemporaryFolder folder;
-  for (const auto& [name, content] :
-       {std::pair{"a.3ds", tetrahedron_3ds()}, {"a.x", tetrahedron_x}, {"a.ase", tetrahedron_ase}}) {
-    const MeshFile file = load_mesh_file(folder.file(name, content));
-    EXPECT_EQ(file.axes, "as written");
-    EXPECT_EQ(file.mesh.bounds().min, Vec3(0, 0, 0)) << name;
-    EXPECT_EQ(file.mesh.bounds().max, Vec3(1, 2, 3)) << name;
-    double volume = 0;
-    for (std::size_t i = 0; i < file.mesh.size(); ++i)
-      volume += file.mesh.corner(i, 0).dot(file.mesh.corner(i, 1).cross(file.mesh.corner(i, 2))) / 6;
-    EXPECT_NEAR(volume, 1, 1e-6) << name;
-    const NodeTree tree = load_node_tree(folder.file(name));
-    EXPECT_EQ(tree.meshes[tree.nodes[0].mesh].bounds().max, Vec3(1, 2, 3)) << name;
+  for (const char* name : {"a.3ds", "a.nosuch", "a"}) {
+    const std::string path = folder.file(name, "content");
+    EXPECT_FALSE(is_read_strictly(path));
+    expect_refusal(path, "load_mesh_with_assimp of <touchmark/mesh_io_assimp.h>");
+    EXPECT_THROW(load_node_tree(path), MeshError);
   }
-}
-
-TEST(LoadMeshByAssimp, RefusesGarbage) {
-  const TemporaryFolder folder;
-  expect_refusal(folder.file("garbage.3ds", "this is no 3ds file"), "");
-  expect_refusal(folder.file("garbage.dae", "<xml"), "");
 }
 
 TEST(LoadMesh, ReadsTheSharedModels) {
