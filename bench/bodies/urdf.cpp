@@ -143,7 +143,8 @@ class UrdfReader {
     const Vec3 scale = vector_of(mesh.scale);
     const auto key = std::tuple(mesh.filename, scale.x(), scale.y(), scale.z());
     if (const auto known = meshes_.find(key); known != meshes_.end()) return known->second;
-    return meshes_[key] = added(std::nullopt, stretched(scenes::import_mesh(file_of(mesh.filename)).mesh, scale));
+    return meshes_[key] =
+               added(std::nullopt, stretched(scenes::import_mesh(file_of(mesh.filename)).mesh, scale));
   }
 
   std::filesystem::path file_of(const std::string& address) const {

@@ -12,7 +12,7 @@
 namespace touchmark::bench::support {
 
 struct ProcessLimits {
-  std::uint64_t bytes;  ///< of address space beyond what this process has; not held with sanitizers
+  std::uint64_t bytes;  ///< the address space beyond this process's; without effect under sanitizers
   std::chrono::milliseconds time;
 };
 

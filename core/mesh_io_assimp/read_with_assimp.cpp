@@ -90,7 +90,8 @@ void add(const aiScene& scene, const aiNode& node, const Eigen::Matrix4d& parent
 class Losses : public Assimp::LogStream {
  public:
   void write(const char* message) override {
-    std::string text = message;
+    std::string text = message;  // "Warn,  T0: AC3D: Invalid vertex reference\n"
+    if (const std::size_t thread = text.find(": "); thread != std::string::npos) text.erase(0, thread + 2);
     while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0) text.pop_back();
     std::string lower = text;
     std::transform(lower.begin(), lower.end(), lower.begin(),
