@@ -140,6 +140,16 @@ class Docs(unittest.TestCase):
         self.docs("--measured")
         self.assertIn("\nthrice c\n```", self.page.read_text(encoding="utf-8"))
 
+    def test_names_shared_options_in_one_line_once_a_page_has_shown_them(self):
+        self.page.write_text("<!-- shared -->\n```console\n$ touchmark help\n```\n\n```console\n$ touchmark help --more\n```\n", encoding="utf-8")
+        program = self.folder / "touchmark"
+        program.write_text("#!/bin/sh\nprintf 'Options:\\n  --mesh M   a mesh\\n  --rate HZ  a rate\\n'\n[ $# = 1 ] || echo '  --more     more'\n", encoding="utf-8")
+        self.assertEqual(self.docs().returncode, 0)
+        text = self.page.read_text(encoding="utf-8")
+        self.assertIn("$ touchmark help\nOptions:\n  --mesh M   a mesh\n  --rate HZ  a rate\n```", text)
+        self.assertIn("Options:\n  shared                      --mesh --rate\n  --more     more\n```", text)
+        self.assertEqual(self.docs("--check").returncode, 0)
+
     def test_runs_blocks_of_a_shell_in_one_environment_and_leaves_nothing(self):
         self.page.write_text("""```sh
 mkdir made && cd made
