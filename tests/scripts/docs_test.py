@@ -76,8 +76,13 @@ class Documents(unittest.TestCase):
                          if command.match(line.strip())]
         self.assertEqual(unmarked, [])
 
-    def test_the_readme_is_short(self):
-        self.assertLessEqual(len((ROOT / "README.md").read_text(encoding="utf-8").splitlines()), 80)
+    def test_the_first_pages_are_short(self):
+        for page, lines in (("README.md", 80), ("CONTRIBUTING.md", 110)):
+            self.assertLessEqual(len((ROOT / page).read_text(encoding="utf-8").splitlines()), lines, page)
+
+    def test_results_hold_at_most_8_mb(self):
+        listed = subprocess.run(["git", "ls-files", "-z", "results"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+        self.assertLess(sum((ROOT / path).stat().st_size for path in listed.rstrip("\0").split("\0")), 8e6)
 
 
 PAGE = """```console
