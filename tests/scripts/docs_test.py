@@ -58,7 +58,7 @@ class Documents(unittest.TestCase):
 
     def test_every_public_header_is_described(self):
         cmake = (ROOT / "core" / "CMakeLists.txt").read_text(encoding="utf-8")
-        listed = re.search(r"set\(touchmark_public_headers([^)]*)\)", cmake)[1].split() + ["mesh_io/mesh_io.h"]
+        listed = re.search(r"set\(touchmark_public_headers([^)]*)\)", cmake)[1].split() + ["mesh_io/mesh_io.h", "mesh_io_assimp/mesh_io_assimp.h"]
         doxyfile = (ROOT / "docs" / "Doxyfile").read_text(encoding="utf-8")
         self.assertEqual(sorted(re.findall(r"core/([\w/]+\.h)", doxyfile)), sorted(listed))
         described = re.findall(r"^\| `<touchmark/(\w+\.h)>`", (ROOT / "docs" / "library.md").read_text(encoding="utf-8"), re.M)
@@ -76,8 +76,13 @@ class Documents(unittest.TestCase):
                          if command.match(line.strip())]
         self.assertEqual(unmarked, [])
 
-    def test_the_readme_is_short(self):
-        self.assertLessEqual(len((ROOT / "README.md").read_text(encoding="utf-8").splitlines()), 120)
+    def test_the_first_pages_are_short(self):
+        for page, lines in (("README.md", 80), ("CONTRIBUTING.md", 110)):
+            self.assertLessEqual(len((ROOT / page).read_text(encoding="utf-8").splitlines()), lines, page)
+
+    def test_results_hold_at_most_8_mb(self):
+        listed = subprocess.run(["git", "ls-files", "-z", "results"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+        self.assertLess(sum((ROOT / path).stat().st_size for path in listed.rstrip("\0").split("\0")), 8e6)
 
 
 PAGE = """```console
@@ -139,6 +144,16 @@ class Docs(unittest.TestCase):
         self.assertIn("\ntwice c\n```", self.page.read_text(encoding="utf-8"))
         self.docs("--measured")
         self.assertIn("\nthrice c\n```", self.page.read_text(encoding="utf-8"))
+
+    def test_names_shared_options_in_one_line_once_a_page_has_shown_them(self):
+        self.page.write_text("<!-- shared -->\n```console\n$ touchmark help\n```\n\n```console\n$ touchmark help --more\n```\n", encoding="utf-8")
+        program = self.folder / "touchmark"
+        program.write_text("#!/bin/sh\nprintf 'Options:\\n  --mesh M   a mesh\\n  --rate HZ  a rate\\n'\n[ $# = 1 ] || echo '  --more     more'\n", encoding="utf-8")
+        self.assertEqual(self.docs().returncode, 0)
+        text = self.page.read_text(encoding="utf-8")
+        self.assertIn("$ touchmark help\nOptions:\n  --mesh M   a mesh\n  --rate HZ  a rate\n```", text)
+        self.assertIn("Options:\n  shared                      --mesh --rate\n  --more     more\n```", text)
+        self.assertEqual(self.docs("--check").returncode, 0)
 
     def test_runs_blocks_of_a_shell_in_one_environment_and_leaves_nothing(self):
         self.page.write_text("""```sh

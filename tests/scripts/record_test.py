@@ -29,17 +29,15 @@ mkdir -p "$2/plots"
 cp "$TEST_RUN" "$2/run.json"
 echo made-up >"$2/results.csv"
 echo made-up >"$2/plots/latency.png"
+touch "$2/plots/errors.png" "$2/report.html" "$2/steps.bin" "$2/visited.json"
 """
 SETUP = "#!/bin/bash\n"
 PAPERS = """#!/bin/bash
 echo "papers $*" >>"$TEST_LOG"
-mkdir -p "$2/park-jang-2018"
+mkdir -p "$2/park-jang-2018/figures"
 echo made-up >"$2/park-jang-2018/report.md"
+touch "$2/park-jang-2018/figures/fig07_time.png"
 exit "${PAPERS_STATUS-0}"
-"""
-PLOT = """#!/bin/bash
-mkdir -p "$1/plots"
-echo made-up >"$1/plots/scaling.png"
 """
 PROGRAM = """#!/bin/bash
 if [ "$1" = scale ]; then
@@ -57,7 +55,7 @@ fi
 if [ "$1" = bench ]; then
   echo "${*:1:6} ${*:9}" >>"$TEST_LOG"
   mkdir -p "$8"
-  echo made-up >"$8/suite.csv"
+  printf '%s\n' bunny,slide,ok,grid-group "bunny,jump,not measured," >"$8/suite.csv"
   exit "${SUITE_STATUS-0}"
 fi
 echo "$1" >>"$TEST_LOG"
@@ -73,7 +71,7 @@ class Record(unittest.TestCase):
         self.directory = pathlib.Path(temporary.name)
         self.root = self.directory / "repository"
         for path, text in (("scripts/bench", BENCH), ("scripts/papers", PAPERS), ("scripts/setup", SETUP),
-                           ("scripts/plot", PLOT), ("build/release/bin/touchmark", PROGRAM), ("core/code", "int x;\n"),
+                           ("build/release/bin/touchmark", PROGRAM), ("core/code", "int x;\n"),
                            (".gitignore", "/build/\n")):
             file = self.root / path
             file.parent.mkdir(parents=True, exist_ok=True)
@@ -116,6 +114,7 @@ class Record(unittest.TestCase):
         today = datetime.datetime.now(datetime.timezone.utc).date().isoformat()
         self.assertEqual(recording.name, f"{today}-{self.git('rev-parse', '--short=7', 'HEAD')}")
         self.assertEqual({path.name for path in recording.iterdir()}, {"README.md", "plots", "results.csv", "run.json"})
+        self.assertEqual([path.name for path in (recording / "plots").iterdir()], ["latency.png"])
         lines = (recording / "README.md").read_text(encoding="utf-8").splitlines()
         self.assertEqual([line.split(":")[0] for line in lines], ["What", "How", "On"])
         self.assertIn("`scripts/record`", lines[1])
@@ -125,7 +124,7 @@ class Record(unittest.TestCase):
         done = self.record("--only", "grid-group", "fcl:bv=obbrss", "--papers", PAPERS_STATUS="1")
         self.assertEqual(done.returncode, 0, done.stderr)
         [recording] = self.recordings()
-        self.assertTrue((recording / "papers" / "park-jang-2018" / "report.md").exists())
+        self.assertEqual([path.name for path in (recording / "papers" / "park-jang-2018").iterdir()], ["report.md"])
         log = (self.directory / "log").read_text(encoding="utf-8").splitlines()
         self.assertTrue(log[0].endswith("--detector grid-group --detector fcl:bv=obbrss"), log)
         self.assertEqual(log[2], "validate")
@@ -134,8 +133,7 @@ class Record(unittest.TestCase):
         done = self.record("--scaling", "--only", "embree")
         self.assertEqual(done.returncode, 0, done.stderr)
         [recording] = self.recordings()
-        for name in ("scaling.csv", "plots/scaling.png"):
-            self.assertTrue((recording / "scaling" / name).exists(), name)
+        self.assertTrue((recording / "scaling" / "scaling.csv").exists())
         log = (self.directory / "log").read_text(encoding="utf-8").splitlines()
         self.assertEqual(log[1:], ["scale --detector embree", "validate"])
 
@@ -143,7 +141,7 @@ class Record(unittest.TestCase):
         done = self.record("--suite", "30", "--only", "embree")
         self.assertEqual(done.returncode, 0, done.stderr)
         [recording] = self.recordings()
-        self.assertTrue((recording / "suite" / "suite.csv").exists())
+        self.assertEqual((recording / "suite" / "suite.csv").read_text(encoding="utf-8"), "bunny,slide,ok,grid-group\n")
         log = (self.directory / "log").read_text(encoding="utf-8").splitlines()
         self.assertEqual(log[1:], ["bench --suite --cells all --minutes 30 --detector embree", "validate"])
 

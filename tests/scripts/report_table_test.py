@@ -49,30 +49,34 @@ class ReportTable(unittest.TestCase):
                 writer.writerows(rows)
             return subprocess.run([SCRIPTS / "report-table", path, *more], capture_output=True, text=True, check=False)
 
-    def test_tells_mean_interval_and_p999_as_ratios(self):
-        slow = {**ROW, "detector": "b", "options": "x=1", "ns_undisturbed": 300, "ns_undisturbed_low": 270,
-                "ns_undisturbed_high": 330, "ns_p999": 200, "missed": 3}
-        few = {**ROW, "detector": "c", "ns_undisturbed": 9000, "ns_undisturbed_low": 8000, "ns_undisturbed_high": 9900,
-               "ns_p999": "", "steps": 500}
+    def test_tells_times_over_the_reference_and_their_mean(self):
+        rows = [{**ROW, "detector": name, "options": options, "trajectory": trajectory, "ns_undisturbed": ns}
+                for name, options, times in (("b", "x=1", (300, 1200)), ("b", "", (500, 1300)), ("a", "", (100, 100)))
+                for trajectory, ns in zip(("slide", "jump"), times)]
         gone = {**ROW, "detector": "d", "status": "timeout", **{name: "" for name in ROW if name.startswith("ns_")},
                 "update_rate_hz": ""}
-        done = self.table([few, slow, ROW, gone])
+        done = self.table([*rows, gone])
         self.assertEqual(done.returncode, 0, done.stderr)
         lines = [cells(line) for line in done.stdout.splitlines()]
-        self.assertEqual(lines[0], ["detector", "slide", "wrong contacts"])
-        self.assertEqual(lines[2], ["`a`", "1; 1", "0 of 2,000"])
-        self.assertEqual(lines[3], ["`b:x=1`", "3 (2.7 to 3.3); 0.5", "3 of 2,000"])
-        self.assertEqual(lines[4], ["`c`", "90 (79.7 to 99.2)", "0 of 500"])
-        self.assertEqual(lines[5][:2], ["`d`", "timeout"])
-        self.assertIn("100 (98 to 103); 400", self.table([ROW], "--absolute").stdout)
+        self.assertEqual(lines[0], ["detector", "slide", "jump", "all", "exact"])
+        self.assertEqual(lines[2:], [["`a`", "1", "1", "1", "yes"], ["`b:x=1`", "3", "12", "6", "yes"],
+                                     ["`d`", "timeout", "", "", ""]])
+        self.assertIn("| `b:x=1` | 300 | 1,200 | 600 | yes |", self.table(rows, "--absolute").stdout)
+        self.assertIn("| `a` | 0.33 |", self.table(rows, "--reference", "b:x=1").stdout)
 
-    def test_counts_distances_that_are_off_where_the_file_has_them(self):
-        rows = [{**ROW, "trajectory": t, "beyond_tolerance": n, "rounding": 1000 * n} for t, n in (("slide", 2), ("jump", 3))]
-        lines = [cells(line) for line in self.table(rows + [
-            {**row, "detector": "b", "ns_undisturbed": 200, "beyond_tolerance": 0, "rounding": 0} for row in rows]).stdout.splitlines()]
-        self.assertEqual(lines[0], ["detector", "slide", "jump", "wrong contacts", "off", "rounding"])
-        self.assertEqual(lines[2][-2:], ["5", "5,000"])
-        self.assertEqual(lines[3][-2:], ["none", "none"])
+    def test_has_a_row_for_each_of_the_eight_fastest_detectors(self):
+        rows = [{**ROW, "detector": name, "options": options, "ns_undisturbed": 100 + 10 * k}
+                for k, name in enumerate("ihgfedcba") for options in ("slow=1", "")]
+        rows += [{**ROW, "detector": "a", "options": "quick=1", "ns_undisturbed": 50}]
+        lines = [cells(line)[0] for line in self.table(rows).stdout.splitlines()[2:]]
+        self.assertEqual(lines, ["`a:quick=1`", *(f"`{name}:slow=1`" for name in "ihgfedc")])
+
+    def test_says_who_is_exact(self):
+        found = {"b": dict(rounding=9), "c": dict(guarantee="approximate"), "e": dict(beyond_tolerance=4, missed=1, rounding=7)}
+        rows = [{**ROW, "beyond_tolerance": 0, "rounding": 0}]
+        rows += [{**rows[0], "detector": name, "ns_undisturbed": 200 + k, **errors} for k, (name, errors) in enumerate(found.items())]
+        lines = [cells(line)[-1] for line in self.table(rows).stdout.splitlines()[2:]]
+        self.assertEqual(lines, ["yes", "to rounding", "to rounding", "no, 5 of 2,000 off"])
 
     def test_refuses_what_it_cannot_put_in_relation(self):
         for rows, more, text in (([ROW, ROW], [], "twice"), ([{**ROW, "missed": 1}], [], "no exact contestant"),
