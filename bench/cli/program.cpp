@@ -49,7 +49,6 @@ std::string complaint_about_command(const CLI::App& program) {
   std::vector<std::string> names;
   for (const CLI::App* command : program.get_subcommands(nullptr)) names.push_back(command->get_name());
   const std::vector<std::string> words = program.remaining();
-  if (words.empty()) return fmt::format("a command is missing: one of {}", fmt::join(names, ", "));
   return fmt::format("unknown command \"{}\"; the nearest names: {}", words.front(),
                      support::near_names(words.front(), names));
 }
@@ -76,6 +75,19 @@ int parse_and_run(CLI::App& program, ProgramContext& context) {
     return support::exit_done;
   } catch (const CLI::ParseError& error) {
     return fail(support::exit_bad_input, complaint_about_arguments(one_line(error.what()), context));
+  }
+  if (program.get_subcommands().empty() && program.remaining().empty()) {
+    std::fputs(
+        "touchmark finds out which collision detector can serve a haptic loop on your mesh. Begin with one "
+        "of\n"
+        "  touchmark bench --mesh part.stl    compares detectors: answers, times, memory\n"
+        "  touchmark choose --mesh part.stl   recommends one, and prints its code\n"
+        "  touchmark servo --mesh part.stl    tests a paced loop at 1 kHz\n"
+        "  touchmark mesh info part.stl       measures a mesh\n"
+        "  touchmark list                     names detectors, meshes and trajectories\n"
+        "touchmark --help names all commands.\n",
+        stderr);
+    return support::exit_bad_input;
   }
   if (program.get_subcommands().empty())
     return fail(support::exit_bad_input, complaint_about_command(program));

@@ -1,7 +1,10 @@
 #include "bench/results/report_table.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -54,6 +57,62 @@ std::vector<std::string> error_cells(const measurement::ResultRow& row) {
           count(counts.beyond_tolerance), count(counts.rounding),       count(others)};
 }
 
+/// The names of error_cells.
+std::array<std::string, 6> kinds_of_error() {
+  return {"missed",   "false",       "triangle", fmt::format("off>{:g}", oracle::physical_tolerance),
+          "rounding", "point/normal"};
+}
+
+/// "388 false, 156 rounding"; empty where every answer is right to the last digits.
+std::string kinds_of_errors(const measurement::ResultRow& row) {
+  const std::vector<std::string> counts = error_cells(row);
+  const auto names = kinds_of_error();
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (counts[i].empty() || counts[i] == "0") continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", counts[i], names[i]);
+  }
+  return text;
+}
+
+/// All kinds but rounding together; empty where nothing was judged.
+std::string wrong_answers(const measurement::ResultRow& row) {
+  if (!row.counts) return "";
+  const oracle::ErrorCounts& counts = *row.counts;
+  return count(counts.missed + counts.false_contacts + counts.wrong_triangle + counts.beyond_tolerance +
+               std::max({counts.wrong_point, counts.wrong_normal, counts.wrong_side}) + counts.malformed);
+}
+
+std::string build_ms_of(const measurement::ResultRow& row) {
+  return row.build_ms ? figure(*row.build_ms) : "";
+}
+
+std::string megabytes_of(const measurement::ResultRow& row) {
+  return row.bytes ? fmt::format("{:.1f}", static_cast<double>(*row.bytes) / 1e6) : "";
+}
+
+/// At most `most` letters, with ".." for the middle.
+std::string cut(const std::string& text, std::size_t most) {
+  if (text.size() <= most) return text;
+  const std::size_t end = (most - 2) / 2, begin = most - 2 - end;
+  return text.substr(0, begin) + ".." + text.substr(text.size() - end);
+}
+
+/// "Its slowest warm step took 4.3 us, which holds 1 and 4 kHz, the last with a margin of 58".
+std::string rates_held(const std::string& what, double ns) {
+  std::string rates;
+  double margin = 0;
+  for (const int kilohertz : {1, 4, 10}) {
+    if (kilohertz * ns > 1e6) break;
+    margin = 1e6 / (kilohertz * ns);
+    rates += fmt::format("{}{}", rates.empty() ? "" : ", ", kilohertz);
+  }
+  const std::string taken = fmt::format("{} took {} us", what, figure(ns / 1e3));
+  if (rates.empty()) return taken + ", too long for 1 kHz";
+  if (const std::size_t last = rates.rfind(", "); last != std::string::npos) rates.replace(last, 2, " and ");
+  return fmt::format("{}, which holds {} kHz, the last with a margin of {}", taken, rates, figure(margin));
+}
+
 /// Empty where there is none. How long a contestant may take is the user's choice, so that a timeout is none.
 std::string fault_of(const measurement::ResultRow& row) {
   if (row.status == "checksum mismatch") return "timed answers differ from verified ones";
@@ -97,21 +156,95 @@ std::string disturbance(const measurement::Steadiness& steadiness) {
 }  // namespace
 
 support::Table timing_table(const std::vector<measurement::ResultRow>& rows) {
-  const std::string off = fmt::format("off>{:g}", oracle::physical_tolerance);
-  support::Table table({"detector", "guarantee", "missed", "false", "triangle", off, "rounding",
-                        "point/normal", "ns/query", "95 %", "x fastest", "p99.9 ns", "x least p99.9",
-                        "max ns", "Hz", "build ms", "MB", "steps"});
+  std::vector<std::string> header{"detector", "guarantee"};
+  for (const std::string& kind : kinds_of_error()) header.push_back(kind);
+  for (const char* name : {"ns/query", "95 %", "x fastest", "p99.9 ns", "x least p99.9", "max ns", "Hz",
+                           "build ms", "MB", "steps"})
+    header.emplace_back(name);
+  support::Table table(header);
   const Minima least = minima_of(rows);
   for (const measurement::ResultRow& row : rows) {
     std::vector<std::string> cells{row.contestant(), std::string(measurement::guarantee_name(row))};
     for (std::string& cell : error_cells(row)) cells.push_back(std::move(cell));
     for (std::string& cell : timing_cells(row, least)) cells.push_back(std::move(cell));
-    cells.push_back(row.build_ms ? figure(*row.build_ms) : "");
-    cells.push_back(row.bytes ? fmt::format("{:.1f}", static_cast<double>(*row.bytes) / 1e6) : "");
+    cells.push_back(build_ms_of(row));
+    cells.push_back(megabytes_of(row));
     cells.push_back(count(row.steps));
     table.add(std::move(cells));
   }
   return table;
+}
+
+std::string comparison_text(const std::vector<measurement::ResultRow>& rows) {
+  constexpr std::size_t width = 120, min_name = 16, max_status = 24;
+  const Minima least = minima_of(rows);
+  std::vector<const measurement::ResultRow*> sorted;
+  for (const measurement::ResultRow& row : rows) sorted.push_back(&row);
+  const auto ns = [](const measurement::ResultRow* row) {
+    return row->throughput ? row->throughput->undisturbed.ns : std::numeric_limits<double>::infinity();
+  };
+  std::ranges::stable_sort(sorted, {}, ns);
+  const std::vector<std::string> header{"detector", "guarantee", "wrong",   "ns/query", "95 %", "x fastest",
+                                        "p99.9 ns", "max ns",    "cold ns", "build ms", "MB"};
+  std::vector<std::vector<std::string>> lines{header};
+  std::string notes;
+  for (const measurement::ResultRow* row : sorted) {
+    const std::vector<std::string> times = timing_cells(*row, least);
+    lines.push_back({row->contestant(), std::string(measurement::guarantee_name(*row)), wrong_answers(*row),
+                     row->throughput ? times[0] : cut(row->status, max_status), times[1], times[2], times[3],
+                     times[5], row->cold ? figure(row->cold->p50) : "", build_ms_of(*row),
+                     megabytes_of(*row)});
+    const std::string kinds = row->throughput ? kinds_of_errors(*row) : row->status;
+    if (!kinds.empty()) notes += fmt::format("{}: {}\n", row->contestant(), kinds);
+  }
+  std::size_t others = 0;
+  for (std::size_t i = 1; i < header.size(); ++i) {
+    const auto longest =
+        std::ranges::max(lines, {}, [i](const std::vector<std::string>& line) { return line[i].size(); });
+    others += 2 + longest[i].size();
+  }
+  const std::size_t name_width = width - std::min(others, width - min_name);
+  support::Table table(header);
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    lines[i][0] = cut(lines[i][0], name_width);
+    table.add(lines[i]);
+  }
+  return table.text() + notes;
+}
+
+std::string overall_verdict(const std::vector<measurement::ResultRow>& rows) {
+  struct Sum {
+    std::size_t timed = 0, answers = 0;
+    double log_ns = 0, max = 0, cold = 0;
+    bool is_right = true;
+  };
+  std::map<std::string, Sum> sums;
+  std::size_t trajectories = 0;
+  for (const measurement::ResultRow& row : rows) {
+    Sum& sum = sums[row.contestant()];
+    sum.is_right = sum.is_right && is_exact(row) && wrong_answers(row) == "0";
+    if (!row.throughput || !row.latency) continue;
+    trajectories = std::max(trajectories, ++sum.timed);
+    sum.answers += row.counts->judged;
+    sum.log_ns += std::log(row.throughput->undisturbed.ns);
+    sum.max = std::max(sum.max, row.latency->max);
+    if (row.cold) sum.cold = std::max(sum.cold, row.cold->max);
+  }
+  const std::pair<const std::string, Sum>* best = nullptr;
+  for (const auto& entry : sums) {
+    if (!entry.second.is_right || entry.second.timed < trajectories) continue;
+    if (best == nullptr || entry.second.log_ns < best->second.log_ns) best = &entry;
+  }
+  if (best == nullptr || trajectories == 0)
+    return "No contestant finished all trajectories without a wrong answer.\n";
+  const auto& [name, sum] = *best;
+  std::string text =
+      fmt::format("{} is the fastest that was never wrong in {} checked steps: {} ns a query. {}.", name,
+                  sum.answers, figure(std::exp(sum.log_ns / static_cast<double>(trajectories))),
+                  rates_held("Its slowest warm step", sum.max));
+  if (sum.cold > 0)
+    text += fmt::format(" {}.", rates_held("With all caches emptied its slowest query", sum.cold));
+  return text + '\n';
 }
 
 std::string verdict(const std::vector<measurement::ResultRow>& rows,

@@ -11,8 +11,13 @@
 
 namespace touchmark::bench::results {
 
-/// `rows` are those of one trajectory.
+/// The comparison over one trajectory in 120 columns: the fastest first, long names cut in the middle. Below
+/// it stand the kinds of wrong answers, a line for each contestant that gave any.
+std::string comparison_text(const std::vector<measurement::ResultRow>& rows);
+/// All columns of the rows of one trajectory, in their order.
 support::Table timing_table(const std::vector<measurement::ResultRow>& rows);
+/// Over all trajectories: who is the fastest that was never wrong, and which rates its slowest query holds.
+std::string overall_verdict(const std::vector<measurement::ResultRow>& rows);
 /// Who is fastest, and who cannot be told from it; whose 99.9 % is least; how disturbed the run was.
 std::string verdict(const std::vector<measurement::ResultRow>& rows,
                     const measurement::Steadiness& steadiness);

@@ -49,6 +49,7 @@ struct BenchOptions {
   bool frontier = false;
   bool work = false;
   bool cold = false;
+  bool wide = false;
   bool cache_lines = false;
   bool suite = false;
   std::string cells, minutes;  ///< for the suite alone
@@ -123,6 +124,7 @@ class BenchRun {
   support::ProgressLine progress_;
   support::StandardOutput out_;
   bool shows_work_;
+  bool wide_;
   std::vector<measurement::ResultRow> rows_;
 };
 
@@ -148,7 +150,8 @@ BenchRun::BenchRun(const ProgramContext& context, const BenchOptions& options, c
       reports_(flags, options.reports),
       description_(results::begun_run(context.argc, context.argv)),
       workload_(workload_for(options, selection_)),
-      shows_work_(options.work) {
+      shows_work_(options.work),
+      wide_(options.wide) {
   if (options.cache_lines) workers::require_line_counting();
   if (!options.out.empty() && !flags.list_tests) folder_.emplace(options.out);
   if (!flags.list_tests) step_outputs_.emplace(folder_ ? &*folder_ : nullptr, options.steps_out);
@@ -223,7 +226,8 @@ void BenchRun::end_trajectory(std::size_t trace) {
       fmt::format("{} ({})", workload_.trajectories[trace], workload::trace_text(workload_, trace));
   const std::string verdict = results::verdict(rows, comparison_->steadiness().back());
   reports_.add_trajectory(title, rows, verdict);
-  out_.write(fmt::format("\n{}\n{}{}", title, results::timing_table(rows).text(), verdict));
+  const std::string table = wide_ ? results::timing_table(rows).text() : results::comparison_text(rows);
+  out_.write(fmt::format("\n{}\n{}{}", title, table, verdict));
   const std::string cold = results::cold_table(rows);
   if (!cold.empty()) out_.write('\n' + cold);
   const std::string lines = results::lines_table(rows);
@@ -248,6 +252,7 @@ int BenchRun::run() {
   std::vector<measurement::ResultRow> broken;  // what others err by is in the table
   std::copy_if(rows_.begin(), rows_.end(), std::back_inserter(broken), results::claim_is_broken);
   const std::string failures = results::list_of_failures(broken, faulty_rows_shown);
+  if (!rows_.empty()) out_.write('\n' + results::overall_verdict(rows_));
   out_.write(fmt::format("\n{}{}", results::judged_answers(rows_), failures.empty() ? "" : "\n" + failures));
   out_.finish();
   const bool faulty =
@@ -273,6 +278,7 @@ void add_bench(CLI::App& program, ProgramContext& context) {
                  "every contestant over the options that trade accuracy for time (see the plot time_error)")
       ->excludes("--detector");
   command->add_flag("--work", options->work, "also what a step looked at, and so what it skipped");
+  command->add_flag("--wide", options->wide, "tables with all columns and whole names, in the order asked");
   command->add_flag("--cold,!--no-cold", options->cold,
                     "also queries with the second-level cache, or all caches, emptied between them");
   command->add_flag("--cache-lines", options->cache_lines,

@@ -187,7 +187,7 @@ std::vector<measurement::ResultRow> ScaleRun::run_trace(measurement::Comparison&
   std::vector<measurement::ResultRow> rows = comparison.run(trace, description_.query);
   progress_.clear();
   out_.write(fmt::format("\n{}, {} ({})\n{}{}", workload.mesh_name, workload.trajectories[trace],
-                         workload::trace_text(workload, trace), results::timing_table(rows).text(),
+                         workload::trace_text(workload, trace), results::comparison_text(rows),
                          results::verdict(rows, comparison.steadiness().back())));
   out_.finish();
   return rows;

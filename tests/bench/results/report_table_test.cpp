@@ -1,5 +1,6 @@
 #include "bench/results/report_table.h"
 
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,56 @@ TEST(TimingTable, TellsTheP999BesideTheMeanButNotOfFewSteps) {
   EXPECT_TRUE(has(enough, "765")) << enough;
   EXPECT_TRUE(has(enough, "1530")) << enough;
   EXPECT_FALSE(has(timing_table({timed("fast", 100, 765, 999)}).text(), "765"));
+}
+
+TEST(ComparisonText, HasTheFastestFirstIn120Columns) {
+  std::vector<measurement::ResultRow> rows{timed("slow:" + std::string(120, 'x') + ",last=1", 200, 1530),
+                                           timed("fast", 100, 765)};
+  rows[0].counts->false_contacts = 388;
+  rows[0].counts->rounding = 156;
+  rows[1].cold.emplace();
+  rows[1].cold->p50 = 4321;
+  const std::string text = comparison_text(rows);
+  std::vector<std::string> lines;
+  for (std::istringstream in(text); in;) std::getline(in, lines.emplace_back());
+  ASSERT_GE(lines.size(), 4u) << text;
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_LE(lines[i].size(), 120u) << lines[i];
+  EXPECT_TRUE(lines[1].starts_with("fast ")) << text;
+  EXPECT_TRUE(has(lines[1], "4321")) << text;
+  EXPECT_TRUE(has(lines[2], "..")) << text;
+  EXPECT_TRUE(has(lines[2], ",last=1 ")) << text;
+  EXPECT_TRUE(has(lines[2], " 388 ")) << text;
+  EXPECT_TRUE(has(lines[3], "last=1: 388 false, 156 rounding")) << text;
+}
+
+TEST(ComparisonText, NamesWhatWasNotTimedWithItsWholeStatus) {
+  measurement::ResultRow refused;
+  refused.detector = "rival";
+  refused.status = "refused: it takes no mesh of so many triangles as this one";
+  const std::string text = comparison_text({refused, timed("fast", 100, 765)});
+  EXPECT_LT(text.find("fast"), text.find("rival")) << text;
+  EXPECT_TRUE(has(text, "rival: refused: it takes no mesh of so many triangles as this one\n")) << text;
+}
+
+TEST(OverallVerdict, NamesTheFastestThatWasNeverWrongOverAllTrajectories) {
+  std::vector<measurement::ResultRow> rows{timed("fast", 100, 765), timed("wrong", 10, 765),
+                                           timed("slow", 300, 765), timed("fast", 400, 765),
+                                           timed("wrong", 10, 765), timed("slow", 300, 765)};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].trajectory = i < 3 ? "slide" : "jump";
+    rows[i].counts->judged = 1000;
+    rows[i].latency->max = i < 3 ? 2000 : 50'000;
+  }
+  rows[4].counts->missed = 1;
+  EXPECT_EQ(overall_verdict(rows),
+            "fast is the fastest that was never wrong in 2000 checked steps: 200 ns a query. Its slowest "
+            "warm step took 50 us, "
+            "which holds 1, 4 and 10 kHz, the last with a margin of 2.\n");
+  rows[0].cold.emplace();
+  rows[0].cold->max = 300'000;
+  EXPECT_TRUE(has(overall_verdict(rows),
+                  "With all caches emptied its slowest query took 300 us, which holds 1 kHz,"));
+  EXPECT_EQ(overall_verdict({rows[4]}), "No contestant finished all trajectories without a wrong answer.\n");
 }
 
 }  // namespace
