@@ -133,10 +133,12 @@ struct Maker {
   std::string_view name;
   std::unique_ptr<NamedDetector> (*build)(const TriangleMesh&, OptionText&);
 };
-constexpr std::array<Maker, 4> makers{{{"brute-force", brute_force},
+/// The last is a former name, until 0.4.
+constexpr std::array<Maker, 5> makers{{{"brute-force", brute_force},
                                        {"aabb-tree", aabb_tree},
                                        {"grid-group", grid_group},
-                                       {"sphere-cluster", sphere_cluster}}};
+                                       {"sphere-cluster", sphere_cluster},
+                                       {"auto", sphere_cluster}}};
 
 }  // namespace
 
