@@ -116,7 +116,7 @@ std::unique_ptr<NamedDetector> sphere_cluster(const TriangleMesh& mesh, OptionTe
   using Construction = SphereCluster::Construction;
   constexpr Choices<Lookup, 2> lookups{{{"tree", Lookup::tree}, {"scan", Lookup::scan}}};
   constexpr Choices<Simd, 3> widths{
-      {{"avx512", Simd::avx512}, {"avx2", Simd::avx2}, {"portable", Simd::portable}}};
+      {{"avx2", Simd::avx2}, {"avx512", Simd::avx2}, {"portable", Simd::portable}}};
   constexpr Choices<Construction, 2> builds{{{"whole", Construction::whole}, {"lazy", Construction::lazy}}};
   SphereCluster::Options options;
   text.read_choice("lookup", lookups, options.lookup);

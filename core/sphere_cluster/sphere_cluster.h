@@ -35,8 +35,8 @@ class SphereCluster {
     Lookup lookup = Lookup::tree;
     bool precise = true;  ///< false: the fast level alone; spheres answer in place of their triangles
     VisitOrder order = VisitOrder::breadth_first;  ///< in which triangles are clustered
-    bool certified = true;       ///< false, tree only: as doubles have it, to measure what certainty costs
-    Simd widest = Simd::avx512;  ///< tree: forgo wider instructions than these; the same bits
+    bool certified = true;     ///< false, tree only: as doubles have it, to measure what certainty costs
+    Simd widest = Simd::avx2;  ///< tree: forgo wider instructions than these; avx512 is avx2; the same bits
     Construction construction = Construction::whole;
     unsigned threads = 1;  ///< tree: build it, at most 256; 0: as many as there are processors; the same bits
   };
