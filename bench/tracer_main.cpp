@@ -98,16 +98,6 @@ bool ask(const NamedDetector& detector, const Trace& trace, std::size_t step,
   return detector.first_hit({from, center, radius}, session).has_value();
 }
 
-/// Returns what `auto` chose, as its options say, and any other detector as it is.
-std::string form_of(const std::string& detector, const std::string& options) {
-  constexpr std::string_view chose = "chose=";
-  const std::size_t at = options.find(chose);
-  if (detector != "auto" || at == std::string::npos)
-    return options.empty() ? detector : detector + ":" + options;
-  const std::size_t form = at + chose.size();
-  return options.substr(form, options.find(',', form) - form);
-}
-
 /// Asks the steps of the ranges in their order, as the run did, and notes those that are wanted.
 Json visits_of(const NamedDetector& detector, const TriangleMesh& mesh, const Trace& trace,
                std::span<const std::uint64_t> ranges, std::span<const std::uint64_t> wanted) {
@@ -158,7 +148,7 @@ Json taken_and_traced() {
                                                 {"trajectory", trace.trajectory},
                                                 {"steps", Json::array()}});
     try {
-      const std::string text = form_of(detector, options);
+      const std::string text = options.empty() ? detector : detector + ":" + options;
       std::unique_ptr<NamedDetector>& built = detectors[text];
       if (!built) built = NamedDetector::build(mesh, text);
       told["steps"] = visits_of(*built, mesh, trace, ranges, wanted);

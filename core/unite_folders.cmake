@@ -5,7 +5,7 @@ option(TOUCHMARK_UNITE_CORE "Compile each folder of core as one source: sooner d
 
 function(touchmark_unite_folders target core)
   # Compiled by themselves, since their unnamed namespaces name things as another file's of the folder do.
-  set(apart auto/trial exact/precise_closest_point field/plane_fitter geometry/way_gap grid_group/direct/direct_query
+  set(apart exact/precise_closest_point field/plane_fitter geometry/way_gap grid_group/direct/direct_query
     grid_group/direct/prism scene/pose_change scene/round_body scene/scene_bodies scene/seen_body scene/support_table
     scene/surface_list scene/near_surface scene/pose scene/primitives search/curve_order search/nearest_of_ties
     search/sure_feature sphere_cluster/tree/bounding_cylinder sphere_cluster/tree/cylinder_bvh

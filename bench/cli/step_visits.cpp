@@ -28,7 +28,7 @@ using support::put_list, support::put_number, support::put_text;
 constexpr std::size_t most_triangles = 2'000'000;
 
 bool is_traced(const ResultRow& row) {
-  constexpr std::array<std::string_view, 4> detectors{"aabb-tree", "auto", "grid-group", "sphere-cluster"};
+  constexpr std::array<std::string_view, 3> detectors{"aabb-tree", "grid-group", "sphere-cluster"};
   // The published forms look at every group or sphere of a probe's cell, or at all.
   return row.log != nullptr && !row.log->ns.empty() &&
          std::ranges::find(detectors, row.detector) != detectors.end() &&
@@ -59,7 +59,7 @@ void put_row(std::FILE* to, const workload::Workload& workload, const ResultRow&
   const auto trace = std::ranges::find(workload.trajectories, row.trajectory) - workload.trajectories.begin();
   put_number(to, static_cast<std::uint64_t>(trace));
   put_text(to, row.detector);
-  put_text(to, row.all_options());
+  put_text(to, row.options);
   std::vector<std::uint64_t> ranges;
   for (const workload::StepRange& range : row.log->ranges)
     ranges.insert(ranges.end(), {range.begin, range.end});

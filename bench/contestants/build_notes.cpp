@@ -11,11 +11,6 @@ std::vector<std::string>& kept() {
   return remarks;
 }
 
-std::string& last_choice() {
-  static std::string choice;
-  return choice;
-}
-
 }  // namespace
 
 void remark(std::string text) {
@@ -23,9 +18,5 @@ void remark(std::string text) {
 }
 
 std::vector<std::string> take_remarks() { return std::exchange(kept(), {}); }
-
-void note_choice(std::string options) { last_choice() = std::move(options); }
-
-std::string take_choice() { return std::exchange(last_choice(), {}); }
 
 }  // namespace touchmark::bench::contestants

@@ -13,11 +13,4 @@ void remark(std::string text);
 /// Returns the remarks since the last call.
 std::vector<std::string> take_remarks();
 
-/// What a contestant that chooses for itself has chosen: options as one could have typed them. Of one thread
-/// at a time.
-void note_choice(std::string options);
-
-/// Returns the choice noted last, since the last call; empty: none.
-std::string take_choice();
-
 }  // namespace touchmark::bench::contestants

@@ -86,13 +86,25 @@ bool all_chosen(std::string_view conditions, const OptionValues& values) {
   }
 }
 
+/// Returns the former name that this is, or null.
+const FormerName* former_name(const ContestantInfo& contestant, std::string_view name) {
+  const auto found = std::ranges::find(contestant.former_names, name, &FormerName::name);
+  return found != contestant.former_names.end() ? &*found : nullptr;
+}
+
 /// The pairs as written, checked. Throws for what is not key=value, an unknown or repeated key, a bad value.
-std::map<std::string, std::string> parse_options(const ContestantInfo& contestant, std::string_view text) {
+/// Pairs that have no effect are left out, and their keys added to `dead`.
+std::map<std::string, std::string> parse_options(const ContestantInfo& contestant, std::string_view text,
+                                                 const FormerName* former, std::vector<std::string>& dead) {
   std::map<std::string, std::string> written;
   for (const std::string_view pair : split(text, ',')) {
     const std::size_t equals = pair.find('=');
     if (equals == std::string_view::npos) {
       throw std::invalid_argument(fmt::format("{}: \"{}\" is not key=value", contestant.name, pair));
+    }
+    if (former != nullptr && std::ranges::count(former->dead_options, pair.substr(0, equals)) > 0) {
+      dead.emplace_back(pair.substr(0, equals));
+      continue;
     }
     const OptionInfo& option = find_option(contestant, pair.substr(0, equals));
     const std::string_view value = pair.substr(equals + 1);
@@ -148,9 +160,9 @@ void Roster::sort() {
 
 void Roster::add(ContestantInfo contestant) {
   for (const ContestantInfo& other : contestants_) {
-    if (other.name != contestant.name) continue;
+    if (other.name != contestant.name && former_name(other, contestant.name) == nullptr) continue;
     throw std::invalid_argument(
-        fmt::format("its name \"{}\" is taken by {}", other.name,
+        fmt::format("its name \"{}\" is taken by {}", contestant.name,
                     other.plugin.empty() ? "a contestant of this program" : other.plugin));
   }
   contestants_.push_back(std::move(contestant));
@@ -158,8 +170,9 @@ void Roster::add(ContestantInfo contestant) {
 }
 
 const ContestantInfo& Roster::find(const std::string& name) const {
-  const auto found = std::find_if(contestants_.begin(), contestants_.end(),
-                                  [&](const ContestantInfo& info) { return info.name == name; });
+  const auto found = std::find_if(contestants_.begin(), contestants_.end(), [&](const ContestantInfo& info) {
+    return info.name == name || former_name(info, name) != nullptr;
+  });
   if (found != contestants_.end()) return *found;
   std::vector<std::string> names;
   for (const ContestantInfo& info : contestants_) names.push_back(info.name);
@@ -169,9 +182,12 @@ const ContestantInfo& Roster::find(const std::string& name) const {
 
 ContestantSpec Roster::parse(const std::string& text) const {
   const std::size_t colon = text.find(':');
-  const ContestantInfo& contestant = find(text.substr(0, colon));
+  const std::string name = text.substr(0, colon);
+  const ContestantInfo& contestant = find(name);
+  const FormerName* const former = former_name(contestant, name);
+  std::vector<std::string> dead;
   std::map<std::string, std::string> written;
-  if (colon != std::string::npos) written = parse_options(contestant, text.substr(colon + 1));
+  if (colon != std::string::npos) written = parse_options(contestant, text.substr(colon + 1), former, dead);
 
   std::vector<std::string> in_order;
   std::map<std::string, std::string> values;
@@ -182,8 +198,24 @@ ContestantSpec Roster::parse(const std::string& text) const {
   }
   OptionValues chosen(std::move(values));
   const std::optional<Guarantee> claimed = claimed_guarantee(contestant.accuracy, chosen);
-  return {contestant.name, fmt::format("{}", fmt::join(in_order, ",")), std::move(chosen), claimed,
-          contestant.plugin};
+  ContestantSpec spec{contestant.name, fmt::format("{}", fmt::join(in_order, ",")), std::move(chosen),
+                      claimed, contestant.plugin};
+  if (former != nullptr) spec.remark = fmt::format("{} answers as {}", text, spec.text());
+  if (!dead.empty()) spec.remark += fmt::format(", without effect of {}", fmt::join(dead, ", "));
+  return spec;
+}
+
+std::vector<ContestantSpec> Roster::parse_all(const std::vector<std::string>& texts) const {
+  std::vector<ContestantSpec> specs;
+  for (const std::string& text : texts) specs.push_back(parse(text));
+  for (auto spec = specs.begin(); spec != specs.end();) {
+    const bool is_again =
+        !spec->remark.empty() && std::ranges::count(specs, spec->text(), &ContestantSpec::text) > 1;
+    if (!spec->remark.empty())
+      fmt::print(stderr, "touchmark: {}{}\n", spec->remark, is_again ? ", which is in the list, too" : "");
+    spec = is_again ? specs.erase(spec) : spec + 1;
+  }
+  return specs;
 }
 
 std::vector<ContestantSpec> Roster::forms(std::vector<std::string> Forms::*set) const {

@@ -79,8 +79,15 @@ struct LibraryClass {
   std::string header, name;
 };
 
+/// A name of a detector that went out. Another answers to it.
+struct FormerName {
+  std::string name;
+  std::vector<std::string> dead_options = {};  ///< keys that are read, and have no effect
+};
+
 struct ContestantInfo {
   std::string name;
+  std::vector<FormerName> former_names = {};
   int rank = std::numeric_limits<int>::max();  ///< Lists go from the lowest to the highest, then by name.
   bool ours = false;                           ///< True if its entry is one of bench/contestants/own.
   std::string summary;                         ///< one line
@@ -123,6 +130,7 @@ struct ContestantSpec {
   OptionValues values;
   std::optional<Guarantee> claimed;  ///< by its entry, so known before it is built; nothing: none
   std::string plugin = {};           ///< its contestant's
+  std::string remark = {};  ///< what a former name and its options mean, in words; empty: none was used
 
   std::string text() const { return options.empty() ? name : name + ":" + options; }
 };
@@ -141,8 +149,11 @@ class Roster {
   void add(ContestantInfo contestant);
   /// Throws std::invalid_argument; an unknown name's message lists the nearest ones.
   const ContestantInfo& find(const std::string& name) const;
-  /// `NAME[:key=value,...]`. Throws std::invalid_argument naming the name, key or value that is wrong.
+  /// `NAME[:key=value,...]`, by a present or a former name. Throws std::invalid_argument naming the name, key
+  /// or value that is wrong.
   ContestantSpec parse(const std::string& text) const;
+  /// Parses each. Says on stderr what a former name means, and keeps one where it means another of the list.
+  std::vector<ContestantSpec> parse_all(const std::vector<std::string>& texts) const;
   /// Returns these forms of all contestants that are built in.
   std::vector<ContestantSpec> forms(std::vector<std::string> Forms::*set) const;
   std::vector<ContestantSpec> default_set() const { return forms(&Forms::compared); }

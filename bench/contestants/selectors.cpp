@@ -81,7 +81,7 @@ CheckedSelectors check(const Selectors& selectors, const Roster& roster, Variety
                                                         selectors.motion.rate);
   selection.unit = checked_unit(selectors.unit);
   selection.seed = checked_seed(selectors.seed);
-  for (const std::string& text : selectors.detectors) selection.contestants.push_back(roster.parse(text));
+  selection.contestants = roster.parse_all(selectors.detectors);
   if (selection.contestants.empty()) {
     selection.contestants = !selectors.scene.empty()  ? roster.forms(&Forms::scenes)
                             : variety == Variety::one ? roster.default_set()

@@ -57,7 +57,6 @@ Measurement::Measurement(const workload::Workload& workload, const workers::Shar
 void Measurement::begin() {
   const workers::Built& built = process_.build();
   row_.accuracy = built.accuracy;
-  row_.choice = built.choice;
   row_.build_ms = built.build_ms;
   row_.bytes = built.bytes;
   row_.heap_bytes = built.heap_bytes;

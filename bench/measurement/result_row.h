@@ -60,7 +60,6 @@ struct ResultRow {
   std::string detector;
   std::string options;  ///< as written out: "key=value,..."
   std::string plugin;   ///< the file that has it; empty: one of the program's own
-  std::string choice;   ///< options that it chose for itself, as one could have typed them; empty: none
   std::string mesh;
   std::size_t triangles = 0;
   std::string trajectory;
@@ -101,10 +100,6 @@ struct ResultRow {
     return plugin.empty() ? named : "--plugin " + support::quoted(plugin) + ' ' + named;
   }
   std::string contestant() const { return options.empty() ? detector : detector + ":" + options; }
-  /// Returns the options with those that it chose for itself.
-  std::string all_options() const {
-    return options.empty() || choice.empty() ? options + choice : options + ',' + choice;
-  }
   std::optional<Guarantee> claim() const {
     if (accuracy) return accuracy->guarantee;
     return claimed;

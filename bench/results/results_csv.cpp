@@ -129,9 +129,9 @@ constexpr auto columns = std::to_array<Column<R>>({
     {"schema", [](Row) { return std::to_string(results_schema); }, always, one, "version of these columns"},
     {"run_id", nullptr, always, any_text, "ties the row to its [run.json](run-json.md)"},
     {"detector", plain<&R::detector>, always, any_text, "the contestant's name, as `--detector` takes it"},
-    {"options", [](Row row) { return row.all_options(); }, optional, option_list,
-     "the options that were written out, `key=value` joined by commas; the rest were at their defaults. Of "
-     "`auto` also what it chose, as it can be typed"},
+    {"options", plain<&R::options>, optional, option_list,
+     "the options that were written out, `key=value` joined by commas; the rest were at their defaults. "
+     "Older recordings of `auto` also say what it chose"},
     {"mesh", plain<&R::mesh>, always, any_text, "the scene's name or file, as `--mesh` took it"},
     {"triangles", plain<&R::triangles>, always, whole_number, "number of triangles of the mesh"},
     {"trajectory", plain<&R::trajectory>, always, any_text,

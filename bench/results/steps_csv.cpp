@@ -35,9 +35,9 @@ void write_steps_csv(const std::vector<measurement::ResultRow>& rows,
   std::string text(steps_csv_header);
   for (const measurement::ResultRow& row : rows) {
     if (row.log == nullptr) continue;
-    const std::string fields = fmt::format(
-        "{},{},{},{},{}", support::csv_field(row.detector), support::csv_field(row.all_options()),
-        support::csv_field(row.mesh), support::csv_field(row.trajectory), workload::name_of(row.query));
+    const std::string fields = fmt::format("{},{},{},{},{}", support::csv_field(row.detector),
+                                           support::csv_field(row.options), support::csv_field(row.mesh),
+                                           support::csv_field(row.trajectory), workload::name_of(row.query));
     std::size_t place = 0;
     for (const workload::StepRange& range : row.log->ranges) {
       for (std::size_t step = range.begin; step < range.end; ++step, ++place) {

@@ -284,10 +284,17 @@ Json StepsFile::row_json(const ResultRow& row, const std::vector<ground_truth::S
           std::min<std::uint64_t>(log.work[place], std::numeric_limits<std::uint32_t>::max())));
     }
   }
-  return {{"detector", row.detector},      {"options", row.all_options()},      {"repeat", row.repeat},
-          {"ranges", std::move(ranges)},   {"ns", times_json(log.ns)},          {"found", block(found)},
-          {"triangle", block(triangle)},   {"distance", block(distance)},       {"work", block(work)},
-          {"charged", block(log.charged)}, {"noted", noted_answers(log, noted)}};
+  return {{"detector", row.detector},
+          {"options", row.options},
+          {"repeat", row.repeat},
+          {"ranges", std::move(ranges)},
+          {"ns", times_json(log.ns)},
+          {"found", block(found)},
+          {"triangle", block(triangle)},
+          {"distance", block(distance)},
+          {"work", block(work)},
+          {"charged", block(log.charged)},
+          {"noted", noted_answers(log, noted)}};
 }
 
 }  // namespace

@@ -158,7 +158,6 @@ double Worker::timed_build() {
 
 Built Worker::handle(const request::Build& request) {
   contestants::take_remarks();
-  contestants::take_choice();
   Built reply;
   const auto refuse = [&](std::string why) {
     contestant_.reset();
@@ -178,7 +177,6 @@ Built Worker::handle(const request::Build& request) {
     refuse(error.what());
   }
   reply.remarks = contestants::take_remarks();
-  reply.choice = contestants::take_choice();
   return reply;
 }
 

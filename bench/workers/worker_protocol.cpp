@@ -46,7 +46,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(OutOfResources, what)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Broken, why)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Opened, clock_cost_ns, ns_per_tick, flushed_to_zero)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Built, refused, build_ms, bytes, heap_bytes, accuracy, queries, prepares,
-                                   builds_lazily, remarks, choice)
+                                   builds_lazily, remarks)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Described, refused, name, summary, accuracy, queries, options)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Answered, checksum, work)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Timed, ns_per_query, cpu_ns_per_query, checksum, steady, work, samples,

@@ -71,7 +71,6 @@ struct Built {
   bool prepares = false;
   bool builds_lazily = false;  ///< its first queries build parts of it
   std::vector<std::string> remarks;
-  std::string choice = {};  ///< options that it chose for itself; empty: none
 };
 
 /// What a plug-in says that it is.

@@ -116,7 +116,7 @@ std::unique_ptr<NamedDetector> sphere_cluster(const TriangleMesh& mesh, OptionTe
   using Construction = SphereCluster::Construction;
   constexpr Choices<Lookup, 2> lookups{{{"tree", Lookup::tree}, {"scan", Lookup::scan}}};
   constexpr Choices<Simd, 3> widths{
-      {{"avx512", Simd::avx512}, {"avx2", Simd::avx2}, {"portable", Simd::portable}}};
+      {{"avx2", Simd::avx2}, {"avx512", Simd::avx2}, {"portable", Simd::portable}}};
   constexpr Choices<Construction, 2> builds{{{"whole", Construction::whole}, {"lazy", Construction::lazy}}};
   SphereCluster::Options options;
   text.read_choice("lookup", lookups, options.lookup);
@@ -133,10 +133,12 @@ struct Maker {
   std::string_view name;
   std::unique_ptr<NamedDetector> (*build)(const TriangleMesh&, OptionText&);
 };
-constexpr std::array<Maker, 4> makers{{{"brute-force", brute_force},
+/// The last is a former name, until 0.4.
+constexpr std::array<Maker, 5> makers{{{"brute-force", brute_force},
                                        {"aabb-tree", aabb_tree},
                                        {"grid-group", grid_group},
-                                       {"sphere-cluster", sphere_cluster}}};
+                                       {"sphere-cluster", sphere_cluster},
+                                       {"auto", sphere_cluster}}};
 
 }  // namespace
 

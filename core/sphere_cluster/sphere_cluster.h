@@ -35,8 +35,8 @@ class SphereCluster {
     Lookup lookup = Lookup::tree;
     bool precise = true;  ///< false: the fast level alone; spheres answer in place of their triangles
     VisitOrder order = VisitOrder::breadth_first;  ///< in which triangles are clustered
-    bool certified = true;       ///< false, tree only: as doubles have it, to measure what certainty costs
-    Simd widest = Simd::avx512;  ///< tree: forgo wider instructions than these; the same bits
+    bool certified = true;     ///< false, tree only: as doubles have it, to measure what certainty costs
+    Simd widest = Simd::avx2;  ///< tree: forgo wider instructions than these; avx512 is avx2; the same bits
     Construction construction = Construction::whole;
     unsigned threads = 1;  ///< tree: build it, at most 256; 0: as many as there are processors; the same bits
   };
@@ -69,7 +69,7 @@ class SphereCluster {
   // Inline as far as what is known without a look: there a query is a few comparisons, less than a call.
   [[gnu::always_inline]] bool touches(const Probe& probe, Session& session) const noexcept {
     if (is_clear(probe.center, probe.radius, session)) return false;
-    return is_touching(probe, session) || look_for_touch(probe, session);
+    return tree_.is_touching(probe.center, probe.radius, session.memory) || look_for_touch(probe, session);
   }
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept {
     if (is_clear(probe.center, reach, session)) return std::nullopt;
@@ -116,28 +116,6 @@ class SphereCluster {
     return std::min(look_for_contacts(probe, reach, session, into, false), into.size());
   }
 
-  /// With a tree: is it known, without looking into it, that nothing is within reach? By what was near last,
-  /// or by the mesh's box, first where that answered last. Of a detector that was not built, nothing is
-  /// known.
-  [[gnu::always_inline]] bool is_clear(const Vec3& center, double reach, Session& session) const noexcept {
-    SphereTree::Memory& memory = session.memory;
-    if (memory.for_box == 0)
-      return tree_.is_clear(center, reach, memory) || tree_.turns_out_beyond_box(center, reach, memory);
-    return may_ask_on(tree_.is_beyond_box(center, reach), memory);
-  }
-  /// Is that known of a whole path?
-  [[gnu::always_inline]] bool is_clear(const Sweep& sweep, Session& session) const noexcept {
-    SphereTree::Memory& memory = session.memory;
-    if (memory.for_box == 0)
-      return tree_.is_clear(sweep, memory) || tree_.turns_out_beyond_box(sweep, memory);
-    return may_ask_on(tree_.is_beyond_box(sweep), memory);
-  }
-  /// With a tree: is it known, without looking, that the probe touches? Of a detector that was not built,
-  /// nothing is known.
-  bool is_touching(const Probe& probe, const Session& session) const noexcept {
-    return tree_.is_touching(probe.center, probe.radius, session.memory);
-  }
-
   /// With a tree: lists, after `nearest`, the leaves near the point for a next tick that moves no farther
   /// than twice as far as this one, and asks the last question again, where the point will be if it goes on
   /// as it moved. The next query then finds its data and its code in the caches, best when this is called
@@ -158,6 +136,21 @@ class SphereCluster {
   double tightness() const noexcept { return tightness_; }
 
  private:
+  /// With a tree: true if nothing is within reach, as far as that is known without looking into it. By what
+  /// was near last, or by the mesh's box, first where that answered last.
+  [[gnu::always_inline]] bool is_clear(const Vec3& center, double reach, Session& session) const noexcept {
+    SphereTree::Memory& memory = session.memory;
+    if (memory.for_box == 0)
+      return tree_.is_clear(center, reach, memory) || tree_.turns_out_beyond_box(center, reach, memory);
+    return may_ask_on(tree_.is_beyond_box(center, reach), memory);
+  }
+  /// True if that is known of a whole path.
+  [[gnu::always_inline]] bool is_clear(const Sweep& sweep, Session& session) const noexcept {
+    SphereTree::Memory& memory = session.memory;
+    if (memory.for_box == 0)
+      return tree_.is_clear(sweep, memory) || tree_.turns_out_beyond_box(sweep, memory);
+    return may_ask_on(tree_.is_beyond_box(sweep), memory);
+  }
   /// Goes on with the box if that has answered; returns whether it has.
   static bool may_ask_on(bool is_beyond, SphereTree::Memory& memory) noexcept {
     memory.for_box = is_beyond ? memory.for_box - 1 : 0;

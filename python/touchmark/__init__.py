@@ -364,14 +364,14 @@ class SphereCluster(Detector):
 
     clustering: distance between centroids that share a sphere; 0: a sphere each. lookup: "tree", or "scan", the form as
     published. precise: False, the published fast level alone: spheres answer, contacts come early. certified: False decides
-    as doubles have it. build: "whole", or "lazy": by the first queries. simd: "avx512", "avx2" or "portable": none wider.
+    as doubles have it. build: "whole", or "lazy": by the first queries. simd: "avx2" or "portable": none wider.
     """
 
     __slots__ = ()
     _name = "sphere-cluster"
 
     def __init__(self, mesh: Mesh, *, clustering: Length = 0.0, lookup: str = "tree", precise: bool = True,
-                 certified: bool = True, build: str = "whole", simd: str = "avx512") -> None:
+                 certified: bool = True, build: str = "whole", simd: str = "avx2") -> None:
         super().__init__(mesh, clustering=clustering, lookup=lookup, precise=precise, certified=certified, build=build,
                          simd=simd)
 

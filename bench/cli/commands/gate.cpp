@@ -108,7 +108,7 @@ Gate::Gate(const contestants::Roster& roster, const GateOptions& options)
     : roster_(roster),
       options_(options),
       selection_(checked(options, roster)),
-      reference_(roster.parse(options.reference)),
+      reference_(roster.parse_all({options.reference}).front()),
       tolerance_(checked_tolerance(options.tolerance)),
       workload_(workload_for(options, selection_)),
       mesh_hash_(workload::hash_of_things(workload_)),

@@ -34,6 +34,9 @@ std::string description_of(const contestants::ContestantInfo& contestant) {
   text += fmt::format("      answers {}; {}{}\n", fmt::join(queries, ", "), contestant.accuracy,
                       contestant.build_scene ? "; takes scenes of bodies" : "");
   for (const contestants::OptionInfo& option : contestant.options) text += description_of(option);
+  for (const contestants::FormerName& former : contestant.former_names)
+    text += fmt::format("  {}  (a former name: {}; {} have no effect)\n", former.name, contestant.name,
+                        fmt::join(former.dead_options, ", "));
   return text;
 }
 

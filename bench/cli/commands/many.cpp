@@ -50,8 +50,7 @@ std::vector<std::string> or_else(const std::vector<std::string>& chosen, std::ve
 /// Without --detector our fast exact ones, the reference, and Embree where it is built in.
 std::vector<contestants::ContestantSpec> checked_contestants(const std::vector<std::string>& names,
                                                              const contestants::Roster& roster) {
-  std::vector<contestants::ContestantSpec> specs;
-  for (const std::string& name : names) specs.push_back(roster.parse(name));
+  std::vector<contestants::ContestantSpec> specs = roster.parse_all(names);
   if (!specs.empty()) return specs;
   for (const contestants::ContestantInfo& info : roster.contestants()) {
     if (info.built() && (info.name == "sphere-cluster" || info.name == "grid-group" ||

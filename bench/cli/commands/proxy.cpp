@@ -64,7 +64,7 @@ proxy::ProxyRequest request_of(const ProxyOptions& options, const contestants::R
   if (request.methods.empty()) request.methods = proxy::all_methods(roster);
   request.ticks = checked_count("--ticks", options.ticks.empty() ? "100000" : options.ticks, 1, max_ticks);
   request.seed = checked_count("--seed", options.seed, 0, UINT32_MAX);
-  request.detector = options.detector;
+  request.detector = roster.parse_all({options.detector}).front().text();
   request.coupling = checked_coupling(options.coupling);
   return request;
 }

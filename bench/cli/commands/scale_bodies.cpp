@@ -30,8 +30,7 @@ constexpr scaling::SizesOf of_bodies{"bodies", 1, 1'000'000};
 /// The fastest of ours, a plain loop and the rivals: `merged` would be built of all triangles.
 std::vector<contestants::ContestantSpec> contestants_of(const std::vector<std::string>& names,
                                                         const contestants::Roster& roster) {
-  std::vector<contestants::ContestantSpec> specs;
-  for (const std::string& name : names) specs.push_back(roster.parse(name));
+  std::vector<contestants::ContestantSpec> specs = roster.parse_all(names);
   if (!specs.empty()) return specs;
   for (contestants::ContestantSpec& spec : roster.forms(&contestants::Forms::scenes)) {
     if (spec.name == "sphere-cluster" || spec.name == "looped" || !roster.find(spec.name).ours)

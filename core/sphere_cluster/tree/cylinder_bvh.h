@@ -72,10 +72,10 @@ class SphereTree {
   };
 
   struct Options {
-    Simd widest = Simd::avx512;  ///< no wider instructions; what the processor lacks is not used
-    bool certified = true;       ///< false: contact as doubles have it
-    bool lazy = false;           ///< distances are sampled by the first queries that want them
-    unsigned threads = 1;        ///< build it, at least 1; the same bits
+    Simd widest = Simd::avx2;  ///< no wider instructions; what the processor lacks is not used
+    bool certified = true;     ///< false: contact as doubles have it
+    bool lazy = false;         ///< distances are sampled by the first queries that want them
+    unsigned threads = 1;      ///< build it, at least 1; the same bits
   };
 
   SphereTree() = default;

@@ -27,14 +27,8 @@ template <class Visitor>
 template <class Visitor>
 [[gnu::always_inline]] inline float SphereTree::traverse(const FilterPoint& point, Visitor& visitor,
                                                          std::uint64_t budget) const noexcept {
-  switch (simd_) {
-    case Simd::avx512:
-      return spheres::avx512::traverse(parts_, point, budget, visitor);
-    case Simd::avx2:
-      return spheres::avx2::traverse(parts_, point, budget, visitor);
-    default:
-      return spheres::portable::traverse(parts_, point, budget, visitor);
-  }
+  return simd_ == Simd::portable ? spheres::portable::traverse(parts_, point, budget, visitor)
+                                 : spheres::avx2::traverse(parts_, point, budget, visitor);
 }
 
 inline float SphereTree::displacement(const Vec3& from, const Vec3& to,
@@ -110,14 +104,9 @@ template <class Visitor>
 [[gnu::always_inline]] inline float SphereTree::search_cached(const FilterPoint& point, Visitor& visitor,
                                                               const spheres::LeafCache& cache, float away,
                                                               std::uint64_t budget) const noexcept {
-  switch (simd_) {
-    case Simd::avx512:
-      return spheres::avx512::search_cached(parts_, point, cache, away, budget, visitor);
-    case Simd::avx2:
-      return spheres::avx2::search_cached(parts_, point, cache, away, budget, visitor);
-    default:
-      return spheres::portable::search_cached(parts_, point, cache, away, budget, visitor);
-  }
+  return simd_ == Simd::portable
+             ? spheres::portable::search_cached(parts_, point, cache, away, budget, visitor)
+             : spheres::avx2::search_cached(parts_, point, cache, away, budget, visitor);
 }
 
 }  // namespace touchmark

@@ -1,4 +1,4 @@
-/// The search of the hierarchy, for the portable instruction set, AVX2 and AVX-512, chosen at run time.
+/// The search of the hierarchy, for the portable instruction set and AVX2, chosen at run time.
 #pragma once
 
 #include <algorithm>
@@ -130,35 +130,8 @@ inline void compress(Word* to, const Word* from, unsigned chosen) noexcept {
 
 }  // namespace avx2
 TOUCHMARK_END_TARGET
-
-TOUCHMARK_TARGET("avx2,avx512f,avx512vl,avx512dq")
-namespace avx512 {
-
-using avx2::kernel, avx2::lanes, avx2::square_root, avx2::Wide, avx2::WideBits;
-
-inline unsigned to_bits(WideBits mask) noexcept {
-  return _mm256_movepi32_mask(reinterpret_cast<__m256i>(mask));
-}
-template <class Word>
-inline void compress(Word* to, const Word* from, unsigned chosen) noexcept {
-  static_assert(sizeof(Word) == 4);
-  const __m256i words = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(from));
-  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
-                      _mm256_maskz_compress_epi32(static_cast<__mmask8>(chosen), words));
-}
-/// Splits as traversal.inl does, by instructions of this set.
-inline unsigned split(Wide bounds, float limit, Wide& unseen) noexcept {
-  const __mmask8 is_near = _mm256_cmp_ps_mask(bounds, _mm256_set1_ps(limit), _CMP_LE_OQ);
-  unseen = _mm256_mask_min_ps(unseen, static_cast<__mmask8>(~is_near), unseen, bounds);
-  return is_near;
-}
-#include "core/sphere_cluster/tree/traversal.inl"
-
-}  // namespace avx512
-TOUCHMARK_END_TARGET
 #else
 namespace avx2 = portable;
-namespace avx512 = portable;
 #endif
 
 }  // namespace touchmark::spheres

@@ -1,5 +1,5 @@
 // The search itself, written once and included once an instruction set (traversal.h), in a namespace that
-// defines Wide, a vector of `lanes` floats, and its square_root, to_bits and pack, and may define split. The
+// defines Wide, a vector of `lanes` floats, and its square_root, to_bits and compress. The
 // same operations in the same order, so that all visit the same nodes and give the same bits.
 
 inline Wide load(const float* from) noexcept {
@@ -126,10 +126,8 @@ inline Point broadcast(const FilterPoint& p) noexcept {
   return {Wide{} + p.x, Wide{} + p.y, Wide{} + p.z, Wide{} + p.plane_error};
 }
 
-/// Returns those that are at most the limit, as bits; `unseen` falls to the least of the others. A template,
-/// so that an instruction set's own one goes before it.
-template <class Float>
-inline unsigned split(Wide bounds, Float limit, Wide& unseen) noexcept {
+/// Returns those that are at most the limit, as bits; `unseen` falls to the least of the others.
+inline unsigned split(Wide bounds, float limit, Wide& unseen) noexcept {
   const WideBits is_near = bounds <= limit;
   const Wide kept = is_near ? unseen : bounds;
   unseen = unseen < kept ? unseen : kept;

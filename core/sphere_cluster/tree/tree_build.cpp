@@ -35,7 +35,7 @@ double mean_leaf_radius_of(const spheres::TreeParts& whole) noexcept {
 
 SphereTree::SphereTree(const TriangleMesh& mesh, const SphereClusters* clusters, const Options& options)
     : epoch_(Epoch::next()),
-      simd_(std::min(options.widest, widest_simd())),
+      simd_(std::min({options.widest, Simd::avx2, widest_simd()})),
       searchable_(FilterFrame::fits(mesh.bounds())),
       bounds_(mesh.bounds()),
       certified_(options.certified),

@@ -89,27 +89,11 @@ class StepVisits : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     const TemporaryFolder folder;
-    const Outcome finished = run_touchmark({"bench",
-                                            "--mesh",
-                                            folder.file("sheet.obj", sheet()),
-                                            "--trajectory",
-                                            folder.file("motion.csv", motion()),
-                                            "--radius",
-                                            fmt::format("{}", reach),
-                                            "--quick",
-                                            "--detector",
-                                            "aabb-tree",
-                                            "--detector",
-                                            "grid-group",
-                                            "--detector",
-                                            "sphere-cluster",
-                                            "--detector",
-                                            "auto",
-                                            "--detector",
-                                            "brute-force",
-                                            "--out",
-                                            folder.path(),
-                                            "--benchmark_min_time=0.001"});
+    const Outcome finished =
+        run_touchmark({"bench", "--mesh", folder.file("sheet.obj", sheet()), "--trajectory",
+                       folder.file("motion.csv", motion()), "--radius", fmt::format("{}", reach), "--quick",
+                       "--detector", "aabb-tree", "--detector", "grid-group", "--detector", "sphere-cluster",
+                       "--detector", "brute-force", "--out", folder.path(), "--benchmark_min_time=0.001"});
     ASSERT_EQ(finished.status, 0) << finished.err;
     visited() = Json::parse(content_of(folder.file("visited.json")));
     results() = content_of(folder.file("results.csv"));
@@ -141,13 +125,13 @@ TEST_F(StepVisits, HaveTheTenSlowestStepsOfOurDetectorsAlone) {
     detectors.insert(one.at("detector").get<std::string>());
     EXPECT_EQ(one.at("steps").size(), 10U);
   }
-  EXPECT_EQ(detectors, (std::set<std::string>{"aabb-tree", "auto", "grid-group", "sphere-cluster"}));
+  EXPECT_EQ(detectors, (std::set<std::string>{"aabb-tree", "grid-group", "sphere-cluster"}));
 }
 
 TEST_F(StepVisits, AreWhatValidateExpects) {
   const Outcome outcome = validate(visited());
   EXPECT_EQ(outcome.status, 0) << outcome.out;
-  EXPECT_NE(outcome.out.find("visited.json: fine (what 4 rows looked at)"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("visited.json: fine (what 3 rows looked at)"), std::string::npos) << outcome.out;
 }
 
 TEST_F(StepVisits, ValidateFindsEachDamage) {
@@ -185,7 +169,7 @@ TEST_F(StepVisits, WhatWasEnteredIsWithinReachAndWhatWasNotIsFartherThanTheSheet
       const auto check = [&](bool is_entered, double distance) {
         ++(is_entered ? entered : turned_away);
         // The other lists what is near for steps ahead, too.
-        if (is_entered && one.at("detector") != "sphere-cluster" && one.at("detector") != "auto") {
+        if (is_entered && one.at("detector") != "sphere-cluster") {
           EXPECT_LE(distance, reach * (1 + rounding));
         }
         if (!is_entered) {

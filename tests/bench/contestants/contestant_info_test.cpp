@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -13,6 +14,7 @@ namespace {
 Roster small_roster() {
   ContestantInfo grid;
   grid.name = "grid-group";
+  grid.former_names = {{"lattice", {"depth", "trial"}}};
   grid.options = {{"shape", OptionKind::choice, {"cube", "sphere"}, "cube", ""},
                   {"cell", OptionKind::length, {}, "0", ""},
                   {"groups", OptionKind::count, {}, "0", ""},
@@ -46,6 +48,33 @@ TEST(Roster, FillsInTheDefaultsOfOptionsThatWereNotWritten) {
 
 TEST(Roster, WritesOptionsInTheContestantsOwnOrder) {
   EXPECT_EQ(small_roster().parse("grid-group:cell=2,shape=sphere").options, "shape=sphere,cell=2");
+}
+
+TEST(Roster, TakesAFormerNameAndSaysWhichOptionsHaveNoEffect) {
+  const ContestantSpec spec = small_roster().parse("lattice:trial=x,cell=2,depth=5");
+  EXPECT_EQ(spec.text(), "grid-group:cell=2");
+  EXPECT_EQ(spec.remark,
+            "lattice:trial=x,cell=2,depth=5 answers as grid-group:cell=2, without effect of trial, depth");
+  EXPECT_EQ(small_roster().parse("lattice").remark, "lattice answers as grid-group");
+  EXPECT_EQ(small_roster().parse("grid-group").remark, "");
+  EXPECT_NE(error_of("grid-group:depth=5"), "accepted");
+  EXPECT_NE(error_of("lattice:size=5"), "accepted");
+  ContestantInfo another;
+  another.name = "lattice";
+  EXPECT_THROW(small_roster().add(another), std::invalid_argument);
+}
+
+TEST(Roster, KeepsOneWhereAFormerNameMeansAnotherOfTheList) {
+  const auto texts_of = [](const std::vector<std::string>& asked) {
+    std::vector<std::string> texts;
+    for (const ContestantSpec& spec : small_roster().parse_all(asked)) texts.push_back(spec.text());
+    return texts;
+  };
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ(texts_of({"lattice", "absent", "grid-group"}), (Texts{"absent", "grid-group"}));
+  EXPECT_EQ(texts_of({"lattice", "lattice:trial=1"}), (Texts{"grid-group"}));
+  EXPECT_EQ(texts_of({"lattice", "grid-group:cell=1"}), (Texts{"grid-group", "grid-group:cell=1"}));
+  EXPECT_EQ(texts_of({"grid-group", "grid-group"}), (Texts{"grid-group", "grid-group"}));
 }
 
 TEST(Roster, AnswersAnUnknownNameWithTheNearestOnes) {

@@ -42,5 +42,10 @@ TEST(NamedDetector, TakesTheNamesAndOptionsOfTheCommandLine) {
   EXPECT_EQ(names, NamedDetector::names());
 }
 
+TEST(NamedDetector, TakesAutoForSphereCluster) {
+  EXPECT_EQ(NamedDetector::build(pyramid(), "auto:side=on")->bytes(),
+            NamedDetector::build(pyramid(), "sphere-cluster:side=on")->bytes());
+}
+
 }  // namespace
 }  // namespace touchmark::bench
