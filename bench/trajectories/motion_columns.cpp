@@ -130,7 +130,8 @@ std::optional<MotionColumns> HeaderReader::named_by(const Fields& fields, std::s
 std::optional<MotionColumns> HeaderReader::below_a_header(Row& row) {
   std::optional<MotionColumns> columns = named_by(row.fields, row.line);
   if (columns) {
-    if (!next(row)) row.fields.clear();
+    if (!read_next_row(file_, row.fields)) row.fields.clear();
+    row.line = file_.line();
     return columns;
   }
   for (const Row& names : names_in_comments(row.fields)) {
@@ -260,6 +261,18 @@ void HeaderReader::refuse() const {
 }
 
 }  // namespace
+
+bool read_next_row(support::CsvReader& file, std::vector<std::string>& row) {
+  std::size_t empty_line = 0;
+  while (file.next(row)) {
+    if (count_of(row) > 0) {
+      if (empty_line == 0) return true;
+      throw file.error_at(empty_line, "the row is empty, and rows follow it");
+    }
+    if (row.size() > 1 && empty_line == 0) empty_line = file.line();
+  }
+  return false;
+}
 
 bool read_row(support::CsvReader& file, std::vector<std::string>& row) {
   do {

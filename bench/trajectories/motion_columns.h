@@ -35,6 +35,9 @@ struct MotionColumns {
 
 /// Reads the next row that holds more than blanks; false at the end.
 bool read_row(support::CsvReader& file, std::vector<std::string>& row);
+/// Reads the next row of a motion. Refuses one of separators alone where another row follows: it may be a
+/// sample that was not recorded. Throws std::invalid_argument.
+bool read_next_row(support::CsvReader& file, std::vector<std::string>& row);
 
 /// Reads up to the first row of the motion, which `first_row` gets; it stays empty where there is none.
 ///

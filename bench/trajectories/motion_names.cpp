@@ -42,16 +42,36 @@ std::string plain(std::string_view name) {
   return text;
 }
 
-/// Returns the decimals of the unit of time that a name states, in brackets or at its end.
-std::optional<int> decimals_of(std::string_view name) {
+struct TimeUnit {
+  std::string_view name;
+  int decimals;
+};
+constexpr std::array<TimeUnit, 23> time_units = {
+    {{"s", 0},       {"sec", 0},         {"secs", 0},         {"second", 0},
+     {"seconds", 0}, {"ms", 3},          {"msec", 3},         {"msecs", 3},
+     {"millis", 3},  {"millisecond", 3}, {"milliseconds", 3}, {"us", 6},
+     {"\u00b5s", 6}, {"\u03bcs", 6},     {"usec", 6},         {"usecs", 6},
+     {"micros", 6},  {"microsecond", 6}, {"microseconds", 6}, {"ns", 9},
+     {"nsec", 9},    {"nanosecond", 9},  {"nanoseconds", 9}}};
+
+/// Returns the unit of time, in brackets behind a name.
+std::string_view bracketed_unit(std::string_view name) {
   name = trimmed(name);
   const std::size_t bracket = unit_begin(name);
-  const std::string text =
-      bracket < name.size() ? "_" + plain(name.substr(bracket + 1, name.size() - bracket - 2)) : plain(name);
-  for (const auto& [unit, decimals] :
-       {std::pair{"_s", 0}, {"_sec", 0}, {"_seconds", 0}, {"_ms", 3}, {"_us", 6}, {"_ns", 9}})
-    if (text.ends_with(unit)) return decimals;
-  return std::nullopt;
+  return bracket < name.size() ? trimmed(name.substr(bracket + 1, name.size() - bracket - 2)) : "";
+}
+
+std::optional<int> decimals_of_unit(std::string_view unit) {
+  const std::string wanted = plain(unit);
+  const auto found = std::ranges::find(time_units, wanted, &TimeUnit::name);
+  return found == time_units.end() ? std::nullopt : std::optional(found->decimals);
+}
+
+/// Returns the decimals of the unit at the end of a name, as in "time_ms".
+std::optional<int> decimals_of_end(std::string_view name) {
+  const std::string text = plain(name);
+  const std::size_t mark = text.rfind('_');
+  return mark == text.npos ? std::nullopt : decimals_of_unit(std::string_view(text).substr(mark + 1));
 }
 
 /// True if `name` is `wanted` with nothing but wholes before it: "field_pose_x" and "pose_x".
@@ -115,6 +135,23 @@ MotionColumn MotionNames::column(const ColumnChoice& choice) const {
   const std::optional<MotionColumn> found = find(name);
   if (!found) throw file_.error_at(line_, fmt::format("--columns: the header has no column {}", shown(name)));
   return *found;
+}
+
+/// Returns the decimals of the unit of time that a name states, in brackets or at its end.
+std::optional<int> MotionNames::decimals_of(std::string_view name) const {
+  const std::string_view unit = bracketed_unit(name);
+  const std::optional<int> end = decimals_of_end(name);
+  if (unit.empty()) return end;
+  const std::optional<int> decimals = decimals_of_unit(unit);
+  constexpr const char* way_out =
+      "--columns x=COL,y=COL,z=COL,time_ms=COL (or time_s, time_us, time_ns) says it";
+  if (!decimals)
+    throw file_.error_at(line_, fmt::format("column {}: the unit {} is none of s, ms, us and ns; {}",
+                                            shown(trimmed(name)), shown(unit), way_out));
+  if (end && end != decimals)
+    throw file_.error_at(
+        line_, fmt::format("column {}: the name states two units; {}", shown(trimmed(name)), way_out));
+  return decimals;
 }
 
 TimeColumn MotionNames::time_column(const ChosenTime& choice) const {

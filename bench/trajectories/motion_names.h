@@ -30,8 +30,8 @@ class MotionNames {
 
   /// Returns the columns of the usual names, or nothing if they are no position. A position is the first of
   /// x,y,z; px,py,pz; posx,...; pos_x,...; position_x,...; hip_x,...; tx,...; p_x,...; t_x,...; p_RS_R_x,...
-  /// that is whole. Times are in time, t, timestamp or stamp, with a unit at the end, or in sec and nanosec;
-  /// radii in radius.
+  /// that is whole. Times are in the first of time, t, timestamp and stamp, with a unit at the end, or in sec
+  /// and nanosec; radii in radius. Throws std::invalid_argument for a unit that is none of time.
   std::optional<MotionColumns> usual_columns() const;
 
  private:
@@ -41,6 +41,7 @@ class MotionNames {
   template <class Fits>
   std::optional<MotionColumn> only(std::string_view name, const Fits& fits) const;
   void find_usual_times(MotionColumns& columns) const;
+  std::optional<int> decimals_of(std::string_view name) const;
 
   const support::CsvReader& file_;
   std::vector<std::string> names_;

@@ -75,7 +75,7 @@ class MotionReader {
 
 /// Spreadsheets leave rows of empty fields, and empty fields at the end of rows.
 bool MotionReader::next_row() {
-  if ((motion_.size() > 0 || row_.empty()) && !read_row(file_, row_)) return false;
+  if ((motion_.size() > 0 || row_.empty()) && !read_next_row(file_, row_)) return false;
   const bool rest_is_blank =
       row_.size() > columns_.count &&
       std::all_of(row_.begin() + static_cast<std::ptrdiff_t>(columns_.count), row_.end(),

@@ -1,6 +1,7 @@
 #include "core/mesh_io/dae_document.h"
 
 #include <algorithm>
+#include <charconv>
 #include <new>
 #include <unordered_map>
 #include <utility>
@@ -9,6 +10,20 @@
 
 namespace touchmark::mesh_io {
 namespace {
+
+/// Returns a reference with each %XY replaced by its byte; others stay.
+std::string without_percents(std::string_view text) {
+  std::string decoded;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    unsigned char byte = 0;
+    const char* const digits = text.data() + i + 1;
+    const bool is_escape = text[i] == '%' && i + 2 < text.size() &&
+                           std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2;
+    decoded += is_escape ? static_cast<char>(byte) : text[i];
+    if (is_escape) i += 2;
+  }
+  return decoded;
+}
 
 using pugi::xml_node;
 
@@ -200,11 +215,14 @@ xml_node DaeDocument::target(const xml_node& element, const char* attribute_name
   const std::string_view name = attribute(element, attribute_name);
   if (name.empty()) fail(element, "has no attribute ", attribute_name);
   if (name.front() != '#')
-    fail(element, "names ", quoted(name), ", which is in another file; export all parts into one file");
+    fail(element, "names ", quoted(name),
+         ", which is in another file, or lacks its #; export all parts into one file");
   std::string wanted;
   for (const char* kind : kinds) {
     wanted += (wanted.empty() ? "<" : " or <") + std::string(kind) + ">";
-    const auto found = content_->by_id.find(key(kind, name.substr(1)));
+    auto found = content_->by_id.find(key(kind, name.substr(1)));
+    if (found == content_->by_id.end())
+      found = content_->by_id.find(key(kind, without_percents(name.substr(1))));
     if (found == content_->by_id.end()) continue;
     const auto& [target, count] = found->second;
     if (count > 1) fail(element, "names ", quoted(name), ", an id that ", count, " <", kind, "> have");

@@ -43,6 +43,7 @@ Matrix4 scale(const double* v) {
 /// Quarter turns, which files turn their axes by, are exact.
 Matrix4 rotate(const double* v) {
   const double angle = std::remainder(v[3], 360.0), radians = angle * std::numbers::pi / 180;
+  if (angle == 0) return Matrix4::Identity();
   const bool is_quarter = std::remainder(angle, 90.0) == 0;
   const double sine = is_quarter ? std::round(std::sin(radians)) : std::sin(radians);
   const double cosine = is_quarter ? std::round(std::cos(radians)) : std::cos(radians);

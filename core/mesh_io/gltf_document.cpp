@@ -82,6 +82,13 @@ std::string decoded_percents(std::string_view text, const JsonValue& uri) {
   return decoded;
 }
 
+bool is_data_uri(std::string_view uri) {
+  constexpr std::string_view scheme = "data:";
+  return uri.size() >= scheme.size() &&
+         std::equal(scheme.begin(), scheme.end(), uri.begin(),
+                    [](char a, char b) { return a == std::tolower(static_cast<unsigned char>(b)); });
+}
+
 bool has_scheme(std::string_view uri) {
   const std::size_t colon = uri.find(':');
   return colon != std::string_view::npos && uri.find_first_of("/?#") > colon;
@@ -211,7 +218,7 @@ std::string_view GltfDocument::buffer(std::size_t number, const JsonValue& buffe
 
 std::string GltfDocument::content_of(const JsonValue& uri) const {
   const std::string text = uri.text();
-  if (text.starts_with("data:")) {
+  if (is_data_uri(text)) {
     constexpr std::string_view base64 = ";base64,";
     const std::size_t comma = text.find(',');
     const std::size_t start = text.find(base64);

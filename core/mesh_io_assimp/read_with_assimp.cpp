@@ -156,8 +156,22 @@ void add_frame_of_fbx(const aiScene& scene, SceneGraph& graph) {
   if (scene.mMetaData->Get("UpAxis", up) && up >= 0 && up < 3) graph.axes = std::string(1, "XYZ"[up]) + " up";
 }
 
-/// The unit that an AMF file states.
+/// Refuses what assimp reads as something else.
+void refuse_misread(std::string_view bytes, const std::string& ending) {
+  const auto has = [bytes](std::string_view text) { return bytes.find(text) != std::string_view::npos; };
+  if (ending == ".amf" && (has("<rx") || has("<ry") || has("<rz")))
+    throw MeshError(
+        "turns an object (<rx>, <ry>, <rz>), which assimp reads as a move; export it as STL, PLY or OBJ");
+  if ((ending == ".x3d" || ending == ".x3dz") && (has("ccw=\"false\"") || has("ccw='false'")))
+    throw MeshError("has faces with ccw=\"false\", which assimp does not turn; export it as STL, PLY or OBJ");
+  if ((ending == ".ac" || ending == ".ac3d" || ending == ".acc") && has("\nrot "))
+    throw MeshError("turns an object (rot), which assimp misplaces; export it as STL, PLY or OBJ");
+}
+
+/// The unit that an AMF file states; millimetres where it states none (ISO/ASTM 52915).
 void add_unit_of_amf(std::string_view bytes, SceneGraph& graph) {
+  graph.unit = 1e-3;
+  graph.states_unit = true;
   const std::size_t begin = bytes.find("<amf"), end = bytes.find('>', begin);
   const std::string_view root = begin < end ? bytes.substr(begin, end - begin) : std::string_view();
   constexpr std::array<std::pair<std::string_view, double>, 5> units{
@@ -167,7 +181,6 @@ void add_unit_of_amf(std::string_view bytes, SceneGraph& graph) {
       const std::string attribute = std::string("unit=") + quote + std::string(name) + quote;
       if (root.find(attribute) == std::string_view::npos) continue;
       graph.unit = metres;
-      graph.states_unit = true;
     }
   }
 }
@@ -205,6 +218,7 @@ SceneGraph read_with_assimp(const std::filesystem::path& path, std::string_view 
   const Watch watch(losses);
   Assimp::Importer importer;
   expect_known_ending(importer, ending);
+  refuse_misread(bytes, ending);
   const aiScene& scene = imported(importer, [&](Assimp::Importer& reader) {
     return std::filesystem::is_regular_file(path)
                ? reader.ReadFile(path.string(), steps)

@@ -182,6 +182,37 @@ TEST_F(TrajectoryCsv, TimesMayBeInMilliseconds) {
   EXPECT_EQ(read("t_ms,x,y,z\n500,1,2,3\n1000,-4,.5,6\n").times_s, (std::vector<double>{0.5, 1}));
 }
 
+TEST_F(TrajectoryCsv, TimesMayStateTheirUnitInBrackets) {
+  for (const char* name :
+       {"time [ms]", "t (msec)", "Time (Milliseconds)", "timestamp [millis]", "time_ms [ms]"})
+    EXPECT_EQ(read(std::string(name) + ",x,y,z\n500,1,2,3\n1000,-4,.5,6\n").times_s,
+              (std::vector<double>{0.5, 1}))
+        << name;
+  for (const char* name :
+       {"time [us]", "time (\u00b5s)", "time [\u03bcs]", "t [usec]", "time (Microseconds)"})
+    EXPECT_EQ(read(std::string(name) + ",x,y,z\n500000,1,2,3\n1000000,-4,.5,6\n").times_s,
+              (std::vector<double>{0.5, 1}))
+        << name;
+  for (const char* name : {"time [ns]", "t [nsec]", "timestamp (nanoseconds)"})
+    EXPECT_EQ(read(std::string(name) + ",x,y,z\n500000000,1,2,3\n1000000000,-4,.5,6\n").times_s,
+              (std::vector<double>{0.5, 1}))
+        << name;
+  for (const char* unit : {"min", "h", "frames", "ticks"}) {
+    const std::string text = complaint(std::string("time [") + unit + "],x,y,z\n1,1,2,3\n2,-4,.5,6\n");
+    EXPECT_TRUE(text.starts_with(std::string("path.csv:1: column 'time [") + unit + "]': the unit '" + unit +
+                                 "' is none of s, ms, us and ns; --columns"))
+        << text;
+  }
+  EXPECT_NE(complaint("time_ms [s],x,y,z\n1,1,2,3\n").find("the name states two units"), std::string::npos);
+}
+
+TEST_F(TrajectoryCsv, ARowOfSeparatorsAloneIsNoSampleAtTheEndAndRefusedBefore) {
+  EXPECT_EQ(read("x,y,z\n1,2,3\n-4,.5,6\n,,\n,,\n\n").positions, two);
+  EXPECT_EQ(read("x,y,z\n\n1,2,3\n\n-4,.5,6\n").positions, two);
+  EXPECT_EQ(complaint("x,y,z\n,,\n1,2,3\n"), "path.csv:2: the row is empty, and rows follow it");
+  EXPECT_EQ(complaint("x,y,z\n1,2,3\n,,\n-4,.5,6\n"), "path.csv:3: the row is empty, and rows follow it");
+}
+
 TEST_F(TrajectoryCsv, ColumnsAreChosenByNameOrNumber) {
   MotionOptions options;
   options.columns = parse_columns("x=3,y=height,z=1,time_ms=clock,radius=5");

@@ -93,6 +93,12 @@ std::string utf16(const std::string& ascii, bool is_big) {
   return wide;
 }
 
+TEST(ReadDae, FindsIdsThatTheReferenceEncodes) {
+  expect_tetra(tetra({{"id=\"g\"", "id=\"a b\""}, {"url=\"#g\"", "url=\"#a%20b\""}}));
+  expect_tetra(tetra({{"id=\"g\"", "id=\"\u00e4\""}, {"url=\"#g\"", "url=\"#%C3%A4\""}}));
+  expect_tetra(tetra({{"id=\"g\"", "id=\"a%20b\""}, {"url=\"#g\"", "url=\"#a%20b\""}}));
+}
+
 TEST(ReadDae, TurnsNoAxesAndAppliesTheUnit) {
   for (const std::string axes : {"X_UP", "Y_UP", "Z_UP"}) {
     expect_tetra(tetra({{"Y_UP", axes}}));
@@ -226,6 +232,8 @@ TEST(ReadDae, RefusesTransformsThatAreNone) {
   expect_refusal(transformed("<translate>1 2</translate>"), "<translate> in 'n': has 2 numbers; it takes 3");
   expect_refusal(transformed("<translate>1 2 INF</translate>"), "is not finite");
   expect_refusal(transformed("<rotate>0 0 0 90</rotate>"), "its axis has no length");
+  expect_tetra(transformed("<rotate>0 0 0 0</rotate>"));
+  expect_tetra(transformed("<rotate>0 0 0 360</rotate>"));
   expect_refusal(transformed("<matrix>1 0 0 0 0 1 0 0 0 0 1 0 5 6 7 1</matrix>"), "its last row");
   expect_refusal(transformed("<skew>45 1 0 0 1 0 0</skew>"), "axes are parallel");
   expect_refusal(transformed("<lookat>0 0 5 0 0 0 0 0 1</lookat>"), "in one line");

@@ -127,6 +127,39 @@ TEST(LoadMeshWithAssimp, RefusesWhatAssimpMends) {
             std::string::npos);
 }
 
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST(LoadMeshWithAssimp, RefusesWhatAssimpMisreads) {
+  const TemporaryFolder folder;
+  const std::string turned =
+      "</object><constellation id=\"1\"><instance objectid=\"0\"><deltax>1</deltax>"
+      "<deltay>0</deltay><deltaz>0</deltaz><rx>90</rx><ry>0</ry><rz>0</rz></instance></constellation>";
+  EXPECT_NE(refusal(folder.file("a.amf", replaced(tetrahedron_amf, "</object>", turned))).find("<rx>"),
+            std::string::npos);
+  const std::string face =
+      "<X3D version=\"3.0\"><Scene><Shape><IndexedFaceSet ccw=\"false\" coordIndex=\"0 1 2 -1\">"
+      "<Coordinate point=\"0 0 0 1 0 0 0 1 0\"/></IndexedFaceSet></Shape></Scene></X3D>\n";
+  EXPECT_NE(refusal(folder.file("a.x3d", face)).find("ccw"), std::string::npos);
+  EXPECT_EQ(refusal(folder.file("b.x3d", replaced(face, "false", "true"))), "accepted");
+  const std::string part =
+      "AC3Db\nMATERIAL \"\" rgb 1 1 1  amb 1 1 1  emis 0 0 0  spec 0 0 0  shi 0  trans 0\n"
+      "OBJECT world\nkids 1\nOBJECT poly\nloc 1 2 3\nrot -1 0 0 0 -1 0 0 0 1\nnumvert 3\n0 0 0\n"
+      "1 0 0\n0 1 0\nnumsurf 1\nSURF 0x20\nmat 0\nrefs 3\n0 0 0\n1 0 0\n2 0 0\nkids 0\n";
+  EXPECT_NE(refusal(folder.file("a.ac", part)).find("rot"), std::string::npos);
+  EXPECT_EQ(refusal(folder.file("b.ac", replaced(part, "rot -1 0 0 0 -1 0 0 0 1\n", ""))), "accepted");
+}
+
+TEST(LoadMeshWithAssimp, AnAmfWithoutAUnitIsInMillimetres) {
+  const TemporaryFolder folder;
+  const MeshFile file =
+      load_mesh_file_with_assimp(folder.file("a.amf", replaced(tetrahedron_amf, " unit=\"millimeter\"", "")));
+  EXPECT_LE((file.mesh.bounds().max - Vec3(1, 2, 3)).norm(), 1e-6);
+}
+
 TEST(LoadMeshWithAssimp, ReadsStrictFormatsStrictly) {
   const TemporaryFolder folder;
   EXPECT_EQ(
