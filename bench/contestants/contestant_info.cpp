@@ -201,7 +201,7 @@ ContestantSpec Roster::parse(const std::string& text) const {
   ContestantSpec spec{contestant.name, fmt::format("{}", fmt::join(in_order, ",")), std::move(chosen),
                       claimed, contestant.plugin};
   if (former != nullptr) spec.remark = fmt::format("{} answers as {}", text, spec.text());
-  if (!dead.empty()) spec.remark += fmt::format(", without effect of {}", fmt::join(dead, ", "));
+  if (!dead.empty()) spec.remark += fmt::format("; without effect: {}", fmt::join(dead, ", "));
   return spec;
 }
 
@@ -212,7 +212,7 @@ std::vector<ContestantSpec> Roster::parse_all(const std::vector<std::string>& te
     const bool is_again =
         !spec->remark.empty() && std::ranges::count(specs, spec->text(), &ContestantSpec::text) > 1;
     if (!spec->remark.empty())
-      fmt::print(stderr, "touchmark: {}{}\n", spec->remark, is_again ? ", which is in the list, too" : "");
+      fmt::print(stderr, "touchmark: {}{}\n", spec->remark, is_again ? "; asked once" : "");
     spec = is_again ? specs.erase(spec) : spec + 1;
   }
   return specs;

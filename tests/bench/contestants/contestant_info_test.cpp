@@ -54,7 +54,7 @@ TEST(Roster, TakesAFormerNameAndSaysWhichOptionsHaveNoEffect) {
   const ContestantSpec spec = small_roster().parse("lattice:trial=x,cell=2,depth=5");
   EXPECT_EQ(spec.text(), "grid-group:cell=2");
   EXPECT_EQ(spec.remark,
-            "lattice:trial=x,cell=2,depth=5 answers as grid-group:cell=2, without effect of trial, depth");
+            "lattice:trial=x,cell=2,depth=5 answers as grid-group:cell=2; without effect: trial, depth");
   EXPECT_EQ(small_roster().parse("lattice").remark, "lattice answers as grid-group");
   EXPECT_EQ(small_roster().parse("grid-group").remark, "");
   EXPECT_NE(error_of("grid-group:depth=5"), "accepted");
