@@ -1,16 +1,14 @@
-/// touchmark-tracer: asks our detectors the steps of a run again, with a core that notes what a query looks
-/// at, and prints visited.json (docs/reference/visited-json.md). `touchmark bench` starts it when all has
-/// been timed. Its standard input is what bench/cli/step_visits.cpp writes.
+/// touchmark-tracer: asks one of our detectors the steps of a trajectory, with a core that notes what a query
+/// looks at, and prints that of some steps as JSON (docs/reference/visited-json.md). `touchmark query
+/// --visits` starts it. Its standard input is what bench/cli/step_visits.cpp writes.
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
-#include <map>
 #include <memory>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -26,7 +24,7 @@ namespace touchmark {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using bench::support::take_list, bench::support::take_number, bench::support::take_text;
+using bench::support::take_list, bench::support::take_text;
 
 static_assert(tracing, "this program is for a core that is compiled with TOUCHMARK_TRACING");
 
@@ -36,7 +34,7 @@ constexpr std::size_t most_of_a_kind = 300;
 using Question = std::array<double, 5>;  // centre, radius, reach
 
 struct Trace {
-  std::string trajectory, query;
+  std::string query;
   std::vector<Question> steps;
 };
 
@@ -98,22 +96,20 @@ bool ask(const NamedDetector& detector, const Trace& trace, std::size_t step,
   return detector.first_hit({from, center, radius}, session).has_value();
 }
 
-/// Asks the steps of the ranges in their order, as the run did, and notes those that are wanted.
+/// Asks all steps up to the last wanted one, and notes those that are wanted.
 Json visits_of(const NamedDetector& detector, const TriangleMesh& mesh, const Trace& trace,
-               std::span<const std::uint64_t> ranges, std::span<const std::uint64_t> wanted) {
+               std::span<const std::uint64_t> wanted) {
   Json steps = Json::array();
   const std::unique_ptr<NamedDetector::Session> session = detector.begin_session();
-  for (std::size_t range = 0; range + 1 < ranges.size(); range += 2) {
-    for (std::size_t step = ranges[range]; step < ranges[range + 1]; ++step) {
-      Visits visited;
-      const bool noted = std::ranges::binary_search(wanted, step);
-      visits = noted ? &visited : nullptr;
-      const bool found = ask(detector, trace, step, *session);
-      visits = nullptr;
-      if (!noted) continue;
-      steps.push_back(json_of(step, visited, mesh));
-      steps.back()["found"] = found;
-    }
+  for (std::size_t step = 0; step <= wanted.back(); ++step) {
+    Visits visited;
+    const bool noted = std::ranges::binary_search(wanted, step);
+    visits = noted ? &visited : nullptr;
+    const bool found = ask(detector, trace, step, *session);
+    visits = nullptr;
+    if (!noted) continue;
+    steps.push_back(json_of(step, visited, mesh));
+    steps.back()["found"] = found;
   }
   return steps;
 }
@@ -128,35 +124,12 @@ TriangleMesh taken_mesh() {
 }
 
 Json taken_and_traced() {
-  Json json{{"schema", 1}, {"run_id", take_text(stdin)}, {"rows", Json::array()}};
   const TriangleMesh mesh = taken_mesh();
-  std::vector<Trace> traces(take_number(stdin));
-  for (Trace& trace : traces) {
-    trace.trajectory = take_text(stdin);
-    trace.query = take_text(stdin);
-    trace.steps = take_list<Question>(stdin);
-  }
-  std::map<std::string, std::unique_ptr<NamedDetector>> detectors;
-  const std::uint64_t rows = take_number(stdin);
-  for (std::uint64_t row = 0; row < rows; ++row) {
-    const Trace& trace = traces.at(take_number(stdin));
-    const std::string detector = take_text(stdin), options = take_text(stdin);
-    const std::vector<std::uint64_t> ranges = take_list<std::uint64_t>(stdin),
-                                     wanted = take_list<std::uint64_t>(stdin);
-    Json& told = json["rows"].emplace_back(Json{{"detector", detector},
-                                                {"options", options},
-                                                {"trajectory", trace.trajectory},
-                                                {"steps", Json::array()}});
-    try {
-      const std::string text = options.empty() ? detector : detector + ":" + options;
-      std::unique_ptr<NamedDetector>& built = detectors[text];
-      if (!built) built = NamedDetector::build(mesh, text);
-      told["steps"] = visits_of(*built, mesh, trace, ranges, wanted);
-    } catch (const std::invalid_argument& error) {
-      told["why_not"] = error.what();
-    }
-  }
-  return json;
+  Trace trace;
+  trace.query = take_text(stdin);
+  trace.steps = take_list<Question>(stdin);
+  const std::unique_ptr<NamedDetector> detector = NamedDetector::build(mesh, take_text(stdin));
+  return visits_of(*detector, mesh, trace, take_list<std::uint64_t>(stdin));
 }
 
 }  // namespace

@@ -11,9 +11,8 @@ StepOutputs::StepOutputs(const results::ResultsFolder* folder, const std::string
     : folder_(folder) {
   if (!csv_path.empty()) csv_.emplace(csv_path);
   if (folder_ == nullptr) return;
-  tracer_files_.emplace();
   folder_->remove(results::steps_file_name);
-  folder_->remove(visited_file_name);
+  folder_->remove("visited.json");  // what scripts/report --visits wrote of an earlier run
 }
 
 void StepOutputs::write(const std::string& run_id, const workload::Workload& workload,
@@ -25,8 +24,6 @@ void StepOutputs::write(const std::string& run_id, const workload::Workload& wor
     for (std::size_t trace = 0; trace < workload.traces.size(); ++trace)
       truths.push_back(comparison.truths(trace));
     folder_->write_file(results::steps_file_name, results::steps_file(run_id, workload, rows, truths));
-    if (const auto visited = step_visits(run_id, workload, rows, *tracer_files_))
-      folder_->write_file(visited_file_name, *visited);
   }
   if (!csv_) return;
   results::write_steps_csv(rows, [this](std::string_view text) { csv_->write(text); });

@@ -1,12 +1,10 @@
-/// What `touchmark bench` leaves of single steps: steps.bin and visited.json in its folder, and the
-/// file of --steps-out.
+/// What `touchmark bench` leaves of single steps: steps.bin in its folder, and the file of --steps-out.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "bench/cli/step_visits.h"
 #include "bench/measurement/comparison.h"
 #include "bench/measurement/result_row.h"
 #include "bench/results/results_folder.h"
@@ -17,7 +15,7 @@ namespace touchmark::bench::cli {
 
 class StepOutputs {
  public:
-  /// Opens temporary files and the CSV file, unless its name is empty, and removes what an earlier run left
+  /// Opens the CSV file, unless its name is empty, and removes what an earlier run left
   /// in the folder, unless that is null: `folder` must outlive it. Throws ResourceError.
   StepOutputs(const results::ResultsFolder* folder, const std::string& csv_path);
 
@@ -28,7 +26,6 @@ class StepOutputs {
  private:
   const results::ResultsFolder* folder_;
   std::optional<support::AtomicFile> csv_;
-  std::optional<TracerFiles> tracer_files_;
 };
 
 }  // namespace touchmark::bench::cli

@@ -1,29 +1,18 @@
-/// What our detectors looked at in the slowest and in the wrong steps of a run: visited.json.
+/// What one of our detectors looked at in steps of a trajectory: a row of visited.json.
 #pragma once
 
-#include <optional>
+#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "bench/measurement/result_row.h"
-#include "bench/support/temporary_file.h"
 #include "bench/workload/workload.h"
 
 namespace touchmark::bench::cli {
 
-inline constexpr const char* visited_file_name = "visited.json";
-
-/// What the tracer reads and writes. Throws ResourceError where no temporary file can be made.
-struct TracerFiles {
-  support::File input = support::temporary_file(), output = support::temporary_file();
-};
-
-/// Returns the file's text, of the rows that touchmark-tracer can ask again: `nearest` and `touches` of the
-/// exact forms of aabb-tree, grid-group and sphere-cluster. Nothing where there is no such row, the mesh has
-/// more than two million triangles, or the
-/// program is not there or fails; then it says so on stderr.
-std::optional<std::string> step_visits(const std::string& run_id, const workload::Workload& workload,
-                                       const std::vector<measurement::ResultRow>& rows,
-                                       const TracerFiles& files);
+/// Becomes the program touchmark-tracer, which asks the first trajectory's steps and writes what the detector
+/// looked at in these to standard output, as JSON. Throws std::invalid_argument for a step that there is not,
+/// a scene of bodies, and where that program is not beside this one; ResourceError where it cannot be run.
+[[noreturn]] void print_visits(const workload::Workload& workload, workload::Query query,
+                               const std::string& detector, std::vector<std::uint64_t> steps);
 
 }  // namespace touchmark::bench::cli

@@ -5,6 +5,7 @@ Argument: the program.
 """
 import copy
 import json
+import os
 import pathlib
 import subprocess
 import sys
@@ -96,13 +97,19 @@ class VisitedSchema(unittest.TestCase):
         schema = json.loads((ROOT / "results" / "visited.schema.json").read_text(encoding="utf-8"))
         jsonschema.Draft7Validator.check_schema(schema)
         with tempfile.TemporaryDirectory() as folder:
-            subprocess.run([PROGRAM, "bench", "--mesh", "icosphere:1", "--quick", "--steps", "10", "--trajectory", "slide",
-                            "--detector", "grid-group", "--out", folder, "--benchmark_min_time=0.001"],
+            subprocess.run([PROGRAM, "bench", "--mesh", "icosphere:1", "--quick", "--steps", "40", "--trajectory", "slide",
+                            "--detector", "grid-group", "--detector", "brute-force", "--out", folder, "--benchmark_min_time=0.001"],
                            capture_output=True, check=True)
+            self.assertFalse((pathlib.Path(folder) / "visited.json").exists())
+            report = [ROOT / "scripts" / "report", "--visits", folder]
+            done = subprocess.run(report, env={**os.environ, "TOUCHMARK_PROGRAM": "/nowhere/touchmark"}, capture_output=True, text=True, check=False)
+            self.assertEqual((done.returncode, done.stderr), (2, "report: there is no touchmark-tracer beside /nowhere/touchmark; "
+                                                                 "scripts/build-program touchmark-tracer builds it\n"))
+            subprocess.run(report, env={**os.environ, "TOUCHMARK_PROGRAM": PROGRAM}, capture_output=True, check=True)
             visited = json.loads((pathlib.Path(folder) / "visited.json").read_text(encoding="utf-8"))
         validator = jsonschema.Draft7Validator(schema)
         validator.validate(visited)
-        self.assertTrue(visited["rows"][0]["steps"])
+        self.assertEqual([(row["detector"], len(row["steps"])) for row in visited["rows"]], [("grid-group", 10)])
         del visited["rows"][0]["steps"][0]["found"]
         self.assertFalse(validator.is_valid(visited))
 

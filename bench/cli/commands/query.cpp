@@ -1,4 +1,5 @@
 /// `touchmark query`: one contestant's answer to every step of one trajectory.
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -14,6 +15,7 @@
 #include "bench/cli/program.h"
 #include "bench/cli/selector_options.h"
 #include "bench/cli/single_step.h"
+#include "bench/cli/step_visits.h"
 #include "bench/cli/worker_options.h"
 #include "bench/contestants/entry.h"
 #include "bench/results/answer_rows.h"
@@ -35,6 +37,7 @@ constexpr std::size_t block_size = 1 << 16;  // bytes of rows written at once
 struct QueryOptions {
   contestants::Selectors selectors;
   std::string csv, step, session = "replayed";
+  std::vector<std::uint64_t> visits;
   WorkerSelectors workers;
 };
 
@@ -122,6 +125,7 @@ void run_query(const QueryOptions& options, const contestants::Roster& roster) {
   const contestants::ContestantSpec& spec = selection.contestants.front();
   const workload::Workload workload = workload_for(options.selectors, selection);
   const std::vector<workload::Step>& trace = workload.traces.front();
+  if (!options.visits.empty()) print_visits(workload, query, spec.text(), options.visits);
   RowSink sink(options.csv);  // before the work: a name that cannot be written is known at once
 
   if (!options.step.empty()) {
@@ -164,6 +168,13 @@ void add_query(CLI::App& program, ProgramContext& context) {
       ->check(CLI::IsMember({"replayed", "fresh"}))
       ->needs(step)
       ->capture_default_str();
+  command
+      ->add_option("--visits", options->visits,
+                   "instead of rows, what one of ours looked at in these steps, as JSON")
+      ->type_name("N,N,...")
+      ->delimiter(',')
+      ->excludes(step)
+      ->excludes("--csv");
   add_worker_selectors(*command, options->workers);
   command->footer(
       "Example: touchmark query --mesh bunny --trajectory approach --detector grid-group --reach inf "

@@ -2,7 +2,6 @@
 /// and `touchmark validate` sees where it does not.
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <sstream>
 #include <string>
@@ -151,15 +150,13 @@ TEST_F(StepOutputs, AFullDiskIsToldOfAndNoFileIsLeft) {
   EXPECT_NE(outcome.err.find("cannot write /dev/full"), std::string::npos) << outcome.err;
 }
 
-TEST(WithoutATemporaryFolder, BenchSaysSoBeforeItMeasures) {
-  const TemporaryFolder folder;
-  const Outcome outcome =
-      run_program_at({"/usr/bin/env", "TMPDIR=/proc", TOUCHMARK_PROGRAM, "bench", "--mesh", "cube", "--quick",
-                      "--detector", "aabb-tree", "--out", folder.file("out")});
+TEST(WithoutATemporaryFolder, NothingIsSaidOfWhatADetectorLookedAt) {
+  const Outcome outcome = run_program_at({"/usr/bin/env", "TMPDIR=/proc", TOUCHMARK_PROGRAM, "query",
+                                          "--mesh", "cube", "--detector", "aabb-tree", "--visits", "0"});
   EXPECT_EQ(outcome.status, 3) << outcome.out;
   EXPECT_NE(outcome.err.find("in /proc: "), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("set TMPDIR"), std::string::npos) << outcome.err;
-  EXPECT_FALSE(std::filesystem::exists(folder.file("out/results.csv")));
+  EXPECT_EQ(outcome.out, "");
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-/// visited.json of `touchmark bench`, from the outside: on a flat sheet, where geometry says what can be
-/// near.
+/// `touchmark query --visits` and visited.json, from the outside: on a flat sheet, where geometry says what
+/// can be near.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -84,19 +84,36 @@ double beyond_cylinder(const Json& rod, const Point& p) {
                     std::max(0.0, across - rod[6].get<double>()));
 }
 
+/// Returns what the program says that a detector looked at in every 15th step.
+Json looked_at(const std::string& detector, std::vector<std::string> question) {
+  question.insert(question.begin(), "query");
+  question.insert(question.end(), {"--radius", fmt::format("{}", reach), "--detector", detector, "--visits",
+                                   "135,0,15,30,45,60,75,90,105,121"});
+  const Outcome outcome = run_touchmark(question);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  return Json::parse(outcome.out);
+}
+
+Json row_of(const std::string& detector, const std::string& path, const Json& seen) {
+  return {{"detector", detector}, {"options", ""}, {"trajectory", path}, {"steps", seen}};
+}
+
 /// One run for all tests.
 class StepVisits : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     const TemporaryFolder folder;
-    const Outcome finished =
-        run_touchmark({"bench", "--mesh", folder.file("sheet.obj", sheet()), "--trajectory",
-                       folder.file("motion.csv", motion()), "--radius", fmt::format("{}", reach), "--quick",
-                       "--detector", "aabb-tree", "--detector", "grid-group", "--detector", "sphere-cluster",
-                       "--detector", "brute-force", "--out", folder.path(), "--benchmark_min_time=0.001"});
+    const std::string mesh = folder.file("sheet.obj", sheet()), path = folder.file("motion.csv", motion());
+    const Outcome finished = run_touchmark(
+        {"bench", "--mesh", mesh, "--trajectory", path, "--quick", "--detector", "aabb-tree", "--detector",
+         "grid-group", "--detector", "sphere-cluster", "--out", folder.path(), "--benchmark_min_time=0.001"});
     ASSERT_EQ(finished.status, 0) << finished.err;
-    visited() = Json::parse(content_of(folder.file("visited.json")));
     results() = content_of(folder.file("results.csv"));
+    const std::size_t run_id = results().find("\n1,") + 3;
+    visited() = {{"schema", 1}, {"run_id", results().substr(run_id, results().find(',', run_id) - run_id)}};
+    for (const char* const detector : {"aabb-tree", "grid-group", "sphere-cluster"})
+      visited()["rows"].push_back(
+          row_of(detector, path, looked_at(detector, {"--mesh", mesh, "--trajectory", path})));
   }
   static Json& visited() {
     static Json json;
@@ -119,13 +136,37 @@ class StepVisits : public testing::Test {
   }
 };
 
-TEST_F(StepVisits, HaveTheTenSlowestStepsOfOurDetectorsAlone) {
-  std::set<std::string> detectors;
+TEST_F(StepVisits, HaveTheStepsThatWereAskedForInTheirOrder) {
   for (const Json& one : visited().at("rows")) {
-    detectors.insert(one.at("detector").get<std::string>());
-    EXPECT_EQ(one.at("steps").size(), 10U);
+    std::vector<int> numbers;
+    for (const Json& step : one.at("steps")) numbers.push_back(step.at("step"));
+    EXPECT_EQ(numbers, (std::vector<int>{0, 15, 30, 45, 60, 75, 90, 105, 121, 135}));
   }
-  EXPECT_EQ(detectors, (std::set<std::string>{"aabb-tree", "grid-group", "sphere-cluster"}));
+}
+
+TEST_F(StepVisits, AreRefusedOfARivalOfAStepThatThereIsNotAndOfAScene) {
+  const auto refused = [](std::vector<std::string> words, const std::string& why) {
+    words.insert(words.begin(), "query");
+    const Outcome outcome = run_touchmark(words);
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
+  };
+  refused({"--mesh", "cube", "--detector", "field", "--visits", "1"}, "unknown detector \"field\"");
+  refused({"--mesh", "cube", "--detector", "grid-group", "--steps", "5", "--visits", "1,5"},
+          "--visits \"5\" is none of the 5 steps");
+  refused({"--scene", "heap:3", "--detector", "sphere-cluster", "--steps", "5", "--visits", "1"},
+          "does not go with --scene");
+}
+
+TEST_F(StepVisits, WithoutTheirProgramAreRefusedWithTheCommandThatBuildsIt) {
+  const TemporaryFolder folder;
+  const std::string alone = folder.path() + "/touchmark";
+  std::filesystem::copy_file(TOUCHMARK_PROGRAM, alone);
+  const Outcome outcome =
+      run_program_at({alone, "query", "--mesh", "cube", "--detector", "grid-group", "--visits", "0"});
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.err,
+            "touchmark: touchmark-tracer is missing; scripts/build-program touchmark-tracer builds it\n");
 }
 
 TEST_F(StepVisits, AreWhatValidateExpects) {
@@ -223,28 +264,21 @@ TEST(SweepVisits, HoldTheTriangleThatIsHitAndNoBoxOverItIsLeftOut) {
   std::string csv = "x,y,z\n";
   for (int step = 0; step < steps; ++step)
     csv += fmt::format("{},{},{}\n", center_at(step).x, center_at(step).y, step % 2 == 0 ? upper : lower);
-  const Outcome finished =
-      run_touchmark({"bench", "--mesh", folder.file("sheet.obj", sheet()), "--trajectory",
-                     folder.file("stabs.csv", csv), "--query", "sweep", "--radius", fmt::format("{}", reach),
-                     "--quick", "--detector", "aabb-tree", "--detector", "grid-group", "--detector",
-                     "sphere-cluster", "--out", folder.path(), "--benchmark_min_time=0.001"});
-  ASSERT_EQ(finished.status, 0) << finished.err;
-  const Json visited = Json::parse(content_of(folder.file("visited.json")));
-  ASSERT_EQ(visited.at("rows").size(), 3U);
+  const std::string mesh = folder.file("sheet.obj", sheet()), path = folder.file("stabs.csv", csv);
   std::size_t down = 0, boxes = 0;
-  for (const Json& row : visited.at("rows")) {
-    for (const Json& step : row.at("steps")) {
+  for (const char* const detector : {"aabb-tree", "grid-group", "sphere-cluster"}) {
+    for (const Json& step : looked_at(detector, {"--mesh", mesh, "--trajectory", path, "--query", "sweep"})) {
       const int number = step.at("step");
       EXPECT_EQ(step.at("found"), number > 0);
       if (number % 2 == 0) continue;
       ++down;
       const Point hit = stabbed(number);
       const auto ids = step.at("triangles").get<std::set<std::int64_t>>();
-      EXPECT_TRUE(ids.contains(triangle_under(hit))) << row.at("detector") << ' ' << number;
+      EXPECT_TRUE(ids.contains(triangle_under(hit))) << detector << ' ' << number;
       for (const Json& box : step.value("boxes", Json::array())) {
         ++boxes;
         if (box[6] == 0) {
-          EXPECT_GT(squared_beyond(box, hit), 0) << row.at("detector") << ' ' << number;
+          EXPECT_GT(squared_beyond(box, hit), 0) << detector << ' ' << number;
         }
       }
     }
