@@ -170,8 +170,8 @@ void add_query(CLI::App& program, ProgramContext& context) {
       ->capture_default_str();
   command
       ->add_option("--visits", options->visits,
-                   "instead of rows, what one of ours looked at in these steps, as JSON")
-      ->type_name("N,N,...")
+                   "instead of rows, what one of ours looked at in these steps, as 3,7,12; as JSON")
+      ->type_name("N")
       ->delimiter(',')
       ->excludes(step)
       ->excludes("--csv");
