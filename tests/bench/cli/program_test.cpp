@@ -219,7 +219,14 @@ TEST(Bench, NamesEachBadArgumentInOneLine) {
   expect_bad_input({"verify", "--query", "near"}, {"--query \"near\""});
   expect_bad_input({"list", "--bar"}, {"--bar"});
   expect_bad_input({"no-such-command"}, {"no-such-command"});
-  expect_bad_input({}, {"command"});
+}
+
+TEST(Program, SaysWithoutACommandWhatItIsAndWhereToBegin) {
+  const Outcome finished = run_touchmark({});
+  EXPECT_EQ(finished.status, 2);
+  EXPECT_EQ(finished.out, "");
+  for (const char* command : {"bench", "choose", "servo", "mesh info", "list", "--help"})
+    EXPECT_NE(finished.err.find(std::string("touchmark ") + command), std::string::npos) << finished.err;
 }
 
 TEST(Bench, AFullDiskIsStatus3AndLeavesNoHalfFile) {
