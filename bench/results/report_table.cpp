@@ -75,12 +75,12 @@ std::string kinds_of_errors(const measurement::ResultRow& row) {
   return text;
 }
 
-/// All kinds but rounding together; empty where nothing was judged.
+/// At least so many: one answer may be of several kinds. Empty where nothing was judged.
 std::string wrong_answers(const measurement::ResultRow& row) {
   if (!row.counts) return "";
   const oracle::ErrorCounts& counts = *row.counts;
-  return count(counts.missed + counts.false_contacts + counts.wrong_triangle + counts.beyond_tolerance +
-               std::max({counts.wrong_point, counts.wrong_normal, counts.wrong_side}) + counts.malformed);
+  return count(std::max({counts.missed, counts.false_contacts, counts.wrong_triangle, counts.beyond_tolerance,
+                         counts.wrong_point, counts.wrong_normal, counts.wrong_side, counts.malformed}));
 }
 
 std::string build_ms_of(const measurement::ResultRow& row) {
