@@ -223,7 +223,7 @@ std::string overall_verdict(const std::vector<measurement::ResultRow>& rows) {
   for (const measurement::ResultRow& row : rows) {
     Sum& sum = sums[row.contestant()];
     sum.is_right = sum.is_right && is_exact(row) && wrong_answers(row) == "0";
-    if (!row.throughput || !row.latency) continue;
+    if (!row.throughput || !row.latency || !row.counts) continue;
     trajectories = std::max(trajectories, ++sum.timed);
     sum.answers += row.counts->judged;
     sum.log_ns += std::log(row.throughput->undisturbed.ns);
