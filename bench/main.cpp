@@ -2,5 +2,6 @@
 #include "bench/contestants/roster.h"
 
 int main(int argc, char** argv) {
-  return touchmark::bench::cli::run_program(argc, argv, touchmark::bench::contestants::roster());
+  namespace bench = touchmark::bench;
+  return bench::cli::run_program(argc, argv, bench::contestants::roster(), {bench::cli::main_commands()});
 }

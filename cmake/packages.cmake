@@ -31,7 +31,7 @@ if(TOUCHMARK_BUILD_BENCH)
   function(touchmark_install_program)
     install(TARGETS ${touchmark_targets} RUNTIME DESTINATION ${touchmark_programs} COMPONENT program
             LIBRARY DESTINATION ${touchmark_programs} COMPONENT program)
-    install(TARGETS touchmark-tracer RUNTIME DESTINATION ${touchmark_programs} COMPONENT program OPTIONAL)
+    install(TARGETS touchmark-extra touchmark-tracer RUNTIME DESTINATION ${touchmark_programs} COMPONENT program OPTIONAL)
     touchmark_link(program touchmark ${touchmark_programs}/touchmark)
   endfunction()
   touchmark_rules(program touchmark_install_program)

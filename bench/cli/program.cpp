@@ -11,8 +11,10 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "bench/results/build_info.h"
+#include "bench/support/beside_this_program.h"
 #include "bench/support/did_you_mean.h"
 #include "bench/support/standard_descriptors.h"
 #include "bench/support/standard_output.h"
@@ -22,14 +24,47 @@
 namespace touchmark::bench::cli {
 namespace {
 
-using AddCommand = void (*)(CLI::App& program, ProgramContext& context);
-
-// One line a command.
-constexpr AddCommand commands[] = {
-    add_bench, add_servo, add_choose, add_verify, add_stress,   add_scale,      add_update,
-    add_proxy, add_many,  add_list,   add_mesh,   add_query,    add_paper,      add_tune,
-    add_gate,  add_plan,  add_run,    add_merge,  add_validate, add_new_plugin,
+struct CommandText {
+  std::string_view name, summary;
 };
+
+// All commands in the order of the help.
+constexpr CommandText command_texts[] = {
+    {"bench", "verify and time contestants on identical trajectories"},
+    {"servo", "a paced loop as a device runs it: does a detector hold the rate?"},
+    {"choose", "which detector, with which options, for this part on this machine?"},
+    {"verify", "check contestants' answers against the exact oracle"},
+    {"stress", "hard questions of many kinds, every answer against the exact oracle"},
+    {"scale", "how build, memory and query time grow with the mesh"},
+    {"update", "what it costs that the mesh changes its shape, against building anew"},
+    {"proxy", "which haptic proxy crosses the surface? every way is replayed by the exact oracle"},
+    {"many", "many points asked at once: a scan, or a pointshell each tick"},
+    {"list", "what can be chosen: contestants, scenes, trajectories"},
+    {"mesh", "what a mesh is like, and finer ones: info, measure, subdivide"},
+    {"query", "one contestant's answer to every step of a trajectory, as CSV"},
+    {"paper", "a paper's experiment, beside the numbers it prints"},
+    {"tune", "the subdivision level and clustering that hold a rate at the least geometric error"},
+    {"gate", "fail when a detector has become slower, against a reference measured in the same run"},
+    {"plan", "write down a sweep: every mesh, trajectory, query and parameter with every detector"},
+    {"run", "run one shard of a planned sweep"},
+    {"merge", "make one results CSV of the jobs of a sweep"},
+    {"validate", "check recorded results: CSV files, run.json, steps.bin and visited.json"},
+    {"new-plugin", "write an example of a contestant of your own"},
+};
+
+/// Adds the commands that are here, and the others by name alone.
+void add_commands(CLI::App& program, ProgramContext& context) {
+  for (const CommandText& text : command_texts) {
+    const auto here = std::ranges::find(context.parts.commands, text.name, &Command::name);
+    if (here != context.parts.commands.end()) {
+      here->add(program, context);
+    } else if (context.argc > 1 && text.name == context.argv[1]) {
+      continue_in_extra_program(context);
+    } else {
+      add_command(program, text.name);
+    }
+  }
+}
 
 /// One line whatever the library or a file put into it.
 std::string one_line(std::string text) {
@@ -96,22 +131,41 @@ int parse_and_run(CLI::App& program, ProgramContext& context) {
 
 }  // namespace
 
-int run_program(int argc, char** argv, const contestants::Roster& roster) {
+std::span<const Command> main_commands() {
+  static constexpr Command commands[] = {{"bench", add_bench},   {"list", add_list},
+                                         {"mesh", add_mesh},     {"query", add_query},
+                                         {"verify", add_verify}, {"new-plugin", add_new_plugin}};
+  return commands;
+}
+
+CLI::App* add_command(CLI::App& program, std::string_view name) {
+  const auto text = std::ranges::find(command_texts, name, &CommandText::name);
+  return program.add_subcommand(std::string(name), std::string(text->summary));
+}
+
+void continue_in_extra_program(const ProgramContext& context) {
+  const std::string path = support::beside_this_program("touchmark-extra");
+  execv(path.c_str(), context.argv);
+  throw std::invalid_argument(
+      "this is a command of touchmark-extra, which is not built; scripts/build-program touchmark-extra builds it");
+}
+
+int run_program(int argc, char** argv, const contestants::Roster& roster, const ProgramParts& parts) {
   try {
     support::reserve_standard_descriptors();
   } catch (const support::ResourceError& error) {
     return fail(support::exit_resources, error.what());
   }
   support::survive_limits();
-  ProgramContext context{roster, argc, argv};
+  ProgramContext context{roster, argc, argv, parts};
   CLI::App program("Which collision detector can serve a haptic loop.", "touchmark");
   program.set_version_flag("--version", std::string("touchmark ") + results::build_info().version);
   program.require_subcommand(0, 1);
   program.footer("Example: touchmark bench --mesh bunny --trajectory slide --out results/today\n");
-  for (const AddCommand add : commands) add(program, context);
-  program.allow_extras();  // after the commands, which must not inherit it
 
   try {
+    add_commands(program, context);
+    program.allow_extras();  // after the commands, which must not inherit it
     support::StandardOutput out;
     const int status = parse_and_run(program, context);
     out.finish();

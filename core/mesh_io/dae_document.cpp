@@ -1,7 +1,6 @@
 #include "core/mesh_io/dae_document.h"
 
 #include <algorithm>
-#include <charconv>
 #include <new>
 #include <unordered_map>
 #include <utility>
@@ -10,20 +9,6 @@
 
 namespace touchmark::mesh_io {
 namespace {
-
-/// Returns a reference with each %XY replaced by its byte; others stay.
-std::string without_percents(std::string_view text) {
-  std::string decoded;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    unsigned char byte = 0;
-    const char* const digits = text.data() + i + 1;
-    const bool is_escape = text[i] == '%' && i + 2 < text.size() &&
-                           std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2;
-    decoded += is_escape ? static_cast<char>(byte) : text[i];
-    if (is_escape) i += 2;
-  }
-  return decoded;
-}
 
 using pugi::xml_node;
 
@@ -73,14 +58,14 @@ std::string label(const xml_node& element) {
   return text;
 }
 
-struct Identified {
-  xml_node element;
-  std::size_t count = 0;
-};
-
 }  // namespace
 
 struct DaeDocument::Content {
+  struct Identified {
+    xml_node element;
+    std::size_t count = 0;
+  };
+
   pugi::xml_document document;
   std::vector<std::size_t> lines;
   std::unordered_map<std::string, Identified> by_id;
@@ -222,7 +207,7 @@ xml_node DaeDocument::target(const xml_node& element, const char* attribute_name
     wanted += (wanted.empty() ? "<" : " or <") + std::string(kind) + ">";
     auto found = content_->by_id.find(key(kind, name.substr(1)));
     if (found == content_->by_id.end())
-      found = content_->by_id.find(key(kind, without_percents(name.substr(1))));
+      found = content_->by_id.find(key(kind, decoded_percents(name.substr(1)).value_or("")));
     if (found == content_->by_id.end()) continue;
     const auto& [target, count] = found->second;
     if (count > 1) fail(element, "names ", quoted(name), ", an id that ", count, " <", kind, "> have");

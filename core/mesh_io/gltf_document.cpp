@@ -62,26 +62,6 @@ std::string decoded_base64(std::string_view text, const JsonValue& uri) {
   return bytes;
 }
 
-/// Returns a URI's text with each %XY replaced by its byte.
-std::string decoded_percents(std::string_view text, const JsonValue& uri) {
-  constexpr std::string_view digits = "0123456789abcdef";
-  const auto digit = [&](std::size_t i) {
-    const char c = i < text.size() ? text[i] : '\0';
-    return digits.find(static_cast<char>(std::tolower(static_cast<unsigned char>(c))));
-  };
-  std::string decoded;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    decoded += text[i];
-    if (text[i] != '%') continue;
-    const std::size_t high = digit(i + 1), low = digit(i + 2);
-    if (std::max(high, low) >= digits.size() || high + low == 0)
-      uri.fail(mesh_io::quoted(text) + " has a % without two hexadecimal digits of a letter");
-    decoded.back() = static_cast<char>(high << 4 | low);
-    i += 2;
-  }
-  return decoded;
-}
-
 bool is_data_uri(std::string_view uri) {
   constexpr std::string_view scheme = "data:";
   return uri.size() >= scheme.size() &&
@@ -227,7 +207,9 @@ std::string GltfDocument::content_of(const JsonValue& uri) const {
     return decoded_base64(std::string_view(text).substr(comma + 1), uri);
   }
   if (has_scheme(text)) uri.fail(mesh_io::quoted(text) + " is neither data nor a file beside this one");
-  const std::filesystem::path name(decoded_percents(text, uri));
+  const std::optional<std::string> decoded = mesh_io::decoded_percents(text);
+  if (!decoded) uri.fail(mesh_io::quoted(text) + " has a % without two hexadecimal digits of a letter");
+  const std::filesystem::path name(*decoded);
   if (name.empty() || name.is_absolute() || std::find(name.begin(), name.end(), "..") != name.end())
     uri.fail(mesh_io::quoted(text) + " names no file beside this one or in a folder below");
   try {

@@ -82,6 +82,20 @@ std::string_view without_byte_order_mark(std::string_view bytes) {
   return bytes;
 }
 
+std::optional<std::string> decoded_percents(std::string_view text) {
+  std::string decoded;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    decoded += text[i];
+    if (text[i] != '%') continue;
+    unsigned char byte = 0;
+    const char* const digits = text.data() + i + 1;
+    if (i + 2 >= text.size() || std::from_chars(digits, digits + 2, byte, 16).ptr != digits + 2 || byte == 0) return {};
+    decoded.back() = static_cast<char>(byte);
+    i += 2;
+  }
+  return decoded;
+}
+
 bool is_padding(std::string_view bytes) noexcept {
   constexpr char end_of_file = '\x1a';  // that of CP/M and MS-DOS
   return std::all_of(bytes.begin(), bytes.end(),

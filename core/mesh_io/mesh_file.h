@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,6 +24,10 @@ std::string_view without_byte_order_mark(std::string_view bytes);
 /// True of zero bytes, white space and MS-DOS's end-of-file byte alone: what programs fill the end of a file
 /// with.
 bool is_padding(std::string_view bytes) noexcept;
+
+/// Returns a reference with each %XY replaced by its byte; nothing where a % has no two hexadecimal digits
+/// after it, or has two zeros.
+std::optional<std::string> decoded_percents(std::string_view text);
 
 /// The position of a reader in a text: whitespace-separated words, counted by line. Handles LF, CR LF and CR.
 class TextCursor {

@@ -16,7 +16,7 @@
 
 #include "bench/bodies/scene_source.h"
 #include "bench/cli/commands/choose_options.h"
-#include "bench/cli/program.h"
+#include "bench/cli/extra_commands.h"
 #include "bench/cli/worker_options.h"
 #include "bench/experiments/choose/candidate.h"
 #include "bench/experiments/choose/choose_code.h"
@@ -271,7 +271,7 @@ int ChooseCommand::run() {
 void add_choose(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<ChooseOptions>();
   CLI::App* command =
-      program.add_subcommand("choose", "which detector, with which options, for this part on this machine?");
+      add_command(program, "choose");
   add_choose_options(*command, context, *options);
   command->footer(
       "A candidate holds if the oracle finds no wrong answer, it keeps within the memory, and on every\n"

@@ -13,7 +13,7 @@
 
 #include "bench/bodies/scene_source.h"
 #include "bench/cli/commands/gate_options.h"
-#include "bench/cli/program.h"
+#include "bench/cli/extra_commands.h"
 #include "bench/regression/gate/baseline.h"
 #include "bench/regression/gate/gate_report.h"
 #include "bench/regression/gate/paired_batch.h"
@@ -287,8 +287,7 @@ int Gate::run() {
 
 void add_gate(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<GateOptions>();
-  CLI::App* command = program.add_subcommand(
-      "gate", "fail when a detector has become slower, against a reference measured in the same run");
+  CLI::App* command = add_command(program, "gate");
   add_gate_options(*command, context, *options);
   command->final_callback([options, &context] { context.status = Gate(context.roster, *options).run(); });
 }

@@ -68,7 +68,7 @@ std::string list(const contestants::Roster& roster) {
 }  // namespace
 
 void add_list(CLI::App& program, ProgramContext& context) {
-  CLI::App* command = program.add_subcommand("list", "what can be chosen: contestants, scenes, trajectories");
+  CLI::App* command = add_command(program, "list");
   add_plugins(*command, context, nullptr);
   command->footer("Example: touchmark list\n");
   command->final_callback([&context] { support::StandardOutput().write(list(context.roster)); });

@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "bench/batch/merged.h"
-#include "bench/cli/program.h"
+#include "bench/cli/extra_commands.h"
 #include "bench/results/results_csv.h"
 #include "bench/support/atomic_file.h"
 #include "bench/support/numbers.h"
@@ -77,7 +77,7 @@ void merge(const MergeOptions& options) {
 
 void add_merge(CLI::App& program, ProgramContext&) {
   const auto options = std::make_shared<MergeOptions>();
-  CLI::App* command = program.add_subcommand("merge", "make one results CSV of the jobs of a sweep");
+  CLI::App* command = add_command(program, "merge");
   command->add_option("dir", options->paths, "folders of touchmark run")->type_name("DIR")->required();
   command->add_option("--out", options->out, "the CSV file")->type_name("FILE")->required();
   command->add_option("--manifest", options->manifest, "its jobs in its order; none may be missing")

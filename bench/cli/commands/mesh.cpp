@@ -160,7 +160,7 @@ void add_mesh_options(CLI::App& command, std::string& mesh, bool& normalize) {
 
 void add_mesh(CLI::App& program, ProgramContext&) {
   CLI::App* command =
-      program.add_subcommand("mesh", "what a mesh is like, and finer ones: info, measure, subdivide");
+      add_command(program, "mesh");
   command->require_subcommand(1);
   command->footer("Example: touchmark mesh info bunny\n");
   add_info(*command);

@@ -54,7 +54,7 @@ std::string next_steps(const std::string& folder) {
 void add_new_plugin(CLI::App& program, ProgramContext& context) {
   static_cast<void>(context);
   const auto folder = std::make_shared<std::string>();
-  CLI::App* command = program.add_subcommand("new-plugin", "write an example of a contestant of your own");
+  CLI::App* command = add_command(program, "new-plugin");
   command->add_option("folder", *folder, "where CMakeLists.txt and mine.cpp go")
       ->type_name("DIR")
       ->required();

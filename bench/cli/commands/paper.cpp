@@ -2,12 +2,12 @@
 #include <CLI/CLI.hpp>
 
 #include "bench/cli/commands/paper_commands.h"
-#include "bench/cli/program.h"
+#include "bench/cli/extra_commands.h"
 
 namespace touchmark::bench::cli {
 
 void add_paper(CLI::App& program, ProgramContext& context) {
-  CLI::App* command = program.add_subcommand("paper", "a paper's experiment, beside the numbers it prints");
+  CLI::App* command = add_command(program, "paper");
   command->require_subcommand(1);
   command->footer("Example: touchmark paper choi-sung-2017 --out results/papers/choi-sung-2017\n");
   add_paper_park_jang(*command, context);

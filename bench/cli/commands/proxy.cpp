@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include "bench/cli/coupling_options.h"
-#include "bench/cli/program.h"
+#include "bench/cli/extra_commands.h"
 #include "bench/experiments/proxy/proxy_csv.h"
 #include "bench/experiments/proxy/proxy_report.h"
 #include "bench/experiments/proxy/proxy_run.h"
@@ -187,8 +187,7 @@ std::string lists() {
 
 void add_proxy(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<ProxyOptions>();
-  CLI::App* command = program.add_subcommand(
-      "proxy", "which haptic proxy crosses the surface? every way is replayed by the exact oracle");
+  CLI::App* command = add_command(program, "proxy");
   const auto repeatable = [&](const char* name, std::vector<std::string>& values, const char* what,
                               const char* type) {
     command->add_option(name, values, what)->type_name(type)->expected(1)->take_all();

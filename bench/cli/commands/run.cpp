@@ -12,7 +12,7 @@
 #include "bench/batch/job_file.h"
 #include "bench/batch/manifest.h"
 #include "bench/cli/plugin_option.h"
-#include "bench/cli/program.h"
+#include "bench/cli/extra_commands.h"
 #include "bench/cli/worker_options.h"
 #include "bench/measurement/comparison.h"
 #include "bench/results/build_info.h"
@@ -185,7 +185,7 @@ int SweepRun::run() {
 
 void add_run(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<RunOptions>();
-  CLI::App* command = program.add_subcommand("run", "run one shard of a planned sweep");
+  CLI::App* command = add_command(program, "run");
   command->add_option("--manifest", options->manifest, "what touchmark plan wrote")
       ->type_name("FILE")
       ->required();

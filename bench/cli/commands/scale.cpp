@@ -16,7 +16,7 @@
 #include <fmt/format.h>
 
 #include "bench/cli/commands/scale_bodies.h"
-#include "bench/cli/program.h"
+#include "bench/cli/extra_commands.h"
 #include "bench/cli/selector_options.h"
 #include "bench/cli/worker_options.h"
 #include "bench/experiments/scaling/growth.h"
@@ -264,7 +264,7 @@ int ScaleRun::run() {
 
 void add_scale(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<ScaleOptions>();
-  CLI::App* command = program.add_subcommand("scale", "how build, memory and query time grow with the mesh");
+  CLI::App* command = add_command(program, "scale");
   add_selectors(*command, context, options->selectors);
   command->get_option("--mesh")->take_all()->description(
       "noisy-sphere (the default) or soup in each of the sizes, dragon in its resolutions, or a "

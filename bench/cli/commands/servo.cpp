@@ -11,7 +11,7 @@
 
 #include "bench/bodies/scene_source.h"
 #include "bench/cli/commands/servo_options.h"
-#include "bench/cli/program.h"
+#include "bench/cli/extra_commands.h"
 #include "bench/cli/repeat_command.h"
 #include "bench/cli/worker_options.h"
 #include "bench/experiments/proxy/proxy_report.h"
@@ -202,7 +202,7 @@ int ServoCommand::run() {
 void add_servo(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<ServoOptions>();
   CLI::App* command =
-      program.add_subcommand("servo", "a paced loop as a device runs it: does a detector hold the rate?");
+      add_command(program, "servo");
   add_servo_options(*command, context, *options);
   command->footer(
       "Each tick is late by the time from its scheduled start to its answer. The same loop with nothing\n"

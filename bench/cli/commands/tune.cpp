@@ -9,7 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "bench/cli/program.h"
+#include "bench/cli/extra_commands.h"
 #include "bench/experiments/papers/frontier.h"
 #include "bench/experiments/papers/paper_options.h"
 #include "bench/experiments/papers/tuning.h"
@@ -171,8 +171,7 @@ int run(const TuneOptions& options) {
 
 void add_tune(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<TuneOptions>();
-  CLI::App* command = program.add_subcommand(
-      "tune", "the subdivision level and clustering that hold a rate at the least geometric error");
+  CLI::App* command = add_command(program, "tune");
   command->add_option("--mesh,mesh", options->mesh, "a scene (touchmark list) or a mesh file")
       ->type_name("MESH")
       ->required();

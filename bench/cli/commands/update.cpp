@@ -10,7 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "bench/cli/program.h"
+#include "bench/cli/extra_commands.h"
 #include "bench/cli/selector_options.h"
 #include "bench/cli/worker_options.h"
 #include "bench/experiments/update/update_row.h"
@@ -129,8 +129,7 @@ int run_update(const ProgramContext& context, const UpdateOptions& options) {
 
 void add_update(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<UpdateOptions>();
-  CLI::App* command = program.add_subcommand(
-      "update", "what it costs that the mesh changes its shape, against building anew");
+  CLI::App* command = add_command(program, "update");
   add_selectors(*command, context, options->selectors);
   command
       ->add_option("--shares", options->shares,

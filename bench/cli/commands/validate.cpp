@@ -10,7 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "bench/cli/program.h"
+#include "bench/cli/extra_commands.h"
 #include "bench/experiments/choose/choose_check.h"
 #include "bench/experiments/many/many_check.h"
 #include "bench/experiments/proxy/proxy_check.h"
@@ -204,8 +204,7 @@ int validate(const std::vector<std::string>& paths) {
 
 void add_validate(CLI::App& program, ProgramContext& context) {
   const auto paths = std::make_shared<std::vector<std::string>>();
-  CLI::App* command = program.add_subcommand(
-      "validate", "check recorded results: CSV files, run.json, steps.bin and visited.json");
+  CLI::App* command = add_command(program, "validate");
   command
       ->add_option(
           "path", *paths,

@@ -170,7 +170,7 @@ int VerifyRun::run() {
 void add_verify(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<VerifyOptions>();
   options->selectors.query = "all";
-  CLI::App* command = program.add_subcommand("verify", "check contestants' answers against the exact oracle");
+  CLI::App* command = add_command(program, "verify");
   add_selectors(*command, context, options->selectors, contestants::Variety::many);
   add_scene_selectors(*command, options->selectors);
   command->add_option("--out", options->out, "folder for results.csv")->type_name("DIR");

@@ -1,7 +1,8 @@
 /// The touchmark program with nothing but bad contestants.
-#include "bench/cli/program.h"
+#include "bench/cli/extra_commands.h"
 #include "tests/bench/workers/hostile_roster.h"
 
 int main(int argc, char** argv) {
-  return touchmark::bench::cli::run_program(argc, argv, touchmark::bench::workers::hostile_roster());
+  namespace bench = touchmark::bench;
+  return bench::cli::run_program(argc, argv, bench::workers::hostile_roster(), bench::cli::all_parts());
 }

@@ -1,0 +1,34 @@
+#include <stdexcept>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "bench/cli/commands/bench_suite.h"
+
+namespace touchmark::bench::cli {
+
+void add_suite(CLI::App& command, bool& suite, std::string& cells, std::string& minutes) {
+  CLI::Option* const flag = command.add_flag(
+      "--suite", suite,
+      "a score over many scenes, motions, speeds, queries and reaches instead; with --mesh on "
+      "that mesh alone");
+  command.add_option("--cells", cells, "of the suite: how many a scene, or all; default: 12, quick 2")
+      ->type_name("N")
+      ->needs(flag);
+  command
+      .add_option("--minutes", minutes,
+                  "of the suite: what does not fit is left out and said so; default: 15, quick 1.5")
+      ->type_name("M")
+      ->needs(flag);
+}
+
+void expect_options_of_suite(const CLI::App& command) {
+  for (const char* const option : {"--scene", "--poses", "--trajectory", "--query", "--radius", "--reach",
+                                   "--unit", "--columns", "--motion-scale", "--rate", "--frontier",
+                                   "--steps-out", "--cold", "--cache-lines", "--work", "--markdown"}) {
+    if (command.count(option) > 0)
+      throw std::invalid_argument(fmt::format("{} does not go with --suite", option));
+  }
+}
+
+}  // namespace touchmark::bench::cli

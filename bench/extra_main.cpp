@@ -1,0 +1,7 @@
+#include "bench/cli/extra_commands.h"
+#include "bench/contestants/roster.h"
+
+int main(int argc, char** argv) {
+  namespace bench = touchmark::bench;
+  return bench::cli::run_program(argc, argv, bench::contestants::roster(), bench::cli::all_parts());
+}
