@@ -69,14 +69,14 @@ Placement restless(const Placement& start, std::uint32_t body, double time_s) {
           turned(start.orientation, brownian(body, of_orientation, time_s), 1)};
 }
 
-struct Kind {
+struct MotionKind {
   const char* name;
   const char* description;
   Move move;
   bool one = false;  ///< only the first body moves
 };
 
-constexpr Kind kinds[] = {
+constexpr MotionKind motion_kinds[] = {
     {"still", "no body moves; the default", nullptr},
     {"one", "the first body moves as in all, the others stand", restless, true},
     {"drift", "every body on a steady way of its own, turning", drifting},
@@ -88,13 +88,13 @@ constexpr Kind kinds[] = {
 
 std::vector<BodySceneInfo> body_motions() {
   std::vector<BodySceneInfo> infos;
-  for (const Kind& kind : kinds) infos.push_back({kind.name, kind.description});
+  for (const MotionKind& kind : motion_kinds) infos.push_back({kind.name, kind.description});
   return infos;
 }
 
 std::optional<BodyMotion> generated_motion(const std::string& name, const BodyScene& scene) {
-  const auto* const kind = std::ranges::find(kinds, name, &Kind::name);
-  if (kind == std::end(kinds)) return std::nullopt;
+  const auto* const kind = std::ranges::find(motion_kinds, name, &MotionKind::name);
+  if (kind == std::end(motion_kinds)) return std::nullopt;
   BodyMotion motion;
   if (kind->move == nullptr) return motion;
   motion.moving.resize(kind->one ? 1 : scene.bodies.size());

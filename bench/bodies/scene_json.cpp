@@ -25,11 +25,11 @@ using Json = nlohmann::json;
 
 /// What every body has, and what is of one kind of shape.
 constexpr std::string_view of_all[] = {"name", "position", "orientation"};
-struct Kind {
+struct ShapeKind {
   std::string_view name;
   std::vector<std::string_view> sizes;  ///< the keys of its numbers
 };
-const Kind shape_kinds[] = {
+const ShapeKind shape_kinds[] = {
     {"plane", {"size"}}, {"box", {"size"}}, {"sphere", {"radius"}}, {"capsule", {"radius", "length"}}};
 
 /// JSON lets an object have a key twice and says nothing of which one counts.
@@ -133,12 +133,12 @@ std::string resolved(const std::string& mesh, const std::filesystem::path& folde
   return scenes::is_named(mesh) ? mesh : (folder / mesh).string();
 }
 
-const Kind& kind_of(const Json& body) {
+const ShapeKind& kind_of(const Json& body) {
   const std::string name = text_of(body, "shape");
-  const auto* const kind = std::ranges::find(shape_kinds, name, &Kind::name);
+  const auto* const kind = std::ranges::find(shape_kinds, name, &ShapeKind::name);
   if (kind != std::end(shape_kinds)) return *kind;
   std::vector<std::string> names;
-  for (const Kind& known : shape_kinds) names.emplace_back(known.name);
+  for (const ShapeKind& known : shape_kinds) names.emplace_back(known.name);
   throw std::invalid_argument(
       fmt::format("\"shape\": \"{}\" is none; it is one of {}", name, fmt::join(names, ", ")));
 }
@@ -148,7 +148,7 @@ void expect_body_keys(const Json& body) {
   std::vector<std::string_view> keys(std::begin(of_all), std::end(of_all));
   if (body.is_object() && body.contains("shape")) {
     if (body.contains("mesh")) throw std::invalid_argument("has both \"mesh\" and \"shape\"");
-    const Kind& kind = kind_of(body);
+    const ShapeKind& kind = kind_of(body);
     keys.emplace_back("shape");
     keys.insert(keys.end(), kind.sizes.begin(), kind.sizes.end());
   } else {

@@ -11,7 +11,6 @@ namespace {
 
 /// Often enough for Ctrl-C, seldom enough for threads to be worth starting.
 constexpr std::size_t solved_at_once = 2048;
-constexpr std::size_t wrong_answers_kept = 3;
 
 }  // namespace
 

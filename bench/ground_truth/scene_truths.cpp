@@ -6,11 +6,7 @@
 #include "bench/support/interrupt.h"
 
 namespace touchmark::bench::ground_truth {
-namespace {
-
-constexpr std::size_t wrong_answers_kept = 3;
-
-}  // namespace
+namespace {}  // namespace
 
 oracle::SceneOracle scene_oracle(const bodies::PlacedScene& scene) {
   std::vector<oracle::SceneOracle::Body> bodies;

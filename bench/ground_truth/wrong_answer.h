@@ -12,6 +12,8 @@
 
 namespace touchmark::bench::ground_truth {
 
+inline constexpr std::size_t wrong_answers_kept = 3;  ///< of a row
+
 struct WrongAnswer {
   std::size_t step = 0;  ///< its index in the trace
   workload::Query query = workload::Query::nearest;

@@ -5,12 +5,11 @@
 
 #include <Eigen/Geometry>
 
+#include "bench/oracle/float_limits.h"
 #include "bench/oracle/interval_distance.h"
 
 namespace touchmark::bench::oracle {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double ulp(double x) noexcept { return raised(x) - x; }
 

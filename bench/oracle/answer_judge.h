@@ -9,11 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "bench/oracle/float_limits.h"
 #include "bench/oracle/judge.h"
 
 namespace touchmark::bench::oracle {
-
-inline constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 
 inline double raised(double x) noexcept { return std::nextafter(x, std::numeric_limits<double>::infinity()); }
 inline double lowered(double x) noexcept {

@@ -9,6 +9,8 @@
 
 #include <Eigen/Geometry>
 
+#include "bench/oracle/float_limits.h"
+
 namespace touchmark::bench::oracle {
 namespace {
 
@@ -29,7 +31,6 @@ namespace {
 //
 // Underflow: M is scaled to within 2^-100 .. 2^100, where squares of what matters (u M) are normal; a g so
 // short that its square is not is not used.
-constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 constexpr double roundings_above = 20 * unit_roundoff;
 constexpr double roundings_below = 12 * unit_roundoff;
 constexpr double shortest_squared = 0x1p-900;

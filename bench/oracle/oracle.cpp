@@ -8,15 +8,13 @@
 
 #include "bench/oracle/exact_distance.h"
 #include "bench/oracle/exact_winding.h"
+#include "bench/oracle/float_limits.h"
 #include "bench/oracle/interval_distance.h"
 #include "bench/oracle/parallel.h"
 #include "bench/oracle/triangle_tree.h"
 
 namespace touchmark::bench::oracle {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 
 struct Candidate {
   std::uint32_t triangle;

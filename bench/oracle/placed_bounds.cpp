@@ -4,11 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "bench/oracle/float_limits.h"
+
 namespace touchmark::bench::oracle {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 constexpr double smallest = std::numeric_limits<double>::denorm_min();
 
 Interval widened(Interval bounds, double error) noexcept {

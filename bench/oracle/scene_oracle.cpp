@@ -7,16 +7,12 @@
 #include <string>
 
 #include "bench/oracle/exact_distance.h"
+#include "bench/oracle/float_limits.h"
 #include "bench/oracle/placed_bounds.h"
 #include "bench/oracle/placed_surface.h"
 
 namespace touchmark::bench::oracle {
-namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
-
-}  // namespace
+namespace {}  // namespace
 
 struct SceneOracle::Structure {
   std::vector<std::shared_ptr<const TriangleMesh>> shapes;

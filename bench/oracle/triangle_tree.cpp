@@ -4,13 +4,13 @@
 #include <future>
 #include <limits>
 
+#include "bench/oracle/float_limits.h"
 #include "bench/oracle/interval_distance.h"
 
 namespace touchmark::bench::oracle {
 namespace {
 
 constexpr std::uint32_t leaf_size = 8;
-constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 constexpr double down = 1 - 8 * unit_roundoff;
 constexpr double up = 1 + 8 * unit_roundoff;
 

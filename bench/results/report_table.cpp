@@ -75,12 +75,12 @@ std::string kinds_of_errors(const measurement::ResultRow& row) {
   return text;
 }
 
-/// At least so many: one answer may be of several kinds. Empty where nothing was judged.
-std::string wrong_answers(const measurement::ResultRow& row) {
-  if (!row.counts) return "";
+/// A lower bound: one answer may be of several kinds. Nothing if none was judged.
+std::optional<std::uint64_t> wrong_answers(const measurement::ResultRow& row) {
+  if (!row.counts) return std::nullopt;
   const oracle::ErrorCounts& counts = *row.counts;
-  return count(std::max({counts.missed, counts.false_contacts, counts.wrong_triangle, counts.beyond_tolerance,
-                         counts.wrong_point, counts.wrong_normal, counts.wrong_side, counts.malformed}));
+  return std::max({counts.missed, counts.false_contacts, counts.wrong_triangle, counts.beyond_tolerance,
+                   counts.wrong_point, counts.wrong_normal, counts.wrong_side, counts.malformed});
 }
 
 std::string build_ms_of(const measurement::ResultRow& row) {
@@ -190,10 +190,11 @@ std::string comparison_text(const std::vector<measurement::ResultRow>& rows) {
   std::string notes;
   for (const measurement::ResultRow* row : sorted) {
     const std::vector<std::string> times = timing_cells(*row, least);
-    lines.push_back({row->contestant(), std::string(measurement::guarantee_name(*row)), wrong_answers(*row),
-                     row->throughput ? times[0] : cut(row->status, max_status), times[1], times[2], times[3],
-                     times[5], row->cold ? figure(row->cold->p50) : "", build_ms_of(*row),
-                     megabytes_of(*row)});
+    const std::optional<std::uint64_t> wrong = wrong_answers(*row);
+    lines.push_back({row->contestant(), std::string(measurement::guarantee_name(*row)),
+                     wrong ? count(*wrong) : "", row->throughput ? times[0] : cut(row->status, max_status),
+                     times[1], times[2], times[3], times[5], row->cold ? figure(row->cold->p50) : "",
+                     build_ms_of(*row), megabytes_of(*row)});
     const std::string kinds = row->throughput ? kinds_of_errors(*row) : row->status;
     if (!kinds.empty()) notes += fmt::format("{}: {}\n", row->contestant(), kinds);
   }
@@ -222,7 +223,7 @@ std::string overall_verdict(const std::vector<measurement::ResultRow>& rows) {
   std::size_t trajectories = 0;
   for (const measurement::ResultRow& row : rows) {
     Sum& sum = sums[row.contestant()];
-    sum.is_right = sum.is_right && is_exact(row) && wrong_answers(row) == "0";
+    sum.is_right = sum.is_right && is_exact(row) && wrong_answers(row) == 0u;
     if (!row.throughput || !row.latency || !row.counts) continue;
     trajectories = std::max(trajectories, ++sum.timed);
     sum.answers += row.counts->judged;

@@ -52,7 +52,7 @@ std::string failure(const measurement::ResultRow& row) {
 }
 
 /// Each of the row's wrong answers, and the command that repeats it.
-std::string wrong_answers(const measurement::ResultRow& row) {
+std::string wrong_answer_lines(const measurement::ResultRow& row) {
   std::string text;
   for (const ground_truth::WrongAnswer& wrong : row.wrong) {
     text += fmt::format("  {}\n", ground_truth::described(wrong));
@@ -150,7 +150,7 @@ std::string list_of_failures(const std::vector<measurement::ResultRow>& rows, st
   for (std::size_t i = 0; i < std::min(most, failures.size()); ++i) {
     text += failure(*failures[i]) + '\n';
     const bool is_first = !failures[i]->wrong.empty() && reported.insert(failures[i]->contestant()).second;
-    if (is_first) text += wrong_answers(*failures[i]);
+    if (is_first) text += wrong_answer_lines(*failures[i]);
   }
   if (failures.size() > most) text += fmt::format("and {} more\n", failures.size() - most);
   return text;

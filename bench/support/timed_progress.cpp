@@ -42,7 +42,7 @@ void TimedProgress::print_lines(const std::stop_token& stop) {
 std::string TimedProgress::line() const {
   const Clock::time_point now = Clock::now();
   const auto in_seconds = [](Clock::duration time) {
-    return std::chrono::duration_cast<seconds>(time).count();
+    return std::chrono::duration_cast<std::chrono::seconds>(time).count();
   };
   if (terminal_) {
     const auto left = std::max<long>(in_seconds(deadline_ - now), 0);

@@ -42,9 +42,10 @@ ContestantProcess::ContestantProcess(const SharedArena& arena, contestants::Cont
     : arena_(arena), spec_(std::move(spec)), program_(std::move(worker_program)) {}
 
 Reply ContestantProcess::exchange(const Request& request, std::chrono::milliseconds timeout) {
-  using Clock = std::chrono::steady_clock;
-  const Clock::time_point start = Clock::now();
-  const auto count_time = [&] { busy_s_ += std::chrono::duration<double>(Clock::now() - start).count(); };
+  const std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  const auto count_time = [&] {
+    busy_s_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
   try {
     Reply reply = process_->ask(request, timeout);
     count_time();

@@ -1,14 +1,13 @@
 #include "core/exact/orientation.h"
 
 #include <cmath>
-#include <limits>
 
 #include "core/exact/integer_lattice.h"
+#include "core/float_limits.h"
 
 namespace touchmark {
 namespace {
 
-constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 // Outside, products may have lost bits or all there is.
 constexpr double min_safe = 0x1p-900, max_safe = 0x1p1000;
 

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "core/field/plane_fitter.h"
+#include "core/float_limits.h"
 #include "core/search/parallel.h"
 #include "core/sign/triangle_tree.h"
 
@@ -19,7 +20,6 @@ namespace {
 using Corners = std::array<double, 8>;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double half_diagonal = 0.8660254037844387;  // of a cube of edge 1, rounded up
 constexpr std::uint32_t max_lattice = 32;             // cubes along the longest axis
 constexpr double max_places = 0x1p28;                 // smallest cubes along the longest axis

@@ -4,12 +4,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+
+#include "core/float_limits.h"
 
 namespace touchmark::field {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t most_triangles = 256;  // in a ball: more are not flat together, as a rule
 
 Vec3 corner_of(std::size_t corner) noexcept {

@@ -8,14 +8,13 @@
 #include <Eigen/Geometry>
 
 #include "core/exact/distance_predicates.h"
+#include "core/float_limits.h"
 #include "core/geometry/edge_cross.h"
 #include "core/geometry/point_triangle_kernel.h"
 #include "core/simd/dispatch.h"
 
 namespace touchmark {
 namespace {
-
-constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 
 /// Is the point inside the prism over the triangle by more than the rounding of the three tests?
 bool surely_over_face(const PreparedTriangle& t, const std::array<Vec3, 3>& to,

@@ -2,17 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <Eigen/Geometry>
 
+#include "core/float_limits.h"
 #include "core/geometry/distance_error.h"
 
 namespace touchmark {
 namespace {
-
-constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Bounds by how much the direction from the foot is off, for a distance that is off by `error`:
 /// docs/exactness.md, E17.

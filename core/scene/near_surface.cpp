@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
+
+#include "core/float_limits.h"
 
 namespace touchmark {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Calls visit(place) for the bits that are set.
 template <class Visit>

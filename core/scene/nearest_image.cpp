@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 
+#include "core/float_limits.h"
 #include "core/geometry/distance_error.h"
 #include "core/geometry/point_triangle.h"
 #include "core/geometry/widest_offset.h"
 
 namespace touchmark {
 namespace {
-
-constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 
 /// Whole numbers say it all; the contact of a point on the image has the face's normal, turned as it is.
 Contact exact_contact(const ImageCandidate& candidate, const Vec3& point) noexcept {

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 #include <string>
 
+#include "core/float_limits.h"
+
 namespace touchmark {
 namespace {
-
-constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 
 /// With enough digits to tell 1 from what is off by rounding.
 std::string text(double number) {

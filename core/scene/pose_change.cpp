@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
+#include "core/float_limits.h"
 #include "core/simd/target.h"
 
 #if TOUCHMARK_HAS_AVX2
@@ -14,8 +14,6 @@
 
 namespace touchmark {
 namespace {
-
-constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 
 /// Lengths that a change is made of, rounded.
 struct Lengths {

@@ -1,9 +1,9 @@
 #include "core/scene/round_body.h"
 
 #include <cmath>
-#include <limits>
 #include <string>
 
+#include "core/float_limits.h"
 #include "core/geometry/distance_error.h"
 #include "core/geometry/point_triangle.h"
 #include "core/geometry/sphere_triangle_sweep.h"
@@ -13,7 +13,6 @@
 namespace touchmark {
 namespace {
 
-constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 constexpr double least_radius = 0x1p-120, largest_radius = 0x1p200;
 
 /// The way is off by a rounding, and the sum of the radii by two. Inside, the place is off by three, and the

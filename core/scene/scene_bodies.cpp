@@ -5,10 +5,10 @@
 #include <functional>
 #include <string>
 
+#include "core/float_limits.h"
+
 namespace touchmark {
 namespace {
-
-constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 
 /// Returns a float that is no less than x, which is far from where floats underflow: two of its roundings
 /// more.

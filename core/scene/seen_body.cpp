@@ -11,14 +11,13 @@
 #if TOUCHMARK_HAS_AVX2
 #include <immintrin.h>
 
+#include "core/float_limits.h"
 #include "core/geometry/edge_cross.h"
 #include "core/geometry/point_triangle_avx2.h"
 #endif
 
 namespace touchmark {
 namespace {
-
-constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 
 /// A sum of absolute values is no less than the norm, and takes no root.
 double length_above(const Vec3& v) noexcept { return v.cwiseAbs().sum(); }

@@ -4,14 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "core/float_limits.h"
 #include "core/geometry/float_rounding.h"
 
 namespace touchmark {
-namespace {
-
-constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
-
-}  // namespace
+namespace {}  // namespace
 
 SupportTable::SupportTable(std::span<const Vec3> points, const Vec3& center, double radius, double beyond)
     : pad_(64 * unit_roundoff * (radius + beyond)) {

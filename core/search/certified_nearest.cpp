@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/float_limits.h"
+
 namespace touchmark {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Answers by kernel distances of a copy scaled by a power of two.
 std::optional<Contact> nearest_at_any_scale(std::span<const PreparedTriangle> triangles, const Aabb& bounds,

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "core/aabb.h"
+#include "core/float_limits.h"
 
 namespace touchmark {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr unsigned bits_an_axis = 10, bits_a_pass = 11, passes = 3;
 constexpr std::uint32_t not_finite = 1U << (3 * bits_an_axis);  // above all codes
 static_assert(passes * bits_a_pass > 3 * bits_an_axis);

@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "core/float_limits.h"
 #include "core/search/certified_nearest.h"
 #include "core/search/shared_feature.h"
 
 namespace touchmark {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double largest_difference(const PreparedTriangle& triangle, const Vec3& center) noexcept {
   double largest = 0;

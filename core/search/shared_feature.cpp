@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <limits>
 
 #include <Eigen/Geometry>
 
+#include "core/float_limits.h"
+
 namespace touchmark {
 namespace {
-
-constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 
 constexpr std::size_t nowhere = 3;
 

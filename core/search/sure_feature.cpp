@@ -3,19 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 #include <Eigen/Geometry>
 
 #include "core/exact/double_double_vector.h"
+#include "core/float_limits.h"
 
 namespace touchmark {
 namespace {
 
 using double_double::cross, double_double::difference, double_double::dot, double_double::Vector;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 
 /// Lengths below this may have lost bits when they were multiplied, and what is made of them.
 constexpr double min_length = 0x1p-300;

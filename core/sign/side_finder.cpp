@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "core/exact/orientation.h"
+#include "core/float_limits.h"
 #include "core/geometry/distance_error.h"
 #include "core/geometry/point_triangle.h"
 #include "core/sign/clearance.h"
@@ -23,8 +24,6 @@ namespace touchmark {
 namespace {
 
 using sign::Pseudonormals;
-
-constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 
 /// The winding number that counts as outside: in a room it is the one of infinity that is inside.
 Side side_of_count(int count, bool inside_out) noexcept {

@@ -2,16 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "core/exact/distance_predicates.h"
 #include "core/exact/orientation.h"
+#include "core/float_limits.h"
 
 namespace touchmark::sign {
 namespace {
-
-constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 
 int sign(double x) noexcept { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 

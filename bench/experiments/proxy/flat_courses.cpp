@@ -3,18 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "bench/experiments/proxy/course_makers.h"
 #include "bench/scenes/portable_sincos.h"
+#include "core/float_limits.h"
 
 namespace touchmark::bench::experiments::proxy {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::uint64_t course_seed = 1000;  ///< apart from one round's seed to the next round's
 
 /// Presses goals of a ball of `reach` about `middle`, one after the other, with rests between.

@@ -1,17 +1,15 @@
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <utility>
 
 #include "bench/experiments/stress/corner_cases.h"
 #include "bench/experiments/stress/makers.h"
 #include "bench/experiments/stress/questions.h"
 #include "bench/scenes/generated_scenes.h"
+#include "core/float_limits.h"
 
 namespace touchmark::bench::experiments::stress {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// More often few than many.
 std::uint32_t some(CornerCases& random, double least, double most) {

@@ -8,11 +8,11 @@
 #include "bench/experiments/stress/makers.h"
 #include "bench/experiments/stress/questions.h"
 #include "bench/scenes/generated_scenes.h"
+#include "core/float_limits.h"
 
 namespace touchmark::bench::experiments::stress {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double least = std::numeric_limits<double>::denorm_min();
 constexpr double largest = std::numeric_limits<double>::max();

@@ -2,7 +2,6 @@
 // it.
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,11 +11,10 @@
 #include "bench/experiments/stress/makers.h"
 #include "bench/experiments/stress/questions.h"
 #include "bench/scenes/generated_scenes.h"
+#include "core/float_limits.h"
 
 namespace touchmark::bench::experiments::stress {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 TriangleMesh lattice_triangles(CornerCases& cases, std::size_t count) {
   std::vector<CornerCases::Corners> triangles;

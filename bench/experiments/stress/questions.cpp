@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "bench/experiments/stress/corner_case_centers.h"
 #include "bench/oracle/oracle.h"
+#include "core/float_limits.h"
 
 namespace touchmark::bench::experiments::stress {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t radii_a_centre = 3;
 
 }  // namespace

@@ -2,16 +2,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/float_limits.h"
 #include "core/grid_group/direct/direct_grid.h"
 #include "core/grid_group/direct/nearest_search.h"
 #include "core/search/certified_nearest.h"
 
 namespace touchmark::grid {
-namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
+namespace {}  // namespace
 
 DirectGrid::Start DirectGrid::start_at(const Vec3& center, const FilterPoint& point, double reach,
                                        DirectMemory& memory, Work& work) const noexcept {

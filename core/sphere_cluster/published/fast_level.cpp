@@ -4,14 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "core/float_limits.h"
 #include "core/geometry/sphere_triangle_sweep.h"
 #include "core/search/contacts_within.h"
 #include "core/sphere_cluster/search_bounds.h"
 
 namespace touchmark {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// When a point on the path first comes within `radius` of `center`; infinity when it does not. For a path
 /// that starts outside.

@@ -1,16 +1,14 @@
 /// All triangles within a reach, through the hierarchy.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "core/float_limits.h"
 #include "core/search/contacts_within.h"
 #include "core/sphere_cluster/tree/cylinder_bvh.h"
 #include "core/sphere_cluster/tree/search.h"  // IWYU pragma: keep
 
 namespace touchmark {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Shows every triangle within a limit that stays.
 struct ContactsVisitor {

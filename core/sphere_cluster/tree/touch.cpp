@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/float_limits.h"
 #include "core/search/nearest_of_ties.h"
 #include "core/search/side_bound.h"
 #include "core/sphere_cluster/tree/cylinder_bvh.h"
@@ -14,7 +15,6 @@
 namespace touchmark {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t nowhere = std::numeric_limits<std::uint32_t>::max();
 
 /// Is content with any triangle that is surely within the radius, and keeps those that doubles leave open.

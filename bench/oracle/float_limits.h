@@ -1,0 +1,11 @@
+/// Two constants of double.
+#pragma once
+
+#include <limits>
+
+namespace touchmark::bench::oracle {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+inline constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;  ///< 2^-53
+
+}  // namespace touchmark::bench::oracle
