@@ -12,7 +12,7 @@
 
 namespace touchmark::bench::ground_truth {
 
-inline constexpr std::size_t wrong_answers_kept = 3;  ///< of a row
+inline constexpr std::size_t wrong_answers_kept = 3;  ///< the maximum per row
 
 struct WrongAnswer {
   std::size_t step = 0;  ///< its index in the trace
