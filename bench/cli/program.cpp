@@ -147,7 +147,8 @@ void continue_in_extra_program(const ProgramContext& context) {
   const std::string path = support::beside_this_program("touchmark-extra");
   execv(path.c_str(), context.argv);
   throw std::invalid_argument(
-      "this is a command of touchmark-extra, which is not built; scripts/build-program touchmark-extra builds it");
+      "this is a command of touchmark-extra, which is not built; scripts/build-program touchmark-extra "
+      "builds it");
 }
 
 int run_program(int argc, char** argv, const contestants::Roster& roster, const ProgramParts& parts) {

@@ -89,7 +89,8 @@ std::optional<std::string> decoded_percents(std::string_view text) {
     if (text[i] != '%') continue;
     unsigned char byte = 0;
     const char* const digits = text.data() + i + 1;
-    if (i + 2 >= text.size() || std::from_chars(digits, digits + 2, byte, 16).ptr != digits + 2 || byte == 0) return {};
+    if (i + 2 >= text.size() || std::from_chars(digits, digits + 2, byte, 16).ptr != digits + 2 || byte == 0)
+      return {};
     decoded.back() = static_cast<char>(byte);
     i += 2;
   }

@@ -264,8 +264,7 @@ int BenchRun::run() {
 
 void add_bench(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<BenchOptions>();
-  CLI::App* command =
-      add_command(program, "bench");
+  CLI::App* command = add_command(program, "bench");
   add_selectors(*command, context, options->selectors);
   add_scene_selectors(*command, options->selectors);
   add_unit(*command, options->selectors.unit);
@@ -304,9 +303,8 @@ void add_bench(CLI::App& program, ProgramContext& context) {
       expect_options_of_suite(*command);
       if (!flags.out.empty()) throw std::invalid_argument("--benchmark_out does not go with --suite");
       if (!context.parts.run_suite) continue_in_extra_program(context);
-      context.status =
-          context.parts.run_suite(context, {options->selectors, options->out, options->cells, options->minutes,
-                                            options->quick, options->workers});
+      context.status = context.parts.run_suite(context, {options->selectors, options->out, options->cells,
+                                                         options->minutes, options->quick, options->workers});
       return;
     }
     if (options->frontier) {

@@ -270,8 +270,7 @@ int ChooseCommand::run() {
 
 void add_choose(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<ChooseOptions>();
-  CLI::App* command =
-      add_command(program, "choose");
+  CLI::App* command = add_command(program, "choose");
   add_choose_options(*command, context, *options);
   command->footer(
       "A candidate holds if the oracle finds no wrong answer, it keeps within the memory, and on every\n"

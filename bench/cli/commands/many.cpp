@@ -8,8 +8,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "bench/cli/plugin_option.h"
 #include "bench/cli/extra_commands.h"
+#include "bench/cli/plugin_option.h"
 #include "bench/experiments/many/many_run.h"
 #include "bench/experiments/papers/paper_options.h"
 #include "bench/results/results_folder.h"
@@ -155,8 +155,7 @@ void add_sizes(CLI::App& command, ManyCommandOptions& options) {
 
 void add_many(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<ManyCommandOptions>();
-  CLI::App* command =
-      add_command(program, "many");
+  CLI::App* command = add_command(program, "many");
   command->add_option("--mesh", options->mesh, "a scene (touchmark list) or a mesh file")->type_name("MESH");
   command->add_flag("--normalize", options->normalize, "scale to box diagonal 1 about the origin");
   add_repeatable(*command, "--detector", options->detectors,

@@ -159,8 +159,7 @@ void add_mesh_options(CLI::App& command, std::string& mesh, bool& normalize) {
 }
 
 void add_mesh(CLI::App& program, ProgramContext&) {
-  CLI::App* command =
-      add_command(program, "mesh");
+  CLI::App* command = add_command(program, "mesh");
   command->require_subcommand(1);
   command->footer("Example: touchmark mesh info bunny\n");
   add_info(*command);

@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "bench/batch/manifest.h"
-#include "bench/cli/plugin_option.h"
 #include "bench/cli/extra_commands.h"
+#include "bench/cli/plugin_option.h"
 #include "bench/cli/selector_options.h"
 #include "bench/results/build_info.h"
 #include "bench/scenes/scenes.h"
@@ -154,8 +154,7 @@ void run(const contestants::Roster& roster, const PlanOptions& options) {
 
 void add_plan(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<PlanOptions>();
-  CLI::App* command =
-      add_command(program, "plan");
+  CLI::App* command = add_command(program, "plan");
   const auto many = [command](const char* name, std::vector<std::string>& values, const char* what,
                               const char* type) {
     command->add_option(name, values, fmt::format("{}; repeatable", what))

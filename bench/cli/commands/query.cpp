@@ -151,8 +151,7 @@ void run_query(const QueryOptions& options, const contestants::Roster& roster) {
 
 void add_query(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<QueryOptions>();
-  CLI::App* command =
-      add_command(program, "query");
+  CLI::App* command = add_command(program, "query");
   add_selectors(*command, context, options->selectors);
   add_scene_selectors(*command, options->selectors);
   command->add_option("--csv", options->csv, "where the rows go instead of standard output")

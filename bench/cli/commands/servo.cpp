@@ -201,8 +201,7 @@ int ServoCommand::run() {
 
 void add_servo(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<ServoOptions>();
-  CLI::App* command =
-      add_command(program, "servo");
+  CLI::App* command = add_command(program, "servo");
   add_servo_options(*command, context, *options);
   command->footer(
       "Each tick is late by the time from its scheduled start to its answer. The same loop with nothing\n"

@@ -11,8 +11,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "bench/cli/plugin_option.h"
 #include "bench/cli/extra_commands.h"
+#include "bench/cli/plugin_option.h"
 #include "bench/cli/report_files.h"
 #include "bench/cli/single_step.h"
 #include "bench/cli/worker_options.h"
@@ -184,8 +184,7 @@ std::string list_of_families() {
 void add_stress(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<StressOptions>();
   options->selectors.query = "all";
-  CLI::App* command =
-      add_command(program, "stress");
+  CLI::App* command = add_command(program, "stress");
   const auto repeatable = [&](const char* name, std::vector<std::string>& values, const char* what,
                               const char* type) {
     command->add_option(name, values, what)->type_name(type)->expected(1)->take_all();

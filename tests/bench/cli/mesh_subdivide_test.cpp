@@ -159,7 +159,7 @@ TEST(MeshSubdivide, ShowsAnExample) {
 
 TEST(MeshSubdivide, MakesThePapersCounts) {
   const std::filesystem::path bunny = std::filesystem::path(TOUCHMARK_SHARED_MODELS) / "bunny-902.ply";
-  if (!std::filesystem::exists(bunny)) GTEST_SKIP() << "no " << bunny;
+  if (!std::filesystem::exists(bunny)) GTEST_SKIP() << bunny << " is not there";
   struct Row {
     const char* method;
     std::array<std::size_t, 3> triangles;

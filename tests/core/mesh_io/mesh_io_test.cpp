@@ -213,7 +213,9 @@ TEST(LoadMesh, NamesTheCallThatReadsOtherFormats) {
 
 TEST(LoadMesh, ReadsTheSharedModels) {
   const std::filesystem::path models = TOUCHMARK_SHARED_MODELS;
-  if (!std::filesystem::exists(models / "bunny-902.ply")) GTEST_SKIP() << models << " is not there";
+  if (!std::filesystem::exists(models / "bunny-902.ply"))
+    GTEST_SKIP() << models / "bunny-902.ply"
+                 << " is not there";
   EXPECT_EQ(load_mesh(models / "bunny-902.ply").size(), 902u);
   EXPECT_EQ(load_mesh(models / "bun_zipper_res2.ply").size(), 16301u);
   EXPECT_EQ(load_mesh(models / "bun_zipper_res3.ply").size(), 3851u);

@@ -52,7 +52,7 @@ class PaperBunny : public testing::TestWithParam<Row> {
  protected:
   void SetUp() override {
     const std::filesystem::path file = std::filesystem::path(TOUCHMARK_SHARED_MODELS) / "bunny-902.ply";
-    if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << file << " is not there";
     mesh_ = load_mesh(file);
     ASSERT_EQ(mesh_->size(), 902u);
     ASSERT_NEAR(mesh_->diagonal(), 2.61541, 5e-6);

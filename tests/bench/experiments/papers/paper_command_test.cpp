@@ -108,7 +108,7 @@ TEST_F(PaperChoiSung, KeepsTheSurfaceOfTheInterpolatingFlatMethods) {
 
 TEST(PaperChoiSungBunny, MakesThePapersCountsOfThePapersBunny) {
   const std::filesystem::path bunny = std::filesystem::path(TOUCHMARK_SHARED_MODELS) / "bunny-902.ply";
-  if (!std::filesystem::exists(bunny)) GTEST_SKIP() << "no " << bunny;
+  if (!std::filesystem::exists(bunny)) GTEST_SKIP() << bunny << " is not there";
   const TemporaryFolder folder;
   ASSERT_EQ(run_paper("choi-sung-2017", bunny.string(), folder, {"--steps", "5"}).status, 0);
   const std::map<std::string, std::vector<std::string>> expected{
