@@ -71,6 +71,7 @@ class Record(unittest.TestCase):
         self.directory = pathlib.Path(temporary.name)
         self.root = self.directory / "repository"
         for path, text in (("scripts/bench", BENCH), ("scripts/papers", PAPERS), ("scripts/setup", SETUP),
+                           ("scripts/build-program", "#!/bin/bash\n[ \"$*\" = touchmark-extra ]\n"),
                            ("build/release/bin/touchmark", PROGRAM), ("core/code", "int x;\n"),
                            (".gitignore", "/build/\n")):
             file = self.root / path
