@@ -211,7 +211,7 @@ std::string joined_run_json(const std::vector<std::string>& runs, bool finished)
     mesh["radius"] = run.at("radius");
     mesh["reach"] = run.at("reach");
     meshes.push_back(std::move(mesh));
-    for (const Json& one : run.at("steadiness")) steadiness.push_back(one);
+    for (const Json& steady : run.at("steadiness")) steadiness.push_back(steady);
   }
   joined["finished"] = finished;
   joined["meshes"] = std::move(meshes);

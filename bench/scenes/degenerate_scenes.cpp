@@ -13,12 +13,10 @@
 namespace touchmark::bench::scenes {
 namespace {
 
-using Corners = TriangleMesh::Corners;
-
 /// Triangles that share no vertices.
 struct Loose {
   std::vector<Vec3> vertices;
-  std::vector<Corners> triangles;
+  std::vector<TriangleMesh::Corners> triangles;
 
   void add(const Vec3& a, const Vec3& b, const Vec3& c) {
     const auto first = static_cast<std::uint32_t>(vertices.size());
@@ -66,7 +64,7 @@ TriangleMesh sliver_fan() {
   constexpr int slivers = 1000;
   constexpr double ratio = 0.97946966670695346;  // ratio^999 is 1e-9
   std::vector<Vec3> vertices{{0, 0, 0.2}};
-  std::vector<Corners> triangles;
+  std::vector<TriangleMesh::Corners> triangles;
   double width = 1 - ratio, fraction = 0;  // the widths of all, in turns, sum to one but for 1e-9
   for (int i = 0; i <= slivers; ++i) {
     const SinCos rim = portable_sincos(fraction);
@@ -136,7 +134,7 @@ TriangleMesh degenerate() {
 
 TriangleMesh doubled() {
   const TriangleMesh sphere = icosphere(2);
-  std::vector<Corners> triangles;
+  std::vector<TriangleMesh::Corners> triangles;
   for (const auto& [a, b, c] : sphere.triangles()) {
     triangles.push_back({a, b, c});
     triangles.push_back({a, b, c});
