@@ -6,7 +6,6 @@
 #include "bench/support/interrupt.h"
 
 namespace touchmark::bench::ground_truth {
-namespace {}  // namespace
 
 oracle::SceneOracle scene_oracle(const bodies::PlacedScene& scene) {
   std::vector<oracle::SceneOracle::Body> bodies;

@@ -12,7 +12,6 @@
 #include "bench/oracle/placed_surface.h"
 
 namespace touchmark::bench::oracle {
-namespace {}  // namespace
 
 struct SceneOracle::Structure {
   std::vector<std::shared_ptr<const TriangleMesh>> shapes;

@@ -5,13 +5,13 @@
 #include <cstddef>
 
 #include "core/exact/double_double.h"
+#include "core/float_limits.h"
 #include "core/simd/dispatch.h"
 #include "core/simd/target.h"
 
 #if TOUCHMARK_HAS_AVX2
 #include <immintrin.h>
 
-#include "core/float_limits.h"
 #include "core/geometry/edge_cross.h"
 #include "core/geometry/point_triangle_avx2.h"
 #endif

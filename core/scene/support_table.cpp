@@ -8,7 +8,6 @@
 #include "core/geometry/float_rounding.h"
 
 namespace touchmark {
-namespace {}  // namespace
 
 SupportTable::SupportTable(std::span<const Vec3> points, const Vec3& center, double radius, double beyond)
     : pad_(64 * unit_roundoff * (radius + beyond)) {

@@ -8,7 +8,6 @@
 #include "core/search/certified_nearest.h"
 
 namespace touchmark::grid {
-namespace {}  // namespace
 
 DirectGrid::Start DirectGrid::start_at(const Vec3& center, const FilterPoint& point, double reach,
                                        DirectMemory& memory, Work& work) const noexcept {
