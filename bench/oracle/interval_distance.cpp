@@ -134,7 +134,6 @@ bool scale(std::span<Vec3> hull, int& exponent) noexcept {
 
 Interval scaled_back(Interval bounds, int exponent) noexcept {
   if (exponent == 0) return bounds;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   return {std::max(0.0, std::nextafter(std::ldexp(bounds.lo, exponent), -infinity)),
           std::nextafter(std::ldexp(bounds.hi, exponent), infinity)};
 }
