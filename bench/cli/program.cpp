@@ -25,32 +25,61 @@ namespace touchmark::bench::cli {
 namespace {
 
 struct CommandText {
-  std::string_view name, summary;
+  std::string_view group, name, summary;
 };
+
+constexpr std::string_view first = "To begin with", answers = "Answers", studies = "Studies",
+                           batch = "CI and batches";
 
 // All commands in the order of the help.
 constexpr CommandText command_texts[] = {
-    {"bench", "verify and time contestants on identical trajectories"},
-    {"servo", "a paced loop as a device runs it: does a detector hold the rate?"},
-    {"choose", "which detector, with which options, for this part on this machine?"},
-    {"verify", "check contestants' answers against the exact oracle"},
-    {"stress", "hard questions of many kinds, every answer against the exact oracle"},
-    {"scale", "how build, memory and query time grow with the mesh"},
-    {"update", "what it costs that the mesh changes its shape, against building anew"},
-    {"proxy", "which haptic proxy crosses the surface? every way is replayed by the exact oracle"},
-    {"many", "many points asked at once: a scan, or a pointshell each tick"},
-    {"list", "what can be chosen: contestants, scenes, trajectories"},
-    {"mesh", "what a mesh is like, and finer ones: info, measure, subdivide"},
-    {"query", "one contestant's answer to every step of a trajectory, as CSV"},
-    {"paper", "a paper's experiment, beside the numbers it prints"},
-    {"tune", "the subdivision level and clustering that hold a rate at the least geometric error"},
-    {"gate", "fail when a detector has become slower, against a reference measured in the same run"},
-    {"plan", "write down a sweep: every mesh, trajectory, query and parameter with every detector"},
-    {"run", "run one shard of a planned sweep"},
-    {"merge", "make one results CSV of the jobs of a sweep"},
-    {"validate", "check recorded results: CSV files, run.json, steps.bin and visited.json"},
-    {"new-plugin", "write an example of a contestant of your own"},
+    {first, "bench", "verify and time contestants on identical trajectories"},
+    {first, "choose", "which detector, with which options, for this part on this machine?"},
+    {first, "servo", "a paced loop as a device runs it: does a detector hold the rate?"},
+    {first, "mesh", "what a mesh is like, and finer ones: info, measure, subdivide"},
+    {first, "list", "what can be chosen: contestants, scenes, trajectories"},
+    {answers, "query", "one contestant's answer to every step of a trajectory, as CSV"},
+    {answers, "verify", "check contestants' answers against the exact oracle"},
+    {answers, "stress", "hard questions of many kinds, every answer against the exact oracle"},
+    {answers, "proxy", "which haptic proxy crosses the surface? every way is replayed by the exact oracle"},
+    {studies, "scale", "how build, memory and query time grow with the mesh"},
+    {studies, "update", "what it costs that the mesh changes its shape, against building anew"},
+    {studies, "many", "many points asked at once: a scan, or a pointshell each tick"},
+    {studies, "tune", "the subdivision level and clustering that hold a rate at the least geometric error"},
+    {studies, "paper", "a paper's experiment, beside the numbers it prints"},
+    {batch, "gate", "fail when a detector has become slower, against a reference measured in the same run"},
+    {batch, "plan", "write down a sweep: every mesh, trajectory, query and parameter with every detector"},
+    {batch, "run", "run one shard of a planned sweep"},
+    {batch, "merge", "make one results CSV of the jobs of a sweep"},
+    {batch, "validate", "check recorded results: CSV files, run.json, steps.bin and visited.json"},
+    {batch, "new-plugin", "write an example of a contestant of your own"},
 };
+
+struct OptionGroup {
+  std::string_view name, options;  ///< of options, each between spaces
+};
+
+constexpr OptionGroup option_groups[] = {
+    {"Mesh and motion",
+     " --mesh --normalize --scene --poses --package --unit --trajectory --columns --motion-scale --rate "
+     "--steps --seed "},
+    {"Query", " --query --radius --reach "},
+    {"Detectors", " --detector --plugin --frontier --timeout --worker-output "},
+    {"Output", " --out --steps-out --csv --json --markdown --junit --manifest --trace --wide --work "}};
+
+/// Groups the options of a command in its help, and of its subcommands, where there are more than one sees at
+/// once.
+void group_options(CLI::App& command) {
+  for (CLI::App* part : command.get_subcommands(nullptr)) group_options(*part);
+  const std::vector<CLI::Option*> options = command.get_options();
+  if (options.size() < 12) return;
+  for (CLI::Option* option : options) {
+    const auto group = std::ranges::find_if(option_groups, [&](const OptionGroup& one) {
+      return one.options.find(" --" + option->get_lnames().front() + " ") != std::string_view::npos;
+    });
+    if (group != std::end(option_groups)) option->group(std::string(group->name));
+  }
+}
 
 /// Adds the commands that are here, and the others by name alone.
 void add_commands(CLI::App& program, ProgramContext& context) {
@@ -58,6 +87,7 @@ void add_commands(CLI::App& program, ProgramContext& context) {
     const auto here = std::ranges::find(context.parts.commands, text.name, &Command::name);
     if (here != context.parts.commands.end()) {
       here->add(program, context);
+      group_options(*program.get_subcommand(std::string(text.name)));
     } else if (context.argc > 1 && text.name == context.argv[1]) {
       continue_in_extra_program(context);
     } else {
@@ -140,7 +170,8 @@ std::span<const Command> main_commands() {
 
 CLI::App* add_command(CLI::App& program, std::string_view name) {
   const auto text = std::ranges::find(command_texts, name, &CommandText::name);
-  return program.add_subcommand(std::string(name), std::string(text->summary));
+  return program.add_subcommand(std::string(name), std::string(text->summary))
+      ->group(std::string(text->group));
 }
 
 void continue_in_extra_program(const ProgramContext& context) {
