@@ -3,6 +3,7 @@
 #   libtouchmark-dev    headers, static libraries, CMake    component dev
 #   touchmark           the program and its workers         component program
 #   touchmark-plots     pictures and pages of results       component plots
+#   python3-touchmark   the module for Debian's Python      component python, which `cmake --install` names or leaves out
 # scripts/packaging/debian builds and tries them.
 include(GNUInstallDirs)
 
@@ -44,6 +45,14 @@ if(TOUCHMARK_BUILD_BENCH)
   endforeach()
 endif()
 
+if(TOUCHMARK_BUILD_PYTHON)
+  list(APPEND touchmark_components python)
+  set(touchmark_python_folder lib/python3/dist-packages/touchmark)
+  install(TARGETS touchmark_python LIBRARY DESTINATION ${touchmark_python_folder} COMPONENT python EXCLUDE_FROM_ALL)
+  install(FILES ${PROJECT_SOURCE_DIR}/python/touchmark/__init__.py ${PROJECT_SOURCE_DIR}/python/touchmark/_native.pyi
+    ${PROJECT_SOURCE_DIR}/python/touchmark/py.typed DESTINATION ${touchmark_python_folder} COMPONENT python EXCLUDE_FROM_ALL)
+endif()
+
 set(TOUCHMARK_PACKAGE_CONTACT "The Touchmark authors <touchmark@example.invalid>" CACHE STRING
   "Who publishes the packages: name and address")
 set(CPACK_PACKAGE_CONTACT "${TOUCHMARK_PACKAGE_CONTACT}")
@@ -76,10 +85,14 @@ foreach(file changelog changelog.Debian)
 endforeach()
 
 function(touchmark_install_documents component name)
+  set(excluded)
+  if(component STREQUAL "python")
+    set(excluded EXCLUDE_FROM_ALL)
+  endif()
   install(FILES ${touchmark_documents}/changelog.gz ${touchmark_documents}/changelog.Debian.gz
-          DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name} COMPONENT ${component})
+          DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name} COMPONENT ${component} ${excluded})
   install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name} RENAME copyright
-          COMPONENT ${component})
+          COMPONENT ${component} ${excluded})
 endfunction()
 
 # touchmark_package(COMPONENT PIECE NAME SUMMARY LINES...): the first line of a description, and the others. PIECE is
@@ -121,6 +134,18 @@ if(TOUCHMARK_BUILD_BENCH)
   set(CPACK_DEBIAN_PLOTS_PACKAGE_ARCHITECTURE all)
   set(CPACK_DEBIAN_PLOTS_PACKAGE_DEPENDS
     "python3, python3-matplotlib, python3-numpy, esbuild, libjs-three, libjs-dygraphs")
+endif()
+if(TOUCHMARK_BUILD_PYTHON)
+  touchmark_package(python python python3-touchmark "exact collision detectors for haptic loops, module for Python"
+    "Closest points, contacts and sweeps of a sphere against a triangle mesh, asked" "one by one or as arrays of numpy.")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+  foreach(script "postinst;py3compile" "prerm;py3clean")
+    list(POP_FRONT script name)
+    file(WRITE ${touchmark_documents}/${name} "#!/bin/sh\nset -e\n${script} -p python3-touchmark\n")
+    list(APPEND CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${touchmark_documents}/${name})
+  endforeach()
+  math(EXPR next "${touchmark_python_minor} + 1")  # the native part is for one version of Python
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${touchmark_python_minor}), python3 (<< 3.${next}), python3-numpy")
 endif()
 file(WRITE ${touchmark_documents}/project_config.cmake "set(ENV{TOUCHMARK_INSTALLS_ALL} 1)\n")
 set(CPACK_PROJECT_CONFIG_FILE ${touchmark_documents}/project_config.cmake)

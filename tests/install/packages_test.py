@@ -4,6 +4,7 @@ programs are built and run from what they unpack to. scripts/packaging/debian tr
 
 usage: packages_test.py BUILD_DIRECTORY
 """
+import os
 import pathlib
 import re
 import shutil
@@ -58,8 +59,9 @@ class Packages(unittest.TestCase):
         return sorted(path for path in self.usr.rglob("touchmark*") if path.parent.name == "touchmark"
                       and path.suffix == "" and path.is_file() and "lib" in path.parts)
 
-    def test_there_are_four(self):
-        self.assertEqual(sorted(self.files), ["libtouchmark-c0.2", "libtouchmark-dev", "touchmark", "touchmark-plots"])
+    def test_there_are_five(self):
+        self.assertEqual(sorted(self.files), ["libtouchmark-c0.2", "libtouchmark-dev", "python3-touchmark", "touchmark",
+                                              "touchmark-plots"])
 
     def test_each_says_what_it_is_and_has_its_licence(self):
         for package in self.files:
@@ -78,6 +80,8 @@ class Packages(unittest.TestCase):
     def test_what_is_installed_is_in_exactly_one_package(self):
         prefix = self.folder / "prefix"
         run("cmake", "--install", BUILD, "--prefix", prefix)
+        self.assertFalse((prefix / "lib" / "python3").exists())  # pip installs the module
+        run("cmake", "--install", BUILD, "--prefix", prefix, "--component", "python")
         unpacked = []
         for package, path in self.files.items():
             run("dpkg-deb", "-x", path, self.folder / package)
@@ -119,6 +123,14 @@ class Packages(unittest.TestCase):
         run(self.usr / "bin" / "touchmark-plot", out, "--only", "errors")
         run(self.usr / "bin" / "touchmark-report", "--help")
         self.assertTrue((out / "plots" / "errors.png").exists())
+
+    def test_the_module_for_python_is_for_the_python_it_was_built_with_and_answers(self):
+        minor = sys.version_info.minor
+        self.assertEqual(self.field("python3-touchmark", "Depends").split(", ")[:2],
+                         [f"python3 (>= 3.{minor})", f"python3 (<< 3.{minor + 1})"])
+        code = "import doctest, touchmark; assert doctest.testmod(touchmark).attempted > 3; print(touchmark.__version__)"
+        packages = self.usr / "lib" / "python3" / "dist-packages"
+        self.assertEqual(run(sys.executable, "-B", "-c", code, env={**os.environ, "PYTHONPATH": str(packages)}).strip(), self.version)
 
     def test_find_package_finds_what_was_unpacked(self):
         source = self.folder / "consumer"
