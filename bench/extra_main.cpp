@@ -1,4 +1,4 @@
-#include "bench/cli/extra_commands.h"
+#include "bench/cli/extra/extra_commands.h"
 #include "bench/contestants/roster.h"
 
 int main(int argc, char** argv) {

@@ -1,8 +1,5 @@
-# touchmark_unite_folders(TARGET CORE): with TOUCHMARK_UNITE_CORE, each folder of CORE, which is core or a copy of it, is
-# compiled as one source of TARGET, in half the time. The compiler inlines otherwise then: what is released or timed is
-# compiled without.
-option(TOUCHMARK_UNITE_CORE "Compile each folder of core as one source: sooner done, but not as it is released" OFF)
-
+# touchmark_unite_folders(TARGET CORE): each folder of CORE, which is core or a copy of it, is compiled as one source of
+# TARGET, in half the time.
 function(touchmark_unite_folders target core)
   # Compiled by themselves, since their unnamed namespaces name things as another file's of the folder do.
   set(apart exact/precise_closest_point field/plane_fitter geometry/way_gap grid_group/direct/direct_query
@@ -27,5 +24,5 @@ function(touchmark_unite_folders target core)
       set_source_files_properties(${source} PROPERTIES UNITY_GROUP core_${folder})
     endif()
   endforeach()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${TOUCHMARK_UNITE_CORE} UNITY_BUILD_MODE GROUP)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${TOUCHMARK_UNITY} UNITY_BUILD_MODE GROUP)
 endfunction()

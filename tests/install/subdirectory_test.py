@@ -21,7 +21,7 @@ WITHOUT_EIGEN = "-DCMAKE_DISABLE_FIND_PACKAGE_Eigen3=ON"
 WITHOUT_ASSIMP = "-DCMAKE_DISABLE_FIND_PACKAGE_assimp=ON"
 # As long as these are the same, what is compiled of Touchmark is, too: one build serves several parents.
 STATIC = (f"-DCMAKE_CXX_COMPILER={shutil.which('clang++') or 'g++'}", f"-DCMAKE_CXX_FLAGS={WARNINGS}",
-          "-DTOUCHMARK_UNITE_CORE=ON", WITHOUT_ASSIMP)
+          WITHOUT_ASSIMP)
 SHARED = ("-DCMAKE_CXX_COMPILER=g++", f"-DCMAKE_CXX_FLAGS=-O1 {WARNINGS}", "-DBUILD_SHARED_LIBS=ON", "-DCMAKE_CXX_STANDARD=23",
           "-DCMAKE_CXX_VISIBILITY_PRESET=hidden", "-DCMAKE_POSITION_INDEPENDENT_CODE=ON", "-DCMAKE_UNITY_BUILD=ON")
 ANSWERS = "triangle 0 at 0.125\npushed up: yes\nbody 0 at 0.875\n"
@@ -39,8 +39,7 @@ class Subdirectory(unittest.TestCase):
     def setUpClass(cls):
         cls.prefix = FOLDER / "prefix"
         shutil.rmtree(cls.prefix, ignore_errors=True)
-        cls.configure("shared", *SHARED, "-DEIGEN=plain", WITHOUT_EIGEN, "-DTOUCHMARK_UNITE_CORE=ON",
-                      "-DTOUCHMARK_INSTALL=ON")
+        cls.configure("shared", *SHARED, "-DEIGEN=plain", WITHOUT_EIGEN, "-DTOUCHMARK_INSTALL=ON")
         run("cmake", "--build", FOLDER / "shared")
         run("cmake", "--install", FOLDER / "shared", "--prefix", cls.prefix)
         cls.libraries = {name: next(cls.prefix.rglob(f"libtouchmark_{name}.so")) for name in ("core", "mesh_io")}

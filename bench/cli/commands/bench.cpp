@@ -15,7 +15,7 @@
 #include "bench/bodies/scene_source.h"
 #include "bench/cli/benchmark_flags.h"
 #include "bench/cli/commands/bench_reports.h"
-#include "bench/cli/commands/bench_suite.h"
+#include "bench/cli/extra/bench_suite.h"
 #include "bench/cli/program.h"
 #include "bench/cli/repeat_command.h"
 #include "bench/cli/selector_options.h"

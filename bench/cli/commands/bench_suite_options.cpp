@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "bench/cli/commands/bench_suite.h"
+#include "bench/cli/extra/bench_suite.h"
 
 namespace touchmark::bench::cli {
 

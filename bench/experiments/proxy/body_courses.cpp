@@ -15,9 +15,6 @@
 namespace touchmark::bench::experiments::proxy {
 namespace {
 
-constexpr std::uint64_t course_seed = 1000;
-constexpr std::size_t count = 4;
-
 /// Vertices and places are multiples of this, and so small that their sums are exact: a body that is moved
 /// and a mesh that is summed are the same surface.
 constexpr double grid = 0x1p-30;
@@ -100,6 +97,7 @@ TriangleMesh mesh_of(const Swinging& made, std::size_t change) {
 }  // namespace
 
 std::vector<Course> moving_bodies(std::uint64_t seed, std::size_t ticks) {
+  constexpr std::size_t count = 4;
   constexpr std::array<std::size_t, count> changes_every{1, 2, 5, 3};
   std::vector<Course> made;
   for (std::size_t i = 0; i < count; ++i) {

@@ -17,6 +17,9 @@ namespace touchmark::bench::experiments::proxy {
 /// The usual size of a scene: as of what fits under a haptic device, in metres.
 inline constexpr double scene_size = 0.1;
 
+/// Seeds of one round's courses are this far from those of the next round.
+inline constexpr std::uint64_t course_seed = 1000;
+
 /// An orthonormal frame, its columns any directions.
 struct Frame {
   Vec3 x, y, z;

@@ -11,8 +11,6 @@
 namespace touchmark::bench::experiments::proxy {
 namespace {
 
-constexpr std::uint64_t course_seed = 1000;
-
 /// The diagonal of the mesh becomes the usual size, turned any way.
 TriangleMesh sized(const TriangleMesh& mesh, support::Random& random) {
   return placed(mesh, scene_size / mesh.diagonal(), any_frame(random));

@@ -7,7 +7,7 @@ namespace touchmark::bench::experiments::proxy {
 namespace {
 
 // One line a family.
-constexpr std::array list{
+constexpr std::array all_families{
     Family{"thin-plates", "plates from a centimetre down to one ulp thick, stabbed and pressed",
            &thin_plates},
     Family{"wedges-inside", "grooves of 1 to 179 degrees, the ball in them", &wedges_inside},
@@ -36,8 +36,10 @@ constexpr std::array list{
 
 }  // namespace
 
-std::span<const Family> families() { return list; }
+std::span<const Family> families() { return all_families; }
 
-const Family& family_named(std::string_view name) { return support::item_named(name, list, "family"); }
+const Family& family_named(std::string_view name) {
+  return support::item_named(name, all_families, "family");
+}
 
 }  // namespace touchmark::bench::experiments::proxy

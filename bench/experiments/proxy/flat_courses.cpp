@@ -14,8 +14,6 @@
 namespace touchmark::bench::experiments::proxy {
 namespace {
 
-constexpr std::uint64_t course_seed = 1000;  ///< apart from one round's seed to the next round's
-
 /// Presses goals of a ball of `reach` about `middle`, one after the other, with rests between.
 std::vector<Vec3> pressing(support::Random& random, const Vec3& start, const Vec3& middle, double reach,
                            std::size_t ticks) {

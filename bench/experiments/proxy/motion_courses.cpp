@@ -10,8 +10,7 @@
 namespace touchmark::bench::experiments::proxy {
 namespace {
 
-constexpr std::uint64_t course_seed = 1000;
-constexpr std::size_t count = 4;
+constexpr std::size_t courses = 4;
 
 TriangleMesh solid(std::size_t i, support::Random& random) {
   const TriangleMesh mesh = i % 4 < 2    ? scenes::noisy_sphere(1000)
@@ -25,12 +24,12 @@ template <class Write>
 std::vector<Course> moved_over_solids(std::string_view what, std::uint64_t seed, std::uint64_t salt,
                                       std::size_t ticks, Write write) {
   std::vector<Course> made;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < courses; ++i) {
     support::Random random(seed * course_seed + salt + i);
     TriangleMesh mesh = solid(i, random);
     const double radius = radius_of(i / 2 + i, scene_size);
     const Vec3 start = (0.6 * scene_size + 2 * radius) * random.direction();
-    Motion motion(start, share_of(ticks, count));
+    Motion motion(start, share_of(ticks, courses));
     while (!motion.done()) write(motion, random);
     made.push_back(
         {fmt::format("{} {}", what, i), std::move(mesh), radius, 0, start, std::move(motion).take()});
@@ -62,7 +61,7 @@ std::vector<Course> rest_inside(std::uint64_t seed, std::size_t ticks) {
 std::vector<Course> circles(std::uint64_t seed, std::size_t ticks) {
   constexpr std::size_t turn = 200;
   std::vector<Course> made;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < courses; ++i) {
     support::Random random(seed * course_seed + 360 + i);
     TriangleMesh mesh = solid(i, random);
     const double radius = radius_of(i, scene_size);
@@ -70,7 +69,7 @@ std::vector<Course> circles(std::uint64_t seed, std::size_t ticks) {
     const double size = random.between(0.1, 0.6) * scene_size;
     const Vec3 start = frame((0.7 * scene_size + 2 * radius) * Vec3::UnitX());
     const Vec3 center = start - frame(size * Vec3::UnitX());  // so the circle begins where the proxy starts
-    Motion motion(start, share_of(ticks, count) / turn * turn + turn);
+    Motion motion(start, share_of(ticks, courses) / turn * turn + turn);
     while (!motion.done())
       motion.circle(center, frame(size * Vec3::UnitX()), frame(size * Vec3::UnitY()), turn);
     made.push_back(
@@ -89,10 +88,10 @@ std::vector<Course> tremors(std::uint64_t seed, std::size_t ticks) {
 
 std::vector<Course> friction(std::uint64_t seed, std::size_t ticks) {
   std::vector<Course> made;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < courses; ++i) {
     support::Random random(seed * course_seed + 400 + i);
     made.push_back(exploring(fmt::format("friction {}", i), solid(i, random), radius_of(i, scene_size),
-                             seed * course_seed + 420 + i, share_of(ticks, count)));
+                             seed * course_seed + 420 + i, share_of(ticks, courses)));
     made.back().friction = random.between(0.1, 1);
   }
   return made;
@@ -102,12 +101,12 @@ std::vector<Course> friction(std::uint64_t seed, std::size_t ticks) {
 std::vector<Course> deforming(std::uint64_t seed, std::size_t ticks) {
   constexpr std::size_t phases = 5, every = 10;
   std::vector<Course> made;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < courses; ++i) {
     support::Random random(seed * course_seed + 440 + i);
     const TriangleMesh mesh = solid(i, random);
     const TriangleMesh other = scenes::deformed(mesh, {i % 2 == 0 ? 1.0 : 0.3, seed + i});
     made.push_back(exploring(fmt::format("deforming {}", i), mesh, radius_of(i, scene_size),
-                             seed * course_seed + 460 + i, share_of(ticks, count)));
+                             seed * course_seed + 460 + i, share_of(ticks, courses)));
     made.back().update_every = every;
     made.back().moved = [mesh, other](std::size_t change) {
       const std::size_t phase = change % (2 * phases);

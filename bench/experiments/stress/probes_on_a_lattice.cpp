@@ -23,7 +23,7 @@ TriangleMesh lattice_triangles(CornerCases& cases, std::size_t count) {
 }
 
 /// One coordinate goes to a neighbouring double.
-Vec3 nudged(Vec3 point, CornerCases& cases) {
+Vec3 beside(Vec3 point, CornerCases& cases) {
   double& coordinate = point[static_cast<Eigen::Index>(cases.below(3))];
   coordinate = std::nextafter(coordinate, cases.below(2) == 0 ? infinity : -infinity);
   return point;
@@ -100,7 +100,7 @@ std::vector<workload::Workload> radius_zero(std::uint64_t seed, std::size_t prob
     while (trace.size() < share_of(probes, meshes.size())) {
       const Vec3 on = point_on(mesh.mesh, cases);
       trace.push_back(asked(on, 0));
-      trace.push_back(asked(nudged(on, cases), 0));
+      trace.push_back(asked(beside(on, cases), 0));
     }
     workloads.push_back(workload_on(std::move(mesh), "on the surface and one ulp off", std::move(trace)));
   }
@@ -155,7 +155,7 @@ std::vector<workload::Workload> cell_borders(std::uint64_t seed, std::size_t pro
     // `cell=1%` is of the diagonal, from the box's lower corner.
     const Vec3 on = cases.below(4) > 0 ? Vec3(x, y, z)
                                        : Vec3(0.01 * mesh.diagonal() * (100 * Vec3(x, y, z)).array().floor());
-    centers.push_back(cases.below(2) == 0 ? on : nudged(on, cases));
+    centers.push_back(cases.below(2) == 0 ? on : beside(on, cases));
   }
   std::vector<workload::Step> trace = at_the_exact_distance(mesh, centers);
   return {workload_on({"unit cube of triangles", std::move(mesh)}, "on borders and one ulp off",

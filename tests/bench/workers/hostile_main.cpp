@@ -1,5 +1,5 @@
 /// The touchmark program with nothing but bad contestants.
-#include "bench/cli/extra_commands.h"
+#include "bench/cli/extra/extra_commands.h"
 #include "tests/bench/workers/hostile_roster.h"
 
 int main(int argc, char** argv) {

@@ -1,4 +1,4 @@
-#include "bench/cli/commands/scale_bodies.h"
+#include "bench/cli/extra/scale_bodies.h"
 
 #include <deque>
 #include <optional>
@@ -23,8 +23,8 @@ namespace scaling = experiments::scaling;
 
 namespace {
 
-constexpr const char* default_sizes = "10,100,1k,10k,100k";
-constexpr const char* quick_sizes = "10,100,1k";
+constexpr const char* default_body_counts = "10,100,1k,10k,100k";
+constexpr const char* quick_body_counts = "10,100,1k";
 constexpr scaling::SizesOf of_bodies{"bodies", 1, 1'000'000};
 
 /// The fastest of ours, a plain loop and the rivals: `merged` would be built of all triangles.
@@ -51,8 +51,8 @@ void refuse_what_is_of_meshes(const contestants::Selectors& selectors) {
 std::vector<std::size_t> sizes_of(const ScaleBodiesOptions& options) {
   std::vector<std::size_t> sizes{1};
   const std::string text = !options.sizes.empty() ? options.sizes
-                           : options.quick        ? quick_sizes
-                                                  : default_sizes;
+                           : options.quick        ? quick_body_counts
+                                                  : default_body_counts;
   for (const std::uint64_t size : scaling::parse_sizes(text, of_bodies))
     if (size > 1) sizes.push_back(size);
   return sizes;

@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/bodies/scene_source.h"
-#include "bench/cli/commands/servo_options.h"
-#include "bench/cli/extra_commands.h"
+#include "bench/cli/extra/extra_commands.h"
+#include "bench/cli/extra/servo_options.h"
 #include "bench/cli/repeat_command.h"
 #include "bench/cli/worker_options.h"
 #include "bench/experiments/proxy/proxy_report.h"

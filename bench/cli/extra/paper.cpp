@@ -1,8 +1,8 @@
 /// `touchmark paper`: the two papers' experiments again, side by side with what was printed.
 #include <CLI/CLI.hpp>
 
-#include "bench/cli/commands/paper_commands.h"
-#include "bench/cli/extra_commands.h"
+#include "bench/cli/extra/extra_commands.h"
+#include "bench/cli/extra/paper_commands.h"
 
 namespace touchmark::bench::cli {
 

@@ -10,7 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "bench/cli/extra_commands.h"
+#include "bench/cli/extra/extra_commands.h"
 #include "bench/experiments/choose/choose_check.h"
 #include "bench/experiments/many/many_check.h"
 #include "bench/experiments/proxy/proxy_check.h"

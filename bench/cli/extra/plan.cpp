@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "bench/batch/manifest.h"
-#include "bench/cli/extra_commands.h"
+#include "bench/cli/extra/extra_commands.h"
 #include "bench/cli/plugin_option.h"
 #include "bench/cli/selector_options.h"
 #include "bench/results/build_info.h"

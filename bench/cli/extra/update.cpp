@@ -10,7 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "bench/cli/extra_commands.h"
+#include "bench/cli/extra/extra_commands.h"
 #include "bench/cli/selector_options.h"
 #include "bench/cli/worker_options.h"
 #include "bench/experiments/update/update_row.h"

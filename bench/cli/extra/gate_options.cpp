@@ -1,4 +1,4 @@
-#include "bench/cli/commands/gate_options.h"
+#include "bench/cli/extra/gate_options.h"
 
 #include <optional>
 #include <stdexcept>

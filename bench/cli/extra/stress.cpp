@@ -11,7 +11,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "bench/cli/extra_commands.h"
+#include "bench/cli/extra/extra_commands.h"
 #include "bench/cli/plugin_option.h"
 #include "bench/cli/report_files.h"
 #include "bench/cli/single_step.h"

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/cli/coupling_options.h"
+#include "bench/cli/extra/coupling_options.h"
 #include "bench/cli/worker_options.h"
 #include "bench/contestants/selectors.h"
 #include "bench/experiments/servo/servo_row.h"

@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "bench/batch/merged.h"
-#include "bench/cli/extra_commands.h"
+#include "bench/cli/extra/extra_commands.h"
 #include "bench/results/results_csv.h"
 #include "bench/support/atomic_file.h"
 #include "bench/support/numbers.h"

@@ -12,8 +12,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "bench/cli/coupling_options.h"
-#include "bench/cli/extra_commands.h"
+#include "bench/cli/extra/coupling_options.h"
+#include "bench/cli/extra/extra_commands.h"
 #include "bench/experiments/proxy/proxy_csv.h"
 #include "bench/experiments/proxy/proxy_report.h"
 #include "bench/experiments/proxy/proxy_run.h"

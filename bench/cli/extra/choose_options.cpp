@@ -1,4 +1,4 @@
-#include "bench/cli/commands/choose_options.h"
+#include "bench/cli/extra/choose_options.h"
 
 #include <chrono>
 #include <optional>

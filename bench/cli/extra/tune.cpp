@@ -9,7 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "bench/cli/extra_commands.h"
+#include "bench/cli/extra/extra_commands.h"
 #include "bench/experiments/papers/frontier.h"
 #include "bench/experiments/papers/paper_options.h"
 #include "bench/experiments/papers/tuning.h"

@@ -1,4 +1,4 @@
-#include "bench/cli/commands/bench_suite.h"
+#include "bench/cli/extra/bench_suite.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,4 +1,4 @@
-#include "bench/cli/commands/servo_options.h"
+#include "bench/cli/extra/servo_options.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "bench/cli/extra_commands.h"
+#include "bench/cli/extra/extra_commands.h"
 #include "bench/cli/plugin_option.h"
 #include "bench/experiments/many/many_run.h"
 #include "bench/experiments/papers/paper_options.h"

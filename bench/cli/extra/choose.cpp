@@ -15,8 +15,8 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/bodies/scene_source.h"
-#include "bench/cli/commands/choose_options.h"
-#include "bench/cli/extra_commands.h"
+#include "bench/cli/extra/choose_options.h"
+#include "bench/cli/extra/extra_commands.h"
 #include "bench/cli/worker_options.h"
 #include "bench/experiments/choose/candidate.h"
 #include "bench/experiments/choose/choose_code.h"

@@ -8,7 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "bench/cli/commands/paper_commands.h"
+#include "bench/cli/extra/paper_commands.h"
 #include "bench/cli/program.h"
 #include "bench/experiments/papers/paper_options.h"
 #include "bench/experiments/papers/park_jang.h"

@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 
 #include "bench/bodies/scene_source.h"
-#include "bench/cli/commands/gate_options.h"
-#include "bench/cli/extra_commands.h"
+#include "bench/cli/extra/extra_commands.h"
+#include "bench/cli/extra/gate_options.h"
 #include "bench/regression/gate/baseline.h"
 #include "bench/regression/gate/gate_report.h"
 #include "bench/regression/gate/paired_batch.h"

@@ -5,7 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "bench/cli/commands/paper_commands.h"
+#include "bench/cli/extra/paper_commands.h"
 #include "bench/cli/program.h"
 #include "bench/experiments/papers/choi_sung.h"
 #include "bench/experiments/papers/choi_sung_models.h"

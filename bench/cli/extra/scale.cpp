@@ -15,8 +15,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "bench/cli/commands/scale_bodies.h"
-#include "bench/cli/extra_commands.h"
+#include "bench/cli/extra/extra_commands.h"
+#include "bench/cli/extra/scale_bodies.h"
 #include "bench/cli/selector_options.h"
 #include "bench/cli/worker_options.h"
 #include "bench/experiments/scaling/growth.h"

@@ -1,8 +1,8 @@
-#include "bench/cli/extra_commands.h"
+#include "bench/cli/extra/extra_commands.h"
 
 #include <vector>
 
-#include "bench/cli/commands/bench_suite.h"
+#include "bench/cli/extra/bench_suite.h"
 
 namespace touchmark::bench::cli {
 

@@ -1,4 +1,4 @@
-#include "bench/cli/coupling_options.h"
+#include "bench/cli/extra/coupling_options.h"
 
 #include <array>
 #include <cmath>

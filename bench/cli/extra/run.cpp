@@ -11,7 +11,7 @@
 
 #include "bench/batch/job_file.h"
 #include "bench/batch/manifest.h"
-#include "bench/cli/extra_commands.h"
+#include "bench/cli/extra/extra_commands.h"
 #include "bench/cli/plugin_option.h"
 #include "bench/cli/worker_options.h"
 #include "bench/measurement/comparison.h"
