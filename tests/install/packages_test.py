@@ -48,6 +48,8 @@ class Packages(unittest.TestCase):
             run("dpkg-deb", "-x", path, cls.root)
         cls.usr = cls.root / "usr"
         cls.version = re.search(r"project\(touchmark VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text())[1]
+        cls.minor = cls.version.rpartition(".")[0]
+        cls.c_package = f"libtouchmark-c{cls.minor}"
 
     def field(self, package, name):
         return run("dpkg-deb", "-f", self.files[package], name).strip()
@@ -60,7 +62,7 @@ class Packages(unittest.TestCase):
                       and path.suffix == "" and path.is_file() and "lib" in path.parts)
 
     def test_there_are_five(self):
-        self.assertEqual(sorted(self.files), ["libtouchmark-c0.2", "libtouchmark-dev", "python3-touchmark", "touchmark",
+        self.assertEqual(sorted(self.files), [self.c_package, "libtouchmark-dev", "python3-touchmark", "touchmark",
                                               "touchmark-plots"])
 
     def test_each_says_what_it_is_and_has_its_licence(self):
@@ -107,14 +109,14 @@ class Packages(unittest.TestCase):
         self.assertIn("libassimp-dev", needs)
         self.assertIn("libdraco-dev", needs)
         self.assertIn("libpugixml-dev", needs)
-        self.assertIn(f"libtouchmark-c0.2 (= {self.version}-1)", needs)
+        self.assertIn(f"{self.c_package} (= {self.version}-1)", needs)
 
     def test_the_shared_library_is_found_once_it_is_installed(self):
         control = self.folder / "control"
-        run("dpkg-deb", "-e", self.files["libtouchmark-c0.2"], control)
+        run("dpkg-deb", "-e", self.files[self.c_package], control)
         self.assertEqual((control / "triggers").read_text(encoding="utf-8"), "activate-noawait ldconfig\n")
         self.assertEqual((control / "shlibs").read_text(encoding="utf-8").strip(),
-                         f"libtouchmark_c 0.2 libtouchmark-c0.2 (>= {self.version}-1)")
+                         f"libtouchmark_c {self.minor} {self.c_package} (>= {self.version}-1)")
 
     def test_the_program_finds_its_workers_by_the_link_in_bin(self):
         out = self.folder / "out"

@@ -36,10 +36,25 @@ class Packaging(unittest.TestCase):
         self.assertLessEqual(options, OPTIONS)
 
     def test_all_have_the_version_of_the_project(self):
-        recipe = yaml.safe_load((PACKAGING / "conda" / "recipe.yaml").read_text(encoding="utf-8"))
-        port = json.loads((PACKAGING / "vcpkg" / "vcpkg.json").read_text(encoding="utf-8"))
-        citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
-        self.assertEqual([recipe["context"]["version"], port["version"], citation["version"]], 3 * [VERSION])
+        done = subprocess.run([PACKAGING / "version", "check"], capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stdout + done.stderr), (0, ""))
+
+    def test_a_file_with_another_version_is_named(self):
+        script = (PACKAGING / "version").read_text(encoding="utf-8")
+        files = set(re.findall(r"^([\w./-]+)\|(?:full|minor)\|", script, re.M))
+        self.assertGreater(len(files), 7)
+        with tempfile.TemporaryDirectory() as folder:
+            for name in [*files, "scripts/packaging/version"]:
+                pathlib.Path(folder, name).parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy(ROOT / name, pathlib.Path(folder, name))
+            command = pathlib.Path(folder, "scripts", "packaging", "version")
+            for name in files - {"CMakeLists.txt"}:
+                subprocess.run([command, "9.8.7"], check=True)
+                subprocess.run([command, "check"], check=True)
+                shutil.copy(ROOT / name, pathlib.Path(folder, name))
+                done = subprocess.run([command, "check"], capture_output=True, text=True, check=False)
+                self.assertEqual(done.returncode, 1)
+                self.assertIn(f"{name} has {VERSION.rpartition('.')[0]}", done.stderr)
 
     def test_the_manifest_of_vcpkg_is_one(self):
         port = json.loads((PACKAGING / "vcpkg" / "vcpkg.json").read_text(encoding="utf-8"))
