@@ -7,6 +7,7 @@ import subprocess
 import tempfile
 
 WEB = pathlib.Path(__file__).resolve().parent / "web"
+BUNDLED = WEB / "built"  # in a package that has no esbuild
 LIBRARIES = pathlib.Path(os.environ.get("TOUCHMARK_JAVASCRIPT", "/usr/share/javascript"))
 THREE, DYGRAPHS = LIBRARIES / "three", LIBRARIES / "dygraphs"
 NEEDED = [THREE / "three.module.js", THREE / "examples/jsm/controls/OrbitControls.js", DYGRAPHS / "dygraph.js",
@@ -46,6 +47,8 @@ def key_of(esbuild):
 
 def built():
     """(script, style) of the page. Raises Missing."""
+    if BUNDLED.is_dir():
+        return (BUNDLED / "page.js").read_text(encoding="utf-8"), (BUNDLED / "page.css").read_text(encoding="utf-8")
     esbuild = shutil.which("esbuild")
     lacking = [str(path) for path in NEEDED if not path.is_file()]
     if esbuild is None or lacking:
