@@ -6,6 +6,7 @@ usage: install_test.py SOURCE_DIRECTORY
 import importlib.metadata
 import os
 import pathlib
+import platform
 import re
 import shutil
 import subprocess
@@ -71,8 +72,20 @@ class Installed(unittest.TestCase):
     def test_the_wheel_is_for_this_platform_and_the_sources_stay_as_they_were(self):
         wheel = next(self.target.glob("*.dist-info/WHEEL")).read_text(encoding="utf-8")
         self.assertIn("Root-Is-Purelib: false", wheel)
-        self.assertNotIn("Tag: py3-none-any", wheel)
+        self.assertRegex(wheel, r"Tag: cp\d+-cp\d+-" + (r"manylinux_2_\d+_x86_64" if platform.machine() == "x86_64" else "linux_"))
         self.assertLessEqual(self.left_behind, {"build"})
+
+    def test_the_platform_has_all_that_is_needed(self):
+        sys.path.insert(0, str(SOURCE / "python"))
+        from build_backend import platform_of
+        headers = "  NEEDED               libc.so.6\n  required from libc.so.6:\n    0x09691a75 0x00 02 GLIBC_2.2.5\n"
+        symbol = "    0x09691a75 0x00 03 {}\n"
+        self.assertEqual(platform_of(headers), "manylinux_2_36")
+        self.assertEqual(platform_of(headers + symbol.format("GLIBCXX_3.4.30")), "manylinux_2_36")
+        self.assertEqual(platform_of(headers + symbol.format("GLIBCXX_3.4.31")), "manylinux_2_40")
+        for unknown in ("GLIBC_2.99", "CXXABI_FLOAT128", "ZLIB_1.2"):
+            self.assertIsNone(platform_of(headers + symbol.format(unknown)))
+        self.assertIsNone(platform_of(headers + "  NEEDED               libgmp.so.10\n"))
 
     def test_the_native_part_shows_nothing_but_its_entry(self):
         native = next(self.target.glob("touchmark/_native*.so"))
