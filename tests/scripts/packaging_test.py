@@ -12,6 +12,7 @@ import yaml
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PACKAGING = ROOT / "scripts" / "packaging"
+RELEASE = ROOT / ".github" / "workflows" / "release.yml"
 VERSION = re.search(r"project\(touchmark VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"))[1]
 OPTIONS = set(re.findall(r"^option\((TOUCHMARK_\w+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"), re.M))
 
@@ -90,9 +91,19 @@ class Packaging(unittest.TestCase):
 
     @unittest.skipUnless(shutil.which("yamllint"), "yamllint is not installed: scripts/setup develop")
     def test_yamllint_is_content(self):
-        done = subprocess.run(["yamllint", "--strict", "-c", PACKAGING / ".yamllint", PACKAGING],
+        done = subprocess.run(["yamllint", "--strict", "-c", PACKAGING / ".yamllint", PACKAGING, RELEASE],
                               capture_output=True, text=True, check=False)
         self.assertEqual(done.stdout, "")
+
+    def test_the_release_runs_commands_that_are_there_and_in_the_checklist(self):
+        release = yaml.safe_load(RELEASE.read_text(encoding="utf-8"))
+        steps = "\n".join(step.get("run", "") for job in release["jobs"].values() for step in job["steps"])
+        commands = set(re.findall(r"scripts/[\w/]+ \w+", steps))
+        self.assertEqual(len(commands), 9)
+        checklist = (ROOT / "docs" / "releasing.md").read_text(encoding="utf-8")
+        for command in commands:
+            self.assertTrue((ROOT / command.split()[0]).exists(), command)
+            self.assertIn(command, checklist)
 
 
 if __name__ == "__main__":
