@@ -1,26 +1,42 @@
 #include "bench/regression/driver/plugin_library.h"
 
 #include <array>
+#include <filesystem>
 #include <stdexcept>
 
+#if defined(_WIN32)
+#include <windows.h>
+#else
 #include <dlfcn.h>
+#endif
 
 namespace touchmark::bench::regression::driver {
 namespace {
 
-template <class Function>
-void find(void* library, const char* name, Function& function) {
-  function = reinterpret_cast<Function>(::dlsym(library, name));
-  if (function == nullptr) throw std::invalid_argument(std::string("not a plug-in: ") + ::dlerror());
+#if defined(_WIN32)
+HMODULE load(const std::filesystem::path& path) { return ::LoadLibraryW(path.c_str()); }
+void* find_symbol(HMODULE library, const char* name) {
+  return reinterpret_cast<void*>(::GetProcAddress(library, name));
+}
+std::string last_error() { return "error " + std::to_string(::GetLastError()); }
+#else
+void* load(const std::filesystem::path& path) { return ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL); }
+void* find_symbol(void* library, const char* name) { return ::dlsym(library, name); }
+std::string last_error() { return ::dlerror(); }
+#endif
+
+template <class Library, class Function>
+void find(Library library, const char* name, Function& function) {
+  function = reinterpret_cast<Function>(find_symbol(library, name));
+  if (function == nullptr) throw std::invalid_argument("not a plug-in: " + last_error());
 }
 
 }  // namespace
 
 PluginLibrary::PluginLibrary(const std::string& path) {
   // A path without a slash would be looked for among the system's libraries.
-  const std::string where = path.find('/') == std::string::npos ? "./" + path : path;
-  void* const library = ::dlopen(where.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) throw std::invalid_argument(std::string("cannot load plug-in ") + ::dlerror());
+  const auto library = load(std::filesystem::absolute(path).make_preferred());
+  if (library == nullptr) throw std::invalid_argument("cannot load plug-in " + path + ": " + last_error());
   find(library, "touchmark_gate_build", build_);
   find(library, "touchmark_gate_answer", answer_);
   find(library, "touchmark_gate_replay", replay_);
