@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,7 @@ inline TriangleMesh bumpy_sphere(std::uint32_t rings, double noise, std::uint64_
   std::vector<Vec3> vertices;
   for (std::uint32_t i = 0; i <= rings; ++i)
     for (std::uint32_t k = 0; k < around; ++k) {
-      const double polar = M_PI * i / rings, turn = 2 * M_PI * k / around;
+      const double polar = std::numbers::pi * i / rings, turn = 2 * std::numbers::pi * k / around;
       const double radius = i == 0 || i == rings ? 1 : 1 + random.between(-noise, noise);
       vertices.push_back(
           radius * Vec3(std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn), std::cos(polar)));
@@ -71,7 +72,7 @@ inline TriangleMesh slivers(std::uint32_t count) {
   std::vector<Vec3> vertices = {{0, 0, 0}, {1, 0, 0}};
   std::vector<TriangleMesh::Corners> triangles;
   for (std::uint32_t i = 0; i < count; ++i) {
-    const double turn = 2 * M_PI * i / count;
+    const double turn = 2 * std::numbers::pi * i / count;
     const auto first = static_cast<std::uint32_t>(vertices.size());
     vertices.emplace_back(std::cos(turn), std::sin(turn), 0.3);
     vertices.emplace_back(std::cos(turn + 1e-7), std::sin(turn + 1e-7), 0.3);
