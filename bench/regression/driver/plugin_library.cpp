@@ -15,19 +15,17 @@ namespace {
 
 #if defined(_WIN32)
 HMODULE load(const std::filesystem::path& path) { return ::LoadLibraryW(path.c_str()); }
-void* find_symbol(HMODULE library, const char* name) {
-  return reinterpret_cast<void*>(::GetProcAddress(library, name));
-}
+void* symbol(HMODULE from, const char* name) { return reinterpret_cast<void*>(::GetProcAddress(from, name)); }
 std::string last_error() { return "error " + std::to_string(::GetLastError()); }
 #else
 void* load(const std::filesystem::path& path) { return ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL); }
-void* find_symbol(void* library, const char* name) { return ::dlsym(library, name); }
+void* symbol(void* from, const char* name) { return ::dlsym(from, name); }
 std::string last_error() { return ::dlerror(); }
 #endif
 
 template <class Library, class Function>
 void find(Library library, const char* name, Function& function) {
-  function = reinterpret_cast<Function>(find_symbol(library, name));
+  function = reinterpret_cast<Function>(symbol(library, name));
   if (function == nullptr) throw std::invalid_argument("not a plug-in: " + last_error());
 }
 
