@@ -29,7 +29,7 @@ struct CommandText {
 };
 
 constexpr std::string_view first = "To begin with", answers = "Answers", studies = "Studies",
-                           batch = "CI and batches";
+                           batch = "CI, batches and plug-ins";
 
 // All commands in the order of the help.
 constexpr CommandText command_texts[] = {
