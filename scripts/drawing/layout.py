@@ -157,6 +157,43 @@ def canvas(plt, panels, panel_width, panel_height, left=0.9, right=0.25, bottom=
     return figure, shown[:panels]
 
 
+class Matrix:
+    """A figure of coloured cells, a line a name, a column a family."""
+
+    CELL_WIDTH, CELL_HEIGHT = 0.56, 0.27  # inches
+
+    def __init__(self, plt, names, families):
+        self.plt, self.names, self.families, self.used = plt, names, families, set()
+        left, right, top, bottom = room_for(names) + 0.1, 0.3, 2.2, 1.1
+        width = max(left + self.CELL_WIDTH * len(families) + right, 11.0)
+        height = top + self.CELL_HEIGHT * len(names) + bottom
+        self.figure, self.axes = plt.subplots(figsize=(width, height))
+        self.figure.subplots_adjust(left=left / width, right=(left + self.CELL_WIDTH * len(families)) / width,
+                                    top=1 - top / height, bottom=bottom / height)
+
+    def fill(self, name, family, colour, text, ink, weight="normal"):
+        x, y = self.families.index(family), self.names.index(name)
+        self.used.add(colour)
+        self.axes.add_patch(self.plt.Rectangle((x - 0.5, y - 0.5), 1, 1, facecolor=colour, edgecolor="white", linewidth=1.2))
+        self.axes.text(x, y, text, ha="center", va="center", fontsize=8, color=ink, fontweight=weight)
+
+    def finish(self, title, asked, source, meanings):
+        """meanings: (colour, text) in the legend's order; those of colours that no cell has are left out."""
+        axes = self.axes
+        axes.set_xlim(-0.5, len(self.families) - 0.5)
+        axes.set_ylim(len(self.names) - 0.5, -0.5)
+        axes.set_xticks(range(len(self.families)), self.families, rotation=50, ha="left", fontsize=9)
+        axes.xaxis.tick_top()
+        axes.set_yticks(range(len(self.names)), [shortened(name) for name in self.names], fontsize=9)
+        axes.tick_params(length=0)
+        for spine in axes.spines.values():
+            spine.set_visible(False)
+        legend = [self.plt.Rectangle((0, 0), 1, 1, facecolor=colour, edgecolor="0.5", linewidth=0.6, label=meaning)
+                  for colour, meaning in meanings if colour in self.used]
+        label(self.figure, title, asked, source, "", legend)
+        return self.figure
+
+
 def room_for(names):
     """Inches that the longest of these names takes beside an axis."""
     return 0.3 + 0.085 * min(48, max(map(len, names)))

@@ -3,13 +3,12 @@ each method, seen from the side."""
 import csv
 import math
 
-from .layout import label, room_for
-from .results import NothingToDraw, number, rows_of, shortened, unique
+from .layout import Matrix, label
+from .results import NothingToDraw, Record, number, rows_of, shortened, unique
 
 TEXTS = ["method", "options", "family", "probe"]
 COUNTS = ["ticks", "crossings", "pops", "violations"]
 COLUMNS = TEXTS + COUNTS
-CELL_WIDTH, CELL_HEIGHT = 0.56, 0.27  # inches
 CLEAN, TOO_NEAR, CROSSED, POPPED = "#dcefdc", "#eef3d2", "#f3c14b", "#c0392b"
 MEANINGS = [(CLEAN, "✓  neither crossed nor too near"), (TOO_NEAR, "<r  never crossed, but nearer than the radius"),
             (CROSSED, "touched or crossed the surface, within rounding"), (POPPED, "came out at the other side")]
@@ -17,15 +16,11 @@ SURFACE = "surface"
 PANELS_A_ROW = 3
 
 
-class Row:
+class Row(Record):
     """One row of proxy.csv."""
 
     def __init__(self, record, line):
-        for column in TEXTS:
-            setattr(self, column, record.get(column) or "")
-        for column in COUNTS:
-            value = number(record.get(column), column, line)
-            setattr(self, column, 0 if math.isnan(value) else value)
+        super().__init__(record, line, TEXTS, counts=COUNTS)
         self.name = self.method + (":" + self.options if self.options else "")
         self.line = f"{self.name}, {self.probe}"
 
@@ -51,34 +46,14 @@ def draw_proxy(plt, rows, source):
     if not rows:
         raise NothingToDraw("no row")
     names, families = unique(row.line for row in rows), unique(row.family for row in rows)
-    left, right, top, bottom = room_for(names) + 0.1, 0.3, 2.2, 1.1
-    width = max(left + CELL_WIDTH * len(families) + right, 11.0)
-    height = top + CELL_HEIGHT * len(names) + bottom
-    figure, axes = plt.subplots(figsize=(width, height))
-    figure.subplots_adjust(left=left / width, right=(left + CELL_WIDTH * len(families)) / width, top=1 - top / height,
-                           bottom=bottom / height)
-    used = set()
+    matrix = Matrix(plt, names, families)
     for row in rows:
-        x, y = families.index(row.family), names.index(row.line)
         colour, text = colour_and_text(row)
-        used.add(colour)
-        axes.add_patch(plt.Rectangle((x - 0.5, y - 0.5), 1, 1, facecolor=colour, edgecolor="white", linewidth=1.2))
-        axes.text(x, y, text, ha="center", va="center", fontsize=8, color="white" if colour == POPPED else "black")
-    axes.set_xlim(-0.5, len(families) - 0.5)
-    axes.set_ylim(len(names) - 0.5, -0.5)
-    axes.set_xticks(range(len(families)), families, rotation=50, ha="left", fontsize=9)
-    axes.xaxis.tick_top()
-    axes.set_yticks(range(len(names)), [shortened(name) for name in names], fontsize=9)
-    axes.tick_params(length=0)
-    for spine in axes.spines.values():
-        spine.set_visible(False)
-    legend = [plt.Rectangle((0, 0), 1, 1, facecolor=colour, edgecolor="0.5", linewidth=0.6, label=meaning)
-              for colour, meaning in MEANINGS if colour in used]
+        matrix.fill(row.line, row.family, colour, text, "white" if colour == POPPED else "black")
     ticks = sum(row.ticks for row in rows)
-    label(figure, "Proxies: how often did they cross the surface, per million ticks?",
-          f"{ticks:,.0f} ticks, each way replayed by the exact oracle; k: thousand; ball and bare point apart", source, "",
-          legend)
-    return figure
+    return matrix.finish("Proxies: how often did they cross the surface, per million ticks?",
+                         f"{ticks:,.0f} ticks, each way replayed by the exact oracle; k: thousand; ball and bare point apart",
+                         source, MEANINGS)
 
 
 def read_stab(path):

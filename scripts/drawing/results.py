@@ -27,14 +27,25 @@ class NothingToDraw(Exception):
     """The rows hold nothing for this picture; the message says why, in one line."""
 
 
-class Row:
-    """One row of results.csv; a number that is not there is NaN."""
+class Record:
+    """The wanted columns of one row as members: texts, numbers, which are NaN where they are not there, and counts, which
+    are 0 there."""
+
+    def __init__(self, record, line, texts, numbers=(), counts=()):
+        for column in texts:
+            setattr(self, column, record.get(column) or "")
+        for column in (*numbers, *counts):
+            setattr(self, column, number(record.get(column), column, line))
+        for column in counts:
+            if math.isnan(getattr(self, column)):
+                setattr(self, column, 0)
+
+
+class Row(Record):
+    """One row of results.csv."""
 
     def __init__(self, record, line):
-        for column in TEXT_COLUMNS + OPTIONAL_TEXTS:
-            setattr(self, column, record.get(column) or "")
-        for column in NUMBER_COLUMNS + OPTIONAL_NUMBERS:
-            setattr(self, column, number(record.get(column), column, line))
+        super().__init__(record, line, TEXT_COLUMNS + OPTIONAL_TEXTS, NUMBER_COLUMNS + OPTIONAL_NUMBERS)
         self.name = self.detector + (":" + self.options if self.options else "")
         self.done = self.status == DONE
         if math.isnan(self.ns_per_query) and self.update_rate_hz > 0:

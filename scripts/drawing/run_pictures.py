@@ -36,25 +36,31 @@ ERRORS = [
 DEADLINE_NS = 1e6  # 1 kHz, what a haptic loop is held to
 
 
+def percentile_panels(plt, rows, percentiles, ends):
+    """The figure, a panel a trajectory, and the legend of the marks. ends: times that the axes must hold."""
+    names, trajectories = detectors.in_order(row.name for row in rows), trajectories_of(rows)
+    figure, panels = canvas(plt, len(trajectories), 3.1, 0.27 * len(names), left=room_for(names))
+    for axes, trajectory in zip(panels, trajectories):
+        for row in (row for row in rows if row.trajectory == trajectory):
+            draw_percentiles(axes, names.index(row.name), row, percentiles)
+        name_panel(axes, shortened(trajectory, 40))
+        log_axis(axes.xaxis, min(ends) / 2, max(ends) * 3, duration)
+        name_axis(axes, names)
+    return figure, panels, [plt.Line2D([], [], linewidth=1, label=which, **percentile_mark(marker, "0.2", strength))
+                            for _, which, marker, strength in percentiles]
+
+
 def draw_latency(plt, rows, source):
     times = positive(getattr(row, column) for row in rows for column, *_ in PERCENTILES)
     if not times:
         raise NothingToDraw("no row has times")
     clock = positive(row.clock_cost_ns for row in rows)
     ends = times + [DEADLINE_NS] + clock
-    names, trajectories = detectors.in_order(row.name for row in rows), trajectories_of(rows)
-    figure, panels = canvas(plt, len(trajectories), 3.1, 0.27 * len(names), left=room_for(names))
-    for axes, trajectory in zip(panels, trajectories):
-        for row in (row for row in rows if row.trajectory == trajectory):
-            draw_percentiles(axes, names.index(row.name), row)
+    figure, panels, legend = percentile_panels(plt, rows, PERCENTILES, ends)
+    for axes in panels:
         axes.axvline(DEADLINE_NS, color="black", linestyle="--", linewidth=1)
         if clock:
             axes.axvline(statistics.median(clock), color="black", linestyle=":", linewidth=1)
-        name_panel(axes, shortened(trajectory, 40))
-        log_axis(axes.xaxis, min(ends) / 2, max(ends) * 3, duration)
-        name_axis(axes, names)
-    legend = [plt.Line2D([], [], linewidth=1, label=which, **percentile_mark(marker, "0.2", strength))
-              for _, which, marker, strength in PERCENTILES]
     legend.append(plt.Line2D([], [], color="black", linestyle="--", linewidth=1, label="1 ms: a 1 kHz tick is over"))
     if clock:
         legend.append(plt.Line2D([], [], color="black", linestyle=":", linewidth=1,
@@ -72,16 +78,7 @@ def draw_cold(plt, rows, source):
     if not has_cold(rows):
         raise NothingToDraw("no row has times with emptied caches: touchmark bench --cold")
     times = positive(getattr(row, column) for row in rows for column, *_ in COLD)
-    names, trajectories = detectors.in_order(row.name for row in rows), trajectories_of(rows)
-    figure, panels = canvas(plt, len(trajectories), 3.1, 0.27 * len(names), left=room_for(names))
-    for axes, trajectory in zip(panels, trajectories):
-        for row in (row for row in rows if row.trajectory == trajectory):
-            draw_percentiles(axes, names.index(row.name), row, COLD)
-        name_panel(axes, shortened(trajectory, 40))
-        log_axis(axes.xaxis, min(times) / 2, max(times) * 3, duration)
-        name_axis(axes, names)
-    legend = [plt.Line2D([], [], linewidth=1, label=which, **percentile_mark(marker, "0.2", strength))
-              for _, which, marker, strength in COLD]
+    figure, _, legend = percentile_panels(plt, rows, COLD, times)
     label(figure, "Queries with emptied caches: left is better", what_was_asked(rows), source,
           "time for one query, the clock's own included (log scale)", legend)
     return figure
@@ -92,9 +89,9 @@ def percentile_mark(marker, colour, strength):
             "markeredgewidth": 2 if marker == "|" else 1, "markerfacecolor": tinted(colour, strength)}
 
 
-def draw_percentiles(axes, y, row, percentiles=None):
+def draw_percentiles(axes, y, row, percentiles):
     colour = detectors.colour(row.name)
-    points = [(getattr(row, column), marker, strength) for column, _, marker, strength in percentiles or PERCENTILES]
+    points = [(getattr(row, column), marker, strength) for column, _, marker, strength in percentiles]
     points = [point for point in points if math.isfinite(point[0]) and point[0] > 0]
     if not points:
         note(axes, y, shortened(row.status) or "no times")

@@ -1,10 +1,9 @@
 """stress.csv as one picture: contestants by families, and in each cell what went wrong there, told by colour and sign."""
 import collections
-import math
 
 from . import detectors
-from .layout import label, room_for
-from .results import NothingToDraw, number, rows_of, shortened, unique
+from .layout import Matrix
+from .results import NothingToDraw, Record, rows_of, unique
 
 TEXTS = ["detector", "options", "family", "query", "status"]
 COUNTS = ["probes", "missed", "false_contacts", "wrong_triangle", "beyond_bound", "wrong_point", "wrong_normal",
@@ -21,18 +20,13 @@ KINDS = [  # the worst first
     Kind("ok", "#dcefdc", "#2e6b2e", "✓  no error beyond what is declared"),
 ]
 SIGNS = {"crashed": "C", "timeout": "T", "refused": "R", "unsupported": "–", "ok": "✓"}
-CELL_WIDTH, CELL_HEIGHT = 0.56, 0.27  # inches
 
 
-class Row:
+class Row(Record):
     """One row of stress.csv."""
 
     def __init__(self, record, line):
-        for column in TEXTS:
-            setattr(self, column, record.get(column) or "")
-        for column in COUNTS:
-            value = number(record.get(column), column, line)
-            setattr(self, column, 0 if math.isnan(value) else value)
+        super().__init__(record, line, TEXTS, counts=COUNTS)
         self.name = self.detector + (":" + self.options if self.options else "")
 
 
@@ -71,35 +65,16 @@ def draw_stress(plt, rows, source):
     cells = collections.defaultdict(list)
     for row in rows:
         cells[row.name, row.family].append(row)
-    left, right, top, bottom = room_for(names) + 0.1, 0.3, 2.2, 1.1
-    width = max(left + CELL_WIDTH * len(families) + right, 11.0)
-    height = top + CELL_HEIGHT * len(names) + bottom
-    figure, axes = plt.subplots(figsize=(width, height))
-    figure.subplots_adjust(left=left / width, right=(left + CELL_WIDTH * len(families)) / width, top=1 - top / height,
-                           bottom=bottom / height)
-    used = set()
-    for y, name in enumerate(names):
-        for x, family in enumerate(families):
+    matrix = Matrix(plt, names, families)
+    for name in names:
+        for family in families:
             if cells[name, family]:
                 kind, text = kind_and_text(cells[name, family])
-                used.add(kind)
-                axes.add_patch(plt.Rectangle((x - 0.5, y - 0.5), 1, 1, facecolor=kind.colour, edgecolor="white",
-                                             linewidth=1.2))
-                axes.text(x, y, text, ha="center", va="center", fontsize=8, color=kind.ink,
-                          fontweight="bold" if kind.name in ("wrong", "crashed", "timeout") else "normal")
-    axes.set_xlim(-0.5, len(families) - 0.5)
-    axes.set_ylim(len(names) - 0.5, -0.5)
-    axes.set_xticks(range(len(families)), families, rotation=50, ha="left", fontsize=9)
-    axes.xaxis.tick_top()
-    axes.set_yticks(range(len(names)), [shortened(name) for name in names], fontsize=9)
-    axes.tick_params(length=0)
-    for spine in axes.spines.values():
-        spine.set_visible(False)
+                matrix.fill(name, family, kind.colour, text, kind.ink,
+                            "bold" if kind.name in ("wrong", "crashed", "timeout") else "normal")
     answers = sum(row.probes for row in rows)
     hard = sum(row.probes for row in rows if row.adversarial)
-    legend = [plt.Rectangle((0, 0), 1, 1, facecolor=kind.colour, edgecolor="0.5", linewidth=0.6, label=kind.meaning)
-              for kind in KINDS if kind in used]
-    label(figure, "Stress: what share of the answers was wrong, by contestant and family",
-          f"queries: {', '.join(unique(row.query for row in rows))}; {answers:,.0f} answers against the exact oracle, "
-          f"{hard:,.0f} of them at the edge of contact", source, "", legend)
-    return figure
+    return matrix.finish("Stress: what share of the answers was wrong, by contestant and family",
+                         f"queries: {', '.join(unique(row.query for row in rows))}; {answers:,.0f} answers against the exact "
+                         f"oracle, {hard:,.0f} of them at the edge of contact", source,
+                         [(kind.colour, kind.meaning) for kind in KINDS])

@@ -3,7 +3,7 @@ that of the best of ours. Darker is worse, and a frame and bold type say where w
 import math
 
 from .layout import label, room_for
-from .results import NothingToDraw, number, rows_of, shortened, unique
+from .results import NothingToDraw, Record, rows_of, shortened, unique
 
 TEXTS = ["mesh", "trajectory", "query", "reach", "caches", "ours", "status"]
 RATIOS = ["exact_ratio", "any_ratio", "exact_tail_ratio", "any_tail_ratio"]
@@ -15,14 +15,11 @@ SHOWN = {"exact_ratio": "mean, against exact rivals", "any_ratio": "mean, agains
          "exact_tail_ratio": "slowest queries, against exact rivals", "any_tail_ratio": "slowest queries, against all rivals"}
 
 
-class Row:
+class Row(Record):
     """One row of suite.csv."""
 
     def __init__(self, record, line):
-        for column in TEXTS:
-            setattr(self, column, record.get(column) or "")
-        for column in RATIOS:
-            setattr(self, column, number(record.get(column), column, line))
+        super().__init__(record, line, TEXTS, RATIOS)
         self.shape, _, self.speed = self.trajectory.partition(":speed=")
 
     def properties(self):
