@@ -56,7 +56,7 @@ constexpr CommandText command_texts[] = {
 };
 
 struct OptionGroup {
-  std::string_view name, options;  ///< names, each between spaces
+  std::string_view name, options;  ///< Options are listed between spaces.
 };
 
 constexpr OptionGroup option_groups[] = {

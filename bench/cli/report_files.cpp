@@ -2,16 +2,17 @@
 
 #include <CLI/CLI.hpp>
 
+#include "bench/cli/options.h"
+
 namespace touchmark::bench::cli {
 
 void add_junit(CLI::App& command, ReportSelectors& selectors) {
-  command.add_option("--junit", selectors.junit, "JUnit XML of what was checked, for CI systems")
-      ->type_name("FILE");
+  add_value(command, "--junit", selectors.junit, "FILE", "JUnit XML of what was checked, for CI systems");
 }
 
 void add_markdown(CLI::App& command, ReportSelectors& selectors) {
-  command.add_option("--markdown", selectors.markdown, "a summary in Markdown, for the summary of a CI step")
-      ->type_name("FILE");
+  add_value(command, "--markdown", selectors.markdown, "FILE",
+            "a summary in Markdown, for the summary of a CI step");
 }
 
 std::string code_block(const std::string& text) {

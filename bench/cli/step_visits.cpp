@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "bench/scenes/mesh_lists.h"
 #include "bench/support/beside_this_program.h"
 #include "bench/support/failures.h"
 #include "bench/support/raw_lists.h"
@@ -20,15 +21,6 @@ namespace touchmark::bench::cli {
 namespace {
 
 using support::put_list, support::put_text;
-
-void put_mesh(std::FILE* to, const TriangleMesh& mesh) {
-  std::vector<double> coordinates;
-  for (const Vec3& vertex : mesh.vertices())
-    coordinates.insert(coordinates.end(), {vertex.x(), vertex.y(), vertex.z()});
-  put_list(to, std::span<const double>(coordinates));
-  put_list(to, mesh.triangles());
-  put_list(to, mesh.ids());
-}
 
 void put_trace(std::FILE* to, const std::vector<workload::Step>& trace) {
   std::vector<std::array<double, 5>> steps;
@@ -54,7 +46,7 @@ void print_visits(const workload::Workload& workload, workload::Query query, con
     throw std::invalid_argument(
         "touchmark-tracer is missing; scripts/build-program touchmark-tracer builds it");
   const support::File input = support::temporary_file();
-  put_mesh(input.get(), workload.mesh);
+  scenes::put_mesh(input.get(), workload.mesh);
   put_text(input.get(), workload::name_of(query));
   put_trace(input.get(), trace);
   put_text(input.get(), detector);

@@ -5,15 +5,14 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/cli/options.h"
 #include "bench/support/numbers.h"
 
 namespace touchmark::bench::cli {
 
 void add_worker_selectors(CLI::App& command, WorkerSelectors& selectors) {
-  command
-      .add_option("--timeout", selectors.timeout,
-                  "seconds a contestant may take for one build or one pass before it is given up")
-      ->type_name("S");
+  add_value(command, "--timeout", selectors.timeout, "S",
+            "seconds a contestant may take for one build or one pass before it is given up");
   command.add_flag("--worker-output", selectors.show_output, "let the contestants' libraries print");
 }
 

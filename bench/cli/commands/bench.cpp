@@ -16,6 +16,7 @@
 #include "bench/cli/benchmark_flags.h"
 #include "bench/cli/commands/bench_reports.h"
 #include "bench/cli/extra/bench_suite.h"
+#include "bench/cli/options.h"
 #include "bench/cli/program.h"
 #include "bench/cli/repeat_command.h"
 #include "bench/cli/selector_options.h"
@@ -268,10 +269,9 @@ void add_bench(CLI::App& program, ProgramContext& context) {
   add_selectors(*command, context, options->selectors);
   add_scene_selectors(*command, options->selectors);
   add_unit(*command, options->selectors.unit);
-  command->add_option("--out", options->out, "folder for results.csv, run.json and steps.bin")
-      ->type_name("DIR");
-  command->add_option("--steps-out", options->steps_out, "also each step as CSV: time, answer and work")
-      ->type_name("FILE");
+  add_value(*command, "--out", options->out, "DIR", "folder for results.csv, run.json and steps.bin");
+  add_value(*command, "--steps-out", options->steps_out, "FILE",
+            "also each step as CSV: time, answer and work");
   command
       ->add_flag("--frontier", options->frontier,
                  "every contestant over the options that trade accuracy for time (see the plot time_error)")

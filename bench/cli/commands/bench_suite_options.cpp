@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "bench/cli/extra/bench_suite.h"
+#include "bench/cli/options.h"
 
 namespace touchmark::bench::cli {
 
@@ -12,13 +13,10 @@ void add_suite(CLI::App& command, bool& suite, std::string& cells, std::string& 
       "--suite", suite,
       "a score over many scenes, motions, speeds, queries and reaches instead; with --mesh on "
       "that mesh alone");
-  command.add_option("--cells", cells, "of the suite: how many a scene, or all; default: 12, quick 2")
-      ->type_name("N")
+  add_value(command, "--cells", cells, "N", "of the suite: how many a scene, or all; default: 12, quick 2")
       ->needs(flag);
-  command
-      .add_option("--minutes", minutes,
-                  "of the suite: what does not fit is left out and said so; default: 15, quick 1.5")
-      ->type_name("M")
+  add_value(command, "--minutes", minutes, "M",
+            "of the suite: what does not fit is left out and said so; default: 15, quick 1.5")
       ->needs(flag);
 }
 

@@ -1,4 +1,5 @@
 /// `touchmark mesh`: what a mesh is like, and finer ones.
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -10,11 +11,13 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/cli/commands/mesh_commands.h"
+#include "bench/cli/options.h"
 #include "bench/cli/program.h"
 #include "bench/cli/selector_options.h"
 #include "bench/scenes/mesh_report.h"
 #include "bench/scenes/scenes.h"
 #include "bench/support/available_memory.h"
+#include "bench/support/names.h"
 #include "bench/support/standard_output.h"
 
 namespace touchmark::bench::cli {
@@ -30,19 +33,13 @@ struct InfoOptions {
 /// What report_on takes for a triangle.
 constexpr double bytes_reported_on = 400;
 
-const char* name_of(SideFinder::Method method) {
-  switch (method) {
-    case SideFinder::Method::pseudonormals:
-      return "pseudonormals";
-    case SideFinder::Method::crossings:
-      return "crossings";
-    case SideFinder::Method::winding_number:
-      return "winding_number";
-    case SideFinder::Method::none:
-      return "none";
-  }
-  return "";
-}
+constexpr std::array<support::Name<SideFinder::Method>, 4> methods{
+    {{SideFinder::Method::pseudonormals, "pseudonormals"},
+     {SideFinder::Method::crossings, "crossings"},
+     {SideFinder::Method::winding_number, "winding_number"},
+     {SideFinder::Method::none, "none"}}};
+
+std::string_view name_of(SideFinder::Method method) { return support::name_in(methods, method); }
 
 struct Metric {
   const char* what;
@@ -152,9 +149,7 @@ std::string lines_of(const nlohmann::ordered_json& members) {
 }
 
 void add_mesh_options(CLI::App& command, std::string& mesh, bool& normalize) {
-  command.add_option("--mesh,mesh", mesh, "a scene (touchmark list) or a mesh file")
-      ->type_name("MESH")
-      ->required();
+  add_value(command, "--mesh,mesh", mesh, "MESH", "a scene (touchmark list) or a mesh file")->required();
   command.add_flag("--normalize", normalize, "scale to box diagonal 1 about the origin first");
 }
 

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/cli/commands/mesh_commands.h"
+#include "bench/cli/options.h"
 #include "bench/contestants/selectors.h"
 #include "bench/scenes/scenes.h"
 #include "bench/support/numbers.h"
@@ -83,10 +84,8 @@ void add_mesh_measure(CLI::App& mesh_command) {
   CLI::App* command =
       mesh_command.add_subcommand("measure", "area, volume and tightness as Choi & Sung 2017 define them");
   add_mesh_options(*command, options->mesh, options->normalize);
-  command
-      ->add_option("--center", options->center, "tip of the tetrahedra whose absolute volumes are added up")
-      ->type_name("X,Y,Z")
-      ->capture_default_str();
+  add_value(*command, "--center", options->center, "X,Y,Z",
+            "tip of the tetrahedra whose absolute volumes are added up");
   command->add_flag("--json", options->json, "as JSON");
   command->footer("Example: touchmark mesh measure bunny\n");
   command->final_callback([options] {

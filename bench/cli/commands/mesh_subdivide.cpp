@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 
 #include "bench/cli/commands/mesh_commands.h"
+#include "bench/cli/options.h"
 #include "bench/contestants/selectors.h"
 #include "bench/scenes/mesh_writer.h"
 #include "bench/scenes/scenes.h"
@@ -135,28 +136,18 @@ void add_mesh_subdivide(CLI::App& mesh_command) {
   const auto options = std::make_shared<SubdivideOptions>();
   CLI::App* command = mesh_command.add_subcommand("subdivide", "a finer mesh, written to a file");
   add_mesh_options(*command, options->mesh, options->normalize);
-  command->add_option("--method", options->method, fmt::format("{}", fmt::join(method_names, "|")))
-      ->type_name("METHOD")
+  add_value(*command, "--method", options->method, "METHOD", fmt::format("{}", fmt::join(method_names, "|")))
       ->check(CLI::IsMember(method_names))
       ->required();
-  command->add_option("--levels", options->levels, "how many times")->type_name("N")->required();
-  command
-      ->add_option(
-          "--threshold", options->threshold,
-          "only longer edges split, the same length at every level: mesh units, or percent of the input "
-          "mesh's box diagonal; 0: all split. Catmull-Clark always splits all")
-      ->type_name("LENGTH")
-      ->capture_default_str();
-  command
-      ->add_option(
-          "--form", options->form,
-          "published: each scheme as in its paper, in double. meshlab: as the tool of Choi & Sung does it, "
-          "in float; plain butterfly. The default is meshlab with a threshold, else published")
-      ->type_name("FORM")
+  add_value(*command, "--levels", options->levels, "N", "how many times")->required();
+  add_value(*command, "--threshold", options->threshold, "LENGTH",
+            "only longer edges split, the same length at every level: mesh units, or percent of the input "
+            "mesh's box diagonal; 0: all split. Catmull-Clark always splits all");
+  add_value(*command, "--form", options->form, "FORM",
+            "published: each scheme as in its paper, in double. meshlab: as the tool of Choi & Sung does it, "
+            "in float; plain butterfly. The default is meshlab with a threshold, else published")
       ->check(CLI::IsMember({"published", "meshlab"}));
-  command->add_option("--output", options->output, "a .ply, .obj, .off or .stl file")
-      ->type_name("FILE")
-      ->required();
+  add_value(*command, "--output", options->output, "FILE", "a .ply, .obj, .off or .stl file")->required();
   command->footer(
       "Example: touchmark mesh subdivide --mesh bunny --method ls3 --levels 2 --threshold 1% --output "
       "fine.ply\n");

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "bench/cli/new_plugin_files.h"
+#include "bench/cli/options.h"
 #include "bench/cli/program.h"
 #include "bench/support/atomic_file.h"
 #include "bench/support/shell_word.h"
@@ -55,9 +56,7 @@ void add_new_plugin(CLI::App& program, ProgramContext& context) {
   static_cast<void>(context);
   const auto folder = std::make_shared<std::string>();
   CLI::App* command = add_command(program, "new-plugin");
-  command->add_option("folder", *folder, "where CMakeLists.txt and mine.cpp go")
-      ->type_name("DIR")
-      ->required();
+  add_value(*command, "folder", *folder, "DIR", "where CMakeLists.txt and mine.cpp go")->required();
   command->footer(
       "It is built against the installed package, and no file is written over.\n"
       "Example: touchmark new-plugin mine\n");

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "bench/bodies/scene_source.h"
+#include "bench/cli/options.h"
 #include "bench/cli/program.h"
 #include "bench/cli/selector_options.h"
 #include "bench/cli/single_step.h"
@@ -154,8 +155,7 @@ void add_query(CLI::App& program, ProgramContext& context) {
   CLI::App* command = add_command(program, "query");
   add_selectors(*command, context, options->selectors);
   add_scene_selectors(*command, options->selectors);
-  command->add_option("--csv", options->csv, "where the rows go instead of standard output")
-      ->type_name("FILE");
+  add_value(*command, "--csv", options->csv, "FILE", "where the rows go instead of standard output");
   CLI::Option* step = command->add_option(
       "--step", options->step, "only this step's row, as verify, stress and bench name it; from 0");
   step->type_name("N");
@@ -167,10 +167,8 @@ void add_query(CLI::App& program, ProgramContext& context) {
       ->check(CLI::IsMember({"replayed", "fresh"}))
       ->needs(step)
       ->capture_default_str();
-  command
-      ->add_option("--visits", options->visits,
-                   "instead of rows, what one of ours looked at in these steps, as 3,7,12; as JSON")
-      ->type_name("N")
+  add_value(*command, "--visits", options->visits, "N",
+            "instead of rows, what one of ours looked at in these steps, as 3,7,12; as JSON")
       ->delimiter(',')
       ->excludes(step)
       ->excludes("--csv");

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "bench/bodies/scene_source.h"
+#include "bench/cli/options.h"
 #include "bench/cli/program.h"
 #include "bench/cli/repeat_command.h"
 #include "bench/cli/report_files.h"
@@ -173,7 +174,7 @@ void add_verify(CLI::App& program, ProgramContext& context) {
   CLI::App* command = add_command(program, "verify");
   add_selectors(*command, context, options->selectors, contestants::Variety::many);
   add_scene_selectors(*command, options->selectors);
-  command->add_option("--out", options->out, "folder for results.csv")->type_name("DIR");
+  add_value(*command, "--out", options->out, "DIR", "folder for results.csv");
   add_junit(*command, options->reports);
   add_markdown(*command, options->reports);
   add_worker_selectors(*command, options->workers);

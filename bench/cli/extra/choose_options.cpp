@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/cli/options.h"
 #include "bench/cli/program.h"
 #include "bench/cli/selector_options.h"
 #include "bench/support/numbers.h"
@@ -87,23 +88,14 @@ void add_choose_options(CLI::App& command, ProgramContext& context, ChooseOption
           "times as fast; not over a scene of bodies), approach, hover and cross");
   command.get_option("--detector")
       ->description("a candidate as NAME[:key=value,...]; repeatable; default: ours and the exact rivals");
-  command.add_option("--motion", options.motions, "how your hand moves: a motion file; repeatable")
-      ->type_name("CSV")
-      ->expected(1)
-      ->take_all();
-  command.add_option("--share", options.share, "the part of a tick that a query may take")
-      ->type_name("P%")
-      ->capture_default_str();
-  command.add_option("--memory", options.memory, "what a detector may take, as 50MB; default: any amount")
-      ->type_name("SIZE");
-  command
-      .add_option(
-          "--minutes", options.minutes,
-          "how long to measure: what was measured by then is compared, and status 4 says that nothing was")
-      ->type_name("M")
-      ->capture_default_str();
-  command.add_option("--out", options.out, "folder for choose.csv, choose.cpp, results.csv and run.json")
-      ->type_name("DIR");
+  add_list(command, "--motion", options.motions, "CSV", "how your hand moves: a motion file; repeatable");
+  add_value(command, "--share", options.share, "P%", "the part of a tick that a query may take");
+  add_value(command, "--memory", options.memory, "SIZE",
+            "what a detector may take, as 50MB; default: any amount");
+  add_value(command, "--minutes", options.minutes, "M",
+            "how long to measure: what was measured by then is compared, and status 4 says that nothing was");
+  add_value(command, "--out", options.out, "DIR",
+            "folder for choose.csv, choose.cpp, results.csv and run.json");
   command.add_flag("--quick", options.quick, "fewer steps, and fewer queries with emptied caches");
   add_worker_selectors(command, options.workers);
 }

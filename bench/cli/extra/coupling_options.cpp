@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/cli/options.h"
 #include "bench/support/numbers.h"
 
 namespace touchmark::bench::cli {
@@ -35,16 +36,14 @@ std::array<double, 2> checked_friction(const std::string& text) {
 }  // namespace
 
 void add_coupling(CLI::App& command, CouplingSelectors& selectors) {
-  const auto option = [&](const char* name, std::string& value, const char* what, const char* type) {
-    command.add_option(name, value, what)->type_name(type)->capture_default_str();
-  };
-  option("--stiffness", selectors.stiffness,
-         "of the spring between proxy and device, mesh units being metres", "N/m");
-  option("--friction", selectors.friction, "coefficients, static and dynamic, or one for both", "MU[,MU]");
-  option("--damping", selectors.damping, "against the device's velocity while in contact", "NS/M");
-  option("--shading", selectors.shading,
-         "0 to 1, how far our force turns to the normal interpolated between vertices; the way stays",
-         "SHARE");
+  add_value(command, "--stiffness", selectors.stiffness, "N/m",
+            "of the spring between proxy and device, mesh units being metres");
+  add_value(command, "--friction", selectors.friction, "MU[,MU]",
+            "coefficients, static and dynamic, or one for both");
+  add_value(command, "--damping", selectors.damping, "NS/M",
+            "against the device's velocity while in contact");
+  add_value(command, "--shading", selectors.shading, "SHARE",
+            "0 to 1, how far our force turns to the normal interpolated between vertices; the way stays");
 }
 
 Coupling checked_coupling(const CouplingSelectors& selectors) {

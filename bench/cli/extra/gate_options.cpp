@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "bench/cli/options.h"
 #include "bench/cli/program.h"
 #include "bench/cli/selector_options.h"
 #include "bench/support/length.h"
@@ -34,20 +35,14 @@ double checked_tolerance(const std::string& text) {
 void add_gate_options(CLI::App& command, ProgramContext& context, GateOptions& options) {
   add_selectors(command, context, options.selectors);
   add_scene_selectors(command, options.selectors);
-  command.add_option("--reference", options.reference, "the contestant whose time is the unit")
-      ->type_name("D")
-      ->capture_default_str();
-  command.add_option("--baseline", options.baseline, "CSV file of ratios; it may come from another machine")
-      ->type_name("FILE")
+  add_value(command, "--reference", options.reference, "D", "the contestant whose time is the unit");
+  add_value(command, "--baseline", options.baseline, "FILE",
+            "CSV file of ratios; it may come from another machine")
       ->required();
   command.add_flag("--write-baseline", options.write_baseline, "measure, and write the rows of --baseline");
-  command.add_option("--tolerance", options.tolerance, "how much slower is not a fault")
-      ->type_name("PERCENT")
-      ->capture_default_str();
-  command.add_option("--rounds", options.rounds, "turns of each contestant in a batch")
-      ->type_name("N")
-      ->capture_default_str();
-  command.add_option("--report", options.report, "CSV file of what was found")->type_name("FILE");
+  add_value(command, "--tolerance", options.tolerance, "PERCENT", "how much slower is not a fault");
+  add_value(command, "--rounds", options.rounds, "N", "turns of each contestant in a batch");
+  add_value(command, "--report", options.report, "FILE", "CSV file of what was found");
   add_junit(command, options.reports);
   add_markdown(command, options.reports);
   add_worker_selectors(command, options.workers);

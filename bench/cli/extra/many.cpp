@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "bench/cli/extra/extra_commands.h"
+#include "bench/cli/options.h"
 #include "bench/cli/plugin_option.h"
 #include "bench/experiments/many/many_run.h"
 #include "bench/experiments/papers/paper_options.h"
@@ -137,18 +138,11 @@ int run_many(const ProgramContext& context, const ManyCommandOptions& options) {
   return status;
 }
 
-void add_repeatable(CLI::App& command, const char* name, std::vector<std::string>& values, const char* what,
-                    const char* type) {
-  command.add_option(name, values, what)->type_name(type)->expected(1)->take_all();
-}
-
 void add_sizes(CLI::App& command, ManyCommandOptions& options) {
-  command.add_option("--points", options.points, "of a call, coherent or not; default: 100000")
-      ->type_name("N");
-  command.add_option("--shell-points", options.shell_points, "of a pointshell; default: 1000")
-      ->type_name("N");
-  command.add_option("--ticks", options.ticks, "calls of a pointshell; default: 200")->type_name("N");
-  command.add_option("--rounds", options.rounds, "that are timed; default: 11")->type_name("N");
+  add_value(command, "--points", options.points, "N", "of a call, coherent or not; default: 100000");
+  add_value(command, "--shell-points", options.shell_points, "N", "of a pointshell; default: 1000");
+  add_value(command, "--ticks", options.ticks, "N", "calls of a pointshell; default: 200");
+  add_value(command, "--rounds", options.rounds, "N", "that are timed; default: 11");
 }
 
 }  // namespace
@@ -156,26 +150,21 @@ void add_sizes(CLI::App& command, ManyCommandOptions& options) {
 void add_many(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<ManyCommandOptions>();
   CLI::App* command = add_command(program, "many");
-  command->add_option("--mesh", options->mesh, "a scene (touchmark list) or a mesh file")->type_name("MESH");
+  add_value(*command, "--mesh", options->mesh, "MESH", "a scene (touchmark list) or a mesh file");
   command->add_flag("--normalize", options->normalize, "scale to box diagonal 1 about the origin");
-  add_repeatable(*command, "--detector", options->detectors,
-                 "a contestant that answers nearest (touchmark list); repeatable; default: our fast ones, "
-                 "aabb-tree and embree",
-                 "D");
+  add_list(*command, "--detector", options->detectors, "D",
+           "a contestant that answers nearest (touchmark list); repeatable; default: our fast ones, "
+           "aabb-tree and embree");
   add_plugins(*command, context, &options->detectors);
-  add_repeatable(*command, "--kind", options->kinds,
-                 "coherent, incoherent, pointshell or pointshell-close; repeatable; default: all", "KIND");
-  add_repeatable(*command, "--order", options->orders,
-                 "as-given, automatic or curve; repeatable; default: the first two", "ORDER");
-  add_repeatable(*command, "--threads", options->threads, "repeatable; default: 1", "N");
-  command->add_option("--reach", options->reach, "mesh units or % of the box diagonal")
-      ->type_name("LENGTH")
-      ->capture_default_str();
+  add_list(*command, "--kind", options->kinds, "KIND",
+           "coherent, incoherent, pointshell or pointshell-close; repeatable; default: all");
+  add_list(*command, "--order", options->orders, "ORDER",
+           "as-given, automatic or curve; repeatable; default: the first two");
+  add_list(*command, "--threads", options->threads, "N", "repeatable; default: 1");
+  add_value(*command, "--reach", options->reach, "LENGTH", "mesh units or % of the box diagonal");
   add_sizes(*command, *options);
-  command->add_option("--seed", options->seed, "of the points and of the order of measuring")
-      ->type_name("N")
-      ->capture_default_str();
-  command->add_option("--out", options->out, "folder for many.csv")->type_name("DIR");
+  add_value(*command, "--seed", options->seed, "N", "of the points and of the order of measuring");
+  add_value(*command, "--out", options->out, "DIR", "folder for many.csv");
   command->add_flag("--quick", options->quick, "fewer points, ticks and rounds");
   command->footer(
       "coherent: a slide along the surface. incoherent: random places within reach. pointshell: points of a\n"

@@ -12,6 +12,7 @@
 
 #include "bench/batch/merged.h"
 #include "bench/cli/extra/extra_commands.h"
+#include "bench/cli/options.h"
 #include "bench/results/results_csv.h"
 #include "bench/support/atomic_file.h"
 #include "bench/support/numbers.h"
@@ -78,14 +79,12 @@ void merge(const MergeOptions& options) {
 void add_merge(CLI::App& program, ProgramContext&) {
   const auto options = std::make_shared<MergeOptions>();
   CLI::App* command = add_command(program, "merge");
-  command->add_option("dir", options->paths, "folders of touchmark run")->type_name("DIR")->required();
-  command->add_option("--out", options->out, "the CSV file")->type_name("FILE")->required();
-  command->add_option("--manifest", options->manifest, "its jobs in its order; none may be missing")
-      ->type_name("FILE");
+  add_value(*command, "dir", options->paths, "DIR", "folders of touchmark run")->required();
+  add_value(*command, "--out", options->out, "FILE", "the CSV file")->required();
+  add_value(*command, "--manifest", options->manifest, "FILE", "its jobs in its order; none may be missing");
   command->add_flag("--accuracy-only", options->accuracy_only,
                     "leave out times and heap_bytes; the rest may come from any machines");
-  command->add_option("--machine", options->machine, "only jobs of the machine whose code begins so")
-      ->type_name("CODE");
+  add_value(*command, "--machine", options->machine, "CODE", "only jobs of the machine whose code begins so");
   command->footer(
       "Times of different machines, or of different builds, do not mix: status 2, and which they are.\n"
       "Example: touchmark merge jobs --manifest sweep.json --out results.csv\n"

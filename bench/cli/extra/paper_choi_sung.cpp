@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "bench/cli/extra/paper_commands.h"
+#include "bench/cli/options.h"
 #include "bench/cli/program.h"
 #include "bench/experiments/papers/choi_sung.h"
 #include "bench/experiments/papers/choi_sung_models.h"
@@ -171,15 +172,11 @@ void add_paper_choi_sung(CLI::App& paper_command, ProgramContext& context) {
   const auto options = std::make_shared<ChoiSungOptions>();
   CLI::App* command = paper_command.add_subcommand(
       "choi-sung-2017", "subdivision and sphere clustering: Tables 1 to 3 and what the figures show");
-  command
-      ->add_option(
-          "--mesh", options->mesh,
-          "level 0: a scene or a mesh file; without it the paper's bunny, or one decimated to its size")
-      ->type_name("MESH");
-  command->add_option("--levels", options->levels, "of subdivision (3, as in the paper)")->type_name("N");
-  command->add_option("--clustering", options->clustering, "distance: mesh units or % of the box diagonal")
-      ->type_name("LENGTH")
-      ->capture_default_str();
+  add_value(*command, "--mesh", options->mesh, "MESH",
+            "level 0: a scene or a mesh file; without it the paper's bunny, or one decimated to its size");
+  add_value(*command, "--levels", options->levels, "N", "of subdivision (3, as in the paper)");
+  add_value(*command, "--clustering", options->clustering, "LENGTH",
+            "distance: mesh units or % of the box diagonal");
   papers::add_paper_options(*command, options->common);
   command->footer("Example: touchmark paper choi-sung-2017 --out results/papers/choi-sung-2017\n");
   command->final_callback([options, &context] {

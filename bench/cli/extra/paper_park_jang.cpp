@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "bench/cli/extra/paper_commands.h"
+#include "bench/cli/options.h"
 #include "bench/cli/program.h"
 #include "bench/experiments/papers/paper_options.h"
 #include "bench/experiments/papers/park_jang.h"
@@ -84,13 +85,9 @@ void add_paper_park_jang(CLI::App& paper_command, ProgramContext& context) {
   const auto options = std::make_shared<ParkJangOptions>();
   CLI::App* command = paper_command.add_subcommand(
       "park-jang-2018", "time against the number of groups, cubes and spheres (Fig. 7)");
-  command
-      ->add_option("--mesh", options->meshes,
-                   "a scene or a mesh file, repeatable; without it the bunny at several resolutions")
-      ->type_name("MESH")
-      ->expected(1)
-      ->take_all();
-  command->add_option("--most-groups", options->max_groups, "up to how many groups")->type_name("N");
+  add_list(*command, "--mesh", options->meshes, "MESH",
+           "a scene or a mesh file, repeatable; without it the bunny at several resolutions");
+  add_value(*command, "--most-groups", options->max_groups, "N", "up to how many groups");
   papers::add_paper_options(*command, options->common);
   command->footer(
       "Example: touchmark paper park-jang-2018 --mesh bunny --out results/papers/park-jang-2018\n");

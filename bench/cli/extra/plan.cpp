@@ -11,6 +11,7 @@
 
 #include "bench/batch/manifest.h"
 #include "bench/cli/extra/extra_commands.h"
+#include "bench/cli/options.h"
 #include "bench/cli/plugin_option.h"
 #include "bench/cli/selector_options.h"
 #include "bench/results/build_info.h"
@@ -157,10 +158,7 @@ void add_plan(CLI::App& program, ProgramContext& context) {
   CLI::App* command = add_command(program, "plan");
   const auto many = [command](const char* name, std::vector<std::string>& values, const char* what,
                               const char* type) {
-    command->add_option(name, values, fmt::format("{}; repeatable", what))
-        ->type_name(type)
-        ->expected(1)
-        ->take_all();
+    add_list(*command, name, values, type, fmt::format("{}; repeatable", what));
   };
   many("--mesh", options->meshes, "a scene (touchmark list) or a mesh file", "MESH");
   many("--trajectory", options->trajectories, "a name (touchmark list) or a motion file, CSV", "T");
@@ -172,14 +170,10 @@ void add_plan(CLI::App& program, ProgramContext& context) {
   many("--seed", options->seeds, "of trajectories and of the order of measuring; default: 1", "N");
   add_motion_selectors(*command, options->motion);
   command->add_flag("--normalize", options->normalize, "scale meshes to box diagonal 1 about the origin");
-  command->add_option("--steps", options->steps, "steps a trajectory")->type_name("N");
-  command
-      ->add_option("--effort", options->effort,
-                   "full, quick, or accuracy: verified only, so that many may run side by side")
-      ->type_name("WORD")
-      ->capture_default_str();
-  command->add_option("--out", options->out, "file for the manifest; default: standard output")
-      ->type_name("FILE");
+  add_value(*command, "--steps", options->steps, "N", "steps a trajectory");
+  add_value(*command, "--effort", options->effort, "WORD",
+            "full, quick, or accuracy: verified only, so that many may run side by side");
+  add_value(*command, "--out", options->out, "FILE", "file for the manifest; default: standard output");
   command->footer(
       "Example: touchmark plan --mesh bunny --mesh dragon:3 --radius 0.5% --radius 2% --query all --out "
       "sweep.json\n"

@@ -14,6 +14,7 @@
 
 #include "bench/cli/extra/coupling_options.h"
 #include "bench/cli/extra/extra_commands.h"
+#include "bench/cli/options.h"
 #include "bench/experiments/proxy/proxy_csv.h"
 #include "bench/experiments/proxy/proxy_report.h"
 #include "bench/experiments/proxy/proxy_run.h"
@@ -188,35 +189,27 @@ std::string lists() {
 void add_proxy(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<ProxyOptions>();
   CLI::App* command = add_command(program, "proxy");
-  const auto repeatable = [&](const char* name, std::vector<std::string>& values, const char* what,
-                              const char* type) {
-    command->add_option(name, values, what)->type_name(type)->expected(1)->take_all();
-  };
-  const auto option = [&](const char* name, std::string& value, const char* what, const char* type) {
-    return command->add_option(name, value, what)->type_name(type);
-  };
-  repeatable("--method", options->methods,
-             "one of those below, as NAME[:key=value,...]; repeatable; default: all", "M");
-  repeatable("--family", options->families, "one of those below; repeatable; default: all", "F");
-  option("--ticks", options->ticks,
-         "of all families together, about; default: 100000; with --mesh at most so many", "N");
-  option("--seed", options->seed, "of all meshes and motions", "N")->capture_default_str();
-  option("--detector", options->detector, "which of ours answers methods that claim never to cross", "D")
-      ->capture_default_str();
-  option("--mesh", options->mesh, "instead of families: a scene or a file, with --trajectory", "MESH");
-  option(
-      "--trajectory", options->trajectory,
+  add_list(*command, "--method", options->methods, "M",
+           "one of those below, as NAME[:key=value,...]; repeatable; default: all");
+  add_list(*command, "--family", options->families, "F", "one of those below; repeatable; default: all");
+  add_value(*command, "--ticks", options->ticks, "N",
+            "of all families together, about; default: 100000; with --mesh at most so many");
+  add_value(*command, "--seed", options->seed, "N", "of all meshes and motions");
+  add_value(*command, "--detector", options->detector, "D",
+            "which of ours answers methods that claim never to cross");
+  add_value(*command, "--mesh", options->mesh, "MESH",
+            "instead of families: a scene or a file, with --trajectory");
+  add_value(
+      *command, "--trajectory", options->trajectory, "T",
       "a name (touchmark list) or a motion file: the goals; the proxy starts at the first that is free, or "
-      "where none is free outward from the first",
-      "T");
-  option("--radius", options->radius, "the ball's, with --mesh; mesh units or % of the box diagonal",
-         "LENGTH")
-      ->capture_default_str();
-  option("--trace", options->trace, "with --mesh and one method: file for the way, one row a straight piece",
-         "FILE");
+      "where none is free outward from the first");
+  add_value(*command, "--radius", options->radius, "LENGTH",
+            "the ball's, with --mesh; mesh units or % of the box diagonal");
+  add_value(*command, "--trace", options->trace, "FILE",
+            "with --mesh and one method: file for the way, one row a straight piece");
   add_coupling(*command, options->coupling);
-  option("--out", options->out, "folder for proxy.csv, stab.csv and run.json; scripts/plot draws them",
-         "DIR");
+  add_value(*command, "--out", options->out, "DIR",
+            "folder for proxy.csv, stab.csv and run.json; scripts/plot draws them");
   command->footer(
       lists() +
       "Exit status 1 if a method that claims never to cross crossed, or came nearer than the radius.\n"

@@ -12,6 +12,7 @@
 #include "bench/batch/job_file.h"
 #include "bench/batch/manifest.h"
 #include "bench/cli/extra/extra_commands.h"
+#include "bench/cli/options.h"
 #include "bench/cli/plugin_option.h"
 #include "bench/cli/worker_options.h"
 #include "bench/measurement/comparison.h"
@@ -186,16 +187,11 @@ int SweepRun::run() {
 void add_run(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<RunOptions>();
   CLI::App* command = add_command(program, "run");
-  command->add_option("--manifest", options->manifest, "what touchmark plan wrote")
-      ->type_name("FILE")
-      ->required();
-  command
-      ->add_option("--shard", options->shard,
-                   "the i-th of N parts; all rivals of a scene are in one part, and timed in one run")
-      ->type_name("i/N")
-      ->capture_default_str();
-  command->add_option("--out", options->out, "folder for one file a job; finished ones are not run again")
-      ->type_name("DIR")
+  add_value(*command, "--manifest", options->manifest, "FILE", "what touchmark plan wrote")->required();
+  add_value(*command, "--shard", options->shard, "i/N",
+            "the i-th of N parts; all rivals of a scene are in one part, and timed in one run");
+  add_value(*command, "--out", options->out, "DIR",
+            "folder for one file a job; finished ones are not run again")
       ->required();
   add_worker_selectors(*command, options->workers);
   command->footer(

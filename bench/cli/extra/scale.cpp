@@ -17,6 +17,7 @@
 
 #include "bench/cli/extra/extra_commands.h"
 #include "bench/cli/extra/scale_bodies.h"
+#include "bench/cli/options.h"
 #include "bench/cli/selector_options.h"
 #include "bench/cli/worker_options.h"
 #include "bench/experiments/scaling/growth.h"
@@ -269,28 +270,18 @@ void add_scale(CLI::App& program, ProgramContext& context) {
   command->get_option("--mesh")->take_all()->description(
       "noisy-sphere (the default) or soup in each of the sizes, dragon in its resolutions, or a "
       "mesh as it is; repeatable");
-  command
-      ->add_option(
-          "--sizes", options->sizes,
-          fmt::format("numbers of triangles; default: {}, with --quick {}", default_sizes, quick_sizes))
-      ->type_name("N,N,...");
-  command
-      ->add_option("--limit-seconds", options->limit,
-                   "a contestant that took longer on a mesh is left out on larger ones")
-      ->type_name("S")
-      ->capture_default_str();
-  command
-      ->add_option(
-          "--shrink", options->shrink,
-          "reach: radius and reach are as given on the smallest mesh, and shrink as the edges of its "
-          "triangles do; all: so does the speed of motion")
-      ->type_name("WHAT");
+  add_value(*command, "--sizes", options->sizes, "N,N,...",
+            fmt::format("numbers of triangles; default: {}, with --quick {}", default_sizes, quick_sizes));
+  add_value(*command, "--limit-seconds", options->limit, "S",
+            "a contestant that took longer on a mesh is left out on larger ones");
+  add_value(*command, "--shrink", options->shrink, "WHAT",
+            "reach: radius and reach are as given on the smallest mesh, and shrink as the edges of its "
+            "triangles do; all: so does the speed of motion");
   command->add_flag(
       "--bodies", options->bodies,
       "scenes of 1 body and of each of the sizes instead, with motions still, one, drift and all");
   add_unit(*command, options->selectors.unit);
-  command->add_option("--out", options->out, "folder for results.csv, scaling.csv and run.json")
-      ->type_name("DIR");
+  add_value(*command, "--out", options->out, "DIR", "folder for results.csv, scaling.csv and run.json");
   command->add_flag("--quick", options->quick, "fewer sizes, steps and repetitions");
   add_worker_selectors(*command, options->workers);
   command->footer(

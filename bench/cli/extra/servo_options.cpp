@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <sched.h>
 
+#include "bench/cli/options.h"
 #include "bench/cli/program.h"
 #include "bench/cli/selector_options.h"
 #include "bench/experiments/proxy/methods.h"
@@ -48,8 +49,8 @@ void add_proxy_options(CLI::App& command, ServoOptions& options) {
       "--proxy", options.proxy,
       "a tick is the whole step of a proxy (touchmark proxy) that follows the trajectory, and not a query");
   for (const char* other : {"--query", "--reach", "--scene"}) stepped->excludes(command.get_option(other));
-  command.add_option("--method", options.method, "with --proxy: certified, the only one that servo steps")
-      ->type_name("M")
+  add_value(command, "--method", options.method, "M",
+            "with --proxy: certified, the only one that servo steps")
       ->needs(stepped);
   add_coupling(command, options.coupling);
   for (const char* name : {"--stiffness", "--friction", "--damping", "--shading"})
@@ -110,21 +111,16 @@ void add_servo_options(CLI::App& command, ProgramContext& context, ServoOptions&
       ->capture_default_str();
   command.get_option("--steps")->description(
       "of the trajectory, which is followed to and fro; default: a tick each, at most 20000");
-  command
-      .add_option("--seconds", options.seconds, "of each detector's ticks; its idle loop takes as long again")
-      ->type_name("S")
-      ->capture_default_str();
-  command.add_option("--load", options.load, "what the other cores do meanwhile: none, memory or cpu")
-      ->type_name("LOAD")
-      ->capture_default_str();
-  command.add_option("--work", options.work_us, "other work a tick on the same core, after the answer")
-      ->type_name("US")
-      ->capture_default_str();
+  add_value(command, "--seconds", options.seconds, "S",
+            "of each detector's ticks; its idle loop takes as long again");
+  add_value(command, "--load", options.load, "LOAD",
+            "what the other cores do meanwhile: none, memory or cpu");
+  add_value(command, "--work", options.work_us, "US", "other work a tick on the same core, after the answer");
   add_proxy_options(command, options);
-  command.add_option("--cpu", options.cpu, "the core of the loop; default: the last")->type_name("N");
+  add_value(command, "--cpu", options.cpu, "N", "the core of the loop; default: the last");
   add_unit(command, options.selectors.unit);
-  command.add_option("--out", options.out, "folder for servo.csv and run.json; scripts/plot draws them")
-      ->type_name("DIR");
+  add_value(command, "--out", options.out, "DIR",
+            "folder for servo.csv and run.json; scripts/plot draws them");
   add_worker_selectors(command, options.workers);
 }
 

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "bench/cli/extra/extra_commands.h"
+#include "bench/cli/options.h"
 #include "bench/cli/plugin_option.h"
 #include "bench/cli/report_files.h"
 #include "bench/cli/single_step.h"
@@ -185,30 +186,19 @@ void add_stress(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<StressOptions>();
   options->selectors.query = "all";
   CLI::App* command = add_command(program, "stress");
-  const auto repeatable = [&](const char* name, std::vector<std::string>& values, const char* what,
-                              const char* type) {
-    command->add_option(name, values, what)->type_name(type)->expected(1)->take_all();
-  };
-  repeatable(
-      "--detector", options->selectors.detectors,
-      "a contestant (touchmark list) as NAME[:key=value,...]; repeatable; default: those that verify asks",
-      "D");
+  add_list(
+      *command, "--detector", options->selectors.detectors, "D",
+      "a contestant (touchmark list) as NAME[:key=value,...]; repeatable; default: those that verify asks");
   add_plugins(*command, context, &options->selectors.detectors);
-  repeatable("--family", options->families, "one of those below; repeatable; default: all", "F");
+  add_list(*command, "--family", options->families, "F", "one of those below; repeatable; default: all");
   command->add_flag("--sweep", options->sweep_too,
                     "ask also for the first touch from each probe to the next, besides touches and nearest");
-  command->add_option("--probes", options->probes, "about how many a family")
-      ->type_name("N")
-      ->capture_default_str();
-  command->add_option("--seed", options->selectors.seed, "of all meshes and probes")
-      ->type_name("N")
-      ->capture_default_str();
-  command->add_option("--out", options->out, "folder for stress.csv and run.json; scripts/plot draws them")
-      ->type_name("DIR");
-  command
-      ->add_option("--repeat", options->repeat,
-                   "instead: the one answer that was told as wrong, as a row of touchmark query")
-      ->type_name("QUERY/MESH/COURSE/STEP");
+  add_value(*command, "--probes", options->probes, "N", "about how many a family");
+  add_value(*command, "--seed", options->selectors.seed, "N", "of all meshes and probes");
+  add_value(*command, "--out", options->out, "DIR",
+            "folder for stress.csv and run.json; scripts/plot draws them");
+  add_value(*command, "--repeat", options->repeat, "QUERY/MESH/COURSE/STEP",
+            "instead: the one answer that was told as wrong, as a row of touchmark query");
   add_junit(*command, options->reports);
   add_markdown(*command, options->reports);
   add_worker_selectors(*command, options->workers);

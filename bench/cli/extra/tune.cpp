@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "bench/cli/extra/extra_commands.h"
+#include "bench/cli/options.h"
 #include "bench/experiments/papers/frontier.h"
 #include "bench/experiments/papers/paper_options.h"
 #include "bench/experiments/papers/tuning.h"
@@ -172,36 +173,22 @@ int run(const TuneOptions& options) {
 void add_tune(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<TuneOptions>();
   CLI::App* command = add_command(program, "tune");
-  command->add_option("--mesh,mesh", options->mesh, "a scene (touchmark list) or a mesh file")
-      ->type_name("MESH")
+  add_value(*command, "--mesh,mesh", options->mesh, "MESH", "a scene (touchmark list) or a mesh file")
       ->required();
-  command->add_option("--rate", options->rate, "queries a second that 99 of 100 must be fast enough for")
-      ->type_name("HZ")
+  add_value(*command, "--rate", options->rate, "HZ",
+            "queries a second that 99 of 100 must be fast enough for")
       ->required();
-  command->add_option("--method", options->methods, "of subdivision, repeatable; without it ls3")
-      ->type_name("METHOD")
-      ->expected(1)
-      ->take_all();
-  command
-      ->add_option("--levels", options->levels, "up to how many; without it 3, and more while the rate holds")
-      ->type_name("N");
-  command
-      ->add_option(
-          "--reference", options->reference,
-          "what errors are measured against: a finer mesh of the same object, in the same place; without it "
-          "LS3's limit surface, or the mesh itself where it has sharp edges")
-      ->type_name("MESH");
-  command
-      ->add_option("--threshold", options->threshold,
-                   "only longer edges split: mesh units or % of the diagonal")
-      ->type_name("LENGTH")
-      ->capture_default_str();
-  command
-      ->add_option("--clustering", options->clusterings,
-                   "distance, repeatable; without it 0 and half to four times the paper's")
-      ->type_name("LENGTH")
-      ->expected(1)
-      ->take_all();
+  add_list(*command, "--method", options->methods, "METHOD", "of subdivision, repeatable; without it ls3");
+  add_value(*command, "--levels", options->levels, "N",
+            "up to how many; without it 3, and more while the rate holds");
+  add_value(
+      *command, "--reference", options->reference, "MESH",
+      "what errors are measured against: a finer mesh of the same object, in the same place; without it "
+      "LS3's limit surface, or the mesh itself where it has sharp edges");
+  add_value(*command, "--threshold", options->threshold, "LENGTH",
+            "only longer edges split: mesh units or % of the diagonal");
+  add_list(*command, "--clustering", options->clusterings, "LENGTH",
+           "distance, repeatable; without it 0 and half to four times the paper's");
   papers::add_paper_options(*command, options->common);
   command->footer(
       "Exit status 1: nothing tried holds the rate.\nExample: touchmark tune --rate 1000 --mesh bunny\n");

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "bench/cli/extra/extra_commands.h"
+#include "bench/cli/options.h"
 #include "bench/cli/selector_options.h"
 #include "bench/cli/worker_options.h"
 #include "bench/experiments/update/update_row.h"
@@ -131,13 +132,10 @@ void add_update(CLI::App& program, ProgramContext& context) {
   const auto options = std::make_shared<UpdateOptions>();
   CLI::App* command = add_command(program, "update");
   add_selectors(*command, context, options->selectors);
-  command
-      ->add_option("--shares", options->shares,
-                   "of the vertices that move: a dent for less than 100%, a wave through all for 100%")
-      ->type_name("S,S,...")
-      ->capture_default_str();
+  add_value(*command, "--shares", options->shares, "S,S,...",
+            "of the vertices that move: a dent for less than 100%, a wave through all for 100%");
   add_unit(*command, options->selectors.unit);
-  command->add_option("--out", options->out, "folder for update.csv and run.json")->type_name("DIR");
+  add_value(*command, "--out", options->out, "DIR", "folder for update.csv and run.json");
   add_worker_selectors(*command, options->workers);
   command->footer(
       "Updates and builds take turns, in a process for each contestant; afterwards its answers along the\n"

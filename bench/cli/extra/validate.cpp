@@ -1,16 +1,19 @@
 /// `touchmark validate`: are recorded results what they should be?
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "bench/cli/extra/extra_commands.h"
+#include "bench/cli/options.h"
 #include "bench/experiments/choose/choose_check.h"
 #include "bench/experiments/many/many_check.h"
 #include "bench/experiments/proxy/proxy_check.h"
@@ -87,22 +90,10 @@ std::string check_json(const std::string& path, validation::Faults& faults) {
   return "run";
 }
 
-bool is_stress_csv(const fs::path& path) { return path.filename() == "stress.csv"; }
-bool is_servo_csv(const fs::path& path) { return path.filename() == "servo.csv"; }
-bool is_choose_csv(const fs::path& path) { return path.filename() == "choose.csv"; }
-bool is_bodies_csv(const fs::path& path) { return path.filename() == "bodies.csv"; }
-bool is_many_csv(const fs::path& path) { return path.filename() == "many.csv"; }
-bool is_proxy_csv(const fs::path& path) { return path.filename() == "proxy.csv"; }
-bool is_suite_csv(const fs::path& path) { return path.filename() == "suite.csv"; }
-
-/// The run.json beside a results.csv, stress.csv, servo.csv, choose.csv, suite.csv or proxy.csv; its own
-/// faults are reported where it is checked itself.
+/// The run.json beside a table; its own faults are reported where it is checked itself.
 std::optional<validation::LocatedJson> run_next_to(const fs::path& path) {
   const fs::path run_path = path.parent_path() / "run.json";
-  if ((path.filename() != "results.csv" && !is_stress_csv(path) && !is_servo_csv(path) &&
-       !is_choose_csv(path) && !is_suite_csv(path) && !is_proxy_csv(path)) ||
-      !fs::exists(run_path))
-    return std::nullopt;
+  if (!fs::exists(run_path)) return std::nullopt;
   validation::Faults reported_elsewhere;
   std::optional<validation::LocatedJson> run = validation::read_located_json(run_path, reported_elsewhere);
   return run && run->value.is_object() ? std::move(run) : std::nullopt;
@@ -117,43 +108,38 @@ void check_servo_csv(const validation::CsvTable& table, const nlohmann::json* ru
   servo::check_servo(table, histogram ? &*histogram : nullptr, run, faults);
 }
 
+struct KnownTable {
+  std::string_view name;  ///< The file's, without .csv.
+  void (*check)(const validation::CsvTable& table, const nlohmann::json* run, validation::Faults& faults);
+};
+constexpr std::array<KnownTable, 7> known_tables{
+    {{"stress", stress::check_stress},
+     {"servo", check_servo_csv},
+     {"choose", choose::check_choose},
+     {"suite", suite::check_suite},
+     {"bodies",
+      [](const auto& table, auto*, auto& faults) { experiments::scaling::check_bodies(table, faults); }},
+     {"many", [](const auto& table, auto*, auto& faults) { many::check_many(table, faults); }},
+     {"proxy", proxy::check_proxy}}};
+
 std::string check_csv(const std::string& path, validation::Faults& faults) {
   const validation::CsvTable table = validation::read_csv_table(path, faults);
   validation::check_form(table, faults);
-  const std::optional<validation::LocatedJson> run = run_next_to(path);
-  const nlohmann::json* run_json = run ? &run->value : nullptr;
-  if (is_stress_csv(path)) {
-    stress::check_stress(table, run_json, faults);
-    return fmt::format("stress, {} rows", table.records.size());
-  }
-  if (is_servo_csv(path)) {
-    check_servo_csv(table, run_json, faults);
-    return fmt::format("servo, {} rows", table.records.size());
-  }
-  if (is_choose_csv(path)) {
-    choose::check_choose(table, run_json, faults);
-    return fmt::format("choose, {} rows", table.records.size());
-  }
-  if (is_suite_csv(path)) {
-    suite::check_suite(table, run_json, faults);
-    return fmt::format("suite, {} rows", table.records.size());
-  }
-  if (is_bodies_csv(path)) {
-    experiments::scaling::check_bodies(table, faults);
-    return fmt::format("bodies, {} rows", table.records.size());
-  }
-  if (is_many_csv(path)) {
-    many::check_many(table, faults);
-    return fmt::format("many, {} rows", table.records.size());
-  }
-  if (is_proxy_csv(path)) {
-    proxy::check_proxy(table, run_json, faults);
-    return fmt::format("proxy, {} rows", table.records.size());
-  }
+  const std::string file = fs::path(path).filename().string();
+  const auto* const known = std::ranges::find_if(
+      known_tables, [&](const KnownTable& one) { return file == fmt::format("{}.csv", one.name); });
+  const bool is_known = known != known_tables.end();
   const bool results =
-      fs::path(path).filename() == "results.csv" || table.has("run_id") || table.has("answers_checksum");
+      !is_known && (file == "results.csv" || table.has("run_id") || table.has("answers_checksum"));
+  const bool has_run = is_known || file == "results.csv";
+  const std::optional<validation::LocatedJson> run = has_run ? run_next_to(path) : std::nullopt;
+  const nlohmann::json* run_json = run ? &run->value : nullptr;
+  if (is_known) known->check(table, run_json, faults);
   if (results) validation::check_results(table, run_json, faults);
-  return fmt::format("{}, {} rows", results ? "results" : "another table, checked for its form only",
+  return fmt::format("{}, {} rows",
+                     is_known  ? known->name
+                     : results ? "results"
+                               : "another table, checked for its form only",
                      table.records.size());
 }
 
@@ -205,13 +191,10 @@ int validate(const std::vector<std::string>& paths) {
 void add_validate(CLI::App& program, ProgramContext& context) {
   const auto paths = std::make_shared<std::vector<std::string>>();
   CLI::App* command = add_command(program, "validate");
-  command
-      ->add_option(
-          "path", *paths,
-          "results.csv, stress.csv, servo.csv, choose.csv, suite.csv, proxy.csv, many.csv, bodies.csv, "
-          "run.json, steps.bin, visited.json, or folders that hold some; other CSV files are checked for "
-          "their form")
-      ->type_name("FILE|DIR")
+  add_value(*command, "path", *paths, "FILE|DIR",
+            "results.csv, stress.csv, servo.csv, choose.csv, suite.csv, proxy.csv, many.csv, bodies.csv, "
+            "run.json, steps.bin, visited.json, or folders that hold some; other CSV files are checked for "
+            "their form")
       ->required();
   command->footer(
       "Prints a line for each fault: file, line, column, value, and what is wrong. Exit status 1 if there is "
