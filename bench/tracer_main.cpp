@@ -16,6 +16,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bench/scenes/mesh_lists.h"
 #include "bench/support/raw_lists.h"
 #include "core/named/named_detector.h"
 #include "core/search/tracing.h"
@@ -114,17 +115,8 @@ Json visits_of(const NamedDetector& detector, const TriangleMesh& mesh, const Tr
   return steps;
 }
 
-TriangleMesh taken_mesh() {
-  const std::vector<double> coordinates = take_list<double>(stdin);
-  std::vector<Vec3> vertices;
-  for (std::size_t i = 0; i + 2 < coordinates.size(); i += 3) vertices.emplace_back(&coordinates[i]);
-  std::vector<TriangleMesh::Corners> triangles = take_list<TriangleMesh::Corners>(stdin);
-  std::vector<TriangleId> ids = take_list<TriangleId>(stdin);
-  return {std::move(vertices), std::move(triangles), std::move(ids)};
-}
-
 Json taken_and_traced() {
-  const TriangleMesh mesh = taken_mesh();
+  const TriangleMesh mesh = bench::scenes::take_mesh(stdin);
   Trace trace;
   trace.query = take_text(stdin);
   trace.steps = take_list<Question>(stdin);

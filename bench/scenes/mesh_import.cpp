@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/scenes/mesh_lists.h"
 #include "bench/support/own_process.h"
 #include "bench/support/raw_lists.h"
 #include "core/mesh_io_assimp/mesh_io_assimp.h"
@@ -28,22 +29,6 @@ support::ProcessLimits limits_for(const fs::path& path) {
   std::error_code ignored;
   const std::uintmax_t size = fs::is_regular_file(path, ignored) ? fs::file_size(path, ignored) : 0;
   return {std::max<std::uint64_t>(least, bytes_per_byte * size), std::chrono::seconds(60)};
-}
-
-void put_mesh(std::FILE* to, const TriangleMesh& mesh) {
-  support::put_number(to, mesh.vertices().size());
-  for (const Vec3& vertex : mesh.vertices()) std::fwrite(vertex.data(), sizeof(double), 3, to);
-  support::put_list(to, mesh.triangles());
-  support::put_list(to, mesh.ids());
-}
-
-TriangleMesh take_mesh(std::FILE* from) {
-  std::vector<Vec3> vertices(support::take_number(from));
-  for (Vec3& vertex : vertices)
-    if (std::fread(vertex.data(), sizeof(double), 3, from) != 3) throw MeshError("a mesh ends too early");
-  auto triangles = support::take_list<TriangleMesh::Corners>(from);
-  auto ids = support::take_list<TriangleId>(from);
-  return {std::move(vertices), std::move(triangles), std::move(ids)};
 }
 
 void put(std::FILE* to, const MeshFile& file) {
