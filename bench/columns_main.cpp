@@ -1,6 +1,7 @@
 /// Prints the columns of results.csv, or of suite.csv, proxy.csv, many.csv or bodies.csv where "suite",
 /// "proxy", "many" or "bodies" is the argument, as the table that scripts/docs puts into
 /// docs/reference/results-csv.md.
+#include <array>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -10,25 +11,21 @@
 #include "bench/experiments/scaling/body_row.h"
 #include "bench/experiments/suite/suite_csv.h"
 #include "bench/results/results_csv.h"
+#include "bench/support/names.h"
 
 namespace {
 
 namespace results = touchmark::bench::results;
 
-const char* text_of(results::Presence presence) {
-  switch (presence) {
-    case results::Presence::always:
-      return "every row";
-    case results::Presence::optional:
-      return "where it applies";
-    case results::Presence::judged:
-      return "status `ok`";
-    case results::Presence::built:
-      return "status `ok`, with times";
-    case results::Presence::timed:
-      return "only status `ok`, with times";
-  }
-  return "";
+constexpr std::array<touchmark::bench::support::Name<results::Presence>, 5> texts{
+    {{results::Presence::always, "every row"},
+     {results::Presence::optional, "where it applies"},
+     {results::Presence::judged, "status `ok`"},
+     {results::Presence::built, "status `ok`, with times"},
+     {results::Presence::timed, "only status `ok`, with times"}}};
+
+std::string_view text_of(results::Presence presence) {
+  return touchmark::bench::support::name_in(texts, presence);
 }
 
 std::string_view without_article(std::string_view text) {

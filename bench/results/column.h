@@ -3,10 +3,14 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "bench/support/numbers.h"
 #include "bench/support/table.h"
@@ -75,6 +79,40 @@ struct Column {
   Kind kind = kinds::any_text;
   std::string_view means = {};  ///< for the reference, in Markdown
 };
+
+/// What `write` makes of the value that `members` lead to, each a member or a function of the one before.
+/// Nothing where an optional on the way is empty.
+template <class Write, class Value, class... Members>
+std::string written(const Write& write, const Value& value, Members... members) {
+  if constexpr (requires { value.has_value(); }) {
+    return value ? written(write, *value, members...) : std::string();
+  } else if constexpr (sizeof...(Members) == 0) {
+    return write(value);
+  } else {
+    return [&](auto first, auto... rest) {
+      return written(write, std::invoke(first, value), rest...);
+    }(members...);
+  }
+}
+
+/// A column's text: names of enumerations, and numbers so that they read back the same.
+template <auto... Members, class Row>
+std::string text(const Row& row) {
+  const auto write = [](const auto& value) {
+    if constexpr (std::is_enum_v<std::remove_cvref_t<decltype(value)>>)
+      return std::string(name_of(value));
+    else
+      return fmt::format("{}", value);
+  };
+  return written(write, row, Members...);
+}
+
+/// Returns the same of a number with so many digits. Times have six: more than the clock has would be noise.
+template <int digits, auto... Members, class Row>
+std::string rounded(const Row& row) {
+  const auto write = [](auto value) { return fmt::format("{:.{}g}", static_cast<double>(value), digits); };
+  return written(write, row, Members...);
+}
 
 template <class Columns>
 std::vector<std::string> names_of(const Columns& columns) {

@@ -22,24 +22,6 @@ using U = measurement::UndisturbedTime;
 using W = measurement::WorkResult;
 using Row = const R&;
 
-// What a row has in a column. Times have six digits: more than the clock has would be noise.
-
-template <auto Member>
-std::string plain(Row row) {
-  return fmt::format("{}", row.*Member);
-}
-
-/// A member of an optional part of the row, written so that it reads back the same.
-template <auto Part, auto... Member>
-std::string exact(Row row) {
-  return row.*Part ? fmt::format("{}", (*(row.*Part).*....*Member)) : "";
-}
-
-template <auto Part, auto... Member>
-std::string six_digits(Row row) {
-  return row.*Part ? fmt::format("{:.6g}", (*(row.*Part).*....*Member)) : "";
-}
-
 template <auto Checksum>
 std::string hex(Row row) {
   return row.*Checksum ? support::hex(*(row.*Checksum)) : "";
@@ -67,7 +49,6 @@ std::string work_of(Row row) {
   return fmt::format("{:.6g}", static_cast<double>(row.work->total.*Member) / static_cast<double>(row.steps));
 }
 
-std::string query_of(Row row) { return std::string(workload::name_of(row.query)); }
 std::string guarantee_of(Row row) { return std::string(measurement::guarantee_name(row)); }
 std::string update_rate(Row row) {
   return row.throughput ? fmt::format("{:.6g}", 1e9 / row.throughput->ns_per_query) : "";
@@ -77,10 +58,6 @@ std::string decides_exactly(Row row) {
   return row.accuracy ? fmt::format("{:d}", row.accuracy->decides_exactly) : "";
 }
 
-template <auto Part>
-std::string samples_of(Row row) {
-  return row.*Part ? std::to_string((row.*Part)->samples) : "";
-}
 template <auto Part>
 std::string cold_p99(Row row) {
   return row.*Part && (row.*Part)->samples >= measurement::samples_for_p99
@@ -128,83 +105,83 @@ using namespace kinds;
 constexpr auto columns = std::to_array<Column<R>>({
     {"schema", [](Row) { return std::to_string(results_schema); }, always, one, "version of these columns"},
     {"run_id", nullptr, always, any_text, "ties the row to its [run.json](run-json.md)"},
-    {"detector", plain<&R::detector>, always, any_text, "the contestant's name, as `--detector` takes it"},
-    {"options", plain<&R::options>, optional, option_list,
+    {"detector", text<&R::detector>, always, any_text, "the contestant's name, as `--detector` takes it"},
+    {"options", text<&R::options>, optional, option_list,
      "the options that were written out, `key=value` joined by commas; the rest were at their defaults. "
      "Older recordings of `auto` also say what it chose"},
-    {"mesh", plain<&R::mesh>, always, any_text, "the scene's name or file, as `--mesh` took it"},
-    {"triangles", plain<&R::triangles>, always, whole_number, "number of triangles of the mesh"},
-    {"trajectory", plain<&R::trajectory>, always, any_text,
+    {"mesh", text<&R::mesh>, always, any_text, "the scene's name or file, as `--mesh` took it"},
+    {"triangles", text<&R::triangles>, always, whole_number, "number of triangles of the mesh"},
+    {"trajectory", text<&R::trajectory>, always, any_text,
      "the motion's name or file, as `--trajectory` took it"},
-    {"query", query_of, always, query,
+    {"query", text<&R::query>, always, query,
      "`touches`: is the distance at most the radius; `nearest`: the contact within the reach; `sweep`: the "
      "first touch along the straight line of a tick"},
-    {"steps", plain<&R::steps>, always, whole_number,
+    {"steps", text<&R::steps>, always, whole_number,
      "servo ticks replayed, timed and verified, each one query; a slow contestant gets fewer, so that all "
      "get about the same time: blocks of 32 drawn by phase (in contact, within 2 % of the diagonal of it, "
      "free), each phase in its share, at least two blocks of each, the same for the same seed"},
-    {"radius", plain<&R::radius>, always, length, "the probe's radius"},
-    {"reach", plain<&R::reach>, always, length, "how far `nearest` looks"},
+    {"radius", text<&R::radius>, always, length, "the probe's radius"},
+    {"reach", text<&R::reach>, always, length, "how far `nearest` looks"},
     {"guarantee", guarantee_of, judged, guarantee,
      "what the contestant claims: `exact`, `conservative` (never misses a contact, may report one too many)"
      " or `approximate`"},
-    {"missed", exact<&R::counts, &E::missed>, judged, whole_number,
+    {"missed", text<&R::counts, &E::missed>, judged, whole_number,
      "steps in contact by the oracle, and not by the contestant"},
-    {"false_contacts", exact<&R::counts, &E::false_contacts>, judged, whole_number,
+    {"false_contacts", text<&R::counts, &E::false_contacts>, judged, whole_number,
      "steps in contact by the contestant, and not by the oracle"},
-    {"wrong_triangle", exact<&R::counts, &E::wrong_triangle>, judged, whole_number,
+    {"wrong_triangle", text<&R::counts, &E::wrong_triangle>, judged, whole_number,
      "steps whose triangle is not one of the nearest, or, of a contestant that claims to name it, not the "
      "first of the exactly nearest"},
-    {"max_distance_error", exact<&R::counts, &E::max_distance_error>, judged, length,
+    {"max_distance_error", text<&R::counts, &E::max_distance_error>, judged, length,
      "largest difference between reported and true distance"},
-    {"max_distance_error_ulp", exact<&R::counts, &E::max_distance_error_ulp>, judged, length,
+    {"max_distance_error_ulp", text<&R::counts, &E::max_distance_error_ulp>, judged, length,
      "the same in units of the true distance's last place"},
-    {"max_normal_angle_deg", exact<&R::counts, &E::max_normal_angle_deg>, judged, angle,
+    {"max_normal_angle_deg", text<&R::counts, &E::max_normal_angle_deg>, judged, angle,
      "largest angle between reported and true normal"},
-    {"unresolved", exact<&R::counts, &E::unresolved>, judged, whole_number,
+    {"unresolved", text<&R::counts, &E::unresolved>, judged, whole_number,
      "steps where the truth is within the contestant's declared accuracy of the threshold: neither right "
      "nor wrong; 0 for ours, which decide `touches` and `nearest` exactly"},
-    {"status", plain<&R::status>, always, row_status,
+    {"status", text<&R::status>, always, row_status,
      "`ok`; `unsupported`: it does not answer this query; `refused: ...`: it would not build, and why; "
      "`crashed:SIGSEGV` and the like; `timeout`; `skipped: ...`: `touchmark scale` left it out, because it "
      "took too long, or failed, on a smaller mesh; `checksum mismatch`: timed answers differ from the "
      "verified ones"},
-    {"ns_per_query", six_digits<&R::throughput, &T::ns_per_query>, timed, positive,
+    {"ns_per_query", rounded<6, &R::throughput, &T::ns_per_query>, timed, positive,
      "time of a query, elapsed, over these steps; the median of the repetitions. Over a scene the placing of "
      "what moved before it is in it, as it is not in `ns_p50` to `ns_max`. Other work on the machine "
      "moves it: compare `ns_undisturbed`"},
-    {"ns_p50", six_digits<&R::latency, &L::p50>, timed, finite,
+    {"ns_p50", rounded<6, &R::latency, &L::p50>, timed, finite,
      "half of the steps took at most this, each clocked alone, the clock's own cost included; of several "
      "passes each step counts with its median, so that one interruption by the system is not the detector's"},
-    {"ns_p90", six_digits<&R::latency, &L::p90>, timed, finite, "90 % of the steps took at most this"},
-    {"ns_p99", six_digits<&R::latency, &L::p99>, timed, finite, "99 % of the steps took at most this"},
+    {"ns_p90", rounded<6, &R::latency, &L::p90>, timed, finite, "90 % of the steps took at most this"},
+    {"ns_p99", rounded<6, &R::latency, &L::p99>, timed, finite, "99 % of the steps took at most this"},
     {"ns_p999", p999_in<&R::latency>, optional, finite,
      "99.9 % of the steps took at most this; empty below 1,000 steps"},
-    {"ns_max", six_digits<&R::latency, &L::max>, timed, finite, "time of the slowest step"},
+    {"ns_max", rounded<6, &R::latency, &L::max>, timed, finite, "time of the slowest step"},
     {"update_rate_hz", update_rate, timed, positive, "queries a second: 1e9 / `ns_per_query`"},
     {"deadline_misses_1khz", misses_of<0>, timed, whole_number, "steps that took more than 1 ms"},
     {"longest_miss_run_1khz", longest_run_of<0>, timed, whole_number, "longest run of such steps"},
-    {"build_ms", six_digits<&R::build_ms>, built, finite,
+    {"build_ms", rounded<6, &R::build_ms>, built, finite,
      "time from the mesh in memory to a detector that can answer"},
-    {"first_answer_ms", six_digits<&R::first_answer_ms>, built, finite,
+    {"first_answer_ms", rounded<6, &R::first_answer_ms>, built, finite,
      "time of building and answering the first query"},
-    {"bytes", exact<&R::bytes>, judged, whole_number,
+    {"bytes", text<&R::bytes>, judged, whole_number,
      "size of the structure by its own count, its copy of the mesh included"},
-    {"heap_bytes", exact<&R::heap_bytes>, built, whole_number,
+    {"heap_bytes", text<&R::heap_bytes>, built, whole_number,
      "by how much the process's heap grew during the build"},
-    {"work_mean", six_digits<&R::work, &W::mean>, optional, finite,
+    {"work_mean", rounded<6, &R::work, &W::mean>, optional, finite,
      "cells, spheres, boxes and triangles looked at in a step, on average: the same on every machine, and "
      "with `build=lazy` those of the first queries; of rivals only what passes through our code is counted,"
      " which is triangles and no boxes of theirs"},
-    {"work_max", exact<&R::work, &W::max>, optional, whole_number, "the most of these in one step"},
-    {"repetitions", exact<&R::throughput, &T::repetitions>, timed, positive_count,
+    {"work_max", text<&R::work, &W::max>, optional, whole_number, "the most of these in one step"},
+    {"repetitions", text<&R::throughput, &T::repetitions>, timed, positive_count,
      "how often the steps were replayed for `ns_per_query`"},
     // Appended to schema 1.
-    {"ns_per_query_min", six_digits<&R::throughput, &T::ns_per_query_min>, timed, positive,
+    {"ns_per_query_min", rounded<6, &R::throughput, &T::ns_per_query_min>, timed, positive,
      "the fastest repetition"},
-    {"ns_per_query_mad", six_digits<&R::throughput, &T::ns_per_query_mad>, timed, finite,
+    {"ns_per_query_mad", rounded<6, &R::throughput, &T::ns_per_query_mad>, timed, finite,
      "the median distance of repetitions from their median: small beside `ns_per_query` on a quiet machine"},
-    {"ns_per_query_first_pass", six_digits<&R::throughput, &T::ns_per_query_first_pass>, timed, positive,
+    {"ns_per_query_first_pass", rounded<6, &R::throughput, &T::ns_per_query_first_pass>, timed, positive,
      "time of a query with a fresh session, when other contestants have used the caches meanwhile; a "
      "detector with `build=lazy` is built anew just before, so that what its first queries make is in it"},
     {"deadline_misses_4khz", misses_of<1>, timed, whole_number, "steps that took more than 0.25 ms"},
@@ -212,18 +189,18 @@ constexpr auto columns = std::to_array<Column<R>>({
     {"deadline_misses_10khz", misses_of<2>, timed, whole_number, "steps that took more than 0.1 ms"},
     {"longest_miss_run_10khz", longest_run_of<2>, timed, whole_number, "longest run of such steps"},
     {"clock_cost_ns", clock_cost, timed, finite, "cost of reading the clock: a part of every clocked step"},
-    {"max_distance_error_of_diagonal", exact<&R::counts, &E::max_distance_error_of_diagonal>, judged, length,
+    {"max_distance_error_of_diagonal", text<&R::counts, &E::max_distance_error_of_diagonal>, judged, length,
      "`max_distance_error` over the diagonal of the mesh's box"},
-    {"beyond_bound", exact<&R::counts, &E::beyond_bound>, judged, whole_number,
+    {"beyond_bound", text<&R::counts, &E::beyond_bound>, judged, whole_number,
      "steps whose distance is off by more than the contestant declares, or, where it declares nothing, than"
      " 1e-6 of the diagonal; triangle, point and normal are held to the same"},
-    {"wrong_point", exact<&R::counts, &E::wrong_point>, judged, whole_number,
+    {"wrong_point", text<&R::counts, &E::wrong_point>, judged, whole_number,
      "steps whose point is off by more than the same"},
-    {"wrong_normal", exact<&R::counts, &E::wrong_normal>, judged, whole_number,
+    {"wrong_normal", text<&R::counts, &E::wrong_normal>, judged, whole_number,
      "steps whose normal is off by more than the same"},
-    {"malformed", exact<&R::counts, &E::malformed>, judged, whole_number,
+    {"malformed", text<&R::counts, &E::malformed>, judged, whole_number,
      "answers with NaN, infinity or a negative distance in them"},
-    {"cpu_ns_per_query", six_digits<&R::throughput, &T::cpu_ns_per_query>, timed, finite,
+    {"cpu_ns_per_query", rounded<6, &R::throughput, &T::cpu_ns_per_query>, timed, finite,
      "processor time of a query, without what other processes took of the core; all of the time where the"
      " contestant waits, for a thread, process or device of its own"},
     {"answers_checksum", hex<&R::checksum>, judged, checksum,
@@ -234,55 +211,55 @@ constexpr auto columns = std::to_array<Column<R>>({
     {"boxes_mean", work_of<&Work::boxes>, optional, finite, "boxes looked at in a step, likewise"},
     {"triangles_mean", work_of<&Work::triangles>, optional, finite,
      "triangles looked at in a step, likewise"},
-    {"exact_decisions", exact<&R::work, &W::total, &Work::exact_decisions>, optional, whole_number,
+    {"exact_decisions", text<&R::work, &W::total, &Work::exact_decisions>, optional, whole_number,
      "how often, over all steps, doubles of one word and of two left the answer open and whole numbers "
      "decided"},
     {"decides_exactly", decides_exactly, judged, bit,
      "1: contact is decided for the true distance of the stored doubles, closed, without any tolerance"},
-    {"stored_missed", exact<&R::rounded_scene_counts, &E::missed>, optional, whole_number,
+    {"stored_missed", text<&R::rounded_scene_counts, &E::missed>, optional, whole_number,
      "contacts missed by the scene as the contestant stores it, in single precision: what is left of them "
      "is not due to storing. Empty where it decides by the given doubles"},
-    {"stored_false_contacts", exact<&R::rounded_scene_counts, &E::false_contacts>, optional, whole_number,
+    {"stored_false_contacts", text<&R::rounded_scene_counts, &E::false_contacts>, optional, whole_number,
      "contacts made up, likewise"},
     {"stored_max_distance_error_of_diagonal",
-     exact<&R::rounded_scene_counts, &E::max_distance_error_of_diagonal>, optional, length,
+     text<&R::rounded_scene_counts, &E::max_distance_error_of_diagonal>, optional, length,
      "the largest error of a distance, likewise"},
-    {"wrong_side", exact<&R::counts, &E::wrong_side>, judged, whole_number,
+    {"wrong_side", text<&R::counts, &E::wrong_side>, judged, whole_number,
      "`nearest` with the option `side=on`, closed meshes: steps said to be inside, outside or on the "
      "surface that are not; `undecided` is never wrong"},
-    {"prepare_ns_p50", six_digits<&R::prepare, &L::p50>, optional, finite,
+    {"prepare_ns_p50", rounded<6, &R::prepare, &L::p50>, optional, finite,
      "with the option `prepare=true`: what was done after an answer for the next one is clocked apart, and "
      "half of these parts took at most this. It is in `ns_per_query` and the work, and not in `ns_p50` to "
      "`ns_max`"},
     {"prepare_ns_p999", p999_in<&R::prepare>, optional, finite,
      "99.9 % of these parts took at most this; empty below 1,000 steps"},
-    {"prepare_ns_max", six_digits<&R::prepare, &L::max>, optional, finite,
+    {"prepare_ns_max", rounded<6, &R::prepare, &L::max>, optional, finite,
      "time of the slowest of these parts"},
-    {"ns_undisturbed", six_digits<&R::throughput, &T::undisturbed, &U::ns>, timed, positive,
+    {"ns_undisturbed", rounded<6, &R::throughput, &T::undisturbed, &U::ns>, timed, positive,
      "time of a query where nothing interrupts it, the mean over the whole trajectory: what the table, the "
      "verdict and the plots rank by. The steps are timed in pieces of about 0.5 ms, again and again, a "
      "sample being the shorter of elapsed and processor time; each piece counts with the 15 % quantile of "
      "its samples, and where `steps` are a sample, each phase with its share of the trajectory"},
-    {"ns_undisturbed_low", six_digits<&R::throughput, &T::undisturbed, &U::low>, timed, positive,
+    {"ns_undisturbed_low", rounded<6, &R::throughput, &T::undisturbed, &U::low>, timed, positive,
      "lower end of the 95 % interval of `ns_undisturbed`, by bootstrap over the repetitions, and over the "
      "blocks where `steps` are a sample. What differs from process to process comes on top: see the control"
      " in `run.json`"},
-    {"ns_undisturbed_high", six_digits<&R::throughput, &T::undisturbed, &U::high>, timed, positive,
+    {"ns_undisturbed_high", rounded<6, &R::throughput, &T::undisturbed, &U::high>, timed, positive,
      "upper end of this interval"},
-    {"disturbed_share", six_digits<&R::throughput, &T::disturbed_share>, timed, share,
+    {"disturbed_share", rounded<6, &R::throughput, &T::disturbed_share>, timed, share,
      "the share of the samples of `ns_undisturbed` that took over 1.2 times their processor time"},
     {"decisions_checksum", hex<&R::decisions_checksum>, optional, checksum,
      "checksum of contact or none, and for `nearest` of the triangle: all who claim exactness have the same"
      " one for the same steps. Empty for others, and for those that name any of several triangles equally "
      "near"},
-    {"judged", exact<&R::counts, &E::judged>, judged, whole_number, "answers that the oracle judged"},
-    {"beyond_tolerance", exact<&R::counts, &E::beyond_tolerance>, judged, whole_number,
+    {"judged", text<&R::counts, &E::judged>, judged, whole_number, "answers that the oracle judged"},
+    {"beyond_tolerance", text<&R::counts, &E::beyond_tolerance>, judged, whole_number,
      "steps whose distance is off by more than 1e-6 of the diagonal of the mesh's box, whatever is "
      "declared: 0.2 micrometres on an object of 20 cm, where haptic devices resolve 1 to 55"},
-    {"rounding", exact<&R::counts, &E::rounding>, judged, whole_number,
+    {"rounding", text<&R::counts, &E::rounding>, judged, whole_number,
      "steps whose distance is off by less than that, and by more than arithmetic in double must be: 48 "
      "roundings of the largest coordinate difference"},
-    {"cold_l2_ns_p50", six_digits<&R::cold_l2, &C::p50>, optional, positive,
+    {"cold_l2_ns_p50", rounded<6, &R::cold_l2, &C::p50>, optional, positive,
      "with `--cold`: half of the queries took at most this after as much as twice the second-level cache was "
      "walked over; runs of five steps, those before a run answered unclocked first, the clock's own cost "
      "and misses included"},
@@ -290,20 +267,20 @@ constexpr auto columns = std::to_array<Column<R>>({
      "99 % of these took at most this; empty below 100 samples"},
     {"cold_l2_ns_p999", cold_l2_p999, optional, positive,
      "99.9 % of these took at most this; empty below 1,000 samples"},
-    {"cold_ns_p50", six_digits<&R::cold, &C::p50>, optional, positive,
+    {"cold_ns_p50", rounded<6, &R::cold, &C::p50>, optional, positive,
      "with `--cold`: half of the queries took at most this after as much as twice the last-level cache was "
      "walked over"},
     {"cold_ns_p99", cold_p99<&R::cold>, optional, positive,
      "99 % of these took at most this; empty below 100 samples"},
-    {"cold_ns_max", six_digits<&R::cold, &C::max>, optional, positive, "time of the slowest of these"},
-    {"cold_l2_samples", samples_of<&R::cold_l2>, optional, kinds::positive_count,
+    {"cold_ns_max", rounded<6, &R::cold, &C::max>, optional, positive, "time of the slowest of these"},
+    {"cold_l2_samples", text<&R::cold_l2, &C::samples>, optional, kinds::positive_count,
      "how many queries `cold_l2_ns_*` are of: as many as there was time for"},
-    {"cold_samples", samples_of<&R::cold>, optional, kinds::positive_count,
+    {"cold_samples", text<&R::cold, &C::samples>, optional, kinds::positive_count,
      "how many queries `cold_ns_*` are of: as many as there was time for"},
-    {"data_lines", six_digits<&R::lines, &N::data>, optional, positive,
+    {"data_lines", rounded<6, &R::lines, &N::data>, optional, positive,
      "with `--cache-lines`: cache lines of data that a query touches, on average, with what it prepares; "
      "valgrind counts them in samples of the steps, without AVX-512, which it does not know"},
-    {"code_lines", six_digits<&R::lines, &N::code>, optional, positive, "cache lines of code, likewise"},
+    {"code_lines", rounded<6, &R::lines, &N::code>, optional, positive, "cache lines of code, likewise"},
     {"source", [](Row) { return std::string(); }, optional, any_text,
      "in what `touchmark merge` writes: the job's file that the row is from, and the code of the machine "
      "that ran it, as `--machine` takes it"},

@@ -7,6 +7,7 @@
 
 #include "bench/experiments/many/many_workload.h"
 #include "bench/support/grouping.h"
+#include "bench/support/names.h"
 #include "bench/support/table.h"
 
 namespace touchmark::bench::experiments::many {
@@ -15,14 +16,9 @@ namespace {
 using Row = const ManyRow&;
 using R = ManyRow;
 
-constexpr std::array<std::pair<AskOrder, std::string_view>, 3> orders{
+constexpr std::array<support::Name<AskOrder>, 3> orders{
     {{AskOrder::automatic, "automatic"}, {AskOrder::as_given, "as-given"}, {AskOrder::curve, "curve"}}};
 
-template <auto Member>
-std::string plain(Row row) {
-  return fmt::format("{}", row.*Member);
-}
-std::string ratio(Row row) { return row.embree_ratio ? fmt::format("{:.4g}", *row.embree_ratio) : ""; }
 std::string points_per_second(Row row) { return fmt::format("{:.4g}", 1e9 / row.ns_per_point); }
 std::string us_per_call(Row row) {
   return fmt::format("{:.4g}", row.ns_per_point * 1e-3 * static_cast<double>(row.points));
@@ -32,7 +28,7 @@ bool is_kind(std::string_view text) { return kind_named(text).has_value(); }
 bool is_order(std::string_view text) { return order_named(text).has_value(); }
 bool is_status(std::string_view text) { return text == "ok" || text == "wrong"; }
 
-using results::Presence, results::Kind;
+using results::Presence, results::Kind, results::text, results::rounded;
 using results::kinds::any_text, results::kinds::one, results::kinds::positive, results::kinds::positive_count,
     results::kinds::whole_number;
 constexpr Presence always = Presence::always, optional = Presence::optional;
@@ -42,47 +38,41 @@ constexpr Kind kind{is_kind, "one of coherent, incoherent, pointshell, pointshel
 // The order is the contract.
 constexpr auto columns = std::to_array<results::Column<R>>({
     {"schema", [](Row) { return std::to_string(many_schema); }, always, one, "1."},
-    {"detector", plain<&R::detector>, always, any_text, "The contestant."},
-    {"options", plain<&R::options>, optional, any_text, "As results.csv has them."},
-    {"mesh", plain<&R::mesh>, always, any_text, "The scene or the file's name."},
-    {"triangles", plain<&R::triangles>, always, positive_count, "How many the mesh has."},
-    {"kind", plain<&R::kind>, always, kind, "Which points, as `touchmark many --help` explains them."},
-    {"points", plain<&R::points>, always, positive_count, "How many a call asks of."},
-    {"calls", plain<&R::calls>, always, positive_count, "One, or as many as a pointshell has ticks."},
-    {"reach", plain<&R::reach>, always, positive, "Mesh units."},
-    {"threads", plain<&R::threads>, always, positive_count,
+    {"detector", text<&R::detector>, always, any_text, "The contestant."},
+    {"options", text<&R::options>, optional, any_text, "As results.csv has them."},
+    {"mesh", text<&R::mesh>, always, any_text, "The scene or the file's name."},
+    {"triangles", text<&R::triangles>, always, positive_count, "How many the mesh has."},
+    {"kind", text<&R::kind>, always, kind, "Which points, as `touchmark many --help` explains them."},
+    {"points", text<&R::points>, always, positive_count, "How many a call asks of."},
+    {"calls", text<&R::calls>, always, positive_count, "One, or as many as a pointshell has ticks."},
+    {"reach", text<&R::reach>, always, positive, "Mesh units."},
+    {"threads", text<&R::threads>, always, positive_count,
      "How many threads asked, the caller's one of them."},
     {"order", [](Row row) { return std::string(name_of(row.order)); }, always, order,
      "The order of asking: along a curve, as given, or which of them is better."},
-    {"rounds", plain<&R::rounds>, always, positive_count,
+    {"rounds", text<&R::rounds>, always, positive_count,
      "All calls once, beginning with nothing known; timed."},
     {"points_per_second", points_per_second, always, positive, "1e9 / `ns_per_point`."},
-    {"ns_per_point", [](Row row) { return fmt::format("{:.4g}", row.ns_per_point); }, always, positive,
+    {"ns_per_point", rounded<4, &R::ns_per_point>, always, positive,
      "Of all threads together, the median of the rounds; processor time of a single thread."},
     {"us_per_call", us_per_call, always, positive, "`ns_per_point` times `points`."},
-    {"embree_time_over_this", ratio, optional, positive,
+    {"embree_time_over_this", rounded<4, &R::embree_ratio>, optional, positive,
      "Embree's time over this one's in the same round, the median of the rounds; above 1 this one is "
      "faster."},
-    {"answered", plain<&R::answered>, always, whole_number,
+    {"answered", text<&R::answered>, always, whole_number,
      "Points of all calls with something within reach."},
-    {"differing", plain<&R::differing>, always, whole_number,
+    {"differing", text<&R::differing>, always, whole_number,
      "Answers that are not as `aabb-tree`, asked one by one, has them: to the last bit, or to what is "
      "claimed."},
-    {"status", plain<&R::status>, always, status, "`wrong` where `differing` is above 0."},
+    {"status", text<&R::status>, always, status, "`wrong` where `differing` is above 0."},
 });
 
 }  // namespace
 
-std::string_view name_of(AskOrder order) noexcept {
-  for (const auto& [one, name] : orders)
-    if (one == order) return name;
-  return "";
-}
+std::string_view name_of(AskOrder order) noexcept { return support::name_in(orders, order); }
 
 std::optional<AskOrder> order_named(std::string_view text) noexcept {
-  for (const auto& [order, name] : orders)
-    if (name == text) return order;
-  return std::nullopt;
+  return support::value_in<AskOrder>(orders, text);
 }
 
 std::span<const results::Column<ManyRow>> many_columns() { return columns; }
@@ -97,8 +87,8 @@ std::string many_table(const std::vector<ManyRow>& rows) {
                           "Embree's time /", "in reach", "status"});
     for (const ManyRow* row : of_kind)
       table.add({row->contestant(), std::to_string(row->threads), std::string(name_of(row->order)),
-                 points_per_second(*row), fmt::format("{:.4g}", row->ns_per_point), us_per_call(*row),
-                 ratio(*row), std::to_string(row->answered), row->status});
+                 points_per_second(*row), rounded<4, &R::ns_per_point>(*row), us_per_call(*row),
+                 rounded<4, &R::embree_ratio>(*row), std::to_string(row->answered), row->status});
     text += fmt::format("\n{}, {}: {} calls of {} points within {:.4g}\n{}", first.mesh, kind, first.calls,
                         first.points, first.reach, table.text());
   }

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "bench/support/names.h"
 #include "bench/support/random.h"
 #include "bench/trajectories/surface.h"
 #include "bench/trajectories/trajectories.h"
@@ -14,11 +15,10 @@ namespace {
 
 using trajectories::Surface, trajectories::SurfacePoint;
 
-constexpr std::array<std::pair<Kind, std::string_view>, 4> names{
-    {{Kind::coherent, "coherent"},
-     {Kind::incoherent, "incoherent"},
-     {Kind::pointshell, "pointshell"},
-     {Kind::pointshell_close, "pointshell-close"}}};
+constexpr std::array<support::Name<Kind>, 4> names{{{Kind::coherent, "coherent"},
+                                                    {Kind::incoherent, "incoherent"},
+                                                    {Kind::pointshell, "pointshell"},
+                                                    {Kind::pointshell_close, "pointshell-close"}}};
 
 std::vector<Vec3> within_reach(const Surface& surface, double reach, std::size_t count,
                                support::Random& random) {
@@ -76,16 +76,10 @@ std::vector<std::vector<Vec3>> shaken(const std::vector<Vec3>& body, const Vec3&
 
 }  // namespace
 
-std::string_view name_of(Kind kind) noexcept {
-  for (const auto& [one, name] : names)
-    if (one == kind) return name;
-  return "";
-}
+std::string_view name_of(Kind kind) noexcept { return support::name_in(names, kind); }
 
 std::optional<Kind> kind_named(std::string_view text) noexcept {
-  for (const auto& [kind, name] : names)
-    if (name == text) return kind;
-  return std::nullopt;
+  return support::value_in<Kind>(names, text);
 }
 
 Workload make_workload(Kind kind, const TriangleMesh& mesh, double reach, const WorkloadSizes& sizes,

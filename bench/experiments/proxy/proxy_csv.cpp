@@ -10,15 +10,6 @@ namespace {
 
 using S = const Score&;
 
-template <auto Member>
-std::string counted(S score) {
-  return fmt::format("{}", score.tally.*Member);
-}
-template <auto Member>
-std::string plain(S score) {
-  return fmt::format("{}", score.*Member);
-}
-
 std::string per_tick(std::uint64_t count, std::uint64_t ticks) {
   return ticks > 0 ? fmt::format("{:.6g}", static_cast<double>(count) / static_cast<double>(ticks)) : "";
 }
@@ -40,6 +31,7 @@ constexpr results::Kind ball_or_point{[](std::string_view text) { return text ==
 using T = Tally;
 using enum results::Presence;
 using namespace results::kinds;
+using results::text;
 
 // The order is the contract.
 constexpr auto columns = std::to_array<results::Column<Score>>({
@@ -47,33 +39,33 @@ constexpr auto columns = std::to_array<results::Column<Score>>({
     {"run_id", nullptr, always, any_text, "As in run.json."},
     {"method", [](S score) { return std::string(score.method.info->name); }, always, any_text, "The algorithm."},
     {"options", [](S score) { return score.method.options; }, optional, any_text, "As they were typed."},
-    {"detector", plain<&Score::detector>, optional, any_text, "Which of ours answers a method that claims never to cross."},
-    {"family", plain<&Score::family>, always, any_text, "As `touchmark proxy --help` lists them, or the mesh."},
+    {"detector", text<&Score::detector>, optional, any_text, "Which of ours answers a method that claims never to cross."},
+    {"family", text<&Score::family>, always, any_text, "As `touchmark proxy --help` lists them, or the mesh."},
     {"probe", [](S score) { return std::string(score.point ? "point" : "ball"); }, always, ball_or_point,
      "`ball`: the courses of this family with a radius; `point`: those without."},
-    {"courses", plain<&Score::courses>, always, positive_count, "Meshes with a motion each."},
-    {"ticks", counted<&T::ticks>, always, whole_number, "Steps of the servo loop."},
-    {"pieces", counted<&T::pieces>, always, whole_number, "Straight pieces of the proxy's way."},
-    {"crossings", counted<&T::crossings>, always, whole_number,
+    {"courses", text<&Score::courses>, always, positive_count, "Meshes with a motion each."},
+    {"ticks", text<&Score::tally, &T::ticks>, always, whole_number, "Steps of the servo loop."},
+    {"pieces", text<&Score::tally, &T::pieces>, always, whole_number, "Straight pieces of the proxy's way."},
+    {"crossings", text<&Score::tally, &T::crossings>, always, whole_number,
      "Ticks whose way has a point in common with a triangle, sides and corners included; exact."},
-    {"pops", counted<&T::pops>, always, whole_number,
+    {"pops", text<&Score::tally, &T::pops>, always, whole_number,
      "Ticks that come out at the other side, beyond a billionth of the diagonal: what a hand feels as falling "
      "through."},
-    {"violations", counted<&T::violations>, always, whole_number,
+    {"violations", text<&Score::tally, &T::violations>, always, whole_number,
      "Ticks whose way comes nearer to the surface than the radius; exact."},
-    {"max_shortfall_m", counted<&T::max_shortfall>, always, finite, "By how much, at the end of a tick."},
-    {"missed_goals", counted<&T::missed_goals>, always, whole_number,
+    {"max_shortfall_m", text<&Score::tally, &T::max_shortfall>, always, finite, "By how much, at the end of a tick."},
+    {"missed_goals", text<&Score::tally, &T::missed_goals>, always, whole_number,
      "Ticks that end off their goal though the straight way to it was free; exact."},
-    {"contact_ticks", counted<&T::contact_ticks>, always, whole_number, "Ticks that say they are in contact."},
-    {"stuck_ticks", counted<&T::stuck_ticks>, always, whole_number,
+    {"contact_ticks", text<&Score::tally, &T::contact_ticks>, always, whole_number, "Ticks that say they are in contact."},
+    {"stuck_ticks", text<&Score::tally, &T::stuck_ticks>, always, whole_number,
      "Ticks that say they started inside or are squeezed."},
-    {"unanswered", counted<&T::unanswered>, always, whole_number, "Ticks without an answer."},
-    {"rest_ticks", counted<&T::rest_ticks>, always, whole_number, "Ticks whose goal has rested for more than ten."},
-    {"jitters", counted<&T::jitters>, always, whole_number, "Of these, ticks at which a bit of the proxy changed."},
-    {"optimum_ticks", counted<&T::optimum_ticks>, always, whole_number,
+    {"unanswered", text<&Score::tally, &T::unanswered>, always, whole_number, "Ticks without an answer."},
+    {"rest_ticks", text<&Score::tally, &T::rest_ticks>, always, whole_number, "Ticks whose goal has rested for more than ten."},
+    {"jitters", text<&Score::tally, &T::jitters>, always, whole_number, "Of these, ticks at which a bit of the proxy changed."},
+    {"optimum_ticks", text<&Score::tally, &T::optimum_ticks>, always, whole_number,
      "Ticks whose constrained optimum is unique and known."},
     {"max_optimum_error_m",
-     [](S score) { return score.tally.optimum_ticks > 0 ? counted<&T::max_optimum_error>(score) : std::string(); },
+     [](S score) { return score.tally.optimum_ticks > 0 ? text<&Score::tally, &T::max_optimum_error>(score) : std::string(); },
      optional, finite, "The proxy's largest distance from that optimum."},
     {"mean_optimum_error_m",
      [](S score) {
@@ -83,9 +75,9 @@ constexpr auto columns = std::to_array<results::Column<Score>>({
                   : std::string();
      },
      optional, finite, "Its mean distance from that optimum."},
-    {"max_force_jump_n", counted<&T::max_force_jump>, always, finite,
+    {"max_force_jump_n", text<&Score::tally, &T::max_force_jump>, always, finite,
      "By how much a tick's change of force exceeded stiffness times the goal's motion, in N."},
-    {"max_energy_j", counted<&T::max_energy>, always, finite,
+    {"max_energy_j", text<&Score::tally, &T::max_energy>, always, finite,
      "The most energy that the device got over one closed turn of the goal, in J."},
     {"work_per_tick", [](S score) { return per_tick(score.tally.work, score.tally.ticks); }, optional, finite,
      "Triangles, boxes and whatever else was looked at."},
@@ -95,7 +87,7 @@ constexpr auto columns = std::to_array<results::Column<Score>>({
     {"query_p50_ns", bare_percentile<500>, optional, whole_number,
      "The bare `nearest` of the same detector, without a limit of reach, at the same goals between the ticks."},
     {"query_p999_ns", bare_percentile<999>, optional, whole_number, ""},
-    {"stopped_short", counted<&T::stopped_short>, always, whole_number,
+    {"stopped_short", text<&Score::tally, &T::stopped_short>, always, whole_number,
      "Ticks that end off their goal though straight on towards it a thousandth of the radius, or for a point a "
      "millionth of the diagonal, was free, and more than 2^-32 of the coordinates; exact."},
 });

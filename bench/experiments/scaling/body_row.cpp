@@ -14,20 +14,7 @@ namespace {
 using Row = const BodyRow&;
 using R = BodyRow;
 
-template <auto Member>
-std::string plain(Row row) {
-  return fmt::format("{}", row.*Member);
-}
-template <auto Member>
-std::string rounded(Row row) {
-  return fmt::format("{:.4g}", row.*Member);
-}
-template <auto Member>
-std::string optional_number(Row row) {
-  return row.*Member ? fmt::format("{:.4g}", *(row.*Member)) : "";
-}
-
-using results::Presence, results::Kind;
+using results::Presence, results::Kind, results::text, results::rounded;
 using results::kinds::any_text, results::kinds::finite, results::kinds::one, results::kinds::positive,
     results::kinds::positive_count, results::kinds::whole_number;
 constexpr Presence always = Presence::always, optional = Presence::optional;
@@ -37,47 +24,45 @@ constexpr Kind place{[](std::string_view text) { return text == "free" || text =
 // The order is the contract.
 constexpr auto columns = std::to_array<results::Column<R>>({
     {"schema", [](Row) { return std::to_string(bodies_schema); }, always, one, "1."},
-    {"detector", plain<&R::detector>, always, any_text, "The contestant."},
-    {"options", plain<&R::options>, optional, any_text, "Its options, as they were written."},
-    {"bodies", plain<&R::bodies>, always, positive_count, "Of the scene `field:N`."},
-    {"motion", plain<&R::motion>, always, any_text, "How they move."},
-    {"place", [](Row row) { return std::string(name_of(row.place)); }, always, place,
+    {"detector", text<&R::detector>, always, any_text, "The contestant."},
+    {"options", text<&R::options>, optional, any_text, "Its options, as they were written."},
+    {"bodies", text<&R::bodies>, always, positive_count, "Of the scene `field:N`."},
+    {"motion", text<&R::motion>, always, any_text, "How they move."},
+    {"place", text<&R::place>, always, place,
      "Where the probe is: `free`, more than a body's size from all, or `beside` one."},
-    {"moved", plain<&R::moved>, always, whole_number, "Bodies that are placed before each frame."},
-    {"frames", plain<&R::frames>, always, whole_number,
-     "How often bodies are placed, in each of the rounds."},
-    {"ticks_per_frame", plain<&R::ticks_a_frame>, always, whole_number, "Queries between two frames."},
-    {"build_ms", rounded<&R::build_ms>, always, finite, "Shapes included."},
-    {"bytes", plain<&R::bytes>, always, whole_number, "Of all of it, by its own count."},
-    {"bytes_per_body", optional_number<&R::bytes_per_body>, optional, finite,
+    {"moved", text<&R::moved>, always, whole_number, "Bodies that are placed before each frame."},
+    {"frames", text<&R::frames>, always, whole_number, "How often bodies are placed, in each of the rounds."},
+    {"ticks_per_frame", text<&R::ticks_a_frame>, always, whole_number, "Queries between two frames."},
+    {"build_ms", rounded<4, &R::build_ms>, always, finite, "Shapes included."},
+    {"bytes", text<&R::bytes>, always, whole_number, "Of all of it, by its own count."},
+    {"bytes_per_body", rounded<4, &R::bytes_per_body>, optional, finite,
      "What it takes more than with one body, over the bodies more."},
-    {"publish_ns_per_body", optional_number<&R::publish_ns_per_body>, optional, finite,
+    {"publish_ns_per_body", rounded<4, &R::publish_ns_per_body>, optional, finite,
      "Placing a frame's bodies, over their number: the median of the frames. Their poses have just been "
      "read."},
-    {"first_tick_ns", rounded<&R::first_tick_ns>, always, finite,
+    {"first_tick_ns", rounded<4, &R::first_tick_ns>, always, finite,
      "The query right after a frame: the median, without the clock's cost."},
-    {"tick_ns", rounded<&R::tick_ns>, always, finite,
+    {"tick_ns", rounded<4, &R::tick_ns>, always, finite,
      "A query after that: the median of the frames' means, without the clock's cost."},
-    {"tick_over_one", optional_number<&R::tick_over_one>, optional, finite,
+    {"tick_over_one", rounded<4, &R::tick_over_one>, optional, finite,
      "A tick over that with one body: the median of the ratios of a round's median to those of the rounds "
      "with one body right before and after it. With one body: of two scenes alike, so how far off it may "
      "be. Empty where the clock cannot tell a time from nothing."},
-    {"found", plain<&R::found>, always, whole_number, "Queries of one round with a body in reach."},
-    {"differing", plain<&R::differing>, always, whole_number,
+    {"found", text<&R::found>, always, whole_number, "Queries of one round with a body in reach."},
+    {"differing", text<&R::differing>, always, whole_number,
      "Answers of one round that are not those of the first contestant, to 1e-9."},
-    {"status", plain<&R::status>, always, any_text, "`ok`, `differs`, or why it was not measured."},
-    {"prepare_ns", optional_number<&R::prepare_ns>, optional, finite,
+    {"status", text<&R::status>, always, any_text, "`ok`, `differs`, or why it was not measured."},
+    {"prepare_ns", rounded<4, &R::prepare_ns>, optional, finite,
      "What the contestant prepares after a frame, outside of the ticks (`Scene::prepare`): the median. This "
      "and the next ones are empty where it prepares nothing."},
-    {"first_tick_prepared_ns", optional_number<&R::first_tick_prepared_ns>, optional, finite,
+    {"first_tick_prepared_ns", rounded<4, &R::first_tick_prepared_ns>, optional, finite,
      "`first_tick_ns` of rounds in which each frame is prepared for."},
-    {"tick_prepared_ns", optional_number<&R::tick_prepared_ns>, optional, finite,
-     "`tick_ns` of these rounds."},
-    {"tick_prepared_over_one", optional_number<&R::tick_prepared_over_one>, optional, finite,
+    {"tick_prepared_ns", rounded<4, &R::tick_prepared_ns>, optional, finite, "`tick_ns` of these rounds."},
+    {"tick_prepared_over_one", rounded<4, &R::tick_prepared_over_one>, optional, finite,
      "`tick_over_one` of rounds in which each frame is prepared for."},
-    {"first_tick_over_one", optional_number<&R::first_tick_over_one>, optional, finite,
+    {"first_tick_over_one", rounded<4, &R::first_tick_over_one>, optional, finite,
      "As `tick_over_one`, of the query right after a frame."},
-    {"first_tick_prepared_over_one", optional_number<&R::first_tick_prepared_over_one>, optional, finite,
+    {"first_tick_prepared_over_one", rounded<4, &R::first_tick_prepared_over_one>, optional, finite,
      "`first_tick_over_one` of rounds in which each frame is prepared for."},
 });
 
@@ -97,21 +82,16 @@ constexpr std::array quantities{
 using G = BodyGrowth;
 constexpr auto growth_columns = std::to_array<results::Column<G>>({
     {"schema", [](const G&) { return std::to_string(bodies_schema); }},
-    {"detector", [](const G& growth) { return growth.detector; }},
-    {"options", [](const G& growth) { return growth.options; }},
-    {"motion", [](const G& growth) { return growth.motion; }},
-    {"place", [](const G& growth) { return std::string(name_of(growth.place)); }},
-    {"quantity", [](const G& growth) { return std::string(growth.quantity); }},
-    {"points", [](const G& growth) { return std::to_string(growth.law.points); }},
-    {"exponent", [](const G& growth) { return fmt::format("{:.6g}", growth.law.exponent); }},
-    {"exponent_low",
-     [](const G& growth) {
-       return growth.law.interval ? fmt::format("{:.6g}", growth.law.interval->low) : "";
-     }},
-    {"exponent_high",
-     [](const G&
-            growth) { return growth.law.interval ? fmt::format("{:.6g}", growth.law.interval->high) : ""; }},
-    {"factor", [](const G& growth) { return fmt::format("{:.6g}", growth.law.factor); }},
+    {"detector", text<&G::detector>},
+    {"options", text<&G::options>},
+    {"motion", text<&G::motion>},
+    {"place", text<&G::place>},
+    {"quantity", text<&G::quantity>},
+    {"points", text<&G::law, &PowerLaw::points>},
+    {"exponent", rounded<6, &G::law, &PowerLaw::exponent>},
+    {"exponent_low", rounded<6, &G::law, &PowerLaw::interval, &ExponentInterval::low>},
+    {"exponent_high", rounded<6, &G::law, &PowerLaw::interval, &ExponentInterval::high>},
+    {"factor", rounded<6, &G::law, &PowerLaw::factor>},
 });
 
 auto curves_of(const std::vector<BodyRow>& rows) {
@@ -157,14 +137,13 @@ std::string bodies_table(const std::vector<BodyRow>& rows) {
                           "prepared: tick ns", "/ one", "first tick ns", "/ one", "publish ns/body",
                           "bytes/body", "build ms", "status"});
     for (const BodyRow* row : of_key)
-      table.add({row->contestant(), std::to_string(row->bodies), rounded<&R::tick_ns>(*row),
-                 optional_number<&R::tick_over_one>(*row), rounded<&R::first_tick_ns>(*row),
-                 optional_number<&R::first_tick_over_one>(*row), optional_number<&R::tick_prepared_ns>(*row),
-                 optional_number<&R::tick_prepared_over_one>(*row),
-                 optional_number<&R::first_tick_prepared_ns>(*row),
-                 optional_number<&R::first_tick_prepared_over_one>(*row),
-                 optional_number<&R::publish_ns_per_body>(*row), optional_number<&R::bytes_per_body>(*row),
-                 rounded<&R::build_ms>(*row), row->status});
+      table.add({row->contestant(), std::to_string(row->bodies), rounded<4, &R::tick_ns>(*row),
+                 rounded<4, &R::tick_over_one>(*row), rounded<4, &R::first_tick_ns>(*row),
+                 rounded<4, &R::first_tick_over_one>(*row), rounded<4, &R::tick_prepared_ns>(*row),
+                 rounded<4, &R::tick_prepared_over_one>(*row), rounded<4, &R::first_tick_prepared_ns>(*row),
+                 rounded<4, &R::first_tick_prepared_over_one>(*row),
+                 rounded<4, &R::publish_ns_per_body>(*row), rounded<4, &R::bytes_per_body>(*row),
+                 rounded<4, &R::build_ms>(*row), row->status});
     text += fmt::format("\nmotion={}, probe {}\n{}", std::get<0>(key),
                         std::get<1>(key) == Place::free ? "in free space" : "beside a body", table.text());
   }

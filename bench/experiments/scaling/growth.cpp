@@ -15,6 +15,7 @@
 #include "bench/experiments/scaling/mesh_sizes.h"
 #include "bench/results/column.h"
 #include "bench/support/grouping.h"
+#include "bench/support/names.h"
 #include "bench/support/table.h"
 #include "bench/workload/query_name.h"
 
@@ -90,27 +91,26 @@ std::optional<Growth> growth_along(const std::vector<const measurement::ResultRo
   return growth;
 }
 
-std::string rounded(double value) { return fmt::format("{:.6g}", value); }
+using G = Growth;
+using results::text, results::rounded;
 
 // The order is the contract.
-constexpr auto columns = std::to_array<results::Column<Growth>>({
-    {"schema", [](const Growth&) { return std::to_string(scaling_schema); }},
-    {"detector", [](const Growth& growth) { return growth.detector; }},
-    {"options", [](const Growth& growth) { return growth.options; }},
-    {"trajectory", [](const Growth& growth) { return growth.trajectory; }},
-    {"quantity", [](const Growth& growth) { return std::string(growth.quantity); }},
-    {"points", [](const Growth& growth) { return std::to_string(growth.law.points); }},
-    {"exponent", [](const Growth& growth) { return rounded(growth.law.exponent); }},
-    {"exponent_low",
-     [](const Growth& growth) { return growth.law.interval ? rounded(growth.law.interval->low) : ""; }},
-    {"exponent_high",
-     [](const Growth& growth) { return growth.law.interval ? rounded(growth.law.interval->high) : ""; }},
-    {"factor", [](const Growth& growth) { return rounded(growth.law.factor); }},
-    {"family", [](const Growth& growth) { return growth.family; }},
-    {"query", [](const Growth& growth) { return std::string(workload::name_of(growth.query)); }},
-    {"least_triangles", [](const Growth& growth) { return std::to_string(growth.min_triangles); }},
-    {"most_triangles", [](const Growth& growth) { return std::to_string(growth.max_triangles); }},
-    {"shrinks", [](const Growth& growth) { return std::string(name_of(growth.shrinks)); }},
+constexpr auto columns = std::to_array<results::Column<G>>({
+    {"schema", [](const G&) { return std::to_string(scaling_schema); }},
+    {"detector", text<&G::detector>},
+    {"options", text<&G::options>},
+    {"trajectory", text<&G::trajectory>},
+    {"quantity", text<&G::quantity>},
+    {"points", text<&G::law, &PowerLaw::points>},
+    {"exponent", rounded<6, &G::law, &PowerLaw::exponent>},
+    {"exponent_low", rounded<6, &G::law, &PowerLaw::interval, &ExponentInterval::low>},
+    {"exponent_high", rounded<6, &G::law, &PowerLaw::interval, &ExponentInterval::high>},
+    {"factor", rounded<6, &G::law, &PowerLaw::factor>},
+    {"family", text<&G::family>},
+    {"query", text<&G::query>},
+    {"least_triangles", text<&G::min_triangles>},
+    {"most_triangles", text<&G::max_triangles>},
+    {"shrinks", text<&G::shrinks>},
 });
 
 std::string exponent_cell(const PowerLaw& law) {
@@ -137,16 +137,10 @@ std::string exponents_of(const std::vector<const Growth*>& growths, std::span<co
 
 }  // namespace
 
-std::string_view name_of(Shrinks shrinks) noexcept {
-  switch (shrinks) {
-    case Shrinks::reach:
-      return "reach";
-    case Shrinks::reach_and_motion:
-      return "all";
-    default:
-      return "";
-  }
-}
+constexpr std::array<support::Name<Shrinks>, 2> shrinks_by_name{
+    {{Shrinks::reach, "reach"}, {Shrinks::reach_and_motion, "all"}}};
+
+std::string_view name_of(Shrinks shrinks) noexcept { return support::name_in(shrinks_by_name, shrinks); }
 
 std::vector<Growth> growth_of(const std::vector<measurement::ResultRow>& rows, Shrinks shrinks) {
   std::vector<const measurement::ResultRow*> fitted;

@@ -12,14 +12,6 @@ namespace touchmark::bench::experiments::stress {
 namespace {
 
 template <auto Member>
-std::string counted(const Score& score) {
-  return fmt::format("{}", score.counts.*Member);
-}
-template <auto Member>
-std::string plain(const Score& score) {
-  return fmt::format("{}", score.*Member);
-}
-template <auto Member>
 std::string error(const Score& score) {
   return score.counts.judged > 0 ? fmt::format("{}", score.counts.*Member) : "";
 }
@@ -37,44 +29,40 @@ using S = const Score&;
 
 using enum results::Presence;
 using namespace results::kinds;
+using results::text, results::rounded;
 
 // The order is the contract.
 constexpr auto columns = std::to_array<results::Column<Score>>({
     {"schema", [](S) { return std::to_string(stress_schema); }, always, one},
     {"run_id", nullptr, always},
-    {"detector", plain<&Score::detector>, always},
-    {"options", plain<&Score::options>},
+    {"detector", text<&Score::detector>, always},
+    {"options", text<&Score::options>},
     {"family", [](S score) { return std::string(score.family->name); }, always},
-    {"query", [](S score) { return std::string(name_of(score.query)); }, always, query},
-    {"guarantee", plain<&Score::guarantee>, optional, guarantee},
+    {"query", text<&Score::query>, always, query},
+    {"guarantee", text<&Score::guarantee>, optional, guarantee},
     {"adversarial", [](S score) { return fmt::format("{:d}", score.family->adversarial); }, always, bit},
-    {"meshes", plain<&Score::meshes>, always, whole_number},
-    {"probes", counted<&E::judged>, always, whole_number},
-    {"missed", counted<&E::missed>, always, whole_number},
-    {"false_contacts", counted<&E::false_contacts>, always, whole_number},
-    {"wrong_triangle", counted<&E::wrong_triangle>, always, whole_number},
-    {"beyond_bound", counted<&E::beyond_bound>, always, whole_number},
-    {"wrong_point", counted<&E::wrong_point>, always, whole_number},
-    {"wrong_normal", counted<&E::wrong_normal>, always, whole_number},
-    {"malformed", counted<&E::malformed>, always, whole_number},
-    {"unresolved", counted<&E::unresolved>, always, whole_number},
+    {"meshes", text<&Score::meshes>, always, whole_number},
+    {"probes", text<&Score::counts, &E::judged>, always, whole_number},
+    {"missed", text<&Score::counts, &E::missed>, always, whole_number},
+    {"false_contacts", text<&Score::counts, &E::false_contacts>, always, whole_number},
+    {"wrong_triangle", text<&Score::counts, &E::wrong_triangle>, always, whole_number},
+    {"beyond_bound", text<&Score::counts, &E::beyond_bound>, always, whole_number},
+    {"wrong_point", text<&Score::counts, &E::wrong_point>, always, whole_number},
+    {"wrong_normal", text<&Score::counts, &E::wrong_normal>, always, whole_number},
+    {"malformed", text<&Score::counts, &E::malformed>, always, whole_number},
+    {"unresolved", text<&Score::counts, &E::unresolved>, always, whole_number},
     {"max_distance_error", error<&E::max_distance_error>, optional, length},
     {"max_distance_error_of_diagonal", error<&E::max_distance_error_of_diagonal>, optional, length},
     {"max_distance_error_ulp", error<&E::max_distance_error_ulp>, optional, length},
-    {"status", [](S score) { return std::string(name_of(score.standing())); }, always, standing},
-    {"crashes", plain<&Score::crashes>, always, whole_number},
-    {"timeouts", plain<&Score::timeouts>, always, whole_number},
-    {"refusals", plain<&Score::refusals>, always, whole_number},
-    {"ns_per_query",
-     [](S score) {
-       const std::optional<double> ns = score.ns_per_query();
-       return ns ? fmt::format("{:.6g}", *ns) : std::string();
-     },
-     optional, positive},
+    {"status", text<&Score::standing>, always, standing},
+    {"crashes", text<&Score::crashes>, always, whole_number},
+    {"timeouts", text<&Score::timeouts>, always, whole_number},
+    {"refusals", text<&Score::refusals>, always, whole_number},
+    {"ns_per_query", rounded<6, &Score::ns_per_query>, optional, positive},
     // Appended to schema 1.
-    {"beyond_tolerance", counted<&E::beyond_tolerance>, always, whole_number},
-    {"rounding", counted<&E::rounding>, always, whole_number},
-    {"wrong_side", counted<&E::wrong_side>, always, whole_number},
+    {"beyond_tolerance", text<&Score::counts, &E::beyond_tolerance>, always, whole_number},
+    {"rounding", text<&Score::counts, &E::rounding>, always, whole_number},
+    {"wrong_side", text<&Score::counts, &E::wrong_side>, always, whole_number},
 });
 
 }  // namespace

@@ -16,23 +16,6 @@ namespace {
 
 using Row = const UpdateRow&;
 
-template <auto Member>
-std::string plain(Row row) {
-  return fmt::format("{}", row.*Member);
-}
-template <auto Member>
-std::string optional(Row row) {
-  return row.*Member ? fmt::format("{:.6g}", *(row.*Member)) : "";
-}
-template <auto Member>
-std::string of_update(Row row) {
-  return row.updated ? fmt::format("{:.6g}", static_cast<double>((*row.updated).*Member)) : "";
-}
-template <auto Member>
-std::string of_counts(Row row) {
-  return row.counts ? fmt::format("{}", (*row.counts).*Member) : "";
-}
-
 std::string guarantee(Row row) {
   if (!row.accuracy) return "";
   return std::string(measurement::guarantee_name(row.accuracy->guarantee));
@@ -41,35 +24,36 @@ std::string guarantee(Row row) {
 using E = oracle::ErrorCounts;
 using R = UpdateRow;
 using U = workers::Updated;
+using results::text, results::rounded;
 
 // The order is the contract.
 constexpr auto columns = std::to_array<results::Column<R>>({
     {"schema", [](Row) { return std::to_string(update_schema); }},
-    {"detector", plain<&R::detector>},
-    {"options", plain<&R::options>},
-    {"mesh", plain<&R::mesh>},
-    {"triangles", plain<&R::triangles>},
-    {"vertices", plain<&R::vertices>},
-    {"share", [](Row row) { return fmt::format("{:.6g}", row.share); }},
-    {"moved_vertices", plain<&R::moved_vertices>},
+    {"detector", text<&R::detector>},
+    {"options", text<&R::options>},
+    {"mesh", text<&R::mesh>},
+    {"triangles", text<&R::triangles>},
+    {"vertices", text<&R::vertices>},
+    {"share", rounded<6, &R::share>},
+    {"moved_vertices", text<&R::moved_vertices>},
     {"guarantee", guarantee},
-    {"status", plain<&R::status>},
-    {"rounds", of_update<&U::rounds>},
-    {"build_ms", of_update<&U::build_ms>},
-    {"update_ms", of_update<&U::update_ms>},
-    {"update_over_build", of_update<&U::update_over_build>},
-    {"ns_per_query_updated", optional<&R::ns_updated>},
-    {"ns_per_query_built", optional<&R::ns_built>},
+    {"status", text<&R::status>},
+    {"rounds", rounded<6, &R::updated, &U::rounds>},
+    {"build_ms", rounded<6, &R::updated, &U::build_ms>},
+    {"update_ms", rounded<6, &R::updated, &U::update_ms>},
+    {"update_over_build", rounded<6, &R::updated, &U::update_over_build>},
+    {"ns_per_query_updated", rounded<6, &R::ns_updated>},
+    {"ns_per_query_built", rounded<6, &R::ns_built>},
     {"answers_as_built",
      [](Row row) { return row.answers_as_built ? fmt::format("{:d}", *row.answers_as_built) : ""; }},
-    {"judged", of_counts<&E::judged>},
-    {"missed", of_counts<&E::missed>},
-    {"false_contacts", of_counts<&E::false_contacts>},
-    {"wrong_triangle", of_counts<&E::wrong_triangle>},
-    {"beyond_bound", of_counts<&E::beyond_bound>},
-    {"malformed", of_counts<&E::malformed>},
-    {"unresolved", of_counts<&E::unresolved>},
-    {"max_distance_error_of_diagonal", of_counts<&E::max_distance_error_of_diagonal>},
+    {"judged", text<&R::counts, &E::judged>},
+    {"missed", text<&R::counts, &E::missed>},
+    {"false_contacts", text<&R::counts, &E::false_contacts>},
+    {"wrong_triangle", text<&R::counts, &E::wrong_triangle>},
+    {"beyond_bound", text<&R::counts, &E::beyond_bound>},
+    {"malformed", text<&R::counts, &E::malformed>},
+    {"unresolved", text<&R::counts, &E::unresolved>},
+    {"max_distance_error_of_diagonal", text<&R::counts, &E::max_distance_error_of_diagonal>},
 });
 
 std::string table_of(const std::vector<const UpdateRow*>& rows, const std::string& mesh) {

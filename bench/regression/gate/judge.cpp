@@ -1,22 +1,18 @@
 #include "bench/regression/gate/judge.h"
 
+#include <array>
 #include <cmath>
+
+#include "bench/support/names.h"
 
 namespace touchmark::bench::regression::gate {
 
-std::string_view name_of(Verdict verdict) noexcept {
-  switch (verdict) {
-    case Verdict::pass:
-      return "pass";
-    case Verdict::faster:
-      return "faster";
-    case Verdict::slower:
-      return "SLOWER";
-    case Verdict::inconclusive:
-      return "inconclusive";
-  }
-  return "";
-}
+constexpr std::array<support::Name<Verdict>, 4> verdicts{{{Verdict::pass, "pass"},
+                                                          {Verdict::faster, "faster"},
+                                                          {Verdict::slower, "SLOWER"},
+                                                          {Verdict::inconclusive, "inconclusive"}}};
+
+std::string_view name_of(Verdict verdict) noexcept { return support::name_in(verdicts, verdict); }
 
 bool control_holds(const Batch& batch, double tolerance) noexcept {
   return batch.control.low >= 1 / (1 + tolerance) && batch.control.high <= 1 + tolerance;
