@@ -1,28 +1,26 @@
 #include "bench/experiments/papers/claims.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "bench/support/names.h"
+
 namespace touchmark::bench::experiments::papers {
 namespace {
 
-const char* word_for(Agreement agreement) {
-  switch (agreement) {
-    case Agreement::yes:
-      return "yes";
-    case Agreement::nearly:
-      return "nearly";
-    case Agreement::no:
-      return "no";
-    case Agreement::not_printed:
-      return "unknown";
-    case Agreement::not_comparable:
-      return "not comparable (their machine)";
-  }
-  return "";
+constexpr std::array<support::Name<Agreement>, 5> agreement_words{
+    {{Agreement::yes, "yes"},
+     {Agreement::nearly, "nearly"},
+     {Agreement::no, "no"},
+     {Agreement::not_printed, "unknown"},
+     {Agreement::not_comparable, "not comparable (their machine)"}}};
+
+std::string word_for(Agreement agreement) {
+  return std::string(support::name_in(agreement_words, agreement));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "bench/experiments/papers/park_jang.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <numeric>
@@ -13,6 +14,7 @@
 #include "bench/support/available_memory.h"
 #include "bench/support/failures.h"
 #include "bench/support/interrupt.h"
+#include "bench/support/names.h"
 #include "core/brute_force/brute_force.h"
 #include "core/grid_group/grid_group.h"
 #include "core/grid_group/published/scan_grid.h"
@@ -69,17 +71,12 @@ CountedTests count_tests(contestants::Contestant& detector, const Places& places
   return counted;
 }
 
-const char* name_of(GridGroup::Shape shape) {
-  switch (shape) {
-    case GridGroup::Shape::cube:
-      return "cube";
-    case GridGroup::Shape::sphere:
-      return "sphere";
-    case GridGroup::Shape::centered_sphere:
-      return "centered-sphere";
-  }
-  return "";
-}
+constexpr std::array<support::Name<GridGroup::Shape>, 3> shape_names{
+    {{GridGroup::Shape::cube, "cube"},
+     {GridGroup::Shape::sphere, "sphere"},
+     {GridGroup::Shape::centered_sphere, "centered-sphere"}}};
+
+std::string name_of(GridGroup::Shape shape) { return std::string(support::name_in(shape_names, shape)); }
 
 /// One mesh: the ungrouped form, the published ones at every count, the fast one.
 class MeshExperiment {
@@ -137,7 +134,7 @@ class MeshExperiment {
     }
   }
 
-  void add(const char* form, double cell, std::size_t groups,
+  void add(const std::string& form, double cell, std::size_t groups,
            std::unique_ptr<contestants::Contestant> detector) {
     const CountedTests counted = count_tests(*detector, places_);
     timing_.add(std::move(detector));

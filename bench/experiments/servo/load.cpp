@@ -7,11 +7,13 @@
 #include <unistd.h>
 
 #include "bench/support/available_memory.h"
+#include "bench/support/names.h"
 
 namespace touchmark::bench::experiments::servo {
 namespace {
 
-constexpr std::array<std::string_view, 3> names{"none", "memory", "cpu"};
+constexpr std::array<support::Name<Load>, 3> names{
+    {{Load::none, "none"}, {Load::memory, "memory"}, {Load::cpu, "cpu"}}};
 constexpr std::size_t words_a_line = 64 / sizeof(std::uint64_t);
 
 void stay_on(int core) {
@@ -32,12 +34,10 @@ void compute(std::uint64_t& state) {
 
 }  // namespace
 
-std::string_view name_of(Load load) noexcept { return names[static_cast<std::size_t>(load)]; }
+std::string_view name_of(Load load) noexcept { return support::name_in(names, load); }
 
 std::optional<Load> load_named(std::string_view name) noexcept {
-  const auto* const found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) return std::nullopt;
-  return static_cast<Load>(found - names.begin());
+  return support::value_in<Load>(names, name);
 }
 
 std::vector<int> other_cores(int own) {

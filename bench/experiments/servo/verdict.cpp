@@ -1,7 +1,10 @@
 #include "bench/experiments/servo/verdict.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+
+#include "bench/support/names.h"
 
 namespace touchmark::bench::experiments::servo {
 namespace {
@@ -48,17 +51,11 @@ double chance_of_as_many(const Misses& misses) {
   return worse > 0 ? 1 - chance_of_at_most(worse - 1, n, 0.5) : 1;
 }
 
-std::string_view name_of(Verdict verdict) noexcept {
-  switch (verdict) {
-    case Verdict::holds:
-      return "holds";
-    case Verdict::inconclusive:
-      return "inconclusive";
-    case Verdict::does_not_hold:
-      return "does not hold";
-  }
-  return "";
-}
+constexpr std::array<support::Name<Verdict>, 3> verdict_names{{{Verdict::holds, "holds"},
+                                                               {Verdict::inconclusive, "inconclusive"},
+                                                               {Verdict::does_not_hold, "does not hold"}}};
+
+std::string_view name_of(Verdict verdict) noexcept { return support::name_in(verdict_names, verdict); }
 
 Verdict verdict_on(const Misses& misses) {
   if (misses.ticks == 0 || misses.idle_ticks == 0) return Verdict::inconclusive;

@@ -1,5 +1,9 @@
 #include "bench/experiments/stress/score.h"
 
+#include <array>
+
+#include "bench/support/names.h"
+
 namespace touchmark::bench::experiments::stress {
 namespace {
 
@@ -17,25 +21,15 @@ bool breaks_the_claim(const measurement::ResultRow& row) {
 
 }  // namespace
 
-std::string_view name_of(Standing standing) noexcept {
-  switch (standing) {
-    case Standing::clean:
-      return "ok";
-    case Standing::unsupported:
-      return "unsupported";
-    case Standing::refused:
-      return "refused";
-    case Standing::inexact:
-      return "inexact";
-    case Standing::wrong:
-      return "wrong";
-    case Standing::timeout:
-      return "timeout";
-    case Standing::crashed:
-      return "crashed";
-  }
-  return "";
-}
+constexpr std::array<support::Name<Standing>, 7> standing_names{{{Standing::clean, "ok"},
+                                                                 {Standing::unsupported, "unsupported"},
+                                                                 {Standing::refused, "refused"},
+                                                                 {Standing::inexact, "inexact"},
+                                                                 {Standing::wrong, "wrong"},
+                                                                 {Standing::timeout, "timeout"},
+                                                                 {Standing::crashed, "crashed"}}};
+
+std::string_view name_of(Standing standing) noexcept { return support::name_in(standing_names, standing); }
 
 Score::Score(const measurement::ResultRow& first, const Family& of)
     : detector(first.detector), options(first.options), family(&of), query(first.query) {
