@@ -183,17 +183,13 @@ struct BulletDetector::Session::State : World {
   std::uint32_t last = no_triangle;  ///< checked: of the last contact; plain: the last that was nearest
 };
 
-BulletDetector::Session::Session() noexcept = default;
-BulletDetector::Session::Session(Session&&) noexcept = default;
-BulletDetector::Session& BulletDetector::Session::operator=(Session&&) noexcept = default;
-BulletDetector::Session::~Session() = default;
 void BulletDetector::Session::forget() noexcept {
   if (state_) state_->last = no_triangle;
 }
 
 BulletDetector::Session::State& BulletDetector::state(Session& session) const {
   const bool fits = session.state_ && session.state_->mesh_object.getCollisionShape() == model_->shape.get();
-  if (!fits) session.state_ = std::make_unique<Session::State>(*model_->shape);
+  if (!fits) session.state_ = make_hidden<Session::State>(*model_->shape);
   return *session.state_;
 }
 
@@ -343,18 +339,13 @@ struct BulletDetector::Queries {
   }
 };
 
-BulletDetector::BulletDetector(std::unique_ptr<Model> model) noexcept : model_(std::move(model)) {}
-BulletDetector::BulletDetector(BulletDetector&&) noexcept = default;
-BulletDetector& BulletDetector::operator=(BulletDetector&&) noexcept = default;
-BulletDetector::~BulletDetector() = default;
-
 BulletDetector BulletDetector::build(const TriangleMesh& mesh, const Options& options) {
   constexpr auto most = static_cast<std::size_t>(std::numeric_limits<int>::max());
   if (mesh.size() > most || mesh.vertices().size() > most) {
     throw MeshError("Bullet counts in int: " + std::to_string(std::max(mesh.size(), mesh.vertices().size())) +
                     " triangles or vertices are more than " + std::to_string(most));
   }
-  return BulletDetector(std::make_unique<Model>(mesh, options));
+  return BulletDetector(make_hidden<Model>(mesh, options));
 }
 
 void BulletDetector::update(const TriangleMesh& mesh) {

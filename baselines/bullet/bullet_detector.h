@@ -4,9 +4,10 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <optional>
+#include <utility>
 
+#include "baselines/hidden.h"
 #include "baselines/reach.h"
 #include "core/detector.h"
 
@@ -31,18 +32,13 @@ class BulletDetector {
 
   class Session {
    public:
-    Session() noexcept;
-    Session(Session&&) noexcept;
-    Session& operator=(Session&&) noexcept;
-    ~Session();
-
     Work work;  ///< triangles: those Bullet reports. It does not tell how many boxes it looks at.
 
    private:
     friend class BulletDetector;
     struct State;
     void forget() noexcept;
-    std::unique_ptr<State> state_;
+    Hidden<State> state_;
   };
 
   static Precision precision() noexcept;
@@ -52,10 +48,6 @@ class BulletDetector {
   static BulletDetector build(const TriangleMesh& mesh) { return build(mesh, Options{}); }
   /// See the concept Updates. Bullet refits its hierarchy; with frame fitted the one fitted first stays.
   void update(const TriangleMesh& mesh);
-
-  BulletDetector(BulletDetector&&) noexcept;
-  BulletDetector& operator=(BulletDetector&&) noexcept;
-  ~BulletDetector();
 
   bool touches(const Probe& probe, Session& session) const noexcept;
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept;
@@ -68,10 +60,10 @@ class BulletDetector {
  private:
   struct Model;
   struct Queries;
-  explicit BulletDetector(std::unique_ptr<Model> model) noexcept;
+  explicit BulletDetector(Hidden<Model> model) noexcept : model_(std::move(model)) {}
   Session::State& state(Session& session) const;
 
-  std::unique_ptr<Model> model_;
+  Hidden<Model> model_;
 };
 
 }  // namespace touchmark::baselines

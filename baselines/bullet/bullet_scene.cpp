@@ -40,12 +40,8 @@ struct BulletScene::Session::State {
   std::uint32_t last = std::numeric_limits<std::uint32_t>::max();  ///< the body of the last contact
 };
 
-BulletScene::Session::Session() noexcept = default;
-BulletScene::Session::Session(Session&&) noexcept = default;
-BulletScene::Session& BulletScene::Session::operator=(Session&&) noexcept = default;
-BulletScene::Session::~Session() = default;
 BulletScene::Session::State& BulletScene::Session::state() {
-  if (!state_) state_ = std::make_unique<State>();
+  if (!state_) state_ = make_hidden<State>();
   return *state_;
 }
 
@@ -77,10 +73,7 @@ struct BulletScene::World {
 };
 
 BulletScene::BulletScene(const PosedScene& scene, const BulletDetector::Options& options)
-    : world_(std::make_unique<World>(scene, options)) {}
-BulletScene::BulletScene(BulletScene&&) noexcept = default;
-BulletScene& BulletScene::operator=(BulletScene&&) noexcept = default;
-BulletScene::~BulletScene() = default;
+    : world_(make_hidden<World>(scene, options)) {}
 
 void BulletScene::place(std::uint32_t body, const Pose& pose) {
   world_->bodies.place(body, pose);

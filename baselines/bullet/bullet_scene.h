@@ -4,10 +4,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 
 #include "baselines/bullet/bullet_detector.h"
+#include "baselines/hidden.h"
 #include "baselines/posed.h"
 
 namespace touchmark::baselines {
@@ -16,26 +16,17 @@ class BulletScene {
  public:
   class Session {
    public:
-    Session() noexcept;
-    Session(Session&&) noexcept;
-    Session& operator=(Session&&) noexcept;
-    ~Session();
-
     Work work;
 
    private:
     friend class BulletScene;
     struct State;
     State& state();
-    std::unique_ptr<State> state_;
+    Hidden<State> state_;
   };
 
   /// Throws what BulletDetector::build throws.
   BulletScene(const PosedScene& scene, const BulletDetector::Options& options);
-  BulletScene(BulletScene&&) noexcept;
-  BulletScene& operator=(BulletScene&&) noexcept;
-  ~BulletScene();
-
   void place(std::uint32_t body, const Pose& pose);
   std::optional<BodyContact> nearest_body(const Probe& probe, double reach, Session& session) const noexcept;
   std::optional<BodyImpact> first_hit_body(const Sweep& sweep, Session& session) const noexcept;
@@ -47,7 +38,7 @@ class BulletScene {
  private:
   struct World;
 
-  std::unique_ptr<World> world_;
+  Hidden<World> world_;
 };
 
 }  // namespace touchmark::baselines

@@ -202,21 +202,17 @@ class TreeModel final : public Model {
 
 }  // namespace
 
-CgalDetector::CgalDetector(std::unique_ptr<const Model> model) noexcept : model_(std::move(model)) {}
-CgalDetector::CgalDetector(CgalDetector&&) noexcept = default;
-CgalDetector& CgalDetector::operator=(CgalDetector&&) noexcept = default;
-CgalDetector::~CgalDetector() = default;
-
 CgalDetector CgalDetector::build(const TriangleMesh& mesh, const Options& options) {
   switch (options.kernel) {
     case Kernel::simple:
-      return CgalDetector(std::make_unique<TreeModel<CGAL::Simple_cartesian<double>>>(mesh, options));
+      return CgalDetector(
+          make_hidden<const Model, const TreeModel<CGAL::Simple_cartesian<double>>>(mesh, options));
     case Kernel::epeck:
-      return CgalDetector(std::make_unique<TreeModel<CGAL::Epeck>>(mesh, options));
+      return CgalDetector(make_hidden<const Model, const TreeModel<CGAL::Epeck>>(mesh, options));
     case Kernel::epick:
       break;
   }
-  return CgalDetector(std::make_unique<TreeModel<CGAL::Epick>>(mesh, options));
+  return CgalDetector(make_hidden<const Model, const TreeModel<CGAL::Epick>>(mesh, options));
 }
 
 std::optional<Contact> CgalDetector::nearest(const Probe& probe, double reach,

@@ -4,9 +4,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
+#include <utility>
 
+#include "baselines/hidden.h"
 #include "baselines/reach.h"
 #include "core/detector.h"
 
@@ -38,10 +39,6 @@ class CgalDetector {
   static CgalDetector build(const TriangleMesh& mesh, const Options& options);
   static CgalDetector build(const TriangleMesh& mesh) { return build(mesh, Options()); }
 
-  CgalDetector(CgalDetector&&) noexcept;
-  CgalDetector& operator=(CgalDetector&&) noexcept;
-  ~CgalDetector();
-
   bool touches(const Probe& probe, Session& session) const noexcept;
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept;
 
@@ -52,9 +49,9 @@ class CgalDetector {
   struct Model;
 
  private:
-  explicit CgalDetector(std::unique_ptr<const Model> model) noexcept;
+  explicit CgalDetector(Hidden<const Model> model) noexcept : model_(std::move(model)) {}
 
-  std::unique_ptr<const Model> model_;
+  Hidden<const Model> model_;
 };
 
 }  // namespace touchmark::baselines

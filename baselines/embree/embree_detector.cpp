@@ -244,11 +244,6 @@ struct EmbreeCallbacks {
   }
 };
 
-EmbreeDetector::EmbreeDetector(std::unique_ptr<Model> model) noexcept : model_(std::move(model)) {}
-EmbreeDetector::EmbreeDetector(EmbreeDetector&&) noexcept = default;
-EmbreeDetector& EmbreeDetector::operator=(EmbreeDetector&&) noexcept = default;
-EmbreeDetector::~EmbreeDetector() = default;
-
 namespace {
 
 void commit(RTCScene scene, RTCDevice device) {
@@ -261,7 +256,7 @@ void commit(RTCScene scene, RTCDevice device) {
 }  // namespace
 
 EmbreeDetector EmbreeDetector::build(const TriangleMesh& mesh, const Options& options) {
-  auto model = std::make_unique<Model>(mesh, options);
+  auto model = make_hidden<Model>(mesh, options);
   // One thread, as everybody else builds with; and the caller's floating-point modes stay as they are.
   model->device = rtcNewDevice("threads=1,set_affinity=0");
   if (model->device == nullptr) fail(nullptr);

@@ -3,9 +3,10 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <optional>
+#include <utility>
 
+#include "baselines/hidden.h"
 #include "baselines/reach.h"
 #include "core/detector.h"
 
@@ -37,10 +38,6 @@ class EmbreeDetector {
   /// See the concept Updates. Embree builds its hierarchy anew, or with quality refit refits it.
   void update(const TriangleMesh& mesh);
 
-  EmbreeDetector(EmbreeDetector&&) noexcept;
-  EmbreeDetector& operator=(EmbreeDetector&&) noexcept;
-  ~EmbreeDetector();
-
   bool touches(const Probe& probe, Session& session) const noexcept;
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept;
 
@@ -51,9 +48,9 @@ class EmbreeDetector {
  private:
   friend struct EmbreeCallbacks;
   struct Model;
-  explicit EmbreeDetector(std::unique_ptr<Model> model) noexcept;
+  explicit EmbreeDetector(Hidden<Model> model) noexcept : model_(std::move(model)) {}
 
-  std::unique_ptr<Model> model_;
+  Hidden<Model> model_;
 };
 
 }  // namespace touchmark::baselines

@@ -209,15 +209,12 @@ void EmbreeScene::World::add_instance(std::uint32_t body) {
 }
 
 EmbreeScene::EmbreeScene(const PosedScene& scene, const EmbreeDetector::Options& options)
-    : world_(std::make_unique<World>(scene, options)) {
+    : world_(make_hidden<World>(scene, options)) {
   world_->start();
   for (const auto& mesh : scene.shapes) world_->add_shape(*mesh);
   for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) world_->add_instance(i);
   publish();
 }
-EmbreeScene::EmbreeScene(EmbreeScene&&) noexcept = default;
-EmbreeScene& EmbreeScene::operator=(EmbreeScene&&) noexcept = default;
-EmbreeScene::~EmbreeScene() = default;
 
 void EmbreeScene::place(std::uint32_t body, const Pose& pose) {
   World& world = *world_;

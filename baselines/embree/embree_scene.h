@@ -4,10 +4,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 
 #include "baselines/embree/embree_detector.h"
+#include "baselines/hidden.h"
 #include "baselines/posed.h"
 
 namespace touchmark::baselines {
@@ -22,10 +22,6 @@ class EmbreeScene {
 
   /// With geometry user alone. Throws MeshError when Embree has no memory or cannot be started.
   EmbreeScene(const PosedScene& scene, const EmbreeDetector::Options& options);
-  EmbreeScene(EmbreeScene&&) noexcept;
-  EmbreeScene& operator=(EmbreeScene&&) noexcept;
-  ~EmbreeScene();
-
   /// Takes effect with publish(), which commits the scene of instances.
   void place(std::uint32_t body, const Pose& pose);
   void publish();
@@ -39,7 +35,7 @@ class EmbreeScene {
   friend struct EmbreeSceneCallbacks;
   struct World;
 
-  std::unique_ptr<World> world_;
+  Hidden<World> world_;
 };
 
 }  // namespace touchmark::baselines

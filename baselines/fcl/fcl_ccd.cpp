@@ -61,17 +61,12 @@ struct FclCcd::Model {
   }
 };
 
-FclCcd::FclCcd(std::unique_ptr<Model> model) noexcept : model_(std::move(model)) {}
-FclCcd::FclCcd(FclCcd&&) noexcept = default;
-FclCcd& FclCcd::operator=(FclCcd&&) noexcept = default;
-FclCcd::~FclCcd() = default;
-
 FclCcd FclCcd::build(const TriangleMesh& mesh, const Options& options) {
   constexpr std::size_t most = std::numeric_limits<int>::max();
   if (mesh.size() > most || mesh.vertices().size() > most)
     throw MeshError(
         "FCL counts triangles and vertices in 31 bits, of which there are not enough for this mesh");
-  auto model = std::make_unique<Model>();
+  auto model = make_hidden<Model>();
   model->options = options;
   model->ids = mesh.triangle_ids();
   FclCcd built(std::move(model));

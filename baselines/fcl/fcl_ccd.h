@@ -4,9 +4,10 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <optional>
+#include <utility>
 
+#include "baselines/hidden.h"
 #include "core/detector.h"
 
 namespace touchmark::baselines {
@@ -25,10 +26,6 @@ class FclCcd {
   static FclCcd build(const TriangleMesh& mesh, const Options& options);
   void update(const TriangleMesh& mesh);
 
-  FclCcd(FclCcd&&) noexcept;
-  FclCcd& operator=(FclCcd&&) noexcept;
-  ~FclCcd();
-
   /// The fraction is that of the last sample before the first that collides: where a program would stop. The
   /// contact is FCL's deepest at the sample that collides.
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept;
@@ -38,9 +35,9 @@ class FclCcd {
 
  private:
   struct Model;
-  explicit FclCcd(std::unique_ptr<Model> model) noexcept;
+  explicit FclCcd(Hidden<Model> model) noexcept : model_(std::move(model)) {}
 
-  std::unique_ptr<Model> model_;
+  Hidden<Model> model_;
 };
 
 }  // namespace touchmark::baselines

@@ -207,15 +207,11 @@ struct FclDetector::Session::State {
   std::uint32_t last = no_triangle;  ///< checked: of the last contact; plain: the last that was nearest
 };
 
-FclDetector::Session::Session() noexcept = default;
-FclDetector::Session::Session(Session&&) noexcept = default;
-FclDetector::Session& FclDetector::Session::operator=(Session&&) noexcept = default;
-FclDetector::Session::~Session() = default;
 void FclDetector::Session::forget() noexcept {
   if (state_) state_->last = no_triangle;
 }
 FclDetector::Session::State& FclDetector::Session::state() {
-  if (!state_) state_ = std::make_unique<State>();
+  if (!state_) state_ = make_hidden<State>();
   return *state_;
 }
 
@@ -474,11 +470,6 @@ struct FclDetector::ModelOf : FclDetector::Model {
   fcl::BVHModel<Bounds> hierarchy;
 };
 
-FclDetector::FclDetector(std::unique_ptr<Model> model) noexcept : model_(std::move(model)) {}
-FclDetector::FclDetector(FclDetector&&) noexcept = default;
-FclDetector& FclDetector::operator=(FclDetector&&) noexcept = default;
-FclDetector::~FclDetector() = default;
-
 FclDetector FclDetector::build(const TriangleMesh& mesh, const Options& options) {
   constexpr auto most = static_cast<std::size_t>(std::numeric_limits<int>::max());
   if (mesh.size() > most || mesh.vertices().size() > most) {
@@ -489,15 +480,15 @@ FclDetector FclDetector::build(const TriangleMesh& mesh, const Options& options)
     throw std::invalid_argument("fcl: narrow=exact needs method=traverse or method=distance");
   switch (options.bv) {
     case Volume::kios:
-      return FclDetector(std::make_unique<ModelOf<fcl::kIOSd>>(mesh, options));
+      return FclDetector(make_hidden<Model, ModelOf<fcl::kIOSd>>(mesh, options));
     case Volume::obbrss:
-      return FclDetector(std::make_unique<ModelOf<fcl::OBBRSSd>>(mesh, options));
+      return FclDetector(make_hidden<Model, ModelOf<fcl::OBBRSSd>>(mesh, options));
     case Volume::obb:
-      return FclDetector(std::make_unique<ModelOf<fcl::OBBd>>(mesh, options));
+      return FclDetector(make_hidden<Model, ModelOf<fcl::OBBd>>(mesh, options));
     case Volume::rss:
-      return FclDetector(std::make_unique<ModelOf<fcl::RSSd>>(mesh, options));
+      return FclDetector(make_hidden<Model, ModelOf<fcl::RSSd>>(mesh, options));
     case Volume::aabb:
-      return FclDetector(std::make_unique<ModelOf<fcl::AABBd>>(mesh, options));
+      return FclDetector(make_hidden<Model, ModelOf<fcl::AABBd>>(mesh, options));
   }
   throw std::invalid_argument("fcl: no such bv");
 }

@@ -3,9 +3,10 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <optional>
+#include <utility>
 
+#include "baselines/hidden.h"
 #include "baselines/reach.h"
 #include "core/detector.h"
 
@@ -33,11 +34,6 @@ class FclDetector {
 
   class Session {
    public:
-    Session() noexcept;
-    Session(Session&&) noexcept;
-    Session& operator=(Session&&) noexcept;
-    ~Session();
-
     Work work;  ///< boxes: FCL's volumes. Method collide tells neither; its triangles are the contacts found.
 
    private:
@@ -45,7 +41,7 @@ class FclDetector {
     struct State;
     State& state();
     void forget() noexcept;
-    std::unique_ptr<State> state_;
+    Hidden<State> state_;
   };
 
   /// Throws std::invalid_argument for a combination that FCL cannot do, MeshError for more than 2^31 - 1
@@ -54,10 +50,6 @@ class FclDetector {
   static FclDetector build(const TriangleMesh& mesh) { return build(mesh, Options{}); }
   /// See the concept Updates. FCL replaces its vertices and refits its hierarchy.
   void update(const TriangleMesh& mesh);
-
-  FclDetector(FclDetector&&) noexcept;
-  FclDetector& operator=(FclDetector&&) noexcept;
-  ~FclDetector();
 
   bool touches(const Probe& probe, Session& session) const noexcept;
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept;
@@ -71,9 +63,9 @@ class FclDetector {
   struct Model;
   template <class Volume>
   struct ModelOf;
-  explicit FclDetector(std::unique_ptr<Model> model) noexcept;
+  explicit FclDetector(Hidden<Model> model) noexcept : model_(std::move(model)) {}
 
-  std::unique_ptr<Model> model_;
+  Hidden<Model> model_;
 };
 
 }  // namespace touchmark::baselines

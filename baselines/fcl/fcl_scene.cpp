@@ -93,10 +93,7 @@ struct FclScene::World {
 };
 
 FclScene::FclScene(const PosedScene& scene, const FclDetector::Options& options)
-    : world_(std::make_unique<World>(scene, options)) {}
-FclScene::FclScene(FclScene&&) noexcept = default;
-FclScene& FclScene::operator=(FclScene&&) noexcept = default;
-FclScene::~FclScene() = default;
+    : world_(make_hidden<World>(scene, options)) {}
 
 void FclScene::place(std::uint32_t body, const Pose& pose) {
   world_->bodies.place(body, pose);

@@ -4,10 +4,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 
 #include "baselines/fcl/fcl_detector.h"
+#include "baselines/hidden.h"
 #include "baselines/posed.h"
 
 namespace touchmark::baselines {
@@ -18,10 +18,6 @@ class FclScene {
 
   /// Throws what FclDetector::build throws.
   FclScene(const PosedScene& scene, const FclDetector::Options& options);
-  FclScene(FclScene&&) noexcept;
-  FclScene& operator=(FclScene&&) noexcept;
-  ~FclScene();
-
   /// Takes effect with publish().
   void place(std::uint32_t body, const Pose& pose);
   void publish();
@@ -34,7 +30,7 @@ class FclScene {
  private:
   struct World;
 
-  std::unique_ptr<World> world_;
+  Hidden<World> world_;
 };
 
 }  // namespace touchmark::baselines

@@ -218,18 +218,13 @@ struct LibccdDetector::Model {
   AabbTree tree;
 };
 
-LibccdDetector::LibccdDetector(std::unique_ptr<const Model> model) noexcept : model_(std::move(model)) {}
-LibccdDetector::LibccdDetector(LibccdDetector&&) noexcept = default;
-LibccdDetector& LibccdDetector::operator=(LibccdDetector&&) noexcept = default;
-LibccdDetector::~LibccdDetector() = default;
-
 LibccdDetector LibccdDetector::build(const TriangleMesh& mesh, const Options& options) {
   if (!(options.tolerance > 0)) {
     throw std::invalid_argument("libccd+aabb: tolerance=" + std::to_string(options.tolerance) +
                                 " is not positive");
   }
   if (options.iterations == 0) throw std::invalid_argument("libccd+aabb: iterations=0 lets GJK do nothing");
-  return LibccdDetector(std::make_unique<Model>(mesh, options));
+  return LibccdDetector(make_hidden<const Model>(mesh, options));
 }
 
 bool LibccdDetector::touches(const Probe& probe, Session& session) const noexcept {

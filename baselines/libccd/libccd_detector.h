@@ -4,9 +4,10 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <optional>
+#include <utility>
 
+#include "baselines/hidden.h"
 #include "baselines/reach.h"
 #include "core/detector.h"
 
@@ -36,10 +37,6 @@ class LibccdDetector {
   static LibccdDetector build(const TriangleMesh& mesh, const Options& options);
   static LibccdDetector build(const TriangleMesh& mesh) { return build(mesh, Options()); }
 
-  LibccdDetector(LibccdDetector&&) noexcept;
-  LibccdDetector& operator=(LibccdDetector&&) noexcept;
-  ~LibccdDetector();
-
   bool touches(const Probe& probe, Session& session) const noexcept;
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept;
 
@@ -49,9 +46,9 @@ class LibccdDetector {
 
  private:
   struct Model;
-  explicit LibccdDetector(std::unique_ptr<const Model> model) noexcept;
+  explicit LibccdDetector(Hidden<const Model> model) noexcept : model_(std::move(model)) {}
 
-  std::unique_ptr<const Model> model_;
+  Hidden<const Model> model_;
 };
 
 }  // namespace touchmark::baselines

@@ -83,26 +83,16 @@ struct OdeDetector::Session::State {
   std::uint32_t last = no_triangle;  ///< The triangle of the last contact.
 };
 
-OdeDetector::Session::Session() noexcept = default;
-OdeDetector::Session::Session(Session&&) noexcept = default;
-OdeDetector::Session& OdeDetector::Session::operator=(Session&&) noexcept = default;
-OdeDetector::Session::~Session() = default;
-
-OdeDetector::OdeDetector(std::unique_ptr<Model> model) noexcept : model_(std::move(model)) {}
-OdeDetector::OdeDetector(OdeDetector&&) noexcept = default;
-OdeDetector& OdeDetector::operator=(OdeDetector&&) noexcept = default;
-OdeDetector::~OdeDetector() = default;
-
 OdeDetector OdeDetector::build(const TriangleMesh& mesh, const Options& options) {
   if (mesh.size() > std::size_t{1} << 30 || mesh.vertices().size() > std::numeric_limits<int>::max())
     throw MeshError("ode: a mesh of " + std::to_string(mesh.size()) + " triangles and " +
                     std::to_string(mesh.vertices().size()) + " vertices has more of them than ODE can count");
   start_ode();
-  return OdeDetector(std::make_unique<Model>(mesh, options));
+  return OdeDetector(make_hidden<Model>(mesh, options));
 }
 
 OdeDetector::Session::State& OdeDetector::state(Session& session) {
-  if (!session.state_) session.state_ = std::make_unique<Session::State>();
+  if (!session.state_) session.state_ = make_hidden<Session::State>();
   return *session.state_;
 }
 

@@ -3,9 +3,10 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <optional>
+#include <utility>
 
+#include "baselines/hidden.h"
 #include "baselines/reach.h"
 #include "core/detector.h"
 
@@ -24,26 +25,17 @@ class OdeDetector {
 
   class Session {
    public:
-    Session() noexcept;
-    Session(Session&&) noexcept;
-    Session& operator=(Session&&) noexcept;
-    ~Session();
-
     Work work;  ///< triangles: the contacts that ODE reports. It does not tell what it looks at.
 
    private:
     friend class OdeDetector;
     struct State;
-    std::unique_ptr<State> state_;
+    Hidden<State> state_;
   };
 
   /// Throws MeshError for more than 2^30 triangles or 2^31 - 1 vertices.
   static OdeDetector build(const TriangleMesh& mesh, const Options& options);
   static OdeDetector build(const TriangleMesh& mesh) { return build(mesh, Options{}); }
-
-  OdeDetector(OdeDetector&&) noexcept;
-  OdeDetector& operator=(OdeDetector&&) noexcept;
-  ~OdeDetector();
 
   bool touches(const Probe& probe, Session& session) const noexcept;
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept;
@@ -54,11 +46,11 @@ class OdeDetector {
 
  private:
   struct Model;
-  explicit OdeDetector(std::unique_ptr<Model> model) noexcept;
+  explicit OdeDetector(Hidden<Model> model) noexcept : model_(std::move(model)) {}
   static Session::State& state(Session& session);
   std::optional<Contact> nearest_in_ball(const Vec3& center, double radius, Session& session) const noexcept;
 
-  std::unique_ptr<Model> model_;
+  Hidden<Model> model_;
 };
 
 }  // namespace touchmark::baselines

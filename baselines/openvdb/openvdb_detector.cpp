@@ -167,26 +167,16 @@ struct OpenVdbDetector::Session::State {
   std::optional<openvdb::Int32Grid::ConstUnsafeAccessor> voxel;
 };
 
-OpenVdbDetector::Session::Session() noexcept = default;
-OpenVdbDetector::Session::Session(Session&&) noexcept = default;
-OpenVdbDetector::Session& OpenVdbDetector::Session::operator=(Session&&) noexcept = default;
-OpenVdbDetector::Session::~Session() = default;
-
-OpenVdbDetector::OpenVdbDetector(std::unique_ptr<Model> model) noexcept : model_(std::move(model)) {}
-OpenVdbDetector::OpenVdbDetector(OpenVdbDetector&&) noexcept = default;
-OpenVdbDetector& OpenVdbDetector::operator=(OpenVdbDetector&&) noexcept = default;
-OpenVdbDetector::~OpenVdbDetector() = default;
-
 OpenVdbDetector OpenVdbDetector::build(const TriangleMesh& mesh, const Options& options) {
   if (mesh.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
     throw MeshError("openvdb: a mesh of " + std::to_string(mesh.size()) +
                     " triangles has more of them than OpenVDB can count");
-  return OpenVdbDetector(std::make_unique<Model>(mesh, options));
+  return OpenVdbDetector(make_hidden<Model>(mesh, options));
 }
 
 OpenVdbDetector::Session::State& OpenVdbDetector::state(Session& session) const {
   if (!session.state_ || session.state_->number != model_->number)
-    session.state_ = std::make_unique<Session::State>(*model_);
+    session.state_ = make_hidden<Session::State>(*model_);
   return *session.state_;
 }
 

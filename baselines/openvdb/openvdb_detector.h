@@ -3,9 +3,10 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <optional>
+#include <utility>
 
+#include "baselines/hidden.h"
 #include "baselines/reach.h"
 #include "core/detector.h"
 #include "core/geometry/point_triangle.h"
@@ -30,17 +31,12 @@ class OpenVdbDetector {
 
   class Session {
    public:
-    Session() noexcept;
-    Session(Session&&) noexcept;
-    Session& operator=(Session&&) noexcept;
-    ~Session();
-
     Work work;  ///< cells: the cells of the lattice that were read. triangles: the polygons measured.
 
    private:
     friend class OpenVdbDetector;
     struct State;
-    std::unique_ptr<State> state_;
+    Hidden<State> state_;
   };
 
   /// Throws std::invalid_argument for a voxel or a band that is not a finite number above 0, or so many
@@ -48,10 +44,6 @@ class OpenVdbDetector {
   /// more than 2^31 - 1 triangles.
   static OpenVdbDetector build(const TriangleMesh& mesh, const Options& options);
   static OpenVdbDetector build(const TriangleMesh& mesh) { return build(mesh, Options{}); }
-
-  OpenVdbDetector(OpenVdbDetector&&) noexcept;
-  OpenVdbDetector& operator=(OpenVdbDetector&&) noexcept;
-  ~OpenVdbDetector();
 
   bool touches(const Probe& probe, Session& session) const noexcept;
   /// Finds nothing farther than the band, whatever the reach.
@@ -63,13 +55,13 @@ class OpenVdbDetector {
 
  private:
   struct Model;
-  explicit OpenVdbDetector(std::unique_ptr<Model> model) noexcept;
+  explicit OpenVdbDetector(Hidden<Model> model) noexcept : model_(std::move(model)) {}
   Session::State& state(Session& session) const;
   std::optional<Vec3> place_within(const Vec3& center, double reach) const noexcept;
   std::optional<float> distance_at(const Vec3& place, Session& session) const noexcept;
   const PreparedTriangle* polygon_at(const Vec3& place, Session& session) const noexcept;
 
-  std::unique_ptr<Model> model_;
+  Hidden<Model> model_;
 };
 
 }  // namespace touchmark::baselines

@@ -74,23 +74,13 @@ struct VtkDetector::Session::State {
   std::uint32_t last = no_triangle;  ///< The triangle of the last contact.
 };
 
-VtkDetector::Session::Session() noexcept = default;
-VtkDetector::Session::Session(Session&&) noexcept = default;
-VtkDetector::Session& VtkDetector::Session::operator=(Session&&) noexcept = default;
-VtkDetector::Session::~Session() = default;
-
-VtkDetector::VtkDetector(std::unique_ptr<Model> model) noexcept : model_(std::move(model)) {}
-VtkDetector::VtkDetector(VtkDetector&&) noexcept = default;
-VtkDetector& VtkDetector::operator=(VtkDetector&&) noexcept = default;
-VtkDetector::~VtkDetector() = default;
-
 VtkDetector VtkDetector::build(const TriangleMesh& mesh, const Options& options) {
   if (mesh.size() == 0) throw MeshError("vtk: the mesh has no triangles, and VTK's locators want some");
-  return VtkDetector(std::make_unique<Model>(mesh, options));
+  return VtkDetector(make_hidden<Model>(mesh, options));
 }
 
 VtkDetector::Session::State& VtkDetector::state(Session& session) {
-  if (!session.state_) session.state_ = std::make_unique<Session::State>();
+  if (!session.state_) session.state_ = make_hidden<Session::State>();
   return *session.state_;
 }
 

@@ -4,9 +4,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
+#include <utility>
 
+#include "baselines/hidden.h"
 #include "baselines/reach.h"
 #include "core/detector.h"
 
@@ -26,26 +27,17 @@ class VtkDetector {
 
   class Session {
    public:
-    Session() noexcept;
-    Session(Session&&) noexcept;
-    Session& operator=(Session&&) noexcept;
-    ~Session();
-
     Work work;  ///< triangles: those that are asked before VTK. It does not tell what it looks at.
 
    private:
     friend class VtkDetector;
     struct State;
-    std::unique_ptr<State> state_;
+    Hidden<State> state_;
   };
 
   /// Throws MeshError for a mesh without triangles.
   static VtkDetector build(const TriangleMesh& mesh, const Options& options);
   static VtkDetector build(const TriangleMesh& mesh) { return build(mesh, Options{}); }
-
-  VtkDetector(VtkDetector&&) noexcept;
-  VtkDetector& operator=(VtkDetector&&) noexcept;
-  ~VtkDetector();
 
   bool touches(const Probe& probe, Session& session) const noexcept;
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept;
@@ -57,7 +49,7 @@ class VtkDetector {
 
  private:
   struct Model;
-  explicit VtkDetector(std::unique_ptr<Model> model) noexcept;
+  explicit VtkDetector(Hidden<Model> model) noexcept : model_(std::move(model)) {}
   static Session::State& state(Session& session);
   /// The reach that is asked for, or nothing where nothing is to be found.
   std::optional<double> reach_from(const Vec3& center, double reach) const noexcept;
@@ -65,7 +57,7 @@ class VtkDetector {
                                          Session::State& state) const noexcept;
   std::optional<Contact> nearest_of_all(const Vec3& center, double reach) const noexcept;
 
-  std::unique_ptr<Model> model_;
+  Hidden<Model> model_;
 };
 
 }  // namespace touchmark::baselines
