@@ -1,11 +1,11 @@
 # touchmark_unite_folders(TARGET CORE): each folder of CORE, which is core or a copy of it, is compiled as one source of
 # TARGET, in half the time.
 function(touchmark_unite_folders target core)
-  # Compiled by themselves: neighborhood and point_triangle since they take fewer instructions then, the others since their
+  # Compiled by themselves: neighborhood and linear_scan since slides take fewer instructions then, the others since their
   # unnamed namespaces name things as another file's of the folder do.
-  set(apart exact/precise_closest_point field/plane_fitter geometry/point_triangle geometry/way_gap grid_group/direct/direct_query
+  set(apart exact/precise_closest_point field/plane_fitter geometry/way_gap grid_group/direct/direct_query
     grid_group/direct/prism scene/pose_change scene/round_body scene/scene_bodies scene/seen_body scene/support_table
-    scene/surface_list scene/near_surface scene/pose scene/primitives search/curve_order search/nearest_of_ties
+    scene/surface_list scene/near_surface scene/pose scene/primitives search/curve_order search/linear_scan search/nearest_of_ties
     search/sure_feature sphere_cluster/tree/bounding_cylinder sphere_cluster/tree/cylinder_bvh
     sphere_cluster/tree/neighborhood sphere_cluster/tree/touch)
   foreach(name IN LISTS apart)
