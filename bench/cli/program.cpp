@@ -65,7 +65,7 @@ constexpr OptionGroup option_groups[] = {
      "--steps --seed "},
     {"Query", " --query --radius --reach "},
     {"Detectors", " --detector --plugin --frontier --timeout --worker-output "},
-    {"Output", " --out --steps-out --csv --json --markdown --junit --manifest --trace --wide --work "}};
+    {"Output", " --out --steps-out --csv --json --markdown --junit --manifest --trace --wide "}};
 
 /// Groups the options of a command in its help, and of its subcommands, where there are more than one sees at
 /// once.
