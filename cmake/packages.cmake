@@ -3,7 +3,7 @@
 #   libtouchmark-dev    headers, static libraries, CMake    component dev
 #   touchmark           the program and its workers         component program
 #   touchmark-plots     pictures and pages of results       component plots
-#   python3-touchmark   the module for Debian's Python      component python, which `cmake --install` names or leaves out
+#   python3-touchmark   the module for Debian's Python      component python, installed only by its name
 # scripts/packaging/debian builds and tries them.
 include(GNUInstallDirs)
 

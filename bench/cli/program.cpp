@@ -67,8 +67,7 @@ constexpr OptionGroup option_groups[] = {
     {"Detectors", " --detector --plugin --frontier --timeout --worker-output "},
     {"Output", " --out --steps-out --csv --json --markdown --junit --manifest --trace --wide "}};
 
-/// Groups the options of a command in its help, and of its subcommands, where there are more than one sees at
-/// once.
+/// Groups the options in the help of a command, and of its subcommands, if there are at least twelve.
 void group_options(CLI::App& command) {
   for (CLI::App* part : command.get_subcommands(nullptr)) group_options(*part);
   const std::vector<CLI::Option*> options = command.get_options();
