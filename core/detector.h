@@ -38,7 +38,7 @@ struct Accuracy {
 /// core/geometry/point_triangle.h keeps, by its analysis there.
 inline constexpr double kernel_relative_error = 48 * (std::numeric_limits<double>::epsilon() / 2);
 
-/// What core/search/certified_nearest.h makes of it.
+/// What core/search/ties/certified_nearest.h makes of it.
 inline constexpr Accuracy certified = {Guarantee::exact, 16 * (std::numeric_limits<double>::epsilon() / 2), 0,
                                        true, true};
 

@@ -5,9 +5,9 @@ function(touchmark_unite_folders target core)
   # unnamed namespaces name things as another file's of the folder do.
   set(apart exact/precise_closest_point field/plane_fitter geometry/way_gap grid_group/direct/direct_query
     grid_group/direct/prism scene/pose_change scene/round_body scene/scene_bodies scene/seen_body scene/support_table
-    scene/surface_list scene/near_surface scene/pose scene/primitives search/curve_order search/linear_scan search/nearest_of_ties
-    search/sure_feature sphere_cluster/tree/bounding_cylinder sphere_cluster/tree/cylinder_bvh
-    sphere_cluster/tree/neighborhood sphere_cluster/tree/touch)
+    scene/surface_list scene/near_surface scene/pose scene/primitives search/many/curve_order search/linear_scan search/ties/nearest_of_ties
+    search/ties/same_location bvh/build/bounding_cylinder sphere_cluster/queries/nearest
+    sphere_cluster/queries/neighborhood sphere_cluster/queries/touch)
   foreach(name IN LISTS apart)
     if(NOT EXISTS ${PROJECT_SOURCE_DIR}/core/${name}.cpp)
       message(FATAL_ERROR "touchmark_unite_folders: there is no core/${name}.cpp")

@@ -9,7 +9,7 @@
 
 #include <pthread.h>
 
-#include "core/search/lazy_construction.h"
+#include "core/search/memory/lazy_construction.h"
 
 namespace touchmark::python {
 namespace {

@@ -16,7 +16,7 @@
 #include "bench/workload/steps.h"
 #include "core/detector.h"
 #include "core/mesh_update.h"
-#include "core/search/many_options.h"
+#include "core/search/many/many_options.h"
 
 namespace touchmark::bench::contestants {
 

@@ -20,7 +20,7 @@
 #include "bench/workload/steps.h"
 #include "core/detector.h"
 #include "core/mesh_update.h"
-#include "core/search/nearest_many.h"
+#include "core/search/many/nearest_many.h"
 
 namespace touchmark::bench::contestants {
 

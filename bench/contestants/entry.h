@@ -17,7 +17,7 @@
 #include "bench/contestants/contestant_info.h"
 #include "bench/contestants/contestant_of.h"
 #include "bench/scenes/displaced.h"
-#include "core/search/parallel.h"
+#include "core/search/threads/parallel.h"
 #include "core/sign/signed_detector.h"
 
 namespace touchmark::bench::contestants {

@@ -8,9 +8,9 @@
 #include "core/aabb_tree/builder.h"
 #include "core/flushed_denormals.h"
 #include "core/geometry/sweep_box.h"
-#include "core/search/certified_nearest.h"
-#include "core/search/closest_candidates.h"
-#include "core/search/parallel.h"
+#include "core/search/threads/parallel.h"
+#include "core/search/ties/certified_nearest.h"
+#include "core/search/ties/closest_candidates.h"
 #include "core/search/tracing.h"
 
 namespace touchmark {

@@ -12,7 +12,7 @@
 #include "core/aabb.h"
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/geometry/point_triangle.h"
-#include "core/search/parallel.h"
+#include "core/search/threads/parallel.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark {

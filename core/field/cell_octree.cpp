@@ -10,7 +10,7 @@
 
 #include "core/field/plane_fitter.h"
 #include "core/float_limits.h"
-#include "core/search/parallel.h"
+#include "core/search/threads/parallel.h"
 #include "core/sign/triangle_tree.h"
 
 namespace touchmark::field {

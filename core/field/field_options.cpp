@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "core/search/parallel.h"
+#include "core/search/threads/parallel.h"
 
 namespace touchmark::field {
 namespace {

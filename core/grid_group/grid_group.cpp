@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/flushed_denormals.h"
-#include "core/search/parallel.h"
+#include "core/search/threads/parallel.h"
 
 namespace touchmark {
 namespace {

@@ -6,7 +6,7 @@
 ///   every group, then all triangles of the groups that hold it. A probe of radius r enlarges the groups by
 ///   r.
 /// - direct, the fast form, shares with the paper that the HIP's position names the triangles to look at:
-///   1. A sampled distance field rejects what is far (core/search/distance_field.h).
+///   1. A sampled distance field rejects what is far (core/search/distance_field/distance_field.h).
 ///   2. The triangle of the tick before, or else an octree of cells each of which names a triangle near its
 ///      middle, gives the triangle to start from (cell_tree.h).
 ///   3. That triangle's group is looked at if it covers the point: the list of all triangles that can be

@@ -17,7 +17,7 @@
 #include "core/scene/scene_bodies.h"
 #include "core/scene/seen_body.h"
 #include "core/scene/shape.h"
-#include "core/search/close_triangles.h"
+#include "core/search/around.h"
 
 namespace touchmark {
 

@@ -6,7 +6,7 @@
 
 #include "core/probe.h"
 #include "core/scene/scene_bodies.h"
-#include "core/search/epoch.h"
+#include "core/search/memory/epoch.h"
 
 namespace touchmark {
 

@@ -12,7 +12,7 @@
 #include "core/scene/clearance.h"
 #include "core/scene/scene_bodies.h"
 #include "core/scene/seen_body.h"
-#include "core/search/epoch.h"
+#include "core/search/memory/epoch.h"
 
 namespace touchmark {
 

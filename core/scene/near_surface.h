@@ -15,9 +15,9 @@
 #include "core/scene/nearest_image.h"
 #include "core/scene/scene_bodies.h"
 #include "core/scene/seen_body.h"
-#include "core/search/epoch.h"
-#include "core/search/last_question.h"
-#include "core/search/listed_triangles.h"
+#include "core/search/around.h"
+#include "core/search/memory/epoch.h"
+#include "core/search/memory/last_question.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark {

@@ -15,7 +15,7 @@
 #include "core/scene/pose_change.h"
 #include "core/scene/seen_body.h"
 #include "core/scene/support_table.h"
-#include "core/search/epoch.h"
+#include "core/search/memory/epoch.h"
 #include "core/simd/dispatch.h"
 
 namespace touchmark {

@@ -5,7 +5,7 @@
 #include "core/geometry/distance_error.h"
 #include "core/geometry/widest_offset.h"
 #include "core/scene/near_surface.h"
-#include "core/search/listed_plane.h"
+#include "core/search/plane_filter/listed_plane.h"
 #include "core/simd/dispatch.h"  // IWYU pragma: keep
 #include "core/simd/lanes.h"
 #include "core/simd/wide.h"

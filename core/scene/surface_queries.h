@@ -6,8 +6,8 @@
 
 #include "core/scene/scene.h"
 #include "core/scene/seen_body.h"
-#include "core/search/last_question.h"
-#include "core/search/listed_triangles.h"
+#include "core/search/around.h"
+#include "core/search/memory/last_question.h"
 
 namespace touchmark {
 

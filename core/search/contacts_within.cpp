@@ -9,8 +9,8 @@
 
 #include "core/exact/distance_predicates.h"
 #include "core/geometry/distance_error.h"
-#include "core/search/certified_nearest.h"
-#include "core/search/shared_feature.h"
+#include "core/search/ties/certified_nearest.h"
+#include "core/search/ties/shared_nearest.h"
 
 namespace touchmark {
 namespace {

@@ -13,8 +13,8 @@
 #include "core/detector.h"
 #include "core/geometry/point_triangle.h"
 #include "core/probe.h"
-#include "core/search/nearest_of_ties.h"
-#include "core/search/sure_feature.h"
+#include "core/search/ties/nearest_of_ties.h"
+#include "core/search/ties/same_location.h"
 #include "core/triangle_ids.h"
 
 namespace touchmark {

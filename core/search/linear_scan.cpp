@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/search/certified_nearest.h"
 #include "core/search/contacts_within.h"
+#include "core/search/ties/certified_nearest.h"
 
 namespace touchmark {
 

@@ -8,7 +8,7 @@
 
 #include "core/aabb.h"
 #include "core/probe.h"
-#include "core/search/plane_filter.h"
+#include "core/search/plane_filter/plane_filter.h"
 
 #ifndef TOUCHMARK_TRACING
 #define TOUCHMARK_TRACING 0

@@ -1,5 +1,5 @@
 /// Four floats at a time, by the vector extensions of GCC and clang: one register on every machine. The wider
-/// vectors of a search are its own (core/sphere_cluster/tree/traversal.h).
+/// vectors of a search are its own (core/bvh/traversal.h).
 #pragma once
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/flushed_denormals.h"
-#include "core/search/parallel.h"
+#include "core/search/threads/parallel.h"
 
 namespace touchmark {
 
@@ -34,9 +34,11 @@ SphereCluster SphereCluster::build(const TriangleMesh& mesh, const Options& opti
   } else if (options.lookup == Lookup::scan) {
     detector.scan_ = SphereScan(mesh, detector.clusters_);
   } else {
-    detector.tree_ =
-        SphereTree(mesh, is_lazy ? nullptr : &detector.clusters_,
-                   {options.widest, options.certified, options.construction == Construction::lazy, threads});
+    const SphereClusters& made = detector.clusters_;
+    const bvh::Clusters clusters{made.spheres, made.first, made.members};
+    detector.surface_ = {WideBvh(mesh, options.clustering > 0 ? &clusters : nullptr,
+                                 {options.widest, options.construction == Construction::lazy, threads}),
+                         options.certified};
   }
   return detector;
 }
@@ -44,7 +46,7 @@ SphereCluster SphereCluster::build(const TriangleMesh& mesh, const Options& opti
 void SphereCluster::update(const TriangleMesh& mesh) {
   connectivity_.expect(mesh);
   const bool has_tree = options_.precise && options_.lookup == Lookup::tree;
-  if (!has_tree || !tree_.update(mesh)) *this = build(mesh, options_);
+  if (!has_tree || !surface_.bvh.update(mesh)) *this = build(mesh, options_);
 }
 
 bool SphereCluster::look_for_touch(const Probe& probe, Session& session) const noexcept {
@@ -52,7 +54,7 @@ bool SphereCluster::look_for_touch(const Probe& probe, Session& session) const n
   if (!options_.precise) return fast_.touches(probe, session.work);
   if (options_.lookup == Lookup::scan) return scan_.touches(probe, session.work);
   session.question = {LastQuestion::Query::touches, probe.radius};
-  return tree_.touches(probe, session.memory, session.work);
+  return spheres::touches(surface_, probe, session.memory, session.work);
 }
 
 std::optional<Contact> SphereCluster::look_for_nearest(const Probe& probe, double reach,
@@ -61,7 +63,7 @@ std::optional<Contact> SphereCluster::look_for_nearest(const Probe& probe, doubl
   if (!options_.precise) return fast_.nearest(probe.center, reach, session.work);
   if (options_.lookup == Lookup::scan) return scan_.nearest(probe.center, reach, session.work);
   session.question = {LastQuestion::Query::nearest, reach};
-  return tree_.nearest(probe.center, reach, session.memory, session.work);
+  return spheres::nearest(surface_, probe.center, reach, session.memory, session.work);
 }
 
 std::optional<Contact> SphereCluster::look_for_nearest(const Probe& probe, double reach,
@@ -69,7 +71,7 @@ std::optional<Contact> SphereCluster::look_for_nearest(const Probe& probe, doubl
   if (!(reach >= 0)) return std::nullopt;
   if (!options_.precise) return fast_.nearest(probe.center, reach, work);
   if (options_.lookup == Lookup::scan) return scan_.nearest(probe.center, reach, work);
-  return tree_.nearest(probe.center, reach, followed, work);
+  return spheres::nearest(surface_, probe.center, reach, followed, work);
 }
 
 bool SphereCluster::look_for_close_triangles(const Vec3& center, double reach, double slack, Session& session,
@@ -77,7 +79,7 @@ bool SphereCluster::look_for_close_triangles(const Vec3& center, double reach, d
   if (!options_.precise || options_.lookup == Lookup::scan) return false;
   if (!(reach >= 0)) return true;
   session.question = {LastQuestion::Query::nearest, reach};
-  return tree_.close_triangles(center, reach, slack, session.memory, into, session.work);
+  return spheres::close_triangles(surface_, center, reach, slack, session.memory, into, session.work);
 }
 
 std::optional<Impact> SphereCluster::look_for_impact(const Sweep& sweep, Session& session) const noexcept {
@@ -85,7 +87,7 @@ std::optional<Impact> SphereCluster::look_for_impact(const Sweep& sweep, Session
   if (!options_.precise) return fast_.first_hit(sweep, session.work);
   if (options_.lookup == Lookup::scan) return scan_.first_hit(sweep, session.work);
   session.question = {LastQuestion::Query::sweep, sweep.radius};
-  return tree_.first_hit(sweep, session.memory, session.work);
+  return spheres::first_hit(surface_, sweep, session.memory, session.work);
 }
 
 std::size_t SphereCluster::look_for_contacts(const Probe& probe, double reach, Session& session,
@@ -93,7 +95,7 @@ std::size_t SphereCluster::look_for_contacts(const Probe& probe, double reach, S
   if (!(reach >= 0)) return 0;
   if (!options_.precise) return fast_.contacts(probe.center, reach, into, session.work);
   if (options_.lookup == Lookup::scan) return scan_.contacts(probe.center, reach, into, session.work);
-  return tree_.contacts(probe.center, reach, session.memory, into, counts_all, session.work);
+  return spheres::contacts(surface_, probe.center, reach, session.memory, into, counts_all, session.work);
 }
 
 Accuracy SphereCluster::accuracy() const noexcept {
@@ -104,7 +106,7 @@ Accuracy SphereCluster::accuracy() const noexcept {
 std::size_t SphereCluster::bytes() const noexcept {
   return clusters_.spheres.capacity() * sizeof(Sphere) +
          (clusters_.first.capacity() + clusters_.members.capacity()) * sizeof(std::uint32_t) + scan_.bytes() +
-         tree_.bytes() + fast_.bytes();
+         surface_.bvh.bytes() + fast_.bytes();
 }
 
 }  // namespace touchmark

@@ -13,7 +13,7 @@
 #include "core/sphere_cluster/clustering.h"
 #include "core/sphere_cluster/published/fast_level.h"
 #include "core/sphere_cluster/published/sphere_scan.h"
-#include "core/sphere_cluster/tree/cylinder_bvh.h"
+#include "core/sphere_cluster/queries/queries.h"
 
 namespace touchmark {
 
@@ -44,7 +44,7 @@ class SphereCluster {
   struct Session {
     Work work;
     LastQuestion question;
-    SphereTree::Memory memory;
+    spheres::PointMemory memory;
 
     /// Forgets all but the counters.
     void forget() noexcept {
@@ -69,7 +69,8 @@ class SphereCluster {
   // Inline as far as what is known without a look: there a query is a few comparisons, less than a call.
   [[gnu::always_inline]] bool touches(const Probe& probe, Session& session) const noexcept {
     if (is_clear(probe.center, probe.radius, session)) return false;
-    return tree_.is_touching(probe.center, probe.radius, session.memory) || look_for_touch(probe, session);
+    return spheres::is_touching(surface_.bvh, probe.center, probe.radius, session.memory) ||
+           look_for_touch(probe, session);
   }
   std::optional<Contact> nearest(const Probe& probe, double reach, Session& session) const noexcept {
     if (is_clear(probe.center, reach, session)) return std::nullopt;
@@ -78,7 +79,7 @@ class SphereCluster {
   /// Answers likewise for one of many points that are asked again and again. See the concept FollowsPoints.
   std::optional<Contact> nearest(const Probe& probe, double reach, FollowedPoint& followed,
                                  Work& work) const noexcept {
-    if (tree_.is_clear(probe.center, reach, followed)) return std::nullopt;
+    if (spheres::is_clear(surface_.bvh, probe.center, reach, followed)) return std::nullopt;
     return look_for_nearest(probe, reach, followed, work);
   }
   /// See the concept TellsCloseTriangles: true with a tree, unless there are too many or the slack is too
@@ -86,18 +87,18 @@ class SphereCluster {
   bool close_triangles(const Vec3& center, double reach, double slack, Session& session,
                        CloseTriangles& into) const noexcept {
     into.count = 0;
-    if (tree_.is_clear(center, reach, session.memory)) return true;
+    if (spheres::is_clear(surface_.bvh, center, reach, session.memory)) return true;
     return look_for_close_triangles(center, reach, slack, session, into);
   }
   /// See the concept ListsTriangles: with a tree alone.
   bool list_triangles(const Vec3& center, double radius, Session& session,
                       ListedTriangles& into) const noexcept {
     return options_.precise && options_.lookup == Lookup::tree &&
-           tree_.list_triangles(center, radius, into, session.work);
+           spheres::list_triangles(surface_, center, radius, into, session.work);
   }
   /// See the concept TellsClearance.
   double clearance(const Vec3& center, const Session& session) const noexcept {
-    return tree_.clearance(center, session.memory);
+    return spheres::clearance(surface_.bvh, center, session.memory);
   }
   std::optional<Impact> first_hit(const Sweep& sweep, Session& session) const noexcept {
     if (is_clear(sweep, session)) return std::nullopt;
@@ -121,7 +122,7 @@ class SphereCluster {
   /// as it moved. The next query then finds its data and its code in the caches, best when this is called
   /// just before the device is read. Work is bounded as that of two queries is.
   void prepare(Session& session) const noexcept {
-    tree_.prepare(session.question, session.memory, session.work);
+    spheres::prepare(surface_, session.question, session.memory, session.work);
   }
 
   std::size_t bytes() const noexcept;
@@ -139,20 +140,23 @@ class SphereCluster {
   /// With a tree: true if nothing is within reach, as far as that is known without looking into it. By what
   /// was near last, or by the mesh's box, first where that answered last.
   [[gnu::always_inline]] bool is_clear(const Vec3& center, double reach, Session& session) const noexcept {
-    SphereTree::Memory& memory = session.memory;
+    spheres::PointMemory& memory = session.memory;
+    const WideBvh& bvh = surface_.bvh;
     if (memory.for_box == 0)
-      return tree_.is_clear(center, reach, memory) || tree_.turns_out_beyond_box(center, reach, memory);
-    return may_ask_on(tree_.is_beyond_box(center, reach), memory);
+      return spheres::is_clear(bvh, center, reach, memory) ||
+             spheres::turns_out_beyond_box(bvh, center, reach, memory);
+    return goes_on_with_box(bvh.is_beyond_box(center, reach), memory);
   }
   /// True if that is known of a whole path.
   [[gnu::always_inline]] bool is_clear(const Sweep& sweep, Session& session) const noexcept {
-    SphereTree::Memory& memory = session.memory;
+    spheres::PointMemory& memory = session.memory;
+    const WideBvh& bvh = surface_.bvh;
     if (memory.for_box == 0)
-      return tree_.is_clear(sweep, memory) || tree_.turns_out_beyond_box(sweep, memory);
-    return may_ask_on(tree_.is_beyond_box(sweep), memory);
+      return spheres::is_clear(bvh, sweep, memory) || spheres::turns_out_beyond_box(bvh, sweep, memory);
+    return goes_on_with_box(bvh.is_beyond_box(sweep), memory);
   }
   /// Goes on with the box if that has answered; returns whether it has.
-  static bool may_ask_on(bool is_beyond, SphereTree::Memory& memory) noexcept {
+  static bool goes_on_with_box(bool is_beyond, spheres::PointMemory& memory) noexcept {
     memory.for_box = is_beyond ? memory.for_box - 1 : 0;
     return is_beyond;
   }
@@ -172,7 +176,7 @@ class SphereCluster {
   double tightness_ = 0;
   // Only the one that the options ask for is filled.
   SphereScan scan_;
-  SphereTree tree_;
+  spheres::Surface surface_;
   FastLevel fast_;
 };
 

@@ -1,5 +1,5 @@
-// Built by any number of threads (std::thread, in core/search/parallel.cpp), a detector is the same bits:
-// answers, work and bytes say so.
+// Built by any number of threads (std::thread, in core/search/threads/parallel.cpp), a detector is the same
+// bits: answers, work and bytes say so.
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -16,7 +16,7 @@
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/aabb_tree/float_tree.h"
 #include "core/grid_group/grid_group.h"
-#include "core/search/parallel.h"
+#include "core/search/threads/parallel.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 #include "tests/core/sphere_cluster/test_meshes.h"
 

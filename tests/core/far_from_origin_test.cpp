@@ -15,7 +15,7 @@
 #include "core/grid_group/direct/cell_tree.h"
 #include "core/grid_group/grid_group.h"
 #include "core/search/linear_scan.h"
-#include "core/search/plane_filter.h"
+#include "core/search/plane_filter/plane_filter.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 #include "tests/core/sphere_cluster/test_meshes.h"
 

@@ -11,7 +11,7 @@
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
 #include "core/grid_group/grid_group.h"
-#include "core/search/nearest_many.h"
+#include "core/search/many/nearest_many.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 #include "tests/core/query_pass.h"
 #include "tests/own_forms.h"

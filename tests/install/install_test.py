@@ -75,7 +75,7 @@ FUSED = ["-mfma", "-ffp-contract=fast"]  # as GCC has it with -march=native on m
 # Templates that only pass these queries on have the same comparisons in them.
 FUSED_WITHOUT_HARM = re.compile(r"(auto |bool |void |std::optional<[\w:]+> )?"
                                 r"touchmark::((Aabb::center|grid::DirectMemory::moved_less|"
-                                r"(SphereTree|grid::DirectGrid)::is_clear|SphereTree::is_beyond_box|(SphereTree|SphereCluster)::is_touching|ManySessions<.*>::ask|"
+                                r"spheres::is_(clear|touching)|grid::DirectGrid::is_clear|WideBvh::is_beyond_box|ManySessions<.*>::ask|"
                                 r"(GridGroup|SphereCluster|AutoDetector|Signed<.*>|CertifiedField<.*>)::(touches|nearest|first_hit|contacts|is_clear|sampler))\(|"
                                 r"AutoDetector::ask<|nearest_many<)")
 

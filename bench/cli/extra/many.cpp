@@ -20,7 +20,7 @@
 #include "bench/support/interrupt.h"
 #include "bench/support/progress.h"
 #include "bench/support/standard_output.h"
-#include "core/search/parallel.h"
+#include "core/search/threads/parallel.h"
 
 namespace touchmark::bench::cli {
 

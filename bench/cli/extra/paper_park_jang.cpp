@@ -18,7 +18,7 @@
 #include "bench/support/denormals.h"
 #include "bench/support/interrupt.h"
 #include "bench/support/progress.h"
-#include "core/search/plane_filter.h"
+#include "core/search/plane_filter/plane_filter.h"
 
 namespace touchmark::bench::cli {
 

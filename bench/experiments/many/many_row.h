@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bench/results/column.h"
-#include "core/search/many_options.h"
+#include "core/search/many/many_options.h"
 
 namespace touchmark::bench::experiments::many {
 

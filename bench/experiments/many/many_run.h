@@ -12,7 +12,7 @@
 #include "bench/contestants/contestant_info.h"
 #include "bench/experiments/many/many_row.h"
 #include "bench/experiments/many/many_workload.h"
-#include "core/search/many_options.h"
+#include "core/search/many/many_options.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::bench::experiments::many {

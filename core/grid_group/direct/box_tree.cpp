@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/search/parallel.h"
+#include "core/search/threads/parallel.h"
 
 namespace touchmark::grid {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/grid_group/direct/triangle_store.h"
-#include "core/search/plane_filter.h"
+#include "core/search/plane_filter/plane_filter.h"
 #include "core/simd/lanes.h"
 
 namespace touchmark::grid {

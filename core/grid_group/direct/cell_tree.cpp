@@ -7,7 +7,7 @@
 
 #include "core/grid_group/direct/rough_search.h"
 #include "core/search/linear_scan.h"
-#include "core/search/parallel.h"
+#include "core/search/threads/parallel.h"
 
 namespace touchmark::grid {
 namespace {

@@ -15,7 +15,7 @@
 #include "core/grid_group/direct/box_tree.h"
 #include "core/grid_group/direct/groups.h"
 #include "core/grid_group/direct/triangle_store.h"
-#include "core/search/lazy_construction.h"
+#include "core/search/memory/lazy_construction.h"
 
 namespace touchmark::grid {
 

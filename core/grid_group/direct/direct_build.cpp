@@ -5,7 +5,7 @@
 #include "core/grid_group/direct/direct_grid.h"
 #include "core/grid_group/direct/group_builder.h"
 #include "core/grid_group/direct/rough_search.h"
-#include "core/search/distance_field_filling.h"  // IWYU pragma: keep
+#include "core/search/distance_field/distance_field_filling.h"  // IWYU pragma: keep
 
 namespace touchmark::grid {
 namespace {

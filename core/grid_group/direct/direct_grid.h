@@ -13,11 +13,11 @@
 #include "core/grid_group/direct/cell_tree.h"
 #include "core/grid_group/direct/groups.h"
 #include "core/grid_group/direct/triangle_store.h"
-#include "core/search/distance_field.h"
-#include "core/search/epoch.h"
-#include "core/search/last_distance.h"
-#include "core/search/last_question.h"
+#include "core/search/distance_field/distance_field.h"
 #include "core/search/linear_scan.h"
+#include "core/search/memory/epoch.h"
+#include "core/search/memory/last_distance.h"
+#include "core/search/memory/last_question.h"
 #include "core/search/tracing.h"
 
 namespace touchmark::grid {

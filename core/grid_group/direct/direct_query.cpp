@@ -5,7 +5,7 @@
 #include "core/float_limits.h"
 #include "core/grid_group/direct/direct_grid.h"
 #include "core/grid_group/direct/nearest_search.h"
-#include "core/search/certified_nearest.h"
+#include "core/search/ties/certified_nearest.h"
 
 namespace touchmark::grid {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/search/parallel.h"
+#include "core/search/threads/parallel.h"
 
 namespace touchmark::grid {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "core/grid_group/direct/groups.h"
-#include "core/search/plane_filter.h"
+#include "core/search/plane_filter/plane_filter.h"
 #include "core/simd/lanes.h"
 
 namespace touchmark::grid {

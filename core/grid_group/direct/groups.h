@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "core/search/lazy_construction.h"
-#include "core/search/plane_filter.h"
+#include "core/search/memory/lazy_construction.h"
+#include "core/search/plane_filter/plane_filter.h"
 #include "core/simd/lanes.h"
 
 namespace touchmark::grid {

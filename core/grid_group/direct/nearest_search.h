@@ -16,9 +16,9 @@
 #include "core/grid_group/direct/box_tree.h"
 #include "core/grid_group/direct/group_filter.h"
 #include "core/grid_group/direct/triangle_store.h"
-#include "core/search/closest_candidates.h"
 #include "core/search/linear_scan.h"
-#include "core/search/nearest_of_ties.h"
+#include "core/search/ties/closest_candidates.h"
+#include "core/search/ties/nearest_of_ties.h"
 #include "core/search/tracing.h"
 #include "core/simd/prefetch.h"
 

@@ -10,7 +10,7 @@
 
 #include <Eigen/Geometry>
 
-#include "core/search/parallel.h"
+#include "core/search/threads/parallel.h"
 
 namespace touchmark::grid {
 namespace {

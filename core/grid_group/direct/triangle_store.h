@@ -7,7 +7,7 @@
 
 #include "core/aabb.h"
 #include "core/geometry/point_triangle.h"
-#include "core/search/plane_filter.h"
+#include "core/search/plane_filter/plane_filter.h"
 #include "core/triangle_mesh.h"
 
 namespace touchmark::grid {

@@ -4,8 +4,8 @@
 
 #include "core/geometry/sweep_box.h"
 #include "core/grid_group/published/scan_grid.h"
-#include "core/search/certified_nearest.h"
 #include "core/search/first_touch.h"
+#include "core/search/ties/certified_nearest.h"
 
 namespace touchmark::grid {
 namespace {

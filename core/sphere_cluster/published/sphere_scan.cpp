@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "core/geometry/sweep_box.h"
-#include "core/search/certified_nearest.h"
-#include "core/search/closest_candidates.h"
 #include "core/search/contacts_within.h"
 #include "core/search/first_touch.h"
+#include "core/search/ties/certified_nearest.h"
+#include "core/search/ties/closest_candidates.h"
 #include "core/sphere_cluster/search_bounds.h"
 
 namespace touchmark {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/search/parallel.h"
+#include "core/search/threads/parallel.h"
 
 namespace touchmark {
 
