@@ -1,6 +1,7 @@
 /// What can be chosen on the command line: contestants, their options, and `NAME[:key=value,...]`.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -74,9 +75,12 @@ struct Forms {
   std::vector<std::string> tested = {};   ///< by no command, but by the tests and the fuzzer besides
 };
 
-/// Names what a program includes, `<touchmark/HEADER.h>`, and the class in it. Empty: another library's.
+/// Names what a program includes, `<touchmark/HEADER.h>`, and the class in it.
 struct LibraryClass {
   std::string header, name;
+  std::vector<std::string> lacks = {};  ///< keys of options that this class has no member for
+
+  bool has(const std::string& key) const { return std::find(lacks.begin(), lacks.end(), key) == lacks.end(); }
 };
 
 /// A name of a detector that went out. Another answers to it.
@@ -116,7 +120,8 @@ struct ContestantInfo {
       [](const TriangleMesh&, const OptionValues&) { return std::nullopt; };
 
   Forms forms;
-  LibraryClass library = {};
+  /// The class that these options choose. Empty: another library's.
+  std::function<LibraryClass(const OptionValues&)> library = {};
   std::string plugin = {};  ///< the file that a worker loads for it; empty: built into the worker
 
   bool built() const noexcept { return static_cast<bool>(build); }

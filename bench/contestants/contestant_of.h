@@ -64,8 +64,9 @@ concept StandsInSchedules = requires(D& detector, const bodies::ScheduleView* sc
 /// Whether a detector's `prepare` is called after each answer.
 enum class Prefetch { off, on };
 
+/// On, what does not prepare is clocked as what does.
 template <Detector D, Prefetch prefetch = Prefetch::off>
-requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : public Contestant {
+class ContestantOf final : public Contestant {
  public:
   explicit ContestantOf(D detector) : ContestantOf(std::make_shared<D>(std::move(detector))) {}
   explicit ContestantOf(std::shared_ptr<D> detector) : detector_(std::move(detector)) { begin_session(); }
@@ -231,7 +232,7 @@ requires(prefetch == Prefetch::off || Prepares<D>) class ContestantOf final : pu
     return answer;
   }
   void prepare() noexcept {
-    if constexpr (prefetch == Prefetch::on) detector_->prepare(*session_);
+    if constexpr (prefetch == Prefetch::on && Prepares<D>) detector_->prepare(*session_);
   }
   /// Calls visit(ask) with the ask(steps, i) -> Answer of this query.
   template <class Visitor>

@@ -94,6 +94,15 @@ std::unique_ptr<Contestant> contestant(const TriangleMesh& mesh, const typename 
                                : with(built<D>(mesh, options, values));
 }
 
+/// As above, prepared for before each query where that was chosen.
+template <Detector D>
+std::unique_ptr<Contestant> prepared_contestant(
+    const TriangleMesh& mesh, const typename D::Options& options, const OptionValues& values,
+    const std::function<std::string(const D&)>& remark_on = nullptr) {
+  return values.flag("prepare") ? contestant<D, Prefetch::on>(mesh, options, values, remark_on)
+                                : contestant<D>(mesh, options, values, remark_on);
+}
+
 /// Returns how many threads are to build it. Throws std::invalid_argument for more than there may be.
 inline unsigned threads_of(const OptionValues& values) {
   const std::size_t threads = values.count("threads");
@@ -128,6 +137,11 @@ Value chosen(const OptionValues& values, const std::string& key, const Names<Val
 inline OptionInfo in_code(OptionInfo option, const std::string& member, const std::string& type = "") {
   option.code = member + " = " + (type.empty() ? "" : type + "::") + "{}";
   return option;
+}
+
+/// Returns a class that any options choose.
+inline std::function<LibraryClass(const OptionValues&)> library_class(const char* header, const char* name) {
+  return [=](const OptionValues&) { return LibraryClass{header, name}; };
 }
 
 inline const Names<bool> yes_or_no{{"true", true}, {"false", false}};

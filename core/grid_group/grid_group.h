@@ -1,18 +1,14 @@
-/// Triangles grouped by where they are, so that a query looks at few of them: two exact detectors in one.
+/// Triangles grouped by where they are, so that a query looks at few of them: the fast exact form of the
+/// grid-group detector. The form as published is core/grid_group/published/published_grid_group.h.
 ///
-/// - scan, as published: J.-S. Park and T.-J. Jang, Journal of Digital Contents Society 19(1), 2018, pages
-///   199-204, in Korean. Space is cut into uniform cells, and a triangle belongs to every cell it touches.
-///   A group is the smallest cuboid or sphere around the triangles of a cell. A query tests the HIP against
-///   every group, then all triangles of the groups that hold it. A probe of radius r enlarges the groups by
-///   r.
-/// - direct, the fast form, shares with the paper that the HIP's position names the triangles to look at:
-///   1. A sampled distance field rejects what is far (core/search/distance_field/distance_field.h).
-///   2. The triangle of the tick before, or else an octree of cells each of which names a triangle near its
-///      middle, gives the triangle to start from (cell_tree.h).
-///   3. That triangle's group is looked at if it covers the point: the list of all triangles that can be
-///      nearest in a prism over the triangle, found when the grid is built (prism.h, groups.h).
-///   4. Elsewhere a tree of eight-wide boxes over all triangles is searched, nearest first (box_tree.h).
-/// Both are exact at any radius and reach.
+/// Both forms let the HIP's position name the triangles to look at:
+/// 1. A sampled distance field rejects what is far (core/search/distance_field/distance_field.h).
+/// 2. The triangle of the tick before, or else an octree of cells each of which names a triangle near its
+///    middle, gives the triangle to start from (cell_tree.h).
+/// 3. That triangle's group is looked at if it covers the point: the list of all triangles that can be
+///    nearest in a prism over the triangle, found when the grid is built (prism.h, groups.h).
+/// 4. Elsewhere a tree of eight-wide boxes over all triangles is searched, nearest first (box_tree.h).
+/// It is exact at any radius and reach.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +20,6 @@
 #include "core/brute_force/brute_force.h"
 #include "core/detector.h"
 #include "core/grid_group/direct/direct_grid.h"
-#include "core/grid_group/published/scan_grid.h"
 #include "core/mesh_update.h"
 
 namespace touchmark {
@@ -32,40 +27,33 @@ namespace touchmark {
 /// The grid-group detector; satisfies Detector, Updates, Prepares and every query. May be built lazily.
 class GridGroup {
  public:
-  using Shape = grid::Shape;
-  enum class Lookup { scan, direct };
-  /// When the groups are built, direct only. Answers are the same.
+  /// When the groups are built. Answers are the same.
   enum class Construction {
     whole,  ///< all in build()
     lazy    ///< each by the first query that misses it, one a query at most, which takes a few microseconds
   };
-  /// What `build` may be told; the defaults are the fast exact form.
+  /// What `build` may be told.
   struct Options {
-    Shape shape = Shape::cube;  ///< shape of the groups; scan only
-    Lookup lookup = Lookup::direct;
-    double cell = 0;         ///< edge of a cell, direct: of the smallest; mesh units; 0: choose
-    std::size_t groups = 0;  ///< scan with cell = 0: aim at about so many groups; 0: choose
-    double bytes_per_triangle =
-        400;                ///< direct: what the structure may take, mesh copy included (200 at least)
-    bool certified = true;  ///< false, direct only: as doubles have it, to measure what certainty costs
+    double cell = 0;                  ///< edge of the smallest cell, mesh units; 0: choose
+    double bytes_per_triangle = 400;  ///< what the structure may take, mesh copy included (200 at least)
+    bool certified = true;            ///< false: as doubles have it, to measure what certainty costs
     Construction construction = Construction::whole;
-    unsigned threads =
-        1;  ///< direct: build it, at most 256; 0: as many as there are processors; the same bits
+    unsigned threads = 1;  ///< build it, at most 256; 0: as many as there are processors; the same bits
   };
   /// What one haptic point remembers between ticks.
-  struct Session {
-    Work work;
+  struct Session : BruteForce::Session {
     LastQuestion question;
     grid::DirectMemory memory;
   };
 
-  /// Throws std::invalid_argument for a negative or NaN cell, a budget below 200, an uncertified scan, or too
-  /// many threads.
+  /// Throws std::invalid_argument for a negative or NaN cell, a budget below 200, or too many threads.
+  static void check(const Options& options);
+  /// Throws what `check` does.
   static GridGroup build(const TriangleMesh& mesh, const Options& options);
   static GridGroup build(const TriangleMesh& mesh) { return build(mesh, Options()); }
 
-  /// See the concept Updates. Direct: groups and cells near what moved are made anew, unless the mesh has
-  /// become of another size or place; the scan is built anew.
+  /// See the concept Updates. Groups and cells near what moved are made anew, and all where the mesh has
+  /// become of another size or place.
   void update(const TriangleMesh& mesh);
 
   // Inline as far as clear space: there a query is a few comparisons, less than a call.
@@ -88,26 +76,28 @@ class GridGroup {
     return is_clear(probe.center, reach, session) ? 0 : look_for_contacts(probe, reach, session, into);
   }
 
-  /// Direct: asks the last question again where the point was, unless that is known to be clear. The next
-  /// query then finds its data and its code in the caches, best when this is called just before the device is
-  /// read. Work is bounded as a query's is.
+  /// Asks the last question again where the point was, unless that is known to be clear. The next query then
+  /// finds its data and its code in the caches, best when this is called just before the device is read. Work
+  /// is bounded as a query's is.
   void prepare(Session& session) const noexcept;
 
   std::size_t bytes() const noexcept;
   Accuracy accuracy() const noexcept;
   bool builds_lazily() const noexcept { return options_.construction == Construction::lazy; }
 
-  /// Scan: groups tested by every query. Direct: triangles that have one.
-  std::size_t groups() const noexcept;
-  /// Edge of the (smallest) cell, in mesh units; 0 where the mesh's extent admits no cells.
-  double cell() const noexcept;
+  /// Triangles that have a group.
+  std::size_t groups() const noexcept { return direct() == nullptr ? 1 : direct()->groups(); }
+  /// Edge of the smallest cell, in mesh units; 0 where the mesh's extent admits no cells.
+  double cell() const noexcept { return direct() == nullptr ? 0 : direct()->cell(); }
   /// Were the cells made larger than asked, or fewer than wanted, to keep within memory?
-  bool coarsened() const noexcept;
+  bool coarsened() const noexcept { return direct() != nullptr && direct()->coarsened(); }
 
  private:
+  const grid::DirectGrid* direct() const noexcept { return std::get_if<grid::DirectGrid>(&form_); }
+  /// Answers where `direct` is null.
+  const BruteForce& brute_force() const noexcept { return *std::get_if<BruteForce>(&form_); }
   bool is_clear(const Vec3& center, double reach, const Session& session) const noexcept {
-    const auto* direct = std::get_if<grid::DirectGrid>(&form_);
-    return direct != nullptr && direct->is_clear(center, reach, session.memory);
+    return direct() != nullptr && direct()->is_clear(center, reach, session.memory);
   }
   bool look_for_touch(const Probe& probe, Session& session) const noexcept;
   std::optional<Contact> look_for_nearest(const Probe& probe, double reach, Session& session) const noexcept;
@@ -118,7 +108,7 @@ class GridGroup {
   Options options_;
   Connectivity connectivity_;
   /// BruteForce serves the meshes whose extent is zero or whose squares leave the range of double.
-  std::variant<BruteForce, grid::ScanGrid, grid::DirectGrid> form_;
+  std::variant<BruteForce, grid::DirectGrid> form_;
 };
 
 }  // namespace touchmark

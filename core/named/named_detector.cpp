@@ -11,13 +11,17 @@
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
 #include "core/grid_group/grid_group.h"
+#include "core/grid_group/published/published_grid_group.h"
 #include "core/named/option_text.h"
+#include "core/named/published_form.h"
 #include "core/sign/signed_detector.h"
+#include "core/sphere_cluster/published/published_sphere_cluster.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 
 namespace touchmark {
 namespace {
 
+using named::expect_published;
 using named::OptionText;
 
 template <class D>
@@ -61,13 +65,17 @@ using Choices = std::array<std::pair<std::string_view, Value>, count>;
 constexpr Choices<bool, 2> yes_or_no{{{"true", true}, {"false", false}}};
 constexpr Choices<bool, 2> on_or_off{{{"off", false}, {"on", true}}};
 
-/// The last of a detector's options, which all have.
-template <class D>
-std::unique_ptr<NamedDetector> built(const TriangleMesh& mesh, const typename D::Options& options,
-                                     OptionText& text) {
+/// Reads the last of a detector's options, which all have.
+bool read_side(OptionText& text) {
   bool side = false;
   text.read_choice("side", on_or_off, side);
   text.expect_nothing_left();
+  return side;
+}
+
+template <class D>
+std::unique_ptr<NamedDetector> built(const TriangleMesh& mesh, const typename D::Options& options,
+                                     bool side) {
   if (side) return std::make_unique<Named<Signed<D>>>(Signed<D>::build(mesh, options));
   return std::make_unique<Named<D>>(D::build(mesh, options));
 }
@@ -80,7 +88,7 @@ void read_threads(OptionText& text, unsigned& threads) {
 }
 
 std::unique_ptr<NamedDetector> brute_force(const TriangleMesh& mesh, OptionText& text) {
-  return built<BruteForce>(mesh, {}, text);
+  return built<BruteForce>(mesh, {}, read_side(text));
 }
 
 std::unique_ptr<NamedDetector> aabb_tree(const TriangleMesh& mesh, OptionText& text) {
@@ -88,45 +96,55 @@ std::unique_ptr<NamedDetector> aabb_tree(const TriangleMesh& mesh, OptionText& t
   text.read_count("leaf_size", options.leaf_size);
   text.read_choice("certified", yes_or_no, options.certified);
   read_threads(text, options.threads);
-  return built<AabbTree>(mesh, options, text);
+  return built<AabbTree>(mesh, options, read_side(text));
 }
 
 std::unique_ptr<NamedDetector> grid_group(const TriangleMesh& mesh, OptionText& text) {
-  using Lookup = GridGroup::Lookup;
-  using Shape = GridGroup::Shape;
+  using Shape = PublishedGridGroup::Shape;
   using Construction = GridGroup::Construction;
-  constexpr Choices<Lookup, 2> lookups{{{"direct", Lookup::direct}, {"scan", Lookup::scan}}};
+  constexpr Choices<bool, 2> lookups{{{"direct", false}, {"scan", true}}};
   constexpr Choices<Shape, 3> shapes{
       {{"cube", Shape::cube}, {"sphere", Shape::sphere}, {"centered-sphere", Shape::centered_sphere}}};
   constexpr Choices<Construction, 2> builds{{{"whole", Construction::whole}, {"lazy", Construction::lazy}}};
+  bool scans = false;
   GridGroup::Options options;
-  text.read_choice("lookup", lookups, options.lookup);
-  text.read_choice("shape", shapes, options.shape);
+  PublishedGridGroup::Options published;
+  text.read_choice("lookup", lookups, scans);
+  text.read_choice("shape", shapes, published.shape);
   text.read_length("cell", mesh, options.cell);
-  text.read_count("groups", options.groups);
+  text.read_count("groups", published.groups);
   text.read_number("bytes_per_triangle", options.bytes_per_triangle);
   text.read_choice("certified", yes_or_no, options.certified);
   text.read_choice("build", builds, options.construction);
   read_threads(text, options.threads);
-  return built<GridGroup>(mesh, options, text);
+  const bool side = read_side(text);
+  if (!scans) return built<GridGroup>(mesh, options, side);
+  expect_published(options);
+  published.cell = options.cell;
+  return built<PublishedGridGroup>(mesh, published, side);
 }
 
 std::unique_ptr<NamedDetector> sphere_cluster(const TriangleMesh& mesh, OptionText& text) {
-  using Lookup = SphereCluster::Lookup;
   using Construction = SphereCluster::Construction;
-  constexpr Choices<Lookup, 2> lookups{{{"tree", Lookup::tree}, {"scan", Lookup::scan}}};
+  constexpr Choices<bool, 2> lookups{{{"tree", false}, {"scan", true}}};
   constexpr Choices<Simd, 3> widths{
       {{"avx2", Simd::avx2}, {"avx512", Simd::avx2}, {"portable", Simd::portable}}};
   constexpr Choices<Construction, 2> builds{{{"whole", Construction::whole}, {"lazy", Construction::lazy}}};
+  bool scans = false;
   SphereCluster::Options options;
-  text.read_choice("lookup", lookups, options.lookup);
+  PublishedSphereCluster::Options published;
+  text.read_choice("lookup", lookups, scans);
   text.read_length("clustering", mesh, options.clustering);
-  text.read_choice("precise", yes_or_no, options.precise);
+  text.read_choice("precise", yes_or_no, published.precise);
   text.read_choice("certified", yes_or_no, options.certified);
   text.read_choice("build", builds, options.construction);
   text.read_choice("simd", widths, options.widest);
   read_threads(text, options.threads);
-  return built<SphereCluster>(mesh, options, text);
+  const bool side = read_side(text);
+  if (!scans && published.precise) return built<SphereCluster>(mesh, options, side);
+  expect_published(options);
+  published.clustering = options.clustering;
+  return built<PublishedSphereCluster>(mesh, published, side);
 }
 
 struct Maker {

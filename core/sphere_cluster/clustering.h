@@ -25,6 +25,10 @@ struct SphereClusters {
   std::vector<std::uint32_t> members;  ///< each triangle once
 
   std::size_t size() const noexcept { return spheres.size(); }
+  std::size_t bytes() const noexcept {
+    return spheres.capacity() * sizeof(Sphere) +
+           (first.capacity() + members.capacity()) * sizeof(std::uint32_t);
+  }
   std::span<const std::uint32_t> triangles_of(std::size_t sphere) const noexcept {
     return std::span(members).subspan(first[sphere], first[sphere + 1] - first[sphere]);
   }
@@ -39,8 +43,8 @@ enum class VisitOrder { breadth_first, mesh };
 /// lowest one not yet visited.
 std::vector<std::uint32_t> breadth_first_order(const TriangleMesh& mesh);
 
-/// `distance` >= 0 and finite, in mesh units; 0 leaves one sphere a triangle, in the mesh's order. The same
-/// bits with any number of threads.
+/// `distance` in mesh units; 0 leaves one sphere a triangle, in the mesh's order. The same bits with any
+/// number of threads. Throws std::invalid_argument for a distance that is negative, infinite or not a number.
 SphereClusters cluster_spheres(const TriangleMesh& mesh, double distance,
                                VisitOrder order = VisitOrder::breadth_first, unsigned threads = 1);
 

@@ -14,8 +14,10 @@
 #include "core/brute_force/brute_force.h"
 #include "core/grid_group/direct/cell_tree.h"
 #include "core/grid_group/grid_group.h"
+#include "core/grid_group/published/published_grid_group.h"
 #include "core/search/linear_scan.h"
 #include "core/search/plane_filter/plane_filter.h"
+#include "core/sphere_cluster/published/published_sphere_cluster.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 #include "tests/core/sphere_cluster/test_meshes.h"
 
@@ -203,11 +205,10 @@ TEST_P(FarFromOrigin, EveryFormAnswersAsBruteForce) {
   expect_of_built_and_updated<SphereCluster>(mesh, {}, "sphere-cluster");
   expect_of_built_and_updated<SphereCluster>(mesh, {.construction = lazy_samples}, "sphere-cluster, lazy");
   expect_of_built_and_updated<AabbTree>(mesh, {}, "aabb-tree");
-  expect_of_built_and_updated<GridGroup>(mesh, {.lookup = GridGroup::Lookup::scan}, "cubes as published");
-  expect_of_built_and_updated<GridGroup>(
-      mesh, {.shape = GridGroup::Shape::sphere, .lookup = GridGroup::Lookup::scan}, "balls as published");
-  expect_of_built_and_updated<SphereCluster>(mesh, {.lookup = SphereCluster::Lookup::scan},
-                                             "spheres as published");
+  expect_of_built_and_updated<PublishedGridGroup>(mesh, {}, "cubes as published");
+  expect_of_built_and_updated<PublishedGridGroup>(mesh, {.shape = PublishedGridGroup::Shape::sphere},
+                                                  "balls as published");
+  expect_of_built_and_updated<PublishedSphereCluster>(mesh, {}, "spheres as published");
 }
 
 INSTANTIATE_TEST_SUITE_P(PowersOfTwo, FarFromOrigin, testing::Values(27, 31, 34, 42, 50, 52));

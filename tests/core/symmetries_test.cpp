@@ -6,7 +6,6 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -16,6 +15,8 @@
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
 #include "core/grid_group/grid_group.h"
+#include "core/grid_group/published/published_grid_group.h"
+#include "core/sphere_cluster/published/published_sphere_cluster.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 #include "tests/bench/oracle/corner_case_meshes.h"
 
@@ -78,16 +79,11 @@ std::vector<Answer> answers(const D& detector, const std::vector<Probe>& probes)
 
 std::uint64_t bits(double x) { return std::bit_cast<std::uint64_t>(x); }
 
-template <class D, class... Options>
-class Form {
- public:
-  explicit Form(const Options&... options) : options_(options...) {}
+template <class D>
+struct Form {
   std::vector<Answer> ask(const TriangleMesh& mesh, const std::vector<Probe>& probes) const {
-    return std::apply([&](const auto&... o) { return answers(D::build(mesh, o...), probes); }, options_);
+    return answers(D::build(mesh), probes);
   }
-
- private:
-  std::tuple<Options...> options_;
 };
 
 /// Calls check(name, form) for every exact form.
@@ -96,11 +92,9 @@ void for_every_form(const Check& check) {
   check("brute-force", Form<BruteForce>());
   check("aabb-tree", Form<AabbTree>());
   check("grid-group", Form<GridGroup>());
-  check("grid-group:lookup=scan",
-        Form<GridGroup, GridGroup::Options>(GridGroup::Options{.lookup = GridGroup::Lookup::scan}));
+  check("grid-group:lookup=scan", Form<PublishedGridGroup>());
   check("sphere-cluster", Form<SphereCluster>());
-  check("sphere-cluster:lookup=scan", Form<SphereCluster, SphereCluster::Options>(
-                                          SphereCluster::Options{.lookup = SphereCluster::Lookup::scan}));
+  check("sphere-cluster:lookup=scan", Form<PublishedSphereCluster>());
 }
 
 TEST(Symmetries, AnotherUnitByAPowerOfTwoChangesNoBit) {

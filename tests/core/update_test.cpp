@@ -15,7 +15,9 @@
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
 #include "core/grid_group/grid_group.h"
+#include "core/grid_group/published/published_grid_group.h"
 #include "core/sign/signed_detector.h"
+#include "core/sphere_cluster/published/published_sphere_cluster.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 #include "tests/core/sphere_cluster/test_meshes.h"
 
@@ -162,8 +164,8 @@ TEST(Update, GivesTheBitsOfBruteForceOnTheMeshAsItIsNow) {
 
 TEST(Update, OfTheFormsAsPublishedDoesTheSame) {
   const std::vector<Frame> film = film_of(test::bumpy_sphere(8, 0.05, 1));
-  expect_bits_of_brute_force<SphereCluster>(film, {.lookup = SphereCluster::Lookup::scan}, "spheres");
-  expect_bits_of_brute_force<GridGroup>(film, {.lookup = GridGroup::Lookup::scan}, "groups");
+  expect_bits_of_brute_force<PublishedSphereCluster>(film, {}, "spheres");
+  expect_bits_of_brute_force<PublishedGridGroup>(film, {}, "groups");
 }
 
 /// The free room that a session knows of is not free when the mesh has come there.

@@ -17,6 +17,8 @@
 #include <touchmark/grid_group.h>
 #include <touchmark/mesh_measures.h>
 #include <touchmark/nearest_many.h>
+#include <touchmark/published_grid_group.h>
+#include <touchmark/published_sphere_cluster.h>
 #include <touchmark/signed_detector.h>
 #include <touchmark/sphere_cluster.h>
 #include <touchmark/subdivision.h>
@@ -144,13 +146,9 @@ int main() {
   ask("aabb tree", AabbTree::build(mesh));
   ask("float tree", FloatTree::build(mesh));
   ask("grid group", GridGroup::build(mesh));
-  GridGroup::Options scan;
-  scan.lookup = GridGroup::Lookup::scan;
-  ask("grid group, scan", GridGroup::build(mesh, scan));
+  ask("grid group, scan", PublishedGridGroup::build(mesh));
   ask("sphere cluster", SphereCluster::build(mesh));
-  SphereCluster::Options spheres;
-  spheres.lookup = SphereCluster::Lookup::scan;
-  ask("sphere cluster, scan", SphereCluster::build(mesh, spheres));
+  ask("sphere cluster, scan", PublishedSphereCluster::build(mesh));
   ask("auto", AutoDetector::build(mesh));
   CertifiedField<SphereCluster>::Options coarse;
   coarse.error = 0.015625;

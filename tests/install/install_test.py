@@ -261,8 +261,12 @@ class Install(unittest.TestCase):
                 ("sphere-cluster:prepare=true,clustering=2%,simd=portable", "nearest", mesh),
                 ("grid-group:lookup=scan,shape=centered-sphere,cell=0.5,side=on", "nearest", mesh),
                 ("grid-group:bytes_per_triangle=200,build=lazy", "touches", mesh),
+                ("grid-group:shape=sphere,groups=9", "touches", mesh),
+                ("grid-group:lookup=scan,groups=9,prepare=true,threads=2,bytes_per_triangle=300", "sweep", mesh),
+                ("sphere-cluster:lookup=scan,clustering=2%,prepare=true,threads=2,simd=portable", "touches", mesh),
                 ("aabb-tree:leaf_size=8,certified=false", "sweep", mesh), ("brute-force", "sweep", mesh),
                 ("sphere-cluster:clustering=2%", "nearest", bodies), ("grid-group:cell=0.5", "sweep", bodies),
+                ("sphere-cluster:lookup=scan", "nearest", bodies), ("grid-group:lookup=scan,cell=0.5", "sweep", bodies),
                 ("aabb-tree", "touches", bodies)):
             with self.subTest(contestant), tempfile.TemporaryDirectory() as out:
                 run(program, "choose", *scene, "--quick", "--share", "1", "--query", query,
@@ -302,7 +306,7 @@ class Install(unittest.TestCase):
         self.assertEqual(self.headers("**/*"), sorted(self.headers("**/*.h") + [
             path.relative_to(self.include).as_posix() for path in self.include.rglob("*") if path.is_dir()]))
         for name in ["aabb_tree", "brute_force", "detector", "grid_group", "mesh_io", "mesh_update", "probe",
-                     "signed_detector", "sphere_cluster", "subdivision", "touchmark", "triangle_mesh"]:
+                     "published_grid_group", "published_sphere_cluster", "signed_detector", "sphere_cluster", "subdivision", "touchmark", "triangle_mesh"]:
             self.assertIn(f"touchmark/{name}.h", self.public_headers())
 
     def test_every_installed_header_is_reached_from_a_public_one(self):

@@ -142,7 +142,7 @@ std::string ChooseCommand::code(const std::vector<std::size_t>& ranked) const {
   std::string text;
   for (const std::size_t i : ranked) {
     const contestants::ContestantSpec& spec = spec_of(candidates_[i]);
-    const bool is_class = !context_.roster.find(spec.name).library.name.empty();
+    const bool is_class = context_.roster.find(spec.name).library != nullptr;
     if (text.empty() || is_class)
       text += choose::code_for(context_.roster, spec, workload_, description_.query);
     if (is_class || !workload_.scene) break;

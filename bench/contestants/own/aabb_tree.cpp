@@ -51,7 +51,7 @@ ContestantInfo aabb_tree_entry() {
     const FloatFrame frame = FloatFrame::around(mesh.bounds());
     return stored_in_single_precision(frame.scale, frame.origin);
   };
-  info.library = {"aabb_tree", "AabbTree"};
+  info.library = library_class("aabb_tree", "AabbTree");
   info.forms = {.compared = {""},
                 .verified = {"precision=float", "updated=true"},
                 .frontier = {"", "certified=false", "precision=float"},

@@ -18,7 +18,7 @@ ContestantInfo brute_force_entry() {
   };
   info.build_scene = build_own_scene<BruteForce>(
       [](const TriangleMesh&, const OptionValues&) { return BruteForce::Options(); });
-  info.library = {"brute_force", "BruteForce"};
+  info.library = library_class("brute_force", "BruteForce");
   info.forms = {.compared = {""}, .chosen = {""}, .updated = {""}};
   return info;
 }

@@ -8,28 +8,15 @@
 
 #include "bench/contestants/entry.h"
 #include "bench/contestants/own_scene.h"
+#include "core/grid_group/published/published_grid_group.h"
+#include "core/named/published_form.h"
 
 namespace touchmark::bench::contestants {
 
 namespace {
 
-/// Whether cells or groups are fewer than asked for, to keep within memory.
-std::string remark_on(const GridGroup& detector, const GridGroup::Options& options, std::size_t triangles) {
-  if (options.cell > 0 && detector.cell() > 1.01 * options.cell) {
-    return fmt::format("cells of {} would take more memory than they may; the smallest is {}", options.cell,
-                       detector.cell());
-  }
-  if (options.bytes_per_triangle != GridGroup::Options().bytes_per_triangle && detector.coarsened() &&
-      options.lookup == GridGroup::Lookup::direct) {
-    return fmt::format("within {} bytes a triangle {} of {} have a group, the others are searched for",
-                       options.bytes_per_triangle, detector.groups(), triangles);
-  }
-  return "";
-}
-
-const Names<GridGroup::Lookup>& lookups() {
-  static const Names<GridGroup::Lookup> names{{"direct", GridGroup::Lookup::direct},
-                                              {"scan", GridGroup::Lookup::scan}};
+const Names<bool>& lookups() {
+  static const Names<bool> names{{"direct", false}, {"scan", true}};
   return names;
 }
 const Names<GridGroup::Construction>& constructions() {
@@ -37,21 +24,20 @@ const Names<GridGroup::Construction>& constructions() {
                                                     {"lazy", GridGroup::Construction::lazy}};
   return names;
 }
-const Names<GridGroup::Shape>& shapes() {
-  static const Names<GridGroup::Shape> names{{"cube", GridGroup::Shape::cube},
-                                             {"sphere", GridGroup::Shape::sphere},
-                                             {"centered-sphere", GridGroup::Shape::centered_sphere}};
+const Names<PublishedGridGroup::Shape>& shapes() {
+  using Shape = PublishedGridGroup::Shape;
+  static const Names<Shape> names{
+      {"cube", Shape::cube}, {"sphere", Shape::sphere}, {"centered-sphere", Shape::centered_sphere}};
   return names;
 }
 
 std::vector<OptionInfo> options() {
   return {
-      in_code(choice("lookup", lookups(), "direct: the probe's own cell; scan: every group, as published"),
-              "lookup", "GridGroup::Lookup"),
+      choice("lookup", lookups(), "direct: the probe's own cell; scan: every group, as published"),
       in_code(choice("shape", shapes(),
                      "of the groups; scan only; sphere: the smallest; centered-sphere: about the cuboid's "
                      "centre"),
-              "shape", "GridGroup::Shape"),
+              "shape", "PublishedGridGroup::Shape"),
       in_code({"cell",
                OptionKind::length,
                {},
@@ -75,15 +61,36 @@ std::vector<OptionInfo> options() {
 
 GridGroup::Options options_of(const TriangleMesh& mesh, const OptionValues& values) {
   GridGroup::Options options;
-  options.lookup = chosen(values, "lookup", lookups());
-  options.shape = chosen(values, "shape", shapes());
   options.cell = values.length("cell", mesh);
-  options.groups = values.count("groups");
   options.bytes_per_triangle = values.number("bytes_per_triangle");
   options.certified = chosen(values, "certified", yes_or_no);
   options.construction = chosen(values, "build", constructions());
   options.threads = threads_of(values);
   return options;
+}
+
+bool is_published(const OptionValues& values) { return chosen(values, "lookup", lookups()); }
+
+PublishedGridGroup::Options published_options_of(const TriangleMesh& mesh, const OptionValues& values) {
+  named::expect_published(options_of(mesh, values));
+  return {chosen(values, "shape", shapes()), values.length("cell", mesh), values.count("groups")};
+}
+
+/// Remarks where cells or groups are fewer than asked for, to keep within memory.
+template <class D>
+std::unique_ptr<Contestant> build(const TriangleMesh& mesh, const typename D::Options& options,
+                                  const OptionValues& values) {
+  return prepared_contestant<D>(mesh, options, values, [&](const D& detector) -> std::string {
+    if (options.cell > 0 && detector.cell() > 1.01 * options.cell)
+      return fmt::format("cells of {} would take more memory than they may; the smallest is {}", options.cell,
+                         detector.cell());
+    if constexpr (requires { options.bytes_per_triangle; }) {
+      if (options.bytes_per_triangle != GridGroup::Options().bytes_per_triangle && detector.coarsened())
+        return fmt::format("within {} bytes a triangle {} of {} have a group, the others are searched for",
+                           options.bytes_per_triangle, detector.groups(), mesh.size());
+    }
+    return "";
+  });
 }
 
 }  // namespace
@@ -97,18 +104,20 @@ ContestantInfo grid_group_entry() {
   info.queries = queries_of<GridGroup>();
   info.options = options();
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
-    const GridGroup::Options options = options_of(mesh, values);
-    const auto remark = [&](const GridGroup& detector) { return remark_on(detector, options, mesh.size()); };
-    return chosen(values, "prepare", no_or_yes)
-               ? contestant<GridGroup, Prefetch::on>(mesh, options, values, remark)
-               : contestant<GridGroup>(mesh, options, values, remark);
+    return is_published(values) ? build<PublishedGridGroup>(mesh, published_options_of(mesh, values), values)
+                                : build<GridGroup>(mesh, options_of(mesh, values), values);
   };
-  info.build_scene = build_own_scene<GridGroup>(&options_of);
+  info.build_scene = [](const bodies::PlacedScene& placed, const OptionValues& values) {
+    return is_published(values) ? build_own_scene<PublishedGridGroup>(&published_options_of)(placed, values)
+                                : build_own_scene<GridGroup>(&options_of)(placed, values);
+  };
   info.bytes_per_triangle = [](const OptionValues& values) {
-    return values.text("lookup") == "direct" ? values.number("bytes_per_triangle")
-                                             : support::min_bytes_per_triangle;
+    return is_published(values) ? support::min_bytes_per_triangle : values.number("bytes_per_triangle");
   };
-  info.library = {"grid_group", "GridGroup"};
+  info.library = [](const OptionValues& values) -> LibraryClass {
+    if (!is_published(values)) return {"grid_group", "GridGroup", {"shape", "groups"}};
+    return {"published_grid_group", "PublishedGridGroup", {"bytes_per_triangle", "prepare", "threads"}};
+  };
   info.forms = {.compared = {"lookup=scan", "lookup=scan,shape=sphere", ""},
                 .verified = {"cell=1%", "lookup=scan,shape=centered-sphere", "build=lazy", "threads=2",
                              "prepare=true", "updated=true", "build=lazy,updated=true"},

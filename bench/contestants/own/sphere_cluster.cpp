@@ -2,14 +2,15 @@
 
 #include "bench/contestants/entry.h"
 #include "bench/contestants/own_scene.h"
+#include "core/named/published_form.h"
+#include "core/sphere_cluster/published/published_sphere_cluster.h"
 
 namespace touchmark::bench::contestants {
 
 namespace {
 
-const Names<SphereCluster::Lookup>& lookups() {
-  static const Names<SphereCluster::Lookup> names{{"tree", SphereCluster::Lookup::tree},
-                                                  {"scan", SphereCluster::Lookup::scan}};
+const Names<bool>& lookups() {
+  static const Names<bool> names{{"tree", false}, {"scan", true}};
   return names;
 }
 
@@ -26,9 +27,7 @@ const Names<SphereCluster::Construction>& constructions() {
 
 std::vector<OptionInfo> options() {
   return {
-      in_code(
-          choice("lookup", lookups(), "tree: a hierarchy, nearest first; scan: every sphere, as published"),
-          "lookup", "SphereCluster::Lookup"),
+      choice("lookup", lookups(), "tree: a hierarchy, nearest first; scan: every sphere, as published"),
       in_code({"clustering",
                OptionKind::length,
                {},
@@ -54,14 +53,21 @@ std::vector<OptionInfo> options() {
 
 SphereCluster::Options options_of(const TriangleMesh& mesh, const OptionValues& values) {
   SphereCluster::Options options;
-  options.lookup = chosen(values, "lookup", lookups());
   options.clustering = values.length("clustering", mesh);
-  options.precise = chosen(values, "precise", yes_or_no);
   options.certified = chosen(values, "certified", yes_or_no);
   options.widest = chosen(values, "simd", widths());
   options.construction = chosen(values, "build", constructions());
   options.threads = threads_of(values);
   return options;
+}
+
+bool is_published(const OptionValues& values) {
+  return chosen(values, "lookup", lookups()) || !values.flag("precise");
+}
+
+PublishedSphereCluster::Options published_options_of(const TriangleMesh& mesh, const OptionValues& values) {
+  named::expect_published(options_of(mesh, values));
+  return {values.length("clustering", mesh), values.flag("precise")};
 }
 
 }  // namespace
@@ -76,13 +82,19 @@ ContestantInfo sphere_cluster_entry() {
   info.queries = queries_of<SphereCluster>();
   info.options = options();
   info.build = [](const TriangleMesh& mesh, const OptionValues& values) {
-    const SphereCluster::Options options = options_of(mesh, values);
-    return chosen(values, "prepare", no_or_yes)
-               ? contestant<SphereCluster, Prefetch::on>(mesh, options, values)
-               : contestant<SphereCluster>(mesh, options, values);
+    if (is_published(values))
+      return prepared_contestant<PublishedSphereCluster>(mesh, published_options_of(mesh, values), values);
+    return prepared_contestant<SphereCluster>(mesh, options_of(mesh, values), values);
   };
-  info.build_scene = build_own_scene<SphereCluster>(&options_of);
-  info.library = {"sphere_cluster", "SphereCluster"};
+  info.build_scene = [](const bodies::PlacedScene& placed, const OptionValues& values) {
+    return is_published(values)
+               ? build_own_scene<PublishedSphereCluster>(&published_options_of)(placed, values)
+               : build_own_scene<SphereCluster>(&options_of)(placed, values);
+  };
+  info.library = [](const OptionValues& values) -> LibraryClass {
+    if (!is_published(values)) return {"sphere_cluster", "SphereCluster"};
+    return {"published_sphere_cluster", "PublishedSphereCluster", {"prepare", "simd", "threads"}};
+  };
   info.forms = {.compared = {"lookup=scan", "lookup=scan,precise=false", ""},
                 .verified = {"clustering=2%", "build=lazy", "threads=2", "prepare=true", "updated=true",
                              "build=lazy,updated=true", "lookup=scan,clustering=2%",

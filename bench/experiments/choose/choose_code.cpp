@@ -31,12 +31,13 @@ std::string value_in_code(const contestants::OptionInfo& option, const std::stri
   return length.percent ? fmt::format("{} / 100 * mesh.diagonal()", length.value) : literal(length.value);
 }
 
-/// A statement for each option that is not its default.
+/// A statement for each option of the class that is not its default.
 std::string statements(const contestants::ContestantInfo& info, const contestants::OptionValues& values) {
+  const contestants::LibraryClass library = info.library(values);
   std::string text;
   for (const contestants::OptionInfo& option : info.options) {
     const std::string& value = values.text(option.key);
-    if (option.code.empty() || value == option.default_value) continue;
+    if (option.code.empty() || !library.has(option.key) || value == option.default_value) continue;
     std::string code = fmt::format(fmt::runtime(option.code), value_in_code(option, value));
     const std::size_t type = code.find("= ") + 2;
     if (code.find("::") != std::string::npos) code.insert(type, "touchmark::");
@@ -102,9 +103,10 @@ std::string options_function(const std::string& type, const contestants::Contest
 
 std::string scene_code_for(const contestants::ContestantInfo& info, const contestants::ContestantSpec& spec,
                            const workload::Workload& workload, workload::Query query) {
-  const std::string type = "touchmark::" + info.library.name;
+  const contestants::LibraryClass library = info.library(spec.values);
+  const std::string type = "touchmark::" + library.name;
   const Question question = question_about_bodies(workload, query);
-  std::vector<std::string> headers{info.library.header, "pose", "probe", "scene", "triangle_mesh"};
+  std::vector<std::string> headers{library.header, "pose", "probe", "scene", "triangle_mesh"};
   std::sort(headers.begin(), headers.end());
   std::string text = fmt::format(
       "// {}, as touchmark choose recommends it for these bodies. Lengths are in the scene's units.\n",
@@ -140,13 +142,14 @@ bool is_on(const contestants::OptionValues& values, const std::string& key) {
 std::string code_for(const contestants::Roster& roster, const contestants::ContestantSpec& spec,
                      const workload::Workload& workload, workload::Query query) {
   const contestants::ContestantInfo& info = roster.find(spec.name);
-  if (info.library.name.empty()) return no_class(info, spec.text());
+  if (!info.library) return no_class(info, spec.text());
   if (workload.scene) return scene_code_for(info, spec, workload, query);
   const bool sides = contestants::asks_for_side(spec.values);
-  const std::string type = "touchmark::" + info.library.name;
+  const contestants::LibraryClass library = info.library(spec.values);
+  const std::string type = "touchmark::" + library.name;
   const std::string detector = sides ? fmt::format("touchmark::Signed<{}>", type) : type;
   const Question question = question_of(workload, query);
-  std::vector<std::string> headers{info.library.header, "probe", "triangle_mesh"};
+  std::vector<std::string> headers{library.header, "probe", "triangle_mesh"};
   if (sides) headers.emplace_back("signed_detector");
   std::sort(headers.begin(), headers.end());
   std::string text =
@@ -160,7 +163,7 @@ std::string code_for(const contestants::Roster& roster, const contestants::Conte
       "  // Once a tick, by the thread of one haptic point.\n"
       "  {} ask({}) noexcept {{\n    return detector_.{};\n  }}\n",
       detector, question.answer, question.parameters, question.call);
-  if (is_on(spec.values, "prepare"))
+  if (is_on(spec.values, "prepare") && library.has("prepare"))
     text +=
         "\n  // Right after waking, before the device is read: what the caches lost comes back here.\n"
         "  void prepare() noexcept { detector_.prepare(session_); }\n";

@@ -12,6 +12,7 @@
 #include "bench/support/failures.h"
 #include "bench/support/interrupt.h"
 #include "core/grid_group/grid_group.h"
+#include "core/sphere_cluster/published/published_sphere_cluster.h"
 #include "core/sphere_cluster/published/triangle_spheres.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 #include "core/subdivision/mesh_measures.h"
@@ -133,19 +134,17 @@ class Experiment {
   }
 
   Numbers add_detectors(const TriangleMesh& mesh, double clustering) {
-    using Lookup = SphereCluster::Lookup;
-    const auto spheres = [&](Lookup lookup, bool precise) {
+    const auto published = [&](bool precise) {
       return timing_.add(
-          contestants::contestant<SphereCluster>(
-              mesh,
-              {.clustering = clustering, .lookup = lookup, .precise = precise, .order = settings_.order}),
+          contestants::contestant<PublishedSphereCluster>(mesh, {clustering, precise, settings_.order}),
           paths_.back());
     };
     Numbers numbers;
-    numbers.scan = spheres(Lookup::scan, true);
+    numbers.scan = published(true);
     if (!settings_.timed) return numbers;
-    numbers.tree = spheres(Lookup::tree, true);
-    numbers.fast = spheres(Lookup::scan, false);
+    numbers.tree =
+        timing_.add(contestants::contestant<SphereCluster>(mesh, {.clustering = clustering}), paths_.back());
+    numbers.fast = published(false);
     if (clustering == 0)
       numbers.grid = timing_.add(contestants::contestant<GridGroup>(mesh, {}), paths_.back());
     return numbers;

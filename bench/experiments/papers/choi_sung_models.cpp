@@ -10,6 +10,7 @@
 #include "bench/experiments/papers/choi_sung_report.h"
 #include "bench/experiments/papers/paper_trace.h"
 #include "bench/scenes/scenes.h"
+#include "core/sphere_cluster/published/published_sphere_cluster.h"
 
 namespace touchmark::bench::experiments::papers {
 namespace {
@@ -63,8 +64,8 @@ Vec3 hat(const Vec3& d) {
 }
 
 /// Tests a query of the published two levels, without a clock.
-double tests_per_query(const SphereCluster& detector, const std::vector<workload::Step>& path) {
-  SphereCluster::Session session;
+double tests_per_query(const PublishedSphereCluster& detector, const std::vector<workload::Step>& path) {
+  PublishedSphereCluster::Session session;
   for (const workload::Step& step : path) detector.nearest(step.probe, step.reach, session);
   return static_cast<double>(session.work.total()) / static_cast<double>(path.size());
 }
@@ -73,8 +74,7 @@ void add_model_distances(const Model& model, const ChoiSungSettings& settings, C
   const TriangleMesh mesh = choi_sung_surface(model.mesh, SubdivisionMethod::ls3, settings.levels);
   const auto path = paper_trace("slide", mesh, settings.steps, settings.seed, settings.radius);
   for (const double times : {0.0, 0.25, 0.5, 1.0, 2.0, 4.0}) {
-    const SphereCluster scan = SphereCluster::build(
-        mesh, {.clustering = times * settings.clustering, .lookup = SphereCluster::Lookup::scan});
+    const auto scan = PublishedSphereCluster::build(mesh, {.clustering = times * settings.clustering});
     result.distances.push_back({model.name, "ls3", settings.levels, times * settings.clustering,
                                 scan.clusters().size(), tests_per_query(scan, path)});
   }

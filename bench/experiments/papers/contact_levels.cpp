@@ -35,8 +35,7 @@ std::optional<Contact> ContactLevels::nearest(const Probe& probe, double reach, 
 
 ContactLevels choi_sung_levels(const TriangleMesh& original, const ContactLevelSettings& settings) {
   const auto scan = [&](const TriangleMesh& mesh, bool precise) {
-    return SphereCluster::build(
-        mesh, {.clustering = settings.clustering, .lookup = SphereCluster::Lookup::scan, .precise = precise});
+    return PublishedSphereCluster::build(mesh, {.clustering = settings.clustering, .precise = precise});
   };
   std::vector<ContactLevels::Level> levels;
   levels.push_back({"spheres", scan(original, false)});
@@ -126,8 +125,9 @@ class Experiment {
     return pass;
   }
 
-  Pass pass_alone(const SphereCluster& detector) const {
-    SphereCluster::Session session;
+  template <class D>
+  Pass pass_alone(const D& detector) const {
+    typename D::Session session;
     return replay(
         [&](const workload::Step& step) { return detector.nearest(step.probe, step.reach, session); });
   }

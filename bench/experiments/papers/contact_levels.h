@@ -12,7 +12,7 @@
 #include "bench/experiments/papers/choi_sung.h"
 #include "bench/experiments/papers/level_switch.h"
 #include "bench/support/table.h"
-#include "core/sphere_cluster/sphere_cluster.h"
+#include "core/sphere_cluster/published/published_sphere_cluster.h"
 
 namespace touchmark::bench::experiments::papers {
 
@@ -24,7 +24,7 @@ class ContactLevels {
   using Clock = std::function<double()>;
   struct Level {
     std::string name;
-    SphereCluster detector;
+    PublishedSphereCluster detector;
   };
   class Session {
    public:
@@ -34,7 +34,7 @@ class ContactLevels {
    private:
     friend class ContactLevels;
     LevelSwitch switch_;
-    std::vector<SphereCluster::Session> memories_;
+    std::vector<PublishedSphereCluster::Session> memories_;
     Clock clock_;
   };
 

@@ -13,6 +13,7 @@
 #include "bench/support/failures.h"
 #include "bench/support/interrupt.h"
 #include "core/grid_group/grid_group.h"
+#include "core/sphere_cluster/published/published_sphere_cluster.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 
 namespace touchmark::bench::experiments::papers {
@@ -104,12 +105,10 @@ class Exploration {
 
   void add_clustering(FrontierPoint point, const TriangleMesh& mesh, double clustering) {
     point.clustering = clustering;
-    SphereCluster scan =
-        SphereCluster::build(mesh, {.clustering = clustering, .lookup = SphereCluster::Lookup::scan});
+    auto scan = PublishedSphereCluster::build(mesh, {.clustering = clustering});
     point.spheres = scan.clusters().size();
     add(point, std::move(scan));
-    SphereCluster fast = SphereCluster::build(
-        mesh, {.clustering = clustering, .lookup = SphereCluster::Lookup::scan, .precise = false});
+    auto fast = PublishedSphereCluster::build(mesh, {.clustering = clustering, .precise = false});
     point.form = "fast level";
     point.error = reference_->error_of(fast);
     add(point, std::move(fast));

@@ -17,7 +17,7 @@
 #include "bench/support/names.h"
 #include "core/brute_force/brute_force.h"
 #include "core/grid_group/grid_group.h"
-#include "core/grid_group/published/scan_grid.h"
+#include "core/grid_group/published/published_grid_group.h"
 
 namespace touchmark::bench::experiments::papers {
 namespace {
@@ -71,12 +71,12 @@ CountedTests count_tests(contestants::Contestant& detector, const Places& places
   return counted;
 }
 
-constexpr std::array<support::Name<GridGroup::Shape>, 3> shape_names{
-    {{GridGroup::Shape::cube, "cube"},
-     {GridGroup::Shape::sphere, "sphere"},
-     {GridGroup::Shape::centered_sphere, "centered-sphere"}}};
+using Shape = PublishedGridGroup::Shape;
 
-std::string name_of(GridGroup::Shape shape) { return std::string(support::name_in(shape_names, shape)); }
+constexpr std::array<support::Name<Shape>, 3> shape_names{
+    {{Shape::cube, "cube"}, {Shape::sphere, "sphere"}, {Shape::centered_sphere, "centered-sphere"}}};
+
+std::string name_of(Shape shape) { return std::string(support::name_in(shape_names, shape)); }
 
 /// One mesh: the ungrouped form, the published ones at every count, the fast one.
 class MeshExperiment {
@@ -94,9 +94,7 @@ class MeshExperiment {
   void run() {
     support::require_memory_for_triangles(mesh_.mesh.size(), support::min_bytes_per_triangle);
     add("ungrouped", 0, 0, contestants::contestant<BruteForce>(mesh_.mesh, {}));
-    for (const auto shape :
-         {GridGroup::Shape::cube, GridGroup::Shape::sphere, GridGroup::Shape::centered_sphere})
-      add_counts(shape);
+    for (const Shape shape : {Shape::cube, Shape::sphere, Shape::centered_sphere}) add_counts(shape);
     GridGroup direct = GridGroup::build(mesh_.mesh);
     const double cell = direct.cell();
     add("direct", cell, 0, std::make_unique<contestants::ContestantOf<GridGroup>>(std::move(direct)));
@@ -118,18 +116,17 @@ class MeshExperiment {
   }
 
  private:
-  void add_counts(GridGroup::Shape shape) {
+  void add_counts(Shape shape) {
     std::size_t last = 0;
     for (const std::size_t groups : settings_.groups) {
       print_progress_(fmt::format("{}: {} groups", mesh_.name, groups));
-      GridGroup detector =
-          GridGroup::build(mesh_.mesh, {.shape = shape, .lookup = GridGroup::Lookup::scan, .groups = groups});
+      auto detector = PublishedGridGroup::build(mesh_.mesh, {.shape = shape, .groups = groups});
       // Small meshes do not come in every number of groups.
       if (detector.groups() <= last) continue;
       last = detector.groups();
       const double cell = detector.cell();
       add(name_of(shape), cell, last,
-          std::make_unique<contestants::ContestantOf<GridGroup>>(std::move(detector)));
+          std::make_unique<contestants::ContestantOf<PublishedGridGroup>>(std::move(detector)));
       rows_.back().groups_per_triangle = groups_per_triangle(cell);
     }
   }
@@ -143,7 +140,7 @@ class MeshExperiment {
 
   double groups_per_triangle(double cell) const {
     if (!(cell > 0)) return 0;
-    const grid::ScanGrid grid = grid::ScanGrid::build(mesh_.mesh, {.cell = cell});
+    const auto grid = PublishedGridGroup::build(mesh_.mesh, {.cell = cell});
     std::size_t memberships = 0;
     for (std::size_t group = 0; group < grid.groups(); ++group) memberships += grid.members(group).size();
     return static_cast<double>(memberships) / static_cast<double>(mesh_.mesh.size());

@@ -10,23 +10,26 @@
 
 #include "bench/experiments/papers/paper_trace.h"
 #include "bench/experiments/papers/picture_files.h"
-#include "core/grid_group/published/scan_grid.h"
+#include "core/grid_group/published/published_grid_group.h"
+#include "core/grid_group/published/uniform_cells.h"
 
 namespace touchmark::bench::experiments::papers {
 namespace {
 
+using Shape = PublishedGridGroup::Shape;
+
 constexpr std::size_t step_by_step_groups = 40;  // large enough to be seen one by one
 
 /// Cells come in steps, so a few sizes about the right one are tried for exactly as many groups.
-grid::ScanGrid groups_of(const TriangleMesh& mesh, grid::Shape shape, std::size_t count) {
-  const auto miss = [count](const grid::ScanGrid& grid) {
+PublishedGridGroup groups_of(const TriangleMesh& mesh, Shape shape, std::size_t count) {
+  const auto miss = [count](const PublishedGridGroup& grid) {
     return grid.groups() > count ? grid.groups() - count : count - grid.groups();
   };
-  grid::ScanGrid best = grid::ScanGrid::build(mesh, {.shape = shape, .groups = count});
+  PublishedGridGroup best = PublishedGridGroup::build(mesh, {.shape = shape, .groups = count});
   const double cell = best.cell();
   for (int i = 1; i <= 60 && miss(best) > 0; ++i) {
     const double part = (i % 2 == 0 ? 0.002 : -0.002) * ((i + 1) / 2);
-    grid::ScanGrid next = grid::ScanGrid::build(mesh, {.shape = shape, .cell = cell * (1 + part)});
+    PublishedGridGroup next = PublishedGridGroup::build(mesh, {.shape = shape, .cell = cell * (1 + part)});
     if (miss(next) < miss(best)) best = std::move(next);
   }
   return best;
@@ -49,14 +52,14 @@ std::vector<Aabb> cells_of(const TriangleMesh& mesh, double edge) {
   return boxes;
 }
 
-double gap(const grid::ScanGrid& grid, std::size_t group, const Vec3& point) {
+double gap(const PublishedGridGroup& grid, std::size_t group, const Vec3& point) {
   if (!grid.boxes().empty()) return grid.boxes()[group].squared_distance(point);
   const Sphere& sphere = grid.spheres()[group];
   return (sphere.center - point).norm() - sphere.radius;
 }
 
 /// The group that the point is deepest in.
-std::size_t active_group(const grid::ScanGrid& grid, const Vec3& point) {
+std::size_t active_group(const PublishedGridGroup& grid, const Vec3& point) {
   std::size_t active = 0;
   for (std::size_t group = 1; group < grid.groups(); ++group) {
     if (gap(grid, group, point) < gap(grid, active, point)) active = group;
@@ -71,8 +74,8 @@ class GroupPictures {
 
   PicturedGroups write() const {
     write_file("original-mesh", triangles_csv(mesh_));
-    const auto cubes = groups_of(mesh_, grid::Shape::cube, park_jang_cubes);
-    const auto spheres = groups_of(mesh_, grid::Shape::centered_sphere, park_jang_spheres);
+    const auto cubes = groups_of(mesh_, Shape::cube, park_jang_cubes);
+    const auto spheres = groups_of(mesh_, Shape::centered_sphere, park_jang_spheres);
     write_groups("cube", cubes);
     write_groups("sphere", spheres);
     write_file("hip", fmt::format("x,y,z\n{},{},{}\n", hip_.x(), hip_.y(), hip_.z()));
@@ -86,7 +89,7 @@ class GroupPictures {
   }
 
   /// Figs 5 and 6: the groups, the active one, and the triangles that are looked at for it.
-  void write_groups(const std::string& shape, const grid::ScanGrid& grid) const {
+  void write_groups(const std::string& shape, const PublishedGridGroup& grid) const {
     const std::size_t active = active_group(grid, hip_);
     const bool boxes = !grid.boxes().empty();
     write_file(shape + "-groups", boxes ? boxes_csv(grid.boxes()) : spheres_csv(grid.spheres()));
@@ -97,11 +100,11 @@ class GroupPictures {
 
   /// Figs 1 to 3: cells, the triangles of one of them, the shapes around those, all shapes.
   void write_step_by_step() const {
-    const auto cubes = groups_of(mesh_, grid::Shape::cube, step_by_step_groups);
-    const auto of_shape = [&](grid::Shape shape) {
-      return grid::ScanGrid::build(mesh_, {.shape = shape, .cell = cubes.cell()});
+    const auto cubes = groups_of(mesh_, Shape::cube, step_by_step_groups);
+    const auto of_shape = [&](Shape shape) {
+      return PublishedGridGroup::build(mesh_, {.shape = shape, .cell = cubes.cell()});
     };
-    const auto centered = of_shape(grid::Shape::centered_sphere), smallest = of_shape(grid::Shape::sphere);
+    const auto centered = of_shape(Shape::centered_sphere), smallest = of_shape(Shape::sphere);
     const std::vector<Aabb> cells = cells_of(mesh_, cubes.cell());
     const std::size_t active = active_group(cubes, hip_);
     write_file("grouping-cells", boxes_csv(cells));

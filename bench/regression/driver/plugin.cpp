@@ -1,4 +1,5 @@
-// What an older core may lack is asked for with `requires`, so that it can still be compared.
+// What an older core may lack is asked for with `__has_include` and `requires`, so that it can still be
+// compared.
 #include "bench/regression/driver/plugin.h"
 
 #include <algorithm>
@@ -18,6 +19,15 @@
 #include "core/brute_force/brute_force.h"
 #include "core/grid_group/grid_group.h"
 #include "core/sphere_cluster/sphere_cluster.h"
+#if __has_include("core/sphere_cluster/published/published_sphere_cluster.h")
+#include "core/grid_group/published/published_grid_group.h"
+#include "core/sphere_cluster/published/published_sphere_cluster.h"
+using PublishedGridGroup = touchmark::PublishedGridGroup;
+using PublishedSphereCluster = touchmark::PublishedSphereCluster;
+#else
+using PublishedGridGroup = touchmark::GridGroup;
+using PublishedSphereCluster = touchmark::SphereCluster;
+#endif
 
 struct TouchmarkGateDetector {
   TouchmarkGateDetector() = default;
@@ -170,6 +180,14 @@ void make_portable(Options& options) {
   }
 }
 
+/// An older core's options choose the published form.
+template <class D>
+typename D::Options published_options() {
+  typename D::Options options;
+  if constexpr (requires { options.lookup; }) options.lookup = D::Lookup::scan;
+  return options;
+}
+
 Built build(std::string_view name, const touchmark::TriangleMesh& mesh) {
   using touchmark::GridGroup;
   using touchmark::SphereCluster;
@@ -177,26 +195,24 @@ Built build(std::string_view name, const touchmark::TriangleMesh& mesh) {
   if (name == "aabb-tree") return built<touchmark::AabbTree>(mesh);
   if (name == "grid-group") return built<GridGroup>(mesh);
   if (name == "sphere-cluster") return built<SphereCluster>(mesh);
-  GridGroup::Options grid;
-  grid.lookup = GridGroup::Lookup::scan;
-  if (name == "grid-group:lookup=scan") return built<GridGroup>(mesh, grid);
-  grid.shape = GridGroup::Shape::sphere;
-  if (name == "grid-group:lookup=scan,shape=sphere") return built<GridGroup>(mesh, grid);
+  auto grid = published_options<PublishedGridGroup>();
+  if (name == "grid-group:lookup=scan") return built<PublishedGridGroup>(mesh, grid);
+  grid.shape = PublishedGridGroup::Shape::sphere;
+  if (name == "grid-group:lookup=scan,shape=sphere") return built<PublishedGridGroup>(mesh, grid);
   grid.groups = 5000;
-  if (name == "grid-group:lookup=scan,shape=sphere,groups=5000") return built<GridGroup>(mesh, grid);
-  grid.shape = GridGroup::Shape::cube;
-  if (name == "grid-group:lookup=scan,groups=5000") return built<GridGroup>(mesh, grid);
+  if (name == "grid-group:lookup=scan,shape=sphere,groups=5000") return built<PublishedGridGroup>(mesh, grid);
+  grid.shape = PublishedGridGroup::Shape::cube;
+  if (name == "grid-group:lookup=scan,groups=5000") return built<PublishedGridGroup>(mesh, grid);
   SphereCluster::Options spheres;
   spheres.clustering = 0.02 * mesh.diagonal();
   if (name == "sphere-cluster:clustering=2%") return built<SphereCluster>(mesh, spheres);
-  if (name == "sphere-cluster:clustering=2%,lookup=scan") {
-    spheres.lookup = SphereCluster::Lookup::scan;
-    return built<SphereCluster>(mesh, spheres);
-  }
-  if (name == "sphere-cluster:clustering=2%,precise=false") {
-    spheres.precise = false;
-    return built<SphereCluster>(mesh, spheres);
-  }
+  auto published = published_options<PublishedSphereCluster>();
+  published.clustering = spheres.clustering;
+  if (name == "sphere-cluster:clustering=2%,lookup=scan")
+    return built<PublishedSphereCluster>(mesh, published);
+  published.precise = false;
+  if (name == "sphere-cluster:clustering=2%,precise=false")
+    return built<PublishedSphereCluster>(mesh, published);
   if (name == "sphere-cluster:portable") {
     SphereCluster::Options portable;
     make_portable(portable);

@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "core/brute_force/brute_force.h"
 #include "core/grid_group/grid_group.h"
+#include "core/grid_group/published/published_grid_group.h"
 #include "tests/core/grid_group/meshes.h"
 
 namespace touchmark {
@@ -18,27 +20,41 @@ using testing::Random;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-std::vector<GridGroup::Options> all_forms(const TriangleMesh& mesh) {
-  using enum GridGroup::Lookup;
-  using enum GridGroup::Shape;
-  const double size = mesh.diagonal();
-  std::vector<GridGroup::Options> forms;
-  for (const double cell : {0.0, 0.3 * size, 0.05 * size}) {
-    forms.push_back({.shape = cube, .lookup = scan, .cell = cell});
-    forms.push_back({.shape = sphere, .lookup = scan, .cell = cell});
-    forms.push_back({.shape = cube, .lookup = direct, .cell = cell});
-  }
-  forms.push_back({.lookup = direct, .cell = 1e-9 * size});
-  forms.push_back({.lookup = direct, .bytes_per_triangle = 200});
-  forms.push_back({.lookup = direct, .bytes_per_triangle = 4000});
+template <class D>
+struct Contestant {
+  std::string name;
+  D detector;
+  typename D::Session used;
+};
+
+std::vector<Contestant<PublishedGridGroup>> published_forms(const TriangleMesh& mesh) {
+  using enum PublishedGridGroup::Shape;
+  std::vector<Contestant<PublishedGridGroup>> forms;
+  for (const double part : {0.0, 0.3, 0.05})
+    for (const auto shape : {cube, sphere}) {
+      const double cell = part * mesh.diagonal();
+      forms.push_back({(shape == cube ? "scan cube " : "scan sphere ") + std::to_string(cell),
+                       PublishedGridGroup::build(mesh, {.shape = shape, .cell = cell}),
+                       {}});
+    }
   return forms;
 }
 
-std::string name_of(const GridGroup::Options& form) {
-  const bool scan = form.lookup == GridGroup::Lookup::scan;
-  const bool cube = form.shape == GridGroup::Shape::cube;
-  return std::string(scan ? "scan " : "direct ") + (cube ? "cube " : "sphere ") + std::to_string(form.cell) +
-         ' ' + std::to_string(form.bytes_per_triangle);
+std::vector<Contestant<GridGroup>> direct_forms(const TriangleMesh& mesh) {
+  const double size = mesh.diagonal();
+  std::vector<Contestant<GridGroup>> forms;
+  for (const GridGroup::Options& options :
+       std::initializer_list<GridGroup::Options>{{},
+                                                 {.cell = 0.3 * size},
+                                                 {.cell = 0.05 * size},
+                                                 {.cell = 1e-9 * size},
+                                                 {.bytes_per_triangle = 200},
+                                                 {.bytes_per_triangle = 4000}})
+    forms.push_back(
+        {"direct " + std::to_string(options.cell) + ' ' + std::to_string(options.bytes_per_triangle),
+         GridGroup::build(mesh, options),
+         {}});
+  return forms;
 }
 
 bool same_bits(double a, double b) {
@@ -124,14 +140,8 @@ TEST_P(GridGroupEquality, AnswersAsBruteForceDoes) {
   const double size = mesh.diagonal();
   const BruteForce brute = BruteForce::build(mesh);
   BruteForce::Session brute_session;
-  struct Contestant {
-    std::string name;
-    GridGroup detector;
-    GridGroup::Session used;
-  };
-  std::vector<Contestant> contestants;
-  for (const GridGroup::Options& form : all_forms(mesh))
-    contestants.push_back({name_of(form), GridGroup::build(mesh, form), {}});
+  auto published = published_forms(mesh);
+  auto direct = direct_forms(mesh);
 
   Random random(11);
   Vec3 center = some_center(mesh, random);
@@ -145,17 +155,20 @@ TEST_P(GridGroupEquality, AnswersAsBruteForceDoes) {
     const auto contact = brute.nearest({center, 0}, reach, brute_session);
     const bool touching = brute.touches({center, reach}, brute_session);
     const auto impact = brute.first_hit(sweep, brute_session);
-    for (Contestant& c : contestants) {
-      GridGroup::Session fresh;
+    const auto expect_the_same = [&]<class D>(Contestant<D>& c) {
+      typename D::Session fresh;
       const std::string where = std::string(named.name) + ", " + c.name + ", step " + std::to_string(step);
       ASSERT_TRUE(same(c.detector.nearest({center, 0}, reach, fresh), contact)) << where;
       ASSERT_TRUE(same(c.detector.nearest({center, 0}, reach, c.used), contact)) << where;
-      GridGroup::Session fresh_touch, fresh_sweep;
+      typename D::Session fresh_touch, fresh_sweep;
       ASSERT_EQ(c.detector.touches({center, reach}, fresh_touch), touching) << where;
       ASSERT_EQ(c.detector.touches({center, reach}, c.used), touching) << where;
       ASSERT_TRUE(same(c.detector.first_hit(sweep, fresh_sweep), impact)) << where;
       ASSERT_TRUE(same(c.detector.first_hit(sweep, c.used), impact)) << where;
-    }
+    };
+    for (auto& contestant : published) expect_the_same(contestant);
+    for (auto& contestant : direct) expect_the_same(contestant);
+    if (HasFatalFailure()) return;
   }
 }
 

@@ -9,6 +9,8 @@
 
 #include "core/brute_force/brute_force.h"
 #include "core/geometry/sphere_triangle_sweep.h"
+#include "core/grid_group/published/published_grid_group.h"
+#include "core/search/plane_filter/plane_filter.h"
 #include "tests/core/grid_group/meshes.h"
 #include "tests/core/touch_then_nearest.h"
 
@@ -16,10 +18,11 @@ namespace touchmark {
 namespace {
 
 static_assert(AnswersTouches<GridGroup> && AnswersNearest<GridGroup> && AnswersSweep<GridGroup>);
+static_assert(Updates<PublishedGridGroup> && AnswersTouches<PublishedGridGroup> &&
+              AnswersNearest<PublishedGridGroup> && AnswersSweep<PublishedGridGroup> &&
+              AnswersContacts<PublishedGridGroup>);
 
-using Lookup = GridGroup::Lookup;
-using Options = GridGroup::Options;
-using Shape = GridGroup::Shape;
+using Shape = PublishedGridGroup::Shape;
 using testing::icosphere;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -28,36 +31,38 @@ TriangleMesh two_triangles() {
   return TriangleMesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}});
 }
 
-std::vector<Options> forms(double cell) {
-  return {{.shape = Shape::cube, .lookup = Lookup::scan, .cell = cell},
-          {.shape = Shape::sphere, .lookup = Lookup::scan, .cell = cell},
-          {.shape = Shape::centered_sphere, .lookup = Lookup::scan, .cell = cell},
-          {.shape = Shape::cube, .lookup = Lookup::direct, .cell = cell}};
+/// Calls check.operator()<D>(options) for the published forms and ours.
+template <class Check>
+void for_each_form(double cell, const Check& check) {
+  for (const Shape shape : {Shape::cube, Shape::sphere, Shape::centered_sphere})
+    check.template operator()<PublishedGridGroup>({.shape = shape, .cell = cell});
+  check.template operator()<GridGroup>({.cell = cell});
 }
 
-std::optional<Contact> nearest(const GridGroup& detector, const Vec3& center, double reach) {
-  GridGroup::Session session;
+template <class D>
+std::optional<Contact> nearest(const D& detector, const Vec3& center, double reach) {
+  typename D::Session session;
   return detector.nearest({center, 0}, reach, session);
 }
 
 TEST(GridGroup, FindsTheEdgeSharedByTwoCells) {
   // Cells of 0.5 have a border where the diagonal edge runs through (0.5, 0.5).
-  for (const Options& options : forms(0.5)) {
-    const auto contact = nearest(GridGroup::build(two_triangles(), options), {0.5, 0.5, 0.25}, 1);
+  for_each_form(0.5, [&]<class D>(const typename D::Options& options) {
+    const auto contact = nearest(D::build(two_triangles(), options), {0.5, 0.5, 0.25}, 1);
     ASSERT_TRUE(contact);
     EXPECT_EQ(contact->triangle, 0u);
     EXPECT_EQ(contact->distance, 0.25);
-  }
+  });
 }
 
 TEST(GridGroup, FindsWhatLiesBeyondTheCellOfAProbeWithARadiusLargerThanACell) {
-  for (const Options& options : forms(0.1)) {
-    const GridGroup detector = GridGroup::build(two_triangles(), options);
-    GridGroup::Session session;
+  for_each_form(0.1, [&]<class D>(const typename D::Options& options) {
+    const D detector = D::build(two_triangles(), options);
+    typename D::Session session;
     EXPECT_TRUE(detector.touches({{0.75, 0.75, 2}, 2}, session));
     EXPECT_FALSE(detector.touches({{0.75, 0.75, 2}, std::nextafter(2, 0)}, session));
     EXPECT_EQ(nearest(detector, {0.75, 0.75, 2}, 2)->triangle, 1u);
-  }
+  });
 }
 
 // Sampled distances that claimed too much free space missed one point in seventy of these.
@@ -96,28 +101,28 @@ TEST(GridGroup, ATouchTellsNothingOfWhatIsNearerThanWhatItFound) {
 }
 
 TEST(GridGroup, FindsTheNearestFromFarAwayWithoutLimit) {
-  for (const Options& options : forms(0)) {
-    const GridGroup detector = GridGroup::build(icosphere(3), options);
+  for_each_form(0, [&]<class D>(const typename D::Options& options) {
+    const D detector = D::build(icosphere(3), options);
     for (const double away : {10.0, 1e3, 1e8, 1e12}) {
       const auto contact = nearest(detector, {0, 0, away}, infinity);
       ASSERT_TRUE(contact) << away;
       EXPECT_NEAR(contact->distance / (away - 1), 1, 0.02) << away;
     }
-  }
+  });
 }
 
 TEST(GridGroup, AllTrianglesOfASphereAreCandidatesAtItsCentre) {
-  for (const Options& options : forms(0)) {
-    const GridGroup detector = GridGroup::build(icosphere(4), options);
+  for_each_form(0, [&]<class D>(const typename D::Options& options) {
+    const D detector = D::build(icosphere(4), options);
     EXPECT_NEAR(nearest(detector, {0, 0, 0}, infinity)->distance, 1, 0.01);
     EXPECT_FALSE(nearest(detector, {0, 0, 0}, 0.9));
-  }
+  });
 }
 
 TEST(GridGroup, AProbeThatIsNotANumberTouchesNothing) {
-  for (const Options& options : forms(0)) {
-    const GridGroup detector = GridGroup::build(icosphere(1), options);
-    GridGroup::Session session;
+  for_each_form(0, [&]<class D>(const typename D::Options& options) {
+    const D detector = D::build(icosphere(1), options);
+    typename D::Session session;
     for (int k = 0; k < 3; ++k) {
       Vec3 center = Vec3::Zero();
       center[k] = std::nan("");
@@ -130,28 +135,29 @@ TEST(GridGroup, AProbeThatIsNotANumberTouchesNothing) {
     EXPECT_FALSE(detector.nearest({Vec3(0, 0, 1), 0}, -1, session));
     // And leaves the session usable.
     EXPECT_TRUE(detector.nearest({Vec3(0, 0, 1), 0}, 1, session));
-  }
+  });
 }
 
 TEST(GridGroup, AnInfinitelyFarProbeTouchesNothingWithinAFiniteReach) {
-  for (const Options& options : forms(0)) {
-    const GridGroup detector = GridGroup::build(icosphere(1), options);
-    GridGroup::Session session;
+  for_each_form(0, [&]<class D>(const typename D::Options& options) {
+    const D detector = D::build(icosphere(1), options);
+    typename D::Session session;
     EXPECT_FALSE(detector.nearest({Vec3(infinity, 0, 0), 0}, 1e300, session));
     EXPECT_FALSE(detector.touches({Vec3(0, -infinity, 0), 1}, session));
-  }
+  });
 }
 
 TEST(GridGroup, ReportsTheIdsOfTheFile) {
   const TriangleMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}}, {7, 9});
-  for (const Options& options : forms(0))
-    EXPECT_EQ(nearest(GridGroup::build(mesh, options), {0.75, 0.75, 2}, infinity)->triangle, 9u);
+  for_each_form(0, [&]<class D>(const typename D::Options& options) {
+    EXPECT_EQ(nearest(D::build(mesh, options), {0.75, 0.75, 2}, infinity)->triangle, 9u);
+  });
 }
 
 TEST(GridGroup, ASweepStopsAtTheSurface) {
-  for (const Options& options : forms(0.2)) {
-    const GridGroup detector = GridGroup::build(two_triangles(), options);
-    GridGroup::Session session;
+  for_each_form(0.2, [&]<class D>(const typename D::Options& options) {
+    const D detector = D::build(two_triangles(), options);
+    typename D::Session session;
     const auto impact = detector.first_hit({{0.75, 0.75, 2}, {0.75, 0.75, -2}, 0.5}, session);
     ASSERT_TRUE(impact);
     EXPECT_LE(impact->fraction, 1.5 / 4);
@@ -160,12 +166,13 @@ TEST(GridGroup, ASweepStopsAtTheSurface) {
     EXPECT_FALSE(detector.first_hit({{0.75, 0.75, 2}, {0.75, 0.75, 0.6}, 0.5}, session));
     EXPECT_FALSE(detector.first_hit({{3, 3, 2}, {3, 3, -2}, 0.5}, session));
     EXPECT_EQ(detector.first_hit({{0.75, 0.75, 0.25}, {0.75, 0.75, 5}, 0.5}, session)->fraction, 0);
-  }
+  });
 }
 
-std::string refusal(const Options& options) {
+template <class D>
+std::string refusal(const typename D::Options& options) {
   try {
-    GridGroup::build(two_triangles(), options);
+    D::build(two_triangles(), options);
   } catch (const std::invalid_argument& error) {
     return error.what();
   }
@@ -173,19 +180,21 @@ std::string refusal(const Options& options) {
 }
 
 TEST(GridGroup, RefusesOptionsByName) {
-  EXPECT_NE(refusal({.cell = -1}).find("cell is -1"), std::string::npos);
-  EXPECT_NE(refusal({.cell = std::nan("")}).find("cell is nan"), std::string::npos);
-  EXPECT_NE(refusal({.bytes_per_triangle = 10}).find("bytes_per_triangle is 10"), std::string::npos);
-  EXPECT_NE(refusal({.bytes_per_triangle = std::nan("")}).find("bytes_per_triangle is nan"),
+  EXPECT_NE(refusal<GridGroup>({.cell = -1}).find("cell is -1"), std::string::npos);
+  EXPECT_NE(refusal<GridGroup>({.cell = std::nan("")}).find("cell is nan"), std::string::npos);
+  EXPECT_NE(refusal<PublishedGridGroup>({.cell = -1}).find("cell is -1"), std::string::npos);
+  EXPECT_NE(refusal<PublishedGridGroup>({.cell = std::nan("")}).find("cell is nan"), std::string::npos);
+  EXPECT_NE(refusal<GridGroup>({.bytes_per_triangle = 10}).find("bytes_per_triangle is 10"),
+            std::string::npos);
+  EXPECT_NE(refusal<GridGroup>({.bytes_per_triangle = std::nan("")}).find("bytes_per_triangle is nan"),
             std::string::npos);
 }
 
 TEST(GridGroupScan, TestsEveryGroupAndThenTheTrianglesOfThoseThatHoldTheProbe) {
   // Four cells of 8 by 8 squares; the probe is well inside one of them.
-  const GridGroup detector =
-      GridGroup::build(testing::plate(16), {.shape = Shape::cube, .lookup = Lookup::scan, .cell = 0.53});
+  const auto detector = PublishedGridGroup::build(testing::plate(16), {.cell = 0.53});
   ASSERT_EQ(detector.groups(), 4u);
-  GridGroup::Session session;
+  PublishedGridGroup::Session session;
   EXPECT_TRUE(detector.nearest({{0.2, 0.2, 0.01}, 0}, 0.02, session));
   EXPECT_EQ(session.work.cells, 4u);
   EXPECT_GE(session.work.triangles, 8u * 8u * 2u);
@@ -199,9 +208,8 @@ TEST(GridGroupScan, SpheresHoldTheProbeAtLeastAsOftenAsCuboids) {
   const TriangleMesh mesh = icosphere(4);
   std::uint64_t triangles[2] = {0, 0};
   for (const Shape shape : {Shape::cube, Shape::sphere}) {
-    const GridGroup detector =
-        GridGroup::build(mesh, {.shape = shape, .lookup = Lookup::scan, .groups = 200});
-    GridGroup::Session session;
+    const auto detector = PublishedGridGroup::build(mesh, {.shape = shape, .groups = 200});
+    PublishedGridGroup::Session session;
     testing::Random random(12);
     for (int i = 0; i < 200; ++i) detector.nearest({random.point(1).normalized(), 0}, 0.01, session);
     triangles[shape == Shape::sphere] = session.work.triangles;
@@ -212,7 +220,7 @@ TEST(GridGroupScan, SpheresHoldTheProbeAtLeastAsOftenAsCuboids) {
 TEST(GridGroupScan, ACenteredSphereSitsOnTheCuboidAndIsNoSmallerThanTheSmallest) {
   const TriangleMesh mesh = icosphere(3);
   const auto of_shape = [&](Shape shape) {
-    return grid::ScanGrid::build(mesh, {.shape = shape, .cell = 0.3});
+    return PublishedGridGroup::build(mesh, {.shape = shape, .cell = 0.3});
   };
   const auto cuboids = of_shape(Shape::cube), smallest = of_shape(Shape::sphere),
              centered = of_shape(Shape::centered_sphere);
@@ -231,7 +239,7 @@ TEST(GridGroupScan, ACenteredSphereSitsOnTheCuboidAndIsNoSmallerThanTheSmallest)
 
 TEST(GridGroupScan, MakesAboutAsManyGroupsAsAsked) {
   for (const std::size_t wanted : {50u, 379u, 783u, 2115u}) {
-    const GridGroup detector = GridGroup::build(icosphere(5), {.lookup = Lookup::scan, .groups = wanted});
+    const auto detector = PublishedGridGroup::build(icosphere(5), {.groups = wanted});
     EXPECT_GT(detector.groups(), wanted / 2);
     EXPECT_LT(detector.groups(), wanted * 2);
     EXPECT_FALSE(detector.coarsened());
@@ -239,18 +247,18 @@ TEST(GridGroupScan, MakesAboutAsManyGroupsAsAsked) {
 }
 
 TEST(GridGroupScan, SaysSoWhenTheCellsAskedForWouldBeTooMany) {
-  const GridGroup detector = GridGroup::build(icosphere(2), {.lookup = Lookup::scan, .cell = 1e-7});
+  const auto detector = PublishedGridGroup::build(icosphere(2), {.cell = 1e-7});
   EXPECT_TRUE(detector.coarsened());
   EXPECT_GT(detector.cell(), 1e-7);
-  EXPECT_FALSE(GridGroup::build(icosphere(2), {.lookup = Lookup::scan, .cell = 0.1}).coarsened());
+  EXPECT_FALSE(PublishedGridGroup::build(icosphere(2), {.cell = 0.1}).coarsened());
 }
 
 TEST(GridGroupScan, EveryGroupEnclosesItsTrianglesAndEveryTriangleIsInAGroup) {
   for (const testing::NamedMesh& named : testing::nasty_meshes()) {
     const TriangleMesh& mesh = named.mesh;
-    if (!FilterFrame::fits(mesh.bounds())) continue;
+    if (!FilterFrame::fits(mesh.bounds())) continue;  // it has no groups
     for (const Shape shape : {Shape::cube, Shape::sphere, Shape::centered_sphere}) {
-      const auto scan = grid::ScanGrid::build(mesh, {shape, 0.1 * mesh.diagonal(), 0});
+      const auto scan = PublishedGridGroup::build(mesh, {shape, 0.1 * mesh.diagonal(), 0});
       std::vector<bool> grouped(mesh.size());
       for (std::size_t group = 0; group < scan.groups(); ++group) {
         for (const std::uint32_t triangle : scan.members(group)) {
@@ -270,8 +278,9 @@ TEST(GridGroupScan, EveryGroupEnclosesItsTrianglesAndEveryTriangleIsInAGroup) {
 
 TEST(GridGroup, CountsTheMeshInItsBytes) {
   const TriangleMesh mesh = icosphere(3);
-  for (const Options& options : forms(0))
-    EXPECT_GE(GridGroup::build(mesh, options).bytes(), mesh.size() * 9 * sizeof(double));
+  for_each_form(0, [&]<class D>(const typename D::Options& options) {
+    EXPECT_GE(D::build(mesh, options).bytes(), mesh.size() * 9 * sizeof(double));
+  });
 }
 
 TEST(GridGroup, ASessionOfAnotherDetectorChangesNoAnswer) {

@@ -76,11 +76,5 @@ TEST_F(LazyGroups, DoWithoutWhereTheMemoryIsTaken) {
   EXPECT_LE(detector.bytes(), 230 * mesh_.size());
 }
 
-TEST(LazyScan, IsRefused) {
-  GridGroup::Options options = lazy;
-  options.lookup = GridGroup::Lookup::scan;
-  EXPECT_THROW(GridGroup::build(test::bumpy_sphere(3, 0.05, 1), options), std::invalid_argument);
-}
-
 }  // namespace
 }  // namespace touchmark

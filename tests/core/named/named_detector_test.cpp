@@ -42,6 +42,39 @@ TEST(NamedDetector, TakesTheNamesAndOptionsOfTheCommandLine) {
   EXPECT_EQ(names, NamedDetector::names());
 }
 
+TEST(NamedDetector, RefusesForThePublishedFormWhatOnlyTheFastOneHas) {
+  const auto refusal = [](const std::string& text) -> std::string {
+    try {
+      NamedDetector::build(pyramid(), text);
+      return text + " was taken";
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+  };
+  for (const std::string scan : {"lookup=scan", "precise=false"}) {
+    EXPECT_EQ(refusal("sphere-cluster:build=lazy," + scan),
+              "sphere-cluster: build=lazy is for lookup=tree with precise=true");
+    EXPECT_EQ(refusal("sphere-cluster:certified=false," + scan),
+              "sphere-cluster: certified=false is for lookup=tree with precise=true");
+    EXPECT_EQ(refusal("sphere-cluster:threads=257," + scan), "sphere-cluster: threads is 257, more than 256");
+  }
+  EXPECT_EQ(refusal("grid-group:lookup=scan,build=lazy"),
+            "grid-group: build=lazy is for lookup=direct, not for scan");
+  EXPECT_EQ(refusal("grid-group:lookup=scan,certified=false"),
+            "grid-group: certified=false is for lookup=direct, not for scan");
+  EXPECT_EQ(refusal("grid-group:lookup=scan,bytes_per_triangle=199"),
+            "grid-group: bytes_per_triangle is 199.000000, less than 200.000000");
+  EXPECT_EQ(refusal("grid-group:lookup=scan,threads=257"), "grid-group: threads is 257, more than 256");
+}
+
+TEST(NamedDetector, TakesForEitherFormWhatHasNoMeaningInTheOther) {
+  for (const char* text :
+       {"grid-group:shape=sphere,groups=7", "grid-group:lookup=scan,bytes_per_triangle=300",
+        "grid-group:lookup=scan,threads=2", "sphere-cluster:lookup=scan,simd=portable",
+        "sphere-cluster:lookup=scan,threads=2", "sphere-cluster:precise=false,simd=portable"})
+    EXPECT_NO_THROW(NamedDetector::build(pyramid(), text)) << text;
+}
+
 TEST(NamedDetector, TakesAutoForSphereCluster) {
   EXPECT_EQ(NamedDetector::build(pyramid(), "auto:side=on")->bytes(),
             NamedDetector::build(pyramid(), "sphere-cluster:side=on")->bytes());

@@ -18,7 +18,9 @@
 #include "core/brute_force/brute_force.h"
 #include "core/geometry/point_triangle.h"
 #include "core/grid_group/grid_group.h"
+#include "core/grid_group/published/published_grid_group.h"
 #include "core/sign/signed_detector.h"
+#include "core/sphere_cluster/published/published_sphere_cluster.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 #include "tests/bench/oracle/corner_case_meshes.h"
 
@@ -117,18 +119,17 @@ void examine(const D& detector, const BruteForce& reference, const TriangleMesh&
 }
 
 TEST(Contacts, AreThoseOfTheOracleInItsOrderForEveryDetector) {
-  using Lookup = SphereCluster::Lookup;
   CornerCases cases(91);
   for (const NamedMesh& named : meshes()) {
     const TriangleMesh& mesh = named.mesh;
     const bench::oracle::Oracle oracle(mesh, 1);
     const BruteForce brute = BruteForce::build(mesh);
     const AabbTree tree = AabbTree::build(mesh);
-    const GridGroup direct = GridGroup::build(mesh),
-                    scan = GridGroup::build(mesh, {.lookup = GridGroup::Lookup::scan});
+    const GridGroup direct = GridGroup::build(mesh);
+    const auto scan = PublishedGridGroup::build(mesh);
     const SphereCluster spheres = SphereCluster::build(mesh),
-                        portable = SphereCluster::build(mesh, {.widest = Simd::portable}),
-                        published = SphereCluster::build(mesh, {.lookup = Lookup::scan});
+                        portable = SphereCluster::build(mesh, {.widest = Simd::portable});
+    const auto published = PublishedSphereCluster::build(mesh);
     int point = 0;
     for (const Vec3& center : corner_case_points(mesh, cases, 9)) {
       const std::string where = named.name + ", point " + std::to_string(point++);
@@ -232,8 +233,8 @@ TEST(Contacts, HaveTheSideOfTheCentreAllOfThem) {
 
 TEST(Contacts, OfTheFastLevelAreItsSpheres) {
   const TriangleMesh mesh = plate(4);
-  const SphereCluster detector = SphereCluster::build(mesh, {.precise = false});
-  SphereCluster::Session session;
+  const auto detector = PublishedSphereCluster::build(mesh, {.precise = false});
+  PublishedSphereCluster::Session session;
   std::vector<Contact> room(mesh.size());
   const Vec3 center(1.3, 2.1, 0.4);
   const std::size_t count = detector.contacts({center, 0}, 0.5, session, room);

@@ -9,24 +9,31 @@
 #include <gtest/gtest.h>
 
 #include "core/brute_force/brute_force.h"
+#include "core/sphere_cluster/published/published_sphere_cluster.h"
 #include "tests/core/sphere_cluster/test_meshes.h"
 #include "tests/core/touch_then_nearest.h"
 
 namespace touchmark {
 namespace {
 
-using Lookup = SphereCluster::Lookup;
-
 static_assert(AnswersTouches<SphereCluster> && AnswersNearest<SphereCluster> && AnswersSweep<SphereCluster>);
 static_assert(Prepares<SphereCluster>);
+static_assert(Updates<PublishedSphereCluster> && AnswersTouches<PublishedSphereCluster> &&
+              AnswersNearest<PublishedSphereCluster> && AnswersSweep<PublishedSphereCluster> &&
+              AnswersContacts<PublishedSphereCluster>);
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<SphereCluster::Options> exact_forms(double size) {
-  return {{0, Lookup::scan, true}, {0.1 * size, Lookup::scan, true},
-          {0, Lookup::tree, true}, {.order = VisitOrder::mesh, .widest = Simd::portable},
-          {.widest = Simd::avx2},  {0.1 * size, Lookup::tree, true}};
+/// Calls check.operator()<D>(options) for the published form and ours.
+template <class Check>
+void for_each_exact_form(double size, const Check& check) {
+  using Options = SphereCluster::Options;
+  for (const double clustering : {0.0, 0.1 * size})
+    check.template operator()<PublishedSphereCluster>({.clustering = clustering});
+  for (const Options& options : {Options{}, Options{.widest = Simd::portable}, Options{.widest = Simd::avx2},
+                                 Options{.clustering = 0.1 * size}})
+    check.template operator()<SphereCluster>(options);
 }
 
 /// Bit for bit; NaN equals NaN (a contact at infinite distance has no point).
@@ -53,19 +60,20 @@ void expect_same(const std::optional<Impact>& a, const std::optional<Impact>& b)
   expect_same(a->contact, b->contact);
 }
 
+std::string label(const test::NamedMesh& scene, const PublishedSphereCluster::Options& options) {
+  return scene.name + ", scan, clustering " + std::to_string(options.clustering);
+}
+
 std::string label(const test::NamedMesh& scene, const SphereCluster::Options& options) {
-  return scene.name + (options.lookup == Lookup::scan ? ", scan" : ", tree") + ", clustering " +
-         std::to_string(options.clustering) +
-         (options.widest == Simd::portable ? ", portable"
-          : options.widest == Simd::avx2   ? ", avx2"
-                                           : "");
+  return scene.name + ", tree, clustering " + std::to_string(options.clustering) +
+         (options.widest == Simd::portable ? ", portable" : ", avx2");
 }
 
 TEST(SphereCluster, FindsTheNearestOfTwoTriangles) {
   const TriangleMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}}, {3, 9});
-  for (const auto& options : exact_forms(1)) {
-    const SphereCluster detector = SphereCluster::build(mesh, options);
-    SphereCluster::Session session;
+  for_each_exact_form(1, [&]<class D>(const typename D::Options& options) {
+    const D detector = D::build(mesh, options);
+    typename D::Session session;
     const auto contact = detector.nearest({{0.75, 0.75, 2}, 0}, infinity, session);
     ASSERT_TRUE(contact);
     EXPECT_EQ(contact->triangle, 9u);
@@ -73,26 +81,26 @@ TEST(SphereCluster, FindsTheNearestOfTwoTriangles) {
     EXPECT_EQ(contact->normal, Vec3(0, 0, 1));
     EXPECT_EQ(contact->point, Vec3(0.75, 0.75, 0));
     EXPECT_FALSE(detector.nearest({{0.75, 0.75, 2}, 0}, std::nextafter(2.0, 0.0), session));
-  }
+  });
 }
 
 TEST(SphereCluster, ContactIsClosed) {
   const TriangleMesh mesh({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}});
-  for (const auto& options : exact_forms(1)) {
-    const SphereCluster detector = SphereCluster::build(mesh, options);
-    SphereCluster::Session session;
+  for_each_exact_form(1, [&]<class D>(const typename D::Options& options) {
+    const D detector = D::build(mesh, options);
+    typename D::Session session;
     EXPECT_TRUE(detector.touches({{0.25, 0.25, 0.5}, 0.5}, session));
     EXPECT_FALSE(detector.touches({{0.25, 0.25, 0.5}, std::nextafter(0.5, 0)}, session));
-  }
+  });
 }
 
 TEST(SphereCluster, EqualsBruteForceBitForBitOnEveryMesh) {
   for (const auto& scene : test::test_meshes()) {
     const BruteForce oracle = BruteForce::build(scene.mesh);
-    for (const auto& options : exact_forms(scene.size)) {
+    for_each_exact_form(scene.size, [&]<class D>(const typename D::Options& options) {
       SCOPED_TRACE(label(scene, options));
-      const SphereCluster detector = SphereCluster::build(scene.mesh, options);
-      SphereCluster::Session used;
+      const D detector = D::build(scene.mesh, options);
+      typename D::Session used;
       BruteForce::Session oracle_session;
       test::Random random(17);
       for (int step = 0; step < 100; ++step) {
@@ -101,7 +109,7 @@ TEST(SphereCluster, EqualsBruteForceBitForBitOnEveryMesh) {
         const double exact = oracle.nearest({center, 0}, infinity, oracle_session)->distance;
         for (const double reach : {radius, exact, std::nextafter(exact, 0.0), 0.0, infinity}) {
           const auto expected = oracle.nearest({center, 0}, reach, oracle_session);
-          SphereCluster::Session fresh;
+          typename D::Session fresh;
           expect_same(detector.nearest({center, 0}, reach, used), expected);
           expect_same(detector.nearest({center, 0}, reach, fresh), expected);
           EXPECT_EQ(detector.touches({center, reach}, used), expected.has_value());
@@ -109,17 +117,17 @@ TEST(SphereCluster, EqualsBruteForceBitForBitOnEveryMesh) {
         }
         if (HasFailure()) return;
       }
-    }
+    });
   }
 }
 
 TEST(SphereCluster, EqualsBruteForceOnACoherentWay) {
   for (const auto& scene : test::test_meshes()) {
     const BruteForce oracle = BruteForce::build(scene.mesh);
-    for (const auto& options : exact_forms(scene.size)) {
+    for_each_exact_form(scene.size, [&]<class D>(const typename D::Options& options) {
       SCOPED_TRACE(label(scene, options));
-      const SphereCluster detector = SphereCluster::build(scene.mesh, options);
-      SphereCluster::Session used;
+      const D detector = D::build(scene.mesh, options);
+      typename D::Session used;
       BruteForce::Session oracle_session;
       test::Random random(19);
       Vec3 center = test::random_point(scene, random);
@@ -131,10 +139,12 @@ TEST(SphereCluster, EqualsBruteForceOnACoherentWay) {
                     oracle.nearest({center, 0}, reach, oracle_session));
         const Probe probe{center, 0.1 * scene.size};
         EXPECT_EQ(detector.touches(probe, used), oracle.touches(probe, oracle_session));
-        if (step % 5 < 2) detector.prepare(used);
+        if constexpr (Prepares<D>) {
+          if (step % 5 < 2) detector.prepare(used);
+        }
         if (HasFailure()) return;
       }
-    }
+    });
   }
 }
 
@@ -143,12 +153,12 @@ TEST(SphereCluster, AMissedTouchLeavesNoMoreFreeSpaceThanThereIs) {
   // the filter leaves out is 3 away.
   const TriangleMesh mesh({{1.05, 0, 0}, {1.05, 0.1, 0}, {1.05, 0.2, 0}, {-3, 0, 0}, {-3, 1, 0}, {-3, 0, 1}},
                           {{0, 1, 2}, {3, 4, 5}});
-  for (const auto& options : exact_forms(1)) {
-    const SphereCluster detector = SphereCluster::build(mesh, options);
-    SphereCluster::Session session;
+  for_each_exact_form(1, [&]<class D>(const typename D::Options& options) {
+    const D detector = D::build(mesh, options);
+    typename D::Session session;
     EXPECT_FALSE(detector.touches({{0, 0, 0}, 1}, session));
     EXPECT_TRUE(detector.touches({{0.5, 0, 0}, 1}, session));
-  }
+  });
 }
 
 // A touch ends at any triangle within the radius; what a session remembers of it is no bound of the nearest.
@@ -156,9 +166,9 @@ TEST(SphereCluster, ATouchTellsNothingOfWhatIsNearerThanWhatItFound) {
   test::Random random(59);
   for (const TriangleMesh& mesh : {test::bumpy_sphere(40, 0.01, 7), test::soup(3000, 0.05, 2)}) {
     const BruteForce brute = BruteForce::build(mesh, {});
-    for (const auto& options : exact_forms(1)) {
-      const SphereCluster detector = SphereCluster::build(mesh, options);
-      SphereCluster::Session session;
+    for_each_exact_form(1, [&]<class D>(const typename D::Options& options) {
+      const D detector = D::build(mesh, options);
+      typename D::Session session;
       for (int i = 0; i < 500; ++i) {
         const Vec3 center = random.point(i % 3 == 0 ? 3 : 1.3);
         BruteForce::Session measured;
@@ -166,7 +176,7 @@ TEST(SphereCluster, ATouchTellsNothingOfWhatIsNearerThanWhatItFound) {
         expect_same(test::nearest_after_touches(detector, center, contact->distance, session), contact);
         ASSERT_FALSE(HasFailure());
       }
-    }
+    });
   }
 }
 
@@ -175,13 +185,13 @@ TEST(SphereCluster, EqualsBruteForceWhereMoreIsNearThanASessionRemembers) {
   for (const double noise : {0.0, 1e-3}) {
     const TriangleMesh mesh = test::bumpy_sphere(24, noise, 37);
     const BruteForce oracle = BruteForce::build(mesh);
-    for (const auto& options : exact_forms(1)) {
-      const SphereCluster detector = SphereCluster::build(mesh, options);
+    for_each_exact_form(1, [&]<class D>(const typename D::Options& options) {
+      const D detector = D::build(mesh, options);
       BruteForce::Session oracle_session;
       test::Random random(41);
       // New sessions, because one that could not list what is near waits ever longer before it tries again.
       for (int way = 0; way < 30; ++way) {
-        SphereCluster::Session used;
+        typename D::Session used;
         Vec3 center = Vec3::Zero();
         for (int step = 0; step < 10; ++step) {
           center += random.point(step % 2 == 0 ? 3e-3 : 1e-3);
@@ -190,7 +200,7 @@ TEST(SphereCluster, EqualsBruteForceWhereMoreIsNearThanASessionRemembers) {
           if (HasFailure()) return;
         }
       }
-    }
+    });
   }
 }
 
@@ -255,10 +265,10 @@ TEST(SphereCluster, SweepsAsBruteForceDoes) {
   for (const auto& scene : test::test_meshes()) {
     if (scene.name == "vanishing" || scene.name == "overflowing") continue;  // sweeps need squares
     const BruteForce oracle = BruteForce::build(scene.mesh);
-    for (const auto& options : exact_forms(scene.size)) {
+    for_each_exact_form(scene.size, [&]<class D>(const typename D::Options& options) {
       SCOPED_TRACE(label(scene, options));
-      const SphereCluster detector = SphereCluster::build(scene.mesh, options);
-      SphereCluster::Session session;
+      const D detector = D::build(scene.mesh, options);
+      typename D::Session session;
       BruteForce::Session oracle_session;
       test::Random random(23);
       for (int step = 0; step < 150; ++step) {
@@ -269,7 +279,7 @@ TEST(SphereCluster, SweepsAsBruteForceDoes) {
         expect_same(detector.first_hit(sweep, session), oracle.first_hit(sweep, oracle_session));
         if (HasFailure()) return;
       }
-    }
+    });
   }
 }
 
@@ -279,8 +289,8 @@ TEST(SphereCluster, LongSweepsFromFarAwayGrazeAsBruteForceDoes) {
   test::Random random(79);
   for (const TriangleMesh& mesh : {test::bumpy_sphere(16, 0.01, 7), test::soup(500, 0.05, 2)}) {
     const BruteForce oracle = BruteForce::build(mesh);
-    for (const auto& options : exact_forms(1)) {
-      const SphereCluster detector = SphereCluster::build(mesh, options);
+    for_each_exact_form(1, [&]<class D>(const typename D::Options& options) {
+      const D detector = D::build(mesh, options);
       int hits = 0;
       for (int i = 0; i < 1000; ++i) {
         const Vec3 target = mesh.corner(random.below(mesh.size()), 0);
@@ -290,7 +300,7 @@ TEST(SphereCluster, LongSweepsFromFarAwayGrazeAsBruteForceDoes) {
         const double before = std::ldexp(1.0, static_cast<int>(random.below(18))), after = i % 3;
         const Sweep sweep{target + miss * across - before * way, target + miss * across + after * way,
                           radius};
-        SphereCluster::Session session;
+        typename D::Session session;
         BruteForce::Session oracle_session;
         const auto expected = oracle.first_hit(sweep, oracle_session);
         expect_same(detector.first_hit(sweep, session), expected);
@@ -299,15 +309,15 @@ TEST(SphereCluster, LongSweepsFromFarAwayGrazeAsBruteForceDoes) {
       }
       EXPECT_GT(hits, 300) << "the test is about sweeps of both kinds";
       EXPECT_LT(hits, 1000);
-    }
+    });
   }
 }
 
 TEST(SphereCluster, ProbesThatAreNotFiniteTouchNothing) {
   const auto scenes = test::test_meshes();
-  for (const auto& options : exact_forms(1)) {
-    const SphereCluster detector = SphereCluster::build(scenes[0].mesh, options);
-    SphereCluster::Session session;
+  for_each_exact_form(1, [&]<class D>(const typename D::Options& options) {
+    const D detector = D::build(scenes[0].mesh, options);
+    typename D::Session session;
     for (const double bad : {nan, infinity, -infinity}) {
       EXPECT_FALSE(detector.nearest({{0, bad, 0}, 1}, 1, session));
       EXPECT_FALSE(detector.touches({{0, bad, 0}, 1}, session));
@@ -318,15 +328,15 @@ TEST(SphereCluster, ProbesThatAreNotFiniteTouchNothing) {
     EXPECT_FALSE(detector.nearest({{0, 0, 1}, 1}, -1, session));
     EXPECT_FALSE(detector.touches({{0, 0, 1}, nan}, session));
     EXPECT_TRUE(detector.touches({{0, 0, 1}, infinity}, session));
-  }
+  });
 }
 
 TEST(SphereCluster, FarProbesGetTheAnswerOfBruteForce) {
   const TriangleMesh mesh = test::bumpy_sphere(10, 0.05, 29);
   const BruteForce oracle = BruteForce::build(mesh);
-  for (const auto& options : exact_forms(1)) {
-    const SphereCluster detector = SphereCluster::build(mesh, options);
-    SphereCluster::Session session;
+  for_each_exact_form(1, [&]<class D>(const typename D::Options& options) {
+    const D detector = D::build(mesh, options);
+    typename D::Session session;
     BruteForce::Session oracle_session;
     for (const double far : {1e2, 1e4, 1e7, 1e10, 1e20, 1e100, 1e160, 1e300}) {
       const Vec3 center = far * Vec3(0.3, -0.8, 0.5);
@@ -334,36 +344,35 @@ TEST(SphereCluster, FarProbesGetTheAnswerOfBruteForce) {
                   oracle.nearest({center, 0}, infinity, oracle_session));
       EXPECT_FALSE(detector.nearest({center, 0}, 1, session));
     }
-  }
+  });
 }
 
 TEST(SphereCluster, TheFastLevelNeverMissesAndKeepsItsBound) {
   for (const auto& scene : test::test_meshes()) {
     if (scene.name == "vanishing" || scene.name == "overflowing") continue;
     const BruteForce oracle = BruteForce::build(scene.mesh);
-    for (const double clustering : {0.0, 0.1 * scene.size})
-      for (const Lookup lookup : {Lookup::scan, Lookup::tree}) {
-        const SphereCluster detector = SphereCluster::build(scene.mesh, {clustering, lookup, false});
-        SCOPED_TRACE(scene.name);
-        EXPECT_EQ(detector.accuracy().guarantee, Guarantee::conservative);
-        SphereCluster::Session session;
-        BruteForce::Session oracle_session;
-        test::Random random(31);
-        for (int step = 0; step < 300; ++step) {
-          const Vec3 center = test::random_point(scene, random);
-          const double radius = scene.size * random.between(0, 0.1);
-          const double exact = oracle.nearest({center, 0}, infinity, oracle_session)->distance;
-          const auto fast = detector.nearest({center, 0}, infinity, session);
-          ASSERT_TRUE(fast);
-          const double rounding = 1e-14 * (scene.size + scene.mesh.diagonal());
-          EXPECT_LE(fast->distance, exact + rounding);
-          EXPECT_GE(fast->distance, exact - detector.accuracy().absolute - rounding);
-          if (exact <= radius * (1 - 1e-14)) {
-            EXPECT_TRUE(detector.touches({center, radius}, session));
-            EXPECT_TRUE(detector.nearest({center, 0}, radius, session));
-          }
+    for (const double clustering : {0.0, 0.1 * scene.size}) {
+      const auto detector = PublishedSphereCluster::build(scene.mesh, {clustering, false});
+      SCOPED_TRACE(scene.name);
+      EXPECT_EQ(detector.accuracy().guarantee, Guarantee::conservative);
+      PublishedSphereCluster::Session session;
+      BruteForce::Session oracle_session;
+      test::Random random(31);
+      for (int step = 0; step < 300; ++step) {
+        const Vec3 center = test::random_point(scene, random);
+        const double radius = scene.size * random.between(0, 0.1);
+        const double exact = oracle.nearest({center, 0}, infinity, oracle_session)->distance;
+        const auto fast = detector.nearest({center, 0}, infinity, session);
+        ASSERT_TRUE(fast);
+        const double rounding = 1e-14 * (scene.size + scene.mesh.diagonal());
+        EXPECT_LE(fast->distance, exact + rounding);
+        EXPECT_GE(fast->distance, exact - detector.accuracy().absolute - rounding);
+        if (exact <= radius * (1 - 1e-14)) {
+          EXPECT_TRUE(detector.touches({center, radius}, session));
+          EXPECT_TRUE(detector.nearest({center, 0}, radius, session));
         }
       }
+    }
   }
 }
 
@@ -371,9 +380,9 @@ TEST(SphereCluster, TheFastLevelAnswersWithTheFirstSphereOfLeastGap) {
   for (const auto& scene : test::test_meshes()) {
     if (scene.name == "overflowing") continue;  // its distances are no doubles
     SCOPED_TRACE(scene.name);
-    const SphereCluster detector = SphereCluster::build(scene.mesh, {0.05 * scene.size, Lookup::scan, false});
+    const auto detector = PublishedSphereCluster::build(scene.mesh, {0.05 * scene.size, false});
     const std::vector<Sphere>& spheres = detector.clusters().spheres;
-    SphereCluster::Session session;
+    PublishedSphereCluster::Session session;
     test::Random random(32);
     for (int step = 0; step < 300; ++step) {
       const Vec3 center = test::random_point(scene, random);
@@ -400,8 +409,8 @@ TEST(SphereCluster, TheFastLevelAnswersWithTheFirstSphereOfLeastGap) {
 
 TEST(SphereCluster, TheFastLevelMeetsTheSphereWhereTheTriangleIsStillAway) {
   const TriangleMesh mesh({{0, 0, 0}, {3, 0, 0}, {0, 3, 0}}, {{0, 1, 2}});  // centre (1, 1), radius sqrt 5
-  const SphereCluster detector = SphereCluster::build(mesh, {0, Lookup::scan, false});
-  SphereCluster::Session session;
+  const auto detector = PublishedSphereCluster::build(mesh, {.precise = false});
+  PublishedSphereCluster::Session session;
   const double radius = std::sqrt(5.0);
   const auto contact = detector.nearest({{1, 1, 4}, 0}, 4, session);
   ASSERT_TRUE(contact);
@@ -414,26 +423,31 @@ TEST(SphereCluster, TheFastLevelMeetsTheSphereWhereTheTriangleIsStillAway) {
   EXPECT_NEAR(impact->fraction, (3 - radius) / 8, 1e-13);
 }
 
+template <class D>
+void expect_to_refuse_clustering(double clustering) {
+  try {
+    D::build(test::plate(2), {.clustering = clustering});
+    ADD_FAILURE() << "took a clustering distance of " << clustering;
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("clustering"), std::string::npos);
+  }
+}
+
 TEST(SphereCluster, RefusesClusteringThatMakesNoSense) {
-  const TriangleMesh mesh = test::plate(2);
   for (const double bad : {-1.0, nan, infinity}) {
-    try {
-      SphereCluster::build(mesh, {bad, Lookup::tree, true});
-      ADD_FAILURE() << "took a clustering distance of " << bad;
-    } catch (const std::invalid_argument& error) {
-      EXPECT_NE(std::string(error.what()).find("clustering"), std::string::npos);
-    }
+    expect_to_refuse_clustering<SphereCluster>(bad);
+    expect_to_refuse_clustering<PublishedSphereCluster>(bad);
   }
 }
 
 TEST(SphereCluster, CountsWhatItLooksAt) {
   const TriangleMesh mesh = test::plate(16);
-  SphereCluster::Session session;
-  const SphereCluster scan = SphereCluster::build(mesh, {0, Lookup::scan, true});
+  PublishedSphereCluster::Session session;
+  const auto scan = PublishedSphereCluster::build(mesh);
   scan.nearest({{0.01, 0.02, 5}, 0}, 0.1, session);
   EXPECT_EQ(session.work.spheres, mesh.size());  // the fast level tests them all
   EXPECT_EQ(session.work.triangles, 0u);         // and none is met
-  const SphereCluster tree = SphereCluster::build(mesh, {0, Lookup::tree, true});
+  const SphereCluster tree = SphereCluster::build(mesh);
   SphereCluster::Session tree_session;
   tree.nearest({{0.01, 0.02, 0.01}, 0}, 0.1, tree_session);
   EXPECT_GT(tree_session.work.triangles, 0u);
@@ -441,14 +455,14 @@ TEST(SphereCluster, CountsWhatItLooksAt) {
 }
 
 TEST(SphereCluster, AccountsForItsMemory) {
-  for (const auto& options : exact_forms(1)) {
-    const std::size_t small = SphereCluster::build(test::plate(8), options).bytes();
-    const std::size_t large = SphereCluster::build(test::plate(32), options).bytes();
+  for_each_exact_form(1, [&]<class D>(const typename D::Options& options) {
+    const std::size_t small = D::build(test::plate(8), options).bytes();
+    const std::size_t large = D::build(test::plate(32), options).bytes();
     // Sixteen times the triangles, each kept with its corners.
     EXPECT_GT(small, 128 * sizeof(PreparedTriangle));
     EXPECT_GT(large, 2048 * sizeof(PreparedTriangle));
     EXPECT_LT(large, 2048 * 400u);
-  }
+  });
 }
 
 /// The square of such an offset is no normal number, so no unit normal comes of it.

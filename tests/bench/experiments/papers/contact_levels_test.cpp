@@ -96,7 +96,7 @@ class SimulatedLevels : public testing::Test {
       level = session.levels().level();
       asked.push_back(level);
       const std::optional<Contact> contact = levels.nearest(step.probe, step.reach, session);
-      SphereCluster::Session alone;
+      PublishedSphereCluster::Session alone;
       const std::optional<Contact> expected_contact =
           levels[level].detector.nearest(step.probe, step.reach, alone);
       EXPECT_EQ(contact.has_value(), expected_contact.has_value());

@@ -30,6 +30,7 @@
 #include "bench/support/table.h"
 #include "core/brute_force/brute_force.h"
 #include "core/geometry/point_triangle.h"
+#include "core/sphere_cluster/published/published_sphere_cluster.h"
 #include "core/subdivision/mesh_measures.h"
 #include "core/subdivision/subdivision.h"
 
@@ -255,7 +256,7 @@ TEST(GeometricError, IsNoughtOfTheReferenceAndTheGapOfASmallerSphere) {
 TEST(GeometricError, OfTheFastLevelLiesWithinItsBound) {
   const TriangleMesh mesh = scenes::load_scene("icosphere:3");
   const ReferenceSurface reference(mesh, 0.3, 200, 1);
-  const SphereCluster fast = SphereCluster::build(mesh, {.clustering = 0.1, .precise = false});
+  const auto fast = PublishedSphereCluster::build(mesh, {.clustering = 0.1, .precise = false});
   const GeometricError error = reference.error_of(fast);
   EXPECT_GT(error.mean, 0.01);
   EXPECT_LE(error.max, fast.accuracy().absolute * (1 + 1e-12));

@@ -7,14 +7,13 @@
 #include <gtest/gtest.h>
 
 #include "core/brute_force/brute_force.h"
-#include "core/grid_group/published/scan_grid.h"
+#include "core/grid_group/published/published_grid_group.h"
 #include "tests/core/grid_group/meshes.h"
 
 namespace touchmark {
 namespace {
 
-using grid::ScanGrid;
-using grid::Shape;
+using Shape = PublishedGridGroup::Shape;
 
 bool holds(const Aabb& box, const Vec3& center, double reach) {
   for (int k = 0; k < 3; ++k)
@@ -37,7 +36,7 @@ std::ostream& operator<<(std::ostream& out, const Counted& counted) {
   return out << counted.groups << " groups, " << counted.members << " members";
 }
 
-Counted expected(const ScanGrid& scan, const Vec3& center, double reach) {
+Counted expected(const PublishedGridGroup& scan, const Vec3& center, double reach) {
   Counted counted{scan.groups(), 0};
   for (std::size_t group = 0; group < scan.groups(); ++group) {
     const bool held = scan.boxes().empty() ? holds(scan.spheres()[group], center, reach)
@@ -54,7 +53,7 @@ void with_every_count_of_groups(const TriangleMesh& mesh, const Check& check) {
   std::size_t most = 0;
   for (const Shape shape : {Shape::cube, Shape::sphere}) {
     for (const std::size_t groups : {1u, 20u, 300u, 3'000u, 30'000u}) {
-      const ScanGrid scan = ScanGrid::build(mesh, {shape, 0, groups});
+      const auto scan = PublishedGridGroup::build(mesh, {shape, 0, groups});
       SCOPED_TRACE(std::to_string(scan.groups()) + (shape == Shape::cube ? " cuboids" : " spheres"));
       most = std::max(most, scan.groups());
       check(scan);
@@ -66,7 +65,7 @@ void with_every_count_of_groups(const TriangleMesh& mesh, const Check& check) {
 TEST(GridGroupScanWork, IsEveryGroupAndTheMembersOfThoseThatHoldAProbeThatTouchesNothing) {
   const TriangleMesh mesh = testing::icosphere(2);
   const BruteForce brute_force = BruteForce::build(mesh);
-  with_every_count_of_groups(mesh, [&](const ScanGrid& scan) {
+  with_every_count_of_groups(mesh, [&](const PublishedGridGroup& scan) {
     testing::Random random(71);
     for (int i = 0; i < 40; ++i) {
       const Vec3 center = random.point(1.1);
@@ -74,29 +73,29 @@ TEST(GridGroupScanWork, IsEveryGroupAndTheMembersOfThoseThatHoldAProbeThatTouche
       // Nothing is in reach, so that no search ends early and none is made again to break a tie.
       const double reach = 0.9 * brute_force.nearest({center, 0}, 10, session)->distance;
       const Counted all = expected(scan, center, reach);
-      Work touches, nearest, sweep;
+      PublishedGridGroup::Session touches, nearest, sweep;
       EXPECT_FALSE(scan.touches({center, reach}, touches));
-      EXPECT_EQ(counted(touches), all);
-      EXPECT_FALSE(scan.nearest(center, reach, nearest));
-      EXPECT_EQ(counted(nearest), all);
+      EXPECT_EQ(counted(touches.work), all);
+      EXPECT_FALSE(scan.nearest({center, 0}, reach, nearest));
+      EXPECT_EQ(counted(nearest.work), all);
       EXPECT_FALSE(scan.first_hit({center, center, reach}, sweep));
-      EXPECT_EQ(counted(sweep), all);
+      EXPECT_EQ(counted(sweep.work), all);
     }
   });
 }
 
 TEST(GridGroupScanWork, IsTheSameWhereATriangleIsNearest) {
   const TriangleMesh mesh = testing::icosphere(2);
-  with_every_count_of_groups(mesh, [&](const ScanGrid& scan) {
+  with_every_count_of_groups(mesh, [&](const PublishedGridGroup& scan) {
     for (std::size_t triangle = 0; triangle < mesh.size(); triangle += 9) {
       const Vec3 middle =
           (mesh.corner(triangle, 0) + mesh.corner(triangle, 1) + mesh.corner(triangle, 2)) / 3;
       const Vec3 center = 1.01 * middle;  // above the middle of a face of a convex mesh: no other is as near
-      Work work;
-      const std::optional<Contact> contact = scan.nearest(center, 0.2, work);
+      PublishedGridGroup::Session session;
+      const std::optional<Contact> contact = scan.nearest({center, 0}, 0.2, session);
       ASSERT_TRUE(contact);
       EXPECT_EQ(contact->triangle, triangle);
-      EXPECT_EQ(counted(work), expected(scan, center, 0.2));
+      EXPECT_EQ(counted(session.work), expected(scan, center, 0.2));
     }
   });
 }

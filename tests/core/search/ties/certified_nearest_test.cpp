@@ -17,6 +17,8 @@
 #include "core/aabb_tree/aabb_tree.h"
 #include "core/brute_force/brute_force.h"
 #include "core/grid_group/grid_group.h"
+#include "core/grid_group/published/published_grid_group.h"
+#include "core/sphere_cluster/published/published_sphere_cluster.h"
 #include "core/sphere_cluster/sphere_cluster.h"
 #include "tests/bench/oracle/corner_case_meshes.h"
 
@@ -111,23 +113,21 @@ TEST(CertifiedNearest, AabbTreeDecidesAsTheOracleDoes) {
 }
 
 TEST(CertifiedNearest, GridGroupDecidesAsTheOracleDoes) {
-  using enum GridGroup::Lookup;
+  using Shape = PublishedGridGroup::Shape;
   for (const NamedMesh& mesh : meshes()) {
     const Exam exam(mesh, 40);
     exam.examine(GridGroup::build(mesh.mesh), "direct");
-    exam.examine(GridGroup::build(mesh.mesh, {.lookup = scan}), "scan cube");
-    exam.examine(GridGroup::build(mesh.mesh, {.shape = GridGroup::Shape::sphere, .lookup = scan}),
-                 "scan sphere");
+    exam.examine(PublishedGridGroup::build(mesh.mesh), "scan cube");
+    exam.examine(PublishedGridGroup::build(mesh.mesh, {.shape = Shape::sphere}), "scan sphere");
   }
 }
 
 TEST(CertifiedNearest, SphereClusterDecidesAsTheOracleDoes) {
-  using Lookup = SphereCluster::Lookup;
   for (const NamedMesh& mesh : meshes()) {
     const Exam exam(mesh, 40);
     exam.examine(SphereCluster::build(mesh.mesh), "tree");
     exam.examine(SphereCluster::build(mesh.mesh, {.widest = Simd::portable}), "portable tree");
-    exam.examine(SphereCluster::build(mesh.mesh, {.lookup = Lookup::scan}), "scan");
+    exam.examine(PublishedSphereCluster::build(mesh.mesh), "scan");
   }
 }
 
@@ -277,13 +277,6 @@ TEST(CertifiedNearest, WithoutCertificationDoublesDecideWithinTheirRounding) {
   expect_decisions_within_rounding<AabbTree>({.certified = false});
   expect_decisions_within_rounding<GridGroup>({.certified = false});
   expect_decisions_within_rounding<SphereCluster>({.certified = false});
-}
-
-TEST(CertifiedNearest, AScanIsNeverUncertified) {
-  EXPECT_THROW(SphereCluster::build(plate(2), {.lookup = SphereCluster::Lookup::scan, .certified = false}),
-               std::invalid_argument);
-  EXPECT_THROW(GridGroup::build(plate(2), {.lookup = GridGroup::Lookup::scan, .certified = false}),
-               std::invalid_argument);
 }
 
 TEST(CertifiedNearest, TheErrorsBoundIsInfiniteWhereTheKernelLeavesTheRangeOfDouble) {

@@ -3,11 +3,11 @@
 #include <cmath>
 
 #include "core/geometry/sweep_box.h"
-#include "core/grid_group/published/scan_grid.h"
+#include "core/grid_group/published/published_grid_group.h"
 #include "core/search/first_touch.h"
 #include "core/search/ties/certified_nearest.h"
 
-namespace touchmark::grid {
+namespace touchmark {
 namespace {
 
 /// Within the x, y and z ranges widened by `by`? Written so that a NaN is held.
@@ -37,7 +37,7 @@ bool passes(const Sphere& sphere, const Sweep& sweep, double by) noexcept {
 }  // namespace
 
 template <class Visit>
-bool ScanGrid::search_members(std::size_t group, Work& work, const Visit& visit) const noexcept {
+bool PublishedGridGroup::search_members(std::size_t group, Work& work, const Visit& visit) const noexcept {
   const std::span<const std::uint32_t> triangles = members(group);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     if (visit(triangles_[triangles[i]])) {
@@ -50,7 +50,8 @@ bool ScanGrid::search_members(std::size_t group, Work& work, const Visit& visit)
 }
 
 template <class Visit>
-void ScanGrid::search(const Vec3& center, double reach, Work& work, const Visit& visit) const noexcept {
+void PublishedGridGroup::search(const Vec3& center, double reach, Work& work,
+                                const Visit& visit) const noexcept {
   // The kernel may call near what is this much farther.
   const double by = reach + culling_pad(largest_difference(bounds_, center));
   const auto scan = [&](const auto& shapes) {
@@ -62,35 +63,41 @@ void ScanGrid::search(const Vec3& center, double reach, Work& work, const Visit&
   boxes_.empty() ? scan(spheres_) : scan(boxes_);
 }
 
-bool ScanGrid::touches(const Probe& probe, Work& work) const noexcept {
+bool PublishedGridGroup::touches(const Probe& probe, Session& session) const noexcept {
+  if (!(probe.radius >= 0)) return false;
   const Vec3& center = probe.center;
   const double error = distance_error(bounds_, center);
-  if (std::isinf(error)) return fallback().touches(probe, work);
+  if (!is_grouped() || std::isinf(error)) return fallback().touches(probe, session.work);
   bool touching = false;
   WithinRadius is_within(center, probe.radius, error);
   const auto visit = [&](const PreparedTriangle& triangle) {
     const double distance = std::sqrt(squared_distance(triangle, center));
-    return touching = is_within(triangle, distance, work.exact_decisions);
+    return touching = is_within(triangle, distance, session.work.exact_decisions);
   };
-  search(center, probe.radius + error, work, visit);
+  search(center, probe.radius + error, session.work, visit);
   return touching;
 }
 
-std::optional<Contact> ScanGrid::nearest(const Vec3& center, double reach, Work& work) const noexcept {
+std::optional<Contact> PublishedGridGroup::nearest(const Probe& probe, double reach,
+                                                   Session& session) const noexcept {
+  if (!(reach >= 0)) return std::nullopt;
+  const Vec3& center = probe.center;
   const double error = distance_error(bounds_, center);
-  if (std::isinf(error)) return fallback().nearest(center, reach, work);
+  if (!is_grouped() || std::isinf(error)) return fallback().nearest(center, reach, session.work);
   ClosestCandidates candidates(triangles_.data(), center, error);
   const auto consider = [&](const PreparedTriangle& triangle) {
     candidates.update({squared_distance(triangle, center), triangle.index}, triangle.index);
     return false;
   };
-  search(center, reach + error, work, consider);
-  return contact_of(candidates, triangles_, center, reach, error, ids_, work);
+  search(center, reach + error, session.work, consider);
+  return contact_of(candidates, triangles_, center, reach, error, ids_, session.work);
 }
 
-std::optional<Impact> ScanGrid::first_hit(const Sweep& sweep, Work& work) const noexcept {
+std::optional<Impact> PublishedGridGroup::first_hit(const Sweep& sweep, Session& session) const noexcept {
+  if (!(sweep.radius >= 0)) return std::nullopt;
+  Work& work = session.work;
   const double difference = largest_difference(bounds_, sweep);
-  if (!fourth_powers_fit(difference)) return fallback().first_hit(sweep, work);
+  if (!is_grouped() || !fourth_powers_fit(difference)) return fallback().first_hit(sweep, work);
   const double by = padded_sweep_radius(sweep, difference);
   FirstTouch first(sweep);
   const auto scan = [&](const auto& shapes) {
@@ -104,8 +111,14 @@ std::optional<Impact> ScanGrid::first_hit(const Sweep& sweep, Work& work) const 
     }
   };
   boxes_.empty() ? scan(spheres_) : scan(boxes_);
-  return impact_of(first, triangles_, ids_, true,
-                   [&](double reach) { return nearest(sweep.from, reach, work); });
+  return impact_of(first, triangles_, ids_, true, [&](double reach) {
+    return nearest({sweep.from, 0}, reach, session);
+  });
 }
 
-}  // namespace touchmark::grid
+std::size_t PublishedGridGroup::contacts(const Probe& probe, double reach, Session& session,
+                                         std::span<Contact> into) const noexcept {
+  return reach >= 0 ? fallback().contacts(probe.center, reach, into, session.work) : 0;
+}
+
+}  // namespace touchmark

@@ -2,10 +2,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/grid_group/published/scan_grid.h"
+#include "core/flushed_denormals.h"
+#include "core/grid_group/build_input.h"
+#include "core/grid_group/published/published_grid_group.h"
+#include "core/grid_group/published/uniform_cells.h"
+#include "core/search/plane_filter/plane_filter.h"
 
-namespace touchmark::grid {
+namespace touchmark {
 namespace {
+
+using grid::Membership;
+using grid::UniformCells;
 
 /// Returns as many memberships as memory should see: a triangle that lies in more than a few cells lies in
 /// many.
@@ -77,51 +84,68 @@ std::size_t groups_for(std::size_t triangles) {
 
 }  // namespace
 
-ScanGrid ScanGrid::build(const TriangleMesh& mesh, const ScanOptions& options) {
-  const std::size_t wanted = options.groups > 0 ? options.groups : groups_for(mesh.size());
-  const Grouping grouping = options.cell > 0 ? grouping_of(mesh, options.cell) : grouping_into(mesh, wanted);
-  ScanGrid grid;
-  grid.cell_ = grouping.cell;
-  grid.coarsened_ = grouping.coarsened;
-  grid.bounds_ = mesh.bounds();
-  grid.triangles_ = prepare(mesh);
-  grid.ids_ = mesh.triangle_ids();
-  grid.first_member_.reserve(grouping.groups() + 1);
-  grid.members_.reserve(grouping.memberships.size());
-  const std::vector<Membership>& memberships = grouping.memberships;
-  for (std::size_t i = 0; i < memberships.size(); ++i) {
-    if (i == 0 || memberships[i].cell != memberships[i - 1].cell) grid.first_member_.push_back(i);
-    grid.members_.push_back(memberships[i].triangle);
-  }
-  grid.first_member_.push_back(memberships.size());
-  grid.enclose(mesh, options.shape);
-  return grid;
+PublishedGridGroup PublishedGridGroup::build(const TriangleMesh& mesh, const Options& options) {
+  grid::check_cell(options.cell);
+  check_flushed_denormals(mesh);
+  PublishedGridGroup detector;
+  detector.options_ = options;
+  detector.connectivity_ = Connectivity(mesh);
+  const bool is_point = mesh.bounds().extent().isZero(0);
+  const TriangleMesh first = grid::first_triangle(mesh);
+  const TriangleMesh& looked_at = is_point ? first : mesh;
+  detector.bounds_ = looked_at.bounds();
+  detector.triangles_ = prepare(looked_at);
+  detector.ids_ = looked_at.triangle_ids();
+  if (!is_point && FilterFrame::fits(mesh.bounds())) detector.group(mesh);
+  return detector;
 }
 
-void ScanGrid::enclose(const TriangleMesh& mesh, Shape shape) {
-  (shape == Shape::cube ? boxes_.reserve(groups()) : spheres_.reserve(groups()));
+void PublishedGridGroup::update(const TriangleMesh& mesh) {
+  connectivity_.expect(mesh);
+  *this = build(mesh, options_);
+}
+
+void PublishedGridGroup::group(const TriangleMesh& mesh) {
+  const std::size_t wanted = options_.groups > 0 ? options_.groups : groups_for(mesh.size());
+  const Grouping grouping =
+      options_.cell > 0 ? grouping_of(mesh, options_.cell) : grouping_into(mesh, wanted);
+  cell_ = grouping.cell;
+  coarsened_ = grouping.coarsened;
+  first_member_.reserve(grouping.groups() + 1);
+  members_.reserve(grouping.memberships.size());
+  const std::vector<Membership>& memberships = grouping.memberships;
+  for (std::size_t i = 0; i < memberships.size(); ++i) {
+    if (i == 0 || memberships[i].cell != memberships[i - 1].cell) first_member_.push_back(i);
+    members_.push_back(memberships[i].triangle);
+  }
+  first_member_.push_back(memberships.size());
+  enclose(mesh);
+}
+
+void PublishedGridGroup::enclose(const TriangleMesh& mesh) {
+  (options_.shape == Shape::cube ? boxes_.reserve(groups()) : spheres_.reserve(groups()));
   std::vector<Vec3> corners;
   for (std::size_t group = 0; group < groups(); ++group) {
     corners.clear();
     for (const std::uint32_t triangle : members(group))
       for (int i = 0; i < 3; ++i) corners.push_back(mesh.corner(triangle, i));
-    if (shape == Shape::sphere) {
+    if (options_.shape == Shape::sphere) {
       spheres_.push_back(smallest_sphere(corners));
       continue;
     }
     Aabb box;
     for (const Vec3& corner : corners) box.extend(corner);
-    if (shape == Shape::cube)
+    if (options_.shape == Shape::cube)
       boxes_.push_back(box);
     else
       spheres_.push_back(sphere_about(box.center(), corners));
   }
 }
 
-std::size_t ScanGrid::bytes() const noexcept {
+std::size_t PublishedGridGroup::bytes() const noexcept {
   return boxes_.capacity() * sizeof(Aabb) + spheres_.capacity() * sizeof(Sphere) +
          first_member_.capacity() * sizeof(std::size_t) + members_.capacity() * sizeof(std::uint32_t) +
          triangles_.capacity() * sizeof(PreparedTriangle) + ids_.bytes();
 }
 
-}  // namespace touchmark::grid
+}  // namespace touchmark
