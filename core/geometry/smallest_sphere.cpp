@@ -27,7 +27,8 @@ std::optional<Sphere> sphere_through(const Support& support) noexcept {
   if (support.size == 1) return Sphere{first, 0};
   // Centre = first + sum x_i a_i, with 2 (a_i . a_j) x = |a_j|^2.
   const Eigen::Index n = static_cast<Eigen::Index>(support.size) - 1;
-  Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3> edges(3, n);
+  using Edges = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 3>;
+  Edges edges = Edges::Zero(3, n);  // GCC 14 takes what is set below for unset
   for (Eigen::Index i = 0; i < n; ++i) edges.col(i) = support.point[static_cast<std::size_t>(i) + 1] - first;
   const double scale = edges.cwiseAbs().maxCoeff();
   if (!(scale > 0)) return std::nullopt;
